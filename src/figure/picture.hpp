@@ -1,0 +1,177 @@
+// What a picture shows, as plain data: no VTK, no Eigen, nothing to link but
+// dotyk_figure. Fill a ScenePicture or a ChartPicture and call draw().
+//
+// Conventions. Coordinates come three per node (z = 0 in the plane), in the
+// user's length unit. Displacements are unscaled; the drawing multiplies them
+// by ScenePicture::deformation. Normals are outward unit vectors. Pressure is
+// positive in compression. Node numbers count from 0. Texts are UTF-8.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dotyk::figure {
+
+using Vec3 = std::array<double, 3>;
+
+// ---------------------------------------------------------------- colours
+
+// Contact status of a node, named as in s:contact(c).nodes[i].status.
+enum class Status { open, closed, stick, slip };
+
+struct Colour {
+  unsigned char r = 0, g = 0, b = 0;
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+// "open", "closed", "stick" or "slip".
+const char* status_name(Status status);
+
+// The Okabe-Ito colour of a status: told apart with every common colour
+// blindness, and apart from the colour maps of fields.
+Colour status_colour(Status status);
+
+// Colour of the k-th series of a chart; repeats after seven, markers do not
+// repeat in step.
+Colour series_colour(int k);
+
+// ----------------------------------------------------------------- scenes
+
+enum class CellShape { triangle, quad, tetrahedron, hexahedron };
+
+// One body. Cells of higher order are given by their corner nodes, or cut
+// into corner cells by the caller (a P2 triangle into four).
+struct BodyPicture {
+  std::string name;
+  int dimension = 2;                        // 2 or 3
+  CellShape shape = CellShape::triangle;
+  std::vector<double> points;               // 3 n: reference coordinates
+  std::vector<double> displacement;         // 3 n, or empty: not displaced
+  std::vector<int> cells;                   // nodes of the cells, 3, 4, 4 or 8 each, VTK order
+  std::vector<double> values;               // n: the field at the nodes, or empty: plain colour
+  std::vector<int> facets;                  // nodes of the boundary facets, flat
+  int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
+};
+
+// A rigid obstacle, drawn in neutral grey, never deformed.
+struct RigidPicture {
+  std::vector<double> points;               // 3 n: in the plane the vertices of a polyline, in order
+  std::vector<int> triangles;               // in space: 3 nodes a triangle; in the plane empty
+  bool closed = false;                      // plane: the polyline is the outline of a solid, filled
+  Vec3 into_solid = {0, -1, 0};             // plane, open polyline: the side that is hatched
+};
+
+struct ContactNode {
+  Vec3 position = {0, 0, 0};                // reference coordinates on the first part
+  Vec3 displacement = {0, 0, 0};            // of the first part there
+  Vec3 normal = {0, 1, 0};                  // outward normal of the first part
+  double pressure = 0;                      // force per length (plane) or area (space)
+  double weight = 0;                        // length or area the node stands for; 0: unknown
+  Status status = Status::open;
+};
+
+// One contact: its nodes on the first part, and how they hang together.
+struct ContactPicture {
+  std::string name;
+  std::vector<ContactNode> nodes;
+  std::vector<int> facets;                  // positions in `nodes`, flat; may be empty: markers only
+  int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
+};
+
+enum class SupportKind { fix, slide, displace, spring };
+
+// A symbol at a supported boundary node or facet centre. Give one per node:
+// the drawing leaves out those that would overlap.
+struct SupportSymbol {
+  Vec3 position = {0, 0, 0};
+  Vec3 displacement = {0, 0, 0};            // of the body there, unscaled
+  Vec3 normal = {0, 1, 0};                  // outward normal of the body; the symbol stands outside
+  std::array<bool, 3> fixed = {true, true, true};  // components held (fix, displace, spring)
+  SupportKind kind = SupportKind::fix;
+};
+
+// A load arrow; lengths are scaled so that the greatest one is readable.
+struct LoadArrow {
+  Vec3 position = {0, 0, 0};
+  Vec3 displacement = {0, 0, 0};
+  Vec3 vector = {0, 0, 0};                  // force, or force per length or area
+};
+
+enum class MapKind {
+  automatic,   // diverging when the field has both signs, else sequential
+  sequential,  // viridis
+  diverging    // blue - white - red, white at zero
+};
+
+enum class MeshEdges { automatic, on, off };           // automatic: while they can be told apart
+enum class PressureStyle { automatic, strip, arrows, none };  // automatic: strip in the plane, arrows in space
+
+struct ScenePicture {
+  std::string file;                         // ends in .png; its folder must exist
+  int width = 1200, height = 800;           // pixels, 160 to 8192 each
+  std::string title;                        // empty: none, the space goes to the scene
+  std::string caption;                      // empty: none; the deformation factor is stated in any case
+
+  std::string field_label;                  // "von Mises stress"; empty: no colour bar
+  std::string field_unit;                   // "MPa"; may be empty
+  std::optional<std::array<double, 2>> field_range;  // {least, greatest}; values beyond keep the end colour
+  MapKind map = MapKind::automatic;
+
+  double deformation = 1;                   // factor on every displacement
+  std::vector<BodyPicture> bodies;          // all of one dimension
+  std::vector<RigidPicture> obstacles;
+  std::vector<ContactPicture> contacts;
+  std::vector<SupportSymbol> supports;
+  std::vector<LoadArrow> loads;
+
+  std::string pressure_unit;                // beside the greatest pressure; may be empty
+  PressureStyle pressure = PressureStyle::automatic;
+  MeshEdges edges = MeshEdges::automatic;
+  bool undeformed_outline = true;           // thin, where the deformation can be seen
+  bool axes = true;                         // plane: ticks with coordinates; space: a triad
+  std::optional<Vec3> view_from;            // space: direction towards the eye; default: sees the contact side
+};
+
+// ----------------------------------------------------------------- charts
+
+enum class SeriesStyle { line, points, both };
+
+struct SeriesPicture {
+  std::string name;                         // empty: not in the legend
+  std::vector<double> x, y;                 // n each; points that are not finite (or not positive on a log axis) are gaps
+  SeriesStyle style = SeriesStyle::both;
+  std::vector<double> low, high;            // n each or empty: a spread about y, drawn as a band
+  bool reference = false;                   // a reference curve: dashed, dark grey, no markers
+};
+
+// A guide of the given slope. With both axes logarithmic y ~ x^slope;
+// otherwise y ~ slope x. Drawn as a small triangle clear of the curves.
+struct SlopeGuide {
+  double slope = 1;
+  std::string label;                        // empty: the slope itself
+};
+
+struct ChartPicture {
+  std::string file;                         // ends in .png; its folder must exist
+  int width = 1000, height = 750;           // pixels, 160 to 8192 each
+  std::string title;
+  std::string x_label, y_label;             // with their units
+  bool log_x = false, log_y = false;
+  std::vector<SeriesPicture> series;
+  std::vector<SlopeGuide> slopes;
+  std::optional<std::array<double, 2>> x_range, y_range;  // default: the data with a margin
+};
+
+// ---------------------------------------------------------------- drawing
+
+// Draws the picture and writes it as PNG, whole or not at all: on an error
+// picture.file is as it was. Equal pictures give equal bytes.
+// Throws std::runtime_error: the folder does not exist or cannot be written
+// (path and reason), arrays of unequal or impossible length (which), a node
+// number out of range, a size out of range, the drawing library not found.
+void draw(const ScenePicture& picture);
+void draw(const ChartPicture& picture);
+
+}  // namespace dotyk::figure
