@@ -1,0 +1,22 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace dotyk {
+
+/// What a user asked for cannot be done as asked. The text says what was
+/// given, what is allowed and what to do; it carries no position: the script
+/// layer adds the line of the call.
+class InputError : public std::invalid_argument {
+ public:
+  explicit InputError(const std::string& what) : std::invalid_argument(what) {}
+};
+
+/// The user asked to stop (Ctrl-C) where no partial result exists to return.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+}  // namespace dotyk

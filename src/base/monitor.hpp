@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "base/error.hpp"
+
+namespace dotyk {
+
+/// What one outer iteration of a method did; also the row of `s.history`.
+struct IterationInfo {
+  int iteration = 0;
+  int active = 0;         ///< rows closed (or otherwise carrying their law's active branch)
+  int stick = 0;          ///< friction points that stick
+  int slip = 0;           ///< friction points that slip
+  int changed = 0;        ///< rows whose branch differs from the last iteration
+  double residual = 0.0;  ///< relative natural residual, as the method defines it
+  double seconds = 0.0;   ///< since the method started
+};
+
+/// Who watches a long computation: told of its phases and iterations, asked
+/// whether to stop. The default watches nothing and never stops.
+class Monitor {
+ public:
+  virtual ~Monitor() = default;
+  virtual void phase(const std::string& /*what*/) {}
+  virtual void iteration(const IterationInfo& /*info*/) {}
+  virtual bool stop() { return false; }
+
+  /// Throws Interrupted where the user asked to stop and nothing can be returned.
+  void check() {
+    if (stop()) throw Interrupted();
+  }
+};
+
+}  // namespace dotyk
