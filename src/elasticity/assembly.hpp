@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "algebra/types.hpp"
+#include "elasticity/material.hpp"
+#include "elasticity/numbering.hpp"
+#include "mesh/mesh.hpp"
+
+namespace dotyk::elasticity {
+
+/// An elastic support on one facet: stiffness per length (2-D) or area (3-D)
+/// for each component, at the facet's quadrature points (see load.hpp).
+struct FacetSpring {
+  mesh::Facet facet;
+  std::vector<std::array<double, 3>> stiffness;
+};
+
+/// ½ uᵀK u − fᵀu + offset is the body's energy, u its unknown components only.
+struct System {
+  algebra::SparseMatrix K;  ///< lower triangle, unknowns × unknowns
+  algebra::Vector f;        ///< unknowns; loads less what prescribed components pull
+  double offset = 0;        ///< energy of the prescribed components alone
+};
+
+/// Assembles a body's stiffness ∫ ε(v):c:ε(u) and springs. `force`: nodal loads,
+/// node × dimension. The pattern is made once from the mesh; entries are added
+/// in place (no triplets).
+System assemble(const mesh::Mesh& mesh, const MaterialField& material,
+                const std::vector<FacetSpring>& springs, const std::vector<double>& force,
+                const Numbering& numbering);
+
+/// ∫ ε(φ):c:ε(u) + springs for every node and component (node × dimension), of
+/// the displacement u (node × dimension): the forces that hold u in place.
+std::vector<double> internal_force(const mesh::Mesh& mesh, const MaterialField& material,
+                                   const std::vector<FacetSpring>& springs,
+                                   const std::vector<double>& u);
+
+}  // namespace dotyk::elasticity

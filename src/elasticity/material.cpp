@@ -1,0 +1,60 @@
+#include "elasticity/material.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::elasticity {
+
+void check_isotropic(double E, double nu, bool plane_stress) {
+  if (!(E > 0) || !std::isfinite(E))
+    throw InputError(text("E is ", E, "; Young's modulus must be positive"));
+  if (!(nu > -1) || !(nu <= 0.5) || (nu == 0.5 && !plane_stress))
+    throw InputError(text("nu is ", nu, "; Poisson's ratio must lie in (-1, 0.5)",
+                          nu == 0.5 ? ": 0.5 is incompressible, which displacement elements "
+                                      "cannot carry (0.499 can, with care for locking)"
+                                    : ""));
+}
+
+Hooke isotropic(double E, double nu, int dimension, Plane plane) {
+  const bool stress = dimension == 2 && plane == Plane::stress;
+  const double mu = E / (2 * (1 + nu));
+  const double lambda = stress ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
+  Hooke h;
+  h.dimension = dimension;
+  h.zz_factor = dimension == 2 && !stress ? nu : 0;
+  for (int i = 0; i < dimension; ++i)
+    for (int j = 0; j < dimension; ++j) {
+      h.c[i][i][j][j] += lambda;
+      h.c[i][j][i][j] += mu;
+      h.c[i][j][j][i] += mu;
+    }
+  return h;
+}
+
+Hooke from_voigt(const algebra::DenseMatrix& v) {
+  if (v.rows() != v.cols() || (v.rows() != 3 && v.rows() != 6))
+    throw InputError(text("stiffness is ", v.rows(), "x", v.cols(),
+                          "; it must be 3x3 (plane) or 6x6 (space)"));
+  if (!v.allFinite()) throw InputError("stiffness has an entry that is not finite");
+  if ((v - v.transpose()).norm() > 1e-9 * v.norm())
+    throw InputError("stiffness must be symmetric");
+  const double least = Eigen::SelfAdjointEigenSolver<algebra::DenseMatrix>(v).eigenvalues()(0);
+  if (!(least > 0))
+    throw InputError(text("stiffness must be positive definite; its least eigenvalue is ", least));
+  static const int plane[3][2] = {{0, 0}, {1, 1}, {0, 1}};
+  static const int space[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+  const auto* pair = v.rows() == 3 ? plane : space;
+  Hooke h;
+  h.dimension = v.rows() == 3 ? 2 : 3;
+  for (int a = 0; a < v.rows(); ++a)
+    for (int b = 0; b < v.cols(); ++b) {
+      const int i = pair[a][0], j = pair[a][1], k = pair[b][0], l = pair[b][1];
+      h.c[i][j][k][l] = h.c[j][i][k][l] = h.c[i][j][l][k] = h.c[j][i][l][k] = v(a, b);
+    }
+  return h;
+}
+
+}  // namespace dotyk::elasticity

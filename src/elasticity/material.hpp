@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "algebra/types.hpp"
+
+namespace dotyk::elasticity {
+
+/// How a plane body sees the third direction.
+enum class Plane { strain, stress };
+
+/// Hooke's tensor σ_ij = c_ijkl ε_kl with the usual symmetries, in force per
+/// area; only indices below `dimension` are meant. In 2-D, per unit thickness.
+struct Hooke {
+  int dimension = 2;
+  double c[3][3][3][3] = {};
+  /// σ_zz = zz_factor (σ_xx + σ_yy) in the plane: ν in isotropic plane strain, else 0.
+  double zz_factor = 0;
+};
+
+/// Isotropic material with Young's modulus E and Poisson's ratio nu.
+Hooke isotropic(double E, double nu, int dimension, Plane plane);
+
+/// From the Voigt matrix (3×3 in 2-D, order xx yy xy; 6×6 in 3-D, order
+/// xx yy zz yz xz xy; engineering shear). Throws InputError unless it is
+/// square of that size, symmetric and positive definite.
+Hooke from_voigt(const algebra::DenseMatrix& voigt);
+
+/// Throws InputError for E ≤ 0 or ν outside (-1, ½) (½ itself is incompressible;
+/// in plane stress ½ is allowed).
+void check_isotropic(double E, double nu, bool plane_stress);
+
+/// The material of every cell of a body: one tensor, or isotropic values cell by cell.
+class MaterialField {
+ public:
+  MaterialField() = default;
+  explicit MaterialField(const Hooke& uniform) : uniform_(uniform) {}
+  MaterialField(std::vector<double> E, std::vector<double> nu, int dimension, Plane plane)
+      : E_(std::move(E)), nu_(std::move(nu)), dimension_(dimension), plane_(plane) {}
+
+  bool varies() const { return !E_.empty(); }
+  Hooke at(int cell) const {
+    return varies() ? isotropic(E_[cell], nu_[cell], dimension_, plane_) : uniform_;
+  }
+  /// c_xxxx of the first cell: the scale of stiffness in messages and tolerances.
+  double scale() const { return at(0).c[0][0][0][0]; }
+
+ private:
+  Hooke uniform_;
+  std::vector<double> E_, nu_;
+  int dimension_ = 2;
+  Plane plane_ = Plane::strain;
+};
+
+}  // namespace dotyk::elasticity

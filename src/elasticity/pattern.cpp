@@ -1,0 +1,85 @@
+#include "elasticity/pattern.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace dotyk::elasticity {
+namespace {
+
+/// Node → cells that contain it, in compressed form.
+void cells_of_nodes(const mesh::Mesh& mesh, std::vector<int>& start, std::vector<int>& cells) {
+  const int per_cell = mesh.topology().nodes;
+  start.assign(mesh.node_count() + 1, 0);
+  for (int n : mesh.cells) ++start[n + 1];
+  for (int i = 0; i < mesh.node_count(); ++i) start[i + 1] += start[i];
+  cells.resize(mesh.cells.size());
+  std::vector<int> fill(start.begin(), start.end() - 1);
+  for (std::size_t k = 0; k < mesh.cells.size(); ++k)
+    cells[fill[mesh.cells[k]]++] = static_cast<int>(k) / per_cell;
+}
+
+}  // namespace
+
+Pattern::Pattern(const mesh::Mesh& mesh, const Numbering& numbering) {
+  const int nodes = mesh.node_count(), dim = mesh.dimension(), per_cell = mesh.topology().nodes;
+  std::vector<int> cell_start, cell_list;
+  cells_of_nodes(mesh, cell_start, cell_list);
+
+  std::vector<int> unknowns_of(nodes, 0), mark(nodes, -1);
+  for (int n : numbering.node) ++unknowns_of[n];
+
+  start_.assign(nodes + 1, 0);
+  neighbour_.reserve(static_cast<std::size_t>(nodes) * (dim == 2 ? 4 : 14));
+  std::size_t entries = 0;
+  for (int b = 0; b < nodes; ++b) {
+    const int first = static_cast<int>(neighbour_.size());
+    start_[b] = first;
+    neighbour_.push_back(b);
+    mark[b] = b;
+    for (int k = cell_start[b]; k < cell_start[b + 1]; ++k)
+      for (int l = 0; l < per_cell; ++l) {
+        const int a = mesh.cell(cell_list[k])[l];
+        if (a > b && mark[a] != b) {
+          mark[a] = b;
+          neighbour_.push_back(a);
+        }
+      }
+    std::sort(neighbour_.begin() + first + 1, neighbour_.end());
+    int rows = 0;
+    for (std::size_t k = first; k < neighbour_.size(); ++k) rows += unknowns_of[neighbour_[k]];
+    const int m = unknowns_of[b];
+    entries += static_cast<std::size_t>(rows) * m - m * (m - 1) / 2;
+  }
+  start_[nodes] = static_cast<int>(neighbour_.size());
+  if (entries > 2'000'000'000)
+    throw InputError("the stiffness matrix would have more than 2e9 entries; use a coarser mesh");
+
+  offset_.resize(neighbour_.size());
+  std::vector<int> first_unknown(nodes, 0);
+  for (int u = numbering.count() - 1; u >= 0; --u) first_unknown[numbering.node[u]] = u;
+
+  matrix_.resize(numbering.count(), numbering.count());
+  matrix_.resizeNonZeros(static_cast<Eigen::Index>(entries));
+  int* outer = matrix_.outerIndexPtr();
+  int* inner = matrix_.innerIndexPtr();
+  std::fill_n(matrix_.valuePtr(), entries, 0.0);
+  int at = 0;
+  for (int b = 0; b < nodes; ++b) {
+    int offset = 0;
+    for (int k = start_[b]; k < start_[b + 1]; ++k) {
+      offset_[k] = offset;
+      offset += unknowns_of[neighbour_[k]];
+    }
+    for (int rank = 0; rank < unknowns_of[b]; ++rank) {
+      outer[first_unknown[b] + rank] = at;
+      for (int k = start_[b]; k < start_[b + 1]; ++k) {
+        const int a = neighbour_[k];
+        for (int r = a == b ? rank : 0; r < unknowns_of[a]; ++r) inner[at++] = first_unknown[a] + r;
+      }
+    }
+  }
+  outer[numbering.count()] = at;
+}
+
+}  // namespace dotyk::elasticity

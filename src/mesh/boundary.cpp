@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "mesh/mesh.hpp"
+
+namespace dotyk::mesh {
+namespace {
+
+/// A facet with its sorted nodes, so that the two sides of an inner facet compare equal.
+struct Key {
+  std::array<int, 4> nodes;
+  Facet facet;
+};
+
+}  // namespace
+
+std::vector<Facet> boundary(const Mesh& mesh) {
+  // Inner facets have their least node's facets in pairs: bucket by least node,
+  // then compare within the few of a bucket.
+  const ElementTopology& t = mesh.topology();
+  const std::size_t facet_count = static_cast<std::size_t>(mesh.cell_count()) * t.facets;
+  std::vector<int> start(mesh.node_count() + 1, 0);
+  auto least = [&](Facet f) {
+    int n = mesh.facet_node(f, 0);
+    for (int k = 1; k < t.nodes_per_facet; ++k) n = std::min(n, mesh.facet_node(f, k));
+    return n;
+  };
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (int l = 0; l < t.facets; ++l) ++start[least({c, l}) + 1];
+  for (int i = 0; i < mesh.node_count(); ++i) start[i + 1] += start[i];
+  std::vector<Key> keys(facet_count);
+  std::vector<int> fill(start.begin(), start.end() - 1);
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (int l = 0; l < t.facets; ++l) {
+      Key key{{-1, -1, -1, -1}, {c, l}};
+      for (int k = 0; k < t.nodes_per_facet; ++k) key.nodes[k] = mesh.facet_node({c, l}, k);
+      std::sort(key.nodes.begin(), key.nodes.begin() + t.nodes_per_facet);
+      keys[fill[key.nodes[0]]++] = key;
+    }
+  std::vector<Facet> result;
+  for (int n = 0; n < mesh.node_count(); ++n)
+    for (int i = start[n]; i < start[n + 1]; ++i) {
+      bool inner = false;
+      for (int j = start[n]; j < start[n + 1] && !inner; ++j)
+        inner = j != i && keys[j].nodes == keys[i].nodes;
+      if (!inner) result.push_back(keys[i].facet);
+    }
+  std::sort(result.begin(), result.end(), [](Facet a, Facet b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.local < b.local;
+  });
+  return result;
+}
+
+std::vector<Facet> select(const Mesh& mesh,
+                          const std::function<bool(const Point&, const Point&)>& chosen) {
+  std::vector<Facet> result;
+  for (const Facet f : boundary(mesh)) {
+    Point normal = mesh.facet_area_vector(f);
+    const double area = std::hypot(normal[0], normal[1], normal[2]);
+    for (double& n : normal) n /= area;
+    if (chosen(mesh.facet_centre(f), normal)) result.push_back(f);
+  }
+  return result;
+}
+
+}  // namespace dotyk::mesh

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "mesh/mesh.hpp"
+
+namespace dotyk::mesh {
+namespace {
+
+double determinant(const Point& u, const Point& v, const Point& w) {
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
+         u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+Point difference(const Point& a, const Point& b) {
+  return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+}
+
+/// The three (two) neighbours along edges of each corner, right-handed.
+constexpr int kQuadCorner[4][2] = {{1, 3}, {2, 0}, {3, 1}, {0, 2}};
+constexpr int kHexCorner[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                  {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+
+double edge_scale(const Mesh& mesh, int c) {
+  const Point a = mesh.point(mesh.cell(c)[0]);
+  double h = 0;
+  for (int k = 1; k < mesh.topology().nodes; ++k) {
+    const Point d = difference(a, mesh.point(mesh.cell(c)[k]));
+    h = std::max(h, std::hypot(d[0], d[1], d[2]));
+  }
+  return h;
+}
+
+void refuse_repeated_cells(const Mesh& mesh, const std::string& what) {
+  // Two cells with the same nodes have the same centre's node sum and least node; compare those.
+  const int n = mesh.topology().nodes;
+  std::vector<int> by_least_start(mesh.node_count() + 1, 0), order(mesh.cell_count());
+  auto least = [&](int c) { return *std::min_element(mesh.cell(c), mesh.cell(c) + n); };
+  for (int c = 0; c < mesh.cell_count(); ++c) ++by_least_start[least(c) + 1];
+  std::partial_sum(by_least_start.begin(), by_least_start.end(), by_least_start.begin());
+  std::vector<int> fill(by_least_start.begin(), by_least_start.end() - 1);
+  for (int c = 0; c < mesh.cell_count(); ++c) order[fill[least(c)]++] = c;
+  for (int node = 0; node < mesh.node_count(); ++node)
+    for (int i = by_least_start[node]; i < by_least_start[node + 1]; ++i)
+      for (int j = i + 1; j < by_least_start[node + 1]; ++j)
+        if (std::is_permutation(mesh.cell(order[i]), mesh.cell(order[i]) + n, mesh.cell(order[j])))
+          throw InputError(text(what, ": cells ", order[i] + 1, " and ", order[j] + 1,
+                                " have the same nodes; remove one of them"));
+}
+
+}  // namespace
+
+double least_jacobian(const Mesh& mesh, int c) {
+  const int* n = mesh.cell(c);
+  const auto edge = [&](int a, int b) { return difference(mesh.point(n[a]), mesh.point(n[b])); };
+  const Point up{0, 0, 1};
+  double least = INFINITY;
+  switch (mesh.element) {
+    case Element::triangle_p1: return determinant(edge(0, 1), edge(0, 2), up);
+    case Element::tetrahedron_p1: return determinant(edge(0, 1), edge(0, 2), edge(0, 3));
+    case Element::quadrilateral_q1:
+      for (int k = 0; k < 4; ++k)
+        least = std::min(least, determinant(edge(k, kQuadCorner[k][0]), edge(k, kQuadCorner[k][1]), up));
+      return least;
+    default:
+      for (int k = 0; k < 8; ++k)
+        least = std::min(least, determinant(edge(k, kHexCorner[k][0]), edge(k, kHexCorner[k][1]),
+                                            edge(k, kHexCorner[k][2])));
+      return least;
+  }
+}
+
+void check(const Mesh& mesh, const std::string& what) {
+  for (int i = 0; i < mesh.node_count(); ++i)
+    for (int k = 0; k < mesh.dimension(); ++k)
+      if (!std::isfinite(mesh.node(i)[k]))
+        throw InputError(text(what, ": node ", i + 1, " has a coordinate that is not finite"));
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const double scale = std::pow(edge_scale(mesh, c), mesh.dimension());
+    const double jacobian = least_jacobian(mesh, c);
+    // A cell flatter than 1e-12 of its size has no digits left in its gradients.
+    if (jacobian > 1e-12 * scale) continue;
+    throw InputError(text(what, ": cell ", c + 1, " (a ", mesh.topology().shape, " near ",
+                          point_text(mesh.cell_centre(c).data(), mesh.dimension()), ") is ",
+                          jacobian < -1e-12 * scale ? "inverted" : "flat",
+                          "; its least Jacobian is ", jacobian,
+                          ", it must be positive: check the order of nodes or the map of the mesh"));
+  }
+  refuse_repeated_cells(mesh, what);
+}
+
+}  // namespace dotyk::mesh

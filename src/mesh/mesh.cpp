@@ -1,0 +1,75 @@
+#include "mesh/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace dotyk::mesh {
+
+Point Mesh::point(int i) const {
+  Point p{0, 0, 0};
+  std::copy_n(node(i), dimension(), p.begin());
+  return p;
+}
+
+Point Mesh::cell_centre(int c) const {
+  Point p{0, 0, 0};
+  const int n = topology().nodes;
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < dimension(); ++i) p[i] += node(cell(c)[k])[i] / n;
+  return p;
+}
+
+double Mesh::size() const {
+  double extent = 0;
+  for (int i = 0; i < dimension(); ++i) {
+    double low = INFINITY, high = -INFINITY;
+    for (int k = 0; k < node_count(); ++k) {
+      low = std::min(low, node(k)[i]);
+      high = std::max(high, node(k)[i]);
+    }
+    extent = std::max(extent, high - low);
+  }
+  return extent;
+}
+
+Point Mesh::facet_centre(Facet f) const {
+  Point p{0, 0, 0};
+  const int n = topology().nodes_per_facet;
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < dimension(); ++i) p[i] += node(facet_node(f, k))[i] / n;
+  return p;
+}
+
+Point Mesh::facet_area_vector(Facet f) const {
+  const Point a = point(facet_node(f, 0)), b = point(facet_node(f, 1));
+  if (dimension() == 2) return {b[1] - a[1], a[0] - b[0], 0};
+  const Point c = point(facet_node(f, 2));
+  Point u, v;
+  if (topology().nodes_per_facet == 4) {  // half the cross product of the diagonals
+    const Point d = point(facet_node(f, 3));
+    for (int i = 0; i < 3; ++i) u[i] = c[i] - a[i], v[i] = d[i] - b[i];
+  } else {
+    for (int i = 0; i < 3; ++i) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
+  }
+  return {0.5 * (u[1] * v[2] - u[2] * v[1]), 0.5 * (u[2] * v[0] - u[0] * v[2]),
+          0.5 * (u[0] * v[1] - u[1] * v[0])};
+}
+
+void transform(Mesh& mesh, const std::function<Point(const Point&)>& map) {
+  std::vector<double> old = mesh.coordinates;
+  try {
+    for (int i = 0; i < mesh.node_count(); ++i) {
+      const Point moved = map(mesh.point(i));
+      std::copy_n(moved.begin(), mesh.dimension(),
+                  mesh.coordinates.begin() + static_cast<std::ptrdiff_t>(i) * mesh.dimension());
+    }
+    check(mesh, "transform");
+  } catch (...) {  // also a script error passing through: restore, then let it go on
+    mesh.coordinates = std::move(old);
+    throw;
+  }
+}
+
+}  // namespace dotyk::mesh

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesh/element.hpp"
+
+namespace dotyk::mesh {
+
+/// One side of a cell on the boundary.
+struct Facet {
+  int cell;
+  int local;  ///< which facet of the cell, as in ElementTopology::facet_nodes
+  bool operator==(const Facet&) const = default;
+};
+
+/// A point of the plane or of space; z = 0 in the plane.
+using Point = std::array<double, 3>;
+
+/// A conforming mesh of one cell type, with named boundary parts.
+struct Mesh {
+  Element element = Element::triangle_p1;
+  std::vector<double> coordinates;  ///< dimension × node_count, node by node; the user's length unit
+  std::vector<int> cells;           ///< nodes per cell × cell_count, cell by cell
+  std::map<std::string, std::vector<Facet>> parts;
+
+  const ElementTopology& topology() const { return mesh::topology(element); }
+  int dimension() const { return topology().dimension; }
+  int node_count() const { return static_cast<int>(coordinates.size()) / dimension(); }
+  int cell_count() const { return static_cast<int>(cells.size()) / topology().nodes; }
+  const double* node(int i) const { return &coordinates[static_cast<std::size_t>(i) * dimension()]; }
+  const int* cell(int c) const { return &cells[static_cast<std::size_t>(c) * topology().nodes]; }
+
+  Point point(int i) const;
+  Point cell_centre(int c) const;
+  /// Greatest extent of the nodes along a coordinate axis.
+  double size() const;
+
+  /// Node k of a facet, k < nodes_per_facet.
+  int facet_node(Facet f, int k) const {
+    return cell(f.cell)[topology().facet_nodes[f.local][k]];
+  }
+  Point facet_centre(Facet f) const;
+  /// Outward normal times length (2-D) or area (3-D; of the mean plane for quadrilaterals).
+  Point facet_area_vector(Facet f) const;
+};
+
+/// All boundary facets (those that belong to one cell only), by cell.
+std::vector<Facet> boundary(const Mesh& mesh);
+
+/// The boundary facets that `chosen(centre, unit outward normal)` accepts.
+std::vector<Facet> select(const Mesh& mesh,
+                          const std::function<bool(const Point&, const Point&)>& chosen);
+
+/// Throws InputError where a cell is inverted or flat (naming it and its first
+/// node), repeated, or a coordinate is not finite. `what` names the mesh in the message.
+void check(const Mesh& mesh, const std::string& what);
+
+/// Twice the area (triangle), the volume times six (tetrahedron), or the least
+/// corner Jacobian (quadrilateral, hexahedron): positive for a valid cell.
+double least_jacobian(const Mesh& mesh, int cell);
+
+/// Moves every node to `map(x)`. Throws InputError where a cell inverts or a
+/// coordinate is not finite, and then leaves the mesh as it was.
+void transform(Mesh& mesh, const std::function<Point(const Point&)>& map);
+
+}  // namespace dotyk::mesh
