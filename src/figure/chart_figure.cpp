@@ -1,0 +1,301 @@
+// Charts, drawn by hand on the canvas: vtkChartXY places curves on a
+// logarithmic axis only at its second rendering, and knows neither markers
+// that stand off each other nor slope guides.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include "canvas.hpp"
+#include "chart_layout.hpp"
+#include "figures.hpp"
+#include "legend.hpp"
+#include "osmesa_window.hpp"
+#include "ticks.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+constexpr Colour ink{30, 30, 30}, grid{228, 228, 228}, reference_grey{90, 90, 90};
+constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
+                             Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
+
+class Chart {
+public:
+  Chart(const ChartPicture& picture, int factor) : picture_(picture), canvas_(factor) {
+    em_ = 0.034 * std::min<double>(picture.height, 0.8 * picture.width);
+    x_ = fit_axis(picture, false);
+    y_ = fit_axis(picture, true);
+    place(0);
+    Legend legend(entries(), 0.92 * em_);
+    occupy();
+    auto corner = free_place(occupied_, room_, legend.width(), legend.height(), 0.6 * em_);
+    if (!corner && !legend.empty()) {
+      // No free place among the curves: in rows above them.
+      legend = Legend(entries(), 0.92 * em_, room_.width());
+      place(legend.height());
+      occupied_ = {};
+      occupy();
+      corner = Point{room_.left + (room_.width() - legend.width()) / 2, room_.top + 0.1 * em_};
+    }
+    draw_axes();
+    canvas_.clip(room_);
+    for (std::size_t k = 0; k < picture.series.size(); ++k) draw_spread(static_cast<int>(k));
+    for (std::size_t k = 0; k < picture.series.size(); ++k) draw_line(static_cast<int>(k));
+    canvas_.no_clip();
+    for (std::size_t k = 0; k < picture.series.size(); ++k) draw_markers(static_cast<int>(k));
+    draw_frame();
+    if (corner && !legend.empty()) {
+      const bool inside = corner->y < room_.top - 1;
+      legend.draw(canvas_, *corner, inside);
+      if (inside) occupied_.add(Box{corner->x, corner->y, corner->x + legend.width(), corner->y + legend.height()});
+    }
+    for (const SlopeGuide& guide : picture.slopes) draw_guide(guide);
+  }
+
+  const Canvas& canvas() const { return canvas_; }
+
+private:
+  double line_width() const { return std::max(1.5, em_ / 9); }
+  double marker_size(const SeriesPicture& s) const { return (s.style == SeriesStyle::points ? 0.45 : 0.5) * em_; }
+  static bool dense(const std::vector<Point>& curve, double spacing) {
+    return curve.size() > 2 && std::abs(curve.back().x - curve.front().x) / static_cast<double>(curve.size() - 1) < spacing && curve.size() > 60;
+  }
+
+  // Margins from the widths of what stands in them.
+  void place(double legend_height) {
+    const double w = picture_.width, h = picture_.height;
+    for (int round = 0; round < 2; ++round) {
+      const double labels_x = std::max(3.0, room_.width() > 1 ? room_.width() / (4.5 * em_) : 6);
+      const double labels_y = std::max(3.0, room_.height() > 1 ? room_.height() / (3.2 * em_) : 6);
+      x_ticks_ = x_.log ? log_ticks(x_.low, x_.high, static_cast<int>(labels_x) + 1) : linear_ticks(x_.low, x_.high, std::min(8, static_cast<int>(labels_x)));
+      y_ticks_ = y_.log ? log_ticks(y_.low, y_.high, static_cast<int>(labels_y) + 1) : linear_ticks(y_.low, y_.high, std::min(8, static_cast<int>(labels_y)));
+      double widest = 0;
+      for (const Tick& t : y_ticks_.ticks) widest = std::max(widest, text_extent(t.label, em_).x);
+      double last = 0;
+      for (const Tick& t : x_ticks_.ticks) last = std::max(last, text_extent(t.label, em_).x);
+      room_.left = 0.6 * em_ + (picture_.y_label.empty() ? 0 : 1.7 * em_) + widest + 0.5 * em_;
+      room_.bottom = 0.4 * em_ + (picture_.x_label.empty() ? 0 : 1.35 * em_) + 1.6 * em_;
+      room_.right = w - 0.6 * em_ - last / 2;
+      room_.top = h - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - (y_ticks_.exponent ? 1.4 * em_ : 0) - legend_height;
+    }
+    x_.from = room_.left, x_.to = room_.right;
+    y_.from = room_.bottom, y_.to = room_.top;
+  }
+
+  void occupy() {
+    for (const SeriesPicture& s : picture_.series) {
+      for (const auto& curve : curves(s, x_, y_)) occupied_.add(curve, {room_.left, room_.bottom, room_.right, room_.top});
+      if (s.low.empty()) continue;
+      for (const auto* bound : {&s.low, &s.high}) {
+        SeriesPicture edge;
+        edge.x = s.x, edge.y = *bound;
+        for (const auto& curve : curves(edge, x_, y_)) occupied_.add(curve, room_);
+      }
+    }
+  }
+
+  std::vector<LegendEntry> entries() const {
+    std::vector<LegendEntry> out;
+    for (std::size_t k = 0; k < picture_.series.size(); ++k) {
+      const SeriesPicture& s = picture_.series[k];
+      if (s.name.empty()) continue;
+      out.push_back({s.name, [this, k, &s](Canvas& canvas, const Box& b) {
+                       const double middle = (b.bottom + b.top) / 2;
+                       const std::array<Point, 2> line{{{b.left, middle}, {b.right, middle}}};
+                       if (!s.low.empty()) canvas.box({b.left, middle - 0.3 * em_, b.right, middle + 0.3 * em_}, colour(static_cast<int>(k)), 0.2);
+                       if (s.style != SeriesStyle::points || s.reference) stroke(canvas, line, s, static_cast<int>(k));
+                       if (s.style != SeriesStyle::line && !s.reference)
+                         canvas.marker(marker(static_cast<int>(k)), {(b.left + b.right) / 2, middle}, marker_size(s), colour(static_cast<int>(k)));
+                     }});
+    }
+    return out;
+  }
+
+  // Reference curves take no colour, so the k-th series keeps its own.
+  int index(int k) const {
+    int n = 0;
+    for (int i = 0; i < k; ++i) n += !picture_.series[static_cast<std::size_t>(i)].reference;
+    return n;
+  }
+  Colour colour(int k) const {
+    return picture_.series[static_cast<std::size_t>(k)].reference ? reference_grey : series_colour(index(k));
+  }
+  Marker marker(int k) const { return markers[static_cast<std::size_t>(index(k)) % markers.size()]; }
+
+  void stroke(Canvas& canvas, std::span<const Point> points, const SeriesPicture& s, int k) const {
+    const std::array<double, 2> dash{0.42 * em_, 0.26 * em_};
+    canvas.polyline(points, line_width(), colour(k), s.reference ? std::span<const double>(dash) : std::span<const double>());
+  }
+
+  void draw_spread(int k) {
+    const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
+    if (s.low.empty()) return;
+    const auto at = [&](std::size_t i, double v) { return Point{x_.pixel(s.x[i]), y_.pixel(y_.log ? std::max(v, y_.low * 1e-6) : v)}; };
+    for (std::size_t i = 0; i + 1 < s.x.size(); ++i) {
+      if (!x_.shows(s.x[i]) || !x_.shows(s.x[i + 1])) continue;
+      canvas_.convex(std::array<Point, 4>{{at(i, s.low[i]), at(i + 1, s.low[i + 1]), at(i + 1, s.high[i + 1]), at(i, s.high[i])}}, colour(k), 0.2);
+    }
+  }
+
+  void draw_line(int k) {
+    const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
+    if (s.style == SeriesStyle::points && !s.reference) return;
+    for (const auto& curve : curves(s, x_, y_)) stroke(canvas_, curve, s, k);
+  }
+
+  void draw_markers(int k) {
+    const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
+    if (s.style == SeriesStyle::line || s.reference) return;
+    for (const auto& curve : curves(s, x_, y_)) {
+      // A line needs no marker at every one of many points; points alone do.
+      const bool thin = s.style == SeriesStyle::both && dense(curve, marker_size(s));
+      const double spacing = thin ? 0.08 * room_.width() : 0;
+      Point last{-1e9, -1e9};
+      for (const Point& p : curve) {
+        if (!room_.holds(p, 0.5) || std::hypot(p.x - last.x, p.y - last.y) < spacing) continue;
+        canvas_.marker(marker(k), p, marker_size(s), colour(k));
+        last = p;
+      }
+    }
+  }
+
+  void draw_axes() {
+    const double hair = std::max(1.0, em_ / 24), tick = 0.32 * em_;
+    canvas_.box(room_, {255, 255, 255});
+    for (const bool vertical : {false, true}) {
+      const Axis& axis = vertical ? y_ : x_;
+      for (const Tick& t : (vertical ? y_ticks_ : x_ticks_).ticks) {
+        const double p = axis.pixel(t.value);
+        const bool major = !t.label.empty();
+        if (major) {
+          if (vertical)
+            canvas_.line({room_.left, p}, {room_.right, p}, hair, grid);
+          else
+            canvas_.line({p, room_.bottom}, {p, room_.top}, hair, grid);
+        }
+      }
+    }
+    for (const bool vertical : {false, true}) {
+      const Axis& axis = vertical ? y_ : x_;
+      double busy_until = -1e9;
+      for (const Tick& t : (vertical ? y_ticks_ : x_ticks_).ticks) {
+        const double p = axis.pixel(t.value), length = t.label.empty() ? 0.55 * tick : tick;
+        if (vertical)
+          canvas_.line({room_.left, p}, {room_.left + length, p}, 1.3 * hair, ink);
+        else
+          canvas_.line({p, room_.bottom}, {p, room_.bottom + length}, 1.3 * hair, ink);
+        if (t.label.empty()) continue;
+        const Point size = text_extent(t.label, em_);
+        const double half = (vertical ? 0.9 * em_ : size.x + 0.5 * em_) / 2;
+        if (p - half < busy_until) continue;  // never one label into another
+        busy_until = p + half;
+        TextStyle style;
+        style.size = em_;
+        style.across = vertical ? Align::high : Align::middle;
+        style.up = vertical ? Align::middle : Align::high;
+        canvas_.text(vertical ? Point{room_.left - 0.4 * em_, p} : Point{p, room_.bottom - 0.35 * em_}, t.label, style);
+      }
+    }
+    TextStyle style;
+    style.size = em_;
+    style.across = Align::middle;
+    const std::string x_factor = x_ticks_.exponent ? "  (× " + power_of_ten(x_ticks_.exponent) + ")" : "";
+    canvas_.text({(room_.left + room_.right) / 2, 0.4 * em_}, picture_.x_label + x_factor, style);
+    style.upright = true;
+    style.up = Align::middle;
+    style.across = Align::low;
+    canvas_.text({0.45 * em_, (room_.bottom + room_.top) / 2}, picture_.y_label, style);
+    if (y_ticks_.exponent) {
+      TextStyle small;
+      small.size = em_;
+      canvas_.text({room_.left - 1.2 * em_, room_.top + 0.4 * em_}, "× " + power_of_ten(y_ticks_.exponent), small);
+    }
+    TextStyle title;
+    title.size = 1.1 * em_;
+    title.bold = true;
+    title.across = Align::middle;
+    title.up = Align::high;
+    canvas_.text({(room_.left + room_.right) / 2, picture_.height - 0.6 * em_}, picture_.title, title);
+  }
+
+  void draw_frame() {
+    const std::array<Point, 4> frame{{{room_.left, room_.bottom}, {room_.right, room_.bottom}, {room_.right, room_.top}, {room_.left, room_.top}}};
+    canvas_.polyline(frame, std::max(1.2, em_ / 18), ink, {}, true);
+  }
+
+  // A triangle whose slanted side has the slope, near the curves and clear of
+  // them.
+  void draw_guide(const SlopeGuide& guide) {
+    const double ratio = guide.slope * y_.pixels_per_unit() / x_.pixels_per_unit();
+    double run = 0.16 * room_.width();
+    if (std::abs(ratio) * run > 0.26 * room_.height()) run = 0.26 * room_.height() / std::abs(ratio);
+    const double rise = ratio * run, up = std::abs(rise);
+    const bool plain = guide.label.empty();
+    const std::string label = plain ? number(guide.slope) : guide.label;
+    const double size = 0.85 * em_;
+    const Point extent = text_extent(label, size);
+    const double pad = 0.35 * em_;
+    // With room for the labels on the right and below.
+    const double width = run + extent.x + 2 * pad, height = up + 1.2 * em_ + pad;
+    double best = 1e18;
+    Point at{};
+    bool found = false;
+    for (int i = 0; i <= 40; ++i)
+      for (int j = 0; j <= 40; ++j) {
+        const Point p{room_.left + em_ / 2 + (room_.width() - width - em_) * i / 40, room_.bottom + em_ / 2 + (room_.height() - height - em_) * j / 40};
+        const Box box{p.x, p.y, p.x + width, p.y + height};
+        const double distance = occupied_.distance(box);
+        if (distance < 0.55 * em_) continue;
+        // Near the curves, and rather below them than above.
+        const double cost = distance + 0.02 * (p.y - room_.bottom);
+        if (cost < best) best = cost, at = p, found = true;
+      }
+    if (!found) return;
+    occupied_.add(Box{at.x, at.y, at.x + width, at.y + height});
+    const double y0 = at.y + 1.2 * em_;
+    const Point a{at.x, rise >= 0 ? y0 : y0 + up}, b{at.x + run, rise >= 0 ? y0 + up : y0};
+    const Point corner{b.x, a.y};
+    const std::array<Point, 3> triangle{a, corner, b};
+    canvas_.convex(triangle, {235, 235, 235});
+    canvas_.polyline(triangle, std::max(1.2, em_ / 16), reference_grey, {}, true);
+    TextStyle style;
+    style.size = size;
+    style.colour = reference_grey;
+    style.up = Align::middle;
+    canvas_.text({b.x + pad, y0 + up / 2}, label, style);
+    if (!plain) return;
+    style.across = Align::middle;
+    style.up = rise >= 0 ? Align::high : Align::low;
+    canvas_.text({at.x + run / 2, rise >= 0 ? y0 - 0.15 * em_ : a.y + 0.1 * em_}, "1", style);
+  }
+
+  const ChartPicture& picture_;
+  Canvas canvas_;
+  double em_ = 20;
+  Axis x_, y_;
+  Ticks x_ticks_, y_ticks_;
+  Box room_;
+  Occupied occupied_;
+};
+
+}  // namespace
+
+void draw_chart(const ChartPicture& picture) {
+  const int factor = oversampling(picture.width, picture.height);
+  const Chart chart(picture, factor);
+  OsmesaWindow window(factor * picture.width, factor * picture.height);
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  window.vtk()->AddRenderer(renderer);
+  chart.canvas().add_to(renderer);
+  Image image = reduce(window.render(), picture.width, picture.height, factor);
+  chart.canvas().set_texts(image);
+  write_png(image, picture.file);
+}
+
+}  // namespace dotyk::figure

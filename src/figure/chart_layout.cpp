@@ -1,0 +1,117 @@
+#include "chart_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dotyk::figure {
+
+bool Axis::shows(double value) const { return std::isfinite(value) && (!log || value > 0); }
+
+double Axis::pixel(double value) const {
+  const double a = log ? std::log10(low) : low, b = log ? std::log10(high) : high;
+  return from + (to - from) * ((log ? std::log10(value) : value) - a) / (b - a);
+}
+
+double Axis::pixels_per_unit() const { return (to - from) / (log ? std::log10(high / low) : high - low); }
+
+Axis fit_axis(const ChartPicture& chart, bool vertical) {
+  Axis axis;
+  axis.log = vertical ? chart.log_y : chart.log_x;
+  const auto& given = vertical ? chart.y_range : chart.x_range;
+  if (given) {
+    axis.low = (*given)[0], axis.high = (*given)[1];
+    return axis;
+  }
+  // Only points that both axes can show count.
+  Axis other;
+  other.log = vertical ? chart.log_x : chart.log_y;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto see = [&](double v) {
+    if (axis.shows(v)) low = std::min(low, v), high = std::max(high, v);
+  };
+  for (const SeriesPicture& s : chart.series)
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      if (!other.shows(vertical ? s.x[i] : s.y[i])) continue;
+      see(vertical ? s.y[i] : s.x[i]);
+      if (vertical && !s.low.empty()) see(s.low[i]), see(s.high[i]);
+    }
+  if (low > high) {
+    axis.low = axis.log ? 1 : 0, axis.high = axis.log ? 10 : 1;
+    return axis;
+  }
+  if (axis.log) {
+    if (high / low < 1.5) low /= 1.5, high *= 1.5;
+    const double margin = std::pow(high / low, 0.06);
+    axis.low = low / margin, axis.high = high * margin;
+    return axis;
+  }
+  if (high - low <= 1e-12 * std::max(std::abs(low), std::abs(high))) {
+    const double half = low == 0 ? 1 : 0.5 * std::abs(low);
+    axis.low = low - half, axis.high = high + half;
+    return axis;
+  }
+  const double margin = 0.05 * (high - low);
+  // An axis that nearly reaches zero starts there.
+  axis.low = low >= 0 && low < 0.25 * high ? 0 : low - margin;
+  axis.high = high <= 0 && high > 0.25 * low ? 0 : high + margin;
+  return axis;
+}
+
+std::vector<std::vector<Point>> curves(const SeriesPicture& s, const Axis& x, const Axis& y) {
+  std::vector<std::vector<Point>> out(1);
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (x.shows(s.x[i]) && y.shows(s.y[i]))
+      out.back().push_back({x.pixel(s.x[i]), y.pixel(s.y[i])});
+    else if (!out.back().empty())
+      out.emplace_back();
+  }
+  if (out.back().empty()) out.pop_back();
+  return out;
+}
+
+void Occupied::add(const std::vector<Point>& curve, const Box& inside) {
+  constexpr double spacing = 4;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (inside.holds(curve[i])) points_.push_back(curve[i]);
+    if (i + 1 == curve.size()) break;
+    const Point p = curve[i], q = curve[i + 1];
+    const int n = static_cast<int>(std::min(2000.0, std::hypot(q.x - p.x, q.y - p.y) / spacing));
+    for (int k = 1; k <= n; ++k) {
+      const double t = static_cast<double>(k) / (n + 1);
+      const Point between{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+      if (inside.holds(between)) points_.push_back(between);
+    }
+  }
+}
+
+void Occupied::add(const Box& box) {
+  const int nx = 1 + static_cast<int>(box.width() / 6), ny = 1 + static_cast<int>(box.height() / 6);
+  for (int i = 0; i <= nx; ++i)
+    for (int j = 0; j <= ny; ++j) points_.push_back({box.left + box.width() * i / nx, box.bottom + box.height() * j / ny});
+}
+
+int Occupied::within(const Box& box) const {
+  return static_cast<int>(std::count_if(points_.begin(), points_.end(), [&](Point p) { return box.holds(p); }));
+}
+
+double Occupied::distance(const Box& box) const {
+  double least = 1e9;
+  for (const Point& p : points_) {
+    const double dx = std::max({box.left - p.x, 0.0, p.x - box.right});
+    const double dy = std::max({box.bottom - p.y, 0.0, p.y - box.top});
+    least = std::min(least, std::hypot(dx, dy));
+  }
+  return least;
+}
+
+std::optional<Point> free_place(const Occupied& occupied, const Box& room, double width, double height, double margin) {
+  if (width + 2 * margin > 0.7 * room.width() || height + 2 * margin > 0.8 * room.height()) return std::nullopt;
+  const double left = room.left + margin, right = room.right - margin - width, centre = (left + right) / 2;
+  const double bottom = room.bottom + margin, top = room.top - margin - height, middle = (bottom + top) / 2;
+  for (const Point p : {Point{right, top}, {left, top}, {left, bottom}, {right, bottom}, {right, middle}, {left, middle}, {centre, top}, {centre, bottom}})
+    if (occupied.within({p.x - margin, p.y - margin, p.x + width + margin, p.y + height + margin}) == 0) return p;
+  return std::nullopt;
+}
+
+}  // namespace dotyk::figure

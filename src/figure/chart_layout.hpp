@@ -1,0 +1,44 @@
+// How the numbers of a chart become pixels, and which places are free.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "canvas.hpp"
+#include "ticks.hpp"
+
+namespace dotyk::figure {
+
+// An axis: values in [low, high] run over the pixels [from, to].
+struct Axis {
+  bool log = false;
+  double low = 0, high = 1;
+  double from = 0, to = 1;
+
+  bool shows(double value) const;            // finite, and positive where logarithmic
+  double pixel(double value) const;
+  double pixels_per_unit() const;            // or per decade
+};
+
+// The axis range of the data: that given, or the finite values with a margin.
+Axis fit_axis(const ChartPicture& chart, bool vertical);
+
+// The curve of a series in pixels, in pieces between gaps.
+std::vector<std::vector<Point>> curves(const SeriesPicture& series, const Axis& x, const Axis& y);
+
+// Points along everything drawn, a few pixels apart: what a legend must spare.
+class Occupied {
+public:
+  void add(const std::vector<Point>& curve, const Box& inside);
+  void add(const Box& box);
+  int within(const Box& box) const;
+  double distance(const Box& box) const;     // to the nearest point, 0 inside
+
+private:
+  std::vector<Point> points_;
+};
+
+// The corner or edge of `room` where a block of this size meets no curve.
+std::optional<Point> free_place(const Occupied& occupied, const Box& room, double width, double height, double margin);
+
+}  // namespace dotyk::figure

@@ -1,0 +1,123 @@
+#include "check.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <tuple>
+
+namespace dotyk::figure {
+
+namespace {
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw std::runtime_error(message);
+}
+
+std::string count(std::size_t n) { return std::to_string(n); }
+
+void check_file(const std::string& file, int width, int height) {
+  require(!file.empty(), "a picture needs a file name");
+  require(file.size() > 4 && file.ends_with(".png"), "cannot write " + file + ": the file name must end in .png");
+  require(width >= 160 && width <= 8192 && height >= 160 && height <= 8192,
+          "the size of " + file + " is " + std::to_string(width) + " x " + std::to_string(height) +
+              ", expected 160 to 8192 pixels each way");
+  const auto slash = file.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : slash == 0 ? "/" : file.substr(0, slash);
+  struct stat info {};
+  if (stat(folder.c_str(), &info) != 0)
+    throw std::runtime_error("cannot write " + file + ": folder " + folder + ": " + std::strerror(errno));
+  require(S_ISDIR(info.st_mode), "cannot write " + file + ": " + folder + " is not a folder");
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw std::runtime_error("cannot write " + file + ": folder " + folder + ": " + std::strerror(errno));
+  require(stat(file.c_str(), &info) != 0 || !S_ISDIR(info.st_mode), "cannot write " + file + ": it is a folder");
+}
+
+void check_nodes(const std::vector<int>& nodes, int each, std::size_t n, const std::string& what) {
+  require(nodes.size() % static_cast<std::size_t>(each) == 0,
+          what + ": " + count(nodes.size()) + " entries are not a multiple of " + std::to_string(each));
+  for (const int i : nodes)
+    require(i >= 0 && static_cast<std::size_t>(i) < n,
+            what + ": node " + std::to_string(i) + " does not exist, there are " + count(n));
+}
+
+bool finite(const std::vector<double>& values) {
+  for (const double v : values)
+    if (!std::isfinite(v)) return false;
+  return true;
+}
+
+bool finite(const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+int nodes_per_cell(CellShape shape) {
+  return shape == CellShape::triangle ? 3 : shape == CellShape::hexahedron ? 8 : 4;
+}
+
+void check_body(const BodyPicture& body, int dimension) {
+  const std::string who = "body \"" + body.name + "\"";
+  require(body.dimension == 2 || body.dimension == 3, who + ": dimension must be 2 or 3");
+  require(body.dimension == dimension, who + ": all bodies of a picture have one dimension");
+  const bool solid = body.shape == CellShape::tetrahedron || body.shape == CellShape::hexahedron;
+  require(solid == (dimension == 3), who + ": the cells do not fit the dimension");
+  require(body.points.size() % 3 == 0, who + ": points come three coordinates each");
+  const std::size_t n = body.points.size() / 3;
+  require(body.displacement.empty() || body.displacement.size() == 3 * n,
+          who + ": " + count(body.displacement.size()) + " displacement components for " + count(n) + " nodes");
+  require(body.values.empty() || body.values.size() == n,
+          who + ": " + count(body.values.size()) + " field values for " + count(n) + " nodes");
+  require(finite(body.points), who + ": a coordinate is not finite");
+  require(finite(body.displacement), who + ": a displacement is not finite");
+  require(dimension == 2 ? body.nodes_per_facet == 2 : body.nodes_per_facet == 3 || body.nodes_per_facet == 4,
+          who + ": a facet has 2 nodes in the plane, 3 or 4 in space");
+  check_nodes(body.cells, nodes_per_cell(body.shape), n, who + ", cells");
+  check_nodes(body.facets, body.nodes_per_facet, n, who + ", facets");
+}
+
+}  // namespace
+
+void check(const ScenePicture& p) {
+  check_file(p.file, p.width, p.height);
+  require(!p.bodies.empty(), "the picture " + p.file + " shows no body");
+  require(std::isfinite(p.deformation), "the deformation factor is not finite");
+  require(!p.field_range || (std::isfinite((*p.field_range)[0]) && std::isfinite((*p.field_range)[1]) &&
+                             (*p.field_range)[0] <= (*p.field_range)[1]),
+          "the range of the field must be {least, greatest}");
+  const int dimension = p.bodies.front().dimension;
+  for (const BodyPicture& body : p.bodies) check_body(body, dimension);
+  for (const RigidPicture& rigid : p.obstacles) {
+    require(rigid.points.size() % 3 == 0 && finite(rigid.points), "an obstacle needs three finite coordinates a point");
+    check_nodes(rigid.triangles, 3, rigid.points.size() / 3, "obstacle, triangles");
+  }
+  for (const ContactPicture& contact : p.contacts) {
+    const std::string who = "contact \"" + contact.name + "\"";
+    for (const ContactNode& node : contact.nodes)
+      require(finite(node.position) && finite(node.displacement) && finite(node.normal) && std::isfinite(node.pressure),
+              who + ": a node has a value that is not finite");
+    require(contact.nodes_per_facet >= 2 && contact.nodes_per_facet <= 4, who + ": a facet has 2, 3 or 4 nodes");
+    check_nodes(contact.facets, contact.nodes_per_facet, contact.nodes.size(), who + ", facets");
+  }
+  for (const SupportSymbol& s : p.supports)
+    require(finite(s.position) && finite(s.displacement) && finite(s.normal), "a support has a value that is not finite");
+  for (const LoadArrow& l : p.loads)
+    require(finite(l.position) && finite(l.displacement) && finite(l.vector), "a load has a value that is not finite");
+}
+
+void check(const ChartPicture& p) {
+  check_file(p.file, p.width, p.height);
+  for (const SeriesPicture& s : p.series) {
+    const std::string who = "series \"" + s.name + "\"";
+    require(s.x.size() == s.y.size(), who + ": " + count(s.x.size()) + " x for " + count(s.y.size()) + " y");
+    require(s.low.size() == s.high.size() && (s.low.empty() || s.low.size() == s.x.size()),
+            who + ": the spread needs as many low and high values as points");
+  }
+  for (const SlopeGuide& guide : p.slopes) require(std::isfinite(guide.slope), "the slope of a guide is not finite");
+  for (const auto& [range, log, name] : {std::tuple{p.x_range, p.log_x, "x"}, std::tuple{p.y_range, p.log_y, "y"}})
+    if (range)
+      require(std::isfinite((*range)[0]) && std::isfinite((*range)[1]) && (*range)[0] < (*range)[1] && (!log || (*range)[0] > 0),
+              std::string("the range of the ") + name + " axis must be {least, greatest}" + (log ? ", both positive" : ""));
+}
+
+}  // namespace dotyk::figure

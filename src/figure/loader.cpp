@@ -1,0 +1,78 @@
+// Opens the drawing library at the first picture: linked to VTK the program
+// would take ten times as long to start.
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <climits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "picture.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+template <class Picture>
+using Draw = int (*)(const Picture*, char* error, int size);
+
+struct Library {
+  Draw<ScenePicture> scene = nullptr;
+  Draw<ChartPicture> chart = nullptr;
+};
+
+std::string program_folder() {
+  char path[PATH_MAX];
+  const ssize_t n = readlink("/proc/self/exe", path, sizeof path);
+  const std::string program(path, n > 0 ? static_cast<std::size_t>(n) : 0);
+  return program.substr(0, program.rfind('/') == std::string::npos ? 0 : program.rfind('/'));
+}
+
+void* open_library() {
+  const std::string name = "libdotyk_figure_vtk.so";
+  const std::string here = program_folder();
+  std::vector<std::string> places = {here + "/" + name, here + "/../lib/dotyk/" + name,
+                                     here + "/../" DOTYK_FIGURE_LIBDIR "/dotyk/" + name};
+#ifdef DOTYK_FIGURE_BUILD_LIBRARY
+  places.push_back(DOTYK_FIGURE_BUILD_LIBRARY);
+#endif
+  std::string tried;
+  for (const std::string& place : places) {
+    if (access(place.c_str(), R_OK) != 0) {
+      tried += "\n  not at " + place;
+      continue;
+    }
+    if (void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
+    const char* reason = dlerror();
+    throw std::runtime_error("cannot open the drawing library " + place + ": " + (reason ? reason : "unknown reason"));
+  }
+  throw std::runtime_error("pictures need the drawing library " + name + ", which is missing:" + tried);
+}
+
+const Library& library() {
+  static const Library opened = [] {
+    void* handle = open_library();
+    Library l;
+    l.scene = reinterpret_cast<Draw<ScenePicture>>(dlsym(handle, "dotyk_figure_draw_scene"));
+    l.chart = reinterpret_cast<Draw<ChartPicture>>(dlsym(handle, "dotyk_figure_draw_chart"));
+    if (!l.scene || !l.chart) throw std::runtime_error("the drawing library is of another version of dotyk");
+    return l;
+  }();
+  return opened;
+}
+
+template <class Picture>
+void call(Draw<Picture> Library::*function, const Picture& picture) {
+  check(picture);
+  char error[1024] = "";
+  if ((library().*function)(&picture, error, sizeof error) != 0) throw std::runtime_error(error);
+}
+
+}  // namespace
+
+void draw(const ScenePicture& picture) { call(&Library::scene, picture); }
+void draw(const ChartPicture& picture) { call(&Library::chart, picture); }
+
+}  // namespace dotyk::figure

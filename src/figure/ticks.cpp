@@ -1,0 +1,106 @@
+#include "ticks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace dotyk::figure {
+
+namespace {
+
+const char* const minus = "\u2212";
+
+std::string fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", std::max(0, decimals), std::abs(value));
+  const bool zero = std::string(text).find_first_not_of("0.") == std::string::npos;
+  return (value < 0 && !zero ? minus : "") + std::string(text);
+}
+
+std::string trimmed(std::string text) {
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::string power_of_ten(int k) {
+  static const char* const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = k < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(k))) text += raised[digit - '0'];
+  return text;
+}
+
+std::string number(double value, int digits) {
+  if (value == 0) return "0";
+  if (!std::isfinite(value)) return std::isnan(value) ? "?" : value < 0 ? std::string(minus) + "∞" : "∞";
+  // Round first: 9.996 has the exponent of 10.0.
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
+  const int exponent = std::atoi(std::string(text).substr(std::string(text).find('e') + 1).c_str());
+  if (exponent >= 5 || exponent < -3)
+    return trimmed(fixed(value / std::pow(10.0, exponent), digits - 1)) + " × " + power_of_ten(exponent);
+  return trimmed(fixed(value, digits - 1 - exponent));
+}
+
+Ticks linear_ticks(double low, double high, int wanted) {
+  Ticks out;
+  if (!(high > low)) {
+    out.ticks.push_back({low, number(low)});
+    return out;
+  }
+  const double raw = (high - low) / std::max(1, wanted);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  const double ratio = raw / power;
+  const double unit = ratio <= 1.0000001 ? 1 : ratio <= 2.0000001 ? 2 : ratio <= 5.0000001 ? 5 : 10;
+  const double step = unit * power;
+  const int step_exponent = static_cast<int>(std::floor(std::log10(step) + 1e-9));
+  const double greatest = std::max(std::abs(low), std::abs(high));
+  const int top = static_cast<int>(std::floor(std::log10(greatest) + 1e-9));
+  if (top >= 5 || top < -3) out.exponent = top;
+  const int decimals = std::max(0, out.exponent - step_exponent);
+  const double factor = std::pow(10.0, out.exponent);
+  const int parts = unit == 2 ? 4 : 5;
+  const double slack = 1e-9 * (high - low);
+  for (double k = std::ceil((low - slack) / step) - 1; k * step <= high + slack; ++k) {
+    if (k * step >= low - slack) out.ticks.push_back({k * step, fixed(k * step / factor, decimals)});
+    for (int i = 1; i < parts; ++i) {
+      const double at = (k + static_cast<double>(i) / parts) * step;
+      if (at >= low - slack && at <= high + slack) out.ticks.push_back({at, ""});
+    }
+  }
+  return out;
+}
+
+Ticks log_ticks(double low, double high, int wanted) {
+  Ticks out;
+  const double from = std::log10(low), to = std::log10(high);
+  const int first = static_cast<int>(std::floor(from)), last = static_cast<int>(std::ceil(to));
+  const double decades = to - from;
+  const int every = std::max(1, static_cast<int>(std::ceil(decades / std::max(1, wanted))));
+  const double slack = 1e-9;
+  for (int k = first; k <= last; ++k) {
+    for (int m = 1; m < 10; ++m) {
+      const double value = m * std::pow(10.0, k), at = std::log10(value);
+      if (at < from - slack || at > to + slack) continue;
+      std::string label;
+      const bool between = decades < 0.7 || (decades < 2.3 && (m == 2 || m == 5));
+      if (m == 1 && k % every == 0)
+        label = decades < 2.3 && std::abs(k) <= 3 ? number(value) : power_of_ten(k);
+      else if (m > 1 && between)
+        label = std::abs(k) <= 3 ? number(value) : number(m, 1) + "·" + power_of_ten(k);
+      if (every > 1 && m > 1) continue;
+      out.ticks.push_back({value, label});
+    }
+  }
+  // Next to no decade: as on a linear axis.
+  int labelled = 0;
+  for (const Tick& tick : out.ticks) labelled += !tick.label.empty();
+  if (labelled < 2) return linear_ticks(low, high, wanted);
+  return out;
+}
+
+}  // namespace dotyk::figure
