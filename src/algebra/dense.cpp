@@ -1,0 +1,60 @@
+#include "algebra/dense.hpp"
+
+#include <stdexcept>
+
+extern "C" {
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m,
+            const int* n, const double* alpha, const double* a, const int* lda, double* b,
+            const int* ldb);
+void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
+            const double* a, const int* lda, const double* beta, double* c, const int* ldc);
+}
+
+namespace dotyk::algebra {
+namespace {
+
+void triangular_solve(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x, const char* transposed) {
+  const int m = static_cast<int>(x.rows()), n = static_cast<int>(x.cols()),
+            lda = static_cast<int>(l.rows()), ldb = static_cast<int>(x.outerStride());
+  if (l.rows() != x.rows()) throw std::logic_error("triangular solve: sizes differ");
+  if (m == 0 || n == 0) return;
+  const double one = 1;
+  dtrsm_("L", "L", transposed, "N", &m, &n, &one, l.data(), &lda, x.data(), &ldb);
+}
+
+/// alpha: X Xᵀ ("N") or XᵀX ("T").
+DenseMatrix rank_update(const DenseMatrix& x, const char* transposed) {
+  const int n = static_cast<int>(*transposed == 'N' ? x.rows() : x.cols()),
+            k = static_cast<int>(*transposed == 'N' ? x.cols() : x.rows()),
+            lda = static_cast<int>(x.rows());
+  DenseMatrix c = DenseMatrix::Zero(n, n);
+  if (n == 0 || k == 0) return c;
+  const double one = 1, zero = 0;
+  dsyrk_("L", transposed, &n, &k, &one, x.data(), &lda, &zero, c.data(), &n);
+  c.triangularView<Eigen::StrictlyUpper>() = c.transpose();
+  return c;
+}
+
+}  // namespace
+
+bool cholesky(DenseMatrix& a) {
+  const int n = static_cast<int>(a.rows());
+  if (n == 0) return true;
+  int info = 0;
+  dpotrf_("L", &n, a.data(), &n, &info);
+  if (info != 0) return false;
+  a.triangularView<Eigen::StrictlyUpper>().setZero();
+  return true;
+}
+
+void solve_lower(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) { triangular_solve(l, x, "N"); }
+
+void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) {
+  triangular_solve(l, x, "T");
+}
+
+DenseMatrix gram(const DenseMatrix& x) { return rank_update(x, "T"); }
+DenseMatrix square(const DenseMatrix& l) { return rank_update(l, "N"); }
+
+}  // namespace dotyk::algebra

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "algebra/types.hpp"
+
+// Dense kernels by BLAS and LAPACK, in place on Eigen storage.
+
+namespace dotyk::algebra {
+
+/// A := L with A = L Lᵀ (the upper triangle is zeroed). False, with A spoilt,
+/// where A is not positive definite to working precision.
+bool cholesky(DenseMatrix& a);
+
+/// X := L⁻¹ X, L lower triangular.
+void solve_lower(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x);
+
+/// X := L⁻ᵀ X.
+void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x);
+
+/// XᵀX, both triangles.
+DenseMatrix gram(const DenseMatrix& x);
+
+/// L Lᵀ of a lower-triangular L, both triangles.
+DenseMatrix square(const DenseMatrix& l);
+
+}  // namespace dotyk::algebra
