@@ -1,0 +1,144 @@
+#include "problem/condensed.hpp"
+
+#include "algebra/dense.hpp"
+#include "base/error.hpp"
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::problem {
+
+using algebra::DenseMatrix;
+using algebra::SparseRows;
+using algebra::Vector;
+
+namespace {
+
+/// The nodes of a block that some row acts on.
+std::vector<int> nodes_of_rows(const Block& block, const SparseRows& rows) {
+  std::vector<char> touched(block.node.empty() ? 0 : block.node.back() + 1, 0);
+  for (int r = 0; r < rows.rows(); ++r)
+    for (SparseRows::InnerIterator it(rows, r); it; ++it) touched[block.node[it.col()]] = 1;
+  std::vector<int> nodes;
+  for (std::size_t n = 0; n < touched.size(); ++n)
+    if (touched[n]) nodes.push_back(static_cast<int>(n));
+  return nodes;
+}
+
+/// Columns picked and renumbered: column boundary[k] becomes k.
+SparseRows restrict_columns(const SparseRows& rows, const std::vector<int>& boundary) {
+  std::vector<int> place(rows.cols(), -1);
+  for (std::size_t k = 0; k < boundary.size(); ++k) place[boundary[k]] = static_cast<int>(k);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int r = 0; r < rows.rows(); ++r)
+    for (SparseRows::InnerIterator it(rows, r); it; ++it)
+      entries.emplace_back(r, place[it.col()], it.value());
+  SparseRows result(rows.rows(), static_cast<int>(boundary.size()));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+/// The rows that act on this block, as indices.
+std::vector<int> rows_present(const SparseRows& rows) {
+  std::vector<int> present;
+  for (int r = 0; r < rows.rows(); ++r)
+    if (SparseRows::InnerIterator(rows, r)) present.push_back(r);
+  return present;
+}
+
+SparseRows pick_rows(const SparseRows& rows, const std::vector<int>& picked) {
+  SparseRows result(static_cast<int>(picked.size()), rows.cols());
+  for (std::size_t k = 0; k < picked.size(); ++k) {
+    result.startVec(static_cast<int>(k));
+    for (SparseRows::InnerIterator it(rows, picked[k]); it; ++it)
+      result.insertBack(static_cast<int>(k), it.col()) = it.value();
+  }
+  result.finalize();
+  return result;
+}
+
+}  // namespace
+
+CondensedProblem::CondensedProblem(const Problem& problem, algebra::Ordering ordering, Clock& clock,
+                                   Monitor& monitor)
+    : unknowns_(problem.unknowns()) {
+  const int m = problem.rows();
+  W_ = DenseMatrix::Zero(m, m);
+  x0_ = -problem.c;
+  int modes = 0;
+  for (const Block& block : problem.blocks) modes += static_cast<int>(block.kernel.cols());
+  N_ = DenseMatrix::Zero(m, modes);
+  e_ = Vector::Zero(modes);
+  for (const Block& block : problem.blocks) add(problem, block, ordering, clock, monitor);
+}
+
+void CondensedProblem::add(const Problem& problem, const Block& block, algebra::Ordering ordering,
+                           Clock& clock, Monitor& monitor) {
+  Stopwatch watch;
+  const SparseRows rows = problem.rows_of(block);
+  monitor.phase(text("ordering '", block.name, "' (", block.size(), " unknowns)"));
+  Part part{{block.K, block.node, nodes_of_rows(block, rows), block.kernel, ordering}, {}, {},
+            block.first, block.size(), static_cast<int>(mode_names_.size())};
+  clock.ordering += watch.lap();
+  monitor.check();
+  monitor.phase(text("factoring '", block.name, "' (", part.condensation.cholesky().method(), ", ",
+                     part.condensation.cholesky().flops() * 1e-9, " Gflop)"));
+  if (!part.condensation.factor(block.K)) {
+    const int unknown = part.condensation.failed_unknown();
+    throw InputError(text("the stiffness of '", block.name, "' is singular",
+                          unknown >= 0 ? text(" (node ", block.node[unknown] + 1, " is not held)") : "",
+                          ": the body is not held, or a material or mesh value is out of range"));
+  }
+  clock.factor += watch.lap();
+  monitor.check();
+
+  // Only the rows present on this block make columns of the half compliance.
+  monitor.phase(text("condensing '", block.name, "' onto ", part.condensation.boundary().size(),
+                     " contact unknowns"));
+  part.rows = restrict_columns(rows, part.condensation.boundary());
+  part.load = part.condensation.condense(block.f);
+  const std::vector<int> present = rows_present(part.rows);
+  const DenseMatrix own = algebra::gram(part.condensation.half_compliance(pick_rows(part.rows, present)));
+  for (std::size_t j = 0; j < present.size(); ++j)
+    for (std::size_t i = 0; i < present.size(); ++i) W_(present[i], present[j]) += own(i, j);
+  x0_ += part.rows * part.condensation.solve(part.load);
+  for (int k = 0; k < part.condensation.kernel_size(); ++k) {
+    N_.col(part.first_mode + k) = part.rows * part.condensation.boundary_kernel().col(k);
+    e_[part.first_mode + k] = block.kernel.col(k).dot(block.f);
+    mode_names_.push_back("'" + block.name + "': " + block.kernel_names[k]);
+  }
+  parts_.push_back(std::move(part));
+  clock.iterate += watch.lap();
+}
+
+Vector CondensedProblem::jump(const Vector& lambda, const Vector& alpha) const {
+  Vector x = x0_ - W_ * lambda;
+  if (alpha.size()) x += N_ * alpha;
+  return x;
+}
+
+Vector CondensedProblem::recover(const Vector& lambda, const Vector& alpha) const {
+  Vector u(unknowns_);
+  for (const Part& part : parts_) {
+    Vector boundary = part.condensation.solve(part.load - part.rows.transpose() * lambda);
+    const int modes = part.condensation.kernel_size();
+    if (modes) boundary += part.condensation.boundary_kernel() * alpha.segment(part.first_mode, modes);
+    u.segment(part.first_unknown, part.size) = part.condensation.recover(boundary);
+  }
+  return u;
+}
+
+double CondensedProblem::factor_bytes() const {
+  double bytes = 0;
+  for (const Part& part : parts_) bytes += part.condensation.cholesky().bytes();
+  return bytes;
+}
+
+std::string CondensedProblem::ordering() const {
+  std::string names;
+  for (const Part& part : parts_)
+    if (names.find(part.condensation.cholesky().method()) == std::string::npos)
+      names += (names.empty() ? "" : ", ") + part.condensation.cholesky().method();
+  return names;
+}
+
+}  // namespace dotyk::problem

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <vector>
+
+#include "algebra/condensation.hpp"
+#include "base/monitor.hpp"
+#include "problem/problem.hpp"
+
+namespace dotyk::problem {
+
+/// Seconds of the steps of a solve; `total` is set by the caller that owns the whole.
+struct Clock {
+  double assembly = 0, ordering = 0, factor = 0, iterate = 0, recover = 0, total = 0;
+};
+
+/// The problem on its rows alone. With the unknowns off the contact boundary
+/// eliminated (TR965 (1.52)–(1.69)),
+///   x = Bu − c = x₀ − W λ + N α,     Nᵀ λ = e,
+/// W = Σ_b B M⁻¹ Bᵀ dense, N = B R (R: rigid modes of every block, α their
+/// amounts), e = Rᵀ f. Without a kernel W is the Delassus operator B K⁻¹ Bᵀ and
+/// x₀ the jump of the unconstrained solution.
+class CondensedProblem {
+ public:
+  /// Orders, factors and condenses every block once; adds its times to `clock`.
+  /// Throws InputError where a block is not held (its name, a node).
+  CondensedProblem(const Problem& problem, algebra::Ordering ordering, Clock& clock, Monitor& monitor);
+
+  int rows() const { return static_cast<int>(x0_.size()); }
+  int kernel_size() const { return static_cast<int>(e_.size()); }
+  const algebra::DenseMatrix& W() const { return W_; }
+  const algebra::Vector& x0() const { return x0_; }
+  const algebra::DenseMatrix& N() const { return N_; }  ///< rows × kernel_size
+  const algebra::Vector& e() const { return e_; }
+  /// What mode k of the kernel is: "'lid': translation along x".
+  const std::string& mode_name(int k) const { return mode_names_[k]; }
+
+  algebra::Vector jump(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
+  /// All unknowns, from the multipliers and the amounts of rigid motion: one backward sweep a block.
+  algebra::Vector recover(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
+
+  double factor_bytes() const;
+  std::string ordering() const;
+
+ private:
+  struct Part {
+    algebra::Condensation condensation;
+    algebra::SparseRows rows;     ///< B on Γ, rows × |Γ|
+    algebra::Vector load;         ///< condensed
+    int first_unknown, size, first_mode;
+  };
+  void add(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
+           Monitor& monitor);
+
+  std::vector<Part> parts_;
+  algebra::DenseMatrix W_, N_;
+  algebra::Vector x0_, e_;
+  std::vector<std::string> mode_names_;
+  int unknowns_ = 0;
+};
+
+}  // namespace dotyk::problem

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dotyk::problem {
+
+/// What a row or contact node does, as reported.
+enum class Status { open, closed, stick, slip };
+
+const char* status_name(Status status);
+
+/// λ = P(y) at y = λ + ρx, and the derivative of P there.
+struct Projection {
+  double lambda;
+  double slope;  ///< in [0, 1]; one element of the generalised derivative at a kink
+};
+
+/// An interface law φ on one row: λ ∈ ∂φ(x), x = (Bu − c)_r. Unit of λ: that of
+/// f (force, integrated over the node's share of the boundary); of x: of u.
+///
+/// λ ∈ ∂φ(x) is equivalent to λ = P(λ + ρx) for every ρ > 0, with P the law's
+/// projection (the proximal map of the conjugate energy ρφ*(·/…)); a solver sees
+/// nothing else of the law. A law knows no solver.
+class Law {
+ public:
+  virtual ~Law() = default;
+  virtual std::string name() const = 0;
+  /// P(y) for the row of the law's group, ρ > 0 in force per displacement.
+  virtual Projection project(int row, double y, double rho) const = 0;
+  /// φ(x); 0 where an indicator law holds (a solver's iterate may violate it by rounding).
+  virtual double energy(int row, double x) const = 0;
+  /// φ*(λ), the conjugate energy, for an admissible λ.
+  virtual double conjugate(int row, double lambda) const = 0;
+  /// λ ≥ 0 pushes, and only where x reaches 0: penetration and complementarity are defined.
+  virtual bool unilateral() const { return false; }
+};
+
+/// Signorini: φ = 0 for x ≤ 0, ∞ beyond; λ ≥ 0, λx = 0. P(y) = y⁺.
+std::shared_ptr<const Law> unilateral();
+
+/// Glued or sliding: x = 0, any λ. P(y) = y.
+std::shared_ptr<const Law> bilateral();
+
+/// Newton's elastic support: φ = ½k x², λ = kx. P(y) = y k/(k + ρ).
+/// `stiffness[row]` in force per displacement; throws InputError unless each is ≥ 0.
+std::shared_ptr<const Law> elastic(std::vector<double> stiffness);
+
+}  // namespace dotyk::problem

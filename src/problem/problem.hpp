@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algebra/types.hpp"
+#include "problem/law.hpp"
+
+namespace dotyk::problem {
+
+/// One body's energy ½uᵀKu − fᵀu + offset on its own unknowns.
+struct Block {
+  std::string name;
+  algebra::SparseMatrix K;      ///< lower triangle; positive semidefinite
+  algebra::Vector f;
+  double offset = 0;
+  std::vector<int> node;        ///< node of each unknown, ascending: what orderings keep together
+  algebra::DenseMatrix kernel;  ///< ker K: unknowns × modes, linearly independent columns
+  std::vector<std::string> kernel_names;  ///< "translation along x", … one a mode
+  int first = 0;                ///< index of its first unknown among all blocks'
+  int size() const { return static_cast<int>(f.size()); }
+};
+
+/// Consecutive rows of B under one law.
+struct RowGroup {
+  std::string name;  ///< "contact of 'block' top with a rigid gap": for messages
+  std::shared_ptr<const Law> law;
+  int first = 0;
+  int count = 0;
+};
+
+/// The one statement behind every model:
+///   minimise ½uᵀKu − fᵀu + Σ_r φ_r((Bu − c)_r),   K u + Bᵀλ = f,  λ_r ∈ ∂φ_r.
+struct Problem {
+  std::vector<Block> blocks;
+  algebra::SparseRows B;  ///< rows × unknowns of all blocks
+  algebra::Vector c;      ///< gaps, one a row
+  std::vector<RowGroup> groups;
+  std::vector<std::string> row_names;  ///< where each row is: "node 12 at (0.5, 0)"
+
+  int unknowns() const { return blocks.empty() ? 0 : blocks.back().first + blocks.back().size(); }
+  int rows() const { return static_cast<int>(c.size()); }
+  /// The group of every row.
+  std::vector<const RowGroup*> group_of_rows() const;
+  /// Stiffness seen by each row: Σ_j B_rj² K_jj, in force per displacement. The unit of ρ.
+  algebra::Vector row_stiffness() const;
+  /// B's columns of one block, in the block's own numbering.
+  algebra::SparseRows rows_of(const Block& block) const;
+};
+
+/// Adds a block, setting its `first`.
+void add(Problem& problem, Block block);
+
+struct State {
+  algebra::Vector u;       ///< unknowns
+  algebra::Vector lambda;  ///< rows
+};
+
+/// K u, block by block.
+algebra::Vector stiffness_times(const Problem& problem, const algebra::Vector& u);
+
+}  // namespace dotyk::problem

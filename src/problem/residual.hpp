@@ -1,0 +1,25 @@
+#pragma once
+
+#include "problem/problem.hpp"
+
+namespace dotyk::problem {
+
+/// How far a state is from optimal; each number is relative and its scale named.
+struct Residual {
+  double equilibrium = 0;      ///< ‖Ku + Bᵀλ − f‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖)
+  double penetration = 0;      ///< greatest (Bu − c)⁺ over unilateral rows / greatest of |Bu|, |c|, |u|
+  double complementarity = 0;  ///< Σ|λ (Bu − c)| over unilateral rows / (|energy| + Σ|λ c|)
+  double law = 0;              ///< ‖λ − P(λ + ρx)‖ / ‖λ‖, all rows, ρ the row stiffness
+  double friction = 0;         ///< greatest violation of a friction bound / that bound
+};
+
+Residual residual(const Problem& problem, const State& state);
+
+/// ½uᵀKu − fᵀu + offsets + the energies of the laws at Bu − c.
+double energy(const Problem& problem, const State& state);
+
+/// ‖λ − P(λ + ρx)‖ / ‖λ‖ (the numerator alone where λ = 0), the natural residual.
+double natural_residual(const Problem& problem, const algebra::Vector& x,
+                        const algebra::Vector& lambda, const algebra::Vector& rho);
+
+}  // namespace dotyk::problem

@@ -1,0 +1,21 @@
+#include "problem/law.hpp"
+
+namespace dotyk::problem {
+namespace {
+
+class Unilateral final : public Law {
+ public:
+  std::string name() const override { return "unilateral"; }
+  Projection project(int, double y, double) const override {
+    return y > 0 ? Projection{y, 1} : Projection{0, 0};
+  }
+  double energy(int, double) const override { return 0; }
+  double conjugate(int, double) const override { return 0; }
+  bool unilateral() const override { return true; }
+};
+
+}  // namespace
+
+std::shared_ptr<const Law> unilateral() { return std::make_shared<Unilateral>(); }
+
+}  // namespace dotyk::problem
