@@ -1,0 +1,90 @@
+-- Values as a person wants to read them: at the prompt, and in messages.
+local core <const> = ...
+
+local show = {}
+
+local widest <const> = 96  -- letters on one line
+local deepest <const> = 4  -- tables inside tables
+local longest <const> = 40 -- entries of one table
+
+local function is_name(key)
+  return type(key) == "string" and key:match "^[%a_][%w_]*$" ~= nil
+end
+
+local function key_order(a, b)
+  local ka, kb = type(a), type(b)
+  if ka ~= kb then return ka == "number" or (kb ~= "number" and ka < kb) end
+  if ka == "number" or ka == "string" then return a < b end
+  return tostring(a) < tostring(b)
+end
+
+local function number(value)
+  if math.type(value) == "integer" then return tostring(value) end
+  local short = string.format("%.6g", value)
+  return tonumber(short) == value and short or string.format("%.14g", value)
+end
+
+local describe
+
+-- The entries of a table as texts: items first, then "key = value".
+local function entries(value, depth, seen)
+  local texts, keys, count = {}, {}, rawlen(value)
+  for i = 1, math.min(count, longest) do texts[i] = describe(rawget(value, i), depth + 1, seen) end
+  if count > longest then texts[#texts + 1] = ("… %d more"):format(count - longest) end
+  for key in next, value do
+    local item = math.type(key) == "integer" and key >= 1 and key <= count
+    if not item then keys[#keys + 1] = key end
+  end
+  table.sort(keys, key_order)
+  for i = 1, math.min(#keys, longest) do
+    local key = keys[i]
+    local name = is_name(key) and key or "[" .. describe(key, depth + 1, seen) .. "]"
+    texts[#texts + 1] = name .. " = " .. describe(rawget(value, key), depth + 1, seen)
+  end
+  if #keys > longest then texts[#texts + 1] = ("… %d more"):format(#keys - longest) end
+  return texts
+end
+
+local function describe_table(value, depth, seen)
+  if seen[value] then return "{…}" end
+  if next(value) == nil then return "{}" end
+  if depth >= deepest then return "{…}" end
+  seen[value] = true
+  local texts = entries(value, depth, seen)
+  seen[value] = nil
+  local line = "{ " .. table.concat(texts, ", ") .. " }"
+  if #line + 2 * depth <= widest and not line:find "\n" then return line end
+  local indent = ("  "):rep(depth + 1)
+  return "{\n" .. indent .. table.concat(texts, ",\n" .. indent) .. " }"
+end
+
+function describe(value, depth, seen)
+  local kind = type(value)
+  if kind == "number" then return number(value) end
+  if kind == "string" then return depth == 0 and value:find "\n" and value or string.format("%q", value):gsub("\\\n", "\\n") .. "" end
+  if kind == "table" then
+    local meta = getmetatable(value)
+    if type(meta) == "table" and rawget(meta, "__tostring") then return tostring(value) end
+    return describe_table(value, depth, seen)
+  end
+  if kind == "userdata" then
+    local text = tostring(value)
+    return depth > 0 and text:find "\n" and text:match "^[^\n]*" .. " …" or text
+  end
+  return tostring(value)
+end
+
+-- One value as a text, on several lines when it is long.
+function show.text(value)
+  return describe(value, 0, {})
+end
+
+-- What the prompt does with results.
+function show.print(...)
+  local values = table.pack(...)
+  for i = 1, values.n do values[i] = show.text(values[i]) end
+  local several = table.concat(values, "\n"):find "\n" and "\n" or "  "
+  io.write(table.concat(values, several), "\n")
+end
+
+return show

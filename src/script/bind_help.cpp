@@ -1,0 +1,52 @@
+#include <cstdio>
+
+#include "script/enter.hpp"
+#include "script/help.hpp"
+#include "script/nearest.hpp"
+#include "script/position.hpp"
+
+namespace dotyk::script {
+namespace {
+
+std::string help_on_name(const Library& library, const std::string& name) {
+  for (const auto& module : library.modules()) {
+    if (module.name == name) return help_text(library, module);
+  }
+  if (const auto* type = library.find_type(name)) return help_text(library, *type);
+  if (const auto* descriptor = library.find(name)) return help_text(*descriptor);
+  const auto near = nearest(name, library.names());
+  throw ArgumentError("nothing is called '" + name + "'" + (near.empty() ? "; help() lists everything" : ", did you mean '" + near + "'?"));
+}
+
+std::string help_on_value(const Call& call) {
+  lua_State* L = call.state();
+  const auto& library = Library::of(L);
+  const int index = call.slot("x");
+  if (lua_type(L, index) == LUA_TSTRING) return help_on_name(library, lua_tostring(L, index));
+  if (const auto* descriptor = descriptor_at(L, index)) return help_text(*descriptor);
+  if (const auto* type = library.type_at(L, index)) return help_text(library, *type);
+  const auto module = library.module_at(L, index);
+  if (!module.empty()) return help_on_name(library, module);
+  throw ArgumentError("there is no help on " + describe_value(L, index) + "; help() lists everything");
+}
+
+}  // namespace
+
+void bind_help(Library& library) {
+  library.function({.name = "help",
+                    .help = "Prints help: on everything, or on one function, method, object or name.",
+                    .example = "help()\nhelp(dotyk)\nhelp \"help\"",
+                    .arguments = {key::any("x", "a function, a method, an object, a table of functions, or a name")},
+                    .run = [](Call& call) {
+                      const auto& library = Library::of(call.state());
+                      const auto text = call.has("x") ? help_on_value(call) : help_index(library);
+                      std::fputs(text.c_str(), stdout);
+                      return 0;
+                    }});
+  library.function({.name = "dotyk.reference",
+                    .help = "The reference of everything callable, as a Markdown text.",
+                    .example = "local page = dotyk.reference()",
+                    .run = [](Call& call) { return call.give(reference_page(Library::of(call.state()))); }});
+}
+
+}  // namespace dotyk::script

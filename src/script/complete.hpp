@@ -1,0 +1,22 @@
+#pragma once
+// Completion at the prompt: globals, fields, methods after a colon, keys inside
+// the table argument of a known callable and their choices, file names in strings.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+struct lua_State;
+
+namespace dotyk::script {
+
+struct Completion {
+  std::size_t start = 0;           // the words replace the text from here on
+  std::vector<std::string> words;  // sorted
+  bool file_names = false;         // file names fit instead
+};
+
+// `text` is everything typed before the cursor, earlier lines of an unfinished
+// input included. No script code is run; fields of dotyk's own objects are read.
+Completion complete(lua_State* L, const std::string& text);
+
+}  // namespace dotyk::script

@@ -1,0 +1,155 @@
+#include "script/help.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace dotyk::script {
+namespace {
+
+// Text broken into lines of at most `width` letters, each after `indent`.
+std::string wrapped(const std::string& text, const std::string& indent, std::size_t width = 96) {
+  std::istringstream words(text);
+  std::string word, line, all;
+  while (words >> word) {
+    if (!line.empty() && indent.size() + line.size() + 1 + word.size() > width) {
+      all += indent + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return line.empty() ? all : all + indent + line + "\n";
+}
+
+std::string first_sentence(const std::string& text) {
+  const auto end = text.find(". ");
+  auto sentence = end == std::string::npos ? text : text.substr(0, end);
+  if (!sentence.empty() && sentence.back() == '.') sentence.pop_back();
+  return sentence;
+}
+
+std::string facts(const Key& key) {
+  auto text = key.expected();
+  if (!key.units.empty()) text += ", " + key.units;
+  if (key.needed) return text;
+  return text + (key.default_text.empty() ? "; optional" : "; default " + key.default_text);
+}
+
+void list_key(std::string& out, const Key& key, const std::string& indent) {
+  const auto name = key.name.empty() ? "…" : key.name;
+  auto line = name + std::string(name.size() < 14 ? 14 - name.size() : 1, ' ');
+  line += key.help;
+  const auto wide = wrapped("(" + facts(key) + ")", indent + std::string(14, ' '));
+  out += indent + line + "\n" + wide;
+  for (const auto& item : key.items) {
+    for (const auto& inner : item.keys) list_key(out, inner, indent + "    ");
+  }
+  if (key.kind == Kind::table) {
+    for (const auto& inner : key.keys) list_key(out, inner, indent + "    ");
+  }
+}
+
+void list_arguments(std::string& out, const Descriptor& descriptor) {
+  if (!descriptor.takes_table()) {
+    for (const auto& argument : descriptor.arguments) list_key(out, argument, "  ");
+    return;
+  }
+  const auto& table = descriptor.arguments[0];
+  for (const auto& item : table.items) list_key(out, item, "  ");
+  for (const auto& key : table.keys) list_key(out, key, "  ");
+}
+
+std::string indented(const std::string& text, const std::string& indent) {
+  std::istringstream lines(text);
+  std::string line, all;
+  while (std::getline(lines, line)) all += indent + line + "\n";
+  return all;
+}
+
+std::string summary_line(const std::string& name, const std::string& help) {
+  const auto pad = name.size() < 28 ? 28 - name.size() : 1;
+  return "  " + name + std::string(pad, ' ') + first_sentence(help) + "\n";
+}
+
+}  // namespace
+
+std::string help_text(const Descriptor& descriptor) {
+  auto out = descriptor.signature() + (descriptor.returns.empty() ? "" : " → " + descriptor.returns) + "\n";
+  out += wrapped(descriptor.help, "  ");
+  if (!descriptor.arguments.empty()) out += "\n";
+  list_arguments(out, descriptor);
+  if (!descriptor.example.empty()) out += "\n  Example:\n" + indented(descriptor.example, "    ");
+  return out;
+}
+
+std::string help_text(const Library& library, const Type& type) {
+  auto out = type.name + "\n" + wrapped(type.help, "  ");
+  if (!type.fields.empty()) out += "\n  Fields:\n";
+  for (const auto& field : type.fields) {
+    out += "  " + summary_line(field.name, field.help + (field.units.empty() ? "" : " [" + field.units + "]"));
+  }
+  if (!type.methods.empty()) out += "\n  Methods:\n";
+  for (const auto& method : type.methods) out += "  " + summary_line(method.name, method.help);
+  std::string makers;
+  for (const auto& one : library.functions()) {
+    if (one.returns == type.name) makers += (makers.empty() ? "" : ", ") + one.name;
+  }
+  return makers.empty() ? out : out + "\n  Made by " + makers + ".\n";
+}
+
+std::string help_text(const Library& library, const Module& module) {
+  auto out = module.name + "\n" + wrapped(module.help, "  ") + "\n";
+  for (const auto& one : library.functions()) {
+    const auto dot = one.name.rfind('.');
+    if (dot != std::string::npos && one.name.substr(0, dot) == module.name) out += summary_line(one.name, one.help);
+  }
+  for (const auto& inner : library.modules()) {
+    if (inner.name.rfind(module.name + ".", 0) == 0) out += summary_line(inner.name, inner.help);
+  }
+  return out;
+}
+
+std::string help_index(const Library& library) {
+  std::string out = "Functions:\n";
+  for (const auto& one : library.functions()) out += summary_line(one.name, one.help);
+  if (!library.types().empty()) out += "\nObjects:\n";
+  for (const auto& type : library.types()) out += summary_line(type.name, type.help);
+  out += "\nhelp(x) tells more: x is a function, an object or a name, as in help \"";
+  out += library.functions().empty() ? "help" : library.functions().front().name;
+  return out + "\".\n";
+}
+
+std::vector<std::string> missing_help(const Library& library) {
+  std::vector<std::string> missing;
+  const auto check_keys = [&](const auto& self, const std::string& owner, const std::vector<Key>& keys) -> void {
+    for (const auto& key : keys) {
+      const auto name = owner + ", '" + key.name + "'";
+      if (key.help.empty()) missing.push_back(name + ": no help");
+      if (key.kind == Kind::table) self(self, name, key.keys);
+      for (const auto& item : key.items) self(self, name, item.keys);
+    }
+  };
+  const auto check = [&](const Descriptor& one) {
+    if (one.help.empty()) missing.push_back(one.name + ": no help");
+    if (one.example.empty()) missing.push_back(one.name + ": no example");
+    const auto& keys = one.takes_table() ? one.arguments[0].keys : one.arguments;
+    check_keys(check_keys, one.name, keys);
+    if (!one.takes_table()) return;
+    for (const auto& item : one.arguments[0].items) {
+      if (item.help.empty()) missing.push_back(one.name + ", items: no help");
+    }
+  };
+  for (const auto& one : library.functions()) check(one);
+  for (const auto& type : library.types()) {
+    if (type.help.empty()) missing.push_back(type.name + ": no help");
+    for (const auto& field : type.fields) {
+      if (field.help.empty()) missing.push_back(type.name + "." + field.name + ": no help");
+    }
+    for (const auto& method : type.methods) {
+      if (method.owner() != type.name) missing.push_back(method.name + ": a method of " + type.name + " by another name");
+      check(method);
+    }
+  }
+  return missing;
+}
+
+}  // namespace dotyk::script

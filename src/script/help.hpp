@@ -1,0 +1,24 @@
+#pragma once
+// Help and the reference page, written from the descriptions.
+#include <string>
+
+#include "script/library.hpp"
+
+namespace dotyk::script {
+
+std::string help_index(const Library& library);
+std::string help_text(const Descriptor& descriptor);
+std::string help_text(const Library& library, const Type& type);
+std::string help_text(const Library& library, const Module& module);
+
+// The whole reference as a Markdown page.
+std::string reference_page(const Library& library);
+
+// What is wrong with the descriptions: one line for each missing help text,
+// example or key help. Empty when all is well.
+std::vector<std::string> missing_help(const Library& library);
+
+// The functions help() and dotyk.reference().
+void bind_help(Library& library);
+
+}  // namespace dotyk::script

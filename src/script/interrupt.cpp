@@ -1,0 +1,112 @@
+#include "script/interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <ctime>
+
+#include "script/lua.hpp"
+
+namespace dotyk::script {
+namespace {
+
+// The signal handler may touch nothing but these.
+std::atomic<bool> pending{false};
+std::atomic<lua_State*> running{nullptr};
+std::atomic<double> asked_at{0};
+
+// Raises in whatever code runs next, again and again until the request is
+// answered, so that a pcall in a loop cannot swallow it.
+void stop_here(lua_State* L, lua_Debug*) {
+  if (!pending) {
+    lua_sethook(L, nullptr, 0, 0);
+    return;
+  }
+  luaL_error(L, "interrupted");
+}
+
+void arm(lua_State* L) {
+  if (L) lua_sethook(L, stop_here, LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT, 1);
+}
+
+double now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+void on_signal(int signal) {
+  const double time = now();
+  if (pending && time - asked_at < 1.0) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+    return;
+  }
+  asked_at = time;
+  pending = true;
+  arm(running);
+}
+
+// coroutine.resume and the functions coroutine.wrap makes, with `running`
+// pointing to the thread that runs. Upvalue 1 is Lua's own function.
+int resumed(lua_State* L, lua_State* thread) {
+  lua_State* const caller = running;
+  running = thread;
+  if (pending) arm(thread);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  const int status = lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0);
+  running = caller;
+  if (pending) arm(caller);
+  if (status != LUA_OK) return lua_error(L);
+  return lua_gettop(L);
+}
+
+int resume(lua_State* L) {
+  lua_State* thread = lua_tothread(L, 1);
+  return resumed(L, thread ? thread : L);
+}
+
+int call_wrapped(lua_State* L) {
+  return resumed(L, lua_tothread(L, lua_upvalueindex(2)));
+}
+
+// coroutine.wrap: the function Lua makes has its thread as first upvalue.
+int wrap(lua_State* L) {
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, lua_gettop(L) - 1, 1);
+  lua_getupvalue(L, -1, 1);
+  lua_pushcclosure(L, call_wrapped, 2);
+  return 1;
+}
+
+void replace_field(lua_State* L, const char* name, lua_CFunction function) {
+  lua_getfield(L, -1, name);
+  lua_pushcclosure(L, function, 1);
+  lua_setfield(L, -2, name);
+}
+
+}  // namespace
+
+bool interrupted() { return pending; }
+void clear_interrupt() { pending = false; }
+
+void request_interrupt() {
+  asked_at = now();
+  pending = true;
+  arm(running);
+}
+
+void watch_interrupts(lua_State* L) {
+  running = L;
+  lua_getglobal(L, "coroutine");
+  replace_field(L, "resume", resume);
+  replace_field(L, "wrap", wrap);
+  lua_pop(L, 1);
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,22 @@
+#pragma once
+// Ctrl-C. The first raises the Lua error "interrupted" at the next instruction
+// of the script and is seen by long computations that poll interrupted(); a
+// second within a second, while the first is still unanswered, ends the program.
+struct lua_State;
+
+namespace dotyk::script {
+
+// Has the user asked to stop? Stays true until the request is answered.
+bool interrupted();
+
+// The request was answered.
+void clear_interrupt();
+
+// Asks to stop, as Ctrl-C does.
+void request_interrupt();
+
+// From now on Ctrl-C interrupts what runs in this state (and in its
+// coroutines). Called once a program.
+void watch_interrupts(lua_State* L);
+
+}  // namespace dotyk::script

@@ -1,0 +1,110 @@
+#include "script/line_reader.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+#include <readline/readline.h>
+
+#include "script/interrupt.hpp"
+
+namespace dotyk::script {
+namespace {
+
+// readline calls plain functions, so what they need stands here while a line
+// is being read.
+struct {
+  const std::function<Completion(const std::string&)>* complete = nullptr;
+  Completion found;
+  std::string line;
+  bool done = false, ended = false;
+} session;
+
+char* next_word(const char*, int state) {
+  static std::size_t next;
+  if (state == 0) next = 0;
+  if (next >= session.found.words.size()) return nullptr;
+  return strdup(session.found.words[next++].c_str());
+}
+
+void look() { session.found = (*session.complete)(std::string(rl_line_buffer, static_cast<std::size_t>(rl_point))); }
+
+// Inside a string a word is a whole path; elsewhere a name.
+char* word_breaks() {
+  look();
+  static char in_string[] = "\"'";
+  static char in_code[] = " \t\n\"'`@$><=;|&{}(),.:[]+-*/%#~^";
+  const bool quoted = session.found.file_names || !session.found.words.empty();
+  return quoted && session.found.file_names ? in_string : in_code;
+}
+
+char** attempt(const char* text, int, int) {
+  rl_completion_append_character = '\0';
+  if (session.found.file_names) {
+    rl_filename_completion_desired = 1;
+    return nullptr;  // readline's own file names
+  }
+  rl_attempted_completion_over = 1;
+  return rl_completion_matches(text, next_word);
+}
+
+void got_line(char* line) {
+  session.done = true;
+  session.ended = line == nullptr;
+  if (line) session.line = line;
+  std::free(line);
+  rl_callback_handler_remove();
+}
+
+void set_up() {
+  static bool ready = false;
+  if (ready) return;
+  ready = true;
+  rl_readline_name = "dotyk";
+  rl_catch_signals = 0;  // Ctrl-C is ours
+  rl_persistent_signal_handlers = 1;
+  rl_attempted_completion_function = attempt;
+  rl_completion_word_break_hook = word_breaks;
+  // What was typed so far selects from the history; an inputrc may say otherwise.
+  rl_bind_keyseq("\\e[A", rl_history_search_backward);
+  rl_bind_keyseq("\\e[B", rl_history_search_forward);
+  rl_bind_keyseq("\\eOA", rl_history_search_backward);
+  rl_bind_keyseq("\\eOB", rl_history_search_forward);
+}
+
+void abandon() {
+  clear_interrupt();
+  rl_free_line_state();
+  rl_callback_sigcleanup();
+  std::fputs("^C\n", stdout);
+  rl_callback_handler_remove();
+}
+
+}  // namespace
+
+Read read_edited(const char* prompt, std::string& line, const std::function<Completion(const std::string&)>& complete_line) {
+  set_up();
+  session.complete = &complete_line;
+  session.done = session.ended = false;
+  rl_callback_handler_install(prompt, got_line);
+  while (!session.done) {
+    if (interrupted()) {
+      abandon();
+      return Read::cleared;
+    }
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (poll(&input, 1, -1) > 0) rl_callback_read_char();
+    else rl_check_signals();
+  }
+  line = session.line;
+  return session.ended ? Read::end : Read::line;
+}
+
+Read read_plain(std::string& line) { return std::getline(std::cin, line) ? Read::line : Read::end; }
+
+}  // namespace dotyk::script

@@ -1,0 +1,144 @@
+#include "script/lua_side.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "script/describe.hpp"
+#include "script/guard.hpp"
+#include "script/library.hpp"
+#include "script/nearest.hpp"
+
+namespace dotyk::script {
+namespace {
+
+int fail(lua_State* L) {
+  const std::string message = luaL_checkstring(L, 1);
+  raise(L, "", message);
+}
+
+int nearest_entry(lua_State* L) {
+  return guarded(L, "nearest", [L] {
+    const std::string name = luaL_checkstring(L, 1);
+    luaL_checktype(L, 2, LUA_TTABLE);
+    std::vector<std::string> candidates;
+    for (lua_Integer i = 1; lua_rawgeti(L, 2, i) == LUA_TSTRING; ++i) {
+      candidates.emplace_back(lua_tostring(L, -1));
+      lua_pop(L, 1);
+    }
+    const auto near = nearest(name, candidates);
+    if (near.empty()) lua_pushnil(L);
+    else push(L, near);
+    return 1;
+  });
+}
+
+int terminal(lua_State* L) {
+  static const char* const names[] = {"stdin", "stdout", "stderr", nullptr};
+  lua_pushboolean(L, isatty(luaL_checkoption(L, 1, "stdout", names)));
+  return 1;
+}
+
+int columns(lua_State* L) {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  lua_pushinteger(L, known ? size.ws_col : 80);
+  return 1;
+}
+
+int clock(lua_State* L) {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  lua_pushnumber(L, std::chrono::duration<double>(now).count());
+  return 1;
+}
+
+int type_name(lua_State* L) {
+  return guarded(L, "type_name", [L] {
+    const auto* type = Library::of(L).type_at(L, 1);
+    push(L, type ? type->name.c_str() : luaL_typename(L, 1));
+    return 1;
+  });
+}
+
+int describe(lua_State* L) {
+  return guarded(L, "describe", [L] {
+    luaL_checktype(L, 1, LUA_TTABLE);
+    auto descriptor = read_descriptor(L, 1);
+    lua_getfield(L, 1, "run");
+    Library::of(L).function(std::move(descriptor));
+    return 0;
+  });
+}
+
+// Loads lua/<name>.lua and calls it with the core table, upvalue 1 here.
+int load(lua_State* L) {
+  const std::string name = luaL_checkstring(L, 1);
+  lua_getfield(L, LUA_REGISTRYINDEX, "dotyk.loaded");
+  if (lua_getfield(L, -1, name.c_str()) != LUA_TNIL) return 1;
+  lua_pop(L, 1);
+  const auto path = std::string(lua_folder()) + "/" + name + ".lua";
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return luaL_error(L, "cannot read %s", path.c_str());
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto chunk = std::string(own_chunk) + " " + name + ".lua";
+  if (luaL_loadbufferx(L, text.data(), text.size(), chunk.c_str(), "t") != LUA_OK) return lua_error(L);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_call(L, 1, 1);
+  if (lua_isnil(L, -1)) {
+    lua_pop(L, 1);
+    lua_pushboolean(L, true);
+  }
+  lua_pushvalue(L, -1);
+  lua_setfield(L, -3, name.c_str());
+  return 1;
+}
+
+}  // namespace
+
+const char* lua_folder() {
+  static const std::string folder = [] {
+    if (const char* named = std::getenv("DOTYK_LUA")) return std::string(named);
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    const auto installed = program.parent_path().parent_path() / "share/dotyk/lua";
+    if (!error && std::filesystem::exists(installed / "init.lua", error)) return installed.string();
+    return std::string(DOTYK_LUA_SOURCE);
+  }();
+  return folder.c_str();
+}
+
+void push_own_module(lua_State* L, const char* name) {
+  lua_getfield(L, LUA_REGISTRYINDEX, "dotyk.load");
+  lua_pushstring(L, name);
+  lua_call(L, 1, 1);
+}
+
+void load_lua_side(lua_State* L) {
+  lua_newtable(L);
+  lua_setfield(L, LUA_REGISTRYINDEX, "dotyk.loaded");
+  lua_newtable(L);
+  static const luaL_Reg functions[] = {{"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
+                                       {"columns", columns}, {"clock", clock},  {"type_name", type_name},   {"describe", describe},
+                                       {nullptr, nullptr}};
+  luaL_setfuncs(L, functions, 0);
+  lua_pushvalue(L, -1);
+  lua_pushcclosure(L, load, 1);
+  lua_pushvalue(L, -1);
+  lua_setfield(L, -3, "load");
+  lua_remove(L, -2);
+  lua_pushvalue(L, -1);
+  lua_setfield(L, LUA_REGISTRYINDEX, "dotyk.load");
+  lua_pushliteral(L, "init");
+  if (lua_pcall(L, 1, 0, 0) == LUA_OK) return;
+  const std::string reason = luaL_tolstring(L, -1, nullptr);
+  lua_settop(L, 0);
+  throw std::runtime_error("the Lua files of dotyk, in " + std::string(lua_folder()) + ", cannot be loaded: " + reason);
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,29 @@
+#pragma once
+// What dotyk's own Lua files, in lua/, get from C++: one table of functions.
+//   describe(t)     registers a callable written in Lua; t has the fields of
+//                   Descriptor (name, help, example, returns, arguments or keys
+//                   and items, each a key description) and run, a function
+//   fail(text)      raises an error at the user's line
+//   load(name)      runs lua/<name>.lua with this table, once; returns its value
+//   nearest(s, t)   the entry of t nearest to s, or nil
+//   terminal(name)  is "stdin", "stdout" or "stderr" a terminal
+//   columns()       the width of the terminal
+//   clock()         seconds, of a clock that never jumps
+//   lazily(f, name) a function that loads lua/<f>.lua when first called
+//   type_name(v)    "body", "mesh", … or what type() says
+struct lua_State;
+
+namespace dotyk::script {
+
+// Runs lua/init.lua with the table above. Throws std::runtime_error with the
+// reason when a file is missing or wrong.
+void load_lua_side(lua_State* L);
+
+// Pushes the value of lua/<name>.lua, loading it if need be. May raise a Lua error.
+void push_own_module(lua_State* L, const char* name);
+
+// The folder of dotyk's Lua files: $DOTYK_LUA, ../share/dotyk/lua beside an
+// installed program, or the source folder the program was built from.
+const char* lua_folder();
+
+}  // namespace dotyk::script

@@ -1,0 +1,47 @@
+#include "script/position.hpp"
+
+#include <cstring>
+
+#include "script/descriptor.hpp"
+#include "script/lua.hpp"
+
+namespace dotyk::script {
+
+std::string position(lua_State* L, const std::string& callee) {
+  const std::string prefix = callee.empty() ? "" : callee + ": ";
+  lua_Debug frame;
+  for (int level = 0; lua_getstack(L, level, &frame); ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    const bool own = std::strncmp(frame.source, own_chunk, sizeof own_chunk - 1) == 0;
+    if (frame.currentline <= 0 || own) continue;
+    return std::string(frame.short_src) + ":" + std::to_string(frame.currentline) + ": " + prefix;
+  }
+  return prefix;
+}
+
+std::string describe_value(lua_State* L, int index) {
+  switch (lua_type(L, index)) {
+    case LUA_TNONE:
+    case LUA_TNIL: return "nil";
+    case LUA_TBOOLEAN: return lua_toboolean(L, index) ? "true" : "false";
+    case LUA_TNUMBER: return "the number " + number_text(lua_tonumber(L, index));
+    case LUA_TSTRING: {
+      const std::string text = lua_tostring(L, index);
+      return "the string \"" + (text.size() > 32 ? text.substr(0, 29) + "…" : text) + "\"";
+    }
+    default: break;
+  }
+  std::string name = luaL_typename(L, index);
+  const int kind = luaL_getmetafield(L, index, "__name");
+  if (kind == LUA_TSTRING) name = lua_tostring(L, -1);
+  if (kind != LUA_TNIL) lua_pop(L, 1);
+  return with_article(name);
+}
+
+void raise(lua_State* L, const std::string& callee, const std::string& message) {
+  lua_pushstring(L, (position(L, callee) + message).c_str());
+  lua_error(L);
+  __builtin_unreachable();
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,137 @@
+#include "script/prompt.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "script/complete.hpp"
+#include "script/history.hpp"
+#include "script/interpreter.hpp"
+#include "script/interrupt.hpp"
+#include "script/line_reader.hpp"
+#include "script/lua.hpp"
+#include "script/lua_side.hpp"
+
+namespace dotyk::script {
+namespace {
+
+constexpr char chunk_name[] = "=prompt";
+
+class Prompt {
+ public:
+  explicit Prompt(Interpreter& interpreter)
+      : interpreter_(interpreter), L_(interpreter.state()), terminal_(isatty(STDIN_FILENO) && isatty(STDOUT_FILENO)) {}
+
+  int run() {
+    if (terminal_) {
+      load_history();
+      std::printf("dotyk %s – help() lists what there is, Ctrl-D leaves\n", DOTYK_VERSION);
+    }
+    bool failed = false;
+    std::string input;
+    for (;;) {
+      const auto read = next_line(input);
+      if (read == Read::end && input.empty()) break;
+      if (read == Read::cleared) {
+        input.clear();
+        continue;
+      }
+      if (wants_out(input)) break;
+      if (!evaluate(input, read == Read::end)) continue;  // wants more lines
+      failed = failed || failed_;
+      input.clear();
+      if (read == Read::end) break;
+    }
+    if (terminal_) std::putchar('\n');
+    return failed && !terminal_ ? 1 : 0;
+  }
+
+ private:
+  Read next_line(std::string& input) {
+    std::string line;
+    const auto complete_line = [&](const std::string& text) {
+      auto found = complete(L_, input.empty() ? text : input + "\n" + text);
+      return found;
+    };
+    std::fflush(stdout);
+    const auto read = terminal_ ? read_edited(input.empty() ? "> " : ">> ", line, complete_line) : read_plain(line);
+    if (read != Read::line) return read;
+    if (terminal_) add_to_history(line);
+    input += (input.empty() ? "" : "\n") + line;
+    return read;
+  }
+
+  static bool wants_out(const std::string& input) {
+    return input == "exit" || input == "quit" || input == "exit()" || input == "quit()";
+  }
+
+  static bool ends_early(const std::string& message) {
+    static const std::string mark = "<eof>";
+    return message.size() >= mark.size() && message.compare(message.size() - mark.size(), mark.size(), mark) == 0;
+  }
+
+  // Compiles the text; the function, or else the message, is left on the stack.
+  bool load(const std::string& text) {
+    return luaL_loadbufferx(L_, text.data(), text.size(), chunk_name, "t") == LUA_OK;
+  }
+
+  // Returns false when the input is the beginning of something longer.
+  bool evaluate(const std::string& input, bool last) {
+    failed_ = false;
+    const auto text = !input.empty() && input[0] == '=' ? input.substr(1) : input;
+    if (load("return " + text)) {
+      run_function(true);
+      return true;
+    }
+    const std::string as_expression = lua_tostring(L_, -1);
+    lua_pop(L_, 1);
+    if (load(text)) {
+      run_function(false);
+      return true;
+    }
+    const std::string message = lua_tostring(L_, -1);
+    lua_pop(L_, 1);
+    if (!last && (ends_early(message) || ends_early(as_expression))) return false;
+    report(message);
+    return true;
+  }
+
+  void run_function(bool show) {
+    const int base = lua_gettop(L_) - 1;
+    auto error = interpreter_.call(0, LUA_MULTRET);
+    const int count = lua_gettop(L_) - base;
+    if (!error && count > 0 && show && !lua_isnil(L_, base + 1)) {
+      lua_pushvalue(L_, base + 1);
+      lua_setglobal(L_, "_");
+    }
+    if (!error && count > 0) error = show_values(count);
+    lua_settop(L_, base);
+    clear_interrupt();
+    if (error) report(*error);
+  }
+
+  // Prints the values on top of the stack with the show function of lua/show.lua.
+  std::optional<std::string> show_values(int count) {
+    push_own_module(L_, "show");
+    lua_getfield(L_, -1, "print");
+    lua_remove(L_, -2);
+    lua_insert(L_, -count - 1);
+    return interpreter_.call(count, 0);
+  }
+
+  void report(const std::string& message) {
+    failed_ = true;
+    std::fflush(stdout);
+    std::fprintf(stderr, "%s\n", message.c_str());
+  }
+
+  Interpreter& interpreter_;
+  lua_State* L_;
+  bool terminal_, failed_ = false;
+};
+
+}  // namespace
+
+int run_prompt(Interpreter& interpreter) { return Prompt(interpreter).run(); }
+
+}  // namespace dotyk::script
