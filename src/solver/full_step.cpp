@@ -1,0 +1,76 @@
+#include <vector>
+
+#include "algebra/sparse_lu.hpp"
+#include "solver/step.hpp"
+
+namespace dotyk::solver {
+namespace {
+
+using algebra::SparseMatrix;
+using algebra::SparseRows;
+using algebra::Vector;
+using problem::Block;
+using problem::Problem;
+
+class FullStep final : public Step {
+ public:
+  FullStep(const Problem& problem, const Vector& rho) : problem_(problem), rho_(rho) {
+    for (const Block& block : problem.blocks)
+      for (int j = 0; j < block.size(); ++j)
+        for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
+          const int row = block.first + static_cast<int>(it.row()), column = block.first + j;
+          stiffness_.emplace_back(row, column, it.value());
+          if (row != column) stiffness_.emplace_back(column, row, it.value());
+        }
+  }
+
+  bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
+    const int n = problem_.unknowns(), m = problem_.rows();
+    // Rows of the laws: D (Bu)_r − ((1−D)/ρ) λ_r = D c_r + (D y − P)(−1/ρ), and λ_r = P where D = 0.
+    auto entries = stiffness_;
+    Vector b(n + m);
+    for (const Block& block : problem_.blocks) b.segment(block.first, block.size()) = block.f;
+    for (int r = 0; r < m; ++r) {
+      const double slope = l.slope[r];
+      for (SparseRows::InnerIterator it(problem_.B, r); it; ++it) {
+        const int j = static_cast<int>(it.col());
+        entries.emplace_back(j, n + r, it.value());
+        if (slope > 0) entries.emplace_back(n + r, j, it.value());
+      }
+      if (slope > 0) {
+        entries.emplace_back(n + r, n + r, -l.added_compliance(r, rho_[r]));
+        b[n + r] = problem_.c[r] - l.offset(r, rho_[r]);
+      } else {
+        entries.emplace_back(n + r, n + r, 1.0);
+        b[n + r] = l.value[r];
+      }
+    }
+    SparseMatrix A(n + m, n + m);
+    A.setFromTriplets(entries.begin(), entries.end());
+    A.makeCompressed();
+    const algebra::SparseLu lu(A);
+    if (lu.singular()) return false;
+    const Vector y = lu.solve(b);
+    if (!y.allFinite()) return false;
+    u_ = y.head(n);
+    lambda = y.tail(m);
+    x = problem_.B * u_ - problem_.c;
+    return true;
+  }
+
+  Vector recover() override { return u_; }
+
+ private:
+  const Problem& problem_;
+  const Vector& rho_;
+  std::vector<Eigen::Triplet<double>> stiffness_;
+  Vector u_;
+};
+
+}  // namespace
+
+std::unique_ptr<Step> full_step(const Problem& problem, const Vector& rho) {
+  return std::make_unique<FullStep>(problem, rho);
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,63 @@
+#include "solver/linearisation.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+using problem::Problem;
+using problem::Projection;
+using problem::RowGroup;
+
+namespace {
+
+Linearisation sized(int rows) {
+  return {Vector::Zero(rows), Vector::Zero(rows), Vector::Zero(rows), std::vector<char>(rows, 0)};
+}
+
+void set(Linearisation& l, int row, double y, Projection p) {
+  l.y[row] = y;
+  l.value[row] = p.lambda;
+  l.slope[row] = p.slope;
+  l.active[row] = p.slope > 0;
+}
+
+constexpr Projection kOpen{0, 0};
+Projection closed(double y) { return {y, 1}; }
+
+}  // namespace
+
+std::uint64_t Linearisation::fingerprint() const {
+  std::uint64_t h = 1469598103934665603ull;  // FNV-1a over the flags
+  for (char a : active) h = (h ^ static_cast<unsigned char>(a)) * 1099511628211ull;
+  return h;
+}
+
+int Linearisation::active_count() const { return std::accumulate(active.begin(), active.end(), 0); }
+
+Linearisation linearise(const Problem& problem, const Vector& lambda, const Vector& x,
+                        const Vector& rho, double noise, const Linearisation* previous) {
+  Linearisation l = sized(problem.rows());
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r) {
+      const double y = lambda[r] + rho[r] * x[r];
+      if (previous && group.law->unilateral() && std::abs(y) <= noise)
+        set(l, r, y, previous->active[r] ? closed(y) : kOpen);
+      else
+        set(l, r, y, group.law->project(r - group.first, y, rho[r]));
+    }
+  return l;
+}
+
+Linearisation from_flags(const Problem& problem, const std::vector<char>& active, const Vector& rho) {
+  Linearisation l = sized(problem.rows());
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r)
+      set(l, r, 0,
+          group.law->unilateral() ? (active[r] ? closed(0) : kOpen)
+                                  : group.law->project(r - group.first, 0, rho[r]));
+  return l;
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "problem/problem.hpp"
+
+namespace dotyk::solver {
+
+/// The laws linearised at y = λ + ρx, row by row:
+///   λ = P(y) + D (λ' + ρ x' − y)   for the new λ', x'.
+/// Rows with D = 0 have λ' = P(y); rows with D = 1 have x' = (y − P(y))/ρ.
+struct Linearisation {
+  algebra::Vector y, value, slope;
+  std::vector<char> active;  ///< D > 0
+
+  /// (1 − D)/(Dρ), the compliance that an active row's law adds; 0 for D = 1.
+  double added_compliance(int row, double rho) const {
+    return (1 - slope[row]) / (slope[row] * rho);
+  }
+  /// x' of an active row where λ' is 0 in its law: (D y − P)/( −Dρ).
+  double offset(int row, double rho) const {
+    return (slope[row] * y[row] - value[row]) / (slope[row] * rho);
+  }
+  std::uint64_t fingerprint() const;
+  int active_count() const;
+};
+
+/// Linearises at (λ, x). A unilateral row whose |y| is below `noise` keeps the branch of
+/// `previous` (nullptr: none): touching without force, it would flip with rounding.
+Linearisation linearise(const problem::Problem& problem, const algebra::Vector& lambda,
+                        const algebra::Vector& x, const algebra::Vector& rho, double noise,
+                        const Linearisation* previous);
+
+/// The linearisation whose unilateral rows are active as flagged (others: at y = 0).
+Linearisation from_flags(const problem::Problem& problem, const std::vector<char>& active,
+                         const algebra::Vector& rho);
+
+}  // namespace dotyk::solver

@@ -1,0 +1,210 @@
+#include "solver/pdas.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+#include "problem/residual.hpp"
+#include "solver/descent.hpp"
+#include "solver/hold.hpp"
+#include "solver/linearisation.hpp"
+#include "solver/step.hpp"
+
+namespace dotyk::solver {
+namespace {
+
+using algebra::Vector;
+using problem::CondensedProblem;
+using problem::Problem;
+
+/// Rows named in a message: the first few places.
+std::string places(const Problem& problem, const std::vector<int>& rows) {
+  std::string out;
+  for (std::size_t k = 0; k < rows.size() && k < 4; ++k)
+    out += (k ? ", " : "") + problem.row_names[rows[k]];
+  if (rows.size() > 4) out += text(" and ", rows.size() - 4, " more");
+  return out;
+}
+
+class Iteration {
+ public:
+  Iteration(const Problem& problem, const Pdas& settings, Monitor& monitor)
+      : problem_(problem), settings_(settings), monitor_(monitor), holder_(problem),
+        rho_(settings.rho * problem.row_stiffness()) {
+    // A row that no unknown moves has no stiffness; any ρ will do.
+    const double largest = rho_.size() ? rho_.maxCoeff() : 1;
+    for (double& r : rho_)
+      if (!(r > 0)) r = largest > 0 ? largest : 1;
+    result_.method = settings.reduced ? "pdas" : "pdas (full)";
+  }
+
+  Result run() {
+    if (settings_.reduced) condense();
+    step_ = settings_.reduced ? reduced_step(*condensed_, rho_) : full_step(problem_, rho_);
+    Stopwatch iterating;
+    Linearisation l = first();
+    while (result_.iterations < settings_.max_iterations) {
+      if (monitor_.stop()) {
+        result_.reason = "interrupted; this is the state so far";
+        break;
+      }
+      if (!advance(l)) break;
+    }
+    if (result_.reason.empty())
+      result_.reason = text("no repeated active set within ", settings_.max_iterations,
+                            " iterations; rows that still change: ", places(problem_, changed_));
+    result_.clock.iterate += iterating.lap();
+    monitor_.phase("recovering the displacement");
+    result_.state.u = step_->recover();
+    result_.state.lambda = lambda_;
+    result_.clock.recover += iterating.lap();
+    return std::move(result_);
+  }
+
+ private:
+  void condense() {
+    condensed_.emplace(problem_, settings_.ordering, result_.clock, monitor_);
+    result_.factor_bytes = condensed_->factor_bytes();
+    result_.ordering = condensed_->ordering();
+  }
+
+  Linearisation first() {
+    const double touching = 1e-12 * (problem_.rows() ? problem_.c.lpNorm<Eigen::Infinity>() : 0);
+    std::vector<char> active = settings_.start;
+    if (active.empty()) {
+      active.resize(problem_.rows());
+      for (int r = 0; r < problem_.rows(); ++r) active[r] = problem_.c[r] <= touching;
+    }
+    Linearisation l = from_flags(problem_, active, rho_);
+    return held(std::move(l), -problem_.c);
+  }
+
+  /// The linearisation with rows added where a rigid motion would be free.
+  Linearisation held(Linearisation l, const Vector& x) {
+    std::vector<char> active = l.active;
+    if (holder_.hold(active, x) == 0) return l;
+    return from_flags_keeping(l, active);
+  }
+
+  Linearisation from_flags_keeping(const Linearisation& l, const std::vector<char>& active) {
+    Linearisation changed = from_flags(problem_, active, rho_);
+    for (int r = 0; r < problem_.rows(); ++r)
+      if (active[r] == l.active[r]) {
+        changed.y[r] = l.y[r];
+        changed.value[r] = l.value[r];
+        changed.slope[r] = l.slope[r];
+      }
+    return changed;
+  }
+
+  /// One linear solve and the next linearisation in `l`; false at the end.
+  bool advance(Linearisation& l) {
+    ++result_.iterations;
+    result_.active_sets.push_back(l.active);
+    seen_.insert(l.fingerprint());
+    if (!step_->solve(l, lambda_, x_)) {
+      result_.reason = text("the linear problem of iteration ", result_.iterations,
+                            " is singular: active rows contradict each other or do not hold a body");
+      if (lambda_.size() == 0) lambda_ = Vector::Zero(problem_.rows());
+      return false;
+    }
+    Linearisation next = held(linearise(problem_, lambda_, x_, rho_, noise(), &l), x_);
+    changed_.clear();
+    for (int r = 0; r < problem_.rows(); ++r)
+      if (next.active[r] != l.active[r]) changed_.push_back(r);
+    record(next);
+    if (changed_.empty() && same_values(l, next)) {
+      result_.converged = true;
+      result_.reason = result_.reason.empty() ? "the active set repeats" : result_.reason;
+      return false;
+    }
+    l = std::move(next);
+    if (seen_.count(l.fingerprint())) return leave_cycle(l);
+    return true;
+  }
+
+  /// Branches agree, and so do the constants of the branches (laws with a nonzero λ off contact).
+  bool same_values(const Linearisation& a, const Linearisation& b) const {
+    for (int r = 0; r < problem_.rows(); ++r) {
+      if (a.slope[r] != b.slope[r]) return false;
+      if (a.slope[r] == 0 && a.value[r] != b.value[r]) return false;
+    }
+    return true;
+  }
+
+  double noise() const { return 1e-13 * (lambda_.size() ? lambda_.lpNorm<Eigen::Infinity>() : 0); }
+
+  void record(const Linearisation& next) {
+    IterationInfo info;
+    info.iteration = result_.iterations;
+    info.active = next.active_count();
+    info.changed = static_cast<int>(changed_.size());
+    info.residual = problem::natural_residual(problem_, x_, lambda_, rho_);
+    info.seconds = watch_.seconds();
+    result_.history.push_back(info);
+    monitor_.iteration(info);
+  }
+
+  /// The sets repeat but are no solution: descend the dual energy, trying a Newton step after
+  /// each sweep, until the step confirms its own active set.
+  bool leave_cycle(Linearisation& l) {
+    const std::string where = places(problem_, changed_);
+    if (!condensed_) condense();
+    if (condensed_->kernel_size() > 0) {
+      result_.reason = "active sets repeat without being a solution, at " + where;
+      return false;
+    }
+    Vector lambda = admissible(problem_, lambda_), x = condensed_->jump(lambda, Vector());
+    double q = dual_energy(problem_, *condensed_, lambda);
+    const auto inner = reduced_step(*condensed_, rho_);
+    for (; result_.iterations < settings_.max_iterations && !monitor_.stop(); ++result_.iterations) {
+      descend(problem_, *condensed_, lambda, x);
+      l = linearise(problem_, lambda, x, rho_, 0, nullptr);
+      Vector newton_lambda, newton_x;
+      if (inner->solve(l, newton_lambda, newton_x)) {
+        const Vector candidate = admissible(problem_, newton_lambda);
+        const double value = dual_energy(problem_, *condensed_, candidate);
+        if (value <= q) {
+          lambda = candidate;
+          x = condensed_->jump(lambda, Vector());
+          q = value;
+        }
+        const Linearisation next = linearise(problem_, newton_lambda, newton_x, rho_, noise(), &l);
+        if (next.active == l.active && same_values(l, next)) {
+          result_.reason = "active sets repeated at " + where +
+                           "; left by sweeps that decrease the dual energy";
+          return true;  // the ordinary iteration confirms it
+        }
+      }
+      q = std::min(q, dual_energy(problem_, *condensed_, lambda));
+    }
+    lambda_ = lambda;
+    x_ = x;
+    result_.reason = "active sets repeat at " + where + "; descent did not settle within max_iterations";
+    return false;
+  }
+
+  const Problem& problem_;
+  const Pdas& settings_;
+  Monitor& monitor_;
+  Holder holder_;
+  Vector rho_;
+  Result result_;
+  std::optional<CondensedProblem> condensed_;
+  std::unique_ptr<Step> step_;
+  Vector lambda_, x_;
+  std::vector<int> changed_;
+  std::set<std::uint64_t> seen_;
+  Stopwatch watch_;
+};
+
+}  // namespace
+
+Result solve(const Problem& problem, const Pdas& settings, Monitor& monitor) {
+  return Iteration(problem, settings, monitor).run();
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "solver/solver.hpp"
+
+namespace dotyk::solver {
+
+/// The primal-dual active set method (TR965 (1.44)–(1.47)), which is Newton's method on
+/// λ = P(λ + ρ(Bu − c)) and so takes every scalar law: in each iteration the branch of every
+/// row is read off y = λ + ρx, then a linear problem is solved; it ends when the branches repeat.
+struct Pdas : Settings {
+  /// Multiplies each row's own stiffness Σ_j B_rj² K_jj (force per displacement): with 1, forces
+  /// and gaps weigh alike. It matters only while both λ and x of a row are nonzero, that is
+  /// from the second linear solve on not at all for contact.
+  double rho = 1.0;
+  /// On the condensed problem (one sparse factorisation in all), or on the whole system
+  /// (one LU an iteration): the same iterates (TR965 remark 1.3).
+  bool reduced = true;
+};
+
+/// Solves. Where active sets repeat without being a solution, the nodes concerned are put into
+/// `reason` and Gauss–Seidel sweeps that decrease the dual energy take over between Newton steps.
+/// Throws InputError where a body is not held, naming its motion.
+Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
+
+}  // namespace dotyk::solver

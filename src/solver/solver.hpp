@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "problem/condensed.hpp"
+#include "problem/problem.hpp"
+
+namespace dotyk::solver {
+
+/// How a method ended.
+struct Result {
+  problem::State state;
+  bool converged = false;
+  std::string method;
+  std::string reason;  ///< one sentence: why it stopped
+  int iterations = 0;
+  std::vector<IterationInfo> history;
+  /// Rows in contact (active branch of their law) in every iteration, as it began.
+  std::vector<std::vector<char>> active_sets;
+  problem::Clock clock;
+  double factor_bytes = 0;
+  std::string ordering;  ///< the ordering used, "AMD", "METIS", …
+};
+
+/// What every method takes.
+struct Settings {
+  double tol = 1e-10;        ///< on the relative natural residual
+  int max_iterations = 100;
+  algebra::Ordering ordering = algebra::Ordering::automatic;
+  /// Rows taken as active at the start, one flag a row; empty: the rows whose gap is closed at rest.
+  std::vector<char> start;
+};
+
+/// K u = f for a problem without rows: order, factor, substitute. The yardstick of every other method.
+/// Throws InputError where a block is not held.
+Result solve_linear(const problem::Problem& problem, algebra::Ordering ordering, Monitor& monitor);
+
+}  // namespace dotyk::solver

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "problem/condensed.hpp"
+#include "solver/linearisation.hpp"
+
+namespace dotyk::solver {
+
+/// One linear problem of PDAS: equilibrium with the laws linearised.
+class Step {
+ public:
+  virtual ~Step() = default;
+  /// Sets λ and x = Bu − c. False where the linear problem is singular (the active rows
+  /// depend on each other beyond repair, or do not hold a body).
+  virtual bool solve(const Linearisation& l, algebra::Vector& lambda, algebra::Vector& x) = 0;
+  /// The whole u that belongs to the last solve().
+  virtual algebra::Vector recover() = 0;
+};
+
+/// On the condensed problem: dense, of the size of the active set (TR965 (1.68)–(1.69)).
+std::unique_ptr<Step> reduced_step(const problem::CondensedProblem& condensed,
+                                   const algebra::Vector& rho);
+
+/// On the whole system [K Bᵀ; …], sparse LU anew in each iteration (TR965 (1.45)–(1.46)).
+std::unique_ptr<Step> full_step(const problem::Problem& problem, const algebra::Vector& rho);
+
+}  // namespace dotyk::solver
