@@ -1,9 +1,134 @@
-#include <stdexcept>
+// A scene figure: three layers, one above the other. Obstacles of the plane
+// below, then bodies in VTK's own renderer, then symbols, legends and texts.
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include <vtkCamera.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
 
 #include "figures.hpp"
+#include "osmesa_window.hpp"
+#include "stage.hpp"
 
 namespace dotyk::figure {
 
-void draw_scene(const ScenePicture&) { throw std::runtime_error("scenes are not drawn yet"); }
+Stage::Stage(const ScenePicture& p, int oversampled)
+    : picture(p), factor(oversampled), plane(p.bodies.front().dimension == 2),
+      em(0.032 * std::min<double>(p.height, 0.8 * p.width)), scale(colour_scale(p)), under(oversampled), over(oversampled) {
+  for (const ContactPicture& contact : p.contacts)
+    for (const ContactNode& node : contact.nodes) greatest_pressure = std::max(greatest_pressure, node.pressure);
+  for (const BodyPicture& body : p.bodies) {
+    Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
+    for (std::size_t i = 0; i < body.points.size(); ++i) {
+      least[i % 3] = std::min(least[i % 3], body.points[i]);
+      most[i % 3] = std::max(most[i % 3], body.points[i]);
+    }
+    if (!body.points.empty()) body_boxes.push_back({least, most});
+  }
+}
+
+double Stage::strip_height() const { return std::clamp(0.12 * std::min(picture.width, picture.height), 2 * em, 4.5 * em); }
+
+bool Stage::strips() const {
+  return plane && (picture.pressure == PressureStyle::strip || picture.pressure == PressureStyle::automatic);
+}
+
+bool Stage::arrows() const {
+  return picture.pressure == PressureStyle::arrows ||
+         (!plane && (picture.pressure == PressureStyle::automatic || picture.pressure == PressureStyle::strip));
+}
+
+Vec3 Stage::deformed(const Vec3& position, const Vec3& displacement) const {
+  return plus(position, displacement, picture.deformation);
+}
+
+std::vector<std::size_t> Stage::spaced(const std::vector<Point>& at, double spacing) {
+  // Kept points by squares of side `spacing`: only neighbours are compared.
+  std::unordered_map<long long, std::vector<std::size_t>> squares;
+  const auto key = [](long long i, long long j) { return i * 1000003LL + j; };
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (!(std::abs(at[i].x) < 1e7 && std::abs(at[i].y) < 1e7)) continue;
+    const auto sx = static_cast<long long>(std::floor(at[i].x / spacing)), sy = static_cast<long long>(std::floor(at[i].y / spacing));
+    bool free = true;
+    for (long long dx = -1; dx <= 1 && free; ++dx)
+      for (long long dy = -1; dy <= 1 && free; ++dy) {
+        const auto found = squares.find(key(sx + dx, sy + dy));
+        if (found == squares.end()) continue;
+        for (const std::size_t j : found->second)
+          free = free && std::hypot(at[i].x - at[j].x, at[i].y - at[j].y) >= spacing;
+      }
+    if (!free) continue;
+    squares[key(sx, sy)].push_back(i);
+    kept.push_back(i);
+  }
+  return kept;
+}
+
+namespace {
+
+// The bodies' renderer works in rendered pixels and sees the frame only.
+void set_camera(const Stage& stage, vtkRenderer* renderer) {
+  const double w = stage.picture.width, h = stage.picture.height, f = stage.factor;
+  const Box frame = stage.plane ? Box{0, 0, w, h} : stage.frame;
+  renderer->SetViewport(frame.left / w, frame.bottom / h, frame.right / w, frame.top / h);
+  const double x = f * (frame.left + frame.right) / 2, y = f * (frame.bottom + frame.top) / 2;
+  // Depths: bodies reach as far to and fro as across, about the origin's.
+  double near = 1e300, far = -1e300;
+  for (const auto& [least, most] : stage.body_boxes)
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p{corner & 1 ? most[0] : least[0], corner & 2 ? most[1] : least[1], corner & 4 ? most[2] : least[2]};
+      const double z = f * stage.view.pixel(p)[2];
+      near = std::min(near, z), far = std::max(far, z);
+    }
+  const double reach = 4 * f * (w + h);
+  near = stage.plane ? 0 : (near + far) / 2;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(f * frame.height() / 2);
+  camera->SetFocalPoint(x, y, near);
+  camera->SetPosition(x, y, near + reach);
+  camera->SetViewUp(0, 1, 0);
+  camera->SetClippingRange(0.01 * reach, 2 * reach);
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToCameraLight();
+  light->SetPosition(-0.35, 0.55, 1);
+  light->SetFocalPoint(0, 0, 0);
+  renderer->AddLight(light);
+}
+
+}  // namespace
+
+void draw_scene(const ScenePicture& picture) {
+  const int factor = oversampling(picture.width, picture.height);
+  Stage stage(picture, factor);
+  lay_out(stage);
+
+  OsmesaWindow window(factor * picture.width, factor * picture.height);
+  vtkNew<vtkRenderer> ground, bodies, overlay;
+  int layer = 0;
+  window.vtk()->SetNumberOfLayers(3);
+  for (vtkRenderer* renderer : {ground.Get(), bodies.Get(), overlay.Get()}) {
+    renderer->SetLayer(layer++);
+    window.vtk()->AddRenderer(renderer);
+  }
+  ground->SetBackground(1, 1, 1);
+  draw_obstacles(stage, bodies);
+  draw_bodies(stage, bodies);
+  draw_supports(stage);
+  draw_loads(stage);
+  draw_contacts(stage, bodies);
+  set_camera(stage, bodies);
+  stage.under.add_to(ground);
+  stage.over.add_to(overlay);
+
+  Image image = reduce(window.render(), picture.width, picture.height, factor);
+  stage.over.set_texts(image);
+  write_png(image, picture.file);
+}
 
 }  // namespace dotyk::figure

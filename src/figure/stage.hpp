@@ -1,0 +1,65 @@
+// What the parts of a scene figure share while it is drawn.
+#pragma once
+
+#include <vector>
+
+#include "canvas.hpp"
+#include "colour_map.hpp"
+#include "geometry.hpp"
+#include "legend.hpp"
+#include "picture.hpp"
+
+class vtkRenderer;
+
+namespace dotyk::figure {
+
+struct Stage {
+  Stage(const ScenePicture& picture, int factor);
+
+  const ScenePicture& picture;
+  int factor;                 // rendered pixels per pixel
+  bool plane;                 // 2-D
+  double em;                  // height of letters, pixels
+  ColourScale scale;
+  View view;
+  Box frame;                  // pixels within which the scene is drawn
+  std::vector<std::array<Vec3, 2>> body_boxes;  // least and greatest reference corner of each body
+  double greatest_pressure = 0;
+  bool deformation_shows = false;
+  Canvas under, over;         // below and above the bodies
+  std::vector<LegendEntry> legend;
+
+  double strip_height() const;                    // pixels of the greatest pressure
+  bool strips() const;                            // pressure as strips, not arrows
+  bool arrows() const;
+  Vec3 deformed(const Vec3& position, const Vec3& displacement) const;
+  // Numbers of those positions that stand at least `spacing` pixels apart,
+  // taken in the order given.
+  static std::vector<std::size_t> spaced(const std::vector<Point>& at, double spacing);
+};
+
+// Chooses the view and the frame, and reserves room for title, legend, axes
+// and colour bar; draws these.
+void lay_out(Stage& stage);
+
+// Fills and hatches obstacles in the plane; in space adds their surfaces.
+void draw_obstacles(Stage& stage, vtkRenderer* renderer);
+// Surfaces, mesh edges and outlines of the bodies.
+void draw_bodies(Stage& stage, vtkRenderer* renderer);
+// Status and pressure on the contact boundary.
+void draw_contacts(Stage& stage, vtkRenderer* renderer);
+// Symbols of supports, arrows of loads.
+void draw_supports(Stage& stage);
+void draw_loads(Stage& stage);
+
+// Names of what the stage will show, for the legend.
+std::vector<LegendEntry> contact_legend(const Stage& stage);
+std::vector<LegendEntry> support_legend(const Stage& stage);
+
+// Sizes of symbols in em, for the room they need.
+constexpr double support_size = 0.85, load_length = 2.6, hatch_depth = 0.75;
+// Where a load arrow begins and ends, in pixels.
+std::array<Point, 2> load_arrow(const Stage& stage, const LoadArrow& load, double greatest);
+double greatest_load(const ScenePicture& picture);
+
+}  // namespace dotyk::figure
