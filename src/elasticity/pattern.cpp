@@ -3,28 +3,12 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "elasticity/adjacency.hpp"
 
 namespace dotyk::elasticity {
-namespace {
-
-/// Node → cells that contain it, in compressed form.
-void cells_of_nodes(const mesh::Mesh& mesh, std::vector<int>& start, std::vector<int>& cells) {
-  const int per_cell = mesh.topology().nodes;
-  start.assign(mesh.node_count() + 1, 0);
-  for (int n : mesh.cells) ++start[n + 1];
-  for (int i = 0; i < mesh.node_count(); ++i) start[i + 1] += start[i];
-  cells.resize(mesh.cells.size());
-  std::vector<int> fill(start.begin(), start.end() - 1);
-  for (std::size_t k = 0; k < mesh.cells.size(); ++k)
-    cells[fill[mesh.cells[k]]++] = static_cast<int>(k) / per_cell;
-}
-
-}  // namespace
-
 Pattern::Pattern(const mesh::Mesh& mesh, const Numbering& numbering) {
   const int nodes = mesh.node_count(), dim = mesh.dimension(), per_cell = mesh.topology().nodes;
-  std::vector<int> cell_start, cell_list;
-  cells_of_nodes(mesh, cell_start, cell_list);
+  const NodeCells around = cells_of_nodes(mesh);
 
   std::vector<int> unknowns_of(nodes, 0), mark(nodes, -1);
   for (int n : numbering.node) ++unknowns_of[n];
@@ -37,9 +21,9 @@ Pattern::Pattern(const mesh::Mesh& mesh, const Numbering& numbering) {
     start_[b] = first;
     neighbour_.push_back(b);
     mark[b] = b;
-    for (int k = cell_start[b]; k < cell_start[b + 1]; ++k)
+    for (int k = around.start[b]; k < around.start[b + 1]; ++k)
       for (int l = 0; l < per_cell; ++l) {
-        const int a = mesh.cell(cell_list[k])[l];
+        const int a = mesh.cell(around.cells[k])[l];
         if (a > b && mark[a] != b) {
           mark[a] = b;
           neighbour_.push_back(a);

@@ -26,7 +26,7 @@ class FullStep final : public Step {
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
     const int n = problem_.unknowns(), m = problem_.rows();
-    // Rows of the laws: D (Bu)_r − ((1−D)/ρ) λ_r = D c_r + (D y − P)(−1/ρ), and λ_r = P where D = 0.
+    // Rows of the laws: (Bu)_r − added_compliance λ_r = c_r + offset, and λ_r = P where D = 0.
     auto entries = stiffness_;
     Vector b(n + m);
     for (const Block& block : problem_.blocks) b.segment(block.first, block.size()) = block.f;
@@ -39,7 +39,7 @@ class FullStep final : public Step {
       }
       if (slope > 0) {
         entries.emplace_back(n + r, n + r, -l.added_compliance(r, rho_[r]));
-        b[n + r] = problem_.c[r] - l.offset(r, rho_[r]);
+        b[n + r] = problem_.c[r] + l.offset(r, rho_[r]);
       } else {
         entries.emplace_back(n + r, n + r, 1.0);
         b[n + r] = l.value[r];

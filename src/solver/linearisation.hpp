@@ -18,7 +18,7 @@ struct Linearisation {
   double added_compliance(int row, double rho) const {
     return (1 - slope[row]) / (slope[row] * rho);
   }
-  /// x' of an active row where λ' is 0 in its law: (D y − P)/( −Dρ).
+  /// (D y − P)/(Dρ): an active row's law is x' = added_compliance λ' + offset.
   double offset(int row, double rho) const {
     return (slope[row] * y[row] - value[row]) / (slope[row] * rho);
   }

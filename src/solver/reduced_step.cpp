@@ -33,7 +33,7 @@ class ReducedStep final : public Step {
         for (int i = 0; i < n; ++i) H(i, j) = condensed_.W()(active[i], active[j]);
         H(j, j) += l.added_compliance(active[j], rho_[active[j]]);
         N.row(j) = condensed_.N().row(active[j]);
-        g[j] = rest[active[j]] + l.offset(active[j], rho_[active[j]]);
+        g[j] = rest[active[j]] - l.offset(active[j], rho_[active[j]]);
       }
       const Vector e = condensed_.e() - condensed_.N().transpose() * lambda;
       Vector solved;

@@ -1,0 +1,87 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "elasticity/adjacency.hpp"
+#include "elasticity/stress.hpp"
+
+namespace dotyk::elasticity {
+namespace {
+
+using mesh::Mesh;
+
+/// Cells that a patch needs for a safe linear fit: what an interior node of a regular mesh has, about.
+int enough_cells(mesh::Element element) {
+  switch (element) {
+    case mesh::Element::triangle_p1: return 5;
+    case mesh::Element::quadrilateral_q1: return 4;
+    case mesh::Element::tetrahedron_p1: return 12;
+    default: return 8;
+  }
+}
+
+/// The cells about a node; if they are too few, also those about its neighbours.
+void patch_of(const Mesh& mesh, const NodeCells& around, int node, std::vector<int>& patch) {
+  patch.assign(around.cells.begin() + around.start[node], around.cells.begin() + around.start[node + 1]);
+  if (static_cast<int>(patch.size()) >= enough_cells(mesh.element)) return;
+  const std::vector<int> own = patch;
+  for (int c : own)
+    for (int k = 0; k < mesh.topology().nodes; ++k) {
+      const int n = mesh.cell(c)[k];
+      patch.insert(patch.end(), around.cells.begin() + around.start[n],
+                   around.cells.begin() + around.start[n + 1]);
+    }
+  std::sort(patch.begin(), patch.end());
+  patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
+}
+
+/// Value at the origin of the least-squares linear fit to the samples; their mean where they
+/// do not determine one.
+template <int Terms>
+Stress fit(const std::vector<int>& patch, const std::vector<std::array<double, 3>>& offset,
+           const std::vector<Stress>& value) {
+  Eigen::Matrix<double, Terms, Terms> A = Eigen::Matrix<double, Terms, Terms>::Zero();
+  Eigen::Matrix<double, Terms, 6> b = Eigen::Matrix<double, Terms, 6>::Zero();
+  double scale = 0;
+  for (const auto& x : offset)
+    for (int i = 0; i + 1 < Terms; ++i) scale = std::max(scale, std::abs(x[i]));
+  for (std::size_t k = 0; k < patch.size(); ++k) {
+    Eigen::Matrix<double, Terms, 1> p;
+    p[0] = 1;
+    for (int i = 0; i + 1 < Terms; ++i) p[i + 1] = offset[k][i] / scale;
+    A += p * p.transpose();
+    b += p * Eigen::Map<const Eigen::Matrix<double, 1, 6>>(value[patch[k]].data());
+  }
+  const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> llt(A);
+  Eigen::Matrix<double, 1, 6> at_origin;
+  if (llt.info() == Eigen::Success && llt.rcond() > 1e-4)
+    at_origin = llt.solve(b).row(0);
+  else
+    at_origin = b.row(0) / A(0, 0);
+  Stress s;
+  Eigen::Map<Eigen::Matrix<double, 1, 6>>(s.data()) = at_origin;
+  return s;
+}
+
+}  // namespace
+
+std::vector<Stress> recover_stress(const Mesh& mesh, const std::vector<Stress>& at_centres) {
+  const NodeCells around = cells_of_nodes(mesh);
+  std::vector<mesh::Point> centre(mesh.cell_count());
+  for (int c = 0; c < mesh.cell_count(); ++c) centre[c] = mesh.cell_centre(c);
+  std::vector<Stress> result(mesh.node_count());
+  std::vector<int> patch;
+  std::vector<std::array<double, 3>> offset;
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    patch_of(mesh, around, n, patch);
+    if (patch.empty()) continue;
+    const mesh::Point x = mesh.point(n);
+    offset.resize(patch.size());
+    for (std::size_t k = 0; k < patch.size(); ++k)
+      for (int i = 0; i < 3; ++i) offset[k][i] = centre[patch[k]][i] - x[i];
+    result[n] = mesh.dimension() == 2 ? fit<3>(patch, offset, at_centres)
+                                      : fit<4>(patch, offset, at_centres);
+  }
+  return result;
+}
+
+}  // namespace dotyk::elasticity

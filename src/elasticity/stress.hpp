@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "elasticity/assembly.hpp"
+#include "elasticity/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace dotyk::elasticity {
+
+/// σ in the order xx yy zz yz xz xy, force per area. In the plane yz = xz = 0,
+/// and zz is the stress that plane strain needs (0 in plane stress).
+using Stress = std::array<double, 6>;
+
+double von_mises(const Stress& s);
+/// Principal stresses, greatest first.
+std::array<double, 3> principal(const Stress& s);
+
+/// σ_h at every cell's centre, of the nodal displacement u (node × dimension).
+std::vector<Stress> cell_stress(const mesh::Mesh& mesh, const MaterialField& material,
+                                const std::vector<double>& u);
+
+/// Nodal stress by superconvergent patch recovery (Zienkiewicz and Zhu 1992): the stress at cell
+/// centres around a node, fitted by a linear polynomial; patches with too few cells (at the
+/// boundary) take in the neighbours' cells. Reproduces linear stress exactly.
+std::vector<Stress> recover_stress(const mesh::Mesh& mesh, const std::vector<Stress>& at_centres);
+
+/// Squares of the energy norms of the recovery estimate of the error and of the solution:
+/// ∫ (σ* − σ_h):c⁻¹:(σ* − σ_h) and ∫ σ_h:c⁻¹:σ_h.
+struct EnergyEstimate {
+  double error_squared = 0, solution_squared = 0;
+};
+EnergyEstimate estimate_error(const mesh::Mesh& mesh, const MaterialField& material,
+                              const std::vector<double>& u, const std::vector<Stress>& recovered);
+
+}  // namespace dotyk::elasticity
