@@ -1,0 +1,17 @@
+#pragma once
+
+#include "mesh/mesh.hpp"
+
+namespace dotyk::contact {
+
+/// One condition of non-penetration at a node of the first part:
+///   normal·u₁ − normal·u₂ ≤ gap        (u₂ absent against a rigid shape)
+struct ContactRow {
+  int node;             ///< of the first body's mesh
+  int partner = -1;     ///< node of the second body's mesh, -1 against a rigid shape
+  mesh::Point normal;   ///< unit, out of the first body
+  double gap = 0;       ///< at rest, positive when open
+  double weight = 0;    ///< length or area that the node stands for: pressure = λ / weight
+};
+
+}  // namespace dotyk::contact

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/contact_row.hpp"
+#include "elasticity/load.hpp"
+
+namespace dotyk::contact {
+
+/// The boundary part of one body, as contact sees it.
+struct Face {
+  const mesh::Mesh& mesh;
+  const std::vector<mesh::Facet>& facets;
+  std::string name;  ///< "'block' top", for messages
+};
+
+/// Node of `first` → node of `second`, for the nodes that have one at the same place or straight
+/// across the gap along their normal. Tolerance: 1e-6 of the parts' size.
+struct NodePair {
+  int first, second;
+  double distance;  ///< along the first's normal; negative where the parts overlap
+};
+
+/// Throws InputError where no node of `first` has a partner, and where two bodies' nodes do not
+/// match (some have partners, most do not), naming the first that has none.
+std::vector<NodePair> match(const Face& first, const Face& second);
+
+/// Rows at the matching nodes, one a side of the first part at each; `added` (may be empty) is added
+/// to the geometric gap. Throws as match(), and for a gap that is not finite.
+std::vector<ContactRow> between(const Face& first, const Face& second,
+                                const elasticity::ScalarField& added);
+
+}  // namespace dotyk::contact

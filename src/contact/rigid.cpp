@@ -1,0 +1,69 @@
+#include "contact/rigid.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "contact/sides.hpp"
+
+namespace dotyk::contact {
+namespace {
+
+using mesh::Point;
+
+/// Normal (towards the shape) and gap of a node at x.
+struct Distance {
+  Point normal;
+  double gap;
+};
+
+Distance distance(const RigidGap& shape, const Point& x) { return {shape.normal, shape.gap(x)}; }
+
+Distance distance(const RigidPlane& shape, const Point& x) {
+  double d = 0;
+  for (int i = 0; i < 3; ++i) d += (x[i] - shape.point[i]) * shape.normal[i];
+  return {{-shape.normal[0], -shape.normal[1], -shape.normal[2]}, d};
+}
+
+Distance distance(const RigidBall& shape, const Point& x) {
+  Point n{shape.center[0] - x[0], shape.center[1] - x[1], shape.center[2] - x[2]};
+  const double r = std::hypot(n[0], n[1], n[2]);
+  if (!(r > 1e-9 * shape.radius))
+    throw InputError("the centre of the rigid ball lies on the contact part; move the ball out of the body");
+  for (double& v : n) v /= r;
+  return {n, r - shape.radius};
+}
+
+}  // namespace
+
+const char* name(const RigidShape& shape) {
+  static const char* names[] = {"rigid gap", "rigid plane", "rigid ball"};
+  return names[shape.index()];
+}
+
+std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
+                                const RigidShape& shape, const elasticity::ScalarField& added,
+                                bool interference) {
+  std::vector<ContactRow> rows;
+  const bool geometric = !std::holds_alternative<RigidGap>(shape);
+  const double rounding = 1e-9 * mesh.size();
+  double deepest = 0;
+  Point where{0, 0, 0};
+  for (const NodeSide& side : nodes(mesh, facets)) {
+    const Point x = mesh.point(side.node);
+    const Distance d = std::visit([&](const auto& s) { return distance(s, x); }, shape);
+    const double gap = d.gap + (added ? added(x) : 0);
+    if (!std::isfinite(gap))
+      throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), mesh.dimension()),
+                            "; it must be a finite number"));
+    if (gap < deepest) deepest = gap, where = x;
+    rows.push_back({side.node, -1, d.normal, gap, side.weight});
+  }
+  if (geometric && !interference && deepest < -rounding)
+    throw InputError(text("the ", name(shape), " penetrates the part by ", -deepest, " at ",
+                          point_text(where.data(), mesh.dimension()),
+                          " before any load; move it, or say interference = true if the overlap is meant"));
+  return rows;
+}
+
+}  // namespace dotyk::contact

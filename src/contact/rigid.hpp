@@ -1,0 +1,43 @@
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "contact/contact_row.hpp"
+#include "elasticity/load.hpp"
+
+namespace dotyk::contact {
+
+/// A rigid obstacle given by its gap: u·normal ≤ gap(x) at every contact node. A negative gap
+/// presses in by that much. The gap is evaluated when the rows are made.
+struct RigidGap {
+  mesh::Point normal;  ///< unit
+  elasticity::ScalarField gap;
+};
+
+/// A rigid half-space; `normal` points out of it, towards the body.
+struct RigidPlane {
+  mesh::Point point;
+  mesh::Point normal;  ///< unit
+};
+
+/// A rigid disc (2-D) or ball; the body is outside.
+struct RigidBall {
+  mesh::Point center;
+  double radius;
+};
+
+using RigidShape = std::variant<RigidGap, RigidPlane, RigidBall>;
+
+/// "rigid gap", "rigid plane", "rigid ball".
+const char* name(const RigidShape& shape);
+
+/// One row a node of the part. The condition of a ball is linearised about the nodes at rest: the
+/// gap is measured along the line to its centre. `added` (may be empty) is added to the gap.
+/// Throws InputError for a gap that is not finite, and for a plane or ball that overlaps the part
+/// at rest by more than rounding, unless `interference` says that this is meant.
+std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
+                                const RigidShape& shape, const elasticity::ScalarField& added,
+                                bool interference);
+
+}  // namespace dotyk::contact

@@ -1,0 +1,90 @@
+#include "contact/sides.hpp"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "elasticity/load.hpp"
+
+namespace dotyk::contact {
+namespace {
+
+using mesh::Facet;
+using mesh::Mesh;
+using mesh::Point;
+
+/// What one facet gives to one of its nodes.
+struct Share {
+  Point normal;   ///< unit
+  double weight;  ///< ∫ φ
+  int side = -1;
+};
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+std::map<int, std::vector<Share>> shares(const Mesh& mesh, const std::vector<Facet>& facets) {
+  std::map<int, std::vector<Share>> by_node;
+  for (const Facet f : facets) {
+    Share share{mesh.facet_area_vector(f), 0};
+    const double area = std::sqrt(dot(share.normal, share.normal));
+    for (double& n : share.normal) n /= area;
+    double weight[4] = {0, 0, 0, 0};
+    elasticity::for_each_facet_point(mesh, f, [&](const elasticity::FacetPoint& p) {
+      for (int a = 0; a < p.nodes; ++a) weight[a] += p.measure * p.shape[a];
+    });
+    for (int a = 0; a < mesh.topology().nodes_per_facet; ++a) {
+      share.weight = weight[a];
+      by_node[mesh.facet_node(f, a)].push_back(share);
+    }
+  }
+  return by_node;
+}
+
+NodeSide sum(int node, const std::vector<Share>& shares, int side) {
+  NodeSide result{node, {0, 0, 0}, 0};
+  for (const Share& s : shares)
+    if (s.side == side) {
+      result.weight += s.weight;
+      for (int i = 0; i < 3; ++i) result.normal[i] += s.weight * s.normal[i];
+    }
+  const double length = std::sqrt(dot(result.normal, result.normal));
+  for (double& n : result.normal) n /= length;
+  return result;
+}
+
+}  // namespace
+
+std::vector<NodeSide> sides(const Mesh& mesh, const std::vector<Facet>& facets) {
+  const double smooth = std::cos(kCornerAngle * std::numbers::pi / 180);
+  std::vector<NodeSide> result;
+  for (auto& [node, list] : shares(mesh, facets)) {
+    std::vector<Share> around = list;
+    int count = 0;
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      if (around[k].side >= 0) continue;
+      // Facets reachable through small angles form one side.
+      std::vector<std::size_t> reached{k};
+      around[k].side = count;
+      while (!reached.empty()) {
+        const Point normal = around[reached.back()].normal;
+        reached.pop_back();
+        for (std::size_t j = 0; j < around.size(); ++j)
+          if (around[j].side < 0 && dot(normal, around[j].normal) > smooth) {
+            around[j].side = count;
+            reached.push_back(j);
+          }
+      }
+      ++count;
+    }
+    for (int side = 0; side < count; ++side) result.push_back(sum(node, around, side));
+  }
+  return result;
+}
+
+std::vector<NodeSide> nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
+  std::vector<NodeSide> result;
+  for (const auto& [node, list] : shares(mesh, facets)) result.push_back(sum(node, list, -1));
+  return result;
+}
+
+}  // namespace dotyk::contact

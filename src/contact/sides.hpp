@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace dotyk::contact {
+
+/// A node of a boundary part as seen from one side of the part's (possibly broken) line or surface.
+struct NodeSide {
+  int node;
+  mesh::Point normal;  ///< unit, outward: of the side's facets, weighted by their measure
+  double weight;       ///< ∫ φ over the side's facets: length (2-D) or area
+};
+
+/// Facets whose normals differ by more than this meet in an edge; below it the surface is taken
+/// as smooth. Between what a coarse polygon of a circle has (12 edges: 30°) and real corners.
+inline constexpr double kCornerAngle = 35.0;  // degrees
+
+/// One entry a node and adjoining side, by node: at a vertex of a broken contact line (2-D) or where
+/// several faces meet (3-D) there are several (TR965 (1.23)).
+std::vector<NodeSide> sides(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets);
+
+/// One entry a node, with all its facets' measure; the normal is their mean.
+std::vector<NodeSide> nodes(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets);
+
+}  // namespace dotyk::contact
