@@ -65,8 +65,8 @@ void add_surface(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, c
     normals->SetFeatureAngle(feature_angle);
     mapper->SetInputConnection(normals->GetOutputPort());
     // Mostly unshaded, so that colours remain those of the bar.
-    actor->GetProperty()->SetAmbient(0.45);
-    actor->GetProperty()->SetDiffuse(0.6);
+    actor->GetProperty()->SetAmbient(0.68);
+    actor->GetProperty()->SetDiffuse(0.38);
     actor->GetProperty()->SetSpecular(0);
   }
   actor->SetMapper(mapper);
@@ -130,9 +130,9 @@ void draw_bodies(Stage& stage, vtkRenderer* renderer) {
       plane_outlines(stage, body);
       continue;
     }
-    add_features(stage, renderer, poly_data(pixels(stage, body, f, 1), facets.nodes, facets.each), outline_colour, std::max(1.2, stage.em / 18));
+    add_features(stage, renderer, poly_data(pixels(stage, body, f, 2), facets.nodes, facets.each), outline_colour, std::max(1.2, stage.em / 18));
     if (stage.picture.undeformed_outline && stage.deformation_shows && !body.displacement.empty())
-      add_features(stage, renderer, poly_data(pixels(stage, body, 0, 1), facets.nodes, facets.each), undeformed_colour, std::max(0.8, stage.em / 28));
+      add_features(stage, renderer, poly_data(pixels(stage, body, 0, 0.3), facets.nodes, facets.each), undeformed_colour, std::max(0.8, stage.em / 28));
   }
 }
 

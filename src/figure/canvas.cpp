@@ -198,13 +198,21 @@ void Canvas::marker(Marker kind, Point c, double size, Colour colour) {
   }
 }
 
-void Canvas::arrow(Point tail, Point head, double width, double head_length, Colour colour) {
+void Canvas::arrow(Point tail, Point head, double width, double head_length, Colour colour, double rim) {
   const double length = std::hypot(head.x - tail.x, head.y - tail.y);
   if (!(length > 0)) return;
   const double tip = std::min(head_length, 0.7 * length);
   const Point d{(head.x - tail.x) / length, (head.y - tail.y) / length};
   const Point neck{head.x - tip * d.x, head.y - tip * d.y};
   const double half = 0.38 * tip;
+  if (rim > 0) {
+    const Colour white{255, 255, 255};
+    const double grow = (half + rim) / half;
+    line({tail.x - rim * d.x, tail.y - rim * d.y}, neck, width + 2 * rim, white);
+    convex(std::array<Point, 3>{{{neck.x - rim * d.x - grow * half * d.y, neck.y - rim * d.y + grow * half * d.x},
+                                 {neck.x - rim * d.x + grow * half * d.y, neck.y - rim * d.y - grow * half * d.x},
+                                 {head.x + 2 * rim * d.x, head.y + 2 * rim * d.y}}}, white);
+  }
   line(tail, {head.x - 0.9 * tip * d.x, head.y - 0.9 * tip * d.y}, width, colour);
   convex(std::array<Point, 3>{{{neck.x - half * d.y, neck.y + half * d.x}, {neck.x + half * d.y, neck.y - half * d.x}, head}}, colour);
 }

@@ -61,7 +61,8 @@ public:
   void disc(Point centre, double radius, Colour colour);
   // size: the diameter. Rimmed in white so that it stands off its ground.
   void marker(Marker kind, Point centre, double size, Colour colour);
-  void arrow(Point tail, Point head, double width, double head_length, Colour colour);
+  // rim: pixels of white around it.
+  void arrow(Point tail, Point head, double width, double head_length, Colour colour, double rim = 0);
   // A gradient rectangle is a row of boxes; texts need no clip.
   void text(Point at, const std::string& text, const TextStyle& style);
 

@@ -28,11 +28,16 @@ Colour mix(const Anchors& anchors, double t) {
   return {blend(a.r, b.r), blend(a.g, b.g), blend(a.b, b.b)};
 }
 
-std::string label(const ScenePicture& p) { return p.field_unit.empty() ? p.field_label : p.field_label + " [" + p.field_unit + "]"; }
+// "stress [MPa]", "stress [10⁶ Pa]": the power of ten stands with the unit.
+std::string label(const ScenePicture& p, int exponent) {
+  std::string unit = exponent ? (p.field_unit.empty() ? "× " : "") + power_of_ten(exponent) : "";
+  if (!p.field_unit.empty()) unit += (unit.empty() ? "" : " ") + p.field_unit;
+  return unit.empty() ? p.field_label : p.field_label + " [" + unit + "]";
+}
 
 Ticks bar_ticks(const ColourScale& scale) { return linear_ticks(scale.low, scale.high, 6); }
 
-constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small = 0.85;  // in em
+constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small = 0.85, ends = 0.55;  // in em
 
 std::string extreme(const char* name, double value) { return std::string(name) + " " + number(value); }
 
@@ -93,7 +98,7 @@ double colour_bar_width(const ColourScale& scale, const ScenePicture& p, double 
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& p, double em, double left, double bottom, double top) {
   if (!scale.shown || p.field_label.empty()) return;
   const Ticks ticks = bar_ticks(scale);
-  const Box box{left, bottom + 1.6 * em, left + bar * em, top - 1.6 * em - (ticks.exponent ? 0.0 : 0.0)};
+  const Box box{left, bottom + (ends + 1.0) * em, left + bar * em, top - (ends + 1.0) * em};
   const int n = std::max(2, static_cast<int>(box.height()));
   for (int i = 0; i < n; ++i) {
     const double y = box.bottom + box.height() * i / n;
@@ -116,14 +121,13 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePictur
   end.size = small * em;
   end.colour = {70, 70, 70};
   end.up = Align::low;
-  canvas.text({box.left, box.top + 0.25 * em}, extreme("max", scale.greatest), end);
+  canvas.text({box.left, box.top + ends * em}, extreme("max", scale.greatest), end);
   end.up = Align::high;
-  canvas.text({box.left, box.bottom - 0.25 * em}, extreme("min", scale.least), end);
+  canvas.text({box.left, box.bottom - ends * em}, extreme("min", scale.least), end);
   style.upright = true;
-  const std::string factor = ticks.exponent ? "  × " + power_of_ten(ticks.exponent) : "";
-  std::string name = label(p) + factor;
+  const std::string name = label(p, ticks.exponent);
   // Long names shrink rather than leave the picture.
-  const double room = top - bottom;
+  const double room = box.height();
   const double length = text_extent(name, em).x;
   if (length > room) style.size = std::max(0.6 * em, em * room / length);
   canvas.text({box.right + (tick + pad) * em + widest + 0.4 * em, (box.bottom + box.top) / 2}, name, style);

@@ -3,18 +3,14 @@
 #include <array>
 #include <cmath>
 
-#include <vtkActor.h>
-#include <vtkRenderer.h>
-
 #include "stage.hpp"
 #include "ticks.hpp"
-#include "vtk_data.hpp"
 
 namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour white{255, 255, 255}, pressure_fill{205, 214, 235}, pressure_line{45, 50, 90};
+constexpr Colour white{255, 255, 255}, pressure_fill{205, 214, 235};
 constexpr std::array statuses{Status::open, Status::closed, Status::stick, Status::slip};
 
 Marker status_marker(Status status) {
@@ -27,11 +23,9 @@ Marker status_marker(Status status) {
   return Marker::disc;
 }
 
-Vec3 place(const Stage& stage, const ContactNode& node) { return stage.deformed(node.position, node.displacement); }
-
 std::vector<Point> places(const Stage& stage, const ContactPicture& contact) {
   std::vector<Point> at;
-  for (const ContactNode& node : contact.nodes) at.push_back(stage.view.flat(place(stage, node)));
+  for (const ContactNode& node : contact.nodes) at.push_back(stage.view.flat(stage.place(node)));
   return at;
 }
 
@@ -67,15 +61,10 @@ void draw_strip(Stage& stage, const ContactPicture& contact) {
 void draw_arrows(Stage& stage, const ContactPicture& contact) {
   if (!(stage.greatest_pressure > 0)) return;
   const std::vector<Point> at = places(stage, contact);
-  // Far arrows first.
-  std::vector<std::size_t> order = Stage::spaced(at, 0.8 * stage.em);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return dot(place(stage, contact.nodes[a]), stage.view.towards) < dot(place(stage, contact.nodes[b]), stage.view.towards);
-  });
-  for (const std::size_t i : order) {
+  for (const std::size_t i : Stage::spaced(at, 0.8 * stage.em)) {
     const ContactNode& node = contact.nodes[i];
     if (node.pressure < 0.02 * stage.greatest_pressure) continue;
-    stage.over.arrow(top(stage, node, at[i]), at[i], std::max(1.2, stage.em / 14), 0.42 * stage.em, pressure_line);
+    stage.over.arrow(top(stage, node, at[i]), at[i], std::max(1.2, stage.em / 14), 0.42 * stage.em, pressure_line, std::max(0.8, stage.em / 30));
   }
 }
 
@@ -100,66 +89,26 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
   }
 }
 
-// Each facet, quartered to its nodes, in their colours.
-void add_surface(Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
-  const auto each = static_cast<std::size_t>(contact.nodes_per_facet);
-  if (each < 3) return;
-  const auto at = [&](const Vec3& p) {
-    Vec3 q = stage.view.pixel(p);
-    q[2] += 2;  // in front of the body's own surface
-    for (double& c : q) c *= stage.factor;
-    return q;
-  };
-  for (const Status status : statuses) {
-    std::vector<Vec3> points;
-    std::vector<int> quads, edges;
-    for (std::size_t f = 0; f + each <= contact.facets.size(); f += each) {
-      Vec3 centre{0, 0, 0};
-      std::vector<Vec3> corner;
-      for (std::size_t k = 0; k < each; ++k) {
-        corner.push_back(place(stage, contact.nodes[static_cast<std::size_t>(contact.facets[f + k])]));
-        centre = plus(centre, corner.back(), 1.0 / static_cast<double>(each));
-      }
-      for (std::size_t k = 0; k < each; ++k) {
-        if (contact.nodes[static_cast<std::size_t>(contact.facets[f + k])].status != status) continue;
-        const Vec3 next = plus(corner[k], plus(corner[(k + 1) % each], corner[k], -1), 0.5);
-        const Vec3 last = plus(corner[k], plus(corner[(k + each - 1) % each], corner[k], -1), 0.5);
-        for (const Vec3& p : {corner[k], next, centre, last}) {
-          quads.push_back(static_cast<int>(points.size()));
-          points.push_back(at(p));
-        }
-      }
-    }
-    if (!points.empty()) add_plain(renderer, poly_data(points, quads, 4), status_colour(status));
-  }
-}
-
-void label_peak(Stage& stage, const ContactPicture& contact, std::vector<Box>& taken) {
-  const ContactNode* peak = nullptr;
-  for (const ContactNode& node : contact.nodes)
-    if (node.pressure > 0 && (!peak || node.pressure > peak->pressure)) peak = &node;
-  if (!peak || peak->pressure < 0.02 * stage.greatest_pressure) return;
-  const Point at = stage.view.flat(place(stage, *peak)), tip = top(stage, *peak, at), n = stage.view.direction(peak->normal);
-  const std::string text = "max " + number(peak->pressure) + (stage.picture.pressure_unit.empty() ? "" : " " + stage.picture.pressure_unit);
-  TextStyle style;
-  style.size = 0.85 * stage.em;
-  style.across = style.up = Align::middle;
-  style.colour = pressure_line;
-  style.halo = true;
-  const Point size = text_extent(text, style.size);
-  const double away_x = std::abs(n.x) * size.x / 2 + 0.35 * stage.em, away_y = std::abs(n.y) * size.y / 2 + 0.3 * stage.em;
-  Point centre{tip.x + n.x * away_x, tip.y + n.y * away_y};
-  const double margin = 0.3 * stage.em;
-  centre.x = std::clamp(centre.x, size.x / 2 + margin, stage.picture.width - size.x / 2 - margin);
-  centre.y = std::clamp(centre.y, size.y / 2 + margin, stage.picture.height - size.y / 2 - margin);
-  const Box box{centre.x - size.x / 2, centre.y - size.y / 2, centre.x + size.x / 2, centre.y + size.y / 2};
-  for (const Box& other : taken)
-    if (box.left < other.right && other.left < box.right && box.bottom < other.top && other.bottom < box.top) return;
-  taken.push_back(box);
-  stage.over.text(centre, text, style);
-}
-
 }  // namespace
+
+std::optional<PeakLabel> peak_label(const Stage& stage, const ContactPicture& contact) {
+  double greatest = 0;
+  for (const ContactNode& node : contact.nodes) greatest = std::max(greatest, node.pressure);
+  if (!(greatest > 0) || greatest < 0.02 * stage.greatest_pressure) return std::nullopt;
+  // Of equal peaks that in the middle.
+  std::vector<const ContactNode*> peaks;
+  for (const ContactNode& node : contact.nodes)
+    if (node.pressure >= 0.9999 * greatest) peaks.push_back(&node);
+  const ContactNode& peak = *peaks[peaks.size() / 2];
+  PeakLabel label;
+  label.text = "max " + number(greatest) + (stage.picture.pressure_unit.empty() ? "" : " " + stage.picture.pressure_unit);
+  label.size = 0.85 * stage.em;
+  const Point at = stage.view.flat(stage.place(peak)), tip = top(stage, peak, at), n = stage.view.direction(peak.normal);
+  const Point size = text_extent(label.text, label.size);
+  const double dx = n.x * (size.x / 2 + 0.35 * stage.em), dy = n.y * (size.y / 2 + 0.3 * stage.em);
+  label.box = {tip.x + dx - size.x / 2, tip.y + dy - size.y / 2, tip.x + dx + size.x / 2, tip.y + dy + size.y / 2};
+  return label;
+}
 
 std::vector<LegendEntry> contact_legend(const Stage& stage) {
   std::array<bool, 4> present{};
@@ -172,8 +121,10 @@ std::vector<LegendEntry> contact_legend(const Stage& stage) {
     out.push_back({status_name(status), [status, em, plane = stage.plane](Canvas& c, const Box& b) {
                      const double middle = (b.bottom + b.top) / 2;
                      if (!plane) {
-                       c.box({b.left + 0.4 * em, middle - 0.35 * em, b.right - 0.4 * em, middle + 0.35 * em}, status_colour(status));
-                       return;
+                       const Box sample{b.left + 0.4 * em, middle - 0.35 * em, b.right - 0.4 * em, middle + 0.35 * em};
+                       if (status != Status::open) return c.box(sample, status_colour(status));
+                       return c.polyline(std::array<Point, 4>{{{sample.left, sample.bottom}, {sample.right, sample.bottom}, {sample.right, sample.top}, {sample.left, sample.top}}},
+                                         0.16 * em, status_colour(status), {}, true);
                      }
                      c.line({b.left, middle}, {b.right, middle}, 0.26 * em, status_colour(status));
                      c.marker(status_marker(status), {(b.left + b.right) / 2, middle}, 0.55 * em, status_colour(status));
@@ -191,9 +142,10 @@ std::vector<LegendEntry> contact_legend(const Stage& stage) {
                      c.polyline(hill, std::max(1.2, em / 14), pressure_line);
                    }});
   if (stage.greatest_pressure > 0 && stage.arrows())
-    out.push_back({"contact pressure", [em](Canvas& c, const Box& b) {
-                     const double x = (b.left + b.right) / 2;
+    out.push_back({"contact pressure", [em, dots = inset_width(stage) > 0](Canvas& c, const Box& b) {
+                     const double x = (b.left + b.right) / 2 - (dots ? 0.4 * em : 0);
                      c.arrow({x, b.top - 0.1 * em}, {x, b.bottom + 0.1 * em}, std::max(1.2, em / 14), 0.42 * em, pressure_line);
+                     if (dots) c.disc({x + 0.9 * em, (b.bottom + b.top) / 2}, 0.24 * em, pressure_line);
                    }});
   return out;
 }
@@ -203,14 +155,30 @@ void draw_contacts(Stage& stage, vtkRenderer* renderer) {
     if (stage.plane) {
       if (stage.strips()) draw_strip(stage, contact);
       if (contact.nodes_per_facet == 2) draw_line(stage, contact);
+      if (stage.arrows()) draw_arrows(stage, contact);
     } else {
-      add_surface(stage, contact, renderer);
+      add_contact_surface(stage, contact, renderer);
     }
-    if (stage.arrows()) draw_arrows(stage, contact);
   }
   std::vector<Box> taken;
-  if (stage.strips() || stage.arrows())
-    for (const ContactPicture& contact : stage.picture.contacts) label_peak(stage, contact, taken);
+  // In space the plan beside the scene says it.
+  if ((stage.strips() || stage.arrows()) && inset_width(stage) == 0)
+    for (const ContactPicture& contact : stage.picture.contacts) {
+      const std::optional<PeakLabel> label = peak_label(stage, contact);
+      if (!label) continue;
+      const Box& box = label->box;
+      const bool free = std::none_of(taken.begin(), taken.end(), [&](const Box& other) {
+        return box.left < other.right && other.left < box.right && box.bottom < other.top && other.bottom < box.top;
+      });
+      if (!free) continue;
+      taken.push_back(box);
+      TextStyle style;
+      style.size = label->size;
+      style.across = style.up = Align::middle;
+      style.colour = pressure_line;
+      style.halo = true;
+      stage.over.text({(box.left + box.right) / 2, (box.bottom + box.top) / 2}, label->text, style);
+    }
 }
 
 }  // namespace dotyk::figure

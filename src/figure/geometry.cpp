@@ -68,7 +68,10 @@ Facets boundary(const BodyPicture& body) {
   return out;
 }
 
-std::vector<int> unique_edges(const std::vector<int>& polygons, int each) {
+namespace {
+
+// Every edge of every polygon as one number, least node first, sorted.
+std::vector<std::uint64_t> edge_keys(const std::vector<int>& polygons, int each) {
   std::vector<std::uint64_t> keys;
   keys.reserve(polygons.size());
   const auto n = static_cast<std::size_t>(each);
@@ -78,7 +81,10 @@ std::vector<int> unique_edges(const std::vector<int>& polygons, int each) {
       keys.push_back(static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b));
     }
   std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
+std::vector<int> nodes_of(const std::vector<std::uint64_t>& keys) {
   std::vector<int> edges;
   edges.reserve(2 * keys.size());
   for (const std::uint64_t key : keys) {
@@ -86,6 +92,26 @@ std::vector<int> unique_edges(const std::vector<int>& polygons, int each) {
     edges.push_back(static_cast<int>(key & 0xffffffffu));
   }
   return edges;
+}
+
+}  // namespace
+
+std::vector<int> unique_edges(const std::vector<int>& polygons, int each) {
+  std::vector<std::uint64_t> keys = edge_keys(polygons, each);
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return nodes_of(keys);
+}
+
+std::vector<int> rim(const std::vector<int>& polygons, int each) {
+  const std::vector<std::uint64_t> keys = edge_keys(polygons, each);
+  std::vector<std::uint64_t> single;
+  for (std::size_t i = 0; i < keys.size();) {
+    std::size_t j = i + 1;
+    while (j < keys.size() && keys[j] == keys[i]) ++j;
+    if (j == i + 1) single.push_back(keys[i]);
+    i = j;
+  }
+  return nodes_of(single);
 }
 
 std::vector<std::vector<int>> chains(const std::vector<int>& edges) {

@@ -42,6 +42,9 @@ Facets boundary(const BodyPicture& body);
 // Every edge of polygons with `each` corners once, two nodes an edge.
 std::vector<int> unique_edges(const std::vector<int>& polygons, int each);
 
+// Those edges of polygons that belong to one polygon only.
+std::vector<int> rim(const std::vector<int>& polygons, int each);
+
 // Edges of the plane hung together: node lists, a closed one ends in its
 // first node.
 std::vector<std::vector<int>> chains(const std::vector<int>& edges);

@@ -12,10 +12,12 @@ constexpr double sample_width = 2.0, gap = 0.45, between = 1.4, row = 1.45, padd
 Legend::Legend(std::vector<LegendEntry> entries, double em, double columns_within)
     : entries_(std::move(entries)), em_(em) {
   double x = 0, y = 0;
+  std::vector<double> row_ends;  // width of the row of each entry, so far
   for (const LegendEntry& entry : entries_) {
     const double width = (entry.sample ? sample_width + gap : 0) * em + text_extent(entry.name, em).x;
     if (columns_within > 0 && x > 0 && x + width > columns_within - 2 * padding * em) x = 0, y -= row * em;
     places_.push_back({x, y - row * em});
+    row_ends.push_back(x + width);
     width_ = std::max(width_, x + width);
     if (columns_within > 0)
       x += width + between * em;
@@ -23,6 +25,11 @@ Legend::Legend(std::vector<LegendEntry> entries, double em, double columns_withi
       y -= row * em;
   }
   if (entries_.empty()) return;
+  if (columns_within > 0)  // rows stand in the middle
+    for (std::size_t i = 0, j = 0; i < places_.size(); i = j) {
+      while (j < places_.size() && places_[j].y == places_[i].y) ++j;
+      for (std::size_t k = i; k < j; ++k) places_[k].x += (width_ - row_ends[j - 1]) / 2;
+    }
   height_ = -places_.back().y + 2 * padding * em;
   width_ += 2 * padding * em;
 }

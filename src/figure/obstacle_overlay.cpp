@@ -75,7 +75,7 @@ void draw_space(const Stage& stage, const RigidPicture& rigid, vtkRenderer* rend
   property->SetAmbient(0.4);
   property->SetDiffuse(0.6);
   // Seen through, so that the contact behind remains visible.
-  property->SetOpacity(0.35);
+  property->SetOpacity(0.28);
   renderer->AddActor(actor);
 }
 

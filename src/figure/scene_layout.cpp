@@ -100,6 +100,12 @@ void add_symbols(Bounds& bounds, const Stage& stage) {
         const double length = stage.strip_height() * node.pressure / stage.greatest_pressure;
         bounds.add({at.x + n.x * length, at.y + n.y * length});
       }
+  if ((stage.strips() || stage.arrows()) && inset_width(stage) == 0)
+    for (const ContactPicture& contact : p.contacts)
+      if (const std::optional<PeakLabel> label = peak_label(stage, contact)) {
+        bounds.add(Point{label->box.left, label->box.bottom});
+        bounds.add(Point{label->box.right, label->box.top});
+      }
   if (stage.plane)
     for (const SupportSymbol& s : p.supports) {
       const Point at = stage.view.flat(stage.deformed(s.position, s.displacement)), n = stage.view.direction(s.normal);
@@ -231,10 +237,11 @@ std::vector<LegendEntry> legend_entries(const Stage& stage) {
                    }});
   for (LegendEntry& entry : support_legend(stage)) out.push_back(std::move(entry));
   if (stage.picture.undeformed_outline && stage.deformation_shows)
-    out.push_back({"undeformed", [em](Canvas& c, const Box& b) {
+    out.push_back({"undeformed", [em, plane = stage.plane](Canvas& c, const Box& b) {
                      const std::array<double, 2> dash{0.35 * em, 0.22 * em};
                      const double middle = (b.bottom + b.top) / 2;
-                     c.polyline(std::array<Point, 2>{{{b.left, middle}, {b.right, middle}}}, std::max(1.0, em / 18), {130, 130, 130}, dash);
+                     c.polyline(std::array<Point, 2>{{{b.left, middle}, {b.right, middle}}}, std::max(1.0, em / 18), {130, 130, 130},
+                                plane ? std::span<const double>(dash) : std::span<const double>());
                    }});
   bool displaced = false;
   for (const BodyPicture& body : stage.picture.bodies) displaced = displaced || !body.displacement.empty();
@@ -254,7 +261,8 @@ void lay_out(Stage& stage) {
     for (const double u : body.displacement) greatest = std::max(greatest, std::abs(u * p.deformation));
 
   const double caption = p.caption.empty() ? 0 : 1.5 * em;
-  const double bar = colour_bar_width(stage.scale, p, em);
+  const double bar = colour_bar_width(stage.scale, p, em), inset = inset_width(stage);
+  const double column = std::max(bar, inset);
   Legend legend({}, em);
   Box room;
   stage.frame = {0, 0, w, h};
@@ -264,7 +272,7 @@ void lay_out(Stage& stage) {
     room.top = h - 0.7 * em - (p.title.empty() ? 0 : 1.7 * em);
     room.bottom = 0.4 * em + caption + legend.height();
     room.left = 0.8 * em;
-    room.right = w - 0.8 * em - (bar > 0 ? bar + 1.0 * em : 0);
+    room.right = w - 0.8 * em - (column > 0 ? column + 1.0 * em : 0);
     if (p.axes && stage.plane) {
       double widest = em;
       if (round > 0)
@@ -289,10 +297,18 @@ void lay_out(Stage& stage) {
   stage.over.text({w / 2, 0.5 * em}, p.caption, style);
   legend.draw(stage.over, {(w - legend.width()) / 2, 0.3 * em + caption}, false);
 
-  // A bar as high as the scene, within reason.
-  const double height = std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height());
-  const double middle = (stage.frame.bottom + stage.frame.top) / 2;
-  draw_colour_bar(stage.over, stage.scale, p, em, w - 0.6 * em - bar, middle - height / 2, middle + height / 2);
+  // The bar as high as the scene, within reason, and not too far from it.
+  const double spare = room.width() - stage.frame.width();
+  const double right = w - 0.6 * em - 0.3 * spare;
+  if (inset > 0) {
+    const double split = bar > 0 ? room.bottom + std::min(inset + 2.4 * em, 0.52 * room.height()) : room.top - 0.15 * room.height();
+    draw_colour_bar(stage.over, stage.scale, p, em, right - column + 0.9 * em, split + 0.6 * em, room.top);
+    draw_inset(stage, {right - column, std::max(room.bottom, split - inset - 2.4 * em), right - column + inset, split});
+  } else {
+    const double height = std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height());
+    const double middle = (stage.frame.bottom + stage.frame.top) / 2;
+    draw_colour_bar(stage.over, stage.scale, p, em, right - bar, middle - height / 2, middle + height / 2);
+  }
   if (p.axes) {
     if (stage.plane)
       draw_axes(stage);

@@ -1,6 +1,9 @@
 // What the parts of a scene figure share while it is drawn.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "canvas.hpp"
@@ -33,6 +36,7 @@ struct Stage {
   bool strips() const;                            // pressure as strips, not arrows
   bool arrows() const;
   Vec3 deformed(const Vec3& position, const Vec3& displacement) const;
+  Vec3 place(const ContactNode& node) const { return deformed(node.position, node.displacement); }
   // Numbers of those positions that stand at least `spacing` pixels apart,
   // taken in the order given.
   static std::vector<std::size_t> spaced(const std::vector<Point>& at, double spacing);
@@ -48,14 +52,30 @@ void draw_obstacles(Stage& stage, vtkRenderer* renderer);
 void draw_bodies(Stage& stage, vtkRenderer* renderer);
 // Status and pressure on the contact boundary.
 void draw_contacts(Stage& stage, vtkRenderer* renderer);
+// A plan of the contact of a scene in space: the width it wants (0: none),
+// and its drawing in the room given to it.
+double inset_width(const Stage& stage);
+void draw_inset(Stage& stage, const Box& room);
+// Of one contact in space: statuses and arrows of the pressure.
+void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer);
 // Symbols of supports, arrows of loads.
 void draw_supports(Stage& stage);
 void draw_loads(Stage& stage);
+
+// The greatest pressure of a contact in words, beyond its ordinate; none
+// where the contact carries (next to) nothing.
+struct PeakLabel {
+  std::string text;
+  double size = 0;  // of the letters
+  Box box;
+};
+std::optional<PeakLabel> peak_label(const Stage& stage, const ContactPicture& contact);
 
 // Names of what the stage will show, for the legend.
 std::vector<LegendEntry> contact_legend(const Stage& stage);
 std::vector<LegendEntry> support_legend(const Stage& stage);
 
+constexpr Colour pressure_line{45, 50, 90};
 // Sizes of symbols in em, for the room they need.
 constexpr double support_size = 0.85, load_length = 2.6, hatch_depth = 0.75;
 // Where a load arrow begins and ends, in pixels.

@@ -59,8 +59,8 @@ Ticks linear_ticks(double low, double high, int wanted) {
   const double step = unit * power;
   const int step_exponent = static_cast<int>(std::floor(std::log10(step) + 1e-9));
   const double greatest = std::max(std::abs(low), std::abs(high));
-  const int top = static_cast<int>(std::floor(std::log10(greatest) + 1e-9));
-  if (top >= 5 || top < -3) out.exponent = top;
+  // Thousands and millionths, as engineers write them; 0.95e6 counts as 1e6.
+  if (greatest >= 0.9e5 || greatest < 1e-3) out.exponent = 3 * static_cast<int>(std::floor((std::log10(greatest) + 0.05) / 3));
   const int decimals = std::max(0, out.exponent - step_exponent);
   const double factor = std::pow(10.0, out.exponent);
   const int parts = unit == 2 ? 4 : 5;
