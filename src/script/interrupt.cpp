@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "script/lua.hpp"
+#include "script/position.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -21,7 +22,7 @@ void stop_here(lua_State* L, lua_Debug*) {
     lua_sethook(L, nullptr, 0, 0);
     return;
   }
-  luaL_error(L, "interrupted");
+  raise(L, "", "interrupted");
 }
 
 void arm(lua_State* L) {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "script/describe.hpp"
+#include "script/enter.hpp"
 #include "script/guard.hpp"
 #include "script/library.hpp"
 #include "script/nearest.hpp"
@@ -62,6 +63,15 @@ int type_name(lua_State* L) {
   return guarded(L, "type_name", [L] {
     const auto* type = Library::of(L).type_at(L, 1);
     push(L, type ? type->name.c_str() : luaL_typename(L, 1));
+    return 1;
+  });
+}
+
+int signature(lua_State* L) {
+  return guarded(L, "signature", [L] {
+    const auto* descriptor = descriptor_at(L, 1);
+    if (descriptor) push(L, descriptor->signature());
+    else lua_pushnil(L);
     return 1;
   });
 }
@@ -125,6 +135,7 @@ void load_lua_side(lua_State* L) {
   lua_newtable(L);
   static const luaL_Reg functions[] = {{"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
                                        {"columns", columns}, {"clock", clock},  {"type_name", type_name},   {"describe", describe},
+                                       {"signature", signature},
                                        {nullptr, nullptr}};
   luaL_setfuncs(L, functions, 0);
   lua_pushvalue(L, -1);

@@ -10,6 +10,7 @@
 //   columns()       the width of the terminal
 //   clock()         seconds, of a clock that never jumps
 //   lazily(f, name) a function that loads lua/<f>.lua when first called
+//   signature(f)    of a callable of dotyk's, else nil
 //   type_name(v)    "body", "mesh", … or what type() says
 struct lua_State;
 

@@ -77,7 +77,8 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
 
 int run(const Command& command) {
   if (command.file && *command.file != "-" && access(command.file->c_str(), R_OK) != 0) {
-    return misuse("cannot open " + *command.file + ": " + std::strerror(errno));
+    std::fprintf(stderr, "dotyk: cannot open %s: %s\n", command.file->c_str(), std::strerror(errno));
+    return 2;
   }
   dotyk::script::Interpreter interpreter;
   interpreter.trace(command.traceback);

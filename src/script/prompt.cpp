@@ -75,10 +75,23 @@ class Prompt {
     return luaL_loadbufferx(L_, text.data(), text.size(), chunk_name, "t") == LUA_OK;
   }
 
+  // The input as Lua compiles it: "= expr" without its sign, and, as each input
+  // is a chunk of its own, "local x = …" without "local", so that x can be used
+  // in the next line as in the script it was copied from.
+  std::string plain(const std::string& input) {
+    if (!input.empty() && input[0] == '=') return input.substr(1);
+    const auto start = input.find_first_not_of(" \t");
+    if (start == std::string::npos || input.compare(start, 6, "local ") != 0) return input;
+    const auto global = input.substr(start + 6);
+    const bool fits = load(global) || ends_early(lua_tostring(L_, -1));
+    lua_pop(L_, 1);
+    return fits ? global : input;
+  }
+
   // Returns false when the input is the beginning of something longer.
   bool evaluate(const std::string& input, bool last) {
     failed_ = false;
-    const auto text = !input.empty() && input[0] == '=' ? input.substr(1) : input;
+    const auto text = plain(input);
     if (load("return " + text)) {
       run_function(true);
       return true;

@@ -1,0 +1,64 @@
+#!/bin/bash
+# The program from the outside: ways to start it, what it prints where, exit status.
+set -u
+dotyk=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+
+# expect NAME STATUS STDOUT STDERR COMMAND…: standard input is empty.
+expect() {
+  local name=$1 status=$2 out=$3 err=$4
+  shift 4
+  "$@" >out.txt 2>err.txt </dev/null
+  local got=$?
+  [[ $got == "$status" && $(<out.txt) == "$out" && $(<err.txt) == "$err" ]] && return
+  echo "FAILED: $name: status $got (expected $status)"
+  diff <(echo "$out") out.txt
+  diff <(echo "$err") err.txt
+  failures=$((failures + 1))
+}
+
+echo 'print("hello", arg[0], ...) return 3' >hello.lua
+printf 'local x = 1\nprint(x)\nerror("gone wrong")\n' >wrong.lua
+printf 'local x = = 1\n' >syntax.lua
+printf 'y = 7\n' >sets.lua
+printf '\n\nerror({})\n' >table.lua
+
+expect "a script" 0 $'hello\thello.lua' '' "$dotyk" hello.lua
+expect "arguments" 0 '2 a --b' '' "$dotyk" -e 'print(#arg .. " " .. arg[1] .. " " .. arg[2])' a --b
+expect "-e" 0 '2' '' "$dotyk" -e 'print(1 + 1)'
+expect "an error" 1 '1' 'dotyk: wrong.lua:3: gone wrong' "$dotyk" wrong.lua
+expect "a syntax error" 1 '' "dotyk: syntax.lua:1: unexpected symbol near '='" "$dotyk" syntax.lua
+expect "an error that is a table" 1 '' 'dotyk: error with a table in place of a message' "$dotyk" table.lua
+expect "an error of -e" 1 '' "dotyk: -e:1: unknown variable 'x'" "$dotyk" -e 'print(x)'
+expect "a missing file" 2 '' 'dotyk: cannot open nothing.lua: No such file or directory' "$dotyk" nothing.lua
+expect "an unknown option" 2 '' "dotyk: unknown option '--fast' (dotyk --help tells more)" "$dotyk" --fast
+expect "-e without code" 2 '' 'dotyk: -e needs a text to run (dotyk --help tells more)' "$dotyk" -e
+expect "-i without a file" 2 '' 'dotyk: -i needs a file (dotyk --help tells more)' "$dotyk" -i
+expect "an empty prompt" 0 '' '' "$dotyk"
+expect "os.exit" 5 '' '' "$dotyk" -e 'os.exit(5)'
+expect "no home, odd locale" 0 '0.5' '' env -u HOME LC_ALL=de_DE.UTF-8 "$dotyk" -e 'print(0.5)'
+expect "-" 0 $'12\tx' '' bash -c 'echo "print(12, arg[1])" | "$0" - x' "$dotyk"
+expect "an error of -" 1 '' 'dotyk: stdin:2: no' bash -c 'printf "\nerror [[no]]\n" | "$0" -' "$dotyk"
+expect "-i" 0 $'7' '' bash -c 'echo y | "$0" -i sets.lua' "$dotyk"
+expect "the prompt from a pipe" 1 $'3\n3\n{ 1, "x" }\n5' "prompt:1: unknown variable 'nix'" \
+  bash -c 'printf "%s\n" "1 +" "2" "_" "local t = {" "1, [[x]] }" t "= 5" nix | "$0"' "$dotyk"
+expect "a broken Lua folder" 1 '' "dotyk: the Lua files of dotyk, in /nowhere, cannot be loaded: cannot read /nowhere/init.lua" \
+  env DOTYK_LUA=/nowhere "$dotyk" -e ''
+
+"$dotyk" --version | grep -qx 'dotyk [0-9.]*' || { echo "FAILED: --version"; failures=$((failures + 1)); }
+"$dotyk" --help | grep -q 'Exit status' || { echo "FAILED: --help"; failures=$((failures + 1)); }
+"$dotyk" --traceback wrong.lua 2>&1 >/dev/null | grep -q 'stack traceback' || { echo "FAILED: --traceback"; failures=$((failures + 1)); }
+[[ $(ldd "$dotyk" | grep -c 'liblua') == 1 ]] || { echo "FAILED: linked with other than one Lua library"; failures=$((failures + 1)); }
+if ldd "$dotyk" | grep -q vtk; then echo "FAILED: linked with VTK"; failures=$((failures + 1)); fi
+
+# Ctrl-C ends a script.
+"$dotyk" -e 'while true do end' 2>err.txt &
+sleep 0.3
+kill -INT $!
+wait $!
+[[ $? == 1 && $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || { echo "FAILED: interrupt: $(<err.txt)"; failures=$((failures + 1)); }
+
+exit $((failures > 0))

@@ -1,0 +1,84 @@
+#include <doctest/doctest.h>
+
+#include "bench.hpp"
+#include "script/help.hpp"
+#include "script/lua.hpp"
+
+using namespace dotyk::script;
+
+TEST_CASE("everything a script sees has help") {
+  Interpreter interpreter;
+  for (const auto& line : missing_help(interpreter.library())) FAIL_CHECK(line);
+}
+
+TEST_CASE("every example compiles") {
+  Interpreter interpreter;
+  const auto check = [&](const Descriptor& one) {
+    INFO(one.name);
+    const int status = luaL_loadstring(interpreter.state(), one.example.c_str());
+    const std::string message = status == LUA_OK ? "" : lua_tostring(interpreter.state(), -1);
+    INFO(message);
+    CHECK(status == LUA_OK);
+    lua_settop(interpreter.state(), 0);
+  };
+  for (const auto& one : interpreter.library().functions()) check(one);
+  for (const auto& type : interpreter.library().types()) {
+    for (const auto& one : type.methods) check(one);
+  }
+}
+
+TEST_CASE("types that descriptors name exist") {
+  Interpreter interpreter;
+  const auto& library = interpreter.library();
+  const auto check_keys = [&](const auto& self, const std::string& owner, const std::vector<Key>& keys) -> void {
+    for (const auto& key : keys) {
+      INFO(owner << ", " << key.name << ": type '" << key.type << "'");
+      CHECK((key.kind != Kind::object || library.find_type(key.type)));
+      self(self, owner, key.keys);
+      self(self, owner, key.items);
+    }
+  };
+  for (const auto& one : library.functions()) check_keys(check_keys, one.name, one.arguments);
+  for (const auto& type : library.types()) {
+    for (const auto& one : type.methods) check_keys(check_keys, one.name, one.arguments);
+  }
+}
+
+TEST_CASE("a binding without help is found") {
+  Bench bench;
+  bench.interpreter.library().function({.name = "dotyk.bare", .run = [](Call&) { return 0; }});
+  const auto missing = missing_help(bench.interpreter.library());
+  CHECK(std::find(missing.begin(), missing.end(), "dotyk.bare: no help") != missing.end());
+  CHECK(std::find(missing.begin(), missing.end(), "dotyk.bare: no example") != missing.end());
+}
+
+TEST_CASE("signatures and help texts") {
+  Bench bench;
+  auto& library = bench.interpreter.library();
+  REQUIRE(library.find("toy:grow"));
+  CHECK(library.find("toy:grow")->signature() == "toy:grow(factor)");
+  CHECK(library.find("box")->signature() == "dotyk.test.box{ toys, …, gap = 0 }");
+  const auto text = help_text(*library.find("dotyk.test.toy"));
+  for (const char* part : {"Makes a toy.", "colour", "\"red\", \"green\" or \"blue\"; default \"red\"", "length", "Example:"}) {
+    CHECK(text.find(part) != std::string::npos);
+  }
+  CHECK(help_text(library, *library.find_type("toy")).find("toy:grow") != std::string::npos);
+  CHECK(reference_page(library).find("| `colour` |") != std::string::npos);
+}
+
+TEST_CASE("callables written in Lua are checked like the others") {
+  Bench bench;
+  lua_State* L = bench.interpreter.state();
+  lua_getfield(L, LUA_REGISTRYINDEX, "dotyk.load");
+  lua_pushliteral(L, "init");
+  lua_call(L, 1, 1);
+  lua_setglobal(L, "core");
+  CHECK(bench.error("core.describe{ name = 'dotyk.test.add', help = 'Adds.', example = 'dotyk.test.add{ a = 1 }',\n"
+                    "  keys = { { name = 'a', kind = 'number', help = 'one', required = true },\n"
+                    "           { name = 'b', kind = 'integer', help = 'other', default = 2 } },\n"
+                    "  run = function(t) return t.a + t.b end }\n"
+                    "local given = { a = 3 }\n"
+                    "assert(dotyk.test.add(given) == 5 and given.b == nil)") == "");
+  CHECK(bench.error("dotyk.test.add{ a = 3, c = 3 }") == "t.lua:1: add: unknown key 'c', expected 'a' or 'b'");
+  CHECK(bench.interpreter.library().find("dotyk.test.add"));
+}
