@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,7 +38,8 @@ struct Problem {
   algebra::SparseRows B;  ///< rows × unknowns of all blocks
   algebra::Vector c;      ///< gaps, one a row
   std::vector<RowGroup> groups;
-  std::vector<std::string> row_names;  ///< where each row is: "node 12 at (0.5, 0)"
+  /// Where a row is, for messages: "node 12 of 'block' at (0.5, 0)". May be empty.
+  std::function<std::string(int)> row_name;
 
   int unknowns() const { return blocks.empty() ? 0 : blocks.back().first + blocks.back().size(); }
   int rows() const { return static_cast<int>(c.size()); }

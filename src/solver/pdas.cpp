@@ -24,7 +24,7 @@ using problem::Problem;
 std::string places(const Problem& problem, const std::vector<int>& rows) {
   std::string out;
   for (std::size_t k = 0; k < rows.size() && k < 4; ++k)
-    out += (k ? ", " : "") + problem.row_names[rows[k]];
+    out += (k ? ", " : "") + (problem.row_name ? problem.row_name(rows[k]) : text("row ", rows[k] + 1));
   if (rows.size() > 4) out += text(" and ", rows.size() - 4, " more");
   return out;
 }
@@ -42,10 +42,10 @@ class Iteration {
   }
 
   Result run() {
+    Linearisation l = first();  // before any factorisation: a body that nothing holds has none
     if (settings_.reduced) condense();
     step_ = settings_.reduced ? reduced_step(*condensed_, rho_) : full_step(problem_, rho_);
     Stopwatch iterating;
-    Linearisation l = first();
     while (result_.iterations < settings_.max_iterations) {
       if (monitor_.stop()) {
         result_.reason = "interrupted; this is the state so far";

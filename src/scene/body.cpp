@@ -1,0 +1,58 @@
+#include "scene/body.hpp"
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::scene {
+
+std::vector<elasticity::FacetSpring> Body::facet_springs() const {
+  std::vector<elasticity::FacetSpring> result;
+  for (const SpringPatch& patch : springs) result.push_back(patch.spring);
+  return result;
+}
+
+std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh,
+                                elasticity::MaterialField material,
+                                const elasticity::VectorField& force) {
+  auto body = std::make_shared<Body>();
+  mesh::check(*mesh, "body '" + name + "'");
+  if (mesh->cell_count() == 0) throw InputError("the mesh of '" + name + "' has no cells");
+  if (material.at(0).dimension != mesh->dimension())
+    throw InputError(text("the material of '", name, "' is for ", material.at(0).dimension,
+                          "-D, its mesh is ", mesh->dimension(), "-D"));
+  body->name = std::move(name);
+  body->mesh = std::move(mesh);
+  body->material = std::move(material);
+  body->force.assign(body->mesh->coordinates.size(), 0.0);
+  if (force) elasticity::add_body_force(*body->mesh, force, body->force);
+  return body;
+}
+
+std::vector<std::string> part_names(const Body& body) {
+  std::vector<std::string> names;
+  for (const auto& [name, facets] : body.mesh->parts) names.push_back(name);
+  return names;
+}
+
+Part named_part(const std::shared_ptr<Body>& body, const std::string& name) {
+  const auto found = body->mesh->parts.find(name);
+  if (found == body->mesh->parts.end()) {
+    std::string all;
+    for (const std::string& known : part_names(*body)) all += (all.empty() ? "" : ", ") + known;
+    throw InputError(text("'", body->name, "' has no part '", name, "'; it has ", all.empty() ? "none" : all));
+  }
+  if (found->second.empty()) throw InputError(text("part '", name, "' of '", body->name, "' has no facets"));
+  return {body, name, found->second};
+}
+
+Part chosen_part(const std::shared_ptr<Body>& body, const std::string& name,
+                 const std::function<bool(const mesh::Point&, const mesh::Point&)>& chosen) {
+  Part part{body, name, mesh::select(*body->mesh, chosen)};
+  if (part.facets.empty())
+    throw InputError(text("part '", name, "' of '", body->name,
+                          "' is empty: its function accepts none of the boundary's facets (it is asked "
+                          "with facet centres and outward normals)"));
+  return part;
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,87 @@
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "scene/scene.hpp"
+
+namespace dotyk::scene {
+
+int Scene::index_of(const Body* body) const {
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+    if (bodies[k].get() == body) return static_cast<int>(k);
+  return -1;
+}
+
+std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies) {
+  if (bodies.empty()) throw InputError("a scene needs at least one body");
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i]->dimension() != bodies[0]->dimension())
+      throw InputError(text("'", bodies[i]->name, "' is ", bodies[i]->dimension(), "-D, '",
+                            bodies[0]->name, "' is ", bodies[0]->dimension(),
+                            "-D; the bodies of a scene must have one dimension"));
+    for (std::size_t j = 0; j < i; ++j) {
+      if (bodies[i] == bodies[j]) throw InputError(text("'", bodies[i]->name, "' is given twice"));
+      if (bodies[i]->name == bodies[j]->name)
+        throw InputError(text("two bodies are named '", bodies[i]->name,
+                              "'; give each a name of its own (body{ name = … })"));
+    }
+  }
+  auto scene = std::make_shared<Scene>();
+  scene->bodies = std::move(bodies);
+  return scene;
+}
+
+namespace {
+
+void require_member(const Scene& scene, const Part& part) {
+  if (scene.index_of(part.body.get()) >= 0) return;
+  std::string all;
+  for (const auto& body : scene.bodies) all += (all.empty() ? "'" : ", '") + body->name + "'";
+  throw InputError(text("part '", part.name, "' belongs to '", part.body->name,
+                        "', which is not in this scene; its bodies are ", all));
+}
+
+contact::Face face(const Part& part) { return {*part.body->mesh, part.facets, part.label()}; }
+
+std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
+  scene.contacts.push_back(std::make_shared<const Contact>(std::move(contact)));
+  return scene.contacts.back();
+}
+
+}  // namespace
+
+std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
+                                           const elasticity::ScalarField& added_gap) {
+  require_member(scene, first);
+  require_member(scene, second);
+  Contact contact;
+  contact.name = "contact of " + first.label() + " with " + second.label();
+  contact.first = first;
+  contact.second = second;
+  contact.rows = contact::between(face(first), face(second), added_gap);
+  return keep(scene, std::move(contact));
+}
+
+std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
+                                           const elasticity::ScalarField& added_gap, bool interference) {
+  require_member(scene, part);
+  Contact contact;
+  contact.name = text("contact of ", part.label(), " with a ", contact::name(shape));
+  contact.first = part;
+  contact.rows = contact::against(*part.body->mesh, part.facets, shape, added_gap, interference);
+  contact.shape = shape;
+  if (auto* gap = std::get_if<contact::RigidGap>(&contact.shape)) gap->gap = nullptr;
+  return keep(scene, std::move(contact));
+}
+
+std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second) {
+  require_member(scene, first);
+  require_member(scene, second);
+  Contact contact;
+  contact.kind = Contact::Kind::glue;
+  contact.name = "glue of " + first.label() + " to " + second.label();
+  contact.first = first;
+  contact.second = second;
+  contact.glued = contact::match(face(first), face(second));
+  return keep(scene, std::move(contact));
+}
+
+}  // namespace dotyk::scene

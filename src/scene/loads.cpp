@@ -1,0 +1,72 @@
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "scene/body.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+using elasticity::FacetPoint;
+using mesh::Point;
+
+/// Adds the traction (a function of the facet point) to the nodal loads and keeps its mean for drawing.
+template <class Traction>
+void add(Part& part, Traction&& traction) {
+  Body& body = *part.body;
+  const int dim = body.dimension();
+  std::vector<double> force = body.force;  // the fields may throw: change nothing before all are known
+  std::vector<LoadArrow> arrows;
+  for (const mesh::Facet f : part.facets) {
+    LoadArrow arrow{part.name, body.mesh->facet_centre(f), {0, 0, 0}};
+    double area = 0;
+    elasticity::for_each_facet_point(*body.mesh, f, [&](const FacetPoint& p) {
+      const Point t = traction(p);
+      area += p.measure;
+      for (int i = 0; i < dim; ++i) {
+        arrow.value[i] += p.measure * t[i];
+        for (int a = 0; a < p.nodes; ++a)
+          force[static_cast<std::size_t>(body.mesh->facet_node(f, a)) * dim + i] +=
+              p.measure * p.shape[a] * t[i];
+      }
+    });
+    for (double& v : arrow.value) v /= area;
+    arrows.push_back(arrow);
+  }
+  body.force = std::move(force);
+  body.arrows.insert(body.arrows.end(), arrows.begin(), arrows.end());
+}
+
+}  // namespace
+
+void load(Part& part, const elasticity::VectorField& traction) {
+  add(part, [&](const FacetPoint& p) { return traction(p.x); });
+}
+
+void pressure(Part& part, const elasticity::ScalarField& value) {
+  add(part, [&](const FacetPoint& p) {
+    const double v = value(p.x);
+    return Point{-v * p.normal[0], -v * p.normal[1], -v * p.normal[2]};
+  });
+}
+
+void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness) {
+  std::vector<SpringPatch> patches;
+  for (const mesh::Facet f : part.facets) {
+    SpringPatch patch{part.name, {f, {}}};
+    elasticity::for_each_facet_point(*part.body->mesh, f, [&](const FacetPoint& p) {
+      std::array<double, 3> k{0, 0, 0};
+      for (int i = 0; i < 3; ++i) {
+        if (stiffness[i]) k[i] = stiffness[i](p.x);
+        if (!(k[i] >= 0) || !std::isfinite(k[i]))
+          throw InputError(text("stiffness is ", k[i], " at ", point_text(p.x.data(), part.body->dimension()),
+                                "; a spring's stiffness must be zero or positive"));
+      }
+      patch.spring.stiffness.push_back(k);
+    });
+    patches.push_back(std::move(patch));
+  }
+  part.body->springs.insert(part.body->springs.end(), patches.begin(), patches.end());
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "problem/condensed.hpp"
+#include "problem/problem.hpp"
+#include "scene/scene.hpp"
+
+namespace dotyk::scene {
+
+/// A scene as a problem, and the way back.
+struct Model {
+  problem::Problem problem;
+  std::vector<elasticity::Numbering> numbering;  ///< one a body
+  /// Contact → its row → row of B, or -1 where no unknown moves it (both sides fixed).
+  std::vector<std::vector<int>> contact_row;
+  /// Glue: contact → first row of B of each pair's component (dimension a pair), -1 likewise.
+  std::vector<std::vector<int>> glue_row;
+  std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1
+
+  /// A body's displacement, node × dimension, from the unknowns of all blocks.
+  std::vector<double> displacement(int body, const algebra::Vector& u) const;
+};
+
+/// Assembles. Throws InputError for contradictory supports, and for a contact that nodes fixed on
+/// both sides make impossible. Adds its time to clock.assembly.
+Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor);
+
+}  // namespace dotyk::scene
