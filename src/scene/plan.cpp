@@ -1,0 +1,59 @@
+#include "base/text.hpp"
+#include "elasticity/rigid_modes.hpp"
+#include "scene/scene.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+std::string describe_body(const Body& body) {
+  return text("  '", body.name, "': ", body.mesh->topology().name, " ", body.mesh->topology().shape, "s, ",
+              body.mesh->node_count(), " nodes, ", body.mesh->cell_count(), " cells");
+}
+
+std::string describe_contact(const Contact& contact) {
+  if (contact.kind == Contact::Kind::glue)
+    return text("  ", contact.name, ": ", contact.glued.size(), " node pairs");
+  return text("  ", contact.name, ": ", contact.rows.size(), " rows, frictionless");
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene) {
+  std::string out = text("scene: ", scene.dimension(), "-D, ", scene.bodies.size(),
+                         scene.bodies.size() == 1 ? " body, " : " bodies, ", scene.contacts.size(),
+                         scene.contacts.size() == 1 ? " contact" : " contacts");
+  for (const auto& body : scene.bodies) out += "\n" + describe_body(*body);
+  for (const auto& contact : scene.contacts) out += "\n" + describe_contact(*contact);
+  return out;
+}
+
+std::string plan(const Scene& scene) {
+  std::string out = "plan:";
+  int unknowns = 0, rows = 0, free = 0;
+  for (const auto& body : scene.bodies) {
+    const auto numbering = number(*body);
+    const auto rigid = elasticity::rigid_modes(*body->mesh, numbering, body->facet_springs());
+    unknowns += numbering.count();
+    free += static_cast<int>(rigid.names.size());
+    rows += static_cast<int>(body->slides.size());
+    out += "\n" + describe_body(*body) + text(", ", numbering.count(), " unknowns");
+    out += rigid.names.empty() ? "; held by its supports" : "; free to move but for contact: ";
+    for (std::size_t k = 0; k < rigid.names.size(); ++k) out += (k ? ", " : "") + rigid.names[k];
+  }
+  for (const auto& contact : scene.contacts) {
+    rows += static_cast<int>(contact->kind == Contact::Kind::glue ? contact->glued.size() * scene.dimension()
+                                                                  : contact->rows.size());
+    out += "\n" + describe_contact(*contact);
+  }
+  if (rows == 0)
+    out += free == 0 ? text("\n  method: one linear solve of ", unknowns, " unknowns; a unique solution exists")
+                     : "\n  no solution: a body can move freely and no contact is there to stop it";
+  else
+    out += text("\n  method: pdas on ", rows, " condensed rows (", unknowns,
+                " unknowns factored once): finite and exact for frictionless contact",
+                free == 0 ? "; a unique solution exists: every body is held by its supports"
+                          : "; a solution exists if the load presses the free bodies against their contacts");
+  return out;
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,78 @@
+#include <set>
+
+#include "base/error.hpp"
+#include "scene/solution.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+using mesh::Point;
+
+/// Adds to `force` (node × dimension) what the row groups exert on a body: −Bᵀλ with all components,
+/// also of nodes whose displacement is prescribed.
+void add_interface_force(const Scene& scene, const Model& model, const algebra::Vector& lambda, int body,
+                         std::vector<double>& force) {
+  const int dim = scene.dimension();
+  const auto push = [&](int node, const Point& direction, double amount) {
+    for (int i = 0; i < dim; ++i) force[static_cast<std::size_t>(node) * dim + i] += amount * direction[i];
+  };
+  for (std::size_t c = 0; c < model.contact_row.size(); ++c) {
+    const Contact& contact = *scene.contacts[c];
+    const int first = scene.index_of(contact.first.body.get()), second = scene.index_of(contact.second.body.get());
+    for (std::size_t k = 0; k < contact.rows.size(); ++k) {
+      const int r = model.contact_row[c][k];
+      if (r < 0) continue;
+      if (first == body) push(contact.rows[k].node, contact.rows[k].normal, -lambda[r]);
+      if (second == body) push(contact.rows[k].partner, contact.rows[k].normal, lambda[r]);
+    }
+    for (std::size_t k = 0; k < model.glue_row[c].size(); ++k) {
+      const int r = model.glue_row[c][k];
+      if (r < 0) continue;
+      const contact::NodePair& pair = contact.glued[k / dim];
+      Point direction{0, 0, 0};
+      direction[k % dim] = 1;
+      if (first == body) push(pair.first, direction, -lambda[r]);
+      if (second == body) push(pair.second, direction, lambda[r]);
+    }
+  }
+}
+
+}  // namespace
+
+Point Solution::reaction(const Part& part) const {
+  const int index = scene_->index_of(part.body.get());
+  if (index < 0) throw InputError("part '" + part.name + "' is not of the scene that was solved");
+  const Body& body = *scene_->bodies[index];
+  const int dim = body.dimension();
+  // What supports must add to loads and contact to balance the inner forces.
+  std::vector<double> missing =
+      elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), displacement_[index]);
+  std::vector<double> other = body.force;
+  add_interface_force(*scene_, model_, result_.state.lambda, index, other);
+  Point sum{0, 0, 0};
+  std::set<std::size_t> counted;
+  for (const Support& support : body.supports)
+    for (std::size_t k = 0; k < support.nodes.size(); ++k)
+      for (int i = 0; i < dim; ++i) {
+        const std::size_t at = static_cast<std::size_t>(support.nodes[k]) * dim + i;
+        if (!support.components[k][i] || !counted.insert(at).second || support.part != part.name) continue;
+        sum[i] += missing[at] - other[at];
+      }
+  for (std::size_t k = 0; k < body.slides.size(); ++k) {
+    const int r = model_.slide_row[index][k];
+    if (r < 0 || body.slides[k].part != part.name) continue;
+    for (int i = 0; i < dim; ++i) sum[i] -= result_.state.lambda[r] * body.slides[k].normal[i];
+  }
+  for (const SpringPatch& patch : body.springs) {
+    if (patch.part != part.name) continue;
+    elasticity::for_each_facet_point(*body.mesh, patch.spring.facet, [&](const elasticity::FacetPoint& p) {
+      for (int i = 0; i < dim; ++i)
+        for (int a = 0; a < p.nodes; ++a)
+          sum[i] -= patch.spring.stiffness[p.index][i] * p.measure * p.shape[a] *
+                    displacement_[index][static_cast<std::size_t>(body.mesh->facet_node(patch.spring.facet, a)) * dim + i];
+    });
+  }
+  return sum;
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "elasticity/stress.hpp"
+#include "problem/residual.hpp"
+#include "scene/model.hpp"
+#include "scene/scene.hpp"
+#include "solver/pdas.hpp"
+
+namespace dotyk::scene {
+
+/// One contact node after the solve; at a corner there is one for each adjoining side.
+struct ContactNode {
+  int node = 0;                ///< of the first body's mesh
+  mesh::Point x{};             ///< at rest
+  mesh::Point displacement{};
+  mesh::Point normal{};        ///< unit, out of the first body
+  double gap = 0;              ///< after deformation, positive when open
+  double force = 0;            ///< normal multiplier, positive in compression
+  double pressure = 0;         ///< force / weight
+  double weight = 0;           ///< length or area of the node
+  mesh::Point shear{};         ///< per length or area, on the first body
+  mesh::Point slip{};          ///< tangential jump
+  problem::Status status = problem::Status::open;
+};
+
+struct ContactResult {
+  mesh::Point force{};         ///< on the first part
+  double area = 0;             ///< of closed nodes
+  double max_pressure = 0;
+  int open = 0, closed = 0, stick = 0, slip = 0;
+  std::vector<ContactNode> nodes;
+};
+
+class Locator;
+
+/// What a solve gives: the state of every body and contact, how it ended, and how far to trust it.
+class Solution {
+ public:
+  Solution(std::shared_ptr<const Scene> scene, Model model, solver::Result result);
+  ~Solution();
+
+  const Scene& scene() const { return *scene_; }
+  const solver::Result& result() const { return result_; }
+  const problem::Residual& residual() const { return residual_; }
+  const problem::Clock& clock() const { return result_.clock; }
+  void set_total(double seconds) { result_.clock.total = seconds; }
+  double energy() const { return energy_; }
+  double friction_energy() const { return 0; }
+  int unknowns() const { return static_cast<int>(result_.state.u.size()); }
+  int rows() const { return static_cast<int>(result_.state.lambda.size()); }
+
+  /// Nodal displacement of a body (index in the scene), node × dimension.
+  const std::vector<double>& displacement(int body) const { return displacement_[body]; }
+  /// Recovered nodal stress, computed on first use (its time is added to the clock's recover and total).
+  const std::vector<elasticity::Stress>& stress(int body) const;
+
+  /// At a point at rest. Throws InputError outside the body.
+  mesh::Point displacement(int body, const mesh::Point& x) const;
+  elasticity::Stress stress(int body, const mesh::Point& x) const;
+
+  /// Throws InputError for a contact that is not of the scene as it was solved.
+  ContactResult contact(const Contact& contact) const;
+  /// Force that the supports (fix, slide, displace, spring) of the part exert on the body. A node
+  /// component held by several parts counts for the one that held it first.
+  mesh::Point reaction(const Part& part) const;
+  /// Recovery estimate of the relative error in the energy norm.
+  double error_estimate() const;
+
+  /// Rows flagged active, contact by contact, for starting another solve.
+  const Model& model() const { return model_; }
+  bool active(int row) const;
+
+ private:
+  const Locator& locator(int body) const;
+
+  std::shared_ptr<const Scene> scene_;
+  std::vector<std::shared_ptr<const Contact>> contacts_;  ///< the scene's, as they were
+  Model model_;
+  mutable solver::Result result_;
+  problem::Residual residual_;
+  double energy_ = 0;
+  std::vector<std::vector<double>> displacement_;
+  mutable std::vector<std::vector<elasticity::Stress>> stress_;
+  mutable std::vector<std::unique_ptr<Locator>> locators_;
+};
+
+/// The method: none named (the plan's choice) or PDAS.
+using Method = std::variant<std::monostate, solver::Pdas>;
+
+/// Assembles and solves. `coarse` (may be null): a solution of a like scene, usually on a coarser
+/// mesh; contacts start as its nearest nodes were.
+std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const Method& method,
+                                const Solution* coarse, Monitor& monitor);
+
+/// The start for `model` that takes over the contact status of `coarse`, contact by contact.
+std::vector<char> start_from(const Scene& scene, const Model& model, const Solution& coarse);
+
+/// Contact nodes of all contacts as comma-separated values with a header line. The file appears
+/// whole or not at all. Throws InputError where it cannot be written.
+void write_contact(const Solution& solution, const std::string& file);
+
+/// A short report.
+std::string describe(const Solution& solution);
+
+}  // namespace dotyk::scene
