@@ -71,6 +71,7 @@ function describe(value, depth, seen)
     local text = tostring(value)
     return depth > 0 and text:find "\n" and text:match "^[^\n]*" .. " …" or text
   end
+  if kind == "function" then return core.signature(value) or tostring(value) end
   return tostring(value)
 end
 

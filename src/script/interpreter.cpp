@@ -32,6 +32,10 @@ int to_traced_message(lua_State* L) {
 void fill(lua_State* L, Library& library) {
   luaL_openlibs(L);
   bind_all(library);
+  lua_getglobal(L, "dotyk");
+  lua_pushliteral(L, DOTYK_VERSION);
+  lua_setfield(L, -2, "version");
+  lua_pop(L, 1);
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   lua_getglobal(L, "dotyk");
   lua_setfield(L, -2, "dotyk");

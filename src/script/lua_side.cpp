@@ -1,6 +1,5 @@
 #include "script/lua_side.hpp"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -15,6 +14,7 @@
 #include "script/guard.hpp"
 #include "script/library.hpp"
 #include "script/nearest.hpp"
+#include "script/progress.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -46,11 +46,12 @@ int terminal(lua_State* L) {
   return 1;
 }
 
-int columns(lua_State* L) {
-  winsize size{};
-  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  lua_pushinteger(L, known ? size.ws_col : 80);
-  return 1;
+int progress(lua_State* L) {
+  return guarded(L, "progress", [L] {
+    if (lua_isnoneornil(L, 1)) clear_progress();
+    else show_progress(luaL_checkstring(L, 1));
+    return 0;
+  });
 }
 
 int clock(lua_State* L) {
@@ -134,7 +135,7 @@ void load_lua_side(lua_State* L) {
   lua_setfield(L, LUA_REGISTRYINDEX, "dotyk.loaded");
   lua_newtable(L);
   static const luaL_Reg functions[] = {{"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
-                                       {"columns", columns}, {"clock", clock},  {"type_name", type_name},   {"describe", describe},
+                                       {"progress", progress}, {"clock", clock},  {"type_name", type_name},   {"describe", describe},
                                        {"signature", signature},
                                        {nullptr, nullptr}};
   luaL_setfuncs(L, functions, 0);

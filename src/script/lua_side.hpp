@@ -7,7 +7,7 @@
 //   load(name)      runs lua/<name>.lua with this table, once; returns its value
 //   nearest(s, t)   the entry of t nearest to s, or nil
 //   terminal(name)  is "stdin", "stdout" or "stderr" a terminal
-//   columns()       the width of the terminal
+//   progress(text)  shows the text on the progress line; progress() takes it away
 //   clock()         seconds, of a clock that never jumps
 //   lazily(f, name) a function that loads lua/<f>.lua when first called
 //   signature(f)    of a callable of dotyk's, else nil

@@ -9,6 +9,9 @@ namespace dotyk::script {
 // Chunk names of dotyk's own Lua files begin so; errors never point into them.
 inline constexpr char own_chunk[] = "=(dotyk)";
 
+// What lines typed at the prompt are called in messages: "prompt:1: …".
+inline constexpr char prompt_chunk[] = "prompt";
+
 // "hertz.lua:3: ", the innermost running line that belongs to a user's chunk,
 // or "" when there is none. With a name, "hertz.lua:3: contact: ".
 std::string position(lua_State* L, const std::string& callee = "");

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <string>
 
 #include "script/complete.hpp"
 #include "script/history.hpp"
@@ -11,11 +12,12 @@
 #include "script/line_reader.hpp"
 #include "script/lua.hpp"
 #include "script/lua_side.hpp"
+#include "script/position.hpp"
 
 namespace dotyk::script {
 namespace {
 
-constexpr char chunk_name[] = "=prompt";
+const auto chunk_name = std::string("=") + prompt_chunk;
 
 class Prompt {
  public:
@@ -72,7 +74,7 @@ class Prompt {
 
   // Compiles the text; the function, or else the message, is left on the stack.
   bool load(const std::string& text) {
-    return luaL_loadbufferx(L_, text.data(), text.size(), chunk_name, "t") == LUA_OK;
+    return luaL_loadbufferx(L_, text.data(), text.size(), chunk_name.c_str(), "t") == LUA_OK;
   }
 
   // The input as Lua compiles it: "= expr" without its sign, and, as each input

@@ -6,9 +6,8 @@ dotyk=$1
 command -v script >/dev/null || exit 77
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-export HOME=$folder TERM=xterm
+export TERM=xterm
 unset XDG_STATE_HOME
-failures=0
 
 # Types the words of "$@" one after the other and shows the screen.
 session() {
@@ -23,25 +22,31 @@ session() {
   } | timeout 60 script -qec "$dotyk" /dev/null | tr -d '\r'
 }
 
-# expect NAME TEXT KEYS…: the text is on the screen.
+# expect NAME TEXT KEYS…: the text is on the screen. Sessions mostly wait, so all
+# run at the same time, each with a home folder of its own.
 expect() {
   local name=$1 text=$2 screen
   shift 2
+  export HOME=$folder/$name
+  mkdir -p "$HOME"
   screen=$(session "$@")
   grep -qF -- "$text" <<<"$screen" && return
   echo "FAILED: $name: no '$text' in"
   echo "$screen"
-  failures=$((failures + 1))
+  echo >>"$folder/failures"
 }
 
-expect "an expression" '42' '6 * 7\n'
-expect "several lines" '25' 'for i = 5, 5 do\n' 'print(i * i)\n' 'end\n'
-expect "an error" "prompt:1: unknown variable 'prnit', did you mean 'print'?" 'prnit(1)\n'
-expect "completion of a field" '# dotyk: reference' 'print((dotyk.refe\t():sub(1, 18)))\n'
-expect "Ctrl-C on an endless loop" 'still here' 'while true do end\n' '\003' 'print("still" .. " here")\n'
-expect "Ctrl-C on an endless coroutine" 'still here' 'coroutine.wrap(function() while true do end end)()\n' '\003' 'print("still" .. " here")\n'
-expect "Ctrl-C clears the line" '12' 'error(' '\003' '3 * 4\n'
-expect "history survives" 'ninety-9' 'print("ninety" .. "-" .. 9)\n'
-expect "history is found again" 'ninety-9' 'print("nin\033[A\n'
-
-exit $((failures > 0))
+expect "an expression" '42' '6 * 7\n' &
+expect "several lines" '25' 'for i = 5, 5 do\n' 'print(i * i)\n' 'end\n' &
+expect "an error" "prompt:1: unknown variable 'prnit', did you mean 'print'?" 'prnit(1)\n' &
+expect "locals last" '41' 'local x = 40\n' 'x + 1\n' &
+expect "completion of a field" '# dotyk: reference' 'print((dotyk.refe\t():sub(1, 18)))\n' &
+expect "Ctrl-C on an endless loop" 'still here' 'while true do end\n' '\003' 'print("still" .. " here")\n' &
+expect "Ctrl-C on an endless coroutine" 'still here' 'coroutine.wrap(function() while true do end end)()\n' '\003' 'print("still" .. " here")\n' &
+expect "Ctrl-C clears the line" '12' 'error(' '\003' '3 * 4\n' &
+(
+  expect "history" 'ninety-9' 'print("ninety" .. "-" .. 9)\n'
+  expect "history" 'ninety-9' 'print("nin\033[A\n'
+) &
+wait
+[[ ! -e $folder/failures ]]

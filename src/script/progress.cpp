@@ -1,0 +1,44 @@
+#include "script/progress.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+namespace dotyk::script {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct {
+  bool working = false, shown = false;
+  Clock::time_point next;
+} line;
+
+int columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+void show_progress(const std::string& text) {
+  const auto now = Clock::now();
+  if (!line.working) {
+    line.working = true;
+    line.next = now + std::chrono::milliseconds(500);
+  }
+  if (now < line.next || !isatty(STDERR_FILENO)) return;
+  line.next = now + std::chrono::milliseconds(100);
+  line.shown = true;
+  std::fprintf(stderr, "\r%.*s\033[K", columns() - 1, text.c_str());
+  std::fflush(stderr);
+}
+
+void clear_progress() {
+  if (line.shown) std::fputs("\r\033[K", stderr);
+  line.working = line.shown = false;
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,49 @@
+#include "script/watch.hpp"
+
+#include <cstdio>
+#include <utility>
+
+#include "base/text.hpp"
+#include "script/interrupt.hpp"
+#include "script/position.hpp"
+#include "script/progress.hpp"
+
+namespace dotyk::script {
+
+Record iteration_record(const IterationInfo& info) {
+  return {"",
+          {{"active", static_cast<long long>(info.active)},
+           {"stick", static_cast<long long>(info.stick)},
+           {"slip", static_cast<long long>(info.slip)},
+           {"changed", static_cast<long long>(info.changed)},
+           {"residual", info.residual},
+           {"time", info.seconds}}};
+}
+
+Watch::Watch(lua_State* L, std::string work, std::vector<Function> on_iteration, bool verbose)
+    : L_(L), work_(std::move(work)), on_iteration_(std::move(on_iteration)), verbose_(verbose) {}
+
+Watch::~Watch() { clear_progress(); }
+
+void Watch::phase(const std::string& what) { show_progress(work_ + ": " + what + " …"); }
+
+void Watch::iteration(const IterationInfo& info) {
+  const auto line = text(work_, ": iteration ", info.iteration, ", ", info.active, " active, ", info.changed, " changed, ", info.stick,
+                         " stick, ", info.slip, " slip, residual ", info.residual, ", ", info.seconds, " s");
+  if (verbose_) {
+    clear_progress();
+    std::fprintf(stderr, "%s\n", line.c_str());
+  } else {
+    show_progress(line);
+  }
+  if (!on_iteration_.empty() && !on_iteration_.front()(info.iteration, iteration_record(info))) refused_ = true;
+}
+
+bool Watch::stop() { return refused_ || interrupted(); }
+
+void Watch::answer() {
+  const bool at_prompt = position(L_).rfind(std::string(prompt_chunk) + ":", 0) == 0;
+  if (at_prompt) clear_interrupt();
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,43 @@
+#pragma once
+// A script's eye on long work in the numerical rooms: the progress line, the
+// user's on_iteration, Ctrl-C.
+#include <string>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "script/call.hpp"
+
+namespace dotyk::script {
+
+// A row of s.history, and what on_iteration gets.
+Record iteration_record(const IterationInfo& info);
+
+// Lives on the stack of a binding while the work runs. Asks to stop after
+// Ctrl-C, or when on_iteration returned false. An error inside on_iteration is a
+// Lua error that passes through the numerical code.
+class Watch : public Monitor {
+ public:
+  // `on_iteration` is empty or one function, called as f(k, info); `verbose`
+  // leaves a line on standard error for each iteration.
+  Watch(lua_State* L, std::string work, std::vector<Function> on_iteration = {}, bool verbose = false);
+  ~Watch() override;
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  void phase(const std::string& what) override;
+  void iteration(const IterationInfo& info) override;
+  bool stop() override;
+
+  // To be called with the partial result in hand. At the prompt the request to
+  // stop is thereby answered and the user gets the result to look at; in a
+  // script it goes on to end the script.
+  void answer();
+
+ private:
+  lua_State* L_;
+  std::string work_;
+  std::vector<Function> on_iteration_;
+  bool verbose_, refused_ = false;
+};
+
+}  // namespace dotyk::script
