@@ -14,9 +14,7 @@ std::vector<std::string> names_of(const std::vector<Key>& keys) {
   return names;
 }
 
-std::string about(const Key& key) {
-  return key.help + (key.units.empty() ? "" : ", " + key.units);
-}
+std::string about(const Key& key) { return key.help + (key.units.empty() ? "" : ", " + key.units); }
 
 // Refuses keys the table may not have; returns the number of items, counting
 // the holes a nil leaves.
@@ -25,7 +23,8 @@ lua_Integer check_keys(lua_State* L, int index, const Key& table, const std::str
   for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
     if (lua_type(L, -2) == LUA_TSTRING) {
       const std::string name = lua_tostring(L, -2);
-      const bool known = std::any_of(table.keys.begin(), table.keys.end(), [&](const Key& key) { return key.name == name; });
+      const bool known =
+          std::any_of(table.keys.begin(), table.keys.end(), [&](const Key& key) { return key.name == name; });
       if (!known) throw ArgumentError(place + unknown_name("key", name, names_of(table.keys)));
       continue;
     }
@@ -33,7 +32,8 @@ lua_Integer check_keys(lua_State* L, int index, const Key& table, const std::str
     const lua_Integer at = lua_type(L, -2) == LUA_TNUMBER ? lua_tointegerx(L, -2, &exact) : 0;
     if (!exact || at < 1) throw ArgumentError(place + describe_value(L, -2) + " cannot be a key here");
     if (table.items.empty()) {
-      throw ArgumentError(place + describe_value(L, -1) + " given without a key, expected " + join(names_of(table.keys)));
+      throw ArgumentError(place + describe_value(L, -1) + " given without a key, expected " +
+                          join(names_of(table.keys)));
     }
     items = std::max(items, at);
   }
@@ -53,7 +53,8 @@ void check_items(lua_State* L, int index, lua_Integer items, const Key& table, c
   const auto number = item.fewest == item.most ? std::to_string(item.fewest)
                       : count < item.fewest    ? "at least " + std::to_string(item.fewest)
                                                : "at most " + std::to_string(item.most);
-  throw ArgumentError(place + "takes " + number + " " + wanted + (number == "1" || number == "at least 1" || number == "at most 1" ? "" : "s") +
+  throw ArgumentError(place + "takes " + number + " " + wanted +
+                      (number == "1" || number == "at least 1" || number == "at most 1" ? "" : "s") +
                       ", got " + std::to_string(items));
 }
 
@@ -68,7 +69,9 @@ Arguments::Arguments(lua_State* L, int index, const Key& table, std::string call
     lua_pushlstring(L, key.name.data(), key.name.size());
     lua_rawget(L, table_);
     if (lua_isnil(L, -1)) {
-      if (key.needed) throw ArgumentError(place + "missing key '" + key.name + "' (" + about(key) + "), or its value is nil");
+      if (key.needed)
+        throw ArgumentError(place + "missing key '" + key.name + "' (" + about(key) +
+                            "), or its value is nil");
       lua_pop(L, 1);
       slots_.push_back(0);
     } else {
@@ -90,7 +93,8 @@ const Key& Arguments::find(const std::string& name, int& value_slot) const {
 int Arguments::slot(const std::string& name) const {
   int value_slot = 0;
   find(name, value_slot);
-  if (value_slot == 0) throw std::logic_error("the binding reads '" + name + "', which is absent and has no fallback");
+  if (value_slot == 0)
+    throw std::logic_error("the binding reads '" + name + "', which is absent and has no fallback");
   return value_slot;
 }
 
@@ -104,31 +108,30 @@ bool Arguments::is(const std::string& name, int type) const {
   return has(name) && lua_type(L_, slot(name)) == type;
 }
 
-double Arguments::number(const std::string& name) const {
+template <class T>
+const T* Arguments::fallback_of(const std::string& name) const {
   int value_slot = 0;
   const auto& key = find(name, value_slot);
-  if (value_slot == 0 && std::holds_alternative<double>(key.default_value)) return std::get<double>(key.default_value);
+  return value_slot == 0 ? std::get_if<T>(&key.default_value) : nullptr;
+}
+
+double Arguments::number(const std::string& name) const {
+  if (const auto* fallback = fallback_of<double>(name)) return *fallback;
   return lua_tonumber(L_, slot(name));
 }
 
 long long Arguments::integer(const std::string& name) const {
-  int value_slot = 0;
-  const auto& key = find(name, value_slot);
-  if (value_slot == 0 && std::holds_alternative<double>(key.default_value)) return static_cast<long long>(std::get<double>(key.default_value));
+  if (const auto* fallback = fallback_of<double>(name)) return static_cast<long long>(*fallback);
   return lua_tointeger(L_, slot(name));
 }
 
 bool Arguments::boolean(const std::string& name) const {
-  int value_slot = 0;
-  const auto& key = find(name, value_slot);
-  if (value_slot == 0 && std::holds_alternative<bool>(key.default_value)) return std::get<bool>(key.default_value);
+  if (const auto* fallback = fallback_of<bool>(name)) return *fallback;
   return lua_toboolean(L_, slot(name));
 }
 
 std::string Arguments::text(const std::string& name) const {
-  int value_slot = 0;
-  const auto& key = find(name, value_slot);
-  if (value_slot == 0 && std::holds_alternative<std::string>(key.default_value)) return std::get<std::string>(key.default_value);
+  if (const auto* fallback = fallback_of<std::string>(name)) return *fallback;
   std::size_t length = 0;
   const char* start = lua_tolstring(L_, slot(name), &length);
   return {start, length};
@@ -177,18 +180,16 @@ std::vector<std::vector<double>> Arguments::matrix(const std::string& name) cons
 Function Arguments::function(const std::string& name) const { return {L_, slot(name), name, callee_}; }
 
 Field Arguments::field(const std::string& name, std::size_t components) const {
-  int value_slot = 0;
-  const auto& key = find(name, value_slot);
-  if (value_slot == 0 && std::holds_alternative<double>(key.default_value)) {
-    return Field(std::vector<double>(components, std::get<double>(key.default_value)));
-  }
+  if (const auto* fallback = fallback_of<double>(name)) return Field(std::vector<double>(components, *fallback));
   const int at = slot(name);
   if (lua_type(L_, at) == LUA_TFUNCTION) return Field(function(name), components);
   const bool scalar = lua_type(L_, at) == LUA_TNUMBER;
   auto constant = scalar ? std::vector<double>{lua_tonumber(L_, at)} : read_vector(L_, at);
   if (constant.size() != components) {
-    const auto wanted = components == 1 ? std::string("a number") : "a table of " + std::to_string(components) + " numbers";
-    throw ArgumentError("'" + name + "' must be " + wanted + " or a function, got " + (scalar ? "a number" : "a table of " + std::to_string(constant.size())));
+    const auto wanted =
+        components == 1 ? std::string("a number") : "a table of " + std::to_string(components) + " numbers";
+    throw ArgumentError("'" + name + "' must be " + wanted + " or a function, got " +
+                        (scalar ? "a number" : "a table of " + std::to_string(constant.size())));
   }
   return Field(std::move(constant));
 }

@@ -32,14 +32,14 @@ class Arguments {
   // call ends. `place` is put before messages ("left: ").
   Arguments(lua_State* L, int index, const Key& table, std::string callee, const std::string& place = "");
 
-  bool has(const std::string& name) const;            // given, and not nil
+  bool has(const std::string& name) const;               // given, and not nil
   bool is(const std::string& name, int lua_type) const;  // given, of this Lua type: LUA_TFUNCTION, …
 
   double number(const std::string& name) const;
   long long integer(const std::string& name) const;
   bool boolean(const std::string& name) const;
-  std::string text(const std::string& name) const;      // a string or a choice
-  std::size_t choice(const std::string& name) const;    // which of the key's choices
+  std::string text(const std::string& name) const;    // a string or a choice
+  std::size_t choice(const std::string& name) const;  // which of the key's choices
   std::vector<double> vector(const std::string& name) const;
   std::vector<long long> integers(const std::string& name) const;  // a list of integers
   std::vector<std::string> texts(const std::string& name) const;   // a list of strings
@@ -78,6 +78,9 @@ class Arguments {
  protected:
   Arguments(lua_State* L, std::string callee) : L_(L), callee_(std::move(callee)) {}
   const Key& find(const std::string& name, int& value_slot) const;
+  // The key's fallback, when it has one of this type and no value is given; else null.
+  template <class T>
+  const T* fallback_of(const std::string& name) const;
 
   template <class T>
   std::vector<std::shared_ptr<T>> objects_at(int index) const {
@@ -93,9 +96,9 @@ class Arguments {
 
   lua_State* L_;
   std::string callee_;
-  int table_ = 0;                        // stack index of the table, 0 for positional arguments
+  int table_ = 0;  // stack index of the table, 0 for positional arguments
   const std::vector<Key>* keys_ = nullptr;
-  std::vector<int> slots_;               // stack index of each key's value, 0 when absent
+  std::vector<int> slots_;  // stack index of each key's value, 0 when absent
 };
 
 }  // namespace dotyk::script

@@ -15,7 +15,8 @@ std::string help_on_name(const Library& library, const std::string& name) {
   if (const auto* type = library.find_type(name)) return help_text(library, *type);
   if (const auto* descriptor = library.find(name)) return help_text(*descriptor);
   const auto near = nearest(name, library.names());
-  throw ArgumentError("nothing is called '" + name + "'" + (near.empty() ? "; help() lists everything" : ", did you mean '" + near + "'?"));
+  throw ArgumentError("nothing is called '" + name + "'" +
+                      (near.empty() ? "; help() lists everything" : ", did you mean '" + near + "'?"));
 }
 
 std::string help_on_value(const Call& call) {
@@ -33,16 +34,17 @@ std::string help_on_value(const Call& call) {
 }  // namespace
 
 void bind_help(Library& library) {
-  library.function({.name = "help",
-                    .help = "Prints help: on everything, or on one function, method, object or name.",
-                    .example = "help()\nhelp(dotyk)\nhelp \"help\"",
-                    .arguments = {key::any("x", "a function, a method, an object, a table of functions, or a name")},
-                    .run = [](Call& call) {
-                      const auto& library = Library::of(call.state());
-                      const auto text = call.has("x") ? help_on_value(call) : help_index(library);
-                      std::fputs(text.c_str(), stdout);
-                      return 0;
-                    }});
+  library.function(
+      {.name = "help",
+       .help = "Prints help: on everything, or on one function, method, object or name.",
+       .example = "help()\nhelp(dotyk)\nhelp \"help\"",
+       .arguments = {key::any("x", "a function, a method, an object, a table of functions, or a name")},
+       .run = [](Call& call) {
+         const auto& library = Library::of(call.state());
+         const auto text = call.has("x") ? help_on_value(call) : help_index(library);
+         std::fputs(text.c_str(), stdout);
+         return 0;
+       }});
   library.function({.name = "dotyk.reference",
                     .help = "The reference of everything callable, as a Markdown text.",
                     .example = "local page = dotyk.reference()",

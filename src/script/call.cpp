@@ -18,15 +18,18 @@ Call::Call(lua_State* L, const Descriptor& descriptor)
 
 void Call::open_table(int first) {
   lua_State* L = L_;
-  if (lua_gettop(L) > first) throw ArgumentError("takes one table of keys, got " + std::to_string(lua_gettop(L) - first + 1) + " arguments");
+  if (lua_gettop(L) > first)
+    throw ArgumentError("takes one table of keys, got " + std::to_string(lua_gettop(L) - first + 1) +
+                        " arguments");
   if (lua_gettop(L) < first) lua_newtable(L);
   if (lua_type(L, first) != LUA_TTABLE) {
     const auto& keys = descriptor_.arguments[0].keys;
     std::vector<std::string> names;
     for (const auto& key : keys) names.push_back(key.name);
     const auto& items = descriptor_.arguments[0].items;
-    const auto wanted = names.empty() && !items.empty() ? "a table of " + (items[0].type.empty() ? "items" : items[0].type + "s")
-                                                         : "a table of keys (" + join(names, "and", "") + ")";
+    const auto wanted = names.empty() && !items.empty()
+                            ? "a table of " + (items[0].type.empty() ? "items" : items[0].type + "s")
+                            : "a table of keys (" + join(names, "and", "") + ")";
     throw ArgumentError("expected " + wanted + ", got " + describe_value(L, first));
   }
   static_cast<Arguments&>(*this) = Arguments(L, first, descriptor_.arguments[0], callee_);
@@ -53,16 +56,21 @@ void Call::open_positional(int first) {
   luaL_checkstack(L_, static_cast<int>(arguments.size()) + 8, nullptr);
   if (given > static_cast<int>(arguments.size())) {
     const auto count = arguments.size();
-    const auto takes = count == 0 ? std::string("no argument") : count == 1 ? "1 argument" : std::to_string(count) + " arguments";
+    const auto takes = count == 0   ? std::string("no argument")
+                       : count == 1 ? "1 argument"
+                                    : std::to_string(count) + " arguments";
     throw ArgumentError("takes " + takes + ", got " + std::to_string(given));
   }
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const int index = first + static_cast<int>(i);
-    const auto what = "argument " + std::to_string(i + 1) + (arguments[i].name.empty() ? "" : " '" + arguments[i].name + "'");
+    const auto what = "argument " + std::to_string(i + 1) +
+                      (arguments[i].name.empty() ? "" : " '" + arguments[i].name + "'");
     if (lua_isnoneornil(L_, index)) {
       if (arguments[i].needed) {
         const bool passed = static_cast<int>(i) < given;
-        throw ArgumentError(what + (passed ? " is nil (a variable misspelt or not yet set?)" : " is missing") + ", expected " + arguments[i].expected());
+        throw ArgumentError(what +
+                            (passed ? " is nil (a variable misspelt or not yet set?)" : " is missing") +
+                            ", expected " + arguments[i].expected());
       }
       slots_.push_back(0);
       continue;
@@ -102,7 +110,8 @@ void Call::keep(int object_index, std::initializer_list<const char*> names) cons
 
 int Call::kept(int object_index, const std::string& name) const {
   luaL_checkstack(L_, 4, nullptr);
-  if (lua_getiuservalue(L_, object_index, 1) == LUA_TTABLE && lua_getfield(L_, -1, name.c_str()) != LUA_TNIL) {
+  if (lua_getiuservalue(L_, object_index, 1) == LUA_TTABLE &&
+      lua_getfield(L_, -1, name.c_str()) != LUA_TNIL) {
     lua_remove(L_, -2);
     return lua_gettop(L_);
   }

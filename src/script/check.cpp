@@ -63,7 +63,8 @@ void each_entry(lua_State* L, int index, const Key& key, const std::string& what
     const lua_Integer at = lua_type(L, -2) == LUA_TNUMBER ? lua_tointegerx(L, -2, &exact) : 0;
     if (exact && at > count) throw ArgumentError(what + ": entry " + std::to_string(count + 1) + " is nil");
     if (exact && at >= 1) continue;
-    const auto name = lua_type(L, -2) == LUA_TSTRING ? "'" + std::string(lua_tostring(L, -2)) + "'" : describe_value(L, -2);
+    const auto name =
+        lua_type(L, -2) == LUA_TSTRING ? "'" + std::string(lua_tostring(L, -2)) + "'" : describe_value(L, -2);
     throw ArgumentError(what + " must be " + key.expected() + ", got the key " + name);
   }
   if (static_cast<std::size_t>(count) < key.fewest || static_cast<std::size_t>(count) > key.most) {
@@ -78,12 +79,14 @@ void each_entry(lua_State* L, int index, const Key& key, const std::string& what
 
 void check_vector(lua_State* L, int index, const Key& key, const std::string& what) {
   static const Key number = key::number("", "");
-  each_entry(L, index, key, what, [&](int entry, const std::string& name) { check_number(L, entry, number, name); });
+  each_entry(L, index, key, what,
+             [&](int entry, const std::string& name) { check_number(L, entry, number, name); });
 }
 
 void check_matrix(lua_State* L, int index, const Key& key, const std::string& what) {
   static const Key row = key::vector("", "");
-  each_entry(L, index, key, what, [&](int entry, const std::string& name) { check_vector(L, entry, row, name); });
+  each_entry(L, index, key, what,
+             [&](int entry, const std::string& name) { check_vector(L, entry, row, name); });
 }
 
 // The first kind the value looks like decides; its own message is the best one.
@@ -96,7 +99,8 @@ void check_either(lua_State* L, int index, const Key& key, const std::string& wh
       check_value(L, index, one, what);
       return;
     } catch (const ArgumentError&) {
-      const bool tables = one.kind == Kind::vector || one.kind == Kind::matrix || one.kind == Kind::list || one.kind == Kind::table;
+      const bool tables = one.kind == Kind::vector || one.kind == Kind::matrix || one.kind == Kind::list ||
+                          one.kind == Kind::table;
       const bool numbers = one.kind == Kind::number || one.kind == Kind::integer;
       if ((type == LUA_TTABLE && tables) || (type == LUA_TNUMBER && numbers)) throw;
       if (one.kind == Kind::choice) choices = one.choices;
@@ -127,18 +131,26 @@ void check_value(lua_State* L, int index, const Key& key, const std::string& wha
   const int type = lua_type(L, index);
   switch (key.kind) {
     case Kind::number:
-    case Kind::integer: return check_number(L, index, key, what);
-    case Kind::boolean: return type == LUA_TBOOLEAN ? void() : wrong(L, index, key, what);
-    case Kind::string: return type == LUA_TSTRING ? void() : wrong(L, index, key, what);
-    case Kind::choice: return check_choice(L, index, key, what);
-    case Kind::vector: return check_vector(L, index, key, what);
-    case Kind::matrix: return check_matrix(L, index, key, what);
+    case Kind::integer:
+      return check_number(L, index, key, what);
+    case Kind::boolean:
+      return type == LUA_TBOOLEAN ? void() : wrong(L, index, key, what);
+    case Kind::string:
+      return type == LUA_TSTRING ? void() : wrong(L, index, key, what);
+    case Kind::choice:
+      return check_choice(L, index, key, what);
+    case Kind::vector:
+      return check_vector(L, index, key, what);
+    case Kind::matrix:
+      return check_matrix(L, index, key, what);
     case Kind::field:
       if (type == LUA_TFUNCTION) return;
       if (type == LUA_TNUMBER) return check_number(L, index, key, what);
       return check_vector(L, index, key, what);
-    case Kind::function: return type == LUA_TFUNCTION ? void() : wrong(L, index, key, what);
-    case Kind::object: return check_object(L, index, key, what);
+    case Kind::function:
+      return type == LUA_TFUNCTION ? void() : wrong(L, index, key, what);
+    case Kind::object:
+      return check_object(L, index, key, what);
     case Kind::list:
       return each_entry(L, index, key, what, [&](int entry, const std::string& name) {
         check_value(L, entry, key.items.front(), name);
@@ -149,8 +161,10 @@ void check_value(lua_State* L, int index, const Key& key, const std::string& wha
       Arguments(L, index, key, "", what + ": ");
       return;
     }
-    case Kind::either: return check_either(L, index, key, what);
-    case Kind::any: return;
+    case Kind::either:
+      return check_either(L, index, key, what);
+    case Kind::any:
+      return;
   }
 }
 

@@ -52,7 +52,8 @@ Meaning of_method(const Type* type, const std::string& name) {
 }
 
 Meaning advance(lua_State* L, const Library& library, const Meaning& from, const Step& step) {
-  if (step.kind == Step::call) return of_type(from.callable ? library.find_type(from.callable->returns) : nullptr);
+  if (step.kind == Step::call)
+    return of_type(from.callable ? library.find_type(from.callable->returns) : nullptr);
   if (step.kind == Step::method && from.type) return of_method(from.type, step.text);
   if (from.type) {
     const auto* field = from.type->field(step.text);
@@ -140,8 +141,9 @@ std::vector<std::string> members(lua_State* L, const Library& library, const Con
 }
 
 std::vector<std::string> free_names(lua_State* L) {
-  std::vector<std::string> words = {"and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local",
-                                    "nil", "not", "or", "repeat", "return", "then", "true", "until", "while"};
+  std::vector<std::string> words = {"and", "break",    "do",     "else", "elseif", "end",   "false",
+                                    "for", "function", "if",     "in",   "local",  "nil",   "not",
+                                    "or",  "repeat",   "return", "then", "true",   "until", "while"};
   lua_pushglobaltable(L);
   add_table_members(L, words, false);
   return words;
@@ -180,7 +182,8 @@ Completion candidates(lua_State* L, const Library& library, const Context& conte
     return result;
   }
   const auto* table = context.key_position ? table_around(L, library, context.brackets) : nullptr;
-  for (std::size_t i = 0; table && i < table->keys.size(); ++i) result.words.push_back(table->keys[i].name + " = ");
+  for (std::size_t i = 0; table && i < table->keys.size(); ++i)
+    result.words.push_back(table->keys[i].name + " = ");
   const bool keys_only = table && (table->items.empty() || context.word.empty());
   if (keys_only && !result.words.empty()) return result;
   const auto names = free_names(L);

@@ -8,8 +8,9 @@ namespace dotyk::script {
 namespace {
 
 bool is_keyword(const std::string& word) {
-  static const char* const words[] = {"and", "break", "do", "else", "elseif", "end", "false", "for", "function", "goto", "if", "in",
-                                      "local", "nil", "not", "or", "repeat", "return", "then", "true", "until", "while"};
+  static const char* const words[] = {"and",      "break",  "do",   "else", "elseif", "end",  "false", "for",
+                                      "function", "goto",   "if",   "in",   "local",  "nil",  "not",   "or",
+                                      "repeat",   "return", "then", "true", "until",  "while"};
   return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
@@ -146,7 +147,8 @@ class Reader {
   }
 
   void equals() {
-    const bool is_key = fresh_ && chain_.size() == 1 && !context_.brackets.empty() && context_.brackets.back().sign == '{';
+    const bool is_key =
+        fresh_ && chain_.size() == 1 && !context_.brackets.empty() && context_.brackets.back().sign == '{';
     const auto key = is_key ? chain_.front().text : "";
     operation(1);
     key_ = key;
@@ -186,8 +188,8 @@ class Reader {
   Context context_;
   std::size_t at_ = 0;
   Chain chain_;
-  std::string key_;             // the key whose value is being read
-  bool joined_ = false;         // a '.' or ':' has just been read
+  std::string key_;      // the key whose value is being read
+  bool joined_ = false;  // a '.' or ':' has just been read
   Step::Kind joint_ = Step::field;
   bool after_opening_ = false;  // a key may follow
   bool fresh_ = false;          // the chain began where a key may stand

@@ -23,14 +23,14 @@ struct Bracket {
 };
 
 struct Context {
-  std::size_t start = 0;         // where the word at the cursor begins
-  std::string word;              // what is there of it
-  Chain chain;                   // what the word belongs to: chain.word, chain:word
-  Step::Kind joint = Step::name; // name (nothing before it), field or method
-  std::vector<Bracket> brackets; // the open ones, outermost first
-  bool in_string = false;        // the cursor stands in a string, which begins at start
-  bool key_position = false;     // the word may be a key: after { or ,
-  std::string value_of;          // the key whose value is being written
+  std::size_t start = 0;          // where the word at the cursor begins
+  std::string word;               // what is there of it
+  Chain chain;                    // what the word belongs to: chain.word, chain:word
+  Step::Kind joint = Step::name;  // name (nothing before it), field or method
+  std::vector<Bracket> brackets;  // the open ones, outermost first
+  bool in_string = false;         // the cursor stands in a string, which begins at start
+  bool key_position = false;      // the word may be a key: after { or ,
+  std::string value_of;           // the key whose value is being written
 };
 
 Context read_context(const std::string& text);

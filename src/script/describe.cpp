@@ -8,9 +8,10 @@ namespace dotyk::script {
 namespace {
 
 constexpr std::pair<const char*, Kind> kinds[] = {
-    {"number", Kind::number}, {"integer", Kind::integer},   {"boolean", Kind::boolean}, {"string", Kind::string},
-    {"choice", Kind::choice}, {"vector", Kind::vector},     {"matrix", Kind::matrix},   {"field", Kind::field},
-    {"function", Kind::function}, {"object", Kind::object}, {"list", Kind::list},       {"table", Kind::table},
+    {"number", Kind::number}, {"integer", Kind::integer}, {"boolean", Kind::boolean},
+    {"string", Kind::string}, {"choice", Kind::choice},   {"vector", Kind::vector},
+    {"matrix", Kind::matrix}, {"field", Kind::field},     {"function", Kind::function},
+    {"object", Kind::object}, {"list", Kind::list},       {"table", Kind::table},
     {"either", Kind::either}, {"any", Kind::any}};
 
 std::string text_field(lua_State* L, int index, const char* name) {
@@ -48,10 +49,17 @@ void number_field(lua_State* L, int index, const char* name, Set&& set) {
 
 void read_default(lua_State* L, int index, Key& key) {
   switch (lua_getfield(L, index, "default")) {
-    case LUA_TNUMBER: key.fallback(static_cast<double>(lua_tonumber(L, -1))); break;
-    case LUA_TBOOLEAN: key.fallback(static_cast<bool>(lua_toboolean(L, -1))); break;
-    case LUA_TSTRING: key.fallback(lua_tostring(L, -1)); break;
-    default: break;
+    case LUA_TNUMBER:
+      key.fallback(static_cast<double>(lua_tonumber(L, -1)));
+      break;
+    case LUA_TBOOLEAN:
+      key.fallback(static_cast<bool>(lua_toboolean(L, -1)));
+      break;
+    case LUA_TSTRING:
+      key.fallback(lua_tostring(L, -1));
+      break;
+    default:
+      break;
   }
   lua_pop(L, 1);
 }

@@ -101,29 +101,41 @@ std::string range_text(const Key& key) {
 std::string Key::expected() const {
   const bool is_positive = least == 0 && least_excluded && std::isinf(greatest);
   switch (kind) {
-    case Kind::number: return is_positive ? "a positive number" : "a number" + range_text(*this);
-    case Kind::integer: return is_positive ? "a positive integer" : "an integer" + range_text(*this);
-    case Kind::boolean: return "true or false";
-    case Kind::string: return "a string";
-    case Kind::choice: return join(choices, "or", "\"");
-    case Kind::vector: return "a table of " + count_text(*this, "number");
-    case Kind::matrix: return "a table of rows, each a table of numbers";
-    case Kind::field: return "a number, a table of numbers or a function of the coordinates";
-    case Kind::function: return "a function";
-    case Kind::object: return with_article(type);
+    case Kind::number:
+      return is_positive ? "a positive number" : "a number" + range_text(*this);
+    case Kind::integer:
+      return is_positive ? "a positive integer" : "an integer" + range_text(*this);
+    case Kind::boolean:
+      return "true or false";
+    case Kind::string:
+      return "a string";
+    case Kind::choice:
+      return join(choices, "or", "\"");
+    case Kind::vector:
+      return "a table of " + count_text(*this, "number");
+    case Kind::matrix:
+      return "a table of rows, each a table of numbers";
+    case Kind::field:
+      return "a number, a table of numbers or a function of the coordinates";
+    case Kind::function:
+      return "a function";
+    case Kind::object:
+      return with_article(type);
     case Kind::list: {
       const auto& item = items.front();
       if (item.kind == Kind::object) return "a table of " + count_text(*this, item.type);
       if (item.kind == Kind::integer) return "a table of " + count_text(*this, "integer");
       return "a table of " + count_text(*this, "item") + ", each " + item.expected();
     }
-    case Kind::table: return "a table";
+    case Kind::table:
+      return "a table";
     case Kind::either: {
       std::vector<std::string> kinds;
       for (const auto& one : keys) kinds.push_back(one.expected());
       return join(kinds, "or", "");
     }
-    case Kind::any: break;
+    case Kind::any:
+      break;
   }
   return "a value";
 }
@@ -150,7 +162,8 @@ std::string Descriptor::signature() const {
     if (!std::holds_alternative<std::monostate>(key.default_value)) text += " = " + key.default_text;
   };
   if (takes_table()) {
-    for (const auto& item : arguments[0].items) text += item.name.empty() ? item.type + ", …" : item.name + ", …";
+    for (const auto& item : arguments[0].items)
+      text += item.name.empty() ? item.type + ", …" : item.name + ", …";
     for (const auto& key : arguments[0].keys) add(key);
     return name + "{ " + text + " }";
   }
@@ -175,15 +188,29 @@ Key make(std::string name, Kind kind, std::string help) {
 }
 }  // namespace
 
-Key number(std::string name, std::string help) { return make(std::move(name), Kind::number, std::move(help)); }
+Key number(std::string name, std::string help) {
+  return make(std::move(name), Kind::number, std::move(help));
+}
 Key positive(std::string name, std::string help) { return number(std::move(name), std::move(help)).above(0); }
-Key integer(std::string name, std::string help) { return make(std::move(name), Kind::integer, std::move(help)); }
-Key boolean(std::string name, std::string help) { return make(std::move(name), Kind::boolean, std::move(help)); }
-Key string(std::string name, std::string help) { return make(std::move(name), Kind::string, std::move(help)); }
-Key vector(std::string name, std::string help) { return make(std::move(name), Kind::vector, std::move(help)); }
-Key matrix(std::string name, std::string help) { return make(std::move(name), Kind::matrix, std::move(help)); }
+Key integer(std::string name, std::string help) {
+  return make(std::move(name), Kind::integer, std::move(help));
+}
+Key boolean(std::string name, std::string help) {
+  return make(std::move(name), Kind::boolean, std::move(help));
+}
+Key string(std::string name, std::string help) {
+  return make(std::move(name), Kind::string, std::move(help));
+}
+Key vector(std::string name, std::string help) {
+  return make(std::move(name), Kind::vector, std::move(help));
+}
+Key matrix(std::string name, std::string help) {
+  return make(std::move(name), Kind::matrix, std::move(help));
+}
 Key field(std::string name, std::string help) { return make(std::move(name), Kind::field, std::move(help)); }
-Key function(std::string name, std::string help) { return make(std::move(name), Kind::function, std::move(help)); }
+Key function(std::string name, std::string help) {
+  return make(std::move(name), Kind::function, std::move(help));
+}
 Key any(std::string name, std::string help) { return make(std::move(name), Kind::any, std::move(help)); }
 
 Key choice(std::string name, std::vector<std::string> choices, std::string help) {

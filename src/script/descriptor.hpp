@@ -14,19 +14,19 @@ class Call;
 
 // What a value given by a script may be.
 enum class Kind {
-  number,    // finite, within [least, greatest]
-  integer,   // a number without a fraction
+  number,   // finite, within [least, greatest]
+  integer,  // a number without a fraction
   boolean,
   string,
-  choice,    // one of a few strings
-  vector,    // a table of numbers
-  matrix,    // a table of tables of numbers
-  field,     // a number or a vector, or a function of the coordinates
+  choice,  // one of a few strings
+  vector,  // a table of numbers
+  matrix,  // a table of tables of numbers
+  field,   // a number or a vector, or a function of the coordinates
   function,
-  object,    // one of dotyk's own: a body, a mesh, …
-  list,      // a table of items of one kind
-  table,     // a table of keys, and perhaps of items
-  either,    // one of several kinds
+  object,  // one of dotyk's own: a body, a mesh, …
+  list,    // a table of items of one kind
+  table,   // a table of keys, and perhaps of items
+  either,  // one of several kinds
   any
 };
 
@@ -47,22 +47,22 @@ struct Key {
   std::size_t fewest = 0;  // entries of a vector, items of a list or table
   std::size_t most = std::numeric_limits<std::size_t>::max();
   std::vector<std::string> choices;
-  std::string type;       // of an object
-  std::vector<Key> keys;  // of a table; the kinds of an either
-  std::vector<Key> items; // one entry describing each item of a list or table
+  std::string type;        // of an object
+  std::vector<Key> keys;   // of a table; the kinds of an either
+  std::vector<Key> items;  // one entry describing each item of a list or table
 
-  Key& required();                                  // absent is an error
-  Key& unit(std::string text);                      // "stress", "length"
-  Key& fallback(double value);                      // taken when absent, and shown by help
+  Key& required();              // absent is an error
+  Key& unit(std::string text);  // "stress", "length"
+  Key& fallback(double value);  // taken when absent, and shown by help
   Key& fallback(bool value);
   Key& fallback(const char* value);
-  Key& otherwise(std::string text);                 // what happens when absent, in words
-  Key& above(double value);                         // value < x
-  Key& at_least(double value);                      // value <= x
+  Key& otherwise(std::string text);  // what happens when absent, in words
+  Key& above(double value);          // value < x
+  Key& at_least(double value);       // value <= x
   Key& within(double least_value, double greatest_value);
-  Key& count(std::size_t exactly);                  // entries or items
+  Key& count(std::size_t exactly);  // entries or items
   Key& count(std::size_t fewest_count, std::size_t most_count);
-  Key& with(Key item);                              // a table that takes items as well as keys
+  Key& with(Key item);  // a table that takes items as well as keys
 
   // "a positive number", "one of "strain" or "stress"", "a body": completes "expected …".
   std::string expected() const;
@@ -70,11 +70,11 @@ struct Key {
 
 // A Lua callable: its text, its arguments and the C++ function behind it.
 struct Descriptor {
-  std::string name = {};            // "dotyk.material", or "body:part" for a method
-  std::string help = {};            // a paragraph
-  std::string example = {};         // Lua that compiles
-  std::vector<Key> arguments = {};  // in order; or a single unnamed table
-  std::string returns = {};         // type of the result, for completion after a call, and for help
+  std::string name = {};               // "dotyk.material", or "body:part" for a method
+  std::string help = {};               // a paragraph
+  std::string example = {};            // Lua that compiles
+  std::vector<Key> arguments = {};     // in order; or a single unnamed table
+  std::string returns = {};            // type of the result, for completion after a call, and for help
   std::function<int(Call&)> run = {};  // returns the number of results pushed
 
   std::string short_name() const;  // "material", "part": what errors begin with

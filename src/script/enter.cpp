@@ -65,7 +65,8 @@ int index_object(lua_State* L) {
   const auto& type = type_upvalue(L);
   return guarded(L, type.name, [&] {
     const auto object = checked_object(L, 1, type.name.c_str());
-    if (lua_type(L, 2) != LUA_TSTRING) throw ArgumentError(describe_value(L, 2) + " names no field or method of " + with_article(type.name));
+    if (lua_type(L, 2) != LUA_TSTRING)
+      throw ArgumentError(describe_value(L, 2) + " names no field or method of " + with_article(type.name));
     lua_pushvalue(L, 2);
     if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
     const std::string name = lua_tostring(L, 2);

@@ -34,7 +34,8 @@ void Function::call(int count, int results) const {
   if (lua_type(L_, -1) == LUA_TSTRING && !interrupted()) {
     auto place = position(L_);
     if (!place.empty()) place = " at " + place.substr(0, place.size() - 2);
-    const auto what = key_.empty() ? "in the function given to " + callee_ : "in '" + key_ + "' of " + callee_;
+    const auto what =
+        key_.empty() ? "in the function given to " + callee_ : "in '" + key_ + "' of " + callee_;
     lua_pushfstring(L_, "%s (%s%s)", lua_tostring(L_, -1), what.c_str(), place.c_str());
   }
   lua_error(L_);

@@ -85,7 +85,8 @@ std::string help_text(const Library& library, const Type& type) {
   auto out = type.name + "\n" + wrapped(type.help, "  ");
   if (!type.fields.empty()) out += "\n  Fields:\n";
   for (const auto& field : type.fields) {
-    out += "  " + summary_line(field.name, field.help + (field.units.empty() ? "" : " [" + field.units + "]"));
+    out +=
+        "  " + summary_line(field.name, field.help + (field.units.empty() ? "" : " [" + field.units + "]"));
   }
   if (!type.methods.empty()) out += "\n  Methods:\n";
   for (const auto& method : type.methods) out += "  " + summary_line(method.name, method.help);
@@ -100,7 +101,8 @@ std::string help_text(const Library& library, const Module& module) {
   auto out = module.name + "\n" + wrapped(module.help, "  ") + "\n";
   for (const auto& one : library.functions()) {
     const auto dot = one.name.rfind('.');
-    if (dot != std::string::npos && one.name.substr(0, dot) == module.name) out += summary_line(one.name, one.help);
+    if (dot != std::string::npos && one.name.substr(0, dot) == module.name)
+      out += summary_line(one.name, one.help);
   }
   for (const auto& inner : library.modules()) {
     if (inner.name.rfind(module.name + ".", 0) == 0) out += summary_line(inner.name, inner.help);
@@ -120,7 +122,8 @@ std::string help_index(const Library& library) {
 
 std::vector<std::string> missing_help(const Library& library) {
   std::vector<std::string> missing;
-  const auto check_keys = [&](const auto& self, const std::string& owner, const std::vector<Key>& keys) -> void {
+  const auto check_keys = [&](const auto& self, const std::string& owner,
+                              const std::vector<Key>& keys) -> void {
     for (const auto& key : keys) {
       const auto name = owner + ", '" + key.name + "'";
       if (key.help.empty()) missing.push_back(name + ": no help");
@@ -145,7 +148,8 @@ std::vector<std::string> missing_help(const Library& library) {
       if (field.help.empty()) missing.push_back(type.name + "." + field.name + ": no help");
     }
     for (const auto& method : type.methods) {
-      if (method.owner() != type.name) missing.push_back(method.name + ": a method of " + type.name + " by another name");
+      if (method.owner() != type.name)
+        missing.push_back(method.name + ": a method of " + type.name + " by another name");
       check(method);
     }
   }

@@ -67,9 +67,7 @@ int resume(lua_State* L) {
   return resumed(L, thread ? thread : L);
 }
 
-int call_wrapped(lua_State* L) {
-  return resumed(L, lua_tothread(L, lua_upvalueindex(2)));
-}
+int call_wrapped(lua_State* L) { return resumed(L, lua_tothread(L, lua_upvalueindex(2))); }
 
 // coroutine.wrap: the function Lua makes has its thread as first upvalue.
 int wrap(lua_State* L) {

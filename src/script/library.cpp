@@ -28,9 +28,7 @@ const TypeField* Type::field(const std::string& field_name) const {
   return nullptr;
 }
 
-Library::Library(lua_State* L) : L_(L) {
-  *static_cast<Library**>(lua_getextraspace(L)) = this;
-}
+Library::Library(lua_State* L) : L_(L) { *static_cast<Library**>(lua_getextraspace(L)) = this; }
 
 Library& Library::of(lua_State* L) { return **static_cast<Library**>(lua_getextraspace(L)); }
 

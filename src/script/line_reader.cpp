@@ -32,7 +32,9 @@ char* next_word(const char*, int state) {
   return strdup(session.found.words[next++].c_str());
 }
 
-void look() { session.found = (*session.complete)(std::string(rl_line_buffer, static_cast<std::size_t>(rl_point))); }
+void look() {
+  session.found = (*session.complete)(std::string(rl_line_buffer, static_cast<std::size_t>(rl_point)));
+}
 
 // Inside a string a word is a whole path; elsewhere a name.
 char* word_breaks() {
@@ -87,7 +89,8 @@ void abandon() {
 
 }  // namespace
 
-Read read_edited(const char* prompt, std::string& line, const std::function<Completion(const std::string&)>& complete_line) {
+Read read_edited(const char* prompt, std::string& line,
+                 const std::function<Completion(const std::string&)>& complete_line) {
   set_up();
   session.complete = &complete_line;
   session.done = session.ended = false;

@@ -11,7 +11,8 @@ enum class Read { line, cleared, end };  // cleared: Ctrl-C
 
 // Reads a line with readline: editing, history, completion. `complete_line` gets
 // the text before the cursor. Ctrl-C clears what was typed.
-Read read_edited(const char* prompt, std::string& line, const std::function<Completion(const std::string&)>& complete_line);
+Read read_edited(const char* prompt, std::string& line,
+                 const std::function<Completion(const std::string&)>& complete_line);
 
 // Reads a line as it comes.
 Read read_plain(std::string& line);

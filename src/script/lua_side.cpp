@@ -134,10 +134,10 @@ void load_lua_side(lua_State* L) {
   lua_newtable(L);
   lua_setfield(L, LUA_REGISTRYINDEX, "dotyk.loaded");
   lua_newtable(L);
-  static const luaL_Reg functions[] = {{"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
-                                       {"progress", progress}, {"clock", clock},  {"type_name", type_name},   {"describe", describe},
-                                       {"signature", signature},
-                                       {nullptr, nullptr}};
+  static const luaL_Reg functions[] = {
+      {"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
+      {"progress", progress}, {"clock", clock},           {"type_name", type_name},
+      {"describe", describe}, {"signature", signature},   {nullptr, nullptr}};
   luaL_setfuncs(L, functions, 0);
   lua_pushvalue(L, -1);
   lua_pushcclosure(L, load, 1);
@@ -150,7 +150,8 @@ void load_lua_side(lua_State* L) {
   if (lua_pcall(L, 1, 0, 0) == LUA_OK) return;
   const std::string reason = luaL_tolstring(L, -1, nullptr);
   lua_settop(L, 0);
-  throw std::runtime_error("the Lua files of dotyk, in " + std::string(lua_folder()) + ", cannot be loaded: " + reason);
+  throw std::runtime_error("the Lua files of dotyk, in " + std::string(lua_folder()) +
+                           ", cannot be loaded: " + reason);
 }
 
 }  // namespace dotyk::script

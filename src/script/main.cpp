@@ -71,7 +71,8 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
   }
   if (command.prompt && !command.file && !command.code) return misuse("-i needs a file");
   if (!command.file && !command.code) command.prompt = true;
-  command.arguments.assign(words.begin() + static_cast<std::ptrdiff_t>(std::min(i, words.size())), words.end());
+  command.arguments.assign(words.begin() + static_cast<std::ptrdiff_t>(std::min(i, words.size())),
+                           words.end());
   return std::nullopt;
 }
 

@@ -42,8 +42,8 @@ std::string nearest(std::string_view name, const std::vector<std::string>& candi
     const int slips = edit_distance(name, candidate);
     const int allowed = std::max(1, static_cast<int>(std::min(name.size(), candidate.size())) / 3);
     const bool single = name.size() < 2 || candidate.size() < 2;
-    const bool near = (slips <= allowed && (!single || slips == 0)) || begins(candidate, name) ||
-                      begins(name, candidate);
+    const bool near =
+        (slips <= allowed && (!single || slips == 0)) || begins(candidate, name) || begins(name, candidate);
     if (near && slips < best_slips) {
       best = candidate;
       best_slips = slips;
@@ -52,8 +52,7 @@ std::string nearest(std::string_view name, const std::vector<std::string>& candi
   return best;
 }
 
-std::string join(const std::vector<std::string>& names, std::string_view last,
-                 std::string_view quote) {
+std::string join(const std::vector<std::string>& names, std::string_view last, std::string_view quote) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i > 0) text += i + 1 == names.size() ? " " + std::string(last) + " " : ", ";

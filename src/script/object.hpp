@@ -21,7 +21,7 @@ void push_object(lua_State* L, std::shared_ptr<void> pointer, const char* type);
 Holder* object_at(lua_State* L, int index, const char* type);
 
 template <class T>
-  requires requires { Wrapped<std::remove_const_t<T>>::name; }
+requires requires { Wrapped<std::remove_const_t<T>>::name; }
 void push(lua_State* L, const std::shared_ptr<T>& pointer) {
   using Plain = std::remove_const_t<T>;
   push_object(L, std::const_pointer_cast<Plain>(pointer), Wrapped<Plain>::name);

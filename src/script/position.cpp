@@ -22,14 +22,18 @@ std::string position(lua_State* L, const std::string& callee) {
 std::string describe_value(lua_State* L, int index) {
   switch (lua_type(L, index)) {
     case LUA_TNONE:
-    case LUA_TNIL: return "nil";
-    case LUA_TBOOLEAN: return lua_toboolean(L, index) ? "true" : "false";
-    case LUA_TNUMBER: return "the number " + number_text(lua_tonumber(L, index));
+    case LUA_TNIL:
+      return "nil";
+    case LUA_TBOOLEAN:
+      return lua_toboolean(L, index) ? "true" : "false";
+    case LUA_TNUMBER:
+      return "the number " + number_text(lua_tonumber(L, index));
     case LUA_TSTRING: {
       const std::string text = lua_tostring(L, index);
       return "the string \"" + (text.size() > 32 ? text.substr(0, 29) + "…" : text) + "\"";
     }
-    default: break;
+    default:
+      break;
   }
   std::string name = luaL_typename(L, index);
   const int kind = luaL_getmetafield(L, index, "__name");

@@ -22,7 +22,9 @@ const auto chunk_name = std::string("=") + prompt_chunk;
 class Prompt {
  public:
   explicit Prompt(Interpreter& interpreter)
-      : interpreter_(interpreter), L_(interpreter.state()), terminal_(isatty(STDIN_FILENO) && isatty(STDOUT_FILENO)) {}
+      : interpreter_(interpreter),
+        L_(interpreter.state()),
+        terminal_(isatty(STDIN_FILENO) && isatty(STDOUT_FILENO)) {}
 
   int run() {
     if (terminal_) {
@@ -56,7 +58,8 @@ class Prompt {
       return found;
     };
     std::fflush(stdout);
-    const auto read = terminal_ ? read_edited(input.empty() ? "> " : ">> ", line, complete_line) : read_plain(line);
+    const auto read =
+        terminal_ ? read_edited(input.empty() ? "> " : ">> ", line, complete_line) : read_plain(line);
     if (read != Read::line) return read;
     if (terminal_) add_to_history(line);
     input += (input.empty() ? "" : "\n") + line;
@@ -69,7 +72,8 @@ class Prompt {
 
   static bool ends_early(const std::string& message) {
     static const std::string mark = "<eof>";
-    return message.size() >= mark.size() && message.compare(message.size() - mark.size(), mark.size(), mark) == 0;
+    return message.size() >= mark.size() &&
+           message.compare(message.size() - mark.size(), mark.size(), mark) == 0;
   }
 
   // Compiles the text; the function, or else the message, is left on the stack.

@@ -26,8 +26,8 @@ struct Record {
   std::vector<Entry> entries;
 };
 
-using Value = std::variant<double, long long, bool, std::string, std::vector<double>, Record,
-                           std::vector<Record>>;
+using Value =
+    std::variant<double, long long, bool, std::string, std::vector<double>, Record, std::vector<Record>>;
 
 struct Entry {
   std::string name;
@@ -36,7 +36,9 @@ struct Entry {
 
 inline void push(lua_State* L, bool value) { lua_pushboolean(L, value); }
 template <std::integral T>
-void push(lua_State* L, T value) { lua_pushinteger(L, static_cast<lua_Integer>(value)); }
+void push(lua_State* L, T value) {
+  lua_pushinteger(L, static_cast<lua_Integer>(value));
+}
 inline void push(lua_State* L, double value) { lua_pushnumber(L, value); }
 inline void push(lua_State* L, const char* value) { lua_pushstring(L, value); }
 inline void push(lua_State* L, const std::string& value) { lua_pushlstring(L, value.data(), value.size()); }
@@ -44,7 +46,7 @@ void push(lua_State* L, const Record& record);
 
 // An object; see object.hpp.
 template <class T>
-  requires requires { Wrapped<std::remove_const_t<T>>::name; }
+requires requires { Wrapped<std::remove_const_t<T>>::name; }
 void push(lua_State* L, const std::shared_ptr<T>& pointer);
 
 // A list.

@@ -35,7 +35,8 @@ int unknown_global(lua_State* L) {
     auto known = string_keys(L, 1);
     add_locals(L, known);
     const auto near = nearest(name, known);
-    throw std::runtime_error("unknown variable '" + name + "'" + (near.empty() ? "" : ", did you mean '" + near + "'?"));
+    throw std::runtime_error("unknown variable '" + name + "'" +
+                             (near.empty() ? "" : ", did you mean '" + near + "'?"));
   });
 }
 

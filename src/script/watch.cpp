@@ -28,15 +28,17 @@ Watch::~Watch() { clear_progress(); }
 void Watch::phase(const std::string& what) { show_progress(work_ + ": " + what + " …"); }
 
 void Watch::iteration(const IterationInfo& info) {
-  const auto line = text(work_, ": iteration ", info.iteration, ", ", info.active, " active, ", info.changed, " changed, ", info.stick,
-                         " stick, ", info.slip, " slip, residual ", info.residual, ", ", info.seconds, " s");
+  const auto line =
+      text(work_, ": iteration ", info.iteration, ", ", info.active, " active, ", info.changed, " changed, ",
+           info.stick, " stick, ", info.slip, " slip, residual ", info.residual, ", ", info.seconds, " s");
   if (verbose_) {
     clear_progress();
     std::fprintf(stderr, "%s\n", line.c_str());
   } else {
     show_progress(line);
   }
-  if (!on_iteration_.empty() && !on_iteration_.front()(info.iteration, iteration_record(info))) refused_ = true;
+  if (!on_iteration_.empty() && !on_iteration_.front()(info.iteration, iteration_record(info)))
+    refused_ = true;
 }
 
 bool Watch::stop() { return refused_ || interrupted(); }

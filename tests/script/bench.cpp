@@ -7,56 +7,65 @@ Bench::Bench() {
   library.type<Other>("Something else.");
   library.type<Toy>("A toy.")
       .field("name", "what it is called", [](const Toy& toy) { return toy.name; })
-      .field("size", "how large it is", [](const Toy& toy) { return toy.size; }, "length")
-      .field("facts", "more about it", [](const Toy& toy) { return Record{"facts", {{"size", toy.size}, {"good", true}}}; })
+      .field(
+          "size", "how large it is", [](const Toy& toy) { return toy.size; }, "length")
+      .field("facts", "more about it",
+             [](const Toy& toy) {
+               return Record{"facts", {{"size", toy.size}, {"good", true}}};
+             })
       .method({.name = "toy:grow",
                .help = "Makes it larger.",
                .example = "toy:grow(2)",
                .arguments = {key::positive("factor", "how much").required()},
                .returns = "toy",
-               .run = [](Call& call) {
-                 call.self<Toy>()->size *= call.number("factor");
-                 return call.give_self();
-               }})
+               .run =
+                   [](Call& call) {
+                     call.self<Toy>()->size *= call.number("factor");
+                     return call.give_self();
+                   }})
       .text([](const Toy& toy) { return "toy '" + toy.name + "'"; });
-  library.function({.name = "dotyk.test.other", .help = "Makes an other.", .example = "dotyk.test.other()", .returns = "other",
+  library.function({.name = "dotyk.test.other",
+                    .help = "Makes an other.",
+                    .example = "dotyk.test.other()",
+                    .returns = "other",
                     .run = [](Call& call) { return call.give(std::make_shared<Other>()); }});
-  library.function({.name = "dotyk.test.toy",
-                    .help = "Makes a toy.",
-                    .example = "dotyk.test.toy{ name = 'a' }",
-                    .arguments = {key::table({key::string("name", "what it is called").required(),
-                                              key::positive("size", "how large it is").unit("length").fallback(1.0),
-                                              key::choice("colour", {"red", "green", "blue"}, "its colour").fallback("red"),
-                                              key::integer("count", "how many").at_least(0),
-                                              key::boolean("old", "is it old").fallback(false),
-                                              key::vector("at", "where it is").count(2, 3),
-                                              key::matrix("stiffness", "how stiff it is"),
-                                              key::list("cells", key::integer("", "").at_least(1), "cells").count(2, 3),
-                                              key::field("weight", "how heavy it is"),
-                                              key::object<Toy>("parent", "whose part it is"),
-                                              key::table("left", {key::number("deflection", "how far")}, "its left end"),
-                                              key::list("series", key::table("", {key::string("name", "label").required()}, "one"), "series"),
-                                              key::either("error", {key::choice("", {"energy", "pressure"}, ""), key::function("", "")}, "a measure")})},
-                    .returns = "toy",
-                    .run = [this](Call& call) {
-                      auto toy = std::make_shared<Toy>(Toy{call.text("name"), call.number("size")});
-                      text = call.text("colour");
-                      numbers = {call.boolean("old") ? 1.0 : 0.0};
-                      if (call.has("weight")) {
-                        const auto weight = call.field("weight", 2);
-                        const double point[] = {0.5, 1};
-                        numbers = weight(point);
-                      }
-                      if (call.has("at")) numbers = call.vector("at");
-                      if (call.has("left")) numbers = {call.table("left").number("deflection")};
-                      if (call.has("series")) text = call.tables("series").back().text("name");
-                      toys.push_back(toy);
-                      return call.give(toy);
-                    }});
+  library.function(
+      {.name = "dotyk.test.toy",
+       .help = "Makes a toy.",
+       .example = "dotyk.test.toy{ name = 'a' }",
+       .arguments = {key::table(
+           {key::string("name", "what it is called").required(),
+            key::positive("size", "how large it is").unit("length").fallback(1.0),
+            key::choice("colour", {"red", "green", "blue"}, "its colour").fallback("red"),
+            key::integer("count", "how many").at_least(0), key::boolean("old", "is it old").fallback(false),
+            key::vector("at", "where it is").count(2, 3), key::matrix("stiffness", "how stiff it is"),
+            key::list("cells", key::integer("", "").at_least(1), "cells").count(2, 3),
+            key::field("weight", "how heavy it is"), key::object<Toy>("parent", "whose part it is"),
+            key::table("left", {key::number("deflection", "how far")}, "its left end"),
+            key::list("series", key::table("", {key::string("name", "label").required()}, "one"), "series"),
+            key::either("error", {key::choice("", {"energy", "pressure"}, ""), key::function("", "")},
+                        "a measure")})},
+       .returns = "toy",
+       .run = [this](Call& call) {
+         auto toy = std::make_shared<Toy>(Toy{call.text("name"), call.number("size")});
+         text = call.text("colour");
+         numbers = {call.boolean("old") ? 1.0 : 0.0};
+         if (call.has("weight")) {
+           const auto weight = call.field("weight", 2);
+           const double point[] = {0.5, 1};
+           numbers = weight(point);
+         }
+         if (call.has("at")) numbers = call.vector("at");
+         if (call.has("left")) numbers = {call.table("left").number("deflection")};
+         if (call.has("series")) text = call.tables("series").back().text("name");
+         toys.push_back(toy);
+         return call.give(toy);
+       }});
   library.function({.name = "dotyk.test.box",
                     .help = "Holds two toys.",
                     .example = "dotyk.test.box{ a, b }",
-                    .arguments = {key::table({key::number("gap", "between them").fallback(0.0)}).with(key::object<Toy>("toys", "the toys").count(2))},
+                    .arguments = {key::table({key::number("gap", "between them").fallback(0.0)})
+                                      .with(key::object<Toy>("toys", "the toys").count(2))},
                     .run = [this](Call& call) {
                       numbers.clear();
                       for (const auto& toy : call.items<Toy>()) numbers.push_back(toy->size);
@@ -66,7 +75,9 @@ Bench::Bench() {
                     .help = "Calls a function.",
                     .example = "dotyk.test.each(print)",
                     .arguments = {key::function("f", "called").required()},
-                    .run = [](Call& call) { return call.give(call.function("f")(1, Record{"", {{"residual", 0.5}}})); }});
+                    .run = [](Call& call) {
+                      return call.give(call.function("f")(1, Record{"", {{"residual", 0.5}}}));
+                    }});
   library.function({.name = "dotyk.test.fail",
                     .help = "Throws.",
                     .example = "dotyk.test.fail('memory')",

@@ -14,7 +14,8 @@ using Words = std::vector<std::string>;
 
 TEST_CASE("completion offers what fits") {
   Bench bench;
-  REQUIRE(bench.error("a = dotyk.test.toy{ name = 'a' }\nt = { alpha = 1, beta = { gamma = 2 } }\ns = 'text'") == "");
+  REQUIRE(bench.error(
+              "a = dotyk.test.toy{ name = 'a' }\nt = { alpha = 1, beta = { gamma = 2 } }\ns = 'text'") == "");
   const auto words = [&](const std::string& text) { return complete(bench.interpreter.state(), text).words; };
   CHECK(words("dotyk.te") == Words{"test"});
   CHECK(words("x = dotyk.test.") == Words{"box", "each", "fail", "other", "toy"});
@@ -42,13 +43,15 @@ TEST_CASE("completion inside a table argument") {
   CHECK(words("dotyk.test.toy{ colour = 'gr") == Words{"green"});
   CHECK(words("dotyk.test.toy{ error = 'en") == Words{"energy"});
   CHECK(words("dotyk.test.toy{ size = prin") == Words{"print"});
-  CHECK(words("dotyk.test.box{ ") .front() == "gap = ");
+  CHECK(words("dotyk.test.box{ ").front() == "gap = ");
   CHECK(complete(bench.interpreter.state(), "io.open('/et").file_names);
   CHECK(complete(bench.interpreter.state(), "dotyk.test.toy{ name = 'x").file_names);
 }
 
 TEST_CASE("reading unfinished code never stumbles") {
-  const std::string code = "local x <const> = f{ a = { 1, 'x\\'', [[ long ]] }, b = g(1).c:d \"s\" } -- end\nfor i = 1, 2 do t[i] = ..5 ::l:: end }}]) '";
+  const std::string code =
+      "local x <const> = f{ a = { 1, 'x\\'', [[ long ]] }, b = g(1).c:d \"s\" } -- end\nfor i = 1, 2 do t[i] "
+      "= ..5 ::l:: end }}]) '";
   for (std::size_t length = 0; length <= code.size(); ++length) {
     const auto context = read_context(code.substr(0, length));
     CHECK(context.start <= length);

@@ -30,7 +30,8 @@ TEST_CASE("every example compiles") {
 TEST_CASE("types that descriptors name exist") {
   Interpreter interpreter;
   const auto& library = interpreter.library();
-  const auto check_keys = [&](const auto& self, const std::string& owner, const std::vector<Key>& keys) -> void {
+  const auto check_keys = [&](const auto& self, const std::string& owner,
+                              const std::vector<Key>& keys) -> void {
     for (const auto& key : keys) {
       INFO(owner << ", " << key.name << ": type '" << key.type << "'");
       CHECK((key.kind != Kind::object || library.find_type(key.type)));
@@ -59,7 +60,8 @@ TEST_CASE("signatures and help texts") {
   CHECK(library.find("toy:grow")->signature() == "toy:grow(factor)");
   CHECK(library.find("box")->signature() == "dotyk.test.box{ toys, …, gap = 0 }");
   const auto text = help_text(*library.find("dotyk.test.toy"));
-  for (const char* part : {"Makes a toy.", "colour", "\"red\", \"green\" or \"blue\"; default \"red\"", "length", "Example:"}) {
+  for (const char* part :
+       {"Makes a toy.", "colour", "\"red\", \"green\" or \"blue\"; default \"red\"", "length", "Example:"}) {
     CHECK(text.find(part) != std::string::npos);
   }
   CHECK(help_text(library, *library.find_type("toy")).find("toy:grow") != std::string::npos);
@@ -73,12 +75,14 @@ TEST_CASE("callables written in Lua are checked like the others") {
   lua_pushliteral(L, "init");
   lua_call(L, 1, 1);
   lua_setglobal(L, "core");
-  CHECK(bench.error("core.describe{ name = 'dotyk.test.add', help = 'Adds.', example = 'dotyk.test.add{ a = 1 }',\n"
-                    "  keys = { { name = 'a', kind = 'number', help = 'one', required = true },\n"
-                    "           { name = 'b', kind = 'integer', help = 'other', default = 2 } },\n"
-                    "  run = function(t) return t.a + t.b end }\n"
-                    "local given = { a = 3 }\n"
-                    "assert(dotyk.test.add(given) == 5 and given.b == nil)") == "");
-  CHECK(bench.error("dotyk.test.add{ a = 3, c = 3 }") == "t.lua:1: add: unknown key 'c', expected 'a' or 'b'");
+  CHECK(bench.error(
+            "core.describe{ name = 'dotyk.test.add', help = 'Adds.', example = 'dotyk.test.add{ a = 1 }',\n"
+            "  keys = { { name = 'a', kind = 'number', help = 'one', required = true },\n"
+            "           { name = 'b', kind = 'integer', help = 'other', default = 2 } },\n"
+            "  run = function(t) return t.a + t.b end }\n"
+            "local given = { a = 3 }\n"
+            "assert(dotyk.test.add(given) == 5 and given.b == nil)") == "");
+  CHECK(bench.error("dotyk.test.add{ a = 3, c = 3 }") ==
+        "t.lua:1: add: unknown key 'c', expected 'a' or 'b'");
   CHECK(bench.interpreter.library().find("dotyk.test.add"));
 }

@@ -10,7 +10,8 @@ TEST_CASE("C++ exceptions become errors at the user's line") {
   CHECK(bench.error("\ndotyk.test.fail 'memory'") == "t.lua:2: fail: out of memory");
   CHECK(bench.error("\n\ndotyk.test.fail 'runtime'") == "t.lua:3: fail: it broke");
   CHECK(bench.error("dotyk.test.fail 'given'") == "t.lua:1: fail: given");
-  CHECK(bench.error("assert(not pcall(dotyk.test.fail, 'memory'))\nassert(not pcall(dotyk.test.fail, 'runtime'))\nassert(1 + 1 == 2)") == "");
+  CHECK(bench.error("assert(not pcall(dotyk.test.fail, 'memory'))\nassert(not pcall(dotyk.test.fail, "
+                    "'runtime'))\nassert(1 + 1 == 2)") == "");
 }
 
 TEST_CASE("a real failure to allocate is an error, not the end") {

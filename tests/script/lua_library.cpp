@@ -28,7 +28,10 @@ TEST_CASE("Lua errors run destructors") {
   };
   static bool gone = false;
   Bench bench;
-  bench.interpreter.library().function({.name = "dotyk.test.mark", .help = "Marks.", .example = "dotyk.test.mark()", .run = [](dotyk::script::Call& call) -> int {
+  bench.interpreter.library().function({.name = "dotyk.test.mark",
+                                        .help = "Marks.",
+                                        .example = "dotyk.test.mark()",
+                                        .run = [](dotyk::script::Call& call) -> int {
                                           const Mark mark{gone};
                                           return luaL_error(call.state(), "plain error");
                                         }});

@@ -25,7 +25,8 @@ TEST_CASE("nearest takes slips and beginnings, and nothing far") {
 }
 
 TEST_CASE("texts of unknown names") {
-  CHECK(unknown_name("key", "fricton", {"friction", "gap"}) == "unknown key 'fricton', did you mean 'friction'?");
+  CHECK(unknown_name("key", "fricton", {"friction", "gap"}) ==
+        "unknown key 'fricton', did you mean 'friction'?");
   CHECK(unknown_name("key", "zzz", {"friction", "gap"}) == "unknown key 'zzz', expected 'friction' or 'gap'");
   CHECK(unknown_name("key", "zzz", {}) == "unknown key 'zzz'");
 }

@@ -13,7 +13,8 @@ TEST_CASE("values are shown readably") {
   push_own_module(L, "show");
   lua_setglobal(L, "shown");
   const auto shows = [&](const std::string& value, const std::string& text) {
-    CHECK(bench.error("local text = shown.text(" + value + ")\nif text ~= " + text + " then error(text, 0) end") == "");
+    CHECK(bench.error("local text = shown.text(" + value + ")\nif text ~= " + text +
+                      " then error(text, 0) end") == "");
   };
   shows("3", "'3'");
   shows("0.1", "'0.1'");

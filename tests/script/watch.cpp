@@ -37,9 +37,11 @@ TEST_CASE("on_iteration sees each iteration and can stop") {
   Bench bench;
   add_work(bench);
   CHECK(bench.error("assert(dotyk.test.work{} == 5)") == "");
-  CHECK(bench.error("local seen = {}\nassert(dotyk.test.work{ on_iteration = function(k, info) seen[k] = info.residual end } == 5)\nassert(#seen == 5 and seen[2] == 0.5)") == "");
+  CHECK(bench.error("local seen = {}\nassert(dotyk.test.work{ on_iteration = function(k, info) seen[k] = "
+                    "info.residual end } == 5)\nassert(#seen == 5 and seen[2] == 0.5)") == "");
   CHECK(bench.error("assert(dotyk.test.work{ on_iteration = function(k) return k < 3 end } == 3)") == "");
-  CHECK(bench.error("\ndotyk.test.work{ on_iteration = function(k) error 'oh' end }") == "t.lua:2: oh (in 'on_iteration' of work at t.lua:2)");
+  CHECK(bench.error("\ndotyk.test.work{ on_iteration = function(k) error 'oh' end }") ==
+        "t.lua:2: oh (in 'on_iteration' of work at t.lua:2)");
 }
 
 TEST_CASE("Ctrl-C ends a script, but at the prompt the partial result is kept") {
