@@ -38,7 +38,7 @@ bool Condensation::factor(const SparseMatrix& K) {
       qr.householderQ() * DenseMatrix::Identity(kernel_.rows(), kernel_.cols());
   const double tau = shift.mean();
   l_dense_ += tau * basis * basis.transpose();
-  return cholesky(l_dense_);
+  return algebra::cholesky(l_dense_);
 }
 
 Vector Condensation::condense(const Vector& f) {

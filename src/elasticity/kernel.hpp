@@ -4,6 +4,7 @@
 
 #include "elasticity/material.hpp"
 #include "elasticity/reference_element.hpp"
+#include "mesh/mesh.hpp"
 
 namespace dotyk::elasticity {
 

@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <climits>
 #include <cmath>
-#include <cstdint>
 
 #include "mesh/mesh.hpp"
 
@@ -33,9 +33,9 @@ std::vector<Facet> boundary(const Mesh& mesh) {
   std::vector<int> fill(start.begin(), start.end() - 1);
   for (int c = 0; c < mesh.cell_count(); ++c)
     for (int l = 0; l < t.facets; ++l) {
-      Key key{{-1, -1, -1, -1}, {c, l}};
+      Key key{{INT_MAX, INT_MAX, INT_MAX, INT_MAX}, {c, l}};
       for (int k = 0; k < t.nodes_per_facet; ++k) key.nodes[k] = mesh.facet_node({c, l}, k);
-      std::sort(key.nodes.begin(), key.nodes.begin() + t.nodes_per_facet);
+      std::sort(key.nodes.begin(), key.nodes.end());
       keys[fill[key.nodes[0]]++] = key;
     }
   std::vector<Facet> result;
