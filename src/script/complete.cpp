@@ -164,7 +164,11 @@ Completion in_string(lua_State* L, const Library& library, const Context& contex
   for (std::size_t i = 0; table && i < table->keys.size(); ++i) {
     if (table->keys[i].name == context.value_of) result.words = choices_of(table->keys[i]);
   }
-  const auto called = resolve(L, library, context.chain);  // fix "x
+  const bool bracketed =
+      context.chain.empty() && !context.brackets.empty() && context.brackets.back().sign == '(';
+  const auto& callee = bracketed ? context.brackets.back().callee : context.chain;  // fix "x, fix("x
+  const auto called = resolve(L, library, callee);
+  if (called.callable && called.callable->name == "help") result.words = library.names();
   if (called.callable && !called.callable->arguments.empty()) {
     const auto words = choices_of(called.callable->arguments.front());
     result.words.insert(result.words.end(), words.begin(), words.end());
@@ -205,6 +209,7 @@ int run(lua_State* L) {
     request.result = {};  // a released object, say: nothing to offer
   }
   request.result.start = context.start;
+  request.result.in_string = context.in_string;
   auto& words = request.result.words;
   std::erase_if(words, [&](const std::string& word) { return word.rfind(context.word, 0) != 0; });
   std::sort(words.begin(), words.end());

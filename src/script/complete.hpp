@@ -12,6 +12,7 @@ namespace dotyk::script {
 struct Completion {
   std::size_t start = 0;           // the words replace the text from here on
   std::vector<std::string> words;  // sorted
+  bool in_string = false;          // the cursor stands in a string
   bool file_names = false;         // file names fit instead
 };
 

@@ -36,13 +36,12 @@ void look() {
   session.found = (*session.complete)(std::string(rl_line_buffer, static_cast<std::size_t>(rl_point)));
 }
 
-// Inside a string a word is a whole path; elsewhere a name.
+// Inside a string a word is all of it; elsewhere a name.
 char* word_breaks() {
   look();
   static char in_string[] = "\"'";
   static char in_code[] = " \t\n\"'`@$><=;|&{}(),.:[]+-*/%#~^";
-  const bool quoted = session.found.file_names || !session.found.words.empty();
-  return quoted && session.found.file_names ? in_string : in_code;
+  return session.found.in_string ? in_string : in_code;
 }
 
 char** attempt(const char* text, int, int) {
