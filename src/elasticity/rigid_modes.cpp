@@ -1,5 +1,6 @@
 #include "elasticity/rigid_modes.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
