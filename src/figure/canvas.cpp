@@ -59,6 +59,27 @@ vtkStandardNewMacro(PaintingMapper);
 
 }  // namespace
 
+// Liang and Barsky.
+bool crop(Point& p, Point& q, const Box& box) {
+  double t0 = 0, t1 = 1;
+  const double d[4] = {p.x - q.x, q.x - p.x, p.y - q.y, q.y - p.y};
+  const double r[4] = {p.x - box.left, box.right - p.x, p.y - box.bottom, box.top - p.y};
+  for (int k = 0; k < 4; ++k) {
+    if (d[k] == 0) {
+      if (r[k] < 0) return false;
+    } else if (d[k] < 0) {
+      t0 = std::max(t0, r[k] / d[k]);
+    } else {
+      t1 = std::min(t1, r[k] / d[k]);
+    }
+  }
+  if (!(t0 <= t1)) return false;
+  const Point from = p;
+  p = {from.x + t0 * (q.x - from.x), from.y + t0 * (q.y - from.y)};
+  q = {from.x + t1 * (q.x - from.x), from.y + t1 * (q.y - from.y)};
+  return true;
+}
+
 void Canvas::emit(Point p, Colour c, double opacity) {
   const auto alpha = static_cast<unsigned char>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
   vertices_.push_back({static_cast<float>(p.x * factor_), static_cast<float>(p.y * factor_), {c.r, c.g, c.b, alpha}});
@@ -134,8 +155,9 @@ void Canvas::polyline(std::span<const Point> points, double width, Colour colour
   std::size_t turn_of = 0;
   double left = dash.empty() ? 0 : dash[0];
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    Point p = path[i];
-    const Point q = path[i + 1];
+    Point p = path[i], q = path[i + 1];
+    // What lies outside is neither drawn nor dashed: it may be very long.
+    if (clipped_ && !crop(p, q, {clip_.left - width, clip_.bottom - width, clip_.right + width, clip_.top + width})) continue;
     if (dash.empty()) {
       line(p, q, width, colour);
       if (width > 1.2 && (i > 0 || closed)) disc(p, width / 2, colour);

@@ -27,6 +27,9 @@ struct Box {
   }
 };
 
+// Cuts the segment p q down to its part in the box; false: there is none.
+bool crop(Point& p, Point& q, const Box& box);
+
 enum class Align { low, middle, high };  // which end of the text stands at its point
 
 struct TextStyle {

@@ -78,10 +78,10 @@ private:
       for (const Tick& t : y_ticks_.ticks) widest = std::max(widest, text_extent(t.label, em_).x);
       double last = 0;
       for (const Tick& t : x_ticks_.ticks) last = std::max(last, text_extent(t.label, em_).x);
-      room_.left = 0.6 * em_ + (picture_.y_label.empty() ? 0 : 1.7 * em_) + widest + 0.5 * em_;
-      room_.bottom = 0.4 * em_ + (picture_.x_label.empty() ? 0 : 1.35 * em_) + 1.6 * em_;
+      room_.left = 0.6 * em_ + (picture_.y_label.empty() && !y_ticks_.exponent ? 0 : 1.7 * em_) + widest + 0.5 * em_;
+      room_.bottom = 0.4 * em_ + (picture_.x_label.empty() && !x_ticks_.exponent ? 0 : 1.35 * em_) + 1.6 * em_;
       room_.right = w - 0.6 * em_ - last / 2;
-      room_.top = h - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - (y_ticks_.exponent ? 1.4 * em_ : 0) - legend_height;
+      room_.top = h - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - legend_height;
     }
     x_.from = room_.left, x_.to = room_.right;
     y_.from = room_.bottom, y_.to = room_.top;
@@ -204,17 +204,14 @@ private:
     TextStyle style;
     style.size = em_;
     style.across = Align::middle;
-    const std::string x_factor = x_ticks_.exponent ? "  (× " + power_of_ten(x_ticks_.exponent) + ")" : "";
-    canvas_.text({(room_.left + room_.right) / 2, 0.4 * em_}, picture_.x_label + x_factor, style);
+    const auto named = [](const std::string& label, const Ticks& ticks) {
+      return ticks.exponent ? label + "  (× " + power_of_ten(ticks.exponent) + ")" : label;
+    };
+    canvas_.text({(room_.left + room_.right) / 2, 0.4 * em_}, named(picture_.x_label, x_ticks_), style);
     style.upright = true;
     style.up = Align::middle;
     style.across = Align::low;
-    canvas_.text({0.45 * em_, (room_.bottom + room_.top) / 2}, picture_.y_label, style);
-    if (y_ticks_.exponent) {
-      TextStyle small;
-      small.size = em_;
-      canvas_.text({room_.left - 1.2 * em_, room_.top + 0.4 * em_}, "× " + power_of_ten(y_ticks_.exponent), small);
-    }
+    canvas_.text({0.45 * em_, (room_.bottom + room_.top) / 2}, named(picture_.y_label, y_ticks_), style);
     TextStyle title;
     title.size = 1.1 * em_;
     title.bold = true;
@@ -229,11 +226,16 @@ private:
   }
 
   // A triangle whose slanted side has the slope, near the curves and clear of
-  // them.
+  // them; smaller where there is little room.
   void draw_guide(const SlopeGuide& guide) {
+    for (const double share : {0.16, 0.11, 0.07})
+      if (draw_guide(guide, share)) return;
+  }
+
+  bool draw_guide(const SlopeGuide& guide, double share) {
     const double ratio = guide.slope * y_.pixels_per_unit() / x_.pixels_per_unit();
-    double run = 0.16 * room_.width();
-    if (std::abs(ratio) * run > 0.26 * room_.height()) run = 0.26 * room_.height() / std::abs(ratio);
+    double run = share * room_.width();
+    if (std::abs(ratio) * run > 1.6 * share * room_.height()) run = 1.6 * share * room_.height() / std::abs(ratio);
     const double rise = ratio * run, up = std::abs(rise);
     const bool plain = guide.label.empty();
     const std::string label = plain ? number(guide.slope) : guide.label;
@@ -250,12 +252,12 @@ private:
         const Point p{room_.left + em_ / 2 + (room_.width() - width - em_) * i / 40, room_.bottom + em_ / 2 + (room_.height() - height - em_) * j / 40};
         const Box box{p.x, p.y, p.x + width, p.y + height};
         const double distance = occupied_.distance(box);
-        if (distance < 0.55 * em_) continue;
+        if (distance < 0.5 * em_) continue;
         // Near the curves, and rather below them than above.
         const double cost = distance + 0.02 * (p.y - room_.bottom);
         if (cost < best) best = cost, at = p, found = true;
       }
-    if (!found) return;
+    if (!found) return false;
     occupied_.add(Box{at.x, at.y, at.x + width, at.y + height});
     const double y0 = at.y + 1.2 * em_;
     const Point a{at.x, rise >= 0 ? y0 : y0 + up}, b{at.x + run, rise >= 0 ? y0 + up : y0};
@@ -268,10 +270,11 @@ private:
     style.colour = reference_grey;
     style.up = Align::middle;
     canvas_.text({b.x + pad, y0 + up / 2}, label, style);
-    if (!plain) return;
+    if (!plain) return true;
     style.across = Align::middle;
     style.up = rise >= 0 ? Align::high : Align::low;
     canvas_.text({at.x + run / 2, rise >= 0 ? y0 - 0.15 * em_ : a.y + 0.1 * em_}, "1", style);
+    return true;
   }
 
   const ChartPicture& picture_;

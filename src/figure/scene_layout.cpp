@@ -36,23 +36,10 @@ void aim(Stage& stage) {
   view.up = cross(view.towards, view.right);
 }
 
-// Part of a segment in a box, Liang and Barsky.
 void add_clipped(Bounds& to, Point p, Point q, const Bounds& box) {
-  double t0 = 0, t1 = 1;
-  const double d[4] = {p.x - q.x, q.x - p.x, p.y - q.y, q.y - p.y};
-  const double r[4] = {p.x - box.left, box.right - p.x, p.y - box.bottom, box.top - p.y};
-  for (int k = 0; k < 4; ++k) {
-    if (d[k] == 0) {
-      if (r[k] < 0) return;
-    } else if (d[k] < 0) {
-      t0 = std::max(t0, r[k] / d[k]);
-    } else {
-      t1 = std::min(t1, r[k] / d[k]);
-    }
-  }
-  if (t0 > t1) return;
-  to.add({p.x + t0 * (q.x - p.x), p.y + t0 * (q.y - p.y)});
-  to.add({p.x + t1 * (q.x - p.x), p.y + t1 * (q.y - p.y)});
+  if (!crop(p, q, {box.left, box.bottom, box.right, box.top})) return;
+  to.add(p);
+  to.add(q);
 }
 
 // All that scales with the scene, at one pixel per unit of length.
@@ -66,7 +53,7 @@ Bounds scaled_bounds(const Stage& stage) {
       if (stage.picture.undeformed_outline) bounds.add(unit_view.flat(node(body, i, 0)));
     }
   if (bounds.empty()) bounds.add(Point{0, 0});
-  const double size = std::max({bounds.width(), bounds.height(), 1e-300});
+  const double size = std::max(bounds.width(), bounds.height());
   Bounds near = bounds;
   near.add(Point{bounds.left - 0.1 * size, bounds.bottom - 0.1 * size});
   near.add(Point{bounds.right + 0.1 * size, bounds.top + 0.1 * size});
@@ -151,13 +138,16 @@ Bounds pixel_bounds(Stage& stage, const Bounds& scaled) {
 
 // Finds scale and origin so that all lies in the room.
 void fit(Stage& stage, const Bounds& scaled, const Box& room) {
-  const double width = std::max(scaled.width(), 1e-300), height = std::max(scaled.height(), 1e-300);
-  stage.view.scale = std::min(room.width() / width, room.height() / height);
-  for (int round = 0; round < 8; ++round) {
+  // A scene without extent in a direction, or in any, does not ask for room.
+  const double size = std::max(scaled.width(), scaled.height());
+  const double width = scaled.width() > 1e-6 * size ? scaled.width() : 0, height = scaled.height() > 1e-6 * size ? scaled.height() : 0;
+  const auto share = [](double pixels, double length) { return length > 0 ? pixels / length : 1e300; };
+  stage.view.scale = size > 0 ? std::min(share(room.width(), width), share(room.height(), height)) : 1;
+  for (int round = 0; round < 8 && size > 0; ++round) {
     const Bounds now = pixel_bounds(stage, scaled);
     const double over_x = now.width() - room.width(), over_y = now.height() - room.height();
     const double s = stage.view.scale;
-    stage.view.scale = std::max(0.2 * s, s - std::max(over_x / width, over_y / height));
+    stage.view.scale = std::max(0.2 * s, s - std::max(width > 0 ? over_x / width : -1e300, height > 0 ? over_y / height : -1e300));
     if (std::abs(stage.view.scale - s) < 1e-6 * s) break;
   }
   const Bounds now = pixel_bounds(stage, scaled);

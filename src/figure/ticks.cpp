@@ -65,7 +65,10 @@ Ticks linear_ticks(double low, double high, int wanted) {
   const double factor = std::pow(10.0, out.exponent);
   const int parts = unit == 2 ? 4 : 5;
   const double slack = 1e-9 * (high - low);
-  for (double k = std::ceil((low - slack) / step) - 1; k * step <= high + slack; ++k) {
+  const double first = std::ceil((low - slack) / step) - 1;
+  // Bounded: far from zero next to nothing may not be told apart.
+  for (int n = 0; n <= 4 * wanted + 10 && (first + n) * step <= high + slack; ++n) {
+    const double k = first + n;
     if (k * step >= low - slack) out.ticks.push_back({k * step, fixed(k * step / factor, decimals)});
     for (int i = 1; i < parts; ++i) {
       const double at = (k + static_cast<double>(i) / parts) * step;

@@ -1,0 +1,47 @@
+#include "pixels.hpp"
+
+#include <png.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+using dotyk::figure::Colour;
+
+Colour Pixels::at(int x, int y) const {
+  if (x < 0 || y < 0 || x >= width || y >= height) return {255, 255, 255};
+  const std::size_t i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  return {rgb[i], rgb[i + 1], rgb[i + 2]};
+}
+
+int Pixels::count(Colour c, int tolerance) const {
+  int n = 0;
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
+    n += std::abs(rgb[i] - c.r) <= tolerance && std::abs(rgb[i + 1] - c.g) <= tolerance && std::abs(rgb[i + 2] - c.b) <= tolerance;
+  return n;
+}
+
+Pixels read_png(const std::string& file) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_file(&image, file.c_str())) throw std::runtime_error(file + ": " + image.message);
+  image.format = PNG_FORMAT_RGB;
+  Pixels out{static_cast<int>(image.width), static_cast<int>(image.height), std::vector<unsigned char>(PNG_IMAGE_SIZE(image))};
+  if (!png_image_finish_read(&image, nullptr, out.rgb.data(), 0, nullptr)) throw std::runtime_error(file + ": " + image.message);
+  return out;
+}
+
+std::string bytes_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool exists(const std::string& file) { return std::ifstream(file).good(); }
+
+bool white_rim(const Pixels& p) {
+  const Colour white{255, 255, 255};
+  const int right = p.width - 1, bottom = p.height - 1;
+  return p.at(0, 0) == white && p.at(right, 0) == white && p.at(0, bottom) == white && p.at(right, bottom) == white &&
+         p.at(0, bottom / 2) == white && p.at(right, bottom / 2) == white;
+}

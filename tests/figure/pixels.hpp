@@ -1,0 +1,36 @@
+// Pictures read back, for the tests of figures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "figure/picture.hpp"
+
+struct Pixels {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgb;  // highest row first
+
+  // x to the right, y downwards; white outside.
+  dotyk::figure::Colour at(int x, int y) const;
+  int count(dotyk::figure::Colour colour, int tolerance = 3) const;
+};
+
+// Throws where the file is no complete PNG.
+Pixels read_png(const std::string& file);
+
+std::string bytes_of(const std::string& file);
+bool exists(const std::string& file);
+
+// The message of what f throws, "" if it does not.
+template <class F>
+std::string message_of(F f) {
+  try {
+    f();
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+  return "";
+}
+
+// The corners and the middles of the sides are white.
+bool white_rim(const Pixels& picture);

@@ -1,0 +1,160 @@
+// Charts: curves pass where the numbers say, on logarithmic axes too.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "pixels.hpp"
+
+using namespace dotyk::figure;
+
+namespace {
+
+bool near(Colour a, Colour b) { return std::abs(a.r - b.r) <= 40 && std::abs(a.g - b.g) <= 40 && std::abs(a.b - b.b) <= 40; }
+
+struct Frame {
+  int left, right, top, bottom;
+};
+
+// The frame of the plot: the longest dark row and column of pixels.
+Frame frame_of(const Pixels& p) {
+  std::vector<int> rows, columns;
+  const auto dark = [&](int x, int y) { const Colour c = p.at(x, y); return c.r < 150 && c.g < 150 && c.b < 150; };
+  for (int y = 0; y < p.height; ++y) {
+    int n = 0;
+    for (int x = 0; x < p.width; ++x) n += dark(x, y);
+    if (n > p.width / 2) rows.push_back(y);
+  }
+  for (int x = 0; x < p.width; ++x) {
+    int n = 0;
+    for (int y = 0; y < p.height; ++y) n += dark(x, y);
+    if (n > p.height / 2) columns.push_back(x);
+  }
+  REQUIRE(rows.size() >= 2);
+  REQUIRE(columns.size() >= 2);
+  return {columns.front(), columns.back(), rows.front(), rows.back()};
+}
+
+// Is the colour within a few pixels of the place that x and y, shares of the
+// frame counted from its lower left, mean?
+bool drawn_at(const Pixels& p, const Frame& f, double x, double y, Colour colour) {
+  const int px = static_cast<int>(std::lround(f.left + x * (f.right - f.left))), py = static_cast<int>(std::lround(f.bottom - y * (f.bottom - f.top)));
+  for (int dy = -3; dy <= 3; ++dy)
+    for (int dx = -3; dx <= 3; ++dx)
+      if (near(p.at(px + dx, py + dy), colour)) return true;
+  return false;
+}
+
+ChartPicture chart_of(const std::string& file, const std::vector<double>& x, const std::vector<double>& y) {
+  ChartPicture chart;
+  chart.file = file;
+  chart.width = 600, chart.height = 450;
+  SeriesPicture s;
+  s.x = x, s.y = y;
+  s.style = SeriesStyle::line;
+  chart.series = {s};
+  return chart;
+}
+
+}  // namespace
+
+TEST_CASE("on logarithmic axes a power is a straight line at the right place") {
+  ChartPicture chart = chart_of("log.png", {1e-3, 1e-2, 1e-1, 1, 10}, {1e-6, 1e-4, 1e-2, 1, 100});
+  chart.log_x = chart.log_y = true;
+  chart.x_range = {1e-4, 1e2};
+  chart.y_range = {1e-8, 1e4};
+  draw(chart);
+  const Pixels p = read_png("log.png");
+  CHECK(white_rim(p));
+  const Frame f = frame_of(p);
+  const Colour blue = series_colour(0);
+  for (double decade = -2.9; decade < 1; decade += 0.2) CHECK(drawn_at(p, f, (decade + 4) / 6, (2 * decade + 8) / 12, blue));
+  // Where a linear axis would have it, and beyond its ends, there is none.
+  CHECK_FALSE(drawn_at(p, f, 0.5, 0.25, blue));
+  CHECK_FALSE(drawn_at(p, f, 1.5 / 6, 0.6, blue));
+  CHECK_FALSE(drawn_at(p, f, 0.5 / 6, 1.0 / 12, blue));
+}
+
+TEST_CASE("one axis may be logarithmic and the other not") {
+  ChartPicture chart = chart_of("semilog.png", {0, 1, 2, 3, 4}, {1, 1e-1, 1e-2, 1e-3, 1e-4});
+  chart.log_y = true;
+  chart.x_range = {0, 5};
+  chart.y_range = {1e-5, 1};
+  draw(chart);
+  const Pixels p = read_png("semilog.png");
+  const Frame f = frame_of(p);
+  for (double x = 0.3; x < 4; x += 0.5) CHECK(drawn_at(p, f, x / 5, 1 - x / 5, series_colour(0)));
+}
+
+TEST_CASE("linear axes") {
+  ChartPicture chart = chart_of("linear.png", {0, 10}, {-5, 5});
+  chart.x_range = {0, 10};
+  chart.y_range = {-10, 10};
+  draw(chart);
+  const Pixels p = read_png("linear.png");
+  const Frame f = frame_of(p);
+  for (double t = 0.1; t < 1; t += 0.1) CHECK(drawn_at(p, f, t, 0.25 + 0.5 * t, series_colour(0)));
+}
+
+TEST_CASE("points that cannot be shown are gaps") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ChartPicture chart = chart_of("gaps.png", {1, 2, 3, 4, 5}, {1, 1, nan, 1, 1});
+  chart.x_range = {0, 6};
+  chart.y_range = {0, 2};
+  draw(chart);
+  const Pixels p = read_png("gaps.png");
+  const Frame f = frame_of(p);
+  CHECK(drawn_at(p, f, 1.5 / 6, 0.5, series_colour(0)));
+  CHECK_FALSE(drawn_at(p, f, 3.0 / 6, 0.5, series_colour(0)));
+  CHECK(drawn_at(p, f, 4.5 / 6, 0.5, series_colour(0)));
+  chart.series[0].y = {1, 0.1, 0, -1, 0.01};
+  chart.log_y = true;
+  chart.y_range.reset();
+  CHECK(message_of([&] { draw(chart); }) == "");
+}
+
+TEST_CASE("curves far beyond the axes cost nothing and stay outside") {
+  ChartPicture chart = chart_of("far.png", {-1e12, 1e12}, {-1e12, 1e12});
+  chart.series[0].reference = true;
+  SeriesPicture close;
+  close.x = {0, 1}, close.y = {1, 0};
+  chart.series.push_back(close);
+  chart.x_range = chart.y_range = {0, 1};
+  draw(chart);
+  const Pixels p = read_png("far.png");
+  const Frame f = frame_of(p);
+  CHECK(white_rim(p));
+  CHECK(drawn_at(p, f, 0.3, 0.7, series_colour(0)));
+  chart.x_range = {1e15, 1e15 + 1};
+  CHECK(message_of([&] { draw(chart); }) == "");
+}
+
+TEST_CASE("each series has its colour; the legend does not hide a curve") {
+  ChartPicture chart = chart_of("series.png", {}, {});
+  chart.series.clear();
+  for (int k = 0; k < 7; ++k) {
+    SeriesPicture s;
+    s.name = "method " + std::to_string(k);
+    for (int i = 0; i <= 10; ++i) s.x.push_back(i), s.y.push_back(k + 0.1 * i * (k % 2 ? 1 : -1));
+    chart.series.push_back(s);
+  }
+  chart.slopes = {{1, ""}, {-2, "−2"}};
+  draw(chart);
+  const Pixels p = read_png("series.png");
+  for (int k = 0; k < 7; ++k) CHECK(p.count(series_colour(k), 6) > 150);
+}
+
+TEST_CASE("charts without data, or with one point, are drawn") {
+  for (const bool log : {false, true}) {
+    ChartPicture chart = chart_of("bare.png", {}, {});
+    chart.log_x = chart.log_y = log;
+    CHECK(message_of([&] { draw(chart); }) == "");
+    chart.series[0].x = {3}, chart.series[0].y = {3};
+    chart.series[0].style = SeriesStyle::both;
+    CHECK(message_of([&] { draw(chart); }) == "");
+    CHECK(read_png("bare.png").count(series_colour(0), 6) > 20);
+    chart.series.clear();
+    CHECK(message_of([&] { draw(chart); }) == "");
+  }
+}
