@@ -44,6 +44,10 @@ struct TextStyle {
 // Width and height in pixels of a line of text, not turned.
 Point text_extent(const std::string& text, double size, bool bold = false);
 
+// The size at which the text fits into so many pixels: at most `size`, and no
+// less than half of it.
+double fitting_size(const std::string& text, double size, double pixels, bool bold = false);
+
 enum class Marker { disc, square, triangle, diamond, down_triangle, plus, cross, ring };
 
 class Canvas {

@@ -111,6 +111,11 @@ Point text_extent(const std::string& text, double size, bool bold) {
   return {static_cast<double>(box[1] - box[0] + 1), static_cast<double>(box[3] - box[2] + 1)};
 }
 
+double fitting_size(const std::string& text, double size, double pixels, bool bold) {
+  const double width = text_extent(text, size, bold).x;
+  return width > pixels ? std::max(0.5 * size, size * pixels / width) : size;
+}
+
 void Canvas::set_texts(Image& image) const {
   for (const Text& t : texts_) {
     const Mask mask = render(t.text, t.style);

@@ -207,17 +207,22 @@ private:
     const auto named = [](const std::string& label, const Ticks& ticks) {
       return ticks.exponent ? label + "  (× " + power_of_ten(ticks.exponent) + ")" : label;
     };
-    canvas_.text({(room_.left + room_.right) / 2, 0.4 * em_}, named(picture_.x_label, x_ticks_), style);
+    const std::string x_name = named(picture_.x_label, x_ticks_), y_name = named(picture_.y_label, y_ticks_);
+    style.size = fitting_size(x_name, em_, picture_.width - em_);
+    canvas_.text({(room_.left + room_.right) / 2, 0.4 * em_}, x_name, style);
+    style.size = fitting_size(y_name, em_, room_.height());
     style.upright = true;
     style.up = Align::middle;
     style.across = Align::low;
-    canvas_.text({0.45 * em_, (room_.bottom + room_.top) / 2}, named(picture_.y_label, y_ticks_), style);
+    canvas_.text({0.45 * em_, (room_.bottom + room_.top) / 2}, y_name, style);
     TextStyle title;
-    title.size = 1.1 * em_;
+    title.size = fitting_size(picture_.title, 1.1 * em_, picture_.width - em_, true);
     title.bold = true;
     title.across = Align::middle;
     title.up = Align::high;
-    canvas_.text({(room_.left + room_.right) / 2, picture_.height - 0.6 * em_}, picture_.title, title);
+    // Over the plot, unless it is so long that the whole width is needed.
+    const double half = text_extent(picture_.title, title.size, true).x / 2, centre = (room_.left + room_.right) / 2;
+    canvas_.text({std::clamp(centre, half, std::max(half, picture_.width - half)), picture_.height - 0.6 * em_}, picture_.title, title);
   }
 
   void draw_frame() {

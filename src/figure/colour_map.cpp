@@ -126,10 +126,7 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePictur
   canvas.text({box.left, box.bottom - ends * em}, extreme("min", scale.least), end);
   style.upright = true;
   const std::string name = label(p, ticks.exponent);
-  // Long names shrink rather than leave the picture.
-  const double room = box.height();
-  const double length = text_extent(name, em).x;
-  if (length > room) style.size = std::max(0.6 * em, em * room / length);
+  style.size = fitting_size(name, em, box.height());
   canvas.text({box.right + (tick + pad) * em + widest + 0.4 * em, (box.bottom + box.top) / 2}, name, style);
 }
 

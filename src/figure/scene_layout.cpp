@@ -278,11 +278,11 @@ void lay_out(Stage& stage) {
   TextStyle style;
   style.across = Align::middle;
   style.up = Align::high;
-  style.size = 1.1 * em;
+  style.size = fitting_size(p.title, 1.1 * em, w - em, true);
   style.bold = true;
   stage.over.text({w / 2, h - 0.6 * em}, p.title, style);
   style.up = Align::low;
-  style.size = legend_size * em;
+  style.size = fitting_size(p.caption, legend_size * em, w - em);
   style.bold = false;
   stage.over.text({w / 2, 0.5 * em}, p.caption, style);
   legend.draw(stage.over, {(w - legend.width()) / 2, 0.3 * em + caption}, false);
