@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
@@ -249,20 +250,9 @@ private:
     const double pad = 0.35 * em_;
     // With room for the labels on the right and below.
     const double width = run + extent.x + 2 * pad, height = up + 1.2 * em_ + pad;
-    double best = 1e18;
-    Point at{};
-    bool found = false;
-    for (int i = 0; i <= 40; ++i)
-      for (int j = 0; j <= 40; ++j) {
-        const Point p{room_.left + em_ / 2 + (room_.width() - width - em_) * i / 40, room_.bottom + em_ / 2 + (room_.height() - height - em_) * j / 40};
-        const Box box{p.x, p.y, p.x + width, p.y + height};
-        const double distance = occupied_.distance(box);
-        if (distance < 0.5 * em_) continue;
-        // Near the curves, and rather below them than above.
-        const double cost = distance + 0.02 * (p.y - room_.bottom);
-        if (cost < best) best = cost, at = p, found = true;
-      }
-    if (!found) return false;
+    const std::optional<Point> place = near_place(occupied_, room_, width, height, 0.5 * em_);
+    if (!place) return false;
+    const Point at = *place;
     occupied_.add(Box{at.x, at.y, at.x + width, at.y + height});
     const double y0 = at.y + 1.2 * em_;
     const Point a{at.x, rise >= 0 ? y0 : y0 + up}, b{at.x + run, rise >= 0 ? y0 + up : y0};

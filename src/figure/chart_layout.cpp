@@ -114,4 +114,21 @@ std::optional<Point> free_place(const Occupied& occupied, const Box& room, doubl
   return std::nullopt;
 }
 
+std::optional<Point> near_place(const Occupied& occupied, const Box& room, double width, double height, double margin) {
+  constexpr int steps = 40;
+  const double x = room.width() - width - 2 * margin, y = room.height() - height - 2 * margin;
+  if (x < 0 || y < 0) return std::nullopt;
+  std::optional<Point> place;
+  double best = 0;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j) {
+      const Point p{room.left + margin + x * i / steps, room.bottom + margin + y * j / steps};
+      const double distance = occupied.distance({p.x, p.y, p.x + width, p.y + height});
+      if (distance < margin) continue;
+      const double cost = distance + 0.02 * (p.y - room.bottom);
+      if (!place || cost < best) best = cost, place = p;
+    }
+  return place;
+}
+
 }  // namespace dotyk::figure

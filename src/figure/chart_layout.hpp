@@ -41,4 +41,8 @@ private:
 // The corner or edge of `room` where a block of this size meets no curve.
 std::optional<Point> free_place(const Occupied& occupied, const Box& room, double width, double height, double margin);
 
+// Where in `room` a block of this size stands next to the curves, rather
+// below than above, but keeps `margin` clear of them.
+std::optional<Point> near_place(const Occupied& occupied, const Box& room, double width, double height, double margin);
+
 }  // namespace dotyk::figure

@@ -35,34 +35,53 @@ Vec3 node(const BodyPicture& body, std::size_t i, double factor) {
   return p;
 }
 
+namespace {
+
+// The facets of a cell, by its corners; -1 pads.
+struct CellFacets {
+  std::size_t corners;
+  int each;
+  std::vector<std::array<int, 4>> facets;
+};
+
+const CellFacets& facets_of(CellShape shape) {
+  static const CellFacets triangle{3, 2, {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 0, -1, -1}}};
+  static const CellFacets quad{4, 2, {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 3, -1, -1}, {3, 0, -1, -1}}};
+  static const CellFacets tetrahedron{4, 3, {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}}};
+  static const CellFacets hexahedron{8, 4, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  switch (shape) {
+    case CellShape::triangle: return triangle;
+    case CellShape::quad: return quad;
+    case CellShape::tetrahedron: return tetrahedron;
+    case CellShape::hexahedron: return hexahedron;
+  }
+  return triangle;
+}
+
+}  // namespace
+
 Facets boundary(const BodyPicture& body) {
   if (!body.facets.empty()) return {body.facets, body.nodes_per_facet};
-  static const std::vector<std::vector<int>> of_triangle{{0, 1}, {1, 2}, {2, 0}}, of_quad{{0, 1}, {1, 2}, {2, 3}, {3, 0}},
-      of_tetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
-      of_hexahedron{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-  const auto& [facets, corners] = body.shape == CellShape::triangle      ? std::pair<const std::vector<std::vector<int>>&, std::size_t>{of_triangle, 3}
-                                  : body.shape == CellShape::quad        ? std::pair<const std::vector<std::vector<int>>&, std::size_t>{of_quad, 4}
-                                  : body.shape == CellShape::tetrahedron ? std::pair<const std::vector<std::vector<int>>&, std::size_t>{of_tetrahedron, 4}
-                                                                         : std::pair<const std::vector<std::vector<int>>&, std::size_t>{of_hexahedron, 8};
-  const std::size_t each = facets[0].size();
+  const CellFacets& cell = facets_of(body.shape);
   struct Seen {
-    std::vector<int> sorted, nodes;
+    std::array<int, 4> sorted, nodes;
   };
   std::vector<Seen> all;
-  for (std::size_t c = 0; c + corners <= body.cells.size(); c += corners)
-    for (const auto& facet : facets) {
+  all.reserve(body.cells.size() / cell.corners * cell.facets.size());
+  for (std::size_t c = 0; c + cell.corners <= body.cells.size(); c += cell.corners)
+    for (const std::array<int, 4>& facet : cell.facets) {
       Seen seen;
-      for (const int k : facet) seen.nodes.push_back(body.cells[c + static_cast<std::size_t>(k)]);
+      for (std::size_t k = 0; k < 4; ++k) seen.nodes[k] = facet[k] < 0 ? -1 : body.cells[c + static_cast<std::size_t>(facet[k])];
       seen.sorted = seen.nodes;
       std::sort(seen.sorted.begin(), seen.sorted.end());
-      all.push_back(std::move(seen));
+      all.push_back(seen);
     }
   std::stable_sort(all.begin(), all.end(), [](const Seen& a, const Seen& b) { return a.sorted < b.sorted; });
-  Facets out{{}, static_cast<int>(each)};
+  Facets out{{}, cell.each};
   for (std::size_t i = 0; i < all.size();) {
     std::size_t j = i + 1;
     while (j < all.size() && all[j].sorted == all[i].sorted) ++j;
-    if (j == i + 1) out.nodes.insert(out.nodes.end(), all[i].nodes.begin(), all[i].nodes.end());
+    if (j == i + 1) out.nodes.insert(out.nodes.end(), all[i].nodes.begin(), all[i].nodes.begin() + cell.each);
     i = j;
   }
   return out;
