@@ -23,6 +23,7 @@ struct Support {
   std::vector<int> nodes;
   std::vector<std::array<bool, 3>> components;  ///< which are prescribed, one entry a node
   std::vector<mesh::Point> values;              ///< to what, one entry a node
+  std::vector<mesh::Point> normals;             ///< outward, one entry a node
 };
 
 /// Bilateral sliding u·normal = 0 at a node whose normal is along no axis: a row of B.

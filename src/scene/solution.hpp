@@ -93,13 +93,19 @@ class Solution {
 /// The method: none named (the plan's choice) or PDAS.
 using Method = std::variant<std::monostate, solver::Pdas>;
 
-/// Assembles and solves. `coarse` (may be null): a solution of a like scene, usually on a coarser
-/// mesh; contacts start as its nearest nodes were.
-std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const Method& method,
-                                const Solution* coarse, Monitor& monitor);
+/// Where contacts start: as a coarser solution's nearest nodes were, or with the rows named
+/// (numbered over all contacts in order); empty: by the method's own rule.
+struct Start {
+  std::shared_ptr<const Solution> coarse;
+  std::optional<std::vector<int>> closed;
+};
 
-/// The start for `model` that takes over the contact status of `coarse`, contact by contact.
-std::vector<char> start_from(const Scene& scene, const Model& model, const Solution& coarse);
+/// Assembles and solves.
+std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const Method& method, const Start& start,
+                                Monitor& monitor);
+
+/// The flags of a start, row by row of B; empty where `start` says nothing.
+std::vector<char> start_flags(const Scene& scene, const Model& model, const Start& start);
 
 /// Contact nodes of all contacts as comma-separated values with a header line. The file appears
 /// whole or not at all. Throws InputError where it cannot be written.

@@ -3,8 +3,8 @@
 
 namespace dotyk::scene {
 
-std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const Method& method,
-                                const Solution* coarse, Monitor& monitor) {
+std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const Method& method, const Start& start,
+                                Monitor& monitor) {
   Stopwatch watch;
   problem::Clock clock;
   Model model = build(*scene, clock, monitor);
@@ -15,7 +15,7 @@ std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const Method
   } else {
     solver::Pdas pdas;
     if (const auto* given = std::get_if<solver::Pdas>(&method)) pdas = *given;
-    if (coarse) pdas.start = start_from(*scene, model, *coarse);
+    if (start.coarse || start.closed) pdas.start = start_flags(*scene, model, start);
     result = solver::solve(model.problem, pdas, monitor);
   }
   result.clock.assembly += clock.assembly;

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -12,20 +11,20 @@ namespace {
 /// A normal closer than this to an axis is taken as along it: the component is then eliminated.
 constexpr double kAlongAxis = 1e-9;
 
-std::vector<int> nodes_of(const Part& part) {
-  std::vector<int> nodes;
-  for (const mesh::Facet f : part.facets)
-    for (int k = 0; k < part.body->mesh->topology().nodes_per_facet; ++k)
-      nodes.push_back(part.body->mesh->facet_node(f, k));
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
+/// A support of all the part's nodes, nothing prescribed yet.
+Support on_nodes(const Part& part, SupportKind kind) {
+  Support support{kind, part.name, {}, {}, {}, {}};
+  for (const contact::NodeSide& n : contact::nodes(*part.body->mesh, part.facets)) {
+    support.nodes.push_back(n.node);
+    support.normals.push_back(n.normal);
+  }
+  return support;
 }
 
 }  // namespace
 
 void fix(Part& part, const std::array<bool, 3>& components) {
-  Support support{SupportKind::fix, part.name, nodes_of(part), {}, {}};
+  Support support = on_nodes(part, SupportKind::fix);
   support.components.assign(support.nodes.size(), components);
   support.values.assign(support.nodes.size(), {0, 0, 0});
   part.body->supports.push_back(std::move(support));
@@ -33,7 +32,7 @@ void fix(Part& part, const std::array<bool, 3>& components) {
 
 void slide(Part& part) {
   Body& body = *part.body;
-  Support support{SupportKind::slide, part.name, {}, {}, {}};
+  Support support{SupportKind::slide, part.name, {}, {}, {}, {}};
   for (const contact::NodeSide& side : contact::sides(*body.mesh, part.facets)) {
     std::array<bool, 3> along{false, false, false};
     bool axis = false;
@@ -45,6 +44,7 @@ void slide(Part& part) {
       support.nodes.push_back(side.node);
       support.components.push_back(along);
       support.values.push_back({0, 0, 0});
+      support.normals.push_back(side.normal);
     } else {
       body.slides.push_back({part.name, side.node, side.normal});
     }
@@ -53,7 +53,7 @@ void slide(Part& part) {
 }
 
 void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components) {
-  Support support{SupportKind::displace, part.name, nodes_of(part), {}, {}};
+  Support support = on_nodes(part, SupportKind::displace);
   std::array<bool, 3> given;
   for (int i = 0; i < 3; ++i) given[i] = static_cast<bool>(components[i]);
   support.components.assign(support.nodes.size(), given);

@@ -1,33 +1,54 @@
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scene/solution.hpp"
 
 namespace dotyk::scene {
 
-std::vector<char> start_from(const Scene& scene, const Model& model, const Solution& coarse) {
-  std::vector<char> start(model.problem.rows(), 0);
-  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    const Contact& contact = *scene.contacts[c];
-    if (contact.kind != Contact::Kind::contact || c >= coarse.scene().contacts.size() ||
-        coarse.scene().contacts[c]->kind != Contact::Kind::contact)
-      continue;
-    const ContactResult known = coarse.contact(*coarse.scene().contacts[c]);
-    for (std::size_t k = 0; k < contact.rows.size(); ++k) {
-      const int r = model.contact_row[c][k];
-      if (r < 0) continue;
-      const mesh::Point x = contact.first.body->mesh->point(contact.rows[k].node);
-      double nearest = INFINITY;
-      for (const ContactNode& node : known.nodes) {
-        double d = 0;
-        for (int i = 0; i < 3; ++i) d += (x[i] - node.x[i]) * (x[i] - node.x[i]);
-        if (d < nearest) {
-          nearest = d;
-          start[r] = node.status != problem::Status::open;
-        }
-      }
+namespace {
+
+/// Is the contact node of `known` nearest to x closed?
+bool closed_nearby(const ContactResult& known, const mesh::Point& x) {
+  double nearest = INFINITY;
+  bool closed = false;
+  for (const ContactNode& node : known.nodes) {
+    double d = 0;
+    for (int i = 0; i < 3; ++i) d += (x[i] - node.x[i]) * (x[i] - node.x[i]);
+    if (d < nearest) {
+      nearest = d;
+      closed = node.status != problem::Status::open;
     }
   }
-  return start;
+  return closed;
+}
+
+/// The result of the coarse scene's contact of this number; empty where it has none.
+std::optional<ContactResult> counterpart(const Solution& coarse, std::size_t c) {
+  const auto& contacts = coarse.scene().contacts;
+  if (c >= contacts.size() || contacts[c]->kind != Contact::Kind::contact) return std::nullopt;
+  return coarse.contact(*contacts[c]);
+}
+
+}  // namespace
+
+std::vector<char> start_flags(const Scene& scene, const Model& model, const Start& start) {
+  std::vector<char> flags(model.problem.rows(), 0);
+  int number = 0;  // of the row over all contacts
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    const Contact& contact = *scene.contacts[c];
+    if (contact.kind != Contact::Kind::contact) continue;
+    const auto known = start.coarse ? counterpart(*start.coarse, c) : std::nullopt;
+    for (std::size_t k = 0; k < contact.rows.size(); ++k, ++number) {
+      const int r = model.contact_row[c][k];
+      if (r < 0) continue;
+      if (known)
+        flags[r] = closed_nearby(*known, contact.first.body->mesh->point(contact.rows[k].node));
+      else if (start.closed)
+        flags[r] = std::find(start.closed->begin(), start.closed->end(), number) != start.closed->end();
+    }
+  }
+  return flags;
 }
 
 }  // namespace dotyk::scene

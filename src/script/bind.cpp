@@ -7,6 +7,12 @@ namespace dotyk::script {
 void bind_all(Library& library) {
   library.module("dotyk", "Unilateral contact problems: describe bodies and contacts, solve, look.");
   bind_help(library);
+  bind_material(library);
+  bind_mesh(library);
+  bind_body(library);
+  bind_scene(library);
+  bind_solver(library);
+  bind_solution(library);
 }
 
 }  // namespace dotyk::script

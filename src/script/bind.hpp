@@ -6,4 +6,11 @@ class Library;
 
 void bind_all(Library& library);
 
+void bind_material(Library& library);
+void bind_mesh(Library& library);
+void bind_body(Library& library);
+void bind_scene(Library& library);
+void bind_solver(Library& library);
+void bind_solution(Library& library);
+
 }  // namespace dotyk::script

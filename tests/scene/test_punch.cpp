@@ -45,7 +45,7 @@ TEST_CASE("rigid parabola on a block in the plane has the values of other codes"
   Monitor quiet;
   for (int n : {64, 128}) {
     const auto p = punch::plane(n);
-    const auto s = scene::solve(p.scene, {}, nullptr, quiet);
+    const auto s = scene::solve(p.scene, {}, {}, quiet);
     REQUIRE(s->result().converged);
     CHECK(s->result().iterations <= 9);
     const std::string size = "n=" + std::to_string(n);
@@ -63,14 +63,14 @@ TEST_CASE("rigid parabola on a block in the plane has the values of other codes"
     CHECK(std::abs(reaction[1] + c.force[1]) < 1e-11 * std::abs(c.force[1]));
   }
   const auto q1 = punch::plane(64, mesh::Family::q1);
-  compare(scene::solve(q1.scene, {}, nullptr, quiet)->energy(), "S2 with Q1", "n=64", "elastic energy", kElevenDigits);
+  compare(scene::solve(q1.scene, {}, {}, quiet)->energy(), "S2 with Q1", "n=64", "elastic energy", kElevenDigits);
 }
 
 TEST_CASE("rigid paraboloid on a cube has the values of other codes") {
   Monitor quiet;
   for (int n : {8, 16}) {
     const auto p = punch::space(n);
-    const auto s = scene::solve(p.scene, {}, nullptr, quiet);
+    const auto s = scene::solve(p.scene, {}, {}, quiet);
     REQUIRE(s->result().converged);
     const std::string size = "n=" + std::to_string(n);
     compare(s->energy(), "S3", size, "elastic energy", kElevenDigits);
@@ -83,7 +83,7 @@ TEST_CASE("reduced and full PDAS take the same path to the same solution") {
   const auto check = [&](const punch::Punch& p) {
     solver::Pdas reduced, full;
     full.reduced = false;
-    const auto a = scene::solve(p.scene, reduced, nullptr, quiet), b = scene::solve(p.scene, full, nullptr, quiet);
+    const auto a = scene::solve(p.scene, reduced, {}, quiet), b = scene::solve(p.scene, full, {}, quiet);
     REQUIRE(a->result().converged);
     REQUIRE(b->result().converged);
     CHECK(a->result().active_sets == b->result().active_sets);
@@ -100,9 +100,9 @@ TEST_CASE("reduced and full PDAS take the same path to the same solution") {
 
 TEST_CASE("a coarse solution starts the fine one within four iterations") {
   Monitor quiet;
-  auto coarse = scene::solve(punch::plane(32).scene, {}, nullptr, quiet);
+  auto coarse = scene::solve(punch::plane(32).scene, {}, {}, quiet);
   for (int n : {64, 128, 256}) {
-    auto fine = scene::solve(punch::plane(n).scene, {}, coarse.get(), quiet);
+    auto fine = scene::solve(punch::plane(n).scene, {}, {coarse, {}}, quiet);
     CHECK(fine->result().converged);
     CHECK(fine->result().iterations <= 4);
     coarse = fine;
@@ -111,7 +111,7 @@ TEST_CASE("a coarse solution starts the fine one within four iterations") {
 
 TEST_CASE("optimality residuals of the punch are at rounding") {
   Monitor quiet;
-  const auto s = scene::solve(punch::plane(64).scene, {}, nullptr, quiet);
+  const auto s = scene::solve(punch::plane(64).scene, {}, {}, quiet);
   CHECK(s->residual().equilibrium < 1e-12);
   CHECK(s->residual().penetration < 1e-12);
   CHECK(s->residual().complementarity < 1e-12);

@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <optional>
+
+#include "script/bind.hpp"
+#include "script/wrapped.hpp"
+#include "script/library.hpp"
+#include "script/nearest.hpp"
+#include "script/space.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using scene::Body;
+using scene::Part;
+
+/// The material on a mesh, cell by cell where E or nu is a function.
+elasticity::MaterialField material_field(const Call& call, const Material& material, const mesh::Mesh& mesh) {
+  if (material.stiffness) return elasticity::MaterialField(*material.stiffness);
+  const int dim = mesh.dimension();
+  if (!material.E_varies && !material.nu_varies)
+    return elasticity::MaterialField(elasticity::isotropic(material.E, material.nu, dim, material.plane));
+  const auto sample = [&](bool varies, double constant, const char* name) {
+    std::vector<double> values(mesh.cell_count(), constant);
+    if (!varies) return values;
+    const Function f = call.kept_function(call.slot("material"), name).at(0);
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      const mesh::Point x = mesh.cell_centre(c);
+      values[c] = f.number({x.data(), static_cast<std::size_t>(dim)});
+    }
+    return values;
+  };
+  auto E = sample(material.E_varies, material.E, "E"), nu = sample(material.nu_varies, material.nu, "nu");
+  for (int c = 0; c < mesh.cell_count(); ++c) try {
+      elasticity::check_isotropic(E[c], nu[c], material.plane == elasticity::Plane::stress);
+    } catch (const InputError& error) {
+      throw InputError(text("material at ", point_text(mesh.cell_centre(c).data(), dim), ": ", error.what()));
+    }
+  return {std::move(E), std::move(nu), dim, material.plane};
+}
+
+int make_body(Call& call) {
+  const auto mesh = call.object<MeshHandle>("mesh")->mesh;
+  const auto material = call.object<Material>("material");
+  elasticity::VectorField force;
+  std::optional<Field> field;
+  if (call.has("force")) {
+    field = call.field("force", mesh->dimension());
+    force = vector_field(*field, mesh->dimension());
+  }
+  return call.give(scene::make_body(call.text("name"), mesh, material_field(call, *material, *mesh), force));
+}
+
+int make_part(Call& call) {
+  const auto body = call.self<Body>();
+  const std::string name = call.text("name");
+  if (!call.has("chosen")) {
+    const auto known = scene::part_names(*body);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const std::string near = nearest(name, known);
+      if (!near.empty())
+        throw InputError(text("'", body->name, "' has no part '", name, "', did you mean '", near, "'?"));
+    }
+    return call.give(std::make_shared<Part>(scene::named_part(body, name)));
+  }
+  const Function chosen = call.function("chosen");
+  const auto dim = static_cast<std::size_t>(body->dimension());
+  return call.give(std::make_shared<Part>(
+      scene::chosen_part(body, name, [&](const mesh::Point& x, const mesh::Point& n) {
+        std::vector<double> arguments(x.begin(), x.begin() + dim);
+        arguments.insert(arguments.end(), n.begin(), n.begin() + dim);
+        return chosen.truth(arguments);
+      })));
+}
+
+/// Refuses "z" in the plane.
+void require_axis(const Part& part, int axis) {
+  if (axis >= part.body->dimension())
+    throw InputError(text("component 'z' does not exist: '", part.body->name, "' is 2-D"));
+}
+
+int fix(Call& call) {
+  auto part = call.self<Part>();
+  std::array<bool, 3> components{false, false, false};
+  bool any = false;
+  for (const char* name : {"first", "second", "third"})
+    if (call.has(name)) {
+      require_axis(*part, static_cast<int>(call.choice(name)));
+      components[call.choice(name)] = any = true;
+    }
+  if (!any) components = {true, true, true};
+  scene::fix(*part, components);
+  return call.give_self();
+}
+
+int slide(Call& call) {
+  scene::slide(*call.self<Part>());
+  return call.give_self();
+}
+
+/// The fields given under x, y, z; `kept` owns them during the call.
+std::array<elasticity::ScalarField, 3> components(const Call& call, const Part& part, std::vector<Field>& kept) {
+  std::array<elasticity::ScalarField, 3> result;
+  static const char* axis[] = {"x", "y", "z"};
+  kept.reserve(3);
+  for (int i = 0; i < 3; ++i)
+    if (call.has(axis[i])) {
+      require_axis(part, i);
+      kept.push_back(call.field(axis[i]));
+      result[i] = scalar_field(kept.back(), part.body->dimension());
+    }
+  if (kept.empty()) throw InputError("name at least one component: x, y or z");
+  return result;
+}
+
+int displace(Call& call) {
+  auto part = call.self<Part>();
+  std::vector<Field> kept;
+  scene::displace(*part, components(call, *part, kept));
+  return call.give_self();
+}
+
+int spring(Call& call) {
+  auto part = call.self<Part>();
+  std::vector<Field> kept;
+  scene::spring(*part, components(call, *part, kept));
+  return call.give_self();
+}
+
+int load(Call& call) {
+  auto part = call.self<Part>();
+  const Field traction = call.field("traction", part->body->dimension());
+  scene::load(*part, vector_field(traction, part->body->dimension()));
+  return call.give_self();
+}
+
+int pressure(Call& call) {
+  auto part = call.self<Part>();
+  const Field value = call.field("value");
+  scene::pressure(*part, scalar_field(value, part->body->dimension()));
+  return call.give_self();
+}
+
+std::string show_body(const Body& b) {
+  return text("body '", b.name, "': ", b.mesh->topology().name, " ", b.mesh->topology().shape, "s, ",
+              b.mesh->node_count(), " nodes, ", b.supports.size() + (b.slides.empty() ? 0 : 1), " supports");
+}
+
+Key component(const char* name) { return key::choice(name, {"x", "y", "z"}, "a component"); }
+
+Key components_table(const std::string& help, const std::string& unit) {
+  const auto one = [&](const char* name) { return key::field(name, help).unit(unit); };
+  return key::table({one("x"), one("y"), one("z")});
+}
+
+void bind_part(Library& library) {
+  library.type<Part>("Some boundary facets of a body, to hold, load or put in contact.")
+      .field("name", "its name", [](const Part& p) { return p.name; })
+      .field("body", "the body it is of", [](const Part& p) { return p.body; })
+      .field("facet_count", "number of facets", [](const Part& p) { return p.facets.size(); })
+      .method({.name = "part:fix",
+               .help = "Holds the displacement at zero: all components, or those named.",
+               .example = "block:part\"bottom\":fix()\nblock:part\"left\":fix \"x\"",
+               .arguments = {component("first"), component("second"), component("third")},
+               .returns = "part",
+               .run = fix})
+      .method({.name = "part:slide",
+               .help = "Bilateral contact without friction: no displacement along the normal. At an edge between two "
+                       "sides of the part it holds for both normals.",
+               .example = "block:part\"left\":slide()",
+               .returns = "part",
+               .run = slide})
+      .method({.name = "part:displace",
+               .help = "Prescribes displacement components; those not named stay free.",
+               .example = "block:part\"right\":displace{ x = 0.01 }",
+               .arguments = {components_table("displacement, a number or a function of the coordinates", "length")},
+               .returns = "part",
+               .run = displace})
+      .method({.name = "part:load",
+               .help = "A load per length (2-D) or area (3-D), constant or a function of the coordinates that returns "
+                       "its components. Loads add up.",
+               .example = "top:load{ 0, -10 }\ntop:load(function(x, y) return 0, -x end)",
+               .arguments = {key::field("traction", "its components").unit("force/length (2-D), force/area (3-D)").required()},
+               .returns = "part",
+               .run = load})
+      .method({.name = "part:pressure",
+               .help = "A load along the inward normal, constant or a function of the coordinates.",
+               .example = "top:pressure(10)",
+               .arguments = {key::field("value", "positive when it pushes").unit("force/length (2-D), force/area (3-D)").required()},
+               .returns = "part",
+               .run = pressure})
+      .method({.name = "part:spring",
+               .help = "An elastic support (Newton's condition): a force against the displacement.",
+               .example = "top:spring{ x = 1e3, y = 1e3 }",
+               .arguments = {components_table("stiffness per length (2-D) or area (3-D), zero or positive", "stress/length")},
+               .returns = "part",
+               .run = spring})
+      .text([](const Part& p) { return text("part ", p.label(), ": ", p.facets.size(), " facets"); });
+}
+
+}  // namespace
+
+void bind_body(Library& library) {
+  library.function({.name = "dotyk.body",
+                    .help = "An elastic body: a mesh with a material, perhaps a force per volume.",
+                    .example = "local block = dotyk.body{ name = \"block\", mesh = m, material = steel }",
+                    .arguments = {key::table(
+                        {key::string("name", "what messages and figures call it").fallback("body"),
+                         key::object<MeshHandle>("mesh", "its shape at rest").required(),
+                         key::object<Material>("material", "what it is made of").required(),
+                         key::field("force", "force per volume, its components").unit("force/volume").otherwise("none")})},
+                    .returns = "body",
+                    .run = make_body});
+  library.type<Body>("An elastic body with its supports and loads.")
+      .field("name", "its name", [](const Body& b) { return b.name; })
+      .field("dimension", "2 or 3", [](const Body& b) { return b.dimension(); })
+      .field("node_count", "number of nodes", [](const Body& b) { return b.mesh->node_count(); })
+      .field("cell_count", "number of cells", [](const Body& b) { return b.mesh->cell_count(); })
+      .field("parts", "names of the parts that its mesh brings", scene::part_names)
+      .method({.name = "body:part",
+               .help = "A part of the boundary: one that the mesh names, or the facets that a function of the facet's "
+                       "centre and outward normal accepts: f(x, y, nx, ny), f(x, y, z, nx, ny, nz) in space.",
+               .example = "local top = block:part \"top\"\n"
+                          "local patch = block:part(\"patch\", function(x, y, nx, ny) return ny > 0.9 and x < 0 end)",
+               .arguments = {key::string("name", "its name").required(),
+                             key::function("chosen", "accepts a facet or not")},
+               .returns = "part",
+               .run = make_part})
+      .text(show_body);
+  bind_part(library);
+}
+
+}  // namespace dotyk::script

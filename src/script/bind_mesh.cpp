@@ -1,0 +1,154 @@
+#include <optional>
+
+#include "mesh/generators.hpp"
+#include "script/bind.hpp"
+#include "script/wrapped.hpp"
+#include "script/library.hpp"
+#include "script/space.hpp"
+
+namespace dotyk::script {
+namespace {
+
+Key element_key() {
+  return key::choice("element", {"P1", "Q1"}, "P1: triangles or tetrahedra; Q1: quadrilaterals or hexahedra")
+      .fallback("P1");
+}
+
+Key grading_key() {
+  const auto axis = [](const char* name) {
+    return key::function(name, "maps [0, 1] onto [0, 1], increasing: where the grid lines go");
+  };
+  return key::table("grading", {axis("x"), axis("y"), axis("z")}, "uneven spacing, axis by axis").otherwise("even");
+}
+
+Key cells_key(std::size_t axes) {
+  return key::list("cells", key::integer("", ""), "number of cells along each axis").count(axes).required();
+}
+
+mesh::Family family(const Call& call) {
+  return call.choice("element") == 0 ? mesh::Family::p1 : mesh::Family::q1;
+}
+
+/// The gradings given; they call back into Lua while the mesh is made.
+std::array<mesh::Grading, 3> gradings(const Call& call) {
+  std::array<mesh::Grading, 3> result;
+  if (!call.has("grading")) return result;
+  const Arguments given = call.table("grading");
+  static const char* axis[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i)
+    if (given.has(axis[i]))
+      result[i] = [f = given.function(axis[i])](double s) { return f.number({&s, 1}); };
+  return result;
+}
+
+std::array<int, 3> cells(const Call& call) {
+  std::array<int, 3> result{1, 1, 1};
+  const auto given = call.integers("cells");
+  double product = 1;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (given[i] < 1 || given[i] > 1'000'000)
+      throw InputError(text("cells along ", "xyz"[i], " is ", given[i], "; it must be at least 1"));
+    result[i] = static_cast<int>(given[i]);
+    product *= result[i];
+  }
+  if (product > 2e8) throw InputError(text(product, " cells are more than this program can number; use fewer"));
+  return result;
+}
+
+int give(const Call& call, mesh::Mesh mesh) {
+  return call.give(std::make_shared<MeshHandle>(MeshHandle{std::make_shared<mesh::Mesh>(std::move(mesh))}));
+}
+
+int rectangle(Call& call) {
+  const auto from = call.vector("from"), to = call.vector("to");
+  return give(call, mesh::rectangle(from.data(), to.data(), cells(call).data(), family(call), gradings(call).data()));
+}
+
+int box(Call& call) {
+  const auto from = call.vector("from"), to = call.vector("to");
+  return give(call, mesh::box(from.data(), to.data(), cells(call).data(), family(call), gradings(call).data()));
+}
+
+int disc(Call& call) {
+  const auto center = call.vector("center");
+  const auto count = call.integer("cells");
+  if (count < 1 || count > 10'000) throw InputError(text("cells is ", count, "; it must be from 1 to 10000"));
+  return give(call, mesh::disc(center.data(), call.number("radius"), static_cast<int>(count), family(call)));
+}
+
+int transform(Call& call) {
+  MeshHandle& handle = *call.self<MeshHandle>();
+  const Function map = call.function("map");
+  auto moved = std::make_shared<mesh::Mesh>(*handle.mesh);
+  const auto dimension = static_cast<std::size_t>(moved->dimension());
+  mesh::transform(*moved, [&](const mesh::Point& x) {
+    mesh::Point y{0, 0, 0};
+    map.numbers({x.data(), dimension}, {y.data(), dimension});
+    return y;
+  });
+  handle.mesh = std::move(moved);
+  return call.give_self();
+}
+
+std::vector<std::string> part_names(const MeshHandle& m) {
+  std::vector<std::string> names;
+  for (const auto& [name, facets] : m.mesh->parts) names.push_back(name);
+  return names;
+}
+
+std::string show(const MeshHandle& m) {
+  std::string parts;
+  for (const auto& name : part_names(m)) parts += " " + name;
+  return text("mesh: ", m.mesh->topology().name, " ", m.mesh->topology().shape, "s, ", m.mesh->node_count(),
+              " nodes, ", m.mesh->cell_count(), " cells, parts", parts.empty() ? " none" : parts);
+}
+
+}  // namespace
+
+void bind_mesh(Library& library) {
+  library.module("dotyk.mesh", "Meshes: made here, moved by mesh:transform.");
+  library.function({.name = "dotyk.mesh.rectangle",
+                    .help = "A rectangle of cells; with P1 each is cut from its lower left to its upper right "
+                            "corner. Parts: left right bottom top.",
+                    .example = "local m = dotyk.mesh.rectangle{ from = {-1,-1}, to = {1,0}, cells = {64,32} }",
+                    .arguments = {key::table({key::vector("from", "lower left corner").count(2).unit("length").required(),
+                                              key::vector("to", "upper right corner").count(2).unit("length").required(),
+                                              cells_key(2), element_key(), grading_key()})},
+                    .returns = "mesh",
+                    .run = rectangle});
+  library.function({.name = "dotyk.mesh.box",
+                    .help = "A box of cells; with P1 each is cut into the six tetrahedra along the edge paths from "
+                            "its least to its greatest corner. Parts: left right (x), front back (y), bottom top (z).",
+                    .example = "local b = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {8,8,8} }",
+                    .arguments = {key::table({key::vector("from", "least corner").count(3).unit("length").required(),
+                                              key::vector("to", "greatest corner").count(3).unit("length").required(),
+                                              cells_key(3), element_key(), grading_key()})},
+                    .returns = "mesh",
+                    .run = box});
+  library.function({.name = "dotyk.mesh.disc",
+                    .help = "A disc. P1: concentric rings of triangles; Q1: a square core and four blocks about it. "
+                            "Part: boundary.",
+                    .example = "local d = dotyk.mesh.disc{ center = {0,0}, radius = 1, cells = 16 }",
+                    .arguments = {key::table({key::vector("center", "centre").count(2).unit("length").required(),
+                                              key::positive("radius", "radius").unit("length").required(),
+                                              key::integer("cells", "cells along the radius").required(),
+                                              element_key()})},
+                    .returns = "mesh",
+                    .run = disc});
+  library.type<MeshHandle>("A mesh of one kind of cell, with named boundary parts.")
+      .field("dimension", "2 or 3", [](const MeshHandle& m) { return m.mesh->dimension(); })
+      .field("node_count", "number of nodes", [](const MeshHandle& m) { return m.mesh->node_count(); })
+      .field("cell_count", "number of cells", [](const MeshHandle& m) { return m.mesh->cell_count(); })
+      .field("element", "\"P1\" or \"Q1\"", [](const MeshHandle& m) { return std::string(m.mesh->topology().name); })
+      .field("parts", "names of the boundary parts", part_names)
+      .method({.name = "mesh:transform",
+               .help = "Moves every node to map(x, y[, z]). Bodies made before keep the mesh as it was. A map that "
+                       "inverts a cell is an error and changes nothing.",
+               .example = "m:transform(function(x, y) return x, y + 0.1 * x^2 end)",
+               .arguments = {key::function("map", "coordinates to new coordinates").required()},
+               .returns = "mesh",
+               .run = transform})
+      .text(show);
+}
+
+}  // namespace dotyk::script

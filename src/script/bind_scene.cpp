@@ -1,0 +1,159 @@
+#include <optional>
+
+#include "script/bind.hpp"
+#include "script/library.hpp"
+#include "script/space.hpp"
+#include "script/wrapped.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using scene::Contact;
+using scene::Part;
+using scene::Scene;
+
+int make_scene(Call& call) {
+  return call.give(scene::make_scene(call.items<scene::Body>()));
+}
+
+void require_rigid_dimension(const Rigid& rigid, const Scene& scene) {
+  if (rigid.dimension != scene.dimension())
+    throw InputError(text("the ", contact::name(rigid.shape), " has ", rigid.dimension,
+                          " components, the scene is ", scene.dimension(), "-D"));
+}
+
+int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added) {
+  const auto rigid = call.object<Rigid>("rigid");
+  require_rigid_dimension(*rigid, scene);
+  contact::RigidShape shape = rigid->shape;
+  std::optional<Field> gap;
+  if (auto* given = std::get_if<contact::RigidGap>(&shape)) {
+    const auto function = call.kept_function(call.slot("rigid"), "gap");
+    if (!function.empty()) {
+      gap.emplace(function.front(), 1);
+      given->gap = scalar_field(*gap, scene.dimension());
+    }
+  }
+  return call.give(scene::add_contact(scene, part, shape, added, call.boolean("interference")));
+}
+
+int add_contact(Call& call) {
+  const auto scene = call.self<Scene>();
+  const auto parts = call.items<Part>();
+  std::optional<Field> gap;
+  elasticity::ScalarField added;
+  if (call.has("gap")) {
+    gap = call.field("gap");
+    added = scalar_field(*gap, scene->dimension());
+  }
+  if (call.has("rigid")) {
+    if (parts.size() != 1)
+      throw InputError("give one part with 'rigid', or two parts without it");
+    return against_rigid(call, *scene, *parts[0], added);
+  }
+  if (parts.size() != 2)
+    throw InputError("give two parts, or one part and 'rigid'");
+  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added));
+}
+
+int add_glue(Call& call) {
+  const auto parts = call.items<Part>();
+  return call.give(scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1]));
+}
+
+int rigid_gap(Call& call) {
+  contact::RigidGap shape{unit_vector(call.vector("normal"), "normal"), nullptr};
+  if (!call.is("gap", LUA_TFUNCTION))
+    shape.gap = [value = call.field("gap")({})[0]](const mesh::Point&) { return value; };
+  call.give(std::make_shared<Rigid>(Rigid{shape, static_cast<int>(call.vector("normal").size())}));
+  if (call.is("gap", LUA_TFUNCTION)) call.keep(lua_gettop(call.state()), {"gap"});
+  return 1;
+}
+
+int rigid_plane(Call& call) {
+  const auto normal = call.vector("normal");
+  const int dim = static_cast<int>(normal.size());
+  return call.give(std::make_shared<Rigid>(
+      Rigid{contact::RigidPlane{point_of(call.vector("point"), dim, "point"), unit_vector(normal, "normal")}, dim}));
+}
+
+int rigid_ball(Call& call) {
+  const auto center = call.vector("center");
+  return call.give(std::make_shared<Rigid>(
+      Rigid{contact::RigidBall{point_of(center), call.number("radius")}, static_cast<int>(center.size())}));
+}
+
+void bind_rigid(Library& library) {
+  library.module("dotyk.rigid", "Rigid obstacles: no mesh, no unknowns.");
+  library.function({.name = "dotyk.rigid.gap",
+                    .help = "An obstacle given by its gap: u·normal <= gap(x) at each contact node. A negative gap "
+                            "presses in by that much.",
+                    .example = "local punch = dotyk.rigid.gap{ normal = {0,1}, gap = function(x, y) return x^2/4 - 0.02 end }",
+                    .arguments = {key::table({key::vector("normal", "direction in which the gap is measured, out of the body").count(2, 3).required(),
+                                              key::field("gap", "a number or a function of the coordinates").unit("length").required()})},
+                    .returns = "rigid",
+                    .run = rigid_gap});
+  library.function({.name = "dotyk.rigid.plane",
+                    .help = "A rigid half-space. Its normal points out of it, towards the body.",
+                    .example = "local floor = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} }",
+                    .arguments = {key::table({key::vector("point", "a point of its surface").count(2, 3).unit("length").required(),
+                                              key::vector("normal", "out of it").count(2, 3).required()})},
+                    .returns = "rigid",
+                    .run = rigid_plane});
+  library.function({.name = "dotyk.rigid.ball",
+                    .help = "A rigid disc (2-D) or ball outside the body. The gap of a node is measured along the line "
+                            "to the centre, with the body at rest.",
+                    .example = "local ball = dotyk.rigid.ball{ center = {0,1.5}, radius = 1 }",
+                    .arguments = {key::table({key::vector("center", "centre").count(2, 3).unit("length").required(),
+                                              key::positive("radius", "radius").unit("length").required()})},
+                    .returns = "rigid",
+                    .run = rigid_ball});
+  library.type<Rigid>("A rigid obstacle.").text([](const Rigid& r) {
+    return text(contact::name(r.shape), ", ", r.dimension, "-D");
+  });
+}
+
+}  // namespace
+
+void bind_scene(Library& library) {
+  library.function({.name = "dotyk.scene",
+                    .help = "Bodies that are solved together. Add contacts with scene:contact and scene:glue.",
+                    .example = "local scene = dotyk.scene{ block, other }",
+                    .arguments = {key::table({}).with(key::object<scene::Body>("bodies", "the bodies"))},
+                    .returns = "scene",
+                    .run = make_scene});
+  library.type<Scene>("Bodies and what joins them.")
+      .field("bodies", "its bodies", [](const Scene& s) { return s.bodies; })
+      .field("contacts", "its contacts and glues, in order", [](const Scene& s) { return s.contacts; })
+      .field("dimension", "2 or 3", [](const Scene& s) { return s.dimension(); })
+      .method({.name = "scene:contact",
+               .help = "Unilateral contact without friction of two parts with matching nodes, or of a part with a "
+                       "rigid obstacle. At a corner of the (first) part there is one condition for each adjoining side.",
+               .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\" }\n"
+                          "local r = scene:contact{ top, rigid = punch }",
+               .arguments = {key::table({key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
+                                         key::field("gap", "added to the geometric gap; a number or a function of the coordinates").unit("length").otherwise("0"),
+                                         key::choice("pairing", {"matching"}, "how nodes of the two parts are paired").fallback("matching"),
+                                         key::boolean("interference", "a rigid plane or ball may overlap the part at rest").fallback(false)})
+                                 .with(key::object<Part>("parts", "one part, or two").count(1, 2))},
+               .returns = "contact",
+               .run = add_contact})
+      .method({.name = "scene:glue",
+               .help = "Ties two parts with matching nodes together: no jump of the displacement.",
+               .example = "scene:glue{ a:part \"right\", b:part \"left\" }",
+               .arguments = {key::table({}).with(key::object<Part>("parts", "the two parts").count(2))},
+               .returns = "contact",
+               .run = add_glue})
+      .method({.name = "scene:plan",
+               .help = "What will be modelled, what is free to move, whether a solution exists, which method and why.",
+               .example = "print(scene:plan())",
+               .run = [](Call& call) { return call.give(scene::plan(*call.self<Scene>())); }})
+      .text([](const Scene& s) { return scene::describe(s); });
+  library.type<Contact>("A contact or a glue of a scene.")
+      .field("name", "what messages call it", [](const Contact& c) { return c.name; })
+      .field("rows", "number of contact conditions", [](const Contact& c) { return c.rows.size(); })
+      .text([](const Contact& c) { return c.name; });
+  bind_rigid(library);
+}
+
+}  // namespace dotyk::script

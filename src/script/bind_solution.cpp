@@ -1,0 +1,158 @@
+#include "script/bind.hpp"
+#include "script/library.hpp"
+#include "script/space.hpp"
+#include "script/watch.hpp"
+#include "script/wrapped.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using scene::Body;
+using scene::Contact;
+using scene::Solution;
+
+std::vector<double> components(const mesh::Point& p, int dimension) {
+  return {p.begin(), p.begin() + dimension};
+}
+
+Record time_record(const Solution& s) {
+  const problem::Clock& t = s.clock();
+  return {"time", {{"total", t.total}, {"assembly", t.assembly}, {"ordering", t.ordering}, {"factor", t.factor},
+                   {"iterate", t.iterate}, {"recover", t.recover}}};
+}
+
+Record residual_record(const Solution& s) {
+  const problem::Residual& r = s.residual();
+  return {"residual", {{"equilibrium", r.equilibrium}, {"penetration", r.penetration},
+                       {"complementarity", r.complementarity}, {"friction", r.friction}, {"law", r.law}}};
+}
+
+std::vector<Record> history(const Solution& s) {
+  std::vector<Record> rows;
+  for (const IterationInfo& info : s.result().history) rows.push_back(iteration_record(info));
+  return rows;
+}
+
+int index_of(const Solution& s, const Body& body) {
+  const int index = s.scene().index_of(&body);
+  if (index < 0) throw InputError(text("'", body.name, "' is not of the scene that was solved"));
+  return index;
+}
+
+mesh::Point point(const Call& call, const Solution& s) {
+  const bool space = s.scene().dimension() == 3;
+  if (space != call.has("z"))
+    throw InputError(space ? "z is missing: the scene is 3-D" : "z is given, but the scene is 2-D");
+  return {call.number("x"), call.number("y"), space ? call.number("z") : 0};
+}
+
+std::vector<Key> point_keys() {
+  return {key::object<Body>("body", "which body").required(), key::number("x", "the point at rest").unit("length").required(),
+          key::number("y", "").unit("length").required(), key::number("z", "in space only").unit("length")};
+}
+
+int displacement(Call& call) {
+  const auto s = call.self<Solution>();
+  const auto u = s->displacement(index_of(*s, *call.object<Body>("body")), point(call, *s));
+  return call.give_all(components(u, s->scene().dimension()));
+}
+
+int stress(Call& call) {
+  const auto s = call.self<Solution>();
+  const elasticity::Stress v = s->stress(index_of(*s, *call.object<Body>("body")), point(call, *s));
+  const auto principal = elasticity::principal(v);
+  Record record{"stress", {{"xx", v[0]}, {"yy", v[1]}, {"xy", v[5]}, {"zz", v[2]}}};
+  if (s->scene().dimension() == 3) {
+    record.entries.push_back({"yz", v[3]});
+    record.entries.push_back({"xz", v[4]});
+  }
+  record.entries.push_back({"von_mises", elasticity::von_mises(v)});
+  record.entries.push_back({"principal", std::vector<double>(principal.begin(), principal.end())});
+  return call.give(record);
+}
+
+Record node_record(const scene::ContactNode& n, int dimension) {
+  Record r{"contact node", {{"x", n.x[0]}, {"y", n.x[1]}}};
+  if (dimension == 3) r.entries.push_back({"z", n.x[2]});
+  r.entries.push_back({"gap", n.gap});
+  r.entries.push_back({"pressure", n.pressure});
+  r.entries.push_back({"shear", components(n.shear, dimension)});
+  r.entries.push_back({"slip", components(n.slip, dimension)});
+  r.entries.push_back({"status", std::string(problem::status_name(n.status))});
+  r.entries.push_back({"force", n.force});
+  r.entries.push_back({"weight", n.weight});
+  r.entries.push_back({"normal", components(n.normal, dimension)});
+  return r;
+}
+
+int contact(Call& call) {
+  const auto s = call.self<Solution>();
+  const auto c = s->contact(*call.object<Contact>("contact"));
+  std::vector<Record> nodes;
+  for (const auto& n : c.nodes) nodes.push_back(node_record(n, s->scene().dimension()));
+  return call.give(Record{"contact result",
+                          {{"force", components(c.force, s->scene().dimension())}, {"area", c.area},
+                           {"max_pressure", c.max_pressure}, {"open", static_cast<long long>(c.open)},
+                           {"closed", static_cast<long long>(c.closed)}, {"stick", static_cast<long long>(c.stick)},
+                           {"slip", static_cast<long long>(c.slip)}, {"nodes", nodes}}});
+}
+
+int reaction(Call& call) {
+  const auto s = call.self<Solution>();
+  return call.give_all(components(s->reaction(*call.object<scene::Part>("part")), s->scene().dimension()));
+}
+
+}  // namespace
+
+void bind_solution(Library& library) {
+  auto type = library.type<Solution>("What a solve gives: the state, how it ended, how far to trust it, what it cost.");
+  type.field("converged", "did the method end as it should", [](const Solution& s) { return s.result().converged; })
+      .field("method", "which method", [](const Solution& s) { return s.result().method; })
+      .field("iterations", "how many", [](const Solution& s) { return s.result().iterations; })
+      .field("reason", "why it ended", [](const Solution& s) { return s.result().reason; })
+      .field("energy", "½uᵀKu − fᵀu, springs included", [](const Solution& s) { return s.energy(); }, "force·length")
+      .field("friction_energy", "the friction term of the energy", [](const Solution& s) { return s.friction_energy(); }, "force·length")
+      .field("unknowns", "displacement unknowns", [](const Solution& s) { return s.unknowns(); })
+      .field("rows", "interface conditions", [](const Solution& s) { return s.rows(); })
+      .field("time", "seconds: total assembly ordering factor iterate recover", time_record, "s")
+      .field("residual", "relative: equilibrium penetration complementarity friction law", residual_record)
+      .field("history", "one entry an iteration: active stick slip changed residual time", history)
+      .field("ordering", "elimination order used", [](const Solution& s) { return s.result().ordering; })
+      .field("factor_bytes", "size of the sparse factors", [](const Solution& s) { return s.result().factor_bytes; }, "bytes");
+  type.method({.name = "solution:displacement",
+               .help = "Components of the displacement at a point of a body at rest.",
+               .example = "local ux, uy = s:displacement(block, 0, -0.5)",
+               .arguments = point_keys(),
+               .run = displacement})
+      .method({.name = "solution:stress",
+               .help = "Recovered stress at a point of a body at rest: xx yy xy zz (yz xz), von_mises, principal.",
+               .example = "print(s:stress(block, 0, -0.5).von_mises)",
+               .arguments = point_keys(),
+               .run = stress})
+      .method({.name = "solution:contact",
+               .help = "A contact's force on its first part, area, max_pressure, counts of open and closed nodes, and "
+                       "nodes[i] with x y z gap pressure shear slip status.",
+               .example = "local c = s:contact(contact)\nprint(c.max_pressure, c.nodes[1].status)",
+               .arguments = {key::object<Contact>("contact", "what scene:contact returned").required()},
+               .run = contact})
+      .method({.name = "solution:reaction",
+               .help = "Components of the force that the supports of a part exert on its body.",
+               .example = "local fx, fy = s:reaction(block:part \"bottom\")",
+               .arguments = {key::object<scene::Part>("part", "a supported part").required()},
+               .run = reaction})
+      .method({.name = "solution:error_estimate",
+               .help = "Estimate of the relative error in the energy norm, by stress recovery.",
+               .example = "print(s:error_estimate())",
+               .run = [](Call& call) { return call.give(call.self<Solution>()->error_estimate()); }})
+      .method({.name = "solution:write_contact",
+               .help = "Writes the contact nodes of all contacts as comma-separated values.",
+               .example = "s:write_contact \"contact.csv\"",
+               .arguments = {key::string("file", "where to").required()},
+               .run = [](Call& call) {
+                 scene::write_contact(*call.self<Solution>(), call.text("file"));
+                 return 0;
+               }})
+      .text([](const Solution& s) { return scene::describe(s); });
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,55 @@
+#pragma once
+// Points and fields of scripts as the numerical rooms take them.
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "elasticity/load.hpp"
+#include "script/function.hpp"
+
+namespace dotyk::script {
+
+inline mesh::Point point_of(const std::vector<double>& v) {
+  mesh::Point p{0, 0, 0};
+  for (std::size_t i = 0; i < v.size() && i < 3; ++i) p[i] = v[i];
+  return p;
+}
+
+// Throws InputError unless the vector has as many components as the thing it belongs to has dimensions.
+inline mesh::Point point_of(const std::vector<double>& v, int dimension, const std::string& what) {
+  if (static_cast<int>(v.size()) != dimension)
+    throw InputError(text("'", what, "' has ", v.size(), " components; it must have ", dimension, " here (",
+                          dimension, "-D)"));
+  return point_of(v);
+}
+
+inline mesh::Point unit_vector(const std::vector<double>& v, const std::string& what) {
+  mesh::Point p = point_of(v);
+  const double length = std::hypot(p[0], p[1], p[2]);
+  if (!(length > 0)) throw InputError(text("'", what, "' is zero; it must have a direction"));
+  for (double& x : p) x /= length;
+  return p;
+}
+
+// The fields below refer to Lua values: they are for use during the call only.
+inline elasticity::ScalarField scalar_field(const Field& field, int dimension) {
+  return [&field, dimension](const mesh::Point& x) {
+    double value;
+    field.at({x.data(), static_cast<std::size_t>(dimension)}, {&value, 1});
+    return value;
+  };
+}
+
+inline elasticity::VectorField vector_field(const Field& field, int dimension) {
+  return [&field, dimension](const mesh::Point& x) {
+    mesh::Point value{0, 0, 0};
+    const auto n = static_cast<std::size_t>(dimension);
+    field.at({x.data(), n}, {value.data(), n});
+    return value;
+  };
+}
+
+}  // namespace dotyk::script
