@@ -20,7 +20,7 @@ namespace dotyk::figure {
 
 int oversampling(int width, int height) {
   const double pixels = static_cast<double>(width) * height;
-  if (pixels <= 4e6 && std::max(width, height) <= 5000) return 3;
+  if (pixels <= 2e6 && std::max(width, height) <= 5000) return 3;
   if (pixels <= 16e6 && std::max(width, height) <= 8000) return 2;
   return 1;
 }

@@ -108,6 +108,10 @@ enum class MapKind {
 enum class MeshEdges { automatic, on, off };           // automatic: while they can be told apart
 enum class PressureStyle { automatic, strip, arrows, none };  // automatic: strip in the plane, arrows in space
 
+// In the plane: equal axes with ticks, contact drawn on the boundary in the
+// colours of its statuses. In space: parallel projection, z upwards; open
+// parts of a contact are outlined, others filled, and a plan of the contact
+// that carries most, seen along its normal, stands beside the scene.
 struct ScenePicture {
   std::string file;                         // ends in .png; its folder must exist
   int width = 1200, height = 800;           // pixels, 160 to 8192 each

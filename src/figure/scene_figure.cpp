@@ -82,7 +82,7 @@ std::vector<std::size_t> Stage::spaced(const std::vector<Point>& at, double spac
   if (kept.size() < 3 || kept.size() == at.size()) return kept;
   const std::size_t last = at.size() - 1, least = (last + kept.size() - 2) / (kept.size() - 1);
   std::vector<std::size_t> even;
-  for (std::size_t stride = least; stride <= 2 * least && even.empty(); ++stride)
+  for (std::size_t stride = least; 2 * stride <= 3 * least && even.empty(); ++stride)
     if (last % stride == 0)
       for (std::size_t i = 0; i <= last; i += stride) even.push_back(i);
   if (!even.empty() && greedy(at, even, 0.85 * spacing).size() == even.size()) return even;
