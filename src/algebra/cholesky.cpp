@@ -8,7 +8,7 @@ namespace dotyk::algebra {
 
 struct Cholesky::Implementation {
   CholmodCommon common;
-  cholmod_factor* factor = nullptr;
+  cholmod_factor* factor = nullptr;  ///< null for a matrix without unknowns, which CHOLMOD does not take
   std::vector<int> boundary;   ///< unknowns of Γ in the factor's order
   std::vector<int> position;   ///< where they stand in the factor's order
   double flops = 0;
@@ -16,6 +16,7 @@ struct Cholesky::Implementation {
   ~Implementation() { cholmod_free_factor(&factor, common.get()); }
 
   DenseMatrix sweep(int system, const DenseMatrix& b) {
+    if (!factor) return b;
     cholmod_dense in{};
     in.nrow = in.d = b.rows();
     in.ncol = b.cols();
@@ -37,6 +38,7 @@ Cholesky::Cholesky(const SparseMatrix& lower, const std::vector<int>& node,
   Permutation permutation = order(lower, node, last, ordering);
   it_->flops = permutation.flops;
   it_->method = permutation.method;
+  if (node.empty()) return;
   cholmod_common* c = it_->common.get();
   c->nmethods = 1;
   c->method[0].ordering = CHOLMOD_GIVEN;
@@ -64,6 +66,7 @@ Cholesky::Cholesky(Cholesky&&) noexcept = default;
 Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 
 bool Cholesky::factor(const SparseMatrix& lower) {
+  if (!it_->factor) return true;
   cholmod_sparse a = view(lower);
   cholmod_factorize(&a, it_->factor, it_->common.get());
   if (it_->common.get()->status == CHOLMOD_NOT_POSDEF) return false;
@@ -72,7 +75,7 @@ bool Cholesky::factor(const SparseMatrix& lower) {
 }
 
 int Cholesky::failed_unknown() const {
-  if (it_->factor->minor >= it_->factor->n) return -1;
+  if (!it_->factor || it_->factor->minor >= it_->factor->n) return -1;
   return static_cast<int*>(it_->factor->Perm)[it_->factor->minor];
 }
 
@@ -83,6 +86,7 @@ const std::vector<int>& Cholesky::boundary() const { return it_->boundary; }
 DenseMatrix Cholesky::boundary_factor() const {
   const int m = static_cast<int>(it_->position.size());
   DenseMatrix l = DenseMatrix::Zero(m, m);
+  if (m == 0) return l;
   const cholmod_factor& f = *it_->factor;
   std::vector<int> rank(f.n, -1);
   for (int k = 0; k < m; ++k) rank[it_->position[k]] = k;
@@ -125,7 +129,7 @@ Vector Cholesky::backward(const Vector& swept) const {
 }
 
 double Cholesky::flops() const { return it_->flops; }
-double Cholesky::bytes() const { return 8.0 * it_->factor->xsize; }
+double Cholesky::bytes() const { return it_->factor ? 8.0 * it_->factor->xsize : 0; }
 const std::string& Cholesky::method() const { return it_->method; }
 
 }  // namespace dotyk::algebra

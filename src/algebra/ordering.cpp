@@ -106,6 +106,7 @@ std::vector<int> nested_dissection(cholmod_sparse& graph, std::vector<int>& memb
 
 Permutation order(const SparseMatrix& lower, const std::vector<int>& node,
                   const std::vector<int>& last, Ordering choice) {
+  if (node.empty()) return {{}, 0, "none"};
   CholmodCommon common;
   NodeGraph graph = node_graph(lower, node);
   cholmod_sparse view = graph.view();
