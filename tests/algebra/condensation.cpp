@@ -1,0 +1,107 @@
+#include "algebra/condensation.hpp"
+
+#include <doctest/doctest.h>
+
+#include "../support/spring_grid.hpp"
+
+using namespace dotyk;
+using namespace dotyk::algebra;
+using dotyk::test::Random;
+
+namespace {
+
+DenseMatrix schur(const DenseMatrix& A, const std::vector<int>& c) {
+  std::vector<int> i;
+  for (int k = 0; k < A.rows(); ++k)
+    if (std::find(c.begin(), c.end(), k) == c.end()) i.push_back(k);
+  return A(c, c) - A(c, i) * DenseMatrix(A(i, i)).ldlt().solve(DenseMatrix(A(i, c)));
+}
+
+/// Translations of all nodes.
+DenseMatrix translations(int unknowns, int per_node) {
+  DenseMatrix R = DenseMatrix::Zero(unknowns, per_node);
+  for (int u = 0; u < unknowns; ++u) R(u, u % per_node) = 1;
+  return R;
+}
+
+DenseMatrix solve_columns(const Condensation& c, const DenseMatrix& b) {
+  DenseMatrix x(b.rows(), b.cols());
+  for (int j = 0; j < b.cols(); ++j) x.col(j) = c.solve(b.col(j));
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("condensation of a held body: S⁻¹, condensed load, recovery, half compliance") {
+  Random random(11);
+  for (const Ordering ordering : {Ordering::minimum_degree, Ordering::nested_dissection}) {
+    const auto grid = test::spring_grid(random, 7, 6, 2, 0.1, true);
+    const int n = static_cast<int>(grid.node.size());
+    const DenseMatrix K = test::full(grid.K);
+    Condensation c(grid.K, grid.node, {0, 1, 2, 3, 40}, DenseMatrix(n, 0), ordering);
+    REQUIRE(c.factor(grid.K));
+    const int m = static_cast<int>(c.boundary().size());
+    const DenseMatrix S = schur(K, c.boundary());
+    CHECK(test::relative(solve_columns(c, DenseMatrix::Identity(m, m)), S.inverse()) < 1e-11);
+
+    const Vector f = random.vector(n);
+    const Vector u = K.llt().solve(f), condensed = c.condense(f);
+    CHECK(test::relative(S * u(c.boundary()), condensed) < 1e-11);
+    CHECK(test::relative(c.recover(u(c.boundary())), u) < 1e-11);
+
+    SparseRows B = DenseMatrix(random.matrix(5, m)).sparseView();
+    const DenseMatrix half = c.half_compliance(B);
+    CHECK(test::relative(half.transpose() * half, DenseMatrix(B) * S.inverse() * DenseMatrix(B).transpose()) < 1e-11);
+  }
+}
+
+TEST_CASE("condensation of a free body: M⁻¹ is a generalised inverse of S") {
+  Random random(12);
+  for (int per_node : {1, 2, 3}) {
+    const auto grid = test::spring_grid(random, 8, 5, per_node, 0);
+    const int n = static_cast<int>(grid.node.size());
+    const DenseMatrix K = test::full(grid.K), R = translations(n, per_node);
+    REQUIRE((K * R).norm() < 1e-12 * K.norm());
+    for (const std::vector<int>& last : {std::vector<int>{0, 1, 2}, {39}, {0, 7, 32, 39, 20}}) {
+      Condensation c(grid.K, grid.node, last, R);
+      REQUIRE(c.factor(grid.K));
+      CHECK(c.kernel_size() == per_node);
+      const DenseMatrix S = schur(K, c.boundary());
+      if (last.size() > 1)  // on one node S is zero
+        CHECK((S * solve_columns(c, S) - S).norm() < 1e-9 * S.norm());
+      // Any balanced load: u_Γ from M⁻¹ and the recovery balance it, whatever rigid motion is added.
+      Vector f = random.vector(n);
+      f -= R * (R.transpose() * R).inverse() * R.transpose() * f;
+      const Vector amount = random.vector(per_node);
+      const Vector boundary = c.solve(c.condense(f)) + c.boundary_kernel() * amount;
+      const Vector u = c.recover(boundary);
+      CHECK((K * u - f).norm() < 1e-9 * f.norm());
+      CHECK((u(c.boundary()) - boundary).norm() < 1e-11 * boundary.norm());
+    }
+  }
+}
+
+TEST_CASE("condensation reports a body that its boundary and kernel do not hold") {
+  Random random(13);
+  const auto grid = test::spring_grid(random, 5, 5, 2, 0);
+  Condensation unsaid(grid.K, grid.node, {0, 1}, DenseMatrix(50, 0));  // a kernel that nobody named
+  // Rounding may let the last pivot pass as tiny: then the compliance is huge, never wrong by a little.
+  if (unsaid.factor(grid.K)) CHECK(unsaid.solve(Vector::Ones(4)).norm() > 1e10);
+  // A mechanism off Γ: node 24 tied to nothing.
+  DenseMatrix K = test::full(grid.K);
+  K.row(48).setZero(), K.col(48).setZero();
+  Condensation loose(test::lower(K), grid.node, {0, 1}, translations(50, 2));
+  CHECK_FALSE(loose.factor(test::lower(K)));
+  CHECK(loose.failed_unknown() == 48);
+}
+
+TEST_CASE("condensation onto nothing is a plain solve") {
+  Random random(14);
+  const auto grid = test::spring_grid(random, 5, 5, 2, 1);
+  Condensation c(grid.K, grid.node, {}, DenseMatrix(50, 0));
+  REQUIRE(c.factor(grid.K));
+  const Vector f = random.vector(50);
+  CHECK(c.condense(f).size() == 0);
+  CHECK(test::relative(c.recover(Vector()), test::full(grid.K).llt().solve(f)) < 1e-11);
+  CHECK(c.half_compliance(SparseRows(0, 0)).size() == 0);
+}

@@ -1,0 +1,51 @@
+#include "algebra/dense.hpp"
+
+#include <doctest/doctest.h>
+
+#include "../support/random.hpp"
+
+using namespace dotyk;
+using namespace dotyk::algebra;
+
+TEST_CASE("dense kernels agree with Eigen") {
+  test::Random random(21);
+  for (int n : {1, 2, 5, 40, 130}) {  // 130: beyond one BLAS block
+    const DenseMatrix A = random.positive_definite(n, 1), b = random.matrix(n, 3);
+    DenseMatrix L = A;
+    REQUIRE(cholesky(L));
+    CHECK(L.isLowerTriangular(0));
+    CHECK(test::relative(L * L.transpose(), A) < 1e-13);
+    DenseMatrix x = b;
+    solve_lower(L, x);
+    CHECK(test::relative(L * x, b) < 1e-12);
+    solve_lower_transposed(L, x);
+    CHECK(test::relative(A * x, b) < 1e-11);
+    CHECK(test::relative(square(L), A) < 1e-13);
+    CHECK(test::relative(gram(b), b.transpose() * b) < 1e-13);
+    // A block of a larger matrix is worked on in place.
+    DenseMatrix wide = random.matrix(n + 2, 4);
+    const DenseMatrix before = wide;
+    solve_lower(L, wide.block(1, 1, n, 2));
+    CHECK(test::relative(L * wide.block(1, 1, n, 2), before.block(1, 1, n, 2)) < 1e-12);
+    CHECK(wide.row(0) == before.row(0));
+    CHECK(wide.row(n + 1) == before.row(n + 1));
+  }
+}
+
+TEST_CASE("dense Cholesky refuses what is not positive definite") {
+  DenseMatrix indefinite(2, 2), zero = DenseMatrix::Zero(1, 1);
+  indefinite << 1, 2, 2, 1;
+  CHECK_FALSE(cholesky(indefinite));
+  CHECK_FALSE(cholesky(zero));
+}
+
+TEST_CASE("dense kernels of nothing") {
+  DenseMatrix none(0, 0), x(0, 3);
+  CHECK(cholesky(none));
+  solve_lower(none, x);
+  CHECK(gram(DenseMatrix(0, 3)) == DenseMatrix::Zero(3, 3));
+  CHECK(gram(DenseMatrix(3, 0)).size() == 0);
+  CHECK(square(none).size() == 0);
+  DenseMatrix wrong(2, 1);
+  CHECK_THROWS_AS(solve_lower(none, wrong), std::logic_error);
+}
