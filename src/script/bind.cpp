@@ -13,6 +13,7 @@ void bind_all(Library& library) {
   bind_scene(library);
   bind_solver(library);
   bind_solution(library);
+  bind_figure(library);
 }
 
 }  // namespace dotyk::script

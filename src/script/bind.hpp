@@ -12,5 +12,6 @@ void bind_body(Library& library);
 void bind_scene(Library& library);
 void bind_solver(Library& library);
 void bind_solution(Library& library);
+void bind_figure(Library& library);
 
 }  // namespace dotyk::script

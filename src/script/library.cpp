@@ -1,6 +1,7 @@
 #include "script/library.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "script/enter.hpp"
 #include "script/nearest.hpp"
@@ -88,6 +89,13 @@ Type& Library::add_type(const char* name, std::string help) {
   push_metatable(L_, type);
   lua_pop(L_, 1);
   return type;
+}
+
+Type& Library::known_type(const std::string& name) {
+  for (auto& type : types_) {
+    if (type.name == name) return type;
+  }
+  throw std::logic_error("class '" + name + "' is extended before it is described");
 }
 
 void Library::add_method(Type& type, Descriptor descriptor) {

@@ -89,6 +89,11 @@ class Library {
   TypeOf<T> type(std::string help) {
     return {*this, add_type(Wrapped<T>::name, std::move(help))};
   }
+  // More members for a class described elsewhere.
+  template <class T>
+  TypeOf<T> extend() {
+    return {*this, known_type(Wrapped<T>::name)};
+  }
   void add_method(Type& type, Descriptor descriptor);
 
   const std::deque<Descriptor>& functions() const { return functions_; }
@@ -109,6 +114,7 @@ class Library {
 
  private:
   Type& add_type(const char* name, std::string help);
+  Type& known_type(const std::string& name);  // throws std::logic_error
   void open_module(const std::string& path);
 
   lua_State* L_;

@@ -1,0 +1,250 @@
+#include "figure/compose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.hpp"
+
+namespace dotyk::figure {
+namespace {
+
+using scene::Body;
+using scene::Contact;
+using scene::Solution;
+
+const char* label(FieldChoice field) {
+  static const char* names[] = {"",  "displacement", "displacement along x", "displacement along y",
+                                "displacement along z", "von Mises stress", "stress xx", "stress yy",
+                                "stress zz", "stress yz", "stress xz", "stress xy"};
+  return names[static_cast<int>(field)];
+}
+
+bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises; }
+
+double value(FieldChoice field, const double* u, int dim, const elasticity::Stress& s) {
+  switch (field) {
+    case FieldChoice::displacement: return std::hypot(u[0], u[1], dim == 3 ? u[2] : 0);
+    case FieldChoice::ux: return u[0];
+    case FieldChoice::uy: return u[1];
+    case FieldChoice::uz: return u[2];
+    case FieldChoice::von_mises: return elasticity::von_mises(s);
+    case FieldChoice::xx: return s[0];
+    case FieldChoice::yy: return s[1];
+    case FieldChoice::zz: return s[2];
+    case FieldChoice::yz: return s[3];
+    case FieldChoice::xz: return s[4];
+    case FieldChoice::xy: return s[5];
+    default: return 0;
+  }
+}
+
+Vec3 at_node(const std::vector<double>& values, int node, int dim) {
+  Vec3 v{0, 0, 0};
+  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(node) * dim, dim, v.begin());
+  return v;
+}
+
+CellShape shape_of(mesh::Element element) {
+  switch (element) {
+    case mesh::Element::triangle_p1: return CellShape::triangle;
+    case mesh::Element::quadrilateral_q1: return CellShape::quad;
+    case mesh::Element::tetrahedron_p1: return CellShape::tetrahedron;
+    default: return CellShape::hexahedron;
+  }
+}
+
+BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
+  const Body& body = *s.scene().bodies[index];
+  const mesh::Mesh& mesh = *body.mesh;
+  const int dim = body.dimension();
+  BodyPicture picture;
+  picture.name = body.name;
+  picture.dimension = dim;
+  picture.shape = shape_of(mesh.element);
+  picture.cells = mesh.cells;
+  picture.nodes_per_facet = mesh.topology().nodes_per_facet;
+  for (const mesh::Facet f : mesh::boundary(mesh))
+    for (int k = 0; k < picture.nodes_per_facet; ++k) picture.facets.push_back(mesh.facet_node(f, k));
+  const auto& u = s.displacement(index);
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    const Vec3 x = mesh.point(n), d = at_node(u, n, dim);
+    picture.points.insert(picture.points.end(), x.begin(), x.end());
+    picture.displacement.insert(picture.displacement.end(), d.begin(), d.end());
+  }
+  if (field == FieldChoice::none) return picture;
+  const elasticity::Stress none{};
+  for (int n = 0; n < mesh.node_count(); ++n)
+    picture.values.push_back(value(field, &u[static_cast<std::size_t>(n) * dim], dim,
+                                   is_stress(field) ? s.stress(index)[n] : none));
+  return picture;
+}
+
+/// Positions in `nodes` of each contact facet's nodes; at a corner the entry of the facet's own side.
+std::vector<int> contact_facets(const Contact& contact, const std::vector<scene::ContactNode>& nodes) {
+  std::multimap<int, int> entries;
+  for (std::size_t k = 0; k < nodes.size(); ++k) entries.emplace(nodes[k].node, static_cast<int>(k));
+  const mesh::Mesh& mesh = *contact.first.body->mesh;
+  std::vector<int> result;
+  for (const mesh::Facet f : contact.first.facets) {
+    const mesh::Point normal = mesh.facet_area_vector(f);
+    std::vector<int> found;
+    for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) {
+      const auto [first, last] = entries.equal_range(mesh.facet_node(f, k));
+      int best = -1;
+      double most = -INFINITY;
+      for (auto it = first; it != last; ++it) {
+        double along = 0;
+        for (int i = 0; i < 3; ++i) along += normal[i] * nodes[it->second].normal[i];
+        if (along > most) most = along, best = it->second;
+      }
+      if (best >= 0) found.push_back(best);
+    }
+    if (static_cast<int>(found.size()) == mesh.topology().nodes_per_facet)
+      result.insert(result.end(), found.begin(), found.end());
+  }
+  return result;
+}
+
+ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result) {
+  ContactPicture picture;
+  picture.name = contact.name;
+  picture.nodes_per_facet = contact.first.body->mesh->topology().nodes_per_facet;
+  picture.facets = contact_facets(contact, result.nodes);
+  for (const scene::ContactNode& n : result.nodes)
+    picture.nodes.push_back({n.x, n.displacement, n.normal, n.pressure, n.weight,
+                             static_cast<Status>(static_cast<int>(n.status))});
+  return picture;
+}
+
+/// The obstacle as the contact nodes see it: each node's place on it, the gap magnified by `factor`.
+RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult& result, double factor,
+                              double size) {
+  RigidPicture picture;
+  std::vector<int> place(result.nodes.size(), -1);
+  Vec3 outward{0, 0, 0};
+  std::vector<std::pair<double, Vec3>> line;
+  for (std::size_t k = 0; k < result.nodes.size(); ++k) {
+    const double gap = factor * contact.rows[k].gap;
+    if (gap > 0.25 * size) continue;  // far from contact: of no interest, and out of the picture
+    Vec3 x = result.nodes[k].x;
+    for (int i = 0; i < 3; ++i) {
+      x[i] += gap * contact.rows[k].normal[i];
+      outward[i] += contact.rows[k].normal[i];
+    }
+    place[k] = static_cast<int>(picture.points.size()) / 3;
+    picture.points.insert(picture.points.end(), x.begin(), x.end());
+  }
+  const double length = std::hypot(outward[0], outward[1], outward[2]);
+  if (length > 0)
+    for (double& v : outward) v /= length;
+  picture.into_solid = outward;
+  const auto facets = contact_facets(contact, result.nodes);
+  if (contact.first.body->dimension() == 3) {
+    const int per_facet = contact.first.body->mesh->topology().nodes_per_facet;
+    for (std::size_t f = 0; f + per_facet <= facets.size(); f += per_facet)
+      for (int t = 0; t + 2 < per_facet; ++t) {
+        const int corner[3] = {place[facets[f]], place[facets[f + t + 1]], place[facets[f + t + 2]]};
+        if (corner[0] >= 0 && corner[1] >= 0 && corner[2] >= 0)
+          picture.triangles.insert(picture.triangles.end(), corner, corner + 3);
+      }
+    return picture;
+  }
+  // A polyline in the order along the part: by the coordinate across the mean normal.
+  std::vector<std::pair<double, Vec3>> ordered;
+  for (std::size_t k = 0; k + 2 < picture.points.size(); k += 3) {
+    const Vec3 x{picture.points[k], picture.points[k + 1], picture.points[k + 2]};
+    ordered.emplace_back(x[1] * outward[0] - x[0] * outward[1], x);
+  }
+  std::sort(ordered.begin(), ordered.end());
+  picture.points.clear();
+  for (const auto& [t, x] : ordered) picture.points.insert(picture.points.end(), x.begin(), x.end());
+  return picture;
+}
+
+SupportKind kind_of(scene::SupportKind kind) {
+  return kind == scene::SupportKind::fix     ? SupportKind::fix
+         : kind == scene::SupportKind::slide ? SupportKind::slide
+                                             : SupportKind::displace;
+}
+
+void add_supports(const Solution& s, int index, ScenePicture& picture) {
+  const Body& body = *s.scene().bodies[index];
+  const auto& u = s.displacement(index);
+  const int dim = body.dimension();
+  for (const scene::Support& support : body.supports)
+    for (std::size_t k = 0; k < support.nodes.size(); ++k)
+      picture.supports.push_back({body.mesh->point(support.nodes[k]), at_node(u, support.nodes[k], dim),
+                                  support.normals[k], support.components[k], kind_of(support.kind)});
+  for (const scene::SlideRow& slide : body.slides)
+    picture.supports.push_back({body.mesh->point(slide.node), at_node(u, slide.node, dim), slide.normal,
+                                {true, true, true}, SupportKind::slide});
+  for (const scene::SpringPatch& patch : body.springs) {
+    const mesh::Point centre = body.mesh->facet_centre(patch.spring.facet);
+    Vec3 normal = body.mesh->facet_area_vector(patch.spring.facet);
+    const double area = std::hypot(normal[0], normal[1], normal[2]);
+    for (double& n : normal) n /= area;
+    const auto& k = patch.spring.stiffness.front();
+    picture.supports.push_back({centre, s.displacement(index, centre), normal,
+                                {k[0] > 0, k[1] > 0, k[2] > 0}, SupportKind::spring});
+  }
+}
+
+void add_loads(const Solution& s, int index, ScenePicture& picture) {
+  const Body& body = *s.scene().bodies[index];
+  const std::size_t step = std::max<std::size_t>(1, body.arrows.size() / 200);
+  for (std::size_t k = 0; k < body.arrows.size(); k += step)
+    picture.loads.push_back({body.arrows[k].at, s.displacement(index, body.arrows[k].at), body.arrows[k].value});
+}
+
+double scene_size(const Solution& s) {
+  mesh::Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  for (const auto& body : s.scene().bodies)
+    for (int n = 0; n < body->mesh->node_count(); ++n) {
+      const mesh::Point x = body->mesh->point(n);
+      for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], x[i]), high[i] = std::max(high[i], x[i]);
+    }
+  return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+}
+
+}  // namespace
+
+double visible_deformation(const Solution& s) {
+  double largest = 0;
+  for (std::size_t b = 0; b < s.scene().bodies.size(); ++b)
+    for (double u : s.displacement(static_cast<int>(b))) largest = std::max(largest, std::abs(u));
+  if (!(largest > 0)) return 1;
+  const double wanted = 0.1 * scene_size(s) / largest;
+  if (wanted <= 1) return 1;
+  const double power = std::pow(10, std::floor(std::log10(wanted)));
+  return power * (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1);
+}
+
+ScenePicture compose(const Solution& s, const SceneOptions& options) {
+  const int dim = s.scene().dimension();
+  const auto missing = [&](FieldChoice f) { return options.field == f && dim == 2; };
+  if (missing(FieldChoice::uz) || missing(FieldChoice::yz) || missing(FieldChoice::xz))
+    throw InputError(std::string("field ") + label(options.field) + " does not exist: the scene is 2-D");
+  ScenePicture picture;
+  picture.field_label = label(options.field);
+  picture.deformation = options.deform.value_or(visible_deformation(s));
+  const double size = scene_size(s);
+  for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {
+    picture.bodies.push_back(body_picture(s, b, options.field));
+    if (options.supports) add_supports(s, b, picture);
+    if (options.loads) add_loads(s, b, picture);
+  }
+  if (!options.contact) return picture;
+  for (const auto& contact : s.scene().contacts) {
+    if (contact->kind != Contact::Kind::contact) continue;
+    const scene::ContactResult result = s.contact(*contact);
+    picture.contacts.push_back(contact_picture(*contact, result));
+    if (!contact->second.body && options.obstacle) {
+      RigidPicture obstacle = obstacle_picture(*contact, result, picture.deformation, size);
+      if (obstacle.points.size() >= 6) picture.obstacles.push_back(std::move(obstacle));
+    }
+  }
+  return picture;
+}
+
+}  // namespace dotyk::figure

@@ -1,0 +1,152 @@
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "figure/compose.hpp"
+#include "script/bind.hpp"
+#include "script/library.hpp"
+#include "script/wrapped.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using scene::Solution;
+
+/// Both pixels counts of 'size'.
+template <class Picture>
+void read_size(const Arguments& call, Picture& picture) {
+  if (!call.has("size")) return;
+  const auto size = call.integers("size");
+  for (const long long pixels : size)
+    if (pixels < 160 || pixels > 8192)
+      throw InputError(text("size has ", pixels, " pixels; a side must have from 160 to 8192"));
+  picture.width = static_cast<int>(size[0]);
+  picture.height = static_cast<int>(size[1]);
+}
+
+Key size_key(const char* otherwise) {
+  return key::list("size", key::integer("", ""), "width and height").count(2).unit("pixels").otherwise(otherwise);
+}
+
+const std::vector<std::string> kFields = {"none", "displacement", "ux", "uy", "uz", "von_mises",
+                                          "xx", "yy", "zz", "yz", "xz", "xy"};
+
+figure::SceneOptions scene_options(const Call& call, int dimension) {
+  figure::SceneOptions options;
+  options.field = static_cast<figure::FieldChoice>(call.choice("field"));
+  if (call.is("deform", LUA_TNUMBER)) {
+    lua_Number factor = lua_tonumber(call.state(), call.slot("deform"));
+    if (factor < 0) throw InputError(text("deform is ", factor, "; it must be zero, positive or \"auto\""));
+    options.deform = factor;
+  }
+  options.contact = call.boolean("contact");
+  options.supports = call.boolean("supports");
+  options.loads = call.boolean("loads");
+  options.obstacle = call.has("obstacle") ? call.boolean("obstacle") : dimension == 2;
+  return options;
+}
+
+int render(Call& call) {
+  const auto s = call.self<Solution>();
+  figure::ScenePicture picture = figure::compose(*s, scene_options(call, s->scene().dimension()));
+  picture.file = call.text("file");
+  read_size(call, picture);
+  picture.title = call.has("title") ? call.text("title") : "";
+  picture.field_unit = call.has("unit") ? call.text("unit") : "";
+  picture.pressure_unit = picture.field_unit;
+  picture.edges = call.has("edges") ? (call.boolean("edges") ? figure::MeshEdges::on : figure::MeshEdges::off)
+                                    : figure::MeshEdges::automatic;
+  picture.pressure = static_cast<figure::PressureStyle>(call.choice("pressure"));
+  if (call.has("range")) {
+    const auto range = call.vector("range");
+    picture.field_range = {range[0], range[1]};
+  }
+  if (call.has("view")) {
+    const auto view = call.vector("view");
+    picture.view_from = figure::Vec3{view[0], view[1], view[2]};
+  }
+  figure::draw(picture);
+  return call.give(picture.file);
+}
+
+figure::SeriesPicture series_of(const Arguments& given) {
+  figure::SeriesPicture series;
+  series.name = given.has("name") ? given.text("name") : "";
+  series.x = given.vector("x");
+  series.y = given.vector("y");
+  if (series.x.size() != series.y.size())
+    throw InputError(text("series '", series.name, "' has ", series.x.size(), " x and ", series.y.size(), " y"));
+  if (given.has("low")) series.low = given.vector("low");
+  if (given.has("high")) series.high = given.vector("high");
+  series.style = static_cast<figure::SeriesStyle>(given.choice("style"));
+  series.reference = given.boolean("reference");
+  return series;
+}
+
+int chart(Call& call) {
+  figure::ChartPicture picture;
+  picture.file = call.text("file");
+  read_size(call, picture);
+  picture.title = call.has("title") ? call.text("title") : "";
+  picture.x_label = call.has("x") ? call.text("x") : "";
+  picture.y_label = call.has("y") ? call.text("y") : "";
+  const std::string log = call.text("log");
+  picture.log_x = log.find('x') != std::string::npos;
+  picture.log_y = log.find('y') != std::string::npos;
+  for (const Arguments& series : call.tables("series")) picture.series.push_back(series_of(series));
+  if (call.has("slopes"))
+    for (const double slope : call.vector("slopes")) picture.slopes.push_back({slope, ""});
+  figure::draw(picture);
+  return call.give(picture.file);
+}
+
+Key series_key() {
+  return key::list("series",
+                   key::table("", {key::string("name", "its name in the legend"),
+                                   key::vector("x", "abscissas").required(), key::vector("y", "ordinates").required(),
+                                   key::vector("low", "lower end of a spread"), key::vector("high", "upper end of a spread"),
+                                   key::choice("style", {"line", "points", "both"}, "how it is drawn").fallback("both"),
+                                   key::boolean("reference", "a reference curve: dashed, without markers").fallback(false)},
+                              "one curve"),
+                   "the curves").required();
+}
+
+}  // namespace
+
+void bind_figure(Library& library) {
+  library.function({.name = "dotyk.chart",
+                    .help = "Draws curves into a PNG file and returns its name.",
+                    .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
+                               "  series = { { name = \"P1\", x = { 1, 0.5 }, y = { 0.1, 0.03 } } } }",
+                    .arguments = {key::table({key::string("file", "where to; ends in .png, its folder must exist").required(),
+                                              key::string("title", "above the chart").otherwise("none"),
+                                              key::string("x", "label of the x axis"), key::string("y", "label of the y axis"),
+                                              key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic").fallback(""),
+                                              series_key(),
+                                              key::vector("slopes", "guides of these slopes").otherwise("none"),
+                                              size_key("{1000, 750}")})},
+                    .run = chart});
+  library.extend<Solution>().method(
+      {.name = "solution:render",
+       .help = "Draws the deformed bodies coloured by a field, with contact status and pressure, into a PNG file and "
+               "returns its name. With a deformation factor other than 1 a rigid obstacle is drawn at the magnified "
+               "gap, so that what touches is seen to touch.",
+       .example = "s:render{ file = \"images/a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
+       .arguments = {key::table(
+           {key::string("file", "where to; ends in .png, its folder must exist").required(),
+            key::choice("field", kFields, "what the colours show").fallback("von_mises"),
+            key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")},
+                        "factor on the displacement; auto: such that it can be seen").otherwise("\"auto\""),
+            key::boolean("contact", "contact status, pressure and obstacles").fallback(true),
+            key::boolean("supports", "symbols at supported nodes").fallback(false),
+            key::boolean("loads", "arrows for loads").fallback(false),
+            key::boolean("obstacle", "rigid obstacles").otherwise("true in the plane, false in space"),
+            key::choice("pressure", {"auto", "strip", "arrows", "none"}, "how contact pressure is drawn").fallback("auto"),
+            key::boolean("edges", "edges of the cells").otherwise("while they can be told apart"),
+            key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's"),
+            key::vector("view", "direction towards the eye, in space").count(3),
+            key::string("title", "above the figure").otherwise("none"),
+            key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none"),
+            size_key("{1200, 800}")})},
+       .run = render});
+}
+
+}  // namespace dotyk::script
