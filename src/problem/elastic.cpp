@@ -12,6 +12,7 @@ class Elastic final : public Law {
   explicit Elastic(std::vector<double> stiffness) : k_(std::move(stiffness)) {}
   std::string name() const override { return "elastic"; }
   Projection project(int row, double y, double rho) const override {
+    if (k_[row] == 0) return {0, 0};  // also at rho = 0
     const double slope = k_[row] / (k_[row] + rho);
     return {slope * y, slope};
   }

@@ -27,7 +27,7 @@ class Law {
  public:
   virtual ~Law() = default;
   virtual std::string name() const = 0;
-  /// P(y) for the row of the law's group, ρ > 0 in force per displacement.
+  /// P(y) for the row of the law's group, ρ ≥ 0 in force per displacement; at ρ = 0 the nearest admissible λ.
   virtual Projection project(int row, double y, double rho) const = 0;
   /// φ(x); 0 where an indicator law holds (a solver's iterate may violate it by rounding).
   virtual double energy(int row, double x) const = 0;
