@@ -1,0 +1,127 @@
+#include "problem/condensed.hpp"
+
+#include <doctest/doctest.h>
+
+#include "../support/chain.hpp"
+#include "base/error.hpp"
+
+using namespace dotyk;
+using namespace dotyk::problem;
+using algebra::DenseMatrix;
+using algebra::Ordering;
+using algebra::Vector;
+using test::Random;
+
+namespace {
+
+/// B between blocks: each row joins a random unknown of one to one of the other (or to the ground).
+DenseMatrix random_rows(Random& random, const Problem& p, int count) {
+  DenseMatrix B = DenseMatrix::Zero(count, p.unknowns());
+  for (int r = 0; r < count; ++r)
+    for (const Block& b : p.blocks) {
+      const int node = random.below(b.size() / 2);
+      B(r, b.first + 2 * node) = random.between(-1, 1);
+      if (random.coin()) B(r, b.first + 2 * node + 1) = random.between(-1, 1);
+    }
+  return B;
+}
+
+}  // namespace
+
+TEST_CASE("condensed onto its rows a held problem is B K⁻¹ Bᵀ and the free jump") {
+  Random random(41);
+  for (const Ordering ordering : {Ordering::minimum_degree, Ordering::nested_dissection}) {
+    Problem p;
+    for (const char* name : {"a", "b"})
+      add(p, test::block(name, test::spring_grid(random, 5, 4, 2, 0.2), random.vector(40), 2, false));
+    p.B = test::rows(random_rows(random, p, 9));
+    p.c = random.vector(9);
+    Clock clock;
+    Monitor quiet;
+    const CondensedProblem condensed(p, ordering, clock, quiet);
+    const DenseMatrix K = test::stiffness(p), B = p.B, inverse = K.inverse();
+    CHECK(condensed.kernel_size() == 0);
+    CHECK(test::relative(condensed.W(), B * inverse * B.transpose()) < 1e-11);
+    CHECK(test::relative(condensed.x0(), B * inverse * test::load(p) - p.c) < 1e-11);
+    const Vector lambda = random.vector(9), u = inverse * (test::load(p) - B.transpose() * lambda);
+    CHECK(test::relative(condensed.recover(lambda, Vector()), u) < 1e-11);
+    CHECK(test::relative(condensed.jump(lambda, Vector()), B * u - p.c) < 1e-11);
+  }
+}
+
+TEST_CASE("condensed with a kernel: any balanced multipliers and any rigid motion are in equilibrium") {
+  Random random(42);
+  Problem p;
+  add(p, test::block("held", test::spring_grid(random, 4, 4, 2, 0.2), random.vector(32), 2, false));
+  add(p, test::block("free", test::spring_grid(random, 5, 3, 2, 0), random.vector(30), 2, true));
+  add(p, test::block("loose", test::spring_grid(random, 3, 3, 2, 0), random.vector(18), 2, true));
+  p.B = test::rows(random_rows(random, p, 8));
+  p.c = random.vector(8);
+  Clock clock;
+  Monitor quiet;
+  const CondensedProblem condensed(p, Ordering::automatic, clock, quiet);
+  REQUIRE(condensed.kernel_size() == 4);
+  CHECK(condensed.mode_name(0) == "'free': translation along x");
+  CHECK(condensed.mode_name(3) == "'loose': translation along y");
+  const DenseMatrix B = p.B;
+  DenseMatrix R = DenseMatrix::Zero(p.unknowns(), 4);
+  R.block(p.blocks[1].first, 0, 30, 2) = p.blocks[1].kernel;
+  R.block(p.blocks[2].first, 2, 18, 2) = p.blocks[2].kernel;
+  const Vector f = test::load(p);
+  CHECK(test::relative(condensed.N(), B * R) < 1e-14);
+  CHECK(test::relative(condensed.e(), R.transpose() * f) < 1e-14);
+  // λ with Nᵀλ = e, otherwise at random.
+  const DenseMatrix N = condensed.N();
+  Vector lambda = random.vector(8);
+  lambda += N * (N.transpose() * N).inverse() * (condensed.e() - N.transpose() * lambda);
+  const Vector alpha = random.vector(4), u = condensed.recover(lambda, alpha);
+  const Vector missing = stiffness_times(p, u) + B.transpose() * lambda - f;
+  CHECK(missing.norm() < 1e-10 * f.norm());
+  CHECK((B * u - p.c - condensed.jump(lambda, alpha)).norm() < 1e-10 * u.norm());
+}
+
+TEST_CASE("a block that no row touches is solved along") {
+  Random random(43);
+  Problem p;
+  add(p, test::block("touched", test::spring_grid(random, 3, 3, 2, 1), random.vector(18), 2, false));
+  add(p, test::block("apart", test::spring_grid(random, 3, 3, 2, 1), random.vector(18), 2, false));
+  DenseMatrix B = DenseMatrix::Zero(1, 36);
+  B(0, 3) = 1;
+  p.B = test::rows(B);
+  p.c = Vector::Zero(1);
+  Clock clock;
+  Monitor quiet;
+  const CondensedProblem condensed(p, Ordering::automatic, clock, quiet);
+  CHECK(test::relative(condensed.recover(Vector::Zero(1), Vector()), test::stiffness(p).inverse() * test::load(p)) < 1e-11);
+}
+
+TEST_CASE("a block without unknowns is passed over") {
+  Random random(44);
+  Problem p;
+  add(p, test::block("fixed", test::SpringGrid{algebra::SparseMatrix(0, 0), {}, 0}, Vector(), 2, false));
+  add(p, test::block("soft", test::spring_grid(random, 3, 3, 2, 1), random.vector(18), 2, false));
+  DenseMatrix B = DenseMatrix::Zero(1, 18);
+  B(0, 3) = 1;
+  p.B = test::rows(B);
+  p.c = Vector::Zero(1);
+  Clock clock;
+  Monitor quiet;
+  const CondensedProblem condensed(p, Ordering::automatic, clock, quiet);
+  CHECK(condensed.recover(Vector::Zero(1), Vector()).size() == 18);
+}
+
+TEST_CASE("a block that is not held is refused by name and node") {
+  Random random(45);
+  Problem p;
+  auto block = test::block("lid", test::spring_grid(random, 3, 3, 2, 1), random.vector(18), 2, false);
+  block.K.coeffRef(16, 16) = -1;
+  add(p, block);
+  DenseMatrix B = DenseMatrix::Zero(1, 18);
+  B(0, 3) = 1;
+  p.B = test::rows(B);
+  p.c = Vector::Zero(1);
+  Clock clock;
+  Monitor quiet;
+  CHECK_THROWS_WITH_AS(CondensedProblem(p, Ordering::automatic, clock, quiet),
+                       doctest::Contains("the stiffness of 'lid' is singular (node 9 is not held)"), InputError);
+}

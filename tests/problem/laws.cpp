@@ -1,0 +1,123 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "problem/law.hpp"
+
+using namespace dotyk;
+using namespace dotyk::problem;
+
+namespace {
+
+const std::vector<double> kStiffness{0, 1e-3, 1, 40, 1e3};
+
+/// Six decades either side of zero, and zero.
+std::vector<double> grid() {
+  std::vector<double> values{0};
+  for (double decade = 1e-3; decade < 2e3; decade *= 10)
+    for (double m : {1.0, 2.5, 7.0})
+      for (double sign : {1.0, -1.0}) values.push_back(sign * m * decade);
+  return values;
+}
+
+std::vector<double> rhos() { return {1e-3, 1e-2, 0.1, 1, 10, 100, 1e3}; }
+
+/// λ = P(λ + ρx), to rounding of the larger part.
+bool satisfied(const Law& law, int row, double x, double lambda, double rho) {
+  const double p = law.project(row, lambda + rho * x, rho).lambda;
+  return std::abs(p - lambda) <= 1e-12 * std::max(std::abs(lambda), rho * std::abs(x));
+}
+
+/// Checks λ = P(λ + ρx) ⟺ `member`(x, λ) over the grids.
+template <class Member>
+void check_equivalence(const Law& law, int row, Member&& member) {
+  for (double rho : rhos())
+    for (double x : grid())
+      for (double lambda : grid()) {
+        const bool in_subdifferential = member(x, lambda);
+        CHECK_MESSAGE(satisfied(law, row, x, lambda, rho) == in_subdifferential,
+                      law.name() << " x=" << x << " lambda=" << lambda << " rho=" << rho);
+      }
+}
+
+void check_slope(const Law& law, int row) {
+  for (double rho : rhos())
+    for (double y : grid()) {
+      if (y == 0) continue;  // the kink of the unilateral law
+      const double h = 1e-4 * std::abs(y);
+      const double difference = (law.project(row, y + h, rho).lambda - law.project(row, y - h, rho).lambda) / (2 * h);
+      const double slope = law.project(row, y, rho).slope;
+      CHECK(std::abs(slope - difference) < 1e-10);  // P is linear on either side: rounding / h
+      CHECK(slope >= 0);
+      CHECK(slope <= 1);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("unilateral: λ = P(λ + ρx) says x ≤ 0, λ ≥ 0, λx = 0") {
+  const auto law = unilateral();
+  check_equivalence(*law, 0, [](double x, double l) { return x <= 0 && l >= 0 && x * l == 0; });
+  check_slope(*law, 0);
+  CHECK(law->unilateral());
+  CHECK(law->project(0, 0, 1).lambda == 0);
+}
+
+TEST_CASE("bilateral: λ = P(λ + ρx) says x = 0") {
+  const auto law = bilateral();
+  check_equivalence(*law, 0, [](double x, double) { return x == 0; });
+  check_slope(*law, 0);
+  CHECK_FALSE(law->unilateral());
+}
+
+TEST_CASE("elastic: λ = P(λ + ρx) says λ = kx") {
+  const auto law = elastic(kStiffness);
+  for (int row = 0; row < static_cast<int>(kStiffness.size()); ++row) {
+    const double k = kStiffness[row];
+    check_slope(*law, row);
+    for (double rho : rhos())
+      for (double x : grid()) {
+        CHECK(satisfied(*law, row, x, k * x, rho));
+        // Away from λ = kx the projection moves λ by (λ − kx) ρ/(k + ρ).
+        for (double lambda : grid()) {
+          const double moved = lambda - law->project(row, lambda + rho * x, rho).lambda;
+          const double size = std::abs(lambda) + (rho + k) * std::abs(x);
+          CHECK(std::abs(moved - (lambda - k * x) * rho / (k + rho)) <= 1e-13 * size);
+        }
+      }
+  }
+}
+
+TEST_CASE("Fenchel and Young: φ(x) + φ*(λ) = λx where λ ∈ ∂φ(x), and never less") {
+  const auto law = elastic(kStiffness);
+  for (int row = 1; row < static_cast<int>(kStiffness.size()); ++row)
+    for (double x : grid()) {
+      const double k = kStiffness[row], at = law->energy(row, x) + law->conjugate(row, k * x);
+      CHECK(std::abs(at - k * x * x) <= 1e-14 * k * x * x);
+      for (double lambda : grid()) {
+        const double both = law->energy(row, x) + law->conjugate(row, lambda);
+        CHECK(both - lambda * x >= -1e-14 * both);
+      }
+    }
+  // Indicators: both energies vanish at pairs, and so does λx.
+  CHECK(unilateral()->energy(0, -1) + unilateral()->conjugate(0, 0) == 0);
+  CHECK(unilateral()->energy(0, 0) + unilateral()->conjugate(0, 5) == 0);
+  CHECK(bilateral()->energy(0, 0) + bilateral()->conjugate(0, -5) == 0);
+}
+
+TEST_CASE("at ρ = 0 the projection is the nearest admissible multiplier") {
+  CHECK(unilateral()->project(0, -2, 0).lambda == 0);
+  CHECK(unilateral()->project(0, 2, 0).lambda == 2);
+  CHECK(bilateral()->project(0, -2, 0).lambda == -2);
+  const auto law = elastic({0, 3});
+  CHECK(law->project(0, 5, 0).lambda == 0);  // no stiffness carries no force
+  CHECK(law->project(1, 5, 0).lambda == 5);
+}
+
+TEST_CASE("the elastic law refuses stiffness that is negative or no number") {
+  CHECK_THROWS_WITH_AS(elastic({1, -2}), "elastic law: stiffness is -2; it must be zero or positive", InputError);
+  CHECK_THROWS_AS(elastic({NAN}), InputError);
+  CHECK_THROWS_AS(elastic({INFINITY}), InputError);
+  CHECK_NOTHROW(elastic({0}));
+}

@@ -1,0 +1,99 @@
+#include "problem/residual.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "../support/chain.hpp"
+
+using namespace dotyk;
+using namespace dotyk::problem;
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+namespace {
+
+/// One unknown of stiffness 2 under force f, stopped at the gap c.
+Problem one_spring(double f, double c, std::shared_ptr<const Law> law) {
+  Problem p;
+  Block b;
+  b.name = "spring";
+  b.K = test::lower(DenseMatrix::Constant(1, 1, 2));
+  b.f = Vector::Constant(1, f);
+  b.node = {0};
+  b.kernel.resize(1, 0);
+  add(p, b);
+  p.B = test::rows(DenseMatrix::Ones(1, 1));
+  p.c = Vector::Constant(1, c);
+  p.groups.push_back(test::group(law, 0, 1));
+  return p;
+}
+
+State state(double u, double lambda) { return {Vector::Constant(1, u), Vector::Constant(1, lambda)}; }
+
+}  // namespace
+
+TEST_CASE("residuals vanish at the solution of one spring and an obstacle") {
+  // Closed: u = c, λ = f − 2c. Open: u = f/2.
+  for (const auto& [p, s] : {std::pair{one_spring(10, 1, unilateral()), state(1, 8)},
+                             std::pair{one_spring(10, 6, unilateral()), state(5, 0)},
+                             std::pair{one_spring(-10, 1, bilateral()), state(1, -12)},
+                             std::pair{one_spring(10, 0, elastic({3})), state(2, 6)}}) {
+    const Residual r = residual(p, s);
+    CHECK(r.equilibrium == 0);
+    CHECK(r.penetration == 0);
+    CHECK(r.complementarity == 0);
+    CHECK(r.law < 1e-15);
+  }
+}
+
+TEST_CASE("each residual sees its own violation, relative to its scale") {
+  const Problem p = one_spring(10, 1, unilateral());
+  // u = 1.1 penetrates by 0.1 of 1.1; λ = 10 − 2.2 keeps equilibrium.
+  const Residual deep = residual(p, state(1.1, 7.8));
+  CHECK(deep.equilibrium < 1e-15);
+  CHECK(deep.penetration == doctest::Approx(0.1 / 1.1));
+  CHECK(deep.complementarity > 0.01);
+  CHECK(deep.law > 0.01);
+  // u = 1 with the wrong force misses equilibrium by 3 of 2 + 5 + 10.
+  const Residual off = residual(p, state(1, 5));
+  CHECK(off.equilibrium == doctest::Approx(3.0 / 17));
+  CHECK(off.penetration == 0);
+  // Pulling.
+  CHECK(residual(one_spring(1, 1, unilateral()), state(1, -1)).law == doctest::Approx(1));
+}
+
+TEST_CASE("residuals do not depend on units") {
+  for (double force : {1e-6, 1.0, 1e9})
+    for (double length : {1e-6, 1.0, 1e3}) {
+      Problem p = one_spring(10 * force, 1 * length, unilateral());
+      p.blocks[0].K *= force / length;
+      const Residual r = residual(p, state(1.1 * length, 5 * force)),
+                     reference = residual(one_spring(10, 1, unilateral()), state(1.1, 5));
+      CHECK(r.equilibrium == doctest::Approx(reference.equilibrium));
+      CHECK(r.penetration == doctest::Approx(reference.penetration));
+      CHECK(r.complementarity == doctest::Approx(reference.complementarity));
+      CHECK(r.law == doctest::Approx(reference.law));
+    }
+}
+
+TEST_CASE("energy is the minimum at the solution") {
+  test::Random random(51);
+  const Problem p = one_spring(10, 0.5, elastic({3}));
+  const double u = (10 + 3 * 0.5) / 5;  // 2u + 3(u − 0.5) = 10
+  const double least = energy(p, state(u, 3 * (u - 0.5)));
+  CHECK(least == doctest::Approx(u * u - 10 * u + 1.5 * (u - 0.5) * (u - 0.5)));
+  for (int k = 0; k < 20; ++k) CHECK(energy(p, state(u + random.between(-1, 1), 0)) > least);
+}
+
+TEST_CASE("nothing loaded and nothing moved has no residual") {
+  const Residual r = residual(one_spring(0, 0, unilateral()), state(0, 0));
+  CHECK(r.equilibrium + r.penetration + r.complementarity + r.law == 0);
+}
+
+TEST_CASE("row stiffness is Σ B² K_jj") {
+  Problem p = one_spring(1, 1, unilateral());
+  p.B = test::rows(DenseMatrix::Constant(1, 1, -3));
+  CHECK(p.row_stiffness()[0] == 18);
+  CHECK(p.group_of_rows()[0] == &p.groups[0]);
+}
