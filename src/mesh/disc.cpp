@@ -17,7 +17,9 @@ Mesh rings(const double center[2], double radius, int n) {
   const auto first = [](int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); };
   for (int ring = 1; ring <= n; ++ring)
     for (int k = 0; k < 6 * ring; ++k) {
-      const double r = radius * ring / n, angle = 2 * pi * k / (6 * ring) - pi / 2;
+      // Sectors meet at 0°, 60°, …: the lowest and highest points, where discs are put in contact,
+      // lie inside a sector, where the mesh is regular and nodal pressure converges at order 2.
+      const double r = radius * ring / n, angle = 2 * pi * k / (6 * ring) - pi / 3;
       mesh.coordinates.insert(mesh.coordinates.end(),
                               {center[0] + r * std::cos(angle), center[1] + r * std::sin(angle)});
     }
