@@ -19,12 +19,11 @@ void require(bool holds, const std::string& message) {
 
 std::string count(std::size_t n) { return std::to_string(n); }
 
-void check_file(const std::string& file, int width, int height) {
-  require(!file.empty(), "a picture needs a file name");
-  require(file.size() > 4 && file.ends_with(".png"), "cannot write " + file + ": the file name must end in .png");
-  require(width >= 160 && width <= 8192 && height >= 160 && height <= 8192,
-          "the size of " + file + " is " + std::to_string(width) + " x " + std::to_string(height) +
-              ", expected 160 to 8192 pixels each way");
+// `ending` with its dot.
+void check_file(const std::string& file, const std::string& ending) {
+  require(!file.empty(), "a file name is needed, one that ends in " + ending);
+  require(file.size() > ending.size() && file.ends_with(ending),
+          "cannot write " + file + ": the file name must end in " + ending);
   const auto slash = file.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : slash == 0 ? "/" : file.substr(0, slash);
   struct stat info {};
@@ -34,6 +33,12 @@ void check_file(const std::string& file, int width, int height) {
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     throw std::runtime_error("cannot write " + file + ": folder " + folder + ": " + std::strerror(errno));
   require(stat(file.c_str(), &info) != 0 || !S_ISDIR(info.st_mode), "cannot write " + file + ": it is a folder");
+}
+
+void check_size(const std::string& file, int width, int height) {
+  require(width >= 160 && width <= 8192 && height >= 160 && height <= 8192,
+          "the size of " + file + " is " + std::to_string(width) + " x " + std::to_string(height) +
+              ", expected 160 to 8192 pixels each way");
 }
 
 void check_nodes(const std::vector<int>& nodes, int each, std::size_t n, const std::string& what) {
@@ -51,10 +56,6 @@ bool finite(const std::vector<double>& values) {
 }
 
 bool finite(const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
-
-int nodes_per_cell(CellShape shape) {
-  return shape == CellShape::triangle ? 3 : shape == CellShape::hexahedron ? 8 : 4;
-}
 
 void check_body(const BodyPicture& body, int dimension) {
   const std::string who = "body \"" + body.name + "\"";
@@ -79,7 +80,8 @@ void check_body(const BodyPicture& body, int dimension) {
 }  // namespace
 
 void check(const ScenePicture& p) {
-  check_file(p.file, p.width, p.height);
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
   require(!p.bodies.empty(), "the picture " + p.file + " shows no body");
   require(std::isfinite(p.deformation), "the deformation factor is not finite");
   require(!p.field_range || (std::isfinite((*p.field_range)[0]) && std::isfinite((*p.field_range)[1]) &&
@@ -106,7 +108,8 @@ void check(const ScenePicture& p) {
 }
 
 void check(const ChartPicture& p) {
-  check_file(p.file, p.width, p.height);
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
   for (const SeriesPicture& s : p.series) {
     const std::string who = "series \"" + s.name + "\"";
     require(s.x.size() == s.y.size(), who + ": " + count(s.x.size()) + " x for " + count(s.y.size()) + " y");
@@ -118,6 +121,19 @@ void check(const ChartPicture& p) {
     if (range)
       require(std::isfinite((*range)[0]) && std::isfinite((*range)[1]) && (*range)[0] < (*range)[1] && (!log || (*range)[0] > 0),
               std::string("the range of the ") + name + " axis must be {least, greatest}" + (log ? ", both positive" : ""));
+}
+
+void check(const GridFile& g) {
+  check_file(g.file, ".vtu");
+  require(g.points.size() % 3 == 0, g.file + ": points come three coordinates each");
+  require(finite(g.points), g.file + ": a coordinate is not finite");
+  const std::size_t n = g.points.size() / 3;
+  for (const GridBody& body : g.bodies)
+    check_nodes(body.cells, nodes_per_cell(body.shape), n, "body \"" + body.name + "\", cells");
+  for (const GridArray& a : g.arrays)
+    require(!a.components.empty() && a.values.size() == a.components.size() * n,
+            "array \"" + a.name + "\": " + count(a.values.size()) + " values for " + count(n) + " nodes of " +
+                count(a.components.size()) + " components");
 }
 
 }  // namespace dotyk::figure

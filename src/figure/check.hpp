@@ -1,6 +1,7 @@
-// What must hold of a picture before it is drawn.
+// What must hold of a picture before it is drawn, of a mesh before it is written.
 #pragma once
 
+#include "grid_file.hpp"
 #include "picture.hpp"
 
 namespace dotyk::figure {
@@ -9,5 +10,6 @@ namespace dotyk::figure {
 // node numbers, the file's ending and folder.
 void check(const ScenePicture& picture);
 void check(const ChartPicture& picture);
+void check(const GridFile& grid);
 
 }  // namespace dotyk::figure

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "figure/cell_shape.hpp"
 
 namespace dotyk::figure {
 namespace {
@@ -45,15 +46,6 @@ Vec3 at_node(const std::vector<double>& values, int node, int dim) {
   return v;
 }
 
-CellShape shape_of(mesh::Element element) {
-  switch (element) {
-    case mesh::Element::triangle_p1: return CellShape::triangle;
-    case mesh::Element::quadrilateral_q1: return CellShape::quad;
-    case mesh::Element::tetrahedron_p1: return CellShape::tetrahedron;
-    default: return CellShape::hexahedron;
-  }
-}
-
 BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
   const Body& body = *s.scene().bodies[index];
   const mesh::Mesh& mesh = *body.mesh;
@@ -61,7 +53,7 @@ BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
   BodyPicture picture;
   picture.name = body.name;
   picture.dimension = dim;
-  picture.shape = shape_of(mesh.element);
+  picture.shape = cell_shape(mesh.element);
   picture.cells = mesh.cells;
   picture.nodes_per_facet = mesh.topology().nodes_per_facet;
   for (const mesh::Facet f : mesh::boundary(mesh))

@@ -1,4 +1,4 @@
-// The two doors of the drawing library. No exception passes them: an error is
+// The doors of the drawing library. No exception passes them: an error is
 // a text in `error` and a result other than 0.
 #include <cstdio>
 #include <exception>
@@ -30,6 +30,10 @@ __attribute__((visibility("default"))) int dotyk_figure_draw_scene(const dotyk::
 
 __attribute__((visibility("default"))) int dotyk_figure_draw_chart(const dotyk::figure::ChartPicture* picture, char* error, int size) {
   return guarded([&] { dotyk::figure::draw_chart(*picture); }, error, size);
+}
+
+__attribute__((visibility("default"))) int dotyk_figure_write_grid(const dotyk::figure::GridFile* grid, char* error, int size) {
+  return guarded([&] { dotyk::figure::write_grid(*grid); }, error, size);
 }
 
 }  // extern "C"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "check.hpp"
+#include "grid_file.hpp"
 #include "picture.hpp"
 
 namespace dotyk::figure {
@@ -21,6 +22,7 @@ using Draw = int (*)(const Picture*, char* error, int size);
 struct Library {
   Draw<ScenePicture> scene = nullptr;
   Draw<ChartPicture> chart = nullptr;
+  Draw<GridFile> grid = nullptr;
 };
 
 std::string program_folder() {
@@ -48,7 +50,7 @@ void* open_library() {
     const char* reason = dlerror();
     throw std::runtime_error("cannot open the drawing library " + place + ": " + (reason ? reason : "unknown reason"));
   }
-  throw std::runtime_error("pictures need the drawing library " + name + ", which is missing:" + tried);
+  throw std::runtime_error("pictures and .vtu files need the drawing library " + name + ", which is missing:" + tried);
 }
 
 const Library& library() {
@@ -57,7 +59,8 @@ const Library& library() {
     Library l;
     l.scene = reinterpret_cast<Draw<ScenePicture>>(dlsym(handle, "dotyk_figure_draw_scene"));
     l.chart = reinterpret_cast<Draw<ChartPicture>>(dlsym(handle, "dotyk_figure_draw_chart"));
-    if (!l.scene || !l.chart) throw std::runtime_error("the drawing library is of another version of dotyk");
+    l.grid = reinterpret_cast<Draw<GridFile>>(dlsym(handle, "dotyk_figure_write_grid"));
+    if (!l.scene || !l.chart || !l.grid) throw std::runtime_error("the drawing library is of another version of dotyk");
     return l;
   }();
   return opened;
@@ -74,5 +77,6 @@ void call(Draw<Picture> Library::*function, const Picture& picture) {
 
 void draw(const ScenePicture& picture) { call(&Library::scene, picture); }
 void draw(const ChartPicture& picture) { call(&Library::chart, picture); }
+void write(const GridFile& grid) { call(&Library::grid, grid); }
 
 }  // namespace dotyk::figure

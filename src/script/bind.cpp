@@ -14,6 +14,7 @@ void bind_all(Library& library) {
   bind_solver(library);
   bind_solution(library);
   bind_figure(library);
+  bind_write(library);
 }
 
 }  // namespace dotyk::script

@@ -13,5 +13,6 @@ void bind_scene(Library& library);
 void bind_solver(Library& library);
 void bind_solution(Library& library);
 void bind_figure(Library& library);
+void bind_write(Library& library);
 
 }  // namespace dotyk::script

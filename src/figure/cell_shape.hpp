@@ -1,0 +1,18 @@
+// How an element looks.
+#pragma once
+
+#include "figure/picture.hpp"
+#include "mesh/element.hpp"
+
+namespace dotyk::figure {
+
+inline CellShape cell_shape(mesh::Element element) {
+  switch (element) {
+    case mesh::Element::triangle_p1: return CellShape::triangle;
+    case mesh::Element::quadrilateral_q1: return CellShape::quad;
+    case mesh::Element::tetrahedron_p1: return CellShape::tetrahedron;
+    default: return CellShape::hexahedron;
+  }
+}
+
+}  // namespace dotyk::figure

@@ -1,0 +1,167 @@
+// The file for ParaView, read back by VTK's own reader.
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+
+#include "figure/compose_grid.hpp"
+#include "mesh/generators.hpp"
+#include "pixels.hpp"
+
+using namespace dotyk;
+using figure::GridArray;
+using figure::GridFile;
+
+namespace {
+
+std::shared_ptr<scene::Body> block(const std::string& name, double low, mesh::Family family) {
+  const double from[2] = {0, low}, to[2] = {1, low + 1};
+  const int cells[2] = {3, 2};
+  const mesh::Grading even[2];
+  auto mesh = std::make_shared<mesh::Mesh>(mesh::rectangle(from, to, cells, family, even));
+  return scene::make_body(name, mesh,
+                          elasticity::MaterialField(elasticity::isotropic(10, 0.2, 2, elasticity::Plane::strain)), {});
+}
+
+/// A block of triangles pressed on one of quadrilaterals.
+std::shared_ptr<scene::Solution> two_blocks() {
+  auto lower = block("lower", 0, mesh::Family::q1), upper = block("upper", 1, mesh::Family::p1);
+  auto held = scene::named_part(lower, "bottom"), loaded = scene::named_part(upper, "top"),
+       side = scene::named_part(upper, "left");
+  scene::fix(held, {true, true, true});
+  scene::fix(side, {true, false, false});
+  scene::load(loaded, [](const mesh::Point& x) { return mesh::Point{0, -1 - x[0], 0}; });
+  const auto s = scene::make_scene({lower, upper});
+  scene::add_contact(*s, scene::named_part(upper, "bottom"), scene::named_part(lower, "top"), {});
+  Monitor monitor;
+  return scene::solve(s, {}, {}, monitor);
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read(const std::string& file) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+int files_in(const std::string& folder) {
+  int files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++files;
+  return files;
+}
+
+GridFile triangle(const std::string& file) {
+  GridFile grid;
+  grid.file = file;
+  grid.points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  grid.bodies = {{"wedge", figure::CellShape::triangle, {0, 1, 2}}};
+  grid.arrays = {{"t", {""}, {1, 2, 3}}};
+  return grid;
+}
+
+}  // namespace
+
+TEST_CASE("a written solution is read back bit by bit") {
+  const auto s = two_blocks();
+  const GridFile given = figure::compose_grid(*s, "blocks.vtu");
+  figure::write(given);
+  const auto grid = read("blocks.vtu");
+  REQUIRE(grid->GetNumberOfPoints() == 24);
+  REQUIRE(grid->GetNumberOfCells() == 6 + 12);
+  for (int n = 0; n < 24; ++n)
+    for (int i = 0; i < 3; ++i) CHECK(grid->GetPoint(n)[i] == given.points[3 * n + i]);
+
+  CHECK(grid->GetCellType(0) == 9);   // VTK_QUAD
+  CHECK(grid->GetCellType(17) == 5);  // VTK_TRIANGLE
+  CHECK(grid->GetCellData()->GetArray("body")->GetTuple1(0) == 1);
+  CHECK(grid->GetCellData()->GetArray("body")->GetTuple1(17) == 2);
+  const auto* names = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("body_names"));
+  REQUIRE(names);
+  CHECK(const_cast<vtkStringArray*>(names)->GetValue(1) == "upper");
+  for (int k = 0; k < 3; ++k)
+    CHECK(grid->GetCell(6)->GetPointId(k) == given.bodies[1].cells[k]);
+
+  REQUIRE(given.arrays.size() == 6);
+  for (const GridArray& array : given.arrays) {
+    vtkDataArray* back = grid->GetPointData()->GetArray(array.name.c_str());
+    REQUIRE(back);
+    const int each = back->GetNumberOfComponents();
+    REQUIRE(each == static_cast<int>(array.components.size()));
+    for (int n = 0; n < 24; ++n)
+      for (int c = 0; c < each; ++c) {
+        const double value = array.values[static_cast<std::size_t>(n) * each + c];
+        if (std::isnan(value))
+          CHECK(std::isnan(back->GetComponent(n, c)));
+        else
+          CHECK(back->GetComponent(n, c) == value);
+      }
+    if (each > 1) CHECK(std::string(back->GetComponentName(each - 1)) == array.components.back());
+  }
+}
+
+TEST_CASE("the arrays are what the solution says") {
+  const auto s = two_blocks();
+  const GridFile grid = figure::compose_grid(*s, "x.vtu");
+  const auto value = [&](const char* name, int node, int c = 0) {
+    for (const GridArray& a : grid.arrays)
+      if (a.name == name) return a.values[node * a.components.size() + c];
+    throw std::runtime_error(name);
+  };
+  const int upper = 12;
+  CHECK(value("displacement", upper + 5, 1) == s->displacement(1)[2 * 5 + 1]);
+  CHECK(value("stress", 3, 3) == s->stress(0)[3][5]);  // xy
+  CHECK(value("stress", 3, 2) == s->stress(0)[3][2]);  // zz
+  CHECK(value("von_mises", 3) == elasticity::von_mises(s->stress(0)[3]));
+  CHECK(value("contact_status", 0) == -1);
+  CHECK(std::isnan(value("contact_gap", 0)));
+  for (const auto& n : s->contact(*s->scene().contacts[0]).nodes) {
+    const int below = 8 + n.node;  // the same place on top of the lower block
+    for (const int node : {upper + n.node, below}) {
+      CHECK(value("contact_pressure", node) == n.pressure);
+      CHECK(value("contact_gap", node) == n.gap);
+      CHECK(value("contact_status", node) == static_cast<int>(n.status));
+    }
+  }
+}
+
+TEST_CASE("a file that cannot be written leaves nothing, and says why") {
+  using figure::write;
+  CHECK(message_of([] { write(triangle("a.vtk")); }) == "cannot write a.vtk: the file name must end in .vtu");
+  CHECK(message_of([] { write(triangle("nowhere/a.vtu")); }) ==
+        "cannot write nowhere/a.vtu: folder nowhere: No such file or directory");
+  GridFile grid = triangle("refused.vtu");
+  grid.bodies[0].cells = {0, 1, 3};
+  CHECK(message_of([&] { write(grid); }) == "body \"wedge\", cells: node 3 does not exist, there are 3");
+  grid = triangle("refused.vtu");
+  grid.arrays[0].values.pop_back();
+  CHECK(message_of([&] { write(grid); }) == "array \"t\": 2 values for 3 nodes of 1 components");
+  CHECK_FALSE(std::filesystem::exists("refused.vtu"));
+
+  // A disk that fills up, as a limit on the size of files.
+  std::filesystem::remove_all("full");
+  std::filesystem::create_directory("full");
+  write(triangle("full/a.vtu"));
+  const auto before = std::filesystem::file_size("full/a.vtu");
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  rlimit small = limit;
+  small.rlim_cur = 300;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string why = message_of([] { write(triangle("full/a.vtu")); });
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, handler);
+  CHECK(why.find("cannot write full/a.vtu") == 0);
+  CHECK(files_in("full") == 1);
+  CHECK(std::filesystem::file_size("full/a.vtu") == before);
+}
