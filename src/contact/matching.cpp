@@ -58,17 +58,22 @@ class CoincidentSearch {
   std::unordered_map<std::size_t, std::vector<int>> bins_;
 };
 
-/// The nearest node of the second part on the line through x along `normal`; -1 if none.
+/// How far d leads off the line along `normal`.
+double off_line(const Point& d, const Point& normal) {
+  const double along = dot(d, normal);
+  return length({d[0] - along * normal[0], d[1] - along * normal[1], d[2] - along * normal[2]});
+}
+
+/// The nearest node of the second part across the gap from x: on the line through x along x's normal,
+/// or with x on the line along its own normal; -1 if none.
 int across(const Mesh& mesh, const std::vector<NodeSide>& list, const Point& x, const Point& normal,
            double tolerance) {
   int best = -1;
   double nearest = INFINITY;
   for (const NodeSide& n : list) {
     const Point d = minus(mesh.point(n.node), x);
-    const double along = dot(d, normal);
-    const Point off{d[0] - along * normal[0], d[1] - along * normal[1], d[2] - along * normal[2]};
-    if (length(off) <= tolerance && std::abs(along) < nearest) {
-      nearest = std::abs(along);
+    if (length(d) < nearest && std::min(off_line(d, normal), off_line(d, n.normal)) <= tolerance) {
+      nearest = length(d);
       best = n.node;
     }
   }

@@ -16,7 +16,7 @@ struct Face {
 };
 
 /// Node of `first` → node of `second`, for the nodes that have one at the same place or straight
-/// across the gap along their normal. Tolerance: 1e-6 of the parts' size.
+/// across the gap along either's normal. Tolerance: 1e-6 of the parts' size.
 struct NodePair {
   int first, second;
   double distance;  ///< along the first's normal; negative where the parts overlap

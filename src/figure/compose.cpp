@@ -100,7 +100,7 @@ std::vector<int> contact_facets(const Contact& contact, const std::vector<scene:
 
 ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result) {
   ContactPicture picture;
-  picture.name = contact.name;
+  picture.name = contact.first.body->name + " " + contact.first.name;
   picture.nodes_per_facet = contact.first.body->mesh->topology().nodes_per_facet;
   picture.facets = contact_facets(contact, result.nodes);
   for (const scene::ContactNode& n : result.nodes)

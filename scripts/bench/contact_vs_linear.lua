@@ -1,0 +1,112 @@
+-- What contact costs: the whole contact solve against one linear solve on the same mesh, and that
+-- against bare CHOLMOD (scripts/bench/linear_limit.cpp, built here if there is a compiler).
+--
+--   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/bench/contact_vs_linear.lua [RUNS] [N_PLANE] [N_SPACE]
+--
+-- Scenes: the rigid parabola on a block in the plane (S2) and in space (S3), assembly to recovered
+-- stress. The runs of the two are taken in turn; medians and the median of the pairs' ratios.
+
+local runs <const> = tonumber(arg[1]) or 5
+local n_plane <const>, n_space <const> = tonumber(arg[2]) or 512, tonumber(arg[3]) or 24
+local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
+
+local function median(values)
+  local sorted = table.move(values, 1, #values, 1, {})
+  table.sort(sorted)
+  return sorted[(#sorted + 1) // 2]
+end
+
+-- 1. The two scenes; without contact they carry a load instead.
+local function plane(n, contact)
+  local block = dotyk.body{ material = material,
+    mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {n, n // 2} } }
+  block:part"bottom":fix()
+  local scene = dotyk.scene{ block }
+  if contact then
+    scene:contact{ block:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 - 0.02 end } }
+  else
+    block:part"top":load{ 0, -1 }
+  end
+  return scene, function(s) return s:stress(block, 0, -0.1) end
+end
+
+local function space(n, contact)
+  local cube = dotyk.body{ material = material,
+    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, 1}, cells = {n, n, n} } }
+  cube:part"bottom":fix()
+  local scene = dotyk.scene{ cube }
+  if contact then
+    scene:contact{ cube:part"top", rigid = dotyk.rigid.gap{ normal = {0, 0, 1},
+      gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.02 end } }
+  else
+    cube:part"top":load{ 0, 0, -1 }
+  end
+  return scene, function(s) return s:stress(cube, 0.5, 0.5, 0.9) end
+end
+
+-- 2. One solve, stress included, and its clock.
+local function timed(make, n, contact)
+  local scene, recover = make(n, contact)
+  local s = dotyk.solve(scene)
+  local displaced = s.time.total
+  recover(s)
+  local time = s.time
+  return { total = time.total, displaced = displaced, assembly = time.assembly, ordering = time.ordering, factor = time.factor,
+           iterate = time.iterate, recover = time.recover, unknowns = s.unknowns,
+           iterations = s.iterations, order = s.ordering, megabytes = s.factor_bytes / 1e6 }
+end
+
+-- 3. Bare CHOLMOD.
+local here <const> = arg[0]:match "^(.*)/[^/]*$" or "."
+local function limits(dimension, n)
+  local program = os.tmpname()
+  local built = os.execute(("g++ -O3 -I/usr/include/suitesparse '%s/linear_limit.cpp' -lcholmod "
+    .. "-L/usr/lib/$(uname -m)-linux-gnu/openblas-pthread -lopenblas -o %s 2>/dev/null"):format(here, program))
+  local best
+  if built then
+    for line in io.popen(("%s %d %d %d"):format(program, dimension, n, runs)):lines() do
+      local order, seconds = line:match "(%S+) (%S+)"
+      print(("  bare CHOLMOD, %-5s on nodes  %8.3f s"):format(order, seconds))
+      if not best or tonumber(seconds) < best then best = tonumber(seconds) end
+    end
+  else
+    print "  (no compiler: bare CHOLMOD is not measured)"
+  end
+  os.remove(program)
+  return best
+end
+
+local function row(name, runs_of)
+  local function of(key)
+    local values = {}
+    for k, run in ipairs(runs_of) do values[k] = run[key] end
+    return median(values)
+  end
+  local last = runs_of[#runs_of]
+  print(("  %-28s %8.3f s  (assembly %.3f, ordering %.3f, factor %.3f, iterate %.3f, recover %.3f; %s, %d iterations, factor %.0f MB)"):format(
+    name, of "total", of "assembly", of "ordering", of "factor", of "iterate", of "recover", last.order,
+    last.iterations, last.megabytes))
+  return of "total"
+end
+
+local function compare(name, dimension, make, n)
+  local linear, contact, ratio = {}, {}, {}
+  timed(make, n, false) -- warms caches up; not counted
+  for k = 1, runs do
+    linear[k], contact[k] = timed(make, n, false), timed(make, n, true)
+    ratio[k] = contact[k].total / linear[k].total
+  end
+  print(("%s, n = %d, %d unknowns, medians of %d:"):format(name, n, linear[1].unknowns, runs))
+  local limit = limits(dimension, n)
+  row("dotyk, linear", linear)
+  row("dotyk, contact", contact)
+  local displaced = {}
+  for k, run in ipairs(linear) do displaced[k] = run.displaced end
+  if limit then
+    print(("  linear, without stress / bare CHOLMOD's best   %.2f"):format(median(displaced) / limit))
+  end
+  print(("  contact / linear                               %.2f"):format(median(ratio)))
+end
+
+compare("S2 (plane)", 2, plane, n_plane)
+compare("S3 (space)", 3, space, n_space)
