@@ -53,7 +53,9 @@ Stress fit(const std::vector<int>& patch, const std::vector<std::array<double, 3
   }
   const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> llt(A);
   Eigen::Matrix<double, 1, 6> at_origin;
-  if (llt.info() == Eigen::Success && llt.rcond() > 1e-4)
+  // Samples on one line (plane) leave a pivot near zero: no fit then.
+  const auto pivots = llt.matrixLLT().diagonal();
+  if (llt.info() == Eigen::Success && pivots.minCoeff() > 0.03 * pivots.maxCoeff())
     at_origin = llt.solve(b).row(0);
   else
     at_origin = b.row(0) / A(0, 0);
