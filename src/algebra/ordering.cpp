@@ -84,6 +84,7 @@ double predict(cholmod_sparse& graph, std::vector<int>& order, CholmodCommon& co
 std::vector<int> minimum_degree(cholmod_sparse& graph, std::vector<int>& member,
                                 CholmodCommon& common) {
   std::vector<int> order(graph.nrow);
+  if (graph.nrow == 1) return order;  // CAMD writes out of bounds
   if (member.empty())
     cholmod_amd(&graph, nullptr, 0, order.data(), common.get());
   else
