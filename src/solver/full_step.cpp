@@ -22,6 +22,12 @@ class FullStep final : public Step {
           stiffness_.emplace_back(row, column, it.value());
           if (row != column) stiffness_.emplace_back(column, row, it.value());
         }
+    // Multipliers in units of the stiffness: pivots then tell a dependent row from a stiff material.
+    double sum = 0;
+    for (const auto& entry : stiffness_)
+      if (entry.row() == entry.col()) sum += entry.value();
+    if (sum > 0) unit_ = sum / problem.unknowns();
+    u_ = Vector::Zero(problem.unknowns());
   }
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
@@ -34,15 +40,15 @@ class FullStep final : public Step {
       const double slope = l.slope[r];
       for (SparseRows::InnerIterator it(problem_.B, r); it; ++it) {
         const int j = static_cast<int>(it.col());
-        entries.emplace_back(j, n + r, it.value());
+        entries.emplace_back(j, n + r, unit_ * it.value());
         if (slope > 0) entries.emplace_back(n + r, j, it.value());
       }
       if (slope > 0) {
-        entries.emplace_back(n + r, n + r, -l.added_compliance(r, rho_[r]));
+        entries.emplace_back(n + r, n + r, -unit_ * l.added_compliance(r, rho_[r]));
         b[n + r] = problem_.c[r] + l.offset(r, rho_[r]);
       } else {
         entries.emplace_back(n + r, n + r, 1.0);
-        b[n + r] = l.value[r];
+        b[n + r] = l.value[r] / unit_;
       }
     }
     SparseMatrix A(n + m, n + m);
@@ -53,7 +59,7 @@ class FullStep final : public Step {
     const Vector y = lu.solve(b);
     if (!y.allFinite()) return false;
     u_ = y.head(n);
-    lambda = y.tail(m);
+    lambda = unit_ * y.tail(m);
     x = problem_.B * u_ - problem_.c;
     return true;
   }
@@ -64,6 +70,7 @@ class FullStep final : public Step {
   const Problem& problem_;
   const Vector& rho_;
   std::vector<Eigen::Triplet<double>> stiffness_;
+  double unit_ = 1;
   Vector u_;
 };
 

@@ -26,10 +26,10 @@ struct Linearisation {
   int active_count() const;
 };
 
-/// Linearises at (λ, x). A unilateral row whose |y| is below `noise` keeps the branch of
+/// Linearises at (λ, x). A unilateral row whose |y| is below its `noise` keeps the branch of
 /// `previous` (nullptr: none): touching without force, it would flip with rounding.
 Linearisation linearise(const problem::Problem& problem, const algebra::Vector& lambda,
-                        const algebra::Vector& x, const algebra::Vector& rho, double noise,
+                        const algebra::Vector& x, const algebra::Vector& rho, const algebra::Vector& noise,
                         const Linearisation* previous);
 
 /// The linearisation whose unilateral rows are active as flagged (others: at y = 0).

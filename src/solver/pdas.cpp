@@ -38,6 +38,7 @@ class Iteration {
     const double largest = rho_.size() ? rho_.maxCoeff() : 1;
     for (double& r : rho_)
       if (!(r > 0)) r = largest > 0 ? largest : 1;
+    lambda_ = Vector::Zero(problem.rows());
     result_.method = settings.reduced ? "pdas" : "pdas (full)";
   }
 
@@ -58,7 +59,7 @@ class Iteration {
                             " iterations; rows that still change: ", places(problem_, changed_));
     result_.clock.iterate += iterating.lap();
     monitor_.phase("recovering the displacement");
-    result_.state.u = step_->recover();
+    result_.state.u = left_ ? condensed_->recover(lambda_, Vector()) : step_->recover();
     result_.state.lambda = lambda_;
     result_.clock.recover += iterating.lap();
     return std::move(result_);
@@ -105,13 +106,15 @@ class Iteration {
     ++result_.iterations;
     result_.active_sets.push_back(l.active);
     seen_.insert(l.fingerprint());
-    if (!step_->solve(l, lambda_, x_)) {
+    Vector lambda, x;
+    if (!step_->solve(l, lambda, x)) {  // the state stays that of the last solve
       result_.reason = text("the linear problem of iteration ", result_.iterations,
                             " is singular: active rows contradict each other or do not hold a body");
-      if (lambda_.size() == 0) lambda_ = Vector::Zero(problem_.rows());
       return false;
     }
-    Linearisation next = held(linearise(problem_, lambda_, x_, rho_, noise(), &l), x_);
+    lambda_ = std::move(lambda);
+    x_ = std::move(x);
+    Linearisation next = held(linearise(problem_, lambda_, x_, rho_, noise(lambda_, x_), &l), x_);
     changed_.clear();
     for (int r = 0; r < problem_.rows(); ++r)
       if (next.active[r] != l.active[r]) changed_.push_back(r);
@@ -135,7 +138,14 @@ class Iteration {
     return true;
   }
 
-  double noise() const { return 1e-13 * (lambda_.size() ? lambda_.lpNorm<Eigen::Infinity>() : 0); }
+  /// What rounding leaves of y = λ + ρx on rows that touch without force: a few digits of the
+  /// greatest multiplier, and of the displacements that cancel in x.
+  Vector noise(const Vector& lambda, const Vector& x) const {
+    if (lambda.size() == 0) return lambda;
+    const double force = lambda.lpNorm<Eigen::Infinity>();
+    const double length = std::max(problem_.c.lpNorm<Eigen::Infinity>(), (x + problem_.c).lpNorm<Eigen::Infinity>());
+    return (1e-13 * (force + length * rho_.array())).matrix();
+  }
 
   void record(const Linearisation& next) {
     IterationInfo info;
@@ -158,31 +168,29 @@ class Iteration {
       return false;
     }
     Vector lambda = admissible(problem_, lambda_), x = condensed_->jump(lambda, Vector());
-    double q = dual_energy(problem_, *condensed_, lambda);
     const auto inner = reduced_step(*condensed_, rho_);
     for (; result_.iterations < settings_.max_iterations && !monitor_.stop(); ++result_.iterations) {
       descend(problem_, *condensed_, lambda, x);
-      l = linearise(problem_, lambda, x, rho_, 0, nullptr);
+      l = linearise(problem_, lambda, x, rho_, noise(lambda, x), nullptr);
       Vector newton_lambda, newton_x;
       if (inner->solve(l, newton_lambda, newton_x)) {
         const Vector candidate = admissible(problem_, newton_lambda);
-        const double value = dual_energy(problem_, *condensed_, candidate);
-        if (value <= q) {
+        if (dual_energy(problem_, *condensed_, candidate) < dual_energy(problem_, *condensed_, lambda)) {
           lambda = candidate;
           x = condensed_->jump(lambda, Vector());
-          q = value;
         }
-        const Linearisation next = linearise(problem_, newton_lambda, newton_x, rho_, noise(), &l);
+        const Linearisation next =
+            linearise(problem_, newton_lambda, newton_x, rho_, noise(newton_lambda, newton_x), &l);
         if (next.active == l.active && same_values(l, next)) {
           result_.reason = "active sets repeated at " + where +
                            "; left by sweeps that decrease the dual energy";
           return true;  // the ordinary iteration confirms it
         }
       }
-      q = std::min(q, dual_energy(problem_, *condensed_, lambda));
     }
     lambda_ = lambda;
     x_ = x;
+    left_ = true;
     result_.reason = "active sets repeat at " + where + "; descent did not settle within max_iterations";
     return false;
   }
@@ -197,6 +205,7 @@ class Iteration {
   std::unique_ptr<Step> step_;
   Vector lambda_, x_;
   std::vector<int> changed_;
+  bool left_ = false;  ///< λ is that of the descent, not of the last step
   std::set<std::uint64_t> seen_;
   Stopwatch watch_;
 };

@@ -13,7 +13,8 @@ using problem::CondensedProblem;
 class ReducedStep final : public Step {
  public:
   ReducedStep(const CondensedProblem& condensed, const Vector& rho)
-      : condensed_(condensed), rho_(rho), alpha_(Vector::Zero(condensed.kernel_size())) {}
+      : condensed_(condensed), rho_(rho), lambda_(Vector::Zero(condensed.rows())),
+        alpha_(Vector::Zero(condensed.kernel_size())) {}
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
     std::vector<int> active;
