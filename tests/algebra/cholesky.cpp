@@ -150,6 +150,28 @@ TEST_CASE("a matrix without unknowns") {
   }
 }
 
+TEST_CASE("small matrices of every size, with random holes and last nodes") {
+  Random random(8);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int n = 1 + trial % 10;
+    DenseMatrix A = random.positive_definite(n, 1);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < i; ++j)
+        if (random.coin()) A(i, j) = A(j, i) = 0;
+    A.diagonal().array() += n;  // definite again
+    std::vector<int> node(n), last;
+    std::iota(node.begin(), node.end(), 0);
+    for (int i = 0; i < n; ++i)
+      if (random.coin()) last.push_back(i);
+    Cholesky cholesky(test::lower(A), node, last, kOrderings[trial % 3]);
+    REQUIRE(cholesky.factor(test::lower(A)));
+    const Vector b = random.vector(n);
+    CHECK(test::relative(cholesky.solve(b), A.ldlt().solve(b)) < kRounding);
+    const DenseMatrix L = cholesky.boundary_factor();
+    if (!last.empty()) CHECK(test::relative(L * L.transpose(), schur(A, cholesky.boundary())) < kRounding);
+  }
+}
+
 TEST_CASE("nodes of the last set that carry no unknowns are passed over") {
   Random random(7);
   auto grid = test::spring_grid(random, 4, 4, 2, 1);

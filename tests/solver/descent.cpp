@@ -1,0 +1,47 @@
+#include "solver/descent.hpp"
+
+#include <doctest/doctest.h>
+
+#include "../support/programs.hpp"
+
+using namespace dotyk;
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+TEST_CASE("a sweep never increases the dual energy, keeps its jump, and sweeps converge to the solution") {
+  test::Random random(81);
+  Monitor quiet;
+  for (int trial = 0; trial < 60; ++trial) {
+    const int n = 2 + trial % 6;
+    auto p = test::program(random.positive_definite(n, 0.2), random.vector(n), DenseMatrix::Identity(n, n), random.vector(n) * 0.2);
+    // One law of each kind where there is room, with a row that has no stiffness.
+    p.groups = {test::group(problem::unilateral(), 0, n - 1), test::group(problem::elastic({trial % 2 ? 3.0 : 0.0}), n - 1, 1)};
+    problem::Clock clock;
+    const problem::CondensedProblem condensed(p, algebra::Ordering::automatic, clock, quiet);
+    Vector lambda = solver::admissible(p, random.vector(n));
+    REQUIRE(lambda.allFinite());
+    Vector x = condensed.jump(lambda, Vector());
+    double q = solver::dual_energy(p, condensed, lambda);
+    for (int sweep = 0; sweep < 4000; ++sweep) {
+      solver::descend(p, condensed, lambda, x);
+      const double next = solver::dual_energy(p, condensed, lambda);
+      CHECK(next <= q + 1e-13 * std::abs(q));  // rounding of q itself
+      q = next;
+    }
+    CHECK((x - condensed.jump(lambda, Vector())).norm() < 1e-9 * (x.norm() + 1));
+    std::vector<double> compliance(n, 0);
+    if (trial % 2 == 0) continue;  // enumeration has no row without stiffness
+    compliance[n - 1] = 1 / 3.0;
+    const auto exact = test::by_enumeration(p, compliance);
+    REQUIRE(exact);
+    CHECK((lambda - exact->lambda).norm() < 1e-7 * (1 + exact->lambda.norm()));
+  }
+}
+
+TEST_CASE("admissible multipliers: the nearest ones, row by row") {
+  test::Random random(82);
+  auto p = test::program(DenseMatrix::Identity(4, 4), Vector::Zero(4), DenseMatrix::Identity(4, 4), Vector::Zero(4));
+  p.groups = {test::group(problem::unilateral(), 0, 2), test::group(problem::bilateral(), 2, 1),
+              test::group(problem::elastic({2}), 3, 1)};
+  CHECK(solver::admissible(p, Vector{{-1, 1, -2, -3}}) == Vector{{0, 1, -2, -3}});
+}
