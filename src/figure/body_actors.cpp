@@ -117,7 +117,8 @@ void draw_bodies(Stage& stage, vtkRenderer* renderer) {
   const double f = stage.picture.deformation;
   for (std::size_t k = 0; k < stage.picture.bodies.size(); ++k) {
     const BodyPicture& body = stage.picture.bodies[k];
-    const Facets facets = stage.plane ? Facets{body.cells, body.shape == CellShape::triangle ? 3 : 4} : boundary(body);
+    const int corners = body.shape == CellShape::triangle ? 3 : 4;
+    const Facets facets = stage.window ? Facets{cells_near(body, f, *stage.window), corners} : stage.plane ? Facets{body.cells, corners} : boundary(body);
     const std::vector<Vec3> at = pixels(stage, body, f, 0);
     const vtkSmartPointer<vtkPolyData> surface = poly_data(at, facets.nodes, facets.each);
     add_surface(stage, renderer, surface, body, k);

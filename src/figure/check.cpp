@@ -5,9 +5,13 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 #include <tuple>
+
+#include "base/error.hpp"
+#include "window.hpp"
 
 namespace dotyk::figure {
 
@@ -18,6 +22,12 @@ void require(bool holds, const std::string& message) {
 }
 
 std::string count(std::size_t n) { return std::to_string(n); }
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
 
 // `ending` with its dot.
 void check_file(const std::string& file, const std::string& ending) {
@@ -77,6 +87,25 @@ void check_body(const BodyPicture& body, int dimension) {
   check_nodes(body.facets, body.nodes_per_facet, n, who + ", facets");
 }
 
+void check_window(const ScenePicture& p) {
+  if (!p.window) return;
+  const auto [x0, y0, x1, y1] = *p.window;
+  const std::string given = "window {" + number(x0) + ", " + number(y0) + ", " + number(x1) + ", " + number(y1) + "}";
+  const auto refuse = [&](const std::string& why) { throw InputError(given + " " + why); };
+  if (p.bodies.front().dimension != 2) refuse("needs a scene in the plane; this one is in space");
+  if (!(std::isfinite(x0) && std::isfinite(y0) && std::isfinite(x1) && std::isfinite(y1) && x0 < x1 && y0 < y1))
+    refuse("is empty; it must be {x0, y0, x1, y1} with x0 < x1 and y0 < y1");
+  if (seen(p, *p.window).body) return;
+  double left = 1e300, bottom = 1e300, right = -1e300, top = -1e300;
+  for (const BodyPicture& body : p.bodies)
+    for (std::size_t i = 0; i < body.points.size(); i += 3) {
+      const auto at = [&](std::size_t c) { return body.points[i + c] + (body.displacement.empty() ? 0 : p.deformation * body.displacement[i + c]); };
+      left = std::min(left, at(0)), right = std::max(right, at(0));
+      bottom = std::min(bottom, at(1)), top = std::max(top, at(1));
+    }
+  refuse("shows no body; as drawn, they lie within {" + number(left) + ", " + number(bottom) + ", " + number(right) + ", " + number(top) + "}");
+}
+
 }  // namespace
 
 void check(const ScenePicture& p) {
@@ -89,6 +118,7 @@ void check(const ScenePicture& p) {
           "the range of the field must be {least, greatest}");
   const int dimension = p.bodies.front().dimension;
   for (const BodyPicture& body : p.bodies) check_body(body, dimension);
+  check_window(p);
   for (const RigidPicture& rigid : p.obstacles) {
     require(rigid.points.size() % 3 == 0 && finite(rigid.points), "an obstacle needs three finite coordinates a point");
     check_nodes(rigid.triangles, 3, rigid.points.size() / 3, "obstacle, triangles");

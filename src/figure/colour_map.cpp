@@ -51,12 +51,17 @@ Colour ColourScale::at(double value) const {
   return mix(diverging ? blue_red : viridis, b > a ? (value - a) / (b - a) : 0.5);
 }
 
-ColourScale colour_scale(const ScenePicture& p) {
+ColourScale colour_scale(const ScenePicture& p, const std::optional<Window>& window) {
   ColourScale scale;
   double least = 1e300, greatest = -1e300;
-  for (const BodyPicture& body : p.bodies)
-    for (const double v : body.values)
-      if (std::isfinite(v)) least = std::min(least, v), greatest = std::max(greatest, v);
+  if (window) {
+    const Seen part = seen(p, *window);
+    least = part.least, greatest = part.greatest;
+  } else {
+    for (const BodyPicture& body : p.bodies)
+      for (const double v : body.values)
+        if (std::isfinite(v)) least = std::min(least, v), greatest = std::max(greatest, v);
+  }
   const bool any = least <= greatest;
   scale.shown = any;
   if (!any) return scale;

@@ -6,6 +6,7 @@
 
 #include "canvas.hpp"
 #include "picture.hpp"
+#include "window.hpp"
 
 namespace dotyk::figure {
 
@@ -21,7 +22,8 @@ struct ColourScale {
   Colour at(double value) const;
 };
 
-ColourScale colour_scale(const ScenePicture& picture);
+// Of all the bodies, or of what the window shows of them.
+ColourScale colour_scale(const ScenePicture& picture, const std::optional<Window>& window);
 
 vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale);
 

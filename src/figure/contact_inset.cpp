@@ -93,7 +93,7 @@ void draw_inset(Stage& stage, const Box& room) {
   // Dots whose area is the pressure.
   const double spacing = 0.55 * em;
   if (stage.greatest_pressure > 0 && stage.picture.pressure != PressureStyle::none)
-    for (const std::size_t i : Stage::spaced(at, spacing)) {
+    for (const std::size_t i : stage.spaced(at, spacing)) {
       const double share = contact->nodes[i].pressure / stage.greatest_pressure;
       if (share > 0.002) stage.over.disc(at[i], 0.45 * spacing * std::sqrt(share), pressure_line);
     }

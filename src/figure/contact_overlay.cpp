@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "stage.hpp"
-#include "ticks.hpp"
 
 namespace dotyk::figure {
 
@@ -29,18 +28,10 @@ std::vector<Point> places(const Stage& stage, const ContactPicture& contact) {
   return at;
 }
 
-// The top of the pressure ordinate over a node.
-Point top(const Stage& stage, const ContactNode& node, Point at) {
-  if (!(stage.greatest_pressure > 0)) return at;
-  const Point n = stage.view.direction(node.normal);
-  const double length = stage.strip_height() * std::max(0.0, node.pressure) / stage.greatest_pressure;
-  return {at.x + length * n.x, at.y + length * n.y};
-}
-
 void draw_strip(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = places(stage, contact);
   std::vector<Point> tops;
-  for (std::size_t i = 0; i < at.size(); ++i) tops.push_back(top(stage, contact.nodes[i], at[i]));
+  for (std::size_t i = 0; i < at.size(); ++i) tops.push_back(pressure_tip(stage, contact.nodes[i], at[i]));
   const double width = std::max(1.2, stage.em / 14);
   const auto loaded = [&](std::size_t i) { return contact.nodes[i].pressure > 0; };
   for (int pass = 0; pass < 2; ++pass)
@@ -54,17 +45,17 @@ void draw_strip(Stage& stage, const ContactPicture& contact) {
         for (const std::size_t i : {a, b}) stage.over.disc(tops[i], width / 2, pressure_line);
       }
     }
-  for (const std::size_t i : Stage::spaced(at, 0.55 * stage.em))
+  for (const std::size_t i : stage.spaced(at, 0.55 * stage.em))
     if (loaded(i)) stage.over.line(at[i], tops[i], std::max(0.8, stage.em / 30), pressure_line, 0.6);
 }
 
 void draw_arrows(Stage& stage, const ContactPicture& contact) {
   if (!(stage.greatest_pressure > 0)) return;
   const std::vector<Point> at = places(stage, contact);
-  for (const std::size_t i : Stage::spaced(at, 0.8 * stage.em)) {
+  for (const std::size_t i : stage.spaced(at, 0.8 * stage.em)) {
     const ContactNode& node = contact.nodes[i];
     if (node.pressure < 0.02 * stage.greatest_pressure) continue;
-    stage.over.arrow(top(stage, node, at[i]), at[i], std::max(1.2, stage.em / 14), 0.42 * stage.em, pressure_line, std::max(0.8, stage.em / 30));
+    stage.over.arrow(pressure_tip(stage, node, at[i]), at[i], std::max(1.2, stage.em / 14), 0.42 * stage.em, pressure_line, std::max(0.8, stage.em / 30));
   }
 }
 
@@ -83,7 +74,7 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
         stage.over.disc(at[i], w / 2, colour);
       }
     }
-  for (const std::size_t i : Stage::spaced(at, 0.95 * stage.em)) {
+  for (const std::size_t i : stage.spaced(at, 0.95 * stage.em, 0.36 * stage.em)) {
     const Status status = contact.nodes[i].status;
     stage.over.marker(status_marker(status), at[i], 0.55 * stage.em, status_colour(status));
   }
@@ -91,29 +82,13 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
 
 }  // namespace
 
-std::optional<PeakLabel> peak_label(const Stage& stage, const ContactPicture& contact) {
-  double greatest = 0;
-  for (const ContactNode& node : contact.nodes) greatest = std::max(greatest, node.pressure);
-  if (!(greatest > 0) || greatest < 0.02 * stage.greatest_pressure) return std::nullopt;
-  // Of equal peaks that in the middle.
-  std::vector<const ContactNode*> peaks;
-  for (const ContactNode& node : contact.nodes)
-    if (node.pressure >= 0.9999 * greatest) peaks.push_back(&node);
-  const ContactNode& peak = *peaks[peaks.size() / 2];
-  PeakLabel label;
-  label.text = "max " + number(greatest) + (stage.picture.pressure_unit.empty() ? "" : " " + stage.picture.pressure_unit);
-  label.size = 0.85 * stage.em;
-  const Point at = stage.view.flat(stage.place(peak)), tip = top(stage, peak, at), n = stage.view.direction(peak.normal);
-  const Point size = text_extent(label.text, label.size);
-  const double dx = n.x * (size.x / 2 + 0.35 * stage.em), dy = n.y * (size.y / 2 + 0.3 * stage.em);
-  label.box = {tip.x + dx - size.x / 2, tip.y + dy - size.y / 2, tip.x + dx + size.x / 2, tip.y + dy + size.y / 2};
-  return label;
-}
-
 std::vector<LegendEntry> contact_legend(const Stage& stage) {
   std::array<bool, 4> present{};
-  for (const ContactPicture& contact : stage.picture.contacts)
-    for (const ContactNode& node : contact.nodes) present[static_cast<std::size_t>(node.status)] = true;
+  for (const ContactPicture& contact : stage.picture.contacts) {
+    const std::vector<bool> seen = stage.shown(contact);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      if (seen[i]) present[static_cast<std::size_t>(contact.nodes[i].status)] = true;
+  }
   std::vector<LegendEntry> out;
   const double em = stage.em;
   for (const Status status : statuses) {

@@ -80,7 +80,7 @@ void add_arrows(const Stage& stage, const ContactPicture& contact, vtkRenderer* 
   for (const ContactNode& node : contact.nodes) at.push_back(stage.view.flat(stage.place(node)));
   const double em = stage.em, width = std::max(1.3, em / 13), rim = std::max(0.8, em / 28);
   Arrows dark, white;
-  for (const std::size_t i : Stage::spaced(at, 0.8 * em)) {
+  for (const std::size_t i : stage.spaced(at, 0.8 * em)) {
     const ContactNode& node = contact.nodes[i];
     const double share = node.pressure / stage.greatest_pressure;
     if (share < 0.02) continue;

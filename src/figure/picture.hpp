@@ -124,6 +124,10 @@ struct ScenePicture {
   MapKind map = MapKind::automatic;
 
   double deformation = 1;                   // factor on every displacement
+  // Plane: only this region, {x0, y0, x1, y1} in the coordinates of the deformed
+  // picture, larger; colours and pressures are then scaled to what is seen. It
+  // grows where the drawing of the pressure would not fit into it.
+  std::optional<std::array<double, 4>> window;
   std::vector<BodyPicture> bodies;          // all of one dimension
   std::vector<RigidPicture> obstacles;
   std::vector<ContactPicture> contacts;

@@ -19,9 +19,9 @@ namespace dotyk::figure {
 
 Stage::Stage(const ScenePicture& p, int oversampled)
     : picture(p), factor(oversampled), plane(p.bodies.front().dimension == 2),
-      em(0.032 * std::min<double>(p.height, 0.8 * p.width)), scale(colour_scale(p)), under(oversampled), over(oversampled) {
-  for (const ContactPicture& contact : p.contacts)
-    for (const ContactNode& node : contact.nodes) greatest_pressure = std::max(greatest_pressure, node.pressure);
+      em(0.032 * std::min<double>(p.height, 0.8 * p.width)), scale(colour_scale(p, p.window)), window(p.window),
+      under(oversampled), over(oversampled) {
+  set_greatest_pressure();
   for (const BodyPicture& body : p.bodies) {
     Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
     for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -32,7 +32,10 @@ Stage::Stage(const ScenePicture& p, int oversampled)
   }
 }
 
-double Stage::strip_height() const { return std::clamp(0.12 * std::min(picture.width, picture.height), 2 * em, 4.5 * em); }
+double Stage::strip_height() const {
+  if (window) return window_strip;
+  return std::clamp(0.12 * std::min(picture.width, picture.height), 2 * em, 4.5 * em);
+}
 
 bool Stage::strips() const {
   return plane && (picture.pressure == PressureStyle::strip || picture.pressure == PressureStyle::automatic);
@@ -72,9 +75,7 @@ std::vector<std::size_t> greedy(const std::vector<Point>& at, const std::vector<
   return kept;
 }
 
-}  // namespace
-
-std::vector<std::size_t> Stage::spaced(const std::vector<Point>& at, double spacing) {
+std::vector<std::size_t> even_choice(const std::vector<Point>& at, double spacing) {
   std::vector<std::size_t> all(at.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const std::vector<std::size_t> kept = greedy(at, all, spacing);
@@ -92,12 +93,48 @@ std::vector<std::size_t> Stage::spaced(const std::vector<Point>& at, double spac
   return greedy(at, even, 0.85 * spacing).size() == even.size() ? even : kept;
 }
 
+}  // namespace
+
+std::vector<bool> Stage::shown(const ContactPicture& contact) const {
+  std::vector<bool> out;
+  std::vector<Point> at;
+  for (const ContactNode& node : contact.nodes) {
+    at.push_back(view.flat(place(node)));
+    out.push_back(shows(at.back()));
+  }
+  if (!window || contact.nodes_per_facet != 2) return out;
+  for (std::size_t f = 0; f + 1 < contact.facets.size(); f += 2) {
+    const auto a = static_cast<std::size_t>(contact.facets[f]), b = static_cast<std::size_t>(contact.facets[f + 1]);
+    if (shows(at[a], at[b])) out[a] = out[b] = true;
+  }
+  return out;
+}
+
+void Stage::set_greatest_pressure() {
+  greatest_pressure = 0;
+  for (const ContactPicture& contact : picture.contacts) {
+    const std::vector<bool> seen = shown(contact);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      if (seen[i]) greatest_pressure = std::max(greatest_pressure, contact.nodes[i].pressure);
+  }
+}
+
+std::vector<std::size_t> Stage::spaced(const std::vector<Point>& positions, double spacing, double within) const {
+  std::vector<Point> at;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (shows(positions[i], within)) at.push_back(positions[i]), numbers.push_back(i);
+  std::vector<std::size_t> out = even_choice(at, spacing);
+  for (std::size_t& i : out) i = numbers[i];
+  return out;
+}
+
 namespace {
 
 // The bodies' renderer works in rendered pixels and sees the frame only.
 void set_camera(const Stage& stage, vtkRenderer* renderer) {
   const double w = stage.picture.width, h = stage.picture.height, f = stage.factor;
-  const Box frame = stage.plane ? Box{0, 0, w, h} : stage.frame;
+  const Box frame = stage.plane && !stage.window ? Box{0, 0, w, h} : stage.frame;
   renderer->SetViewport(frame.left / w, frame.bottom / h, frame.right / w, frame.top / h);
   const double x = f * (frame.left + frame.right) / 2, y = f * (frame.bottom + frame.top) / 2;
   // Depths: bodies reach as far to and fro as across, about the origin's.
@@ -141,10 +178,13 @@ void draw_scene(const ScenePicture& picture) {
   }
   ground->SetBackground(1, 1, 1);
   draw_obstacles(stage, bodies);
+  if (stage.window) stage.over.clip(stage.frame);
   draw_bodies(stage, bodies);
   draw_supports(stage);
   draw_loads(stage);
   draw_contacts(stage, bodies);
+  stage.over.no_clip();
+  if (stage.window) draw_rim(stage);
   set_camera(stage, bodies);
   stage.under.add_to(ground);
   stage.over.add_to(overlay);

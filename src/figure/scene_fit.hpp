@@ -18,4 +18,10 @@ Bounds scaled_bounds(const Stage& stage);
 // size in pixels, fills the room; sets stage.view and stage.frame.
 void fit(Stage& stage, const Bounds& scaled, const Box& room);
 
+// Fits the picture's window into the room instead. The greatest pressure comes
+// to a fifth of its height, less where it would not fit; from three quarters of
+// that on the window grows. Sets stage.view, frame, window, and what depends on
+// what is seen: greatest pressure, colours.
+void fit_window(Stage& stage, const Box& room);
+
 }  // namespace dotyk::figure

@@ -12,7 +12,10 @@ namespace dotyk::figure {
 namespace {
 
 constexpr Colour ink{30, 30, 30};
-constexpr double axis_gap = 0.45, legend_size = 0.88;  // in em
+constexpr double legend_size = 0.88;  // in em
+
+// The axes stand off the scene, but bound a window.
+double axis_gap(const Stage& stage) { return stage.window ? 0 : 0.45 * stage.em; }
 
 struct FrameTicks {
   Ticks x, y;
@@ -21,29 +24,32 @@ struct FrameTicks {
 FrameTicks frame_ticks(const Stage& stage) {
   const Box& f = stage.frame;
   const double s = stage.view.scale, em = stage.em;
+  const Window w = stage.window.value_or(Window{(f.left - stage.view.origin.x) / s, (f.bottom - stage.view.origin.y) / s,
+                                                (f.right - stage.view.origin.x) / s, (f.top - stage.view.origin.y) / s});
   const int nx = std::clamp(static_cast<int>(f.width() / (4.5 * em)), 2, 8), ny = std::clamp(static_cast<int>(f.height() / (3 * em)), 2, 8);
-  return {linear_ticks((f.left - stage.view.origin.x) / s, (f.right - stage.view.origin.x) / s, nx),
-          linear_ticks((f.bottom - stage.view.origin.y) / s, (f.top - stage.view.origin.y) / s, ny)};
+  return {linear_ticks(w[0], w[2], nx), linear_ticks(w[1], w[3], ny)};
 }
 
 void draw_axes(Stage& stage) {
   const double em = stage.em, width = std::max(1.0, em / 20), tick = 0.28 * em;
-  const Box f{stage.frame.left - axis_gap * em, stage.frame.bottom - axis_gap * em, stage.frame.right, stage.frame.top};
+  const Box f{stage.frame.left - axis_gap(stage), stage.frame.bottom - axis_gap(stage), stage.frame.right, stage.frame.top};
   const FrameTicks ticks = frame_ticks(stage);
   Canvas& c = stage.over;
-  c.line({f.left, f.bottom}, {f.right, f.bottom}, width, ink);
-  c.line({f.left, f.bottom}, {f.left, f.top}, width, ink);
+  if (!stage.window) {
+    c.line({f.left, f.bottom}, {f.right, f.bottom}, width, ink);
+    c.line({f.left, f.bottom}, {f.left, f.top}, width, ink);
+  }
   TextStyle style;
   style.size = legend_size * em;
   style.colour = ink;
   for (const Tick& t : ticks.x.ticks) {
-    const double x = stage.view.origin.x + stage.view.scale * t.value;
+    const double x = std::clamp(stage.view.origin.x + stage.view.scale * t.value, f.left, f.right);
     c.line({x, f.bottom}, {x, f.bottom - (t.label.empty() ? 0.5 : 1) * tick}, width, ink);
     style.across = Align::middle, style.up = Align::high;
     c.text({x, f.bottom - tick - 0.15 * em}, t.label, style);
   }
   for (const Tick& t : ticks.y.ticks) {
-    const double y = stage.view.origin.y + stage.view.scale * t.value;
+    const double y = std::clamp(stage.view.origin.y + stage.view.scale * t.value, f.bottom, f.top);
     c.line({f.left, y}, {f.left - (t.label.empty() ? 0.5 : 1) * tick, y}, width, ink);
     style.across = Align::high, style.up = Align::middle;
     c.text({f.left - tick - 0.2 * em, y}, t.label, style);
@@ -53,7 +59,7 @@ void draw_axes(Stage& stage) {
   style.across = Align::low, style.up = Align::middle;
   c.text({f.right + 0.3 * em, f.bottom}, with_factor("x", ticks.x.exponent), style);
   style.across = Align::middle, style.up = Align::low;
-  c.text({f.left, f.top + 0.15 * em}, with_factor("y", ticks.y.exponent), style);
+  c.text({f.left, f.top + (stage.window ? 0.45 : 0.15) * em}, with_factor("y", ticks.y.exponent), style);
 }
 
 void draw_triad(Stage& stage, Point at) {
@@ -74,10 +80,43 @@ void draw_triad(Stage& stage, Point at) {
   }
 }
 
+bool obstacle_shows(const Stage& stage) {
+  if (!stage.window) return !stage.picture.obstacles.empty();
+  for (const RigidPicture& rigid : stage.picture.obstacles) {
+    const std::size_t n = rigid.points.size() / 3;
+    for (std::size_t i = 0; i + (rigid.closed ? 0 : 1) < n; ++i) {
+      const std::size_t j = (i + 1) % n;
+      if (stage.shows(stage.view.flat({rigid.points[3 * i], rigid.points[3 * i + 1], 0}), stage.view.flat({rigid.points[3 * j], rigid.points[3 * j + 1], 0}))) return true;
+    }
+  }
+  return false;
+}
+
+// Whether the undeformed outline is seen beside the deformed one; in a window
+// the contact drawn on that is broad.
+bool displacement_shows(const Stage& stage) {
+  const double least = (stage.window ? 0.3 * stage.em : 1.5) / stage.view.scale, f = stage.picture.deformation;
+  for (const BodyPicture& body : stage.picture.bodies) {
+    if (body.displacement.empty()) continue;
+    if (!stage.window) {
+      for (const double u : body.displacement)
+        if (std::abs(u * f) > least) return true;
+      continue;
+    }
+    const Facets facets = boundary(body);
+    for (std::size_t e = 0; e + 1 < facets.nodes.size(); e += 2) {
+      const auto a = static_cast<std::size_t>(facets.nodes[e]), b = static_cast<std::size_t>(facets.nodes[e + 1]);
+      const double u = std::max(std::abs(body.displacement[3 * a]), std::abs(body.displacement[3 * a + 1]));
+      if (u * std::abs(f) > least && stage.shows(stage.view.flat(node(body, a, 0)), stage.view.flat(node(body, b, 0)))) return true;
+    }
+  }
+  return false;
+}
+
 std::vector<LegendEntry> legend_entries(const Stage& stage) {
   const double em = stage.em;
   std::vector<LegendEntry> out = contact_legend(stage);
-  if (!stage.picture.obstacles.empty())
+  if (obstacle_shows(stage))
     out.push_back({"rigid obstacle", [em](Canvas& c, const Box& b) {
                      const double middle = (b.bottom + b.top) / 2;
                      c.box({b.left, middle - 0.3 * em, b.right, middle + 0.3 * em}, {205, 205, 205});
@@ -93,29 +132,33 @@ std::vector<LegendEntry> legend_entries(const Stage& stage) {
                    }});
   bool displaced = false;
   for (const BodyPicture& body : stage.picture.bodies) displaced = displaced || !body.displacement.empty();
-  if (displaced) out.push_back({"deformation × " + number(stage.picture.deformation), {}});
+  if (displaced && stage.picture.deformation != 1) out.push_back({"deformation × " + number(stage.picture.deformation), {}});
   return out;
 }
 
 }  // namespace
+
+void draw_rim(Stage& stage) {
+  const Box& f = stage.frame;
+  const std::array<Point, 4> corners{{{f.left, f.bottom}, {f.right, f.bottom}, {f.right, f.top}, {f.left, f.top}}};
+  stage.over.polyline(corners, std::max(1.0, stage.em / 20), ink, {}, true);
+}
 
 void lay_out(Stage& stage) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em, w = p.width, h = p.height;
   if (!stage.plane) aim(stage);
   const Bounds scaled = scaled_bounds(stage);
-  double greatest = 0;
-  for (const BodyPicture& body : p.bodies)
-    for (const double u : body.displacement) greatest = std::max(greatest, std::abs(u * p.deformation));
-
   const double caption = p.caption.empty() ? 0 : 1.5 * em;
-  const double bar = colour_bar_width(stage.scale, p, em), inset = inset_width(stage);
-  const double column = std::max(bar, inset);
+  const double inset = inset_width(stage);
+  double bar = 0, column = 0;
   Legend legend({}, em);
   Box room;
   stage.frame = {0, 0, w, h};
   for (int round = 0; round < 3; ++round) {
-    stage.deformation_shows = round > 0 && greatest * stage.view.scale > 1.5;
+    stage.deformation_shows = round > 0 && displacement_shows(stage);
+    bar = colour_bar_width(stage.scale, p, em);
+    column = std::max(bar, inset);
     legend = Legend(legend_entries(stage), legend_size * em, w - 2 * em);
     room.top = h - 0.7 * em - (p.title.empty() ? 0 : 1.7 * em);
     room.bottom = 0.4 * em + caption + legend.height();
@@ -125,12 +168,12 @@ void lay_out(Stage& stage) {
       double widest = em;
       if (round > 0)
         for (const Tick& t : frame_ticks(stage).y.ticks) widest = std::max(widest, text_extent(t.label, legend_size * em).x);
-      room.left += widest + (axis_gap + 0.5) * em;
-      room.bottom += (axis_gap + 1.5) * em;
-      room.top -= 1.1 * em;
+      room.left += widest + 0.5 * em + axis_gap(stage);
+      room.bottom += 1.5 * em + axis_gap(stage);
+      room.top -= (stage.window ? 1.4 : 1.1) * em;
       room.right -= 1.0 * em;
     }
-    fit(stage, scaled, room);
+    stage.window ? fit_window(stage, room) : fit(stage, scaled, room);
   }
 
   TextStyle style;

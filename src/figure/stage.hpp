@@ -27,7 +27,9 @@ struct Stage {
   View view;
   Box frame;                  // pixels within which the scene is drawn
   std::vector<std::array<Vec3, 2>> body_boxes;  // least and greatest reference corner of each body
-  double greatest_pressure = 0;
+  std::optional<Window> window;  // what the figure shows, where that is not all; at least the picture's
+  double window_strip = 0;    // pixels of the greatest pressure in a window
+  double greatest_pressure = 0;  // of what is seen
   bool deformation_shows = false;
   Canvas under, over;         // below and above the bodies
   std::vector<LegendEntry> legend;
@@ -37,14 +39,22 @@ struct Stage {
   bool arrows() const;
   Vec3 deformed(const Vec3& position, const Vec3& displacement) const;
   Vec3 place(const ContactNode& node) const { return deformed(node.position, node.displacement); }
-  // Numbers of those positions that stand at least `spacing` pixels apart,
-  // taken in the order given.
-  static std::vector<std::size_t> spaced(const std::vector<Point>& at, double spacing);
+  // In a window: the point lies in the frame, and `within` pixels off its rim.
+  bool shows(Point p, double within = 0) const { return !window || frame.holds(p, -within); }
+  bool shows(Point p, Point q) const { return !window || crop(p, q, frame); }
+  // Of each node, whether it or some of its facets is seen.
+  std::vector<bool> shown(const ContactPicture& contact) const;
+  void set_greatest_pressure();
+  // Numbers of those positions that are shown, `within` the frame, and stand
+  // at least `spacing` pixels apart, taken in the order given.
+  std::vector<std::size_t> spaced(const std::vector<Point>& at, double spacing, double within = 0) const;
 };
 
 // Chooses the view and the frame, and reserves room for title, legend, axes
 // and colour bar; draws these.
 void lay_out(Stage& stage);
+// The rim of a window, above what it cuts off.
+void draw_rim(Stage& stage);
 
 // Fills and hatches obstacles in the plane; in space adds their surfaces.
 void draw_obstacles(Stage& stage, vtkRenderer* renderer);
@@ -62,14 +72,17 @@ void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkR
 void draw_supports(Stage& stage);
 void draw_loads(Stage& stage);
 
-// The greatest pressure of a contact in words, beyond its ordinate; none
-// where the contact carries (next to) nothing.
+// The greatest pressure of a contact in words, beyond its ordinate and clear of
+// outlines and obstacles; none where the contact carries (next to) nothing.
 struct PeakLabel {
   std::string text;
   double size = 0;  // of the letters
+  Point direction;  // outwards from the contact
   Box box;
 };
-std::optional<PeakLabel> peak_label(const Stage& stage, const ContactPicture& contact);
+std::optional<PeakLabel> peak_label(const Stage& stage, const ContactPicture& contact, bool within_frame = true);
+// The end of the pressure ordinate of a node that is drawn at `at`.
+Point pressure_tip(const Stage& stage, const ContactNode& node, Point at);
 
 // Names of what the stage will show, for the legend.
 std::vector<LegendEntry> contact_legend(const Stage& stage);

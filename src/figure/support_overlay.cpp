@@ -104,7 +104,7 @@ void draw_supports(Stage& stage) {
       symbols.push_back(&s);
       at.push_back(stage.view.flat(stage.deformed(s.position, s.displacement)));
     }
-    for (const std::size_t i : Stage::spaced(at, (stage.plane ? 1.3 : 1.1) * support_size * stage.em)) {
+    for (const std::size_t i : stage.spaced(at, (stage.plane ? 1.3 : 1.1) * support_size * stage.em)) {
       if (!stage.plane) {
         stage.over.marker(space_marker(kind), at[i], 0.45 * stage.em, ink);
         continue;
@@ -146,7 +146,7 @@ void draw_loads(Stage& stage) {
   const double greatest = greatest_load(stage.picture);
   std::vector<Point> at;
   for (const LoadArrow& load : stage.picture.loads) at.push_back(stage.view.flat(stage.deformed(load.position, load.displacement)));
-  for (const std::size_t i : Stage::spaced(at, 0.95 * stage.em)) {
+  for (const std::size_t i : stage.spaced(at, 0.95 * stage.em)) {
     const auto [tail, head] = load_arrow(stage, stage.picture.loads[i], greatest);
     if (std::hypot(head.x - tail.x, head.y - tail.y) < 0.1 * stage.em) continue;
     stage.over.arrow(tail, head, std::max(1.5, stage.em / 11), 0.6 * stage.em, load_colour);
@@ -156,7 +156,10 @@ void draw_loads(Stage& stage) {
 std::vector<LegendEntry> support_legend(const Stage& stage) {
   std::vector<LegendEntry> out;
   const double em = stage.em;
-  if (greatest_load(stage.picture) > 0)
+  const bool loads = std::any_of(stage.picture.loads.begin(), stage.picture.loads.end(), [&](const LoadArrow& load) {
+    return stage.shows(stage.view.flat(stage.deformed(load.position, load.displacement)));
+  });
+  if (loads && greatest_load(stage.picture) > 0)
     out.push_back({"load", [em](Canvas& c, const Box& b) {
                      const double middle = (b.bottom + b.top) / 2;
                      c.arrow({b.left, middle}, {b.right, middle}, std::max(1.5, em / 11), 0.6 * em, load_colour);
