@@ -36,6 +36,8 @@ figure::SceneOptions scene_options(const Call& call, int dimension) {
     lua_Number factor = lua_tonumber(call.state(), call.slot("deform"));
     if (factor < 0) throw InputError(text("deform is ", factor, "; it must be zero, positive or \"auto\""));
     options.deform = factor;
+  } else if (!call.has("deform") && call.has("window")) {
+    options.deform = 1;  // the window is in coordinates of the deformed picture
   }
   options.contact = call.boolean("contact");
   options.supports = call.boolean("supports");
@@ -58,6 +60,10 @@ int render(Call& call) {
   if (call.has("range")) {
     const auto range = call.vector("range");
     picture.field_range = {range[0], range[1]};
+  }
+  if (call.has("window")) {
+    const auto window = call.vector("window");
+    picture.window = {window[0], window[1], window[2], window[3]};
   }
   if (call.has("view")) {
     const auto view = call.vector("view");
@@ -134,7 +140,7 @@ void bind_figure(Library& library) {
            {key::string("file", "where to; ends in .png, its folder must exist").required(),
             key::choice("field", kFields, "what the colours show").fallback("von_mises"),
             key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")},
-                        "factor on the displacement; auto: such that it can be seen").otherwise("\"auto\""),
+                        "factor on the displacement; auto: such that it can be seen").otherwise("\"auto\", with a window 1"),
             key::boolean("contact", "contact status, pressure and obstacles").fallback(true),
             key::boolean("supports", "symbols at supported nodes").fallback(false),
             key::boolean("loads", "arrows for loads").fallback(false),
@@ -142,6 +148,8 @@ void bind_figure(Library& library) {
             key::choice("pressure", {"auto", "strip", "arrows", "none"}, "how contact pressure is drawn").fallback("auto"),
             key::boolean("edges", "edges of the cells").otherwise("while they can be told apart"),
             key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's"),
+            key::vector("window", "in the plane: {x0, y0, x1, y1} of the deformed picture, all that is shown; colours and "
+                                  "pressure are scaled to it").count(4).otherwise("all"),
             key::vector("view", "direction towards the eye, in space").count(3),
             key::string("title", "above the figure").otherwise("none"),
             key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none"),
