@@ -1,0 +1,77 @@
+#include <doctest/doctest.h>
+
+#include "../support/meshes.hpp"
+#include "base/error.hpp"
+
+using namespace dotyk;
+
+namespace {
+
+std::vector<mesh::Mesh> all_elements() {
+  std::vector<mesh::Mesh> meshes;
+  for (const auto family : test::kFamilies) {
+    meshes.push_back(test::rectangle(family, 2, 2));
+    meshes.push_back(test::box(family, 2, 2, 2));
+  }
+  return meshes;
+}
+
+}  // namespace
+
+TEST_CASE("an inverted cell is refused with its number, shape and place") {
+  for (auto m : all_elements()) {
+    std::swap(m.cells[0], m.cells[1]);
+    CHECK_THROWS_WITH_AS(mesh::check(m, "gear"), doctest::Contains("gear: cell 1 (a "), InputError);
+    CHECK_THROWS_WITH_AS(mesh::check(m, "gear"), doctest::Contains(m.topology().shape), InputError);
+  }
+  auto triangles = test::rectangle(mesh::Family::p1, 1, 1);
+  std::swap(triangles.cells[4], triangles.cells[5]);
+  CHECK_THROWS_WITH_AS(mesh::check(triangles, "plate"),
+                       doctest::Contains("plate: cell 2 (a triangle near (0.333333, 0.666667)) is inverted"), InputError);
+}
+
+TEST_CASE("a flat cell is refused as flat") {
+  for (auto m : all_elements()) {
+    for (std::size_t k = 0; k < m.coordinates.size(); k += m.dimension()) m.coordinates[k] = 0.5;
+    CHECK_THROWS_WITH_AS(mesh::check(m, "m"), doctest::Contains("is flat"), InputError);
+  }
+}
+
+TEST_CASE("slender cells are no flat ones") {
+  for (const auto family : test::kFamilies) {
+    CHECK_NOTHROW(mesh::check(test::rectangle(family, 2, 2, 0, 0, 1, 1e-9), "m"));
+    CHECK_NOTHROW(mesh::check(test::rectangle(family, 2, 2, 0, 0, 1e-7, 1e-7), "m"));
+    CHECK_NOTHROW(mesh::check(test::box(family, 1, 1, 1, {0, 0, 0}, {1, 1, 1e-9}), "m"));
+  }
+}
+
+TEST_CASE("a quadrilateral with a corner beyond 180 degrees is refused") {
+  auto m = test::rectangle(mesh::Family::q1, 1, 1);
+  m.coordinates[6] = m.coordinates[7] = 0.4;
+  CHECK_THROWS_WITH_AS(mesh::check(m, "m"), doctest::Contains("inverted"), InputError);
+}
+
+TEST_CASE("a cell given twice is refused, in any order of its nodes") {
+  for (auto m : all_elements()) {
+    const int n = m.topology().nodes;
+    std::vector<int> again(m.cells.begin() + n, m.cells.begin() + 2 * n);
+    if (m.element == mesh::Element::triangle_p1) std::rotate(again.begin(), again.begin() + 1, again.end());
+    m.cells.insert(m.cells.end(), again.begin(), again.end());
+    CHECK_THROWS_WITH_AS(mesh::check(m, "m"), doctest::Contains("have the same nodes"), InputError);
+  }
+}
+
+TEST_CASE("a coordinate that is no number is refused with its node") {
+  for (const double bad : {static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    auto m = test::rectangle(mesh::Family::p1, 2, 2);
+    m.coordinates[7] = bad;
+    CHECK_THROWS_WITH_AS(mesh::check(m, "m"), "m: node 4 has a coordinate that is not finite", InputError);
+  }
+}
+
+TEST_CASE("least Jacobians: twice the area, six times the volume, corners") {
+  CHECK(mesh::least_jacobian(test::rectangle(mesh::Family::p1, 1, 1), 0) == 1);
+  CHECK(mesh::least_jacobian(test::rectangle(mesh::Family::q1, 1, 1), 0) == 1);
+  for (int c = 0; c < 6; ++c) CHECK(mesh::least_jacobian(test::box(mesh::Family::p1, 1, 1, 1), c) == 1);
+  CHECK(mesh::least_jacobian(test::box(mesh::Family::q1, 1, 1, 1), 0) == 1);
+}

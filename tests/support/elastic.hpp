@@ -1,0 +1,73 @@
+#pragma once
+
+#include <algorithm>
+
+#include "elasticity/assembly.hpp"
+#include "elasticity/load.hpp"
+#include "elasticity/rigid_modes.hpp"
+#include "elasticity/stress.hpp"
+#include "meshes.hpp"
+#include "random.hpp"
+
+namespace dotyk::test {
+
+using elasticity::MaterialField;
+using elasticity::Numbering;
+using elasticity::VectorField;
+
+inline MaterialField steel(int dimension, double E = 210, double nu = 0.3,
+                           elasticity::Plane plane = elasticity::Plane::strain) {
+  return MaterialField(elasticity::isotropic(E, nu, dimension, plane));
+}
+
+/// Every component unknown but those where `given(x, i)` says so, which take `value(x)`.
+inline Numbering prescribe(const Mesh& m, const std::function<bool(const Point&, int)>& given, const VectorField& value) {
+  const int dim = m.dimension();
+  std::vector<char> fixed(m.coordinates.size(), 0);
+  std::vector<double> prescribed(fixed.size(), 0);
+  for (int n = 0; n < m.node_count(); ++n)
+    for (int i = 0; i < dim; ++i)
+      if (given(m.point(n), i)) {
+        fixed[n * dim + i] = 1;
+        prescribed[n * dim + i] = value(m.point(n))[i];
+      }
+  return elasticity::number(m, fixed, prescribed);
+}
+
+inline Numbering all_free(const Mesh& m) {
+  return elasticity::number(m, std::vector<char>(m.coordinates.size(), 0), std::vector<double>(m.coordinates.size(), 0));
+}
+
+/// On the boundary of the unit square or cube.
+inline bool on_boundary(const Point& x, int dimension) {
+  for (int i = 0; i < dimension; ++i)
+    if (x[i] < 1e-12 || x[i] > 1 - 1e-12) return true;
+  return false;
+}
+
+inline std::vector<double> nodal(const Mesh& m, const VectorField& u) {
+  std::vector<double> values;
+  for (int n = 0; n < m.node_count(); ++n) {
+    const Point p = u(m.point(n));
+    values.insert(values.end(), p.begin(), p.begin() + m.dimension());
+  }
+  return values;
+}
+
+/// Nodal displacement (node × dimension) of the assembled system.
+inline std::vector<double> solve(const elasticity::System& s, const Numbering& numbering) {
+  std::vector<double> u = numbering.prescribed;
+  if (numbering.count() == 0) return u;
+  const algebra::Vector x = full(s.K).ldlt().solve(s.f);
+  for (std::size_t k = 0; k < u.size(); ++k)
+    if (numbering.unknown[k] >= 0) u[k] = x[numbering.unknown[k]];
+  return u;
+}
+
+inline double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double d = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) d = std::max(d, std::abs(a[k] - b[k]));
+  return d;
+}
+
+}  // namespace dotyk::test
