@@ -41,13 +41,15 @@ Stress fit(const std::vector<int>& patch, const std::vector<std::array<double, 3
            const std::vector<Stress>& value) {
   Eigen::Matrix<double, Terms, Terms> A = Eigen::Matrix<double, Terms, Terms>::Zero();
   Eigen::Matrix<double, Terms, 6> b = Eigen::Matrix<double, Terms, 6>::Zero();
-  double scale = 0;
+  std::array<double, 3> scale{0, 0, 0};  // an axis each: cells may be slender
   for (const auto& x : offset)
-    for (int i = 0; i + 1 < Terms; ++i) scale = std::max(scale, std::abs(x[i]));
+    for (int i = 0; i + 1 < Terms; ++i) scale[i] = std::max(scale[i], std::abs(x[i]));
+  for (double& s : scale)
+    if (s == 0) s = 1;
   for (std::size_t k = 0; k < patch.size(); ++k) {
     Eigen::Matrix<double, Terms, 1> p;
     p[0] = 1;
-    for (int i = 0; i + 1 < Terms; ++i) p[i + 1] = offset[k][i] / scale;
+    for (int i = 0; i + 1 < Terms; ++i) p[i + 1] = offset[k][i] / scale[i];
     A += p * p.transpose();
     b += p * Eigen::Map<const Eigen::Matrix<double, 1, 6>>(value[patch[k]].data());
   }

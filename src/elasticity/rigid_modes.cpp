@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "elasticity/load.hpp"
 
 namespace dotyk::elasticity {
 namespace {
@@ -112,13 +113,10 @@ RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering,
     if (numbering.unknown[k] < 0)
       held.push_back(frame.row(mesh.node(static_cast<int>(k) / dim), static_cast<int>(k) % dim));
   for (const FacetSpring& spring : springs)
-    for (int i = 0; i < dim; ++i) {
-      bool acts = false;
-      for (const auto& k : spring.stiffness) acts = acts || k[i] > 0;
-      if (!acts) continue;
-      for (int a = 0; a < mesh.topology().nodes_per_facet; ++a)
-        held.push_back(frame.row(mesh.node(mesh.facet_node(spring.facet, a)), i));
-    }
+    for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
+      for (int i = 0; i < dim; ++i)
+        if (spring.stiffness[p.index][i] > 0) held.push_back(frame.row(p.x.data(), i));
+    });
   DenseMatrix rows(static_cast<Eigen::Index>(held.size()), frame.count());
   for (std::size_t k = 0; k < held.size(); ++k) rows.row(k) = held[k];
   const DenseMatrix basis = null_space(rows, frame.count());
