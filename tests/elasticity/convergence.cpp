@@ -1,0 +1,105 @@
+#include <doctest/doctest.h>
+
+#include "../support/elastic.hpp"
+#include "algebra/cholesky.hpp"
+
+using namespace dotyk;
+using mesh::Point;
+using std::numbers::pi;
+
+namespace {
+
+// u_i = a_i Π sin(π x_j), zero on the boundary of the unit square or cube; f = −div σ(u).
+constexpr double kE = 3, kNu = 0.3, kAmount[3] = {1, -0.5, 0.7};
+
+double factor(double x, int derivatives) {
+  switch (derivatives) {
+    case 0: return std::sin(pi * x);
+    case 1: return pi * std::cos(pi * x);
+    default: return -pi * pi * std::sin(pi * x);
+  }
+}
+
+/// ∂_k ∂_l of Π sin(π x_j); k or l = -1: none.
+double derivative(const Point& x, int dim, int k, int l) {
+  double product = 1;
+  for (int j = 0; j < dim; ++j) product *= factor(x[j], (k == j) + (l == j));
+  return product;
+}
+
+Point exact(const Point& x, int dim) {
+  Point u{0, 0, 0};
+  for (int i = 0; i < dim; ++i) u[i] = kAmount[i] * derivative(x, dim, -1, -1);
+  return u;
+}
+
+Point force(const Point& x, int dim) {
+  const double mu = kE / (2 * (1 + kNu)), lambda = kE * kNu / ((1 + kNu) * (1 - 2 * kNu));
+  Point f{0, 0, 0};
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j)
+      f[i] -= (lambda + mu) * kAmount[j] * derivative(x, dim, i, j) + mu * kAmount[i] * derivative(x, dim, j, j);
+  return f;
+}
+
+struct Errors {
+  double nodal, energy, effectivity;
+};
+
+/// Root mean square error at nodes; error of the energy norm, from energies: ‖u − u_h‖² = a(u,u) − a(u_h,u_h)
+/// up to the quadrature of f, which is of higher order.
+Errors errors(int dim, mesh::Family family, int n) {
+  const auto m = test::unit(dim, family, n);
+  const auto numbering = test::prescribe(m, [&](const Point& x, int) { return test::on_boundary(x, dim); },
+                                         [](const Point&) { return Point{0, 0, 0}; });
+  const auto material = test::steel(dim, kE, kNu);
+  std::vector<double> load(m.coordinates.size(), 0);
+  elasticity::add_body_force(m, [&](const Point& x) { return force(x, dim); }, load);
+  const auto system = elasticity::assemble(m, material, {}, load, numbering);
+  algebra::Cholesky cholesky(system.K, numbering.node, {});
+  REQUIRE(cholesky.factor(system.K));
+  const algebra::Vector solved = cholesky.solve(system.f);
+  std::vector<double> u = numbering.prescribed;
+  for (std::size_t k = 0; k < u.size(); ++k)
+    if (numbering.unknown[k] >= 0) u[k] = solved[numbering.unknown[k]];
+  const auto reference = test::nodal(m, [&](const Point& x) { return exact(x, dim); });
+  double sum = 0;
+  for (std::size_t k = 0; k < u.size(); ++k) sum += (u[k] - reference[k]) * (u[k] - reference[k]);
+  // a(u, u) = ∫ f u: sines and cosines squared give ½ each axis.
+  const double mu = kE / (2 * (1 + kNu)), lambda = kE * kNu / ((1 + kNu) * (1 - 2 * kNu));
+  double whole = 0;
+  for (int i = 0; i < dim; ++i)
+    whole += kAmount[i] * kAmount[i] * pi * pi * ((lambda + mu) + dim * mu) / (1 << dim);
+  const auto stress = elasticity::recover_stress(m, elasticity::cell_stress(m, material, u));
+  const auto estimate = elasticity::estimate_error(m, material, u, stress);
+  // Energy error by quadrature against the interpolated exact stress would add its own; the estimate's
+  // ∫σ_h c⁻¹ σ_h is exact, so take the difference of energies.
+  const double energy = std::sqrt(std::abs(whole - estimate.solution_squared));
+  return {std::sqrt(sum / u.size()), energy, std::sqrt(estimate.error_squared) / energy};
+}
+
+}  // namespace
+
+TEST_CASE("a manufactured solution converges with order 2 in displacement and 1 in energy") {
+  for (int dim : {2, 3})
+    for (const auto family : test::kFamilies) {
+      const int n = dim == 2 ? 24 : family == mesh::Family::p1 ? 12 : 8;
+      const Errors coarse = errors(dim, family, n), fine = errors(dim, family, 2 * n);
+      const double order = std::log2(coarse.nodal / fine.nodal), energy_order = std::log2(coarse.energy / fine.energy);
+      INFO("dimension ", dim, " element ", family == mesh::Family::p1 ? "P1" : "Q1", " orders ", order, " ", energy_order);
+      CHECK(order > 1.85);  // 2 in the limit
+      CHECK(order < 2.15);
+      CHECK(energy_order > 0.93);  // 1 in the limit
+      CHECK(energy_order < 1.07);
+    }
+}
+
+TEST_CASE("the recovery estimate of a smooth solution is within a quarter of the true error") {
+  for (int dim : {2, 3})
+    for (const auto family : test::kFamilies) {
+      const Errors e = errors(dim, family, dim == 2 ? 40 : 16);
+      INFO("dimension ", dim, " element ", family == mesh::Family::p1 ? "P1" : "Q1", " effectivity ", e.effectivity);
+      CHECK(e.effectivity > 0.8);
+      CHECK(e.effectivity < 1.25);
+    }
+}
