@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -25,21 +26,25 @@ double extent(const Mesh& mesh, const std::vector<NodeSide>& list) {
   return size;
 }
 
+/// Do the two sides look at each other? At corners and edges the mean normals may be far from parallel.
+bool opposed(const Point& a, const Point& b) { return dot(a, b) < 0.1; }
+
 /// Nodes of the second part in cells of the tolerance's size, to find coinciding ones.
 class CoincidentSearch {
  public:
   CoincidentSearch(const Mesh& mesh, const std::vector<NodeSide>& list, double tolerance)
       : mesh_(mesh), tolerance_(tolerance) {
-    for (const NodeSide& n : list) bins_[key(mesh.point(n.node), 0)].push_back(n.node);
+    for (const NodeSide& n : list) bins_[key(mesh.point(n.node), 0)].push_back(n);
   }
-  int find(const Point& x) const {
+  /// Empty where none is there whose normal is opposed.
+  const NodeSide* find(const Point& x, const Point& normal) const {
     for (int shift = 0; shift < 27; ++shift) {
       const auto bin = bins_.find(key(x, shift));
       if (bin == bins_.end()) continue;
-      for (int n : bin->second)
-        if (length(minus(mesh_.point(n), x)) <= tolerance_) return n;
+      for (const NodeSide& n : bin->second)
+        if (length(minus(mesh_.point(n.node), x)) <= tolerance_ && opposed(normal, n.normal)) return &n;
     }
-    return -1;
+    return nullptr;
   }
 
  private:
@@ -55,7 +60,7 @@ class CoincidentSearch {
   }
   const Mesh& mesh_;
   double tolerance_;
-  std::unordered_map<std::size_t, std::vector<int>> bins_;
+  std::unordered_map<std::size_t, std::vector<NodeSide>> bins_;
 };
 
 /// How far d leads off the line along `normal`.
@@ -72,12 +77,64 @@ int across(const Mesh& mesh, const std::vector<NodeSide>& list, const Point& x, 
   double nearest = INFINITY;
   for (const NodeSide& n : list) {
     const Point d = minus(mesh.point(n.node), x);
-    if (length(d) < nearest && std::min(off_line(d, normal), off_line(d, n.normal)) <= tolerance) {
+    if (length(d) >= nearest || !opposed(normal, n.normal)) continue;
+    if (std::min(off_line(d, normal), off_line(d, n.normal)) <= tolerance) {
       nearest = length(d);
       best = n.node;
     }
   }
   return best;
+}
+
+/// Does a node at x project into the facet, no further away than the facet is wide, normals opposed?
+bool faces(const Mesh& mesh, mesh::Facet f, const Point& x, const Point& x_normal, double tolerance) {
+  Point normal = mesh.facet_area_vector(f);
+  const double area = length(normal);
+  for (double& v : normal) v /= area;
+  if (dot(normal, x_normal) > -0.8) return false;
+  const int corners = mesh.topology().nodes_per_facet;
+  const double width = mesh.dimension() == 2 ? area : std::sqrt(area);
+  for (int k = 0; k < corners; ++k) {
+    const Point a = mesh.point(mesh.facet_node(f, k)), b = mesh.point(mesh.facet_node(f, (k + 1) % corners));
+    const Point edge = minus(b, a), d = minus(x, a);
+    if (std::abs(dot(d, normal)) > width || off_line(d, normal) <= tolerance) return false;
+    if (mesh.dimension() == 2) {
+      if (dot(edge, d) < 0) return false;  // both ends are seen as a: the foot lies between them
+    } else {
+      const Point inward{normal[1] * edge[2] - normal[2] * edge[1], normal[2] * edge[0] - normal[0] * edge[2],
+                         normal[0] * edge[1] - normal[1] * edge[0]};
+      if (dot(inward, d) < -tolerance * length(edge)) return false;
+    }
+  }
+  return true;
+}
+
+/// Throws InputError where a node without partner nevertheless faces the other part.
+void refuse_lonely(const Face& face, const std::vector<NodeSide>& lonely, const Face& other) {
+  if (lonely.empty()) return;
+  const auto list = nodes(other.mesh, other.facets);
+  const double tolerance = 1e-6 * extent(other.mesh, list);
+  Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  double width = 0;
+  for (const mesh::Facet f : other.facets) {
+    const double area = length(other.mesh.facet_area_vector(f));
+    width = std::max(width, other.mesh.dimension() == 2 ? area : std::sqrt(area));
+  }
+  for (const NodeSide& n : list) {
+    const Point p = other.mesh.point(n.node);
+    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i] - width), high[i] = std::max(high[i], p[i] + width);
+  }
+  for (const NodeSide& n : lonely) {
+    const Point x = face.mesh.point(n.node);
+    bool near = true;
+    for (int i = 0; i < 3; ++i) near = near && x[i] >= low[i] && x[i] <= high[i];
+    if (!near) continue;
+    for (const mesh::Facet f : other.facets)
+      if (faces(other.mesh, f, x, n.normal, tolerance))
+        throw InputError(text("the nodes of ", face.name, " and ", other.name, " do not match: the node at ",
+                              point_text(x.data(), face.mesh.dimension()), " of ", face.name,
+                              " has no partner on the other side; use meshes with matching nodes on the contact"));
+  }
 }
 
 }  // namespace
@@ -88,22 +145,29 @@ std::vector<NodePair> match(const Face& first, const Face& second) {
   const double tolerance = 1e-6 * size;
   const CoincidentSearch coincident(second.mesh, to, tolerance);
   std::vector<NodePair> pairs;
-  int lonely = -1;
+  std::vector<NodeSide> lonely;
+  std::unordered_set<int> taken;
   for (const NodeSide& n : from) {
     const Point x = first.mesh.point(n.node);
-    int partner = coincident.find(x);
-    if (partner < 0) partner = across(second.mesh, to, x, n.normal, tolerance);
+    const NodeSide* same = coincident.find(x, n.normal);
+    const int partner = same ? same->node : across(second.mesh, to, x, n.normal, tolerance);
     if (partner < 0) {
-      if (lonely < 0) lonely = n.node;
+      lonely.push_back(n);
       continue;
     }
+    taken.insert(partner);
+    if (&first.mesh == &second.mesh && partner == n.node) continue;  // the tip of a crack moves with itself
     pairs.push_back({n.node, partner, dot(minus(second.mesh.point(partner), x), n.normal)});
   }
+  if (pairs.empty())
+    throw InputError(text(first.name, " and ", second.name, " do not face each other: no node of one has a node of "
+                          "the other across from it, normals opposed"));
   // Parts may overhang each other, but where they face each other every node must have its partner.
-  if (pairs.empty() || (lonely >= 0 && 2 * pairs.size() < std::min(from.size(), to.size())))
-    throw InputError(text("the nodes of ", first.name, " and ", second.name, " do not match: the node at ",
-                          point_text(first.mesh.point(lonely).data(), first.mesh.dimension()),
-                          " has no partner on its normal; use meshes with matching nodes on the contact"));
+  refuse_lonely(first, lonely, second);
+  lonely.clear();
+  for (const NodeSide& n : to)
+    if (!taken.count(n.node)) lonely.push_back(n);
+  refuse_lonely(second, lonely, first);
   return pairs;
 }
 

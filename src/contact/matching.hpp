@@ -22,8 +22,8 @@ struct NodePair {
   double distance;  ///< along the first's normal; negative where the parts overlap
 };
 
-/// Throws InputError where no node of `first` has a partner, and where two bodies' nodes do not
-/// match (some have partners, most do not), naming the first that has none.
+/// Throws InputError where no node of `first` has a partner whose normal is opposed, and where a node
+/// of either part has none though it lies before a facet of the other, naming the first such node.
 std::vector<NodePair> match(const Face& first, const Face& second);
 
 /// Rows at the matching nodes, one a side of the first part at each; `added` (may be empty) is added

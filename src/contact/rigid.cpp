@@ -47,8 +47,8 @@ std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::
   std::vector<ContactRow> rows;
   const bool geometric = !std::holds_alternative<RigidGap>(shape);
   const double rounding = 1e-9 * mesh.size();
-  double deepest = 0;
-  Point where{0, 0, 0};
+  double deepest = 0, nearest = INFINITY, facing = 1;
+  Point where{0, 0, 0}, nearest_at{0, 0, 0};
   for (const NodeSide& side : nodes(mesh, facets)) {
     const Point x = mesh.point(side.node);
     const Distance d = std::visit([&](const auto& s) { return distance(s, x); }, shape);
@@ -57,12 +57,20 @@ std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::
       throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), mesh.dimension()),
                             "; it must be a finite number"));
     if (gap < deepest) deepest = gap, where = x;
+    if (gap < nearest) {
+      nearest = gap, nearest_at = x;
+      facing = d.normal[0] * side.normal[0] + d.normal[1] * side.normal[1] + d.normal[2] * side.normal[2];
+    }
     rows.push_back({side.node, -1, d.normal, gap, side.weight});
   }
   if (geometric && !interference && deepest < -rounding)
     throw InputError(text("the ", name(shape), " penetrates the part by ", -deepest, " at ",
                           point_text(where.data(), mesh.dimension()),
                           " before any load; move it, or say interference = true if the overlap is meant"));
+  // A ball inside the body keeps its distance from the part, and would let the part sink into it from behind.
+  if (std::holds_alternative<RigidBall>(shape) && facing < 0)
+    throw InputError(text("the rigid ball lies behind the part: at ", point_text(nearest_at.data(), mesh.dimension()),
+                          ", where it is nearest, its centre is on the body's side; move it out of the body"));
   return rows;
 }
 

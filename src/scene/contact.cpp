@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <set>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "scene/scene.hpp"
@@ -41,6 +44,29 @@ void require_member(const Scene& scene, const Part& part) {
 
 contact::Face face(const Part& part) { return {*part.body->mesh, part.facets, part.label()}; }
 
+/// The (node, partner) pairs of a contact or a glue.
+std::set<std::pair<int, int>> pairs_of(const Contact& contact, bool swapped) {
+  std::set<std::pair<int, int>> pairs;
+  const auto add = [&](int a, int b) { swapped ? pairs.emplace(b, a) : pairs.emplace(a, b); };
+  for (const contact::ContactRow& row : contact.rows) add(row.node, row.partner);
+  for (const contact::NodePair& pair : contact.glued) add(pair.first, pair.second);
+  return pairs;
+}
+
+/// Throws InputError where every pair of the new contact is already joined by another: its pressure would be
+/// shared out between the two, or it could never open.
+void refuse_repetition(const Scene& scene, const Contact& fresh) {
+  for (const auto& known : scene.contacts) {
+    const bool same = known->first.body == fresh.first.body && known->second.body == fresh.second.body;
+    const bool swapped = known->first.body == fresh.second.body && known->second.body == fresh.first.body;
+    if (!known->second.body || (!same && !swapped)) continue;
+    const auto there = pairs_of(*known, swapped && !same), here = pairs_of(fresh, false);
+    if (std::includes(there.begin(), there.end(), here.begin(), here.end()))
+      throw InputError(text("the nodes of this ", fresh.kind == Contact::Kind::glue ? "glue" : "contact",
+                            " are already joined by the ", known->name, "; say it once"));
+  }
+}
+
 std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
   scene.contacts.push_back(std::make_shared<const Contact>(std::move(contact)));
   return scene.contacts.back();
@@ -57,6 +83,7 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   contact.first = first;
   contact.second = second;
   contact.rows = contact::between(face(first), face(second), added_gap);
+  refuse_repetition(scene, contact);
   return keep(scene, std::move(contact));
 }
 
@@ -81,6 +108,7 @@ std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const P
   contact.first = first;
   contact.second = second;
   contact.glued = contact::match(face(first), face(second));
+  refuse_repetition(scene, contact);
   return keep(scene, std::move(contact));
 }
 
