@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -80,6 +81,9 @@ void check(const Mesh& mesh, const std::string& what) {
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const double scale = std::pow(edge_scale(mesh, c), mesh.dimension());
     const double jacobian = least_jacobian(mesh, c);
+    if (!std::isfinite(jacobian) || !std::isfinite(scale) || scale < std::numeric_limits<double>::min())
+      throw InputError(text(what, ": cell ", c + 1, " is so ", std::isfinite(jacobian) && scale < 1 ? "small" : "large", " that its ", mesh.dimension() == 2 ? "area" : "volume",
+                            " is beyond the range of numbers; choose another unit of length"));
     // A cell flatter than 1e-12 of its size has no digits left in its gradients.
     if (jacobian > 1e-12 * scale) continue;
     throw InputError(text(what, ": cell ", c + 1, " (a ", mesh.topology().shape, " near ",

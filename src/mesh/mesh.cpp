@@ -65,7 +65,7 @@ void transform(Mesh& mesh, const std::function<Point(const Point&)>& map) {
       std::copy_n(moved.begin(), mesh.dimension(),
                   mesh.coordinates.begin() + static_cast<std::ptrdiff_t>(i) * mesh.dimension());
     }
-    check(mesh, "transform");
+    check(mesh, "the moved mesh");
   } catch (...) {  // also a script error passing through: restore, then let it go on
     mesh.coordinates = std::move(old);
     throw;
