@@ -14,6 +14,7 @@ namespace dotyk {
 /// Writes a text file whole or not at all: beside its place first, then renamed into it.
 /// Throws InputError naming the file and the reason.
 inline void write_whole_file(const std::string& file, const std::string& content) {
+  if (file.empty()) throw InputError("a file name is needed");
   const std::string beside = file + ".part-" + std::to_string(::getpid());
   const auto fail = [&](int reason) {
     std::remove(beside.c_str());

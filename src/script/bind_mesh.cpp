@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "base/memory.hpp"
 #include "mesh/generators.hpp"
 #include "script/bind.hpp"
 #include "script/wrapped.hpp"
@@ -14,11 +15,13 @@ Key element_key() {
       .fallback("P1");
 }
 
-Key grading_key() {
+Key grading_key(std::size_t axes) {
   const auto axis = [](const char* name) {
     return key::function(name, "maps [0, 1] onto [0, 1], increasing: where the grid lines go");
   };
-  return key::table("grading", {axis("x"), axis("y"), axis("z")}, "uneven spacing, axis by axis").otherwise("even");
+  std::vector<Key> keys{axis("x"), axis("y")};
+  if (axes == 3) keys.push_back(axis("z"));
+  return key::table("grading", keys, "uneven spacing, axis by axis").otherwise("even");
 }
 
 Key cells_key(std::size_t axes) {
@@ -35,10 +38,17 @@ std::array<mesh::Grading, 3> gradings(const Call& call) {
   if (!call.has("grading")) return result;
   const Arguments given = call.table("grading");
   static const char* axis[] = {"x", "y", "z"};
-  for (int i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < call.integers("cells").size(); ++i)
     if (given.has(axis[i]))
       result[i] = [f = given.function(axis[i])](double s) { return f.number({&s, 1}); };
   return result;
+}
+
+/// Refuses what cannot be numbered or held, before any of it is made. `count` cells before P1 cuts them.
+void require_room(double count, int dimension, bool p1) {
+  if (count > 2e8) throw InputError(text(count, " cells are more than this program can number; use at most 2e8"));
+  const double corners = dimension == 2 ? (p1 ? 6 : 4) : (p1 ? 24 : 8);
+  require_memory(count * (8.0 * dimension + 4 * corners), text("a mesh of ", count, " cells"));
 }
 
 std::array<int, 3> cells(const Call& call) {
@@ -47,11 +57,11 @@ std::array<int, 3> cells(const Call& call) {
   double product = 1;
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i] < 1 || given[i] > 1'000'000)
-      throw InputError(text("cells along ", "xyz"[i], " is ", given[i], "; it must be at least 1"));
+      throw InputError(text("cells along ", "xyz"[i], " is ", given[i], "; it must be from 1 to 1000000"));
     result[i] = static_cast<int>(given[i]);
     product *= result[i];
   }
-  if (product > 2e8) throw InputError(text(product, " cells are more than this program can number; use fewer"));
+  require_room(product, static_cast<int>(given.size()), call.choice("element") == 0);
   return result;
 }
 
@@ -73,6 +83,7 @@ int disc(Call& call) {
   const auto center = call.vector("center");
   const auto count = call.integer("cells");
   if (count < 1 || count > 10'000) throw InputError(text("cells is ", count, "; it must be from 1 to 10000"));
+  require_room(3.0 * static_cast<double>(count * count), 2, call.choice("element") == 0);
   return give(call, mesh::disc(center.data(), call.number("radius"), static_cast<int>(count), family(call)));
 }
 
@@ -113,7 +124,7 @@ void bind_mesh(Library& library) {
                     .example = "local m = dotyk.mesh.rectangle{ from = {-1,-1}, to = {1,0}, cells = {64,32} }",
                     .arguments = {key::table({key::vector("from", "lower left corner").count(2).unit("length").required(),
                                               key::vector("to", "upper right corner").count(2).unit("length").required(),
-                                              cells_key(2), element_key(), grading_key()})},
+                                              cells_key(2), element_key(), grading_key(2)})},
                     .returns = "mesh",
                     .run = rectangle});
   library.function({.name = "dotyk.mesh.box",
@@ -122,7 +133,7 @@ void bind_mesh(Library& library) {
                     .example = "local b = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {8,8,8} }",
                     .arguments = {key::table({key::vector("from", "least corner").count(3).unit("length").required(),
                                               key::vector("to", "greatest corner").count(3).unit("length").required(),
-                                              cells_key(3), element_key(), grading_key()})},
+                                              cells_key(3), element_key(), grading_key(3)})},
                     .returns = "mesh",
                     .run = box});
   library.function({.name = "dotyk.mesh.disc",

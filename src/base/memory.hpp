@@ -1,0 +1,60 @@
+#pragma once
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk {
+
+namespace detail {
+
+/// The number that a one-line file of /proc or /sys begins with; infinite where it has none ("max").
+inline double number_in(const char* file) {
+  std::ifstream in(file);
+  double value = 0;
+  return in >> value ? value : INFINITY;
+}
+
+}  // namespace detail
+
+/// Bytes this process may still take without swapping: what the machine has available, its control
+/// group leaves and its own limit (ulimit -v) allows. Infinite where none of them is known.
+inline double available_memory() {
+  double available = INFINITY;
+  std::ifstream machine("/proc/meminfo");
+  std::string word;
+  while (machine >> word)
+    if (word == "MemAvailable:" && machine >> available) available *= 1024;
+  const double group = detail::number_in("/sys/fs/cgroup/memory.max");
+  if (std::isfinite(group)) {
+    const double used = detail::number_in("/sys/fs/cgroup/memory.current");
+    if (std::isfinite(used)) available = std::min(available, std::max(0.0, group - used));
+  }
+  rlimit own{};
+  if (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY) {
+    const double used = detail::number_in("/proc/self/statm") * static_cast<double>(sysconf(_SC_PAGESIZE));
+    if (std::isfinite(used))
+      available = std::min(available, std::max(0.0, static_cast<double>(own.rlim_cur) - used));
+  }
+  return available;
+}
+
+/// Throws InputError where `bytes` are more than are available: Linux would promise them, and end the
+/// program when they are used. `what` begins the message: "a mesh of 5e7 cells".
+inline void require_memory(double bytes, const std::string& what) {
+  if (bytes < 64e6) return;  // not worth asking
+  const double available = available_memory();
+  if (bytes <= available) return;
+  throw InputError(text(what, " needs ", bytes * 1e-9, " GB of memory, ", available * 1e-9,
+                        " GB are available: use fewer cells, half the body where it is symmetric, or finer "
+                        "cells only where they matter (grading)"));
+}
+
+}  // namespace dotyk
