@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "elasticity/kernel.hpp"
@@ -60,7 +61,15 @@ Eigen::VectorXd voigt(const Stress& s, int dimension) {
 
 double von_mises(const Stress& s) {
   const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  const double q = 0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+  if (q > 1e-280 && q < 1e280) return std::sqrt(q);
+  // Far from 1 the squares leave the range of numbers: once more relative to the greatest component.
+  double largest = 0;
+  for (const double v : s) largest = std::max(largest, std::abs(v));
+  if (!(largest > 0) || !std::isfinite(largest) || (largest > 1e-130 && largest < 1e130)) return std::sqrt(q);
+  Stress scaled = s;
+  for (double& v : scaled) v /= largest;
+  return largest * von_mises(scaled);
 }
 
 std::array<double, 3> principal(const Stress& s) {

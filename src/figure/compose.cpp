@@ -47,7 +47,7 @@ Vec3 at_node(const std::vector<double>& values, int node, int dim) {
 }
 
 BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
-  const Body& body = *s.scene().bodies[index];
+  const Body& body = s.body(index);
   const mesh::Mesh& mesh = *body.mesh;
   const int dim = body.dimension();
   BodyPicture picture;
@@ -161,7 +161,7 @@ SupportKind kind_of(scene::SupportKind kind) {
 }
 
 void add_supports(const Solution& s, int index, ScenePicture& picture) {
-  const Body& body = *s.scene().bodies[index];
+  const Body& body = s.body(index);
   const auto& u = s.displacement(index);
   const int dim = body.dimension();
   for (const scene::Support& support : body.supports)
@@ -183,7 +183,7 @@ void add_supports(const Solution& s, int index, ScenePicture& picture) {
 }
 
 void add_loads(const Solution& s, int index, ScenePicture& picture) {
-  const Body& body = *s.scene().bodies[index];
+  const Body& body = s.body(index);
   const std::size_t step = std::max<std::size_t>(1, body.arrows.size() / 200);
   for (std::size_t k = 0; k < body.arrows.size(); k += step)
     picture.loads.push_back({body.arrows[k].at, s.displacement(index, body.arrows[k].at), body.arrows[k].value});

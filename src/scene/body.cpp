@@ -28,6 +28,12 @@ std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Me
   return body;
 }
 
+PartMark Part::mark() const {
+  std::size_t hash = facets.size();
+  for (const mesh::Facet f : facets) hash = hash * 1000003u + 6 * static_cast<std::size_t>(f.cell) + f.local;
+  return {name, hash};
+}
+
 std::vector<std::string> part_names(const Body& body) {
   std::vector<std::string> names;
   for (const auto& [name, facets] : body.mesh->parts) names.push_back(name);

@@ -14,12 +14,19 @@
 
 namespace dotyk::scene {
 
+/// Which part something was given to. Parts chosen by functions may share a name; their facets then differ.
+struct PartMark {
+  std::string name;
+  std::size_t facets;  ///< a hash of them
+  bool operator==(const PartMark&) const = default;
+};
+
 enum class SupportKind { fix, slide, displace };
 
 /// Displacement components prescribed at nodes.
 struct Support {
   SupportKind kind;
-  std::string part;
+  PartMark part;
   std::vector<int> nodes;
   std::vector<std::array<bool, 3>> components;  ///< which are prescribed, one entry a node
   std::vector<mesh::Point> values;              ///< to what, one entry a node
@@ -28,20 +35,20 @@ struct Support {
 
 /// Bilateral sliding u·normal = 0 at a node whose normal is along no axis: a row of B.
 struct SlideRow {
-  std::string part;
+  PartMark part;
   int node;
   mesh::Point normal;  ///< unit, outward
 };
 
 /// A load as drawn: its value at a facet's centre (force per length or area).
 struct LoadArrow {
-  std::string part;
+  PartMark part;
   mesh::Point at;
   mesh::Point value;
 };
 
 struct SpringPatch {
-  std::string part;
+  PartMark part;
   elasticity::FacetSpring spring;
 };
 
@@ -68,6 +75,7 @@ struct Part {
   std::vector<mesh::Facet> facets;
   /// "'block' top", for messages.
   std::string label() const { return "'" + body->name + "' " + name; }
+  PartMark mark() const;
 };
 
 /// A body of this mesh and material; the mesh is checked (see mesh::check). `force` per volume, may be empty.
@@ -83,7 +91,8 @@ Part named_part(const std::shared_ptr<Body>& body, const std::string& name);
 Part chosen_part(const std::shared_ptr<Body>& body, const std::string& name,
                  const std::function<bool(const mesh::Point&, const mesh::Point&)>& chosen);
 
-/// Zero displacement of the components flagged.
+/// Zero displacement of the components flagged. This and the next two throw InputError, and leave the
+/// body as it was, where the support contradicts another one at a node.
 void fix(Part& part, const std::array<bool, 3>& components);
 /// Bilateral contact without friction: u·n = 0 on the part; at an edge between two of its sides, for both normals.
 void slide(Part& part);

@@ -19,8 +19,8 @@ Point at_node(const std::vector<double>& values, int node, int dim) {
 
 ContactResult Solution::contact(const Contact& contact) const {
   int index = -1;
-  for (std::size_t k = 0; k < contacts_.size(); ++k)
-    if (contacts_[k].get() == &contact) index = static_cast<int>(k);
+  for (std::size_t k = 0; k < scene_->contacts.size(); ++k)
+    if (scene_->contacts[k].get() == &contact) index = static_cast<int>(k);
   if (index < 0)
     throw InputError(text("this contact (", contact.name, ") is not part of the scene that was solved"));
   if (contact.kind == Contact::Kind::glue)

@@ -15,10 +15,11 @@ template <class Traction>
 void add(Part& part, Traction&& traction) {
   Body& body = *part.body;
   const int dim = body.dimension();
-  std::vector<double> force = body.force;  // the fields may throw: change nothing before all are known
+  std::vector<double> force(body.force.size(), 0.0);  // the fields may throw: change nothing before all are known
   std::vector<LoadArrow> arrows;
+  const PartMark mark = part.mark();
   for (const mesh::Facet f : part.facets) {
-    LoadArrow arrow{part.name, body.mesh->facet_centre(f), {0, 0, 0}};
+    LoadArrow arrow{mark, body.mesh->facet_centre(f), {0, 0, 0}};
     double area = 0;
     elasticity::for_each_facet_point(*body.mesh, f, [&](const FacetPoint& p) {
       const Point t = traction(p);
@@ -33,7 +34,7 @@ void add(Part& part, Traction&& traction) {
     for (double& v : arrow.value) v /= area;
     arrows.push_back(arrow);
   }
-  body.force = std::move(force);
+  for (std::size_t k = 0; k < force.size(); ++k) body.force[k] += force[k];
   body.arrows.insert(body.arrows.end(), arrows.begin(), arrows.end());
 }
 
@@ -52,8 +53,9 @@ void pressure(Part& part, const elasticity::ScalarField& value) {
 
 void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness) {
   std::vector<SpringPatch> patches;
+  const PartMark mark = part.mark();
   for (const mesh::Facet f : part.facets) {
-    SpringPatch patch{part.name, {f, {}}};
+    SpringPatch patch{mark, {f, {}}};
     elasticity::for_each_facet_point(*part.body->mesh, f, [&](const FacetPoint& p) {
       std::array<double, 3> k{0, 0, 0};
       for (int i = 0; i < 3; ++i) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
@@ -78,7 +79,15 @@ class RowBuilder {
   std::vector<RowPlace> places_;
 };
 
+/// Bytes of a lower triangle with as many couplings as a grid of these cells has.
+double matrix_bytes(const mesh::Mesh& mesh) {
+  const double dim = mesh.dimension(), neighbours = dim == 2 ? (mesh.topology().nodes == 3 ? 7 : 9)
+                                                             : (mesh.topology().nodes == 4 ? 15 : 27);
+  return 12 * 0.5 * mesh.node_count() * dim * (dim * neighbours + 1);
+}
+
 void add_body(const Body& body, Model& model) {
+  require_memory(2 * matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
   model.numbering.push_back(number(body));
   const Numbering& numbering = model.numbering.back();
   const auto springs = body.facet_springs();
@@ -146,7 +155,8 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor) {
   Model model;
   for (const auto& body : scene.bodies) {
     monitor.phase(text("assembling '", body->name, "' (", body->mesh->cell_count(), " cells)"));
-    add_body(*body, model);
+    model.bodies.push_back(*body);
+    add_body(model.bodies.back(), model);
     monitor.check();
   }
   RowBuilder builder(scene, model);
@@ -160,12 +170,18 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor) {
   }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     model.slide_row.emplace_back();
-    if (scene.bodies[b]->slides.empty()) continue;
-    builder.open_group("slide of '" + scene.bodies[b]->name + "'", problem::bilateral());
-    for (const SlideRow& slide : scene.bodies[b]->slides) {
+    const Body& body = model.bodies[b];
+    if (body.slides.empty()) continue;
+    builder.open_group("slide of '" + body.name + "'", problem::bilateral());
+    for (const SlideRow& slide : body.slides) {
       double jump = 0;
       model.slide_row.back().push_back(
           builder.add(static_cast<int>(b), slide.node, -1, -1, slide.normal, jump));
+      const mesh::Mesh& mesh = *body.mesh;
+      if (model.slide_row.back().back() < 0 && std::abs(jump) > 1e-12 * mesh.size())
+        throw InputError(text("contradictory supports on '", body.name, "': at the node ",
+                              point_text(mesh.node(slide.node), mesh.dimension()), " part '", slide.part.name,
+                              "' slides, but its displacement along the normal is prescribed to be ", -jump));
     }
   }
   builder.finish();

@@ -12,6 +12,7 @@ namespace dotyk::scene {
 /// A scene as a problem, and the way back.
 struct Model {
   problem::Problem problem;
+  std::vector<Body> bodies;                      ///< as they were: a script may add supports and loads later
   std::vector<elasticity::Numbering> numbering;  ///< one a body
   /// Contact → its row → row of B, or -1 where no unknown moves it (both sides fixed).
   std::vector<std::vector<int>> contact_row;

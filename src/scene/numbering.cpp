@@ -23,8 +23,8 @@ elasticity::Numbering number(const Body& body) {
         const std::size_t at = static_cast<std::size_t>(s.nodes[k]) * dim + i;
         if (fixed[at] && std::abs(value[at] - s.values[k][i]) > 1e-12 * largest)
           throw InputError(text("contradictory supports on '", body.name, "': at the node ",
-                                point_text(body.mesh->node(s.nodes[k]), dim), " part '", by[at]->part,
-                                "' prescribes u", "xyz"[i], " = ", value[at], " and part '", s.part,
+                                point_text(body.mesh->node(s.nodes[k]), dim), " part '", by[at]->part.name,
+                                "' prescribes u", "xyz"[i], " = ", value[at], " and part '", s.part.name,
                                 "' prescribes ", s.values[k][i]));
         fixed[at] = 1;
         value[at] = s.values[k][i];

@@ -42,8 +42,9 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
 Point Solution::reaction(const Part& part) const {
   const int index = scene_->index_of(part.body.get());
   if (index < 0) throw InputError("part '" + part.name + "' is not of the scene that was solved");
-  const Body& body = *scene_->bodies[index];
+  const Body& body = this->body(index);
   const int dim = body.dimension();
+  const PartMark mark = part.mark();
   // What supports must add to loads and contact to balance the inner forces.
   std::vector<double> missing =
       elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), displacement_[index]);
@@ -55,16 +56,16 @@ Point Solution::reaction(const Part& part) const {
     for (std::size_t k = 0; k < support.nodes.size(); ++k)
       for (int i = 0; i < dim; ++i) {
         const std::size_t at = static_cast<std::size_t>(support.nodes[k]) * dim + i;
-        if (!support.components[k][i] || !counted.insert(at).second || support.part != part.name) continue;
+        if (!support.components[k][i] || !counted.insert(at).second || support.part != mark) continue;
         sum[i] += missing[at] - other[at];
       }
   for (std::size_t k = 0; k < body.slides.size(); ++k) {
     const int r = model_.slide_row[index][k];
-    if (r < 0 || body.slides[k].part != part.name) continue;
+    if (r < 0 || body.slides[k].part != mark) continue;
     for (int i = 0; i < dim; ++i) sum[i] -= result_.state.lambda[r] * body.slides[k].normal[i];
   }
   for (const SpringPatch& patch : body.springs) {
-    if (patch.part != part.name) continue;
+    if (patch.part != mark) continue;
     elasticity::for_each_facet_point(*body.mesh, patch.spring.facet, [&](const elasticity::FacetPoint& p) {
       for (int i = 0; i < dim; ++i)
         for (int a = 0; a < p.nodes; ++a)

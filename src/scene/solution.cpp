@@ -13,14 +13,31 @@ namespace dotyk::scene {
 
 using mesh::Point;
 
+namespace {
+
+/// A direct method ends with rounding. Where rounding is most of what it returns, that is no solution.
+void refuse_noise(const problem::Residual& r, solver::Result& result) {
+  const double worst = std::max({r.equilibrium, r.penetration, r.complementarity});
+  if (!result.converged || worst <= 1e-6) return;
+  result.converged = false;
+  result.reason = text("rounding leaves a residual of ", worst,
+                       ": stiffnesses, supports or sizes are too far apart (a material nearly incompressible, a "
+                       "spring nearly absent, cells nearly flat)");
+}
+
+}  // namespace
+
 Solution::Solution(std::shared_ptr<const Scene> scene, Model model, solver::Result result)
-    : scene_(std::move(scene)), contacts_(scene_->contacts), model_(std::move(model)),
+    : scene_(std::move(scene)), model_(std::move(model)),
       result_(std::move(result)), stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
-  if (!result_.state.u.allFinite() || !result_.state.lambda.allFinite())
-    throw std::runtime_error(
-        "the solution has values that are not finite: stiffness, loads or sizes are out of range");
   residual_ = problem::residual(model_.problem, result_.state);
   energy_ = problem::energy(model_.problem, result_.state);
+  const double sum = energy_ + residual_.equilibrium + residual_.penetration + residual_.complementarity;
+  if (!result_.state.u.allFinite() || !result_.state.lambda.allFinite() || !std::isfinite(sum))
+    throw std::runtime_error(
+        "the solution has values beyond the range of numbers: stiffness, loads or sizes are too large or too "
+        "small; choose units in which they are moderate");
+  refuse_noise(residual_, result_);
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
 }
@@ -30,7 +47,7 @@ Solution::~Solution() = default;
 const std::vector<elasticity::Stress>& Solution::stress(int body) const {
   if (stress_[body].empty()) {
     Stopwatch watch;
-    const Body& b = *scene_->bodies[body];
+    const Body& b = this->body(body);
     stress_[body] = elasticity::recover_stress(
         *b.mesh, elasticity::cell_stress(*b.mesh, b.material, displacement_[body]));
     result_.clock.recover += watch.seconds();
@@ -40,7 +57,7 @@ const std::vector<elasticity::Stress>& Solution::stress(int body) const {
 }
 
 const Locator& Solution::locator(int body) const {
-  if (!locators_[body]) locators_[body] = std::make_unique<Locator>(*scene_->bodies[body]->mesh);
+  if (!locators_[body]) locators_[body] = std::make_unique<Locator>(*this->body(body).mesh);
   return *locators_[body];
 }
 
@@ -57,7 +74,7 @@ Place place(const Locator& locator, const Body& body, const Point& x) {
 }  // namespace
 
 Point Solution::displacement(int body, const Point& x) const {
-  const Body& b = *scene_->bodies[body];
+  const Body& b = this->body(body);
   const Place at = place(locator(body), b, x);
   Point u{0, 0, 0};
   for (int a = 0; a < b.mesh->topology().nodes; ++a)
@@ -67,7 +84,7 @@ Point Solution::displacement(int body, const Point& x) const {
 }
 
 elasticity::Stress Solution::stress(int body, const Point& x) const {
-  const Body& b = *scene_->bodies[body];
+  const Body& b = this->body(body);
   const Place at = place(locator(body), b, x);
   const auto& nodal = stress(body);
   elasticity::Stress s{};
@@ -83,7 +100,7 @@ bool Solution::active(int row) const {
 double Solution::error_estimate() const {
   elasticity::EnergyEstimate sum;
   for (std::size_t k = 0; k < scene_->bodies.size(); ++k) {
-    const Body& b = *scene_->bodies[k];
+    const Body& b = body(static_cast<int>(k));
     const auto e = elasticity::estimate_error(*b.mesh, b.material, displacement_[k], stress(static_cast<int>(k)));
     sum.error_squared += e.error_squared;
     sum.solution_squared += e.solution_squared;

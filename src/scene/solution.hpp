@@ -42,10 +42,15 @@ class Locator;
 /// What a solve gives: the state of every body and contact, how it ended, and how far to trust it.
 class Solution {
  public:
+  /// `scene` as the model was built from it: nothing may be added to it any more.
   Solution(std::shared_ptr<const Scene> scene, Model model, solver::Result result);
   ~Solution();
 
+  /// The scene as it was solved: contacts added since are not in it. Its bodies are the ones the script
+  /// holds; what these bore then is body().
   const Scene& scene() const { return *scene_; }
+  /// A body with the supports and loads it had when it was solved.
+  const Body& body(int index) const { return model_.bodies[index]; }
   const solver::Result& result() const { return result_; }
   const problem::Residual& residual() const { return residual_; }
   const problem::Clock& clock() const { return result_.clock; }
@@ -80,7 +85,6 @@ class Solution {
   const Locator& locator(int body) const;
 
   std::shared_ptr<const Scene> scene_;
-  std::vector<std::shared_ptr<const Contact>> contacts_;  ///< the scene's, as they were
   Model model_;
   mutable solver::Result result_;
   problem::Residual residual_;

@@ -6,6 +6,8 @@ namespace dotyk::scene {
 std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const Method& method, const Start& start,
                                 Monitor& monitor) {
   Stopwatch watch;
+  // A copy: on_iteration may run a script that adds contacts to the scene.
+  scene = std::make_shared<const Scene>(*scene);
   problem::Clock clock;
   Model model = build(*scene, clock, monitor);
   solver::Result result;

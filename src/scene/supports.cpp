@@ -13,12 +13,23 @@ constexpr double kAlongAxis = 1e-9;
 
 /// A support of all the part's nodes, nothing prescribed yet.
 Support on_nodes(const Part& part, SupportKind kind) {
-  Support support{kind, part.name, {}, {}, {}, {}};
+  Support support{kind, part.mark(), {}, {}, {}, {}};
   for (const contact::NodeSide& n : contact::nodes(*part.body->mesh, part.facets)) {
     support.nodes.push_back(n.node);
     support.normals.push_back(n.normal);
   }
   return support;
+}
+
+/// Takes the support, or leaves the body as it was where the support contradicts another.
+void hold(Body& body, Support support) {
+  body.supports.push_back(std::move(support));
+  try {
+    number(body);
+  } catch (...) {
+    body.supports.pop_back();
+    throw;
+  }
 }
 
 }  // namespace
@@ -27,12 +38,13 @@ void fix(Part& part, const std::array<bool, 3>& components) {
   Support support = on_nodes(part, SupportKind::fix);
   support.components.assign(support.nodes.size(), components);
   support.values.assign(support.nodes.size(), {0, 0, 0});
-  part.body->supports.push_back(std::move(support));
+  hold(*part.body, std::move(support));
 }
 
 void slide(Part& part) {
   Body& body = *part.body;
-  Support support{SupportKind::slide, part.name, {}, {}, {}, {}};
+  Support support{SupportKind::slide, part.mark(), {}, {}, {}, {}};
+  std::vector<SlideRow> oblique;
   for (const contact::NodeSide& side : contact::sides(*body.mesh, part.facets)) {
     std::array<bool, 3> along{false, false, false};
     bool axis = false;
@@ -46,10 +58,11 @@ void slide(Part& part) {
       support.values.push_back({0, 0, 0});
       support.normals.push_back(side.normal);
     } else {
-      body.slides.push_back({part.name, side.node, side.normal});
+      oblique.push_back({support.part, side.node, side.normal});
     }
   }
-  if (!support.nodes.empty()) body.supports.push_back(std::move(support));
+  if (!support.nodes.empty()) hold(body, std::move(support));
+  body.slides.insert(body.slides.end(), oblique.begin(), oblique.end());
 }
 
 void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components) {
@@ -63,7 +76,7 @@ void displace(Part& part, const std::array<elasticity::ScalarField, 3>& componen
       if (given[i]) value[i] = components[i](part.body->mesh->point(n));
     support.values.push_back(value);
   }
-  part.body->supports.push_back(std::move(support));
+  hold(*part.body, std::move(support));
 }
 
 }  // namespace dotyk::scene
