@@ -53,9 +53,9 @@ void check_items(lua_State* L, int index, lua_Integer items, const Key& table, c
   const auto number = item.fewest == item.most ? std::to_string(item.fewest)
                       : count < item.fewest    ? "at least " + std::to_string(item.fewest)
                                                : "at most " + std::to_string(item.most);
-  throw ArgumentError(place + "takes " + number + " " + wanted +
-                      (number == "1" || number == "at least 1" || number == "at most 1" ? "" : "s") +
-                      ", got " + std::to_string(items));
+  throw ArgumentError(place + "takes " + number + " " +
+                      (number == "1" || number == "at least 1" || number == "at most 1" ? wanted : plural(wanted)) +
+                      ", got " + std::to_string(items) + (items == 0 ? " (or nil)" : ""));
 }
 
 }  // namespace

@@ -17,8 +17,11 @@ using scene::Part;
 elasticity::MaterialField material_field(const Call& call, const Material& material, const mesh::Mesh& mesh) {
   if (material.stiffness) return elasticity::MaterialField(*material.stiffness);
   const int dim = mesh.dimension();
-  if (!material.E_varies && !material.nu_varies)
+  const bool plane_stress = dim == 2 && material.plane == elasticity::Plane::stress;
+  if (!material.E_varies && !material.nu_varies) {
+    elasticity::check_isotropic(material.E, material.nu, plane_stress);  // in space "plane" says nothing
     return elasticity::MaterialField(elasticity::isotropic(material.E, material.nu, dim, material.plane));
+  }
   const auto sample = [&](bool varies, double constant, const char* name) {
     std::vector<double> values(mesh.cell_count(), constant);
     if (!varies) return values;
@@ -31,7 +34,7 @@ elasticity::MaterialField material_field(const Call& call, const Material& mater
   };
   auto E = sample(material.E_varies, material.E, "E"), nu = sample(material.nu_varies, material.nu, "nu");
   for (int c = 0; c < mesh.cell_count(); ++c) try {
-      elasticity::check_isotropic(E[c], nu[c], material.plane == elasticity::Plane::stress);
+      elasticity::check_isotropic(E[c], nu[c], plane_stress);
     } catch (const InputError& error) {
       throw InputError(text("material at ", point_text(mesh.cell_centre(c).data(), dim), ": ", error.what()));
     }

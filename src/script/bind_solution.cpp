@@ -48,7 +48,7 @@ mesh::Point point(const Call& call, const Solution& s) {
 
 std::vector<Key> point_keys() {
   return {key::object<Body>("body", "which body").required(), key::number("x", "the point at rest").unit("length").required(),
-          key::number("y", "").unit("length").required(), key::number("z", "in space only").unit("length")};
+          key::number("y", "its second coordinate").unit("length").required(), key::number("z", "in space only").unit("length")};
 }
 
 int displacement(Call& call) {

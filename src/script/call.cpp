@@ -28,7 +28,7 @@ void Call::open_table(int first) {
     for (const auto& key : keys) names.push_back(key.name);
     const auto& items = descriptor_.arguments[0].items;
     const auto wanted = names.empty() && !items.empty()
-                            ? "a table of " + (items[0].type.empty() ? "items" : items[0].type + "s")
+                            ? "a table of " + (items[0].type.empty() ? "items" : plural(items[0].type))
                             : "a table of keys (" + join(names, "and", "") + ")";
     throw ArgumentError("expected " + wanted + ", got " + describe_value(L, first));
   }

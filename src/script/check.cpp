@@ -68,7 +68,7 @@ void each_entry(lua_State* L, int index, const Key& key, const std::string& what
     throw ArgumentError(what + " must be " + key.expected() + ", got the key " + name);
   }
   if (static_cast<std::size_t>(count) < key.fewest || static_cast<std::size_t>(count) > key.most) {
-    throw ArgumentError(what + " must be " + key.expected() + ", got " + std::to_string(count));
+    throw ArgumentError(what + " must be " + key.expected() + ", got a table of " + std::to_string(count));
   }
   for (lua_Integer i = 1; i <= count; ++i) {
     lua_rawgeti(L, index, i);

@@ -10,12 +10,17 @@
 namespace dotyk::script {
 
 std::string number_text(double value) {
+  if (std::isnan(value)) return "nan";  // printf would tell its sign
   char text[40];
   for (int digits : {6, 15, 17}) {
     std::snprintf(text, sizeof text, "%.*g", digits, value);
-    if (std::strtod(text, nullptr) == value || std::isnan(value)) break;
+    if (std::strtod(text, nullptr) == value) break;
   }
   return text;
+}
+
+std::string plural(const std::string& noun) {
+  return noun.ends_with("dy") ? noun.substr(0, noun.size() - 1) + "ies" : noun + "s";
 }
 
 std::string with_article(const std::string& noun) {
@@ -79,13 +84,13 @@ Key& Key::with(Key item) {
 namespace {
 
 std::string count_text(const Key& key, const std::string& noun) {
-  const auto plural = [&](std::size_t n) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); };
+  const auto counted = [&](std::size_t n) { return std::to_string(n) + " " + (n == 1 ? noun : plural(noun)); };
   const bool bounded = key.most != std::numeric_limits<std::size_t>::max();
-  if (key.fewest == key.most) return plural(key.fewest);
-  if (bounded && key.fewest + 1 == key.most) return std::to_string(key.fewest) + " or " + plural(key.most);
-  if (bounded) return std::to_string(key.fewest) + " to " + plural(key.most);
-  if (key.fewest > 0) return "at least " + plural(key.fewest);
-  return noun + "s";
+  if (key.fewest == key.most) return counted(key.fewest);
+  if (bounded && key.fewest + 1 == key.most) return std::to_string(key.fewest) + " or " + counted(key.most);
+  if (bounded) return std::to_string(key.fewest) + " to " + counted(key.most);
+  if (key.fewest > 0) return "at least " + counted(key.fewest);
+  return plural(noun);
 }
 
 std::string range_text(const Key& key) {

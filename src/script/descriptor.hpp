@@ -113,6 +113,9 @@ Key object(std::string name, std::string help) {
 // A number as a person would write it: "0.3", "1e-10", "5".
 std::string number_text(double value);
 
+// "body" → "bodies".
+std::string plural(const std::string& noun);
+
 // "a body", "an element".
 std::string with_article(const std::string& noun);
 

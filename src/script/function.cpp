@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/text.hpp"
 #include "script/descriptor.hpp"
 #include "script/interrupt.hpp"
 #include "script/position.hpp"
@@ -14,11 +15,11 @@ namespace {
 
 std::string point_text(std::span<const double> point) {
   std::string text;
-  for (const double x : point) text += (text.empty() ? "" : ", ") + number_text(x);
+  for (const double x : point) text += (text.empty() ? "" : ", ") + dotyk::text(x);  // six digits: a place, not a value
   return "(" + text + ")";
 }
 
-std::string plural(std::size_t count, const std::string& noun) {
+std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
@@ -65,7 +66,7 @@ void Function::numbers(std::span<const double> arguments, std::span<double> valu
     throw std::runtime_error(name + " returned " + what + " at " + point_text(arguments));
   };
   const auto given = static_cast<std::size_t>(lua_gettop(L_) - base);
-  const auto wanted = "expected " + (values.size() == 1 ? "a number" : plural(values.size(), "number"));
+  const auto wanted = "expected " + (values.size() == 1 ? "a number" : counted(values.size(), "number"));
   if (given == 0) fail("nothing");
   for (std::size_t i = 0; i < std::min(given, values.size()); ++i) {
     const int index = base + 1 + static_cast<int>(i);
@@ -76,7 +77,7 @@ void Function::numbers(std::span<const double> arguments, std::span<double> valu
     values[i] = lua_tonumber(L_, index);
     if (!std::isfinite(values[i])) fail(std::isnan(values[i]) ? "nan" : number_text(values[i]));
   }
-  if (given != values.size()) fail(plural(given, "number") + ", " + wanted);
+  if (given != values.size()) fail(counted(given, "number") + ", " + wanted);
   lua_settop(L_, base);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // Points and fields of scripts as the numerical rooms take them.
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
@@ -28,6 +29,9 @@ inline mesh::Point point_of(const std::vector<double>& v, int dimension, const s
 
 inline mesh::Point unit_vector(const std::vector<double>& v, const std::string& what) {
   mesh::Point p = point_of(v);
+  const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  if (largest > 0)
+    for (double& x : p) x /= largest;  // squares of the rest are then in range
   const double length = std::hypot(p[0], p[1], p[2]);
   if (!(length > 0)) throw InputError(text("'", what, "' is zero; it must have a direction"));
   for (double& x : p) x /= length;

@@ -38,7 +38,7 @@ TEST_CASE("errors carry the line, the callable, and what is wrong") {
   says(toy("size = '3'"), "'size' must be a positive number, got the string \"3\"");
   says(toy("size = -3"), "'size' must be a positive number, got the number -3");
   says(toy("size = 0"), "'size' must be a positive number, got the number 0");
-  says(toy("size = 0/0"), "'size' must be a finite number, got -nan");
+  says(toy("size = 0/0"), "'size' must be a finite number, got nan");
   says(toy("size = 1/0"), "'size' must be a finite number, got inf");
   says(toy("size = {}"), "'size' must be a positive number, got a table");
   says(toy("size = print"), "'size' must be a positive number, got a function");
@@ -48,7 +48,7 @@ TEST_CASE("errors carry the line, the callable, and what is wrong") {
   says(toy("count = 1.5"), "'count' must be an integer of at least 0, got the number 1.5");
   says(toy("count = -1"), "'count' must be an integer of at least 0, got the number -1");
   says(toy("old = 1"), "'old' must be true or false, got the number 1");
-  says(toy("at = {1}"), "'at' must be a table of 2 or 3 numbers, got 1");
+  says(toy("at = {1}"), "'at' must be a table of 2 or 3 numbers, got a table of 1");
   says(toy("at = {1, 'x'}"), "'at': entry 2 must be a number, got the string \"x\"");
   says(toy("at = {1, nil, 3}"), "'at': entry 2 must be a number, got nil");
   says(toy("at = {x = 1, 2}"), "'at' must be a table of 2 or 3 numbers, got the key 'x'");

@@ -58,7 +58,7 @@ TEST_CASE("signatures and help texts") {
   auto& library = bench.interpreter.library();
   REQUIRE(library.find("toy:grow"));
   CHECK(library.find("toy:grow")->signature() == "toy:grow(factor)");
-  CHECK(library.find("box")->signature() == "dotyk.test.box{ toys, …, gap = 0 }");
+  CHECK(library.find("dotyk.test.box")->signature() == "dotyk.test.box{ toys, …, gap = 0 }");
   const auto text = help_text(*library.find("dotyk.test.toy"));
   for (const char* part :
        {"Makes a toy.", "colour", "\"red\", \"green\" or \"blue\"; default \"red\"", "length", "Example:"}) {
