@@ -26,8 +26,9 @@ double extent(const Mesh& mesh, const std::vector<NodeSide>& list) {
   return size;
 }
 
-/// Do the two sides look at each other? At corners and edges the mean normals may be far from parallel.
-bool opposed(const Point& a, const Point& b) { return dot(a, b) < 0.1; }
+/// Do the two sides look at each other? At corners and edges the mean normals may be far from parallel;
+/// perpendicular ones belong to sides that only meet.
+bool opposed(const Point& a, const Point& b) { return dot(a, b) < -0.1; }
 
 /// Nodes of the second part in cells of the tolerance's size, to find coinciding ones.
 class CoincidentSearch {
