@@ -59,7 +59,7 @@ class Iteration {
                             " iterations; rows that still change: ", places(problem_, changed_));
     result_.clock.iterate += iterating.lap();
     monitor_.phase("recovering the displacement");
-    result_.state.u = left_ ? condensed_->recover(lambda_, Vector()) : step_->recover();
+    result_.state.u = left_alpha_ ? condensed_->recover(lambda_, *left_alpha_) : step_->recover();
     result_.state.lambda = lambda_;
     result_.clock.recover += iterating.lap();
     return std::move(result_);
@@ -163,37 +163,32 @@ class Iteration {
   bool leave_cycle(Linearisation& l) {
     const std::string where = places(problem_, changed_);
     if (!condensed_) condense();
-    if (condensed_->kernel_size() > 0) {
-      result_.reason = "active sets repeat without being a solution, at " + where;
-      return false;
-    }
-    Vector lambda = admissible(problem_, lambda_), x = condensed_->jump(lambda, Vector());
-    const auto inner = reduced_step(*condensed_, rho_);
-    for (; result_.iterations < settings_.max_iterations && !monitor_.stop(); ++result_.iterations) {
-      descend(problem_, *condensed_, lambda, x);
-      l = linearise(problem_, lambda, x, rho_, noise(lambda, x), nullptr);
-      Vector newton_lambda, newton_x;
-      if (inner->solve(l, newton_lambda, newton_x)) {
-        const Vector candidate = admissible(problem_, newton_lambda);
-        if (dual_energy(problem_, *condensed_, candidate) < dual_energy(problem_, *condensed_, lambda)) {
-          lambda = candidate;
-          x = condensed_->jump(lambda, Vector());
-        }
-        const Linearisation next =
-            linearise(problem_, newton_lambda, newton_x, rho_, noise(newton_lambda, newton_x), &l);
-        if (next.active == l.active && same_values(l, next)) {
-          result_.reason = "active sets repeated at " + where +
-                           "; left by sweeps that decrease the dual energy";
-          return true;  // the ordinary iteration confirms it
-        }
+    DualDescent descent(problem_, *condensed_, lambda_);
+    const auto newton = reduced_step(*condensed_, rho_);
+    while (result_.iterations < settings_.max_iterations && !monitor_.stop()) {
+      ++result_.iterations;
+      for (int k = 0; k < kSweeps; ++k) descent.sweep();
+      descent.update_equilibrium();
+      l = linearise(problem_, descent.lambda(), descent.jump(), rho_, noise(descent.lambda(), descent.jump()),
+                    nullptr);
+      Vector lambda, x;
+      if (!newton->solve(l, lambda, x)) continue;
+      const Linearisation next = linearise(problem_, lambda, x, rho_, noise(lambda, x), &l);
+      if (next.active == l.active && same_values(l, next)) {
+        result_.reason = "active sets repeated at " + where + "; left by sweeps that decrease the dual energy";
+        return true;  // the ordinary iteration confirms it
       }
+      descent.take_if_lower(lambda);
     }
-    lambda_ = lambda;
-    x_ = x;
-    left_ = true;
+    lambda_ = descent.lambda();
+    x_ = descent.jump();
+    left_alpha_ = descent.alpha();
     result_.reason = "active sets repeat at " + where + "; descent did not settle within max_iterations";
     return false;
   }
+
+  /// Sweeps between two Newton steps of the descent (and two updates of the free bodies' equilibrium).
+  static constexpr int kSweeps = 3;
 
   const Problem& problem_;
   const Pdas& settings_;
@@ -205,7 +200,7 @@ class Iteration {
   std::unique_ptr<Step> step_;
   Vector lambda_, x_;
   std::vector<int> changed_;
-  bool left_ = false;  ///< λ is that of the descent, not of the last step
+  std::optional<Vector> left_alpha_;  ///< of the descent, where λ is the descent's and not the last step's
   std::set<std::uint64_t> seen_;
   Stopwatch watch_;
 };
