@@ -9,6 +9,7 @@ class Bilateral final : public Law {
   Projection project(int, double y, double) const override { return {y, 1}; }
   double energy(int, double) const override { return 0; }
   double conjugate(int, double) const override { return 0; }
+  Interval multipliers(int) const override { return {-kUnbounded, kUnbounded}; }
 };
 
 }  // namespace

@@ -20,6 +20,9 @@ class Elastic final : public Law {
   double conjugate(int row, double lambda) const override {
     return k_[row] > 0 ? 0.5 * lambda * lambda / k_[row] : 0;
   }
+  Interval multipliers(int row) const override {
+    return k_[row] > 0 ? Interval{-kUnbounded, kUnbounded} : Interval{0, 0};
+  }
 
  private:
   std::vector<double> k_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,11 @@ struct Projection {
   double slope;  ///< in [0, 1]; one element of the generalised derivative at a kink
 };
 
+/// The multipliers that a law can give: the domain of φ*. Ends may be infinite.
+struct Interval {
+  double low, high;
+};
+
 /// An interface law φ on one row: λ ∈ ∂φ(x), x = (Bu − c)_r. Unit of λ: that of
 /// f (force, integrated over the node's share of the boundary); of x: of u.
 ///
@@ -25,6 +31,7 @@ struct Projection {
 /// nothing else of the law. A law knows no solver.
 class Law {
  public:
+  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   virtual ~Law() = default;
   virtual std::string name() const = 0;
   /// P(y) for the row of the law's group, ρ ≥ 0 in force per displacement; at ρ = 0 the nearest admissible λ.
@@ -33,6 +40,8 @@ class Law {
   virtual double energy(int row, double x) const = 0;
   /// φ*(λ), the conjugate energy, for an admissible λ.
   virtual double conjugate(int row, double lambda) const = 0;
+  /// Every multiplier that the row can carry.
+  virtual Interval multipliers(int row) const = 0;
   /// λ ≥ 0 pushes, and only where x reaches 0: penetration and complementarity are defined.
   virtual bool unilateral() const { return false; }
 };
