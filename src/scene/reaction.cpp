@@ -35,6 +35,11 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
       if (second == body) push(pair.second, direction, lambda[r]);
     }
   }
+  for (std::size_t k = 0; k < model.slide_row[body].size(); ++k) {
+    const int r = model.slide_row[body][k];
+    const SlideRow& slide = scene.bodies[body]->slides[k];
+    if (r >= 0) push(slide.node, slide.normal, -lambda[r]);
+  }
 }
 
 }  // namespace
