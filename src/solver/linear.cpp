@@ -5,6 +5,18 @@
 
 namespace dotyk::solver {
 
+namespace {
+
+/// "translation along y and rotation about (0.5, 0)".
+std::string all(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    out += (k == 0 ? "" : k + 1 < names.size() ? ", " : " and ") + names[k];
+  return out;
+}
+
+}  // namespace
+
 Result solve_linear(const problem::Problem& problem, algebra::Ordering ordering, Monitor& monitor) {
   Result result;
   result.method = "linear";
@@ -12,7 +24,7 @@ Result solve_linear(const problem::Problem& problem, algebra::Ordering ordering,
   result.state.lambda.resize(0);
   for (const problem::Block& block : problem.blocks) {
     if (block.kernel.cols() > 0)
-      throw InputError(text("'", block.name, "' is not held: nothing stops its ", block.kernel_names[0],
+      throw InputError(text("'", block.name, "' is not held: nothing stops its ", all(block.kernel_names),
                             "; fix a part of it or put it in contact"));
     Stopwatch watch;
     monitor.phase(text("ordering '", block.name, "' (", block.size(), " unknowns)"));
