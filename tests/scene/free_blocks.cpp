@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "../support/random.hpp"
 #include "../support/scenes.hpp"
 
 using namespace dotyk;
@@ -123,4 +124,59 @@ TEST_CASE("a block that falls across a gap lands on it") {
     CHECK(s->contact(*contact).force[1] == doctest::Approx(1).epsilon(1e-10));
     CHECK(s->contact(*contact).closed > 0);
   }
+}
+
+TEST_CASE("stacks of free blocks under random loads are solved exactly where statics allows it, else refused") {
+  test::Random random(501);
+  Monitor quiet;
+  int solved = 0, refused = 0;
+  for (int trial = 0; trial < 120; ++trial) {
+    const int dim = trial % 4 == 3 ? 3 : 2, n = dim == 2 ? 6 : 3, count = 1 + trial % 3;
+    const double apart = trial % 5 == 0 ? 0.01 : 0;  // gaps between the blocks
+    std::vector<std::shared_ptr<scene::Body>> bodies;
+    for (int b = 0; b < count; ++b) {
+      bodies.push_back(test::block("block " + std::to_string(b), dim, test::kFamilies[trial % 2], n, b * (1 + apart),
+                                   std::pow(10, random.between(0, 3))));
+      test::fix(bodies.back(), "bottom", dim == 2 ? std::array<bool, 3>{true, false, false} : std::array<bool, 3>{true, true, false});
+    }
+    const double tilt = random.between(-4, 4), wave = random.between(2, 20), phase = random.between(0, 6);
+    test::pull(bodies.back(), "top", [=](const Point& x) {
+      Point t{0.5 * std::cos(phase), 0, 0};
+      t[dim - 1] = -1 - 2 * std::sin(wave * x[0] + phase) - tilt * (x[0] - 0.5) + (dim == 3 ? 0.3 * std::sin(wave * x[1]) : 0);
+      return t;
+    });
+    // Where the resultant passes through the bottom of the block that is loaded; the blocks below hand it on.
+    double down = 0, at[2] = {0, 0};
+    const scene::Body& top = *bodies.back();
+    for (int k = 0; k < top.mesh->node_count(); ++k) {
+      const Point x = top.mesh->point(k);
+      const double* f = &top.force[k * dim];
+      down -= f[dim - 1];
+      for (int i = 0; i + 1 < dim; ++i) at[i] += (x[dim - 1] - (count - 1) * (1 + apart)) * f[i] - x[i] * f[dim - 1];
+    }
+    bool possible = down > 0;
+    for (int i = 0; i + 1 < dim; ++i) possible = possible && at[i] > 0 && at[i] < down;
+
+    const auto scene = scene::make_scene(bodies);
+    Point normal{0, 0, 0};
+    normal[dim - 1] = 1;
+    const auto floor = scene::add_contact(*scene, test::part(bodies[0], "bottom"), contact::RigidPlane{{0, 0, 0}, normal}, {}, false);
+    for (int b = 1; b < count; ++b)
+      scene::add_contact(*scene, test::part(bodies[b], "bottom"), test::part(bodies[b - 1], "top"), {});
+    INFO("trial ", trial, ": down ", down, " at ", at[0] / down);
+    if (!possible) {
+      ++refused;
+      CHECK_THROWS_WITH_AS(test::solve(scene, trial % 7 > 2), doctest::Contains("not held"), InputError);
+      continue;
+    }
+    ++solved;
+    const auto s = test::solve(scene, trial % 7 > 2);
+    REQUIRE_MESSAGE(s->result().converged, s->result().reason);
+    CHECK(s->residual().equilibrium < 1e-10);
+    CHECK(s->residual().penetration < 1e-10);
+    CHECK(s->residual().law < 1e-9);
+    CHECK(s->contact(*floor).force[dim - 1] == doctest::Approx(down).epsilon(1e-9));
+  }
+  CHECK(solved > 40);
+  CHECK(refused > 10);
 }
