@@ -11,7 +11,7 @@
 namespace dotyk::script {
 
 Record iteration_record(const IterationInfo& info) {
-  return {"",
+  return {"iteration",
           {{"active", static_cast<long long>(info.active)},
            {"stick", static_cast<long long>(info.stick)},
            {"slip", static_cast<long long>(info.slip)},

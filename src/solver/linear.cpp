@@ -36,7 +36,7 @@ Result solve_linear(const problem::Problem& problem, algebra::Ordering ordering,
     if (!cholesky.factor(block.K))
       throw InputError(text("the stiffness of '", block.name, "' is singular near node ",
                             block.node[cholesky.failed_unknown()] + 1,
-                            ": a material or mesh value is out of range"));
+                            ": a material, spring or mesh value is out of range"));
     result.clock.factor += watch.lap();
     monitor.check();
     result.state.u.segment(block.first, block.size()) = cholesky.solve(block.f);

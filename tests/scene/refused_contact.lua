@@ -1,0 +1,86 @@
+-- Contacts that cannot be meant.
+local check <const> = require "check"
+local refused <const> = require "refused"
+
+local it <const> = refused.pressed_block()
+refused.intact = it.solve
+local scene <const>, block <const>, top <const>, floor <const> = it.scene, it.body, it.top, it.floor
+
+local function on_top(name, cells)
+  return dotyk.body{ name = name, material = it.material,
+                     mesh = dotyk.mesh.rectangle{ from = {0,1}, to = {1,2}, cells = cells } }
+end
+
+-- What is joined.
+refused(function() scene:contact{ top } end, "contact: give two parts, or one part and 'rigid'")
+refused(function() scene:contact{} end, "contact: takes at least 1 part, got 0")
+refused(function() scene:contact{ nil, rigid = floor } end, "takes at least 1 part, got 0 (or nil)")
+refused(function() scene:contact{ top, it.left, it.right } end, "takes at most 2 parts, got 3")
+refused(function() scene:contact{ top, it.bottom, rigid = floor } end, "give one part with 'rigid', or two parts without it")
+refused(function() scene:contact{ block, rigid = floor } end, "item 1: expected a part, got a body")
+refused(function() scene:contact{ "top", rigid = floor } end, "item 1: expected a part, got the string \"top\"")
+refused(function() scene:contact{ top, rigid = it.mesh } end, "'rigid': expected a rigid, got a mesh")
+refused(function() scene:contact{ top, rgid = floor } end, "unknown key 'rgid', did you mean 'rigid'?")
+refused(function() scene:contact{ top, rigid = floor, gap = 0/0 } end, "'gap' must be a finite number, got nan")
+refused(function() scene.contact{ top, rigid = floor } end, "(write scene:contact with a colon, not a dot)")
+local other <const> = on_top("other", { 2, 2 })
+refused(function() scene:contact{ other:part "bottom", rigid = floor } end, "part 'bottom' belongs to 'other', which is not in this scene; its bodies are 'block'")
+refused(function() scene:contact{ top, other:part "bottom" } end, "which is not in this scene")
+refused(function() scene:glue{ top } end, "glue: takes 2 parts, got 1")
+refused(function() scene:contact{ top, top } end, "'block' top and 'block' top do not face each other")
+
+-- Meshes that do not match, faces that do not face, the same said twice.
+local base <const> = dotyk.body{ name = "base", mesh = it.mesh, material = it.material }
+base:part "bottom":fix()
+local face <const> = base:part "top"
+local two <const> = dotyk.scene{ base, on_top("upper", { 2, 1 }), on_top("three", { 3, 1 }), on_top("four", { 4, 1 }) }
+local upper <const>, three <const>, four <const> = two.bodies[2], two.bodies[3], two.bodies[4]
+for _, way in ipairs{ "contact", "glue" } do
+  refused(function() two[way](two, { face, three:part "bottom" }) end, way .. ": the nodes of 'base' top and 'three' bottom do not match: the node at (0.5, 1)")
+  refused(function() two[way](two, { face, four:part "bottom" }) end, "the node at (0.25, 1) of 'four' bottom has no partner on the other side")
+  refused(function() two[way](two, { face, upper:part "top" }) end, "do not face each other", "normals opposed")
+  refused(function() two[way](two, { face, upper:part "left" }) end, "do not face each other")
+end
+local glue <const> = two:glue{ face, upper:part "bottom" }
+refused(function() two:contact{ face, upper:part "bottom" } end, "already joined by the glue of 'base' top to 'upper' bottom")
+refused(function() two:glue{ upper:part "bottom", face } end, "already joined by the glue")
+three:part "top":fix()
+four:part "top":fix()
+local s <const> = dotyk.solve(two)
+refused(function() s:contact(glue) end, "glue of 'base' top to 'upper' bottom is a glue; only contacts have a pressure")
+
+-- Rigid obstacles.
+refused(function() dotyk.rigid.plane{ point = {0,0}, normal = {0,0} } end, "plane: 'normal' is zero; it must have a direction")
+refused(function() dotyk.rigid.gap{ normal = {0,0,0}, gap = 0 } end, "gap: 'normal' is zero")
+refused(function() dotyk.rigid.plane{ point = {0,0,0}, normal = {0,1} } end, "'point' has 3 components; it must have 2 here (2-D)")
+refused(function() dotyk.rigid.plane{ point = {0}, normal = {1} } end, "'point' must be a table of 2 or 3 numbers, got a table of 1")
+refused(function() dotyk.rigid.ball{ center = {0,0}, radius = 0 } end, "'radius' must be a positive number, got the number 0")
+refused(function() dotyk.rigid.ball{ center = {0,0}, radius = -1 } end, "'radius' must be a positive number, got the number -1")
+refused(function() dotyk.rigid.ball{ center = {0,0}, radius = 1/0 } end, "'radius' must be a finite number, got inf")
+local deep <const> = dotyk.rigid.plane{ point = {0,0,0}, normal = {0,0,1} }
+refused(function() scene:contact{ it.right, rigid = deep } end, "the rigid plane has 3 components, the scene is 2-D")
+local holed <const> = dotyk.rigid.gap{ normal = {1,0}, gap = function(x, y) return y > 0.7 and 0/0 or 1 end }
+refused(function() scene:contact{ it.right, rigid = holed } end, "contact: function 'gap' returned nan at (1, 1)")
+
+-- An obstacle that overlaps the body at rest, unless that is meant.
+local high <const> = dotyk.rigid.plane{ point = {0,0.1}, normal = {0,1} }
+local ball <const> = dotyk.rigid.ball{ center = {0.5,-0.5}, radius = 0.7 }
+refused(function() scene:contact{ it.bottom, rigid = high } end, "the rigid plane penetrates the part by 0.1 at (0, 0)", "interference = true")
+refused(function() scene:contact{ it.bottom, rigid = ball } end, "the rigid ball penetrates the part by 0.2 at (0.5, 0)", "interference = true")
+local inner <const> = dotyk.rigid.ball{ center = {0.5,0.3}, radius = 0.1 }
+refused(function() scene:contact{ it.bottom, rigid = inner } end, "the rigid ball lies behind the part: at (0.5, 0)")
+local on_node <const> = dotyk.rigid.ball{ center = {0.5,0}, radius = 0.1 }
+refused(function() scene:contact{ it.bottom, rigid = on_node } end, "the centre of the rigid ball lies on the contact part")
+local bar <const> = dotyk.body{ mesh = it.mesh, material = it.material }
+bar:part "top":fix()
+local pressed <const> = dotyk.scene{ bar }
+local c <const> = pressed:contact{ bar:part "bottom", rigid = high, interference = true }
+check.near(dotyk.solve(pressed):contact(c).force, { 0, 1 }, 1e-12)  -- E × 0.1: the floor pushes upwards
+-- Normals of any length give the same.
+for _, length in ipairs{ 1e-300, 1.7e308 } do
+  local far = dotyk.scene{ dotyk.body{ mesh = it.mesh, material = it.material } }
+  far.bodies[1]:part "top":fix()
+  local tall = dotyk.rigid.plane{ point = {0,0.1}, normal = {0,length} }
+  local d = far:contact{ far.bodies[1]:part "bottom", rigid = tall, interference = true }
+  check.near(dotyk.solve(far):contact(d).force, { 0, 1 }, 1e-12)
+end

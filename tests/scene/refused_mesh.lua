@@ -1,0 +1,72 @@
+-- Meshes that cannot be made, and maps that would break one.
+local check <const> = require "check"
+local refused <const> = require "refused"
+
+local it <const> = refused.pressed_block()
+refused.intact = it.solve
+
+local function rectangle(cells) return function() dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = cells } end end
+local function expect(fn, ...)  -- the call stands in rectangle() above
+  local message = select(2, pcall(fn))
+  check.that(type(message) == "string" and message:find "^[^:]*refused_mesh.lua:8: rectangle: ", message)
+  for _, text in ipairs{ ... } do check.that(message:find(text, 1, true), message .. " lacks " .. text) end
+  it.solve()
+end
+expect(rectangle{ 0, 2 }, "cells along x is 0; it must be from 1 to")
+expect(rectangle{ 2, 0 }, "cells along y is 0; it must be from 1 to")
+expect(rectangle{ -3, 2 }, "cells along x is -3")
+expect(rectangle{ 1.5, 2 }, "'cells': entry 1 must be an integer, got the number 1.5")
+expect(rectangle{ 1e9, 2 }, "cells along x is 1000000000; it must be from 1 to 1000000")
+expect(rectangle{ math.maxinteger, 2 }, "it must be from 1 to 1000000")
+expect(rectangle{ 1e300, 2 }, "'cells': entry 1 must be an integer")
+expect(rectangle{ 0/0, 2 }, "finite")
+expect(rectangle{ "4", 2 }, "entry 1 must be an integer, got the string \"4\"")
+expect(rectangle{ 4 }, "must be a table of 2 integers, got a table of 1")
+expect(rectangle{ 4, 4, 4 }, "must be a table of 2 integers, got a table of 3")
+expect(rectangle{}, "must be a table of 2 integers")
+expect(rectangle(4), "must be a table of 2 integers, got the number 4")
+expect(rectangle{ x = 4 }, "got the key 'x'")
+-- What no machine holds is refused before any of it is made.
+local clock <const> = os.clock()
+expect(rectangle{ 20000, 20000 }, "4e+08 cells", "at most 2e8")
+check.that(os.clock() - clock < 1)
+
+refused(function() dotyk.mesh.disc{ center = {0,0}, radius = 1, cells = 0 } end, "disc: cells is 0; it must be from 1 to 10000")
+refused(function() dotyk.mesh.disc{ center = {0,0}, radius = 0, cells = 2 } end, "'radius' must be a positive number, got the number 0")
+refused(function() dotyk.mesh.disc{ center = {0,0}, radius = -1, cells = 2 } end, "'radius' must be a positive number")
+refused(function() dotyk.mesh.disc{ center = {0,0,0}, radius = 1, cells = 2 } end, "'center' must be a table of 2 numbers")
+refused(function() dotyk.mesh.rectangle{ from = {0,0}, to = {-1,1}, cells = {1,1} } end, "'to' must exceed 'from' along x (from 0 to -1)")
+refused(function() dotyk.mesh.rectangle{ from = {0,0}, to = {1,0}, cells = {1,1} } end, "along y (from 0 to 0)")
+refused(function() dotyk.mesh.rectangle{ from = {0,0,0}, to = {1,1}, cells = {1,1} } end, "'from' must be a table of 2 numbers")
+refused(function() dotyk.mesh.box{ from = {0,0}, to = {1,1,1}, cells = {1,1,1} } end, "'from' must be a table of 3 numbers")
+refused(function() dotyk.mesh.rectangle{ from = {0/0,0}, to = {1,1}, cells = {1,1} } end, "'from': entry 1 must be a finite number, got nan")
+refused(function() dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {1,1}, element = "Q7" } end, "'element' must be", "did you mean \"Q")
+
+-- Grading.
+local function graded(f) return { from = {0,0}, to = {1,1}, cells = {2,2}, grading = { x = f } } end
+refused(function() dotyk.mesh.rectangle(graded(function() return 0.5 end)) end, "grading.x must increase", "at s = 0.5 it gives 0.5")
+refused(function() dotyk.mesh.rectangle(graded(function(s) return s / 2 end)) end, "grading.x must map 0 to 0 and 1 to 1")
+refused(function() dotyk.mesh.rectangle(graded(function(s) end)) end, "function 'x' returned nothing at (0)")
+refused(function() dotyk.mesh.rectangle(graded(function(s) return 0/0 end)) end, "returned nan at (0)")
+refused(function() dotyk.mesh.rectangle(graded(function(s) error "mine" end)) end, "mine (in 'x' of rectangle at")
+refused(function() dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2}, grading = { z = math.abs } } end, "unknown key 'z'")
+
+-- A map that inverts, flattens or loses a cell leaves the mesh as it was.
+local m <const> = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {4,4} }
+local function area()  -- by a body that carries its own weight
+  local b = dotyk.body{ mesh = m, material = it.material, force = {0,-1} }
+  b:part "bottom":fix()
+  return select(2, dotyk.solve(dotyk.scene{ b }):reaction(b:part "bottom"))
+end
+refused.intact = function() check.near(area(), 1) end
+refused(function() m:transform(function(x, y) return -x, y end) end, "transform: the moved mesh: cell 1", "inverted", "must be positive")
+refused(function() m:transform(function(x, y) return x, 0 end) end, "is flat")
+refused(function() m:transform(function(x, y) return x < 0.4 and 1 - x or x, y end) end, "inverted")
+refused(function() m:transform(function(x, y) return 0/0, y end) end, "function 'map' returned nan at (0, 0)")
+refused(function() m:transform(function(x, y) return x end) end, "function 'map' returned 1 number, expected 2 numbers")
+refused(function() m:transform(function(x, y) return x, y, 0 end) end, "returned 3 numbers, expected 2 numbers")
+refused(function() m:transform(function(x, y) if x > 0.5 then error "mine" end return 2 * x, y end) end, "mine")
+refused(function() m:transform() end, "argument 1 'map' is missing, expected a function")
+refused(function() m:transform(3) end, "argument 1 'map' must be a function, got the number 3")
+m:transform(function(x, y) return 2 * x, y end)
+check.near(area(), 2)
