@@ -45,12 +45,12 @@ Residual residual(const Problem& problem, const State& state) {
   if (problem.rows() == 0) return result;
 
   const Vector jump = problem.B * state.u, x = jump - problem.c;
-  const double length = std::max({jump.lpNorm<Eigen::Infinity>(), problem.c.lpNorm<Eigen::Infinity>(),
-                                  state.u.lpNorm<Eigen::Infinity>()});
+  const double moved = std::max(jump.lpNorm<Eigen::Infinity>(), state.u.lpNorm<Eigen::Infinity>());
   double work = 0, product = 0;
   for (const RowGroup& group : problem.groups) {
     if (!group.law->unilateral()) continue;
     for (int r = group.first; r < group.first + group.count; ++r) {
+      const double length = std::max(moved, std::abs(problem.c[r]));
       if (length > 0) result.penetration = std::max(result.penetration, x[r] / length);
       product += std::abs(state.lambda[r] * x[r]);
       work += std::abs(state.lambda[r] * problem.c[r]);

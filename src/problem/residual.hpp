@@ -7,7 +7,7 @@ namespace dotyk::problem {
 /// How far a state is from optimal; each number is relative and its scale named.
 struct Residual {
   double equilibrium = 0;      ///< ‖Ku + Bᵀλ − f‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖)
-  double penetration = 0;      ///< greatest (Bu − c)⁺ over unilateral rows / greatest of |Bu|, |c|, |u|
+  double penetration = 0;      ///< greatest (Bu − c)⁺ over unilateral rows / greatest of all |Bu|, |u| and the row's |c|
   double complementarity = 0;  ///< Σ|λ (Bu − c)| over unilateral rows / (|energy| + Σ|λ c|)
   double law = 0;              ///< ‖λ − P(λ + ρx)‖ / ‖λ‖, all rows, ρ the row stiffness
   double friction = 0;         ///< greatest violation of a friction bound / that bound

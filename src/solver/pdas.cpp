@@ -139,12 +139,17 @@ class Iteration {
   }
 
   /// What rounding leaves of y = λ + ρx on rows that touch without force: a few digits of the
-  /// greatest multiplier, and of the displacements that cancel in x.
+  /// greatest multiplier, and of the displacements and the row's own gap that cancel in x. A gap
+  /// that says "never" (1e30) is no measure of the others' rounding.
   Vector noise(const Vector& lambda, const Vector& x) const {
     if (lambda.size() == 0) return lambda;
     const double force = lambda.lpNorm<Eigen::Infinity>();
-    const double length = std::max(problem_.c.lpNorm<Eigen::Infinity>(), (x + problem_.c).lpNorm<Eigen::Infinity>());
-    return (1e-13 * (force + length * rho_.array())).matrix();
+    double moved = 0;
+    for (int r = 0; r < x.size(); ++r) {
+      const double jump = std::abs(x[r] + problem_.c[r]);
+      if (std::abs(problem_.c[r]) < 1e6 * jump) moved = std::max(moved, jump);
+    }
+    return (1e-13 * (force + rho_.array() * problem_.c.array().abs().max(moved))).matrix();
   }
 
   void record(const Linearisation& next) {

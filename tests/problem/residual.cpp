@@ -63,6 +63,14 @@ TEST_CASE("each residual sees its own violation, relative to its scale") {
   CHECK(residual(one_spring(1, 1, unilateral()), state(1, -1)).law == doctest::Approx(1));
 }
 
+TEST_CASE("a row whose gap is huge does not hide the penetration of another") {
+  Problem p = one_spring(10, 1, unilateral());
+  p.B = test::rows(DenseMatrix::Ones(2, 1));
+  p.c = Vector{{1, 1e30}};
+  p.groups = {test::group(unilateral(), 0, 2)};
+  CHECK(residual(p, {Vector::Constant(1, 1.1), Vector{{7.8, 0}}}).penetration == doctest::Approx(0.1 / 1.1));
+}
+
 TEST_CASE("residuals do not depend on units") {
   for (double force : {1e-6, 1.0, 1e9})
     for (double length : {1e-6, 1.0, 1e3}) {

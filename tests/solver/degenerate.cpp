@@ -51,6 +51,25 @@ TEST_CASE("all rows touch and none carries a force: only rounding is left") {
   }
 }
 
+TEST_CASE("gaps that mean never do not blur the rows that matter") {
+  test::Random random(104);
+  Monitor quiet;
+  for (const double never : {1e3, 1e9, 1e15, 1e30})
+    for (int trial = 0; trial < 40; ++trial) {
+      const int n = 7;
+      auto p = test::program(random.positive_definite(n, 0.3), random.vector(n), DenseMatrix::Identity(n, n), 0.1 * random.vector(n));
+      p.c[3] = p.c[5] = 1e3;
+      const auto exact = test::by_enumeration(p);
+      REQUIRE(exact);
+      p.c[3] = p.c[5] = never;
+      for (const bool reduced : {true, false}) {
+        const auto r = solver::solve(p, test::pdas(reduced), quiet);
+        REQUIRE_MESSAGE(r.converged, r.reason);
+        CHECK((r.state.u - exact->u).norm() < 1e-9 * exact->u.norm());
+      }
+    }
+}
+
 TEST_CASE("nothing loaded: one solve, exact zeros") {
   Monitor quiet;
   const auto p = test::program(DenseMatrix::Identity(3, 3), Vector::Zero(3), DenseMatrix::Identity(3, 3), Vector::Zero(3));
