@@ -13,20 +13,15 @@ struct Notch {
   std::shared_ptr<const scene::Contact> contact;
 };
 
-/// A block in the corner of an L, in contact along both legs. The frame is rigid where `held`.
+/// A block in the corner of an L, in contact along both legs. The whole surface of the frame is fixed where `held`,
+/// else its outer sides.
 Notch notch(mesh::Family family, bool held) {
   Notch s;
   auto frame = test::without(test::rectangle(family, 8, 8), [](const Point& x) { return x[0] > 0.5 && x[1] > 0.5; });
   s.frame = test::body("frame", std::move(frame), 1000);
   s.block = test::body("block", test::rectangle(family, 4, 4, 0.5, 0.5, 1, 1));
-  auto all = scene::chosen_part(s.frame, "all", [](const Point&, const Point&) { return true; });
-  auto outer = scene::chosen_part(s.frame, "outer", [](const Point& x, const Point&) { return x[0] == 0 || x[1] == 0; });
-  if (held) {
-    for (int n = 0; n < s.frame->mesh->node_count(); ++n) all.facets.push_back(all.facets[0]);  // harmless repeats
-    scene::fix(all, {true, true, true});
-  } else {
-    scene::fix(outer, {true, true, true});
-  }
+  auto support = scene::chosen_part(s.frame, "support", [=](const Point& x, const Point&) { return held || x[0] == 0 || x[1] == 0; });
+  scene::fix(support, {true, true, true});
   s.scene = scene::make_scene({s.block, s.frame});
   const auto first = scene::chosen_part(s.block, "corner", [](const Point& x, const Point&) { return x[0] == 0.5 || x[1] == 0.5; });
   const auto second = scene::chosen_part(s.frame, "legs", [](const Point& x, const Point&) {
