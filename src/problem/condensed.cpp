@@ -2,6 +2,7 @@
 
 #include "algebra/dense.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 
@@ -62,6 +63,7 @@ CondensedProblem::CondensedProblem(const Problem& problem, algebra::Ordering ord
                                    Monitor& monitor)
     : unknowns_(problem.unknowns()) {
   const int m = problem.rows();
+  require_memory(3.0 * 8 * m * m, text("the dense matrix of ", m, " rows"));  // W, a block's share, its factor
   W_ = DenseMatrix::Zero(m, m);
   x0_ = -problem.c;
   int modes = 0;
