@@ -46,7 +46,8 @@ TEST_CASE("Cholesky solves as the dense factorisation does") {
 
 TEST_CASE("a dense matrix of one node and a diagonal one are factored too") {
   Random random(2);
-  const DenseMatrix dense = random.positive_definite(30, 1), diagonal = random.vector(30).cwiseAbs().array().matrix().asDiagonal();
+  const DenseMatrix dense = random.positive_definite(30, 1),
+                    diagonal = random.vector(30).cwiseAbs().array().matrix().asDiagonal();
   std::vector<int> own(30);
   std::iota(own.begin(), own.end(), 0);
   for (const Ordering ordering : kOrderings)
@@ -81,8 +82,7 @@ TEST_CASE("the trailing block of the factor is the Schur complement's factor") {
         REQUIRE(cholesky.factor(grid.K));
         const DenseMatrix L = cholesky.boundary_factor();
         REQUIRE(L.rows() == static_cast<int>(cholesky.boundary().size()));
-        for (int u : cholesky.boundary())
-          CHECK(std::find(last.begin(), last.end(), grid.node[u]) != last.end());
+        for (int u : cholesky.boundary()) CHECK(std::find(last.begin(), last.end(), grid.node[u]) != last.end());
         CHECK(L.isLowerTriangular(0));
         CHECK(test::relative(L * L.transpose(), schur(A, cholesky.boundary())) < kRounding);
         // Sweeps with an untouched boundary part are a solve.

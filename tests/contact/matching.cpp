@@ -52,8 +52,10 @@ TEST_CASE("across a gap partners lie along the normal, and the gap is the distan
       const auto low = test::unit(dim, Family::p1, 3);
       auto high = test::unit(dim, Family::q1, 3);
       mesh::transform(high, [&](Point x) { return x[dim - 1] += 1 + distance, x; });
-      for (const auto& p : contact::match(face(low, "top"), face(high, "bottom"))) CHECK(p.distance == doctest::Approx(distance));
-      const auto rows = contact::between(face(low, "top"), face(high, "bottom"), [](const Point& x) { return 10 * x[0]; });
+      for (const auto& p : contact::match(face(low, "top"), face(high, "bottom")))
+        CHECK(p.distance == doctest::Approx(distance));
+      const auto rows =
+          contact::between(face(low, "top"), face(high, "bottom"), [](const Point& x) { return 10 * x[0]; });
       CHECK(rows.size() == (dim == 2 ? 4u : 16u));
       for (const auto& r : rows) CHECK(r.gap == doctest::Approx(distance + 10 * low.node(r.node)[0]));
     }
@@ -61,7 +63,8 @@ TEST_CASE("across a gap partners lie along the normal, and the gap is the distan
 
 TEST_CASE("parts may overhang each other") {
   const auto low = test::rectangle(Family::p1, 8, 2, 0, 0, 2, 1);
-  const auto high = test::rectangle(Family::q1, 4, 2, 1, 1, 2, 2), beside = test::rectangle(Family::p1, 8, 2, 1.5, 1, 3.5, 2);
+  const auto high = test::rectangle(Family::q1, 4, 2, 1, 1, 2, 2),
+             beside = test::rectangle(Family::p1, 8, 2, 1.5, 1, 3.5, 2);
   CHECK(contact::match(face(low, "top"), face(high, "bottom")).size() == 5);
   CHECK(contact::match(face(high, "bottom"), face(low, "top")).size() == 5);
   CHECK(contact::match(face(low, "top"), face(beside, "bottom")).size() == 3);
@@ -71,7 +74,8 @@ TEST_CASE("meshes that do not match are refused with a node, also where some nod
   const auto low = test::rectangle(Family::p1, 8, 2);
   for (int n : {3, 5, 7, 9, 12, 16, 4}) {
     const auto high = test::rectangle(Family::p1, n, 2, 0, 1, 1, 2);
-    CHECK_THROWS_WITH_AS(contact::match(face(low, "top"), face(high, "bottom")), doctest::Contains("do not match"), InputError);
+    CHECK_THROWS_WITH_AS(contact::match(face(low, "top"), face(high, "bottom")), doctest::Contains("do not match"),
+                         InputError);
   }
   const auto box = test::box(Family::p1, 4, 4, 1);
   for (int n : {3, 6, 8, 2}) {
@@ -88,10 +92,10 @@ TEST_CASE("parts that do not face each other are refused") {
 }
 
 TEST_CASE("a broken line in contact has two rows at its corner, each along its own normal") {
-  const auto notch = test::without(test::rectangle(Family::p1, 8, 8), [](const Point& x) { return x[0] > 0.5 && x[1] > 0.5; });
-  const auto legs = mesh::select(notch, [](const Point& x, const Point&) {
-    return (x[0] == 0.5 && x[1] > 0.5) || (x[1] == 0.5 && x[0] > 0.5);
-  });
+  const auto notch =
+      test::without(test::rectangle(Family::p1, 8, 8), [](const Point& x) { return x[0] > 0.5 && x[1] > 0.5; });
+  const auto legs = mesh::select(
+      notch, [](const Point& x, const Point&) { return (x[0] == 0.5 && x[1] > 0.5) || (x[1] == 0.5 && x[0] > 0.5); });
   const auto block = test::rectangle(Family::p1, 4, 4, 0.5, 0.5, 1, 1);
   std::vector<mesh::Facet> faces = block.parts.at("left");
   faces.insert(faces.end(), block.parts.at("bottom").begin(), block.parts.at("bottom").end());
@@ -108,6 +112,7 @@ TEST_CASE("a broken line in contact has two rows at its corner, each along its o
 
 TEST_CASE("an added gap that is no number is refused with its place") {
   const auto low = test::rectangle(Family::p1, 2, 1), high = test::rectangle(Family::p1, 2, 1, 0, 1, 1, 2);
-  CHECK_THROWS_WITH_AS(contact::between(face(low, "top"), face(high, "bottom"), [](const Point& x) { return x[0] == 0.5 ? NAN : 0; }),
-                       "the gap is nan at (0.5, 1); it must be a finite number", InputError);
+  CHECK_THROWS_WITH_AS(
+      contact::between(face(low, "top"), face(high, "bottom"), [](const Point& x) { return x[0] == 0.5 ? NAN : 0; }),
+      "the gap is nan at (0.5, 1); it must be a finite number", InputError);
 }

@@ -11,8 +11,9 @@ using mesh::Point;
 
 TEST_CASE("a rigid gap: its own normal and value at every node, one row a node") {
   const auto m = test::rectangle(Family::p1, 4, 2);
-  const auto rows = contact::against(m, m.parts.at("top"), contact::RigidGap{{0, 1, 0}, [](const Point& x) { return x[0] * x[0] - 0.1; }},
-                                     [](const Point&) { return 2.0; }, false);
+  const auto rows = contact::against(
+      m, m.parts.at("top"), contact::RigidGap{{0, 1, 0}, [](const Point& x) { return x[0] * x[0] - 0.1; }},
+      [](const Point&) { return 2.0; }, false);
   CHECK(rows.size() == 5);
   double weight = 0;
   for (const auto& r : rows) {
@@ -24,18 +25,21 @@ TEST_CASE("a rigid gap: its own normal and value at every node, one row a node")
   }
   CHECK(weight == doctest::Approx(1));
   // A negative rigid gap presses in: that is its meaning, not a mistake.
-  CHECK_NOTHROW(contact::against(m, m.parts.at("top"), contact::RigidGap{{0, 1, 0}, [](const Point&) { return -0.1; }}, {}, false));
+  CHECK_NOTHROW(contact::against(m, m.parts.at("top"), contact::RigidGap{{0, 1, 0}, [](const Point&) { return -0.1; }},
+                                 {}, false));
 }
 
 TEST_CASE("a rigid plane: the distance to it, the normal towards it") {
   const double s = std::sqrt(0.5);
   for (const auto family : test::kFamilies) {
     const auto m = test::box(family, 2, 2, 2);
-    for (const auto& r : contact::against(m, m.parts.at("bottom"), contact::RigidPlane{{0, 0, -0.5}, {0, 0, 1}}, {}, false)) {
+    for (const auto& r :
+         contact::against(m, m.parts.at("bottom"), contact::RigidPlane{{0, 0, -0.5}, {0, 0, 1}}, {}, false)) {
       CHECK(r.gap == doctest::Approx(0.5));
       CHECK(r.normal == Point{0, 0, -1});
     }
-    for (const auto& r : contact::against(m, m.parts.at("bottom"), contact::RigidPlane{{-1, 0, 0}, {s, 0, s}}, {}, false)) {
+    for (const auto& r :
+         contact::against(m, m.parts.at("bottom"), contact::RigidPlane{{-1, 0, 0}, {s, 0, s}}, {}, false)) {
       CHECK(r.gap == doctest::Approx(s * (m.node(r.node)[0] + 1)));
       CHECK(r.normal == Point{-s, 0, -s});
     }
@@ -69,12 +73,14 @@ TEST_CASE("an obstacle that penetrates at rest is refused with depth and place, 
   CHECK_NOTHROW(contact::against(m, m.parts.at("top"), contact::RigidPlane{{0, 1 - 1e-12, 0}, {0, -1, 0}}, {}, false));
   CHECK_NOTHROW(contact::against(m, m.parts.at("top"), contact::RigidBall{{0.5, 1.5, 0}, 0.5}, {}, false));
   // An added gap lifts the obstacle out.
-  CHECK_NOTHROW(contact::against(m, m.parts.at("top"), plane, [](const Point&) { return 0.2; }, false));
+  CHECK_NOTHROW(contact::against(
+      m, m.parts.at("top"), plane, [](const Point&) { return 0.2; }, false));
 }
 
 TEST_CASE("a ball whose centre lies on the part, and gaps that are no numbers, are refused") {
   const auto m = test::rectangle(Family::p1, 4, 2);
   CHECK_THROWS_AS(contact::against(m, m.parts.at("top"), contact::RigidBall{{0.5, 1, 0}, 0.1}, {}, true), InputError);
-  CHECK_THROWS_WITH_AS(contact::against(m, m.parts.at("top"), contact::RigidGap{{0, 1, 0}, [](const Point&) { return NAN; }}, {}, false),
-                       doctest::Contains("the gap is nan at (0, 1)"), InputError);
+  CHECK_THROWS_WITH_AS(
+      contact::against(m, m.parts.at("top"), contact::RigidGap{{0, 1, 0}, [](const Point&) { return NAN; }}, {}, false),
+      doctest::Contains("the gap is nan at (0, 1)"), InputError);
 }

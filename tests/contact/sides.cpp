@@ -32,10 +32,10 @@ std::vector<NodeSide> at(const mesh::Mesh& m, const std::vector<NodeSide>& list,
 TEST_CASE("a broken line has two sides at its corner, with the edges' own normals and halves") {
   for (const auto family : test::kFamilies) {
     // An L: the square without its upper right quarter; the part is the re-entrant corner's two legs.
-    const auto m = test::without(test::rectangle(family, 8, 8), [](const Point& x) { return x[0] > 0.5 && x[1] > 0.5; });
-    const auto legs = mesh::select(m, [](const Point& x, const Point&) {
-      return (x[0] == 0.5 && x[1] > 0.5) || (x[1] == 0.5 && x[0] > 0.5);
-    });
+    const auto m =
+        test::without(test::rectangle(family, 8, 8), [](const Point& x) { return x[0] > 0.5 && x[1] > 0.5; });
+    const auto legs = mesh::select(
+        m, [](const Point& x, const Point&) { return (x[0] == 0.5 && x[1] > 0.5) || (x[1] == 0.5 && x[0] > 0.5); });
     const auto sides = contact::sides(m, legs);
     CHECK(sides.size() == 4 + 4 + 2);
     CHECK(sum_of_weights(sides) == doctest::Approx(1).epsilon(1e-14));
@@ -88,9 +88,11 @@ TEST_CASE("a circle of 12 edges and more is smooth, with radial normals") {
         CHECK(s.normal[1] == doctest::Approx(m.node(s.node)[1] - 1));
       }
     }
-  CHECK(contact::sides(test::disc(mesh::Family::p1, 2), test::disc(mesh::Family::p1, 2).parts.at("boundary")).size() == 12);
+  CHECK(contact::sides(test::disc(mesh::Family::p1, 2), test::disc(mesh::Family::p1, 2).parts.at("boundary")).size() ==
+        12);
   // Six edges of 60° are corners.
-  CHECK(contact::sides(test::disc(mesh::Family::p1, 1), test::disc(mesh::Family::p1, 1).parts.at("boundary")).size() == 12);
+  CHECK(contact::sides(test::disc(mesh::Family::p1, 1), test::disc(mesh::Family::p1, 1).parts.at("boundary")).size() ==
+        12);
 }
 
 TEST_CASE("weights of a face: constant pressure has the nodal forces of the traction") {
@@ -98,7 +100,9 @@ TEST_CASE("weights of a face: constant pressure has the nodal forces of the trac
     const auto m = test::box(family, 3, 2, 2);
     const auto& top = m.parts.at("top");
     std::vector<double> force(m.coordinates.size(), 0);
-    elasticity::add_pressure(m, top, [](const Point&) { return 1.0; }, force);
-    for (const auto& s : contact::sides(m, top)) CHECK(s.weight == doctest::Approx(-force[3 * s.node + 2]).epsilon(1e-14));
+    elasticity::add_pressure(
+        m, top, [](const Point&) { return 1.0; }, force);
+    for (const auto& s : contact::sides(m, top))
+      CHECK(s.weight == doctest::Approx(-force[3 * s.node + 2]).epsilon(1e-14));
   }
 }

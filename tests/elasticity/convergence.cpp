@@ -14,9 +14,12 @@ constexpr double kE = 3, kNu = 0.3, kAmount[3] = {1, -0.5, 0.7};
 
 double factor(double x, int derivatives) {
   switch (derivatives) {
-    case 0: return std::sin(pi * x);
-    case 1: return pi * std::cos(pi * x);
-    default: return -pi * pi * std::sin(pi * x);
+    case 0:
+      return std::sin(pi * x);
+    case 1:
+      return pi * std::cos(pi * x);
+    default:
+      return -pi * pi * std::sin(pi * x);
   }
 }
 
@@ -50,11 +53,15 @@ struct Errors {
 /// up to the quadrature of f, which is of higher order.
 Errors errors(int dim, mesh::Family family, int n) {
   const auto m = test::unit(dim, family, n);
-  const auto numbering = test::prescribe(m, [&](const Point& x, int) { return test::on_boundary(x, dim); },
-                                         [](const Point&) { return Point{0, 0, 0}; });
+  const auto numbering = test::prescribe(
+      m, [&](const Point& x, int) { return test::on_boundary(x, dim); },
+      [](const Point&) {
+        return Point{0, 0, 0};
+      });
   const auto material = test::steel(dim, kE, kNu);
   std::vector<double> load(m.coordinates.size(), 0);
-  elasticity::add_body_force(m, [&](const Point& x) { return force(x, dim); }, load);
+  elasticity::add_body_force(
+      m, [&](const Point& x) { return force(x, dim); }, load);
   const auto system = elasticity::assemble(m, material, {}, load, numbering);
   algebra::Cholesky cholesky(system.K, numbering.node, {});
   REQUIRE(cholesky.factor(system.K));
@@ -68,8 +75,7 @@ Errors errors(int dim, mesh::Family family, int n) {
   // a(u, u) = ∫ f u: sines and cosines squared give ½ each axis.
   const double mu = kE / (2 * (1 + kNu)), lambda = kE * kNu / ((1 + kNu) * (1 - 2 * kNu));
   double whole = 0;
-  for (int i = 0; i < dim; ++i)
-    whole += kAmount[i] * kAmount[i] * pi * pi * ((lambda + mu) + dim * mu) / (1 << dim);
+  for (int i = 0; i < dim; ++i) whole += kAmount[i] * kAmount[i] * pi * pi * ((lambda + mu) + dim * mu) / (1 << dim);
   const auto stress = elasticity::recover_stress(m, elasticity::cell_stress(m, material, u));
   const auto estimate = elasticity::estimate_error(m, material, u, stress);
   // Energy error by quadrature against the interpolated exact stress would add its own; the estimate's
@@ -86,7 +92,8 @@ TEST_CASE("a manufactured solution converges with order 2 in displacement and 1 
       const int n = dim == 2 ? 24 : family == mesh::Family::p1 ? 12 : 8;
       const Errors coarse = errors(dim, family, n), fine = errors(dim, family, 2 * n);
       const double order = std::log2(coarse.nodal / fine.nodal), energy_order = std::log2(coarse.energy / fine.energy);
-      INFO("dimension ", dim, " element ", family == mesh::Family::p1 ? "P1" : "Q1", " orders ", order, " ", energy_order);
+      INFO("dimension ", dim, " element ", family == mesh::Family::p1 ? "P1" : "Q1", " orders ", order, " ",
+           energy_order);
       CHECK(order > 1.85);  // 2 in the limit
       CHECK(order < 2.15);
       CHECK(energy_order > 0.93);  // 1 in the limit

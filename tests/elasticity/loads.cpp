@@ -1,8 +1,7 @@
-#include "elasticity/load.hpp"
-
 #include <doctest/doctest.h>
 
 #include "../support/elastic.hpp"
+#include "elasticity/load.hpp"
 
 using namespace dotyk;
 using mesh::Point;
@@ -28,9 +27,14 @@ TEST_CASE("a body force that is linear does exact work on linear displacements")
       auto m = test::unit(dim, family, 3);
       if (family == mesh::Family::p1) test::distort(m, 0.05);
       std::vector<double> force(m.coordinates.size(), 0);
-      elasticity::add_body_force(m, [](const Point& x) { return Point{7, 2 + 3 * x[0], 1}; }, force);
-      CHECK(work(m, force, shift) == doctest::Approx(3.5).epsilon(1e-13));          // 2 + 3/2
-      CHECK(work(m, force, tilt) == doctest::Approx(2.0).epsilon(1e-13));           // 2/2 + 3/3
+      elasticity::add_body_force(
+          m,
+          [](const Point& x) {
+            return Point{7, 2 + 3 * x[0], 1};
+          },
+          force);
+      CHECK(work(m, force, shift) == doctest::Approx(3.5).epsilon(1e-13));  // 2 + 3/2
+      CHECK(work(m, force, tilt) == doctest::Approx(2.0).epsilon(1e-13));   // 2/2 + 3/3
       CHECK(work(m, force, [](const Point& x) { return Point{x[1], 0, 0}; }) == doctest::Approx(3.5).epsilon(1e-13));
     }
 }
@@ -40,7 +44,12 @@ TEST_CASE("tractions that are linear do exact work on linear displacements") {
     for (const auto family : test::kFamilies) {
       const auto m = test::unit(dim, family, 3);
       std::vector<double> force(m.coordinates.size(), 0);
-      elasticity::add_traction(m, m.parts.at("top"), [](const Point& x) { return Point{0, 2 + 3 * x[0], 0}; }, force);
+      elasticity::add_traction(
+          m, m.parts.at("top"),
+          [](const Point& x) {
+            return Point{0, 2 + 3 * x[0], 0};
+          },
+          force);
       CHECK(work(m, force, shift) == doctest::Approx(3.5).epsilon(1e-13));
       CHECK(work(m, force, tilt) == doctest::Approx(2.0).epsilon(1e-13));
       for (int n = 0; n < m.node_count(); ++n)
@@ -55,13 +64,16 @@ TEST_CASE("pressure pushes inwards; on a closed boundary it balances, and its vi
     for (int dim : {2, 3}) {
       meshes.push_back(test::unit(dim, family, 3));
       test::distort(meshes.back(), 0.05);
-      mesh::transform(meshes.back(), [](const Point& x) { return Point{x[0] + 0.3 * x[1], x[1] - 0.2 * x[2], x[2] + 0.1 * x[0]}; });
+      mesh::transform(meshes.back(), [](const Point& x) {
+        return Point{x[0] + 0.3 * x[1], x[1] - 0.2 * x[2], x[2] + 0.1 * x[0]};
+      });
     }
   }
   for (const auto& m : meshes) {
     const int dim = m.dimension();
     std::vector<double> force(m.coordinates.size(), 0);
-    elasticity::add_pressure(m, mesh::boundary(m), [](const Point&) { return 2.0; }, force);
+    elasticity::add_pressure(
+        m, mesh::boundary(m), [](const Point&) { return 2.0; }, force);
     for (int i = 0; i < dim; ++i) {
       double sum = 0, virial = 0;
       for (int n = 0; n < m.node_count(); ++n) {
@@ -87,7 +99,8 @@ TEST_CASE("lumped measures: halves at the ends of edges, thirds of triangles, th
     double sum = 0;
     for (double a : area) sum += a;
     CHECK(sum == doctest::Approx(6).epsilon(1e-14));
-    const int corner = m.node_count() - 12;  // least corner of the top: in two triangles of half a square, or one square
+    const int corner =
+        m.node_count() - 12;  // least corner of the top: in two triangles of half a square, or one square
     CHECK(area[corner] == doctest::Approx(family == mesh::Family::p1 ? 1.0 / 3 : 0.25));
   }
 }

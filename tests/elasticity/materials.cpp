@@ -1,9 +1,8 @@
-#include "elasticity/material.hpp"
-
 #include <doctest/doctest.h>
 
 #include "../support/elastic.hpp"
 #include "base/error.hpp"
+#include "elasticity/material.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -35,8 +34,17 @@ DenseMatrix voigt() {
 /// Nodal displacement of a unit square or cube pulled along x by traction 1, held without restraint.
 std::vector<double> pulled(const mesh::Mesh& m, const test::MaterialField& material) {
   std::vector<double> force(m.coordinates.size(), 0);
-  elasticity::add_traction(m, m.parts.at("right"), [](const Point&) { return Point{1, 0, 0}; }, force);
-  const auto numbering = test::prescribe(m, [](const Point& x, int i) { return x[i] == 0; }, [](const Point&) { return Point{0, 0, 0}; });
+  elasticity::add_traction(
+      m, m.parts.at("right"),
+      [](const Point&) {
+        return Point{1, 0, 0};
+      },
+      force);
+  const auto numbering = test::prescribe(
+      m, [](const Point& x, int i) { return x[i] == 0; },
+      [](const Point&) {
+        return Point{0, 0, 0};
+      });
   return test::solve(elasticity::assemble(m, material, {}, force, numbering), numbering);
 }
 
@@ -68,7 +76,9 @@ TEST_CASE("uniaxial tension: closed forms of plane stress, plane strain and a so
                           Case{cube, Plane::strain, 1 / kE, -kNu / kE, 0}}) {
       const auto material = test::steel(c.m.dimension(), kE, kNu, c.plane);
       const auto u = pulled(c.m, material);
-      const auto exact = test::nodal(c.m, [&](const Point& x) { return Point{c.along * x[0], c.across * x[1], c.across * x[2]}; });
+      const auto exact = test::nodal(c.m, [&](const Point& x) {
+        return Point{c.along * x[0], c.across * x[1], c.across * x[2]};
+      });
       CHECK(test::largest_difference(u, exact) < 1e-14);
       for (const auto& s : elasticity::cell_stress(c.m, material, u)) {
         CHECK(s[0] == doctest::Approx(1).epsilon(1e-13));
@@ -86,23 +96,30 @@ TEST_CASE("a material that varies by cells: two layers in series, and equal valu
       std::vector<double> E, nu(m.cell_count(), 0);  // ν = 0: layers do not disturb each other
       for (int c = 0; c < m.cell_count(); ++c) E.push_back(m.cell_centre(c)[0] < 0.5 ? 1 : 4);
       const auto u = pulled(m, test::MaterialField(E, nu, dim, Plane::strain));
-      const auto exact = test::nodal(m, [](const Point& x) { return Point{x[0] < 0.5 ? x[0] : 0.5 + (x[0] - 0.5) / 4, 0, 0}; });
+      const auto exact = test::nodal(m, [](const Point& x) {
+        return Point{x[0] < 0.5 ? x[0] : 0.5 + (x[0] - 0.5) / 4, 0, 0};
+      });
       CHECK(test::largest_difference(u, exact) < 1e-13);
-      const test::MaterialField even(std::vector<double>(m.cell_count(), kE), std::vector<double>(m.cell_count(), kNu), dim, Plane::stress);
+      const test::MaterialField even(std::vector<double>(m.cell_count(), kE), std::vector<double>(m.cell_count(), kNu),
+                                     dim, Plane::stress);
       CHECK(test::largest_difference(pulled(m, even), pulled(m, test::steel(dim, kE, kNu, Plane::stress))) < 1e-14);
     }
 }
 
 TEST_CASE("materials out of range are refused") {
-  CHECK_THROWS_WITH_AS(elasticity::check_isotropic(0, 0.3, false), "E is 0; Young's modulus must be positive", InputError);
+  CHECK_THROWS_WITH_AS(elasticity::check_isotropic(0, 0.3, false), "E is 0; Young's modulus must be positive",
+                       InputError);
   CHECK_THROWS_AS(elasticity::check_isotropic(-1, 0.3, false), InputError);
   CHECK_THROWS_AS(elasticity::check_isotropic(NAN, 0.3, false), InputError);
   CHECK_THROWS_AS(elasticity::check_isotropic(INFINITY, 0.3, false), InputError);
-  CHECK_THROWS_WITH_AS(elasticity::check_isotropic(1, 0.5, false), doctest::Contains("0.5 is incompressible"), InputError);
+  CHECK_THROWS_WITH_AS(elasticity::check_isotropic(1, 0.5, false), doctest::Contains("0.5 is incompressible"),
+                       InputError);
   CHECK_NOTHROW(elasticity::check_isotropic(1, 0.5, true));
   CHECK_NOTHROW(elasticity::check_isotropic(1, -0.9, false));
-  for (double nu : {-1.0, 0.6, static_cast<double>(NAN)}) CHECK_THROWS_AS(elasticity::check_isotropic(1, nu, true), InputError);
-  CHECK_THROWS_WITH_AS(elasticity::from_voigt(DenseMatrix::Identity(4, 4)), doctest::Contains("stiffness is 4x4"), InputError);
+  for (double nu : {-1.0, 0.6, static_cast<double>(NAN)})
+    CHECK_THROWS_AS(elasticity::check_isotropic(1, nu, true), InputError);
+  CHECK_THROWS_WITH_AS(elasticity::from_voigt(DenseMatrix::Identity(4, 4)), doctest::Contains("stiffness is 4x4"),
+                       InputError);
   DenseMatrix v = DenseMatrix::Identity(3, 3);
   v(0, 1) = 0.1;
   CHECK_THROWS_WITH_AS(elasticity::from_voigt(v), "stiffness must be symmetric", InputError);

@@ -8,7 +8,8 @@ using mesh::Point;
 namespace {
 
 Point linear(const Point& x) {
-  return {0.3 * x[0] - 0.2 * x[1] + 0.5 * x[2], 0.1 * x[0] + 0.7 * x[1] - 0.4 * x[2], -0.6 * x[0] + 0.2 * x[1] + 0.9 * x[2]};
+  return {0.3 * x[0] - 0.2 * x[1] + 0.5 * x[2], 0.1 * x[0] + 0.7 * x[1] - 0.4 * x[2],
+          -0.6 * x[0] + 0.2 * x[1] + 0.9 * x[2]};
 }
 
 }  // namespace
@@ -18,7 +19,8 @@ TEST_CASE("patch test: a linear displacement on the boundary is reproduced insid
     for (const auto family : test::kFamilies) {
       auto m = test::unit(dim, family, dim == 2 ? 6 : 3);
       test::distort(m, dim == 2 ? 0.04 : 0.06);
-      const auto numbering = test::prescribe(m, [&](const Point& x, int) { return test::on_boundary(x, dim); }, linear);
+      const auto numbering = test::prescribe(
+          m, [&](const Point& x, int) { return test::on_boundary(x, dim); }, linear);
       const auto material = test::steel(dim);
       const auto system = elasticity::assemble(m, material, {}, {}, numbering);
       const auto u = test::solve(system, numbering), exact = test::nodal(m, linear);
@@ -49,12 +51,15 @@ TEST_CASE("patch test with tractions: the stress vector of a constant stress on 
         Point n = m.facet_area_vector(facets[0]);
         const double area = test::length(n);
         for (double& v : n) v /= area;
-        elasticity::add_traction(m, facets, [&](const Point&) {
-          Point t{0, 0, 0};
-          for (int i = 0; i < dim; ++i)
-            for (int j = 0; j < dim; ++j) t[i] += sigma[i][j] * n[j];
-          return t;
-        }, force);
+        elasticity::add_traction(
+            m, facets,
+            [&](const Point&) {
+              Point t{0, 0, 0};
+              for (int i = 0; i < dim; ++i)
+                for (int j = 0; j < dim; ++j) t[i] += sigma[i][j] * n[j];
+              return t;
+            },
+            force);
       }
       CHECK(test::largest_difference(elasticity::internal_force(m, material, {}, exact), force) < 1e-12 * 210);
     }

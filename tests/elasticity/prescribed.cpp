@@ -53,14 +53,16 @@ TEST_CASE("with prescribed components K, f and the energy are those of the full 
       all(in) = u;
       all(out) = given;
       const double energy = 0.5 * all.dot(K * all) - force.dot(all);
-      CHECK(std::abs(0.5 * u.dot(test::full(part.K) * u) - part.f.dot(u) + part.offset - energy) < 1e-12 * (std::abs(energy) + K.norm()));
+      CHECK(std::abs(0.5 * u.dot(test::full(part.K) * u) - part.f.dot(u) + part.offset - energy) <
+            1e-12 * (std::abs(energy) + K.norm()));
     }
 }
 
 TEST_CASE("all components prescribed: no unknowns, the energy is the offset") {
   const auto m = test::rectangle(mesh::Family::q1, 2, 2);
   const auto stretched = [](const Point& x) { return Point{0.01 * x[0], 0, 0}; };
-  const auto numbering = test::prescribe(m, [](const Point&, int) { return true; }, stretched);
+  const auto numbering = test::prescribe(
+      m, [](const Point&, int) { return true; }, stretched);
   const auto s = elasticity::assemble(m, test::steel(2), {}, {}, numbering);
   CHECK(s.K.rows() == 0);
   const double c = elasticity::isotropic(210, 0.3, 2, elasticity::Plane::strain).c[0][0][0][0];
@@ -73,7 +75,9 @@ TEST_CASE("springs: the energy of any displacement is ½∫ k u² over the facet
       const auto m = test::unit(dim, family, 3);
       const auto free = test::all_free(m);
       const DenseMatrix K = test::full(elasticity::assemble(m, test::steel(dim), {}, {}, free).K),
-                        S = test::full(elasticity::assemble(m, test::steel(dim), springs(m, "top", {2, 5, 7}), {}, free).K) - K;
+                        S = test::full(
+                                elasticity::assemble(m, test::steel(dim), springs(m, "top", {2, 5, 7}), {}, free).K) -
+                            K;
       const auto energy = [&](const elasticity::VectorField& u) {
         const auto nodal = test::nodal(m, u);
         const auto x = Eigen::Map<const Vector>(nodal.data(), static_cast<int>(nodal.size()));
@@ -82,7 +86,8 @@ TEST_CASE("springs: the energy of any displacement is ½∫ k u² over the facet
       CHECK(energy([](const Point&) { return Point{1, 0, 0}; }) == doctest::Approx(1).epsilon(1e-12));
       CHECK(energy([](const Point&) { return Point{0, 1, 0}; }) == doctest::Approx(2.5).epsilon(1e-12));
       CHECK(energy([](const Point& x) { return Point{x[0], 0, 0}; }) == doctest::Approx(1.0 / 3).epsilon(1e-12));
-      if (dim == 3) CHECK(energy([](const Point& x) { return Point{0, 0, x[0]}; }) == doctest::Approx(3.5 / 3).epsilon(1e-12));
+      if (dim == 3)
+        CHECK(energy([](const Point& x) { return Point{0, 0, x[0]}; }) == doctest::Approx(3.5 / 3).epsilon(1e-12));
       // Other parts feel nothing.
       const int axis = dim - 1;
       CHECK(std::abs(energy([&](const Point& x) { return Point{0, x[axis] > 0.99 ? 0.0 : 1.0, 0}; })) < 1e-12);

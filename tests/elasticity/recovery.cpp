@@ -67,7 +67,8 @@ TEST_CASE("recovery does not depend on the unit of length or the place") {
 TEST_CASE("a single cell, and one row of cells, recover at least a constant stress") {
   for (int dim : {2, 3})
     for (const auto family : test::kFamilies)
-      for (const auto& m : {test::unit(dim, family, 1), dim == 2 ? test::rectangle(family, 5, 1) : test::box(family, 5, 1, 1)}) {
+      for (const auto& m :
+           {test::unit(dim, family, 1), dim == 2 ? test::rectangle(family, 5, 1) : test::box(family, 5, 1, 1)}) {
         const Stress one{1, 2, 3, 4, 5, 6};
         const auto recovered = elasticity::recover_stress(m, std::vector<Stress>(m.cell_count(), one));
         for (const auto& s : recovered)
@@ -82,7 +83,8 @@ TEST_CASE("the error estimate of a linear displacement is zero") {
       test::distort(m, 0.04);
       const auto material = test::steel(dim);
       const auto u = test::nodal(m, [](const Point& x) { return Point{x[0] + 2 * x[1], x[1] - x[2], 3 * x[0]}; });
-      const auto e = elasticity::estimate_error(m, material, u, elasticity::recover_stress(m, elasticity::cell_stress(m, material, u)));
+      const auto e = elasticity::estimate_error(m, material, u,
+                                                elasticity::recover_stress(m, elasticity::cell_stress(m, material, u)));
       CHECK(e.error_squared < 1e-22 * e.solution_squared);
       CHECK(e.solution_squared > 0);
     }

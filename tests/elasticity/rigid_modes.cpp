@@ -36,11 +36,13 @@ elasticity::RigidModes supported(const mesh::Mesh& m, const Given& given) {
   return checked(m, test::prescribe(m, given, [](const Point&) { return Point{0, 0, 0}; }));
 }
 
-std::vector<elasticity::FacetSpring> springs(const mesh::Mesh& m, const std::string& part, const elasticity::VectorField& k) {
+std::vector<elasticity::FacetSpring> springs(const mesh::Mesh& m, const std::string& part,
+                                             const elasticity::VectorField& k) {
   std::vector<elasticity::FacetSpring> result;
   for (const auto f : m.parts.at(part)) {
     result.push_back({f, {}});
-    elasticity::for_each_facet_point(m, f, [&](const elasticity::FacetPoint& p) { result.back().stiffness.push_back(k(p.x)); });
+    elasticity::for_each_facet_point(
+        m, f, [&](const elasticity::FacetPoint& p) { result.back().stiffness.push_back(k(p.x)); });
   }
   return result;
 }
@@ -94,7 +96,8 @@ TEST_CASE("names of the motions") {
   CHECK(supported(m, [](const Point&, int) { return false; }).names ==
         Names{"translation along x", "translation along y", "rotation about (1, 0.5)"});
   CHECK(supported(m, [](const Point& x, int i) { return i == 0 && x[0] == 0; }).names == Names{"translation along y"});
-  CHECK(supported(m, [](const Point& x, int) { return x[0] == 2 && x[1] == 1; }).names == Names{"rotation about (2, 1)"});
+  CHECK(supported(m, [](const Point& x, int) { return x[0] == 2 && x[1] == 1; }).names ==
+        Names{"rotation about (2, 1)"});
   const auto box = test::box(mesh::Family::q1, 2, 2, 2, {0, 0, 0}, {2, 2, 2});
   CHECK(supported(box, [](const Point& x, int i) { return i == 2 && x[2] == 0; }).names ==
         Names{"translation along x", "translation along y", "rotation about the axis along z through (1, 1, 1)"});
@@ -107,19 +110,30 @@ TEST_CASE("springs hold what they act on") {
     const auto m = test::rectangle(family, 3, 3);
     const auto free = test::all_free(m);
     CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{1, 0, 0}; })).names.size() == 2);
-    CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{0, 1, 0}; })).names ==
-          std::vector<std::string>{"translation along x"});
+    CHECK(checked(m, free,
+                  springs(m, "bottom",
+                          [](const Point&) {
+                            return Point{0, 1, 0};
+                          }))
+              .names == std::vector<std::string>{"translation along x"});
     CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{1, 2, 0}; })).names.empty());
     CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{0, 0, 0}; })).names.size() == 3);
     const auto box = test::box(family, 2, 2, 2);
-    CHECK(checked(box, test::all_free(box), springs(box, "bottom", [](const Point&) { return Point{0, 0, 1}; })).names.size() == 3);
+    CHECK(checked(box, test::all_free(box),
+                  springs(box, "bottom",
+                          [](const Point&) {
+                            return Point{0, 0, 1};
+                          }))
+              .names.size() == 3);
   }
 }
 
 TEST_CASE("a spring at a single quadrature point leaves the rotation about it free") {
   for (const auto family : test::kFamilies) {
     const auto m = test::rectangle(family, 1, 1);
-    const auto at_one = springs(m, "bottom", [](const Point& x) { return x[0] < 0.5 ? Point{1, 1, 0} : Point{0, 0, 0}; });
+    const auto at_one = springs(m, "bottom", [](const Point& x) {
+      return x[0] < 0.5 ? Point{1, 1, 0} : Point{0, 0, 0};
+    });
     const auto modes = checked(m, test::all_free(m), at_one);
     REQUIRE(modes.names.size() == 1);
     CHECK(modes.names[0] == "rotation about (0.211325, 0)");
@@ -129,15 +143,21 @@ TEST_CASE("a spring at a single quadrature point leaves the rotation about it fr
 TEST_CASE("modes do not depend on the place and the unit of length") {
   for (double size : {1e-6, 1.0, 1e5}) {
     const auto m = test::rectangle(mesh::Family::p1, 4, 2, 100 * size, 7 * size, 102 * size, 8 * size);
-    const auto modes = checked(m, test::prescribe(m, [&](const Point& x, int i) { return i == 1 && x[1] == 7 * size; },
-                                                  [](const Point&) { return Point{0, 0, 0}; }));
+    const auto modes = checked(m, test::prescribe(
+                                      m, [&](const Point& x, int i) { return i == 1 && x[1] == 7 * size; },
+                                      [](const Point&) {
+                                        return Point{0, 0, 0};
+                                      }));
     CHECK(modes.names == std::vector<std::string>{"translation along x"});
   }
 }
 
 TEST_CASE("prescribed values do not matter for what is held") {
   const auto m = test::rectangle(mesh::Family::p1, 2, 2);
-  const auto numbering = test::prescribe(m, [](const Point& x, int i) { return x[0] == 0 && i == 0; },
-                                         [](const Point& x) { return Point{x[1], 0, 0}; });
+  const auto numbering = test::prescribe(
+      m, [](const Point& x, int i) { return x[0] == 0 && i == 0; },
+      [](const Point& x) {
+        return Point{x[1], 0, 0};
+      });
   CHECK(elasticity::rigid_modes(m, numbering, {}).names == std::vector<std::string>{"translation along y"});
 }

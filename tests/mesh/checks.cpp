@@ -27,7 +27,8 @@ TEST_CASE("an inverted cell is refused with its number, shape and place") {
   auto triangles = test::rectangle(mesh::Family::p1, 1, 1);
   std::swap(triangles.cells[4], triangles.cells[5]);
   CHECK_THROWS_WITH_AS(mesh::check(triangles, "plate"),
-                       doctest::Contains("plate: cell 2 (a triangle near (0.333333, 0.666667)) is inverted"), InputError);
+                       doctest::Contains("plate: cell 2 (a triangle near (0.333333, 0.666667)) is inverted"),
+                       InputError);
 }
 
 TEST_CASE("a flat cell is refused as flat") {

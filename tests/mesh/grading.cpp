@@ -6,7 +6,8 @@
 using namespace dotyk;
 
 TEST_CASE("graded ticks follow the map and keep the ends exactly") {
-  const auto t = mesh::ticks(2, 5, 10, [](double s) { return s * s; }, "x");
+  const auto t = mesh::ticks(
+      2, 5, 10, [](double s) { return s * s; }, "x");
   REQUIRE(t.size() == 11);
   CHECK(t.front() == 2);
   CHECK(t.back() == 5);

@@ -45,8 +45,10 @@ TEST_CASE("the ends of a rectangle are where they were asked, to the last bit") 
 }
 
 TEST_CASE("a rectangle refuses no cells and ends in the wrong order") {
-  CHECK_THROWS_WITH_AS(test::rectangle(mesh::Family::p1, 0, 2), "cells along x is 0; it must be at least 1", InputError);
-  CHECK_THROWS_WITH_AS(test::rectangle(mesh::Family::q1, 2, -1), "cells along y is -1; it must be at least 1", InputError);
+  CHECK_THROWS_WITH_AS(test::rectangle(mesh::Family::p1, 0, 2), "cells along x is 0; it must be at least 1",
+                       InputError);
+  CHECK_THROWS_WITH_AS(test::rectangle(mesh::Family::q1, 2, -1), "cells along y is -1; it must be at least 1",
+                       InputError);
   CHECK_THROWS_WITH_AS(test::rectangle(mesh::Family::p1, 2, 2, 0, 1, 1, 1),
                        "'to' must exceed 'from' along y (from 1 to 1)", InputError);
   CHECK_THROWS_AS(test::rectangle(mesh::Family::p1, 2, 2, 2, 0, 1, 1), InputError);

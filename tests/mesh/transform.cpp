@@ -12,7 +12,9 @@ TEST_CASE("a transform moves every node and keeps the cells") {
     for (const auto family : test::kFamilies) {
       auto m = test::unit(dim, family, 3);
       // A shear keeps the measure, a stretch multiplies it.
-      mesh::transform(m, [](const mesh::Point& x) { return mesh::Point{2 * x[0] + 0.7 * x[1], x[1], x[2] - 0.3 * x[0]}; });
+      mesh::transform(m, [](const mesh::Point& x) {
+        return mesh::Point{2 * x[0] + 0.7 * x[1], x[1], x[2] - 0.3 * x[0]};
+      });
       CHECK(test::measure(m) == doctest::Approx(2).epsilon(1e-13));
     }
 }
@@ -27,10 +29,11 @@ TEST_CASE("a transform that inverts cells or gives no number is refused and undo
     CHECK_THROWS_AS(mesh::transform(m, [](const mesh::Point& x) { return mesh::Point{x[0], NAN, 0}; }), InputError);
     CHECK(m.coordinates == before);
     int calls = 0;
-    CHECK_THROWS_AS(mesh::transform(m, [&](const mesh::Point&) -> mesh::Point {
-                      if (++calls == 5) throw std::runtime_error("from the user's function");
-                      return {9, 9, 9};
-                    }),
+    CHECK_THROWS_AS(mesh::transform(m,
+                                    [&](const mesh::Point&) -> mesh::Point {
+                                      if (++calls == 5) throw std::runtime_error("from the user's function");
+                                      return {9, 9, 9};
+                                    }),
                     std::runtime_error);
     CHECK(m.coordinates == before);
   }

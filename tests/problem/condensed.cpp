@@ -92,7 +92,8 @@ TEST_CASE("a block that no row touches is solved along") {
   Clock clock;
   Monitor quiet;
   const CondensedProblem condensed(p, Ordering::automatic, clock, quiet);
-  CHECK(test::relative(condensed.recover(Vector::Zero(1), Vector()), test::stiffness(p).inverse() * test::load(p)) < 1e-11);
+  CHECK(test::relative(condensed.recover(Vector::Zero(1), Vector()), test::stiffness(p).inverse() * test::load(p)) <
+        1e-11);
 }
 
 TEST_CASE("a block without unknowns is passed over") {

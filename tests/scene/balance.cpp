@@ -44,7 +44,8 @@ TEST_CASE("reactions of fixed, displaced, sliding and sprung parts and contact b
       normal[dim - 1] = 1;
       Point below{0, 0, 0};
       below[dim - 1] = -0.001;
-      const auto contact = scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{below, normal}, {}, false);
+      const auto contact =
+          scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{below, normal}, {}, false);
       const auto s = test::solve(scene);
       REQUIRE_MESSAGE(s->result().converged, s->result().reason);
       check_balance(*s, supports, s->contact(*contact).force, 10);
@@ -81,7 +82,8 @@ TEST_CASE("a contact node that is also fixed in the normal direction breaks noth
         const auto scene = scene::make_scene({block});
         Point normal{0, 0, 0};
         normal[dim - 1] = 1;
-        const auto contact = scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, 0, 0}, normal}, {}, false);
+        const auto contact =
+            scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, 0, 0}, normal}, {}, false);
         const auto s = test::solve(scene, reduced);
         REQUIRE_MESSAGE(s->result().converged, s->result().reason);
         check_balance(*s, {left}, s->contact(*contact).force, 4);
@@ -94,7 +96,8 @@ TEST_CASE("a fixed contact node that lies inside the other side is refused: no d
   test::fix(block, "left");
   const auto scene = scene::make_scene({block});
   scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, 0.1, 0}, {0, 1, 0}}, {}, true);
-  CHECK_THROWS_WITH_AS(test::solve(scene), doctest::Contains("is fixed in the normal direction and lies 0.1 inside"), InputError);
+  CHECK_THROWS_WITH_AS(test::solve(scene), doctest::Contains("is fixed in the normal direction and lies 0.1 inside"),
+                       InputError);
 }
 
 TEST_CASE("action equals reaction between bodies under an uneven load") {

@@ -7,7 +7,8 @@ using mesh::Point;
 
 TEST_CASE("parts: unknown names list the known, empty choices and empty parts are refused") {
   const auto block = test::block("block", 2, mesh::Family::p1, 2);
-  CHECK_THROWS_WITH_AS(test::part(block, "topp"), doctest::Contains("'block' has no part 'topp'; it has bottom, left, right, top"), InputError);
+  CHECK_THROWS_WITH_AS(test::part(block, "topp"),
+                       doctest::Contains("'block' has no part 'topp'; it has bottom, left, right, top"), InputError);
   CHECK_THROWS_WITH_AS(scene::chosen_part(block, "none", [](const Point&, const Point&) { return false; }),
                        doctest::Contains("part 'none' of 'block' is empty"), InputError);
   auto m = test::rectangle(mesh::Family::p1, 1, 1);
@@ -18,7 +19,8 @@ TEST_CASE("parts: unknown names list the known, empty choices and empty parts ar
 TEST_CASE("bodies: a material of the other dimension, no cells, an inverted cell") {
   const auto mesh = std::make_shared<const mesh::Mesh>(test::rectangle(mesh::Family::p1, 2, 2));
   const elasticity::MaterialField solid(elasticity::isotropic(1, 0.3, 3, elasticity::Plane::strain));
-  CHECK_THROWS_WITH_AS(scene::make_body("b", mesh, solid, {}), doctest::Contains("is for 3-D, its mesh is 2-D"), InputError);
+  CHECK_THROWS_WITH_AS(scene::make_body("b", mesh, solid, {}), doctest::Contains("is for 3-D, its mesh is 2-D"),
+                       InputError);
   CHECK_THROWS_AS(test::body("b", mesh::Mesh{}), InputError);
   auto inverted = *mesh;
   std::swap(inverted.cells[0], inverted.cells[1]);
@@ -29,7 +31,8 @@ TEST_CASE("scenes: none, twice the same body, equal names, mixed dimensions, par
   const auto a = test::block("a", 2, mesh::Family::p1, 2), b = test::block("b", 2, mesh::Family::p1, 2, 1);
   CHECK_THROWS_AS(scene::make_scene({}), InputError);
   CHECK_THROWS_WITH_AS(scene::make_scene({a, a}), doctest::Contains("'a' is given twice"), InputError);
-  CHECK_THROWS_WITH_AS(scene::make_scene({a, test::block("a", 2, mesh::Family::p1, 1)}), doctest::Contains("two bodies are named 'a'"), InputError);
+  CHECK_THROWS_WITH_AS(scene::make_scene({a, test::block("a", 2, mesh::Family::p1, 1)}),
+                       doctest::Contains("two bodies are named 'a'"), InputError);
   CHECK_THROWS_AS(scene::make_scene({a, test::block("c", 3, mesh::Family::p1, 1)}), InputError);
   const auto scene = scene::make_scene({a});
   CHECK_THROWS_WITH_AS(scene::add_contact(*scene, test::part(a, "top"), test::part(b, "bottom"), {}),
@@ -54,7 +57,8 @@ TEST_CASE("a contact that is not of the scene as solved is refused") {
   const auto scene = scene::make_scene({block});
   scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, {}, false);
   const auto s = test::solve(scene);
-  const auto later = scene::add_contact(*scene, test::part(block, "left"), contact::RigidPlane{{-1, 0, 0}, {1, 0, 0}}, {}, false);
+  const auto later =
+      scene::add_contact(*scene, test::part(block, "left"), contact::RigidPlane{{-1, 0, 0}, {1, 0, 0}}, {}, false);
   CHECK_NOTHROW(s->contact(*scene->contacts[0]));
   CHECK_THROWS_WITH_AS(s->contact(*later), doctest::Contains("is not part of the scene that was solved"), InputError);
 }

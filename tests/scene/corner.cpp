@@ -20,10 +20,12 @@ Notch notch(mesh::Family family, bool held) {
   auto frame = test::without(test::rectangle(family, 8, 8), [](const Point& x) { return x[0] > 0.5 && x[1] > 0.5; });
   s.frame = test::body("frame", std::move(frame), 1000);
   s.block = test::body("block", test::rectangle(family, 4, 4, 0.5, 0.5, 1, 1));
-  auto support = scene::chosen_part(s.frame, "support", [=](const Point& x, const Point&) { return held || x[0] == 0 || x[1] == 0; });
-  scene::fix(support, {true, true, true});
+  auto outer = scene::chosen_part(s.frame, "outer",
+                                  [=](const Point& x, const Point&) { return held || x[0] == 0 || x[1] == 0; });
+  scene::fix(outer, {true, true, true});
   s.scene = scene::make_scene({s.block, s.frame});
-  const auto first = scene::chosen_part(s.block, "corner", [](const Point& x, const Point&) { return x[0] == 0.5 || x[1] == 0.5; });
+  const auto first =
+      scene::chosen_part(s.block, "corner", [](const Point& x, const Point&) { return x[0] == 0.5 || x[1] == 0.5; });
   const auto second = scene::chosen_part(s.frame, "legs", [](const Point& x, const Point&) {
     return (x[0] == 0.5 && x[1] > 0.5) || (x[1] == 0.5 && x[0] > 0.5);
   });
@@ -71,7 +73,8 @@ TEST_CASE("a block in an elastic corner: forces balance, no penetration on eithe
       CHECK(node.force >= 0);
       CHECK(std::abs(node.force * node.gap) < 1e-12);
     }
-    auto outer = scene::chosen_part(s.frame, "outer", [](const Point& x, const Point&) { return x[0] == 0 || x[1] == 0; });
+    auto outer =
+        scene::chosen_part(s.frame, "outer", [](const Point& x, const Point&) { return x[0] == 0 || x[1] == 0; });
     const auto support = solution->reaction(outer);
     CHECK(support[0] == doctest::Approx(1).epsilon(1e-10));
     CHECK(support[1] == doctest::Approx(2.5).epsilon(1e-10));

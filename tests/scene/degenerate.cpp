@@ -30,7 +30,8 @@ TEST_CASE("bodies that come to touch exactly, without pressure, settle at once")
 TEST_CASE("half of the contact pressed, half touching without force") {
   // Uniform pressure over two separate blocks side by side on a floor; only one is loaded.
   for (const auto family : test::kFamilies) {
-    const auto loaded = test::block("loaded", 2, family, 6), idle = test::body("idle", test::rectangle(family, 6, 6, 2, 0, 3, 1));
+    const auto loaded = test::block("loaded", 2, family, 6),
+               idle = test::body("idle", test::rectangle(family, 6, 6, 2, 0, 3, 1));
     for (const auto& b : {loaded, idle}) test::fix(b, "left");
     test::press(loaded, "top", 5);
     const auto scene = scene::make_scene({loaded, idle});
@@ -73,9 +74,11 @@ TEST_CASE("interference: a block pressed into the floor by its own position has 
     test::symmetric(block);
     test::slide(block, "top");
     const auto scene = scene::make_scene({block});
-    const auto contact = scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, 0.01, 0}, {0, 1, 0}}, {}, true);
+    const auto contact =
+        scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, 0.01, 0}, {0, 1, 0}}, {}, true);
     const auto s = test::solve(scene);
     REQUIRE(s->result().converged);
-    for (const auto& node : s->contact(*contact).nodes) CHECK(node.pressure == doctest::Approx(0.01 * 210 / (1 - 0.09)).epsilon(1e-11));
+    for (const auto& node : s->contact(*contact).nodes)
+      CHECK(node.pressure == doctest::Approx(0.01 * 210 / (1 - 0.09)).epsilon(1e-11));
   }
 }

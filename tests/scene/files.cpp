@@ -69,7 +69,8 @@ TEST_CASE("a file that cannot be written is refused with its name, and nothing i
   Scratch scratch;
   const auto s = solved(8);
   const auto missing = (scratch.path / "missing" / "contact.csv").string();
-  CHECK_THROWS_WITH_AS(scene::write_contact(*s, missing), doctest::Contains(("cannot write '" + missing + "'").c_str()), InputError);
+  CHECK_THROWS_WITH_AS(scene::write_contact(*s, missing), doctest::Contains(("cannot write '" + missing + "'").c_str()),
+                       InputError);
   fs::create_directory(scratch.path / "folder");
   std::ofstream(scratch.path / "folder" / "inside") << "x";
   CHECK_THROWS_AS(scene::write_contact(*s, (scratch.path / "folder").string()), InputError);

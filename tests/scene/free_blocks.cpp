@@ -18,11 +18,14 @@ struct OnFloor {
 OnFloor on_floor(int dim, mesh::Family family, bool held_along = true) {
   OnFloor s;
   s.block = test::block("block", dim, family, 4);
-  if (held_along) test::fix(s.block, "bottom", dim == 2 ? std::array<bool, 3>{true, false, false} : std::array<bool, 3>{true, true, false});
+  if (held_along)
+    test::fix(s.block, "bottom",
+              dim == 2 ? std::array<bool, 3>{true, false, false} : std::array<bool, 3>{true, true, false});
   s.scene = scene::make_scene({s.block});
   Point normal{0, 0, 0};
   normal[dim - 1] = 1;
-  s.contact = scene::add_contact(*s.scene, test::part(s.block, "bottom"), contact::RigidPlane{{0, 0, 0}, normal}, {}, false);
+  s.contact =
+      scene::add_contact(*s.scene, test::part(s.block, "bottom"), contact::RigidPlane{{0, 0, 0}, normal}, {}, false);
   return s;
 }
 
@@ -71,7 +74,8 @@ TEST_CASE("a free block equals the one that supports hold where these carry noth
       test::press(free.block, "top", 2);
       const auto s = test::solve(free.scene);
       REQUIRE_MESSAGE(s->result().converged, s->result().reason);
-      for (const auto& node : s->contact(*free.contact).nodes) CHECK(node.pressure == doctest::Approx(2).epsilon(1e-11));
+      for (const auto& node : s->contact(*free.contact).nodes)
+        CHECK(node.pressure == doctest::Approx(2).epsilon(1e-11));
 
       auto held = test::block("block", dim, family, 4);
       test::symmetric(held);
@@ -91,10 +95,12 @@ TEST_CASE("a load that tips the block, lifts it, or pushes it along the floor is
     for (const bool reduced : {true, false}) {
       auto tips = on_floor(dim, mesh::Family::p1);
       test::pull(tips.block, "top", load_at(dim, 1.2));
-      CHECK_THROWS_WITH_AS(test::solve(tips.scene, reduced), doctest::Contains("not held: nothing stops 'block': rotation"), InputError);
+      CHECK_THROWS_WITH_AS(test::solve(tips.scene, reduced),
+                           doctest::Contains("not held: nothing stops 'block': rotation"), InputError);
       auto lifts = on_floor(dim, mesh::Family::p1);
       test::press(lifts.block, "top", -1);
-      CHECK_THROWS_WITH_AS(test::solve(lifts.scene, reduced), doctest::Contains("not held: nothing stops 'block': translation along"), InputError);
+      CHECK_THROWS_WITH_AS(test::solve(lifts.scene, reduced),
+                           doctest::Contains("not held: nothing stops 'block': translation along"), InputError);
       auto slips = on_floor(dim, mesh::Family::p1, false);
       test::pull(slips.block, "top", [&](const Point&) { return dim == 2 ? Point{0.1, -1, 0} : Point{0.1, 0, -1}; });
       CHECK_THROWS_WITH_AS(test::solve(slips.scene, reduced), doctest::Contains("translation along x"), InputError);
@@ -104,12 +110,14 @@ TEST_CASE("a load that tips the block, lifts it, or pushes it along the floor is
 TEST_CASE("a block that nothing holds along the floor and no load moves is refused as undecided") {
   auto s = on_floor(2, mesh::Family::p1, false);
   test::press(s.block, "top", 1);
-  CHECK_THROWS_WITH_AS(test::solve(s.scene), doctest::Contains("nothing decides 'block': translation along x"), InputError);
+  CHECK_THROWS_WITH_AS(test::solve(s.scene), doctest::Contains("nothing decides 'block': translation along x"),
+                       InputError);
 }
 
 TEST_CASE("a body without any support or contact is refused by name") {
   const auto block = test::block("lid", 2, mesh::Family::q1, 2);
-  CHECK_THROWS_WITH_AS(test::solve(scene::make_scene({block})), doctest::Contains("'lid' is not held: nothing stops its translation along x"), InputError);
+  CHECK_THROWS_WITH_AS(test::solve(scene::make_scene({block})),
+                       doctest::Contains("'lid' is not held: nothing stops its translation along x"), InputError);
 }
 
 TEST_CASE("a block that falls across a gap lands on it") {
@@ -118,7 +126,8 @@ TEST_CASE("a block that falls across a gap lands on it") {
     test::fix(block, "bottom", {true, false, false});
     test::pull(block, "top", load_at(2, 0.4));
     const auto scene = scene::make_scene({block});
-    const auto contact = scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, -0.5, 0}, {0, 1, 0}}, {}, false);
+    const auto contact = scene::add_contact(*scene, test::part(block, "bottom"),
+                                            contact::RigidPlane{{0, -0.5, 0}, {0, 1, 0}}, {}, false);
     const auto s = test::solve(scene);
     REQUIRE_MESSAGE(s->result().converged, s->result().reason);
     CHECK(s->contact(*contact).force[1] == doctest::Approx(1).epsilon(1e-10));
@@ -137,12 +146,14 @@ TEST_CASE("stacks of free blocks under random loads are solved exactly where sta
     for (int b = 0; b < count; ++b) {
       bodies.push_back(test::block("block " + std::to_string(b), dim, test::kFamilies[trial % 2], n, b * (1 + apart),
                                    std::pow(10, random.between(0, 3))));
-      test::fix(bodies.back(), "bottom", dim == 2 ? std::array<bool, 3>{true, false, false} : std::array<bool, 3>{true, true, false});
+      test::fix(bodies.back(), "bottom",
+                dim == 2 ? std::array<bool, 3>{true, false, false} : std::array<bool, 3>{true, true, false});
     }
     const double tilt = random.between(-4, 4), wave = random.between(2, 20), phase = random.between(0, 6);
     test::pull(bodies.back(), "top", [=](const Point& x) {
       Point t{0.5 * std::cos(phase), 0, 0};
-      t[dim - 1] = -1 - 2 * std::sin(wave * x[0] + phase) - tilt * (x[0] - 0.5) + (dim == 3 ? 0.3 * std::sin(wave * x[1]) : 0);
+      t[dim - 1] =
+          -1 - 2 * std::sin(wave * x[0] + phase) - tilt * (x[0] - 0.5) + (dim == 3 ? 0.3 * std::sin(wave * x[1]) : 0);
       return t;
     });
     // Where the resultant passes through the bottom of the block that is loaded; the blocks below hand it on.
@@ -160,7 +171,8 @@ TEST_CASE("stacks of free blocks under random loads are solved exactly where sta
     const auto scene = scene::make_scene(bodies);
     Point normal{0, 0, 0};
     normal[dim - 1] = 1;
-    const auto floor = scene::add_contact(*scene, test::part(bodies[0], "bottom"), contact::RigidPlane{{0, 0, 0}, normal}, {}, false);
+    const auto floor =
+        scene::add_contact(*scene, test::part(bodies[0], "bottom"), contact::RigidPlane{{0, 0, 0}, normal}, {}, false);
     for (int b = 1; b < count; ++b)
       scene::add_contact(*scene, test::part(bodies[b], "bottom"), test::part(bodies[b - 1], "top"), {});
     INFO("trial ", trial, ": down ", down, " at ", at[0] / down);

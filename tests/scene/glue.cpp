@@ -11,7 +11,9 @@ std::shared_ptr<scene::Body> heavy(const std::string& name, mesh::Mesh m) {
   const int dim = m.dimension();
   return scene::make_body(name, std::make_shared<const mesh::Mesh>(std::move(m)),
                           elasticity::MaterialField(elasticity::isotropic(20, 0.3, dim, elasticity::Plane::strain)),
-                          [](const Point& x) { return Point{0.3, -1 - x[0], 0.2}; });
+                          [](const Point& x) {
+                            return Point{0.3, -1 - x[0], 0.2};
+                          });
 }
 
 Point shear(const Point& x) { return {0.5 * x[1], 0.1, 0.3}; }
@@ -62,5 +64,6 @@ TEST_CASE("glued parts that are prescribed different displacements are refused")
   scene::displace(bottom, {[](const Point&) { return 0.1; }, nullptr, nullptr});
   const auto scene = scene::make_scene({low, high});
   scene::add_glue(*scene, test::part(low, "top"), test::part(high, "bottom"));
-  CHECK_THROWS_WITH_AS(test::solve(scene), doctest::Contains("the two sides are prescribed displacements that differ by 0.1"), InputError);
+  CHECK_THROWS_WITH_AS(test::solve(scene),
+                       doctest::Contains("the two sides are prescribed displacements that differ by 0.1"), InputError);
 }

@@ -127,7 +127,8 @@ TEST_CASE("the same turned by 30 degrees: slides along no axis are rows, bodies 
         test::slide(bodies[0], "bottom");
         test::press(bodies[1], "top", kPressure);
         const auto scene = scene::make_scene(bodies);
-        const auto contact = scene::add_contact(*scene, test::part(bodies[0], "top"), test::part(bodies[1], "bottom"), {});
+        const auto contact =
+            scene::add_contact(*scene, test::part(bodies[0], "top"), test::part(bodies[1], "bottom"), {});
         const auto solution = test::solve(scene, reduced);
         REQUIRE_MESSAGE(solution->result().converged, solution->result().reason);
         const auto result = solution->contact(*contact);
@@ -159,7 +160,8 @@ TEST_CASE("a gap that closes: the stack compresses from where it touches") {
     const auto solution = test::solve(scene);
     REQUIRE(solution->result().converged);
     const double p = 0.002 / (2 * (1 - 0.09) / 210);  // what is left after the gap of 0.001
-    for (const auto& node : solution->contact(*contact).nodes) CHECK(node.pressure == doctest::Approx(p).epsilon(1e-10));
+    for (const auto& node : solution->contact(*contact).nodes)
+      CHECK(node.pressure == doctest::Approx(p).epsilon(1e-10));
     // Less than the gap: nothing touches.
     auto free = block("high", 2, family, 4, 1.001);
     test::symmetric(free);
@@ -184,6 +186,7 @@ TEST_CASE("stiff units: pascals and metres, and micro-units, give the same press
       const auto contact = scene::add_contact(*scene, test::part(low, "top"), test::part(high, "bottom"), {});
       const auto solution = test::solve(scene, reduced);
       REQUIRE(solution->result().converged);
-      for (const auto& node : solution->contact(*contact).nodes) CHECK(node.pressure == doctest::Approx(1e-3 * E).epsilon(1e-10));
+      for (const auto& node : solution->contact(*contact).nodes)
+        CHECK(node.pressure == doctest::Approx(1e-3 * E).epsilon(1e-10));
     }
 }

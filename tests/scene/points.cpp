@@ -8,7 +8,9 @@ using mesh::Point;
 
 namespace {
 
-Point linear(const Point& x) { return {0.01 * x[0] - 0.02 * x[1] + 0.01 * x[2], 0.03 * x[1], 0.01 * x[0] - 0.02 * x[2]}; }
+Point linear(const Point& x) {
+  return {0.01 * x[0] - 0.02 * x[1] + 0.01 * x[2], 0.03 * x[1], 0.01 * x[0] - 0.02 * x[2]};
+}
 
 }  // namespace
 
@@ -33,7 +35,8 @@ TEST_CASE("displacement and stress at points, of a linear displacement, are exac
         const auto stress = s->stress(0, x);
         for (int c = 0; c < 6; ++c) CHECK(std::abs(stress[c] - constant[c]) < 1e-11);
       }
-      CHECK_THROWS_WITH_AS(s->displacement(0, {1.1, 0.5, 0.5}), doctest::Contains("lies outside 'block' at rest"), InputError);
+      CHECK_THROWS_WITH_AS(s->displacement(0, {1.1, 0.5, 0.5}), doctest::Contains("lies outside 'block' at rest"),
+                           InputError);
       CHECK_THROWS_AS(s->stress(0, {0.5, -0.01, 0.5}), InputError);
       CHECK_THROWS_AS(s->displacement(0, {NAN, 0.5, 0.5}), InputError);
     }
@@ -45,9 +48,11 @@ TEST_CASE("points in a disc are found, and in the hole of an L they are not") {
     test::fix(disc, "boundary");
     const auto s = test::solve(scene::make_scene({disc}));
     for (double r : {0.0, 0.2, 0.5, 0.9, 0.98})
-      for (double angle = 0; angle < 6.28; angle += 0.1) CHECK_NOTHROW(s->displacement(0, {r * std::cos(angle), r * std::sin(angle), 0}));
+      for (double angle = 0; angle < 6.28; angle += 0.1)
+        CHECK_NOTHROW(s->displacement(0, {r * std::cos(angle), r * std::sin(angle), 0}));
     CHECK_THROWS_AS(s->displacement(0, {0.8, 0.8, 0}), InputError);
-    const auto frame = test::body("frame", test::without(test::rectangle(family, 8, 8), [](const Point& x) { return x[0] > 0.5 && x[1] > 0.5; }));
+    const auto frame = test::body(
+        "frame", test::without(test::rectangle(family, 8, 8), [](const Point& x) { return x[0] > 0.5 && x[1] > 0.5; }));
     auto outer = scene::chosen_part(frame, "outer", [](const Point& x, const Point&) { return x[0] == 0; });
     scene::fix(outer, {true, true, true});
     const auto l = test::solve(scene::make_scene({frame}));

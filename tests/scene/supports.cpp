@@ -14,8 +14,10 @@ TEST_CASE("supports that contradict each other at a node are refused, naming bot
     scene::displace(bottom, {nullptr, [](const Point&) { return 0.1; }, nullptr});
     test::solve(scene::make_scene({block}));
   };
-  CHECK_THROWS_WITH_AS(contradict(), doctest::Contains("contradictory supports on 'block': at the node (0, 0)"), InputError);
-  CHECK_THROWS_WITH_AS(contradict(), doctest::Contains("'left' prescribes uy = 0 and part 'bottom' prescribes 0.1"), InputError);
+  CHECK_THROWS_WITH_AS(contradict(), doctest::Contains("contradictory supports on 'block': at the node (0, 0)"),
+                       InputError);
+  CHECK_THROWS_WITH_AS(contradict(), doctest::Contains("'left' prescribes uy = 0 and part 'bottom' prescribes 0.1"),
+                       InputError);
 }
 
 TEST_CASE("supports that agree where they meet are fine") {
@@ -46,13 +48,15 @@ TEST_CASE("a slide leaves motion along the side free and stops motion across it"
       test::slide(block, "left");
       const auto numbering = scene::number(*block);
       for (int n = 0; n < block->mesh->node_count(); ++n)
-        for (int i = 0; i < dim; ++i) CHECK((numbering.unknown[n * dim + i] < 0) == (i == 0 && block->mesh->node(n)[0] == 0));
+        for (int i = 0; i < dim; ++i)
+          CHECK((numbering.unknown[n * dim + i] < 0) == (i == 0 && block->mesh->node(n)[0] == 0));
     }
 }
 
 TEST_CASE("a slide over an edge holds both normals at it") {
   const auto block = test::block("block", 2, mesh::Family::p1, 2);
-  auto corner = scene::chosen_part(block, "corner", [](const Point& x, const Point&) { return x[0] == 0 || x[1] == 0; });
+  auto corner =
+      scene::chosen_part(block, "corner", [](const Point& x, const Point&) { return x[0] == 0 || x[1] == 0; });
   scene::slide(corner);
   const auto numbering = scene::number(*block);
   CHECK(numbering.unknown[0] < 0);
@@ -64,7 +68,8 @@ TEST_CASE("a slide on a circle lets it turn but not move") {
   const auto disc = test::body("disc", test::disc(mesh::Family::p1, 4));
   test::slide(disc, "boundary");
   test::pull(disc, "boundary", [](const Point& x) { return Point{-x[1], x[0], 0}; });  // a torque
-  CHECK_THROWS_WITH_AS(test::solve(scene::make_scene({disc})), doctest::Contains("'disc': rotation about (0, 0)"), InputError);
+  CHECK_THROWS_WITH_AS(test::solve(scene::make_scene({disc})), doctest::Contains("'disc': rotation about (0, 0)"),
+                       InputError);
 }
 
 TEST_CASE("a load function that throws leaves the body as it was") {
@@ -85,6 +90,7 @@ TEST_CASE("a load function that throws leaves the body as it was") {
 TEST_CASE("springs refuse negative stiffness with its place, and take none where there is none") {
   const auto block = test::block("block", 2, mesh::Family::p1, 2);
   auto right = part(block, "right");
-  CHECK_THROWS_WITH_AS(scene::spring(right, {[](const Point&) { return -1.0; }, nullptr, nullptr}), doctest::Contains("stiffness is -1 at (1, "), InputError);
+  CHECK_THROWS_WITH_AS(scene::spring(right, {[](const Point&) { return -1.0; }, nullptr, nullptr}),
+                       doctest::Contains("stiffness is -1 at (1, "), InputError);
   CHECK(block->springs.empty());
 }

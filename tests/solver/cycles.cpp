@@ -54,7 +54,8 @@ TEST_CASE("active sets that cycle are noticed, named and left with the right sol
 TEST_CASE("a row without a name is named by its number") {
   Monitor quiet;
   const auto [K, f] = cycles()[0];
-  const auto r = solver::solve(test::program(K, f, DenseMatrix::Identity(3, 3), Vector::Zero(3)), test::pdas(true), quiet);
+  const auto r =
+      solver::solve(test::program(K, f, DenseMatrix::Identity(3, 3), Vector::Zero(3)), test::pdas(true), quiet);
   CHECK(r.reason.find("active sets repeated at row ") == 0);
 }
 

@@ -57,7 +57,8 @@ TEST_CASE("gaps that mean never do not blur the rows that matter") {
   for (const double never : {1e3, 1e9, 1e15, 1e30})
     for (int trial = 0; trial < 40; ++trial) {
       const int n = 7;
-      auto p = test::program(random.positive_definite(n, 0.3), random.vector(n), DenseMatrix::Identity(n, n), 0.1 * random.vector(n));
+      auto p = test::program(random.positive_definite(n, 0.3), random.vector(n), DenseMatrix::Identity(n, n),
+                             0.1 * random.vector(n));
       p.c[3] = p.c[5] = 1e3;
       const auto exact = test::by_enumeration(p);
       REQUIRE(exact);
@@ -72,7 +73,8 @@ TEST_CASE("gaps that mean never do not blur the rows that matter") {
 
 TEST_CASE("nothing loaded: one solve, exact zeros") {
   Monitor quiet;
-  const auto p = test::program(DenseMatrix::Identity(3, 3), Vector::Zero(3), DenseMatrix::Identity(3, 3), Vector::Zero(3));
+  const auto p =
+      test::program(DenseMatrix::Identity(3, 3), Vector::Zero(3), DenseMatrix::Identity(3, 3), Vector::Zero(3));
   const auto r = solver::solve(p, test::pdas(true), quiet);
   CHECK(r.converged);
   CHECK(r.iterations == 1);

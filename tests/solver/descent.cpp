@@ -13,9 +13,11 @@ TEST_CASE("a sweep never increases the dual energy, keeps its jump, and sweeps c
   Monitor quiet;
   for (int trial = 0; trial < 60; ++trial) {
     const int n = 2 + trial % 6;
-    auto p = test::program(random.positive_definite(n, 0.2), random.vector(n), DenseMatrix::Identity(n, n), random.vector(n) * 0.2);
+    auto p = test::program(random.positive_definite(n, 0.2), random.vector(n), DenseMatrix::Identity(n, n),
+                           random.vector(n) * 0.2);
     // One law of each kind where there is room, with a row that has no stiffness.
-    p.groups = {test::group(problem::unilateral(), 0, n - 1), test::group(problem::elastic({trial % 2 ? 3.0 : 0.0}), n - 1, 1)};
+    p.groups = {test::group(problem::unilateral(), 0, n - 1),
+                test::group(problem::elastic({trial % 2 ? 3.0 : 0.0}), n - 1, 1)};
     problem::Clock clock;
     const problem::CondensedProblem condensed(p, algebra::Ordering::automatic, clock, quiet);
     solver::DualDescent descent(p, condensed, random.vector(n));
@@ -46,7 +48,8 @@ TEST_CASE("with free bodies the augmented energy never increases between updates
     // against obstacles above each of them.
     const DenseMatrix P = DenseMatrix::Identity(n, n) - DenseMatrix::Constant(n, n, 1.0 / n);
     const Vector f = random.vector(n) + Vector::Constant(n, 1.5);
-    auto p = test::program(P * random.positive_definite(n, 0.2) * P, f, DenseMatrix::Identity(n, n), random.vector(n) * 0.2);
+    auto p =
+        test::program(P * random.positive_definite(n, 0.2) * P, f, DenseMatrix::Identity(n, n), random.vector(n) * 0.2);
     p.blocks[0].kernel = DenseMatrix::Ones(n, 1);
     p.blocks[0].kernel_names = {"translation"};
     p.groups = {test::group(problem::unilateral(), 0, n)};

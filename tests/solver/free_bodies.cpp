@@ -70,7 +70,8 @@ TEST_CASE("a free body that no row touches is refused, naming it") {
   DenseMatrix B = DenseMatrix::Zero(5, 34);
   B.leftCols(16) = DenseMatrix(p.B);
   p.B = test::rows(B);
-  CHECK_THROWS_WITH_AS(solver::solve(p, test::pdas(true), quiet), doctest::Contains("'spare': translation along"), InputError);
+  CHECK_THROWS_WITH_AS(solver::solve(p, test::pdas(true), quiet), doctest::Contains("'spare': translation along"),
+                       InputError);
 }
 
 TEST_CASE("free bodies in a stack press through to the ground") {
@@ -85,8 +86,8 @@ TEST_CASE("free bodies in a stack press through to the ground") {
     problem::add(p, test::block("bar " + std::to_string(k), bar, f, 1, true));
   }
   DenseMatrix B = DenseMatrix::Zero(3, 6);
-  B(0, 0) = 1;               // bar 0 on the ground
-  B(1, 2) = 1, B(1, 1) = -1; // bar 1 on bar 0
+  B(0, 0) = 1;                // bar 0 on the ground
+  B(1, 2) = 1, B(1, 1) = -1;  // bar 1 on bar 0
   B(2, 4) = 1, B(2, 3) = -1;
   p.B = test::rows(B);
   p.c = Vector{{0.1, 0.2, 0.3}};

@@ -27,8 +27,9 @@ TEST_CASE("the linear solve refuses a free body by name and motion") {
   Monitor quiet;
   problem::Problem p;
   problem::add(p, test::block("lid", test::spring_grid(random, 3, 3, 2, 0), random.vector(18), 2, true));
-  CHECK_THROWS_WITH_AS(solver::solve_linear(p, algebra::Ordering::automatic, quiet),
-                       "'lid' is not held: nothing stops its translation along x and translation along y; fix a part of it or put it in "
-                       "contact",
-                       InputError);
+  CHECK_THROWS_WITH_AS(
+      solver::solve_linear(p, algebra::Ordering::automatic, quiet),
+      "'lid' is not held: nothing stops its translation along x and translation along y; fix a part of it or put it in "
+      "contact",
+      InputError);
 }

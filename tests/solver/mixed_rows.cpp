@@ -12,7 +12,8 @@ TEST_CASE("unilateral, bilateral and elastic rows together, as the dense referen
   Monitor quiet;
   for (int trial = 0; trial < 100; ++trial) {
     const int n = 9;
-    auto p = test::program(random.positive_definite(n, 0.5), 2 * random.vector(n), random.matrix(7, n), 0.3 * random.vector(7));
+    auto p = test::program(random.positive_definite(n, 0.5), 2 * random.vector(n), random.matrix(7, n),
+                           0.3 * random.vector(7));
     std::vector<double> k(3), compliance(7, 0);
     for (int i = 0; i < 3; ++i) {
       k[i] = std::pow(10, random.between(-2, 3));

@@ -114,7 +114,8 @@ TEST_CASE("the multiplier ρ does not change the path of a contact problem") {
 TEST_CASE("a history has one entry an iteration, the last without changes") {
   Random random(64);
   Monitor quiet;
-  const auto p = test::program(random.positive_definite(8, 1), random.vector(8), DenseMatrix::Identity(8, 8), Vector::Zero(8));
+  const auto p =
+      test::program(random.positive_definite(8, 1), random.vector(8), DenseMatrix::Identity(8, 8), Vector::Zero(8));
   const auto r = solver::solve(p, test::pdas(true), quiet);
   REQUIRE(r.converged);
   REQUIRE(static_cast<int>(r.history.size()) == r.iterations);

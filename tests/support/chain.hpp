@@ -6,8 +6,8 @@
 namespace dotyk::test {
 
 /// A block from a spring grid; `free`: its translations are its kernel.
-inline problem::Block block(const std::string& name, const SpringGrid& grid, const algebra::Vector& f,
-                            int per_node, bool free) {
+inline problem::Block block(const std::string& name, const SpringGrid& grid, const algebra::Vector& f, int per_node,
+                            bool free) {
   problem::Block b;
   b.name = name;
   b.K = grid.K;

@@ -21,7 +21,8 @@ inline MaterialField steel(int dimension, double E = 210, double nu = 0.3,
 }
 
 /// Every component unknown but those where `given(x, i)` says so, which take `value(x)`.
-inline Numbering prescribe(const Mesh& m, const std::function<bool(const Point&, int)>& given, const VectorField& value) {
+inline Numbering prescribe(const Mesh& m, const std::function<bool(const Point&, int)>& given,
+                           const VectorField& value) {
   const int dim = m.dimension();
   std::vector<char> fixed(m.coordinates.size(), 0);
   std::vector<double> prescribed(fixed.size(), 0);
@@ -35,7 +36,8 @@ inline Numbering prescribe(const Mesh& m, const std::function<bool(const Point&,
 }
 
 inline Numbering all_free(const Mesh& m) {
-  return elasticity::number(m, std::vector<char>(m.coordinates.size(), 0), std::vector<double>(m.coordinates.size(), 0));
+  return elasticity::number(m, std::vector<char>(m.coordinates.size(), 0),
+                            std::vector<double>(m.coordinates.size(), 0));
 }
 
 /// On the boundary of the unit square or cube.

@@ -17,7 +17,8 @@ inline Mesh without(const Mesh& whole, const std::function<bool(const Point&)>& 
       int& n = number[whole.cell(c)[a]];
       if (n < 0) {
         n = m.node_count();
-        m.coordinates.insert(m.coordinates.end(), whole.node(whole.cell(c)[a]), whole.node(whole.cell(c)[a]) + m.dimension());
+        m.coordinates.insert(m.coordinates.end(), whole.node(whole.cell(c)[a]),
+                             whole.node(whole.cell(c)[a]) + m.dimension());
       }
       m.cells.push_back(n);
     }

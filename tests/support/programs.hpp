@@ -9,8 +9,8 @@
 namespace dotyk::test {
 
 /// minimise ½uᵀKu − fᵀu subject to Bu ≤ c, one block, every unknown its own node.
-inline problem::Problem program(const algebra::DenseMatrix& K, const algebra::Vector& f,
-                                const algebra::DenseMatrix& B, const algebra::Vector& c) {
+inline problem::Problem program(const algebra::DenseMatrix& K, const algebra::Vector& f, const algebra::DenseMatrix& B,
+                                const algebra::Vector& c) {
   problem::Problem p;
   problem::Block b;
   b.name = "program";

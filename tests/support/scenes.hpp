@@ -19,9 +19,12 @@ inline std::shared_ptr<scene::Body> block(const std::string& name, int dimension
   return body(name, std::move(m), E, nu);
 }
 
-inline scene::Part part(const std::shared_ptr<scene::Body>& b, const std::string& name) { return scene::named_part(b, name); }
+inline scene::Part part(const std::shared_ptr<scene::Body>& b, const std::string& name) {
+  return scene::named_part(b, name);
+}
 
-inline void fix(const std::shared_ptr<scene::Body>& b, const std::string& name, std::array<bool, 3> components = {true, true, true}) {
+inline void fix(const std::shared_ptr<scene::Body>& b, const std::string& name,
+                std::array<bool, 3> components = {true, true, true}) {
   auto p = part(b, name);
   scene::fix(p, components);
 }

@@ -13,8 +13,7 @@ struct SpringGrid {
 };
 
 /// `ground`: stiffness that ties every node to the ground (0: translations are free).
-inline SpringGrid spring_grid(Random& random, int nx, int ny, int per_node, double ground,
-                              bool uneven = false) {
+inline SpringGrid spring_grid(Random& random, int nx, int ny, int per_node, double ground, bool uneven = false) {
   SpringGrid grid;
   grid.nodes = nx * ny;
   std::vector<int> first;
