@@ -1,0 +1,19 @@
+#pragma once
+
+#include "base/monitor.hpp"
+#include "program/program.hpp"
+
+namespace dotyk::program {
+
+struct InteriorPoint {
+  double tol = 1e-9;  ///< on residuals and gap, relative, in the scaled program
+  int max_iterations = 200;
+};
+
+/// Mehrotra's predictor–corrector method (1992) for convex quadratic programs, infeasible start, one
+/// step length for all unknowns, sparse quasidefinite KKT systems with refinement. Result: `working`
+/// holds the prediction of the active set (multiplier above slack). Infeasible and unbounded programs
+/// are told by the direction in which the iterates diverge. Throws InputError as check() does.
+Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Monitor& monitor);
+
+}  // namespace dotyk::program

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "program/program.hpp"
+
+namespace dotyk::program {
+
+/// A program in a MATLAB v5 file as the Maros–Mészáros collection of qpsolvers keeps it: variables P
+/// (n × n, both triangles), q, r, A (m × n, bounds are rows of it), l, u; ±1e20 and beyond is infinite.
+/// Throws InputError naming file and variable; std::runtime_error where dotyk was built without libmatio.
+QuadraticProgram read_mat(const std::string& file);
+
+}  // namespace dotyk::program

@@ -1,0 +1,154 @@
+#include "program/working_kkt.hpp"
+
+#include <random>
+#include <stdexcept>
+
+#include "program/refine.hpp"
+
+namespace dotyk::program {
+namespace {
+
+constexpr double kRegular = 1e-14;     ///< least regularisation, in units of a scaled program
+constexpr double kSafe = 1e-9;         ///< regularisation of matrices that rounding spoils with less
+constexpr std::size_t kBorders = 60;   ///< changes before the next factorisation
+constexpr double kRefined = 1e-13, kConsistent = 1e-8;
+
+double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
+
+}  // namespace
+
+WorkingKkt::WorkingKkt(const QuadraticProgram& program)
+    : p_(program), n_(program.unknowns()), m_(program.rows()), kkt_(program), taken_(m_, 0), base_(m_, 0), random_(n_ + m_) {
+  std::mt19937 engine(1);
+  for (double& x : random_) x = engine() / 4294967296.0 - 0.5;
+}
+
+void WorkingKkt::set(const std::vector<char>& taken) {
+  taken_ = taken;
+  stale_ = true;
+}
+
+void WorkingKkt::change(int row, bool in) {
+  if (taken_[row] == static_cast<char>(in)) return;
+  taken_[row] = in;
+  if (stale_) return;
+  for (std::size_t k = 0; k < border_.size(); ++k)
+    if (border_[k].row == row) return drop(k);
+  if (border_.size() == kBorders) stale_ = true;
+  else append(row, in);
+}
+
+void WorkingKkt::factor(double least) {
+  for (delta_ = least; delta_ <= 1; delta_ *= 10) {
+    ++factorisations_;
+    if (!kkt_.factor(delta_, Vector::Constant(m_, delta_), taken_)) continue;
+    base_ = taken_;
+    border_.clear();
+    columns_.clear();
+    least_ = std::max(kRegular, 0.1 * delta_);
+    stale_ = false;
+    return;
+  }
+  throw std::runtime_error("active set: the KKT matrix cannot be factored");
+}
+
+void WorkingKkt::append(int row, bool in) {
+  Vector column = Vector::Zero(n_ + m_);
+  if (in)
+    for (SparseRows::InnerIterator it(p_.A, row); it; ++it) column[it.col()] = it.value();
+  else
+    column[n_ + row] = 1;
+  border_.push_back({row, in});
+  columns_.push_back(kkt_.solve(column));
+  drop(border_.size());
+}
+
+/// Takes a border away (none for k past the end) and forms the Schur complement of the others.
+void WorkingKkt::drop(std::size_t k) {
+  if (k < border_.size()) {
+    border_.erase(border_.begin() + static_cast<std::ptrdiff_t>(k));
+    columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  const auto size = static_cast<Eigen::Index>(border_.size());
+  if (size == 0) return;
+  algebra::DenseMatrix s(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Border& b = border_[i];
+    for (Eigen::Index j = 0; j < size; ++j)
+      s(i, j) = b.in ? p_.A.row(b.row).dot(columns_[j].head(n_)) : columns_[j][n_ + b.row];
+    if (b.in) s(i, i) += delta_;
+  }
+  schur_.compute(s);
+}
+
+/// (p, y) of the regularised system; y of rows outside W is zero.
+Vector WorkingKkt::regularised(const Vector& b) const {
+  Vector base = b;
+  for (const Border& k : border_) base[n_ + k.row] = 0;
+  Vector z = kkt_.solve(base);
+  if (!border_.empty()) {
+    Vector t(static_cast<Eigen::Index>(border_.size()));
+    for (std::size_t i = 0; i < border_.size(); ++i) {
+      const Border& k = border_[i];
+      t[i] = k.in ? p_.A.row(k.row).dot(z.head(n_)) - b[n_ + k.row] : z[n_ + k.row];
+    }
+    t = schur_.solve(t);
+    for (std::size_t i = 0; i < border_.size(); ++i) z -= t[i] * columns_[i];
+    for (std::size_t i = 0; i < border_.size(); ++i) z[n_ + border_[i].row] = border_[i].in ? t[i] : 0;
+  }
+  for (int r = 0; r < m_; ++r)
+    if (!taken_[r]) z[n_ + r] = 0;
+  return z;
+}
+
+Vector WorkingKkt::rhs(const Vector& f, const Vector& h) const {
+  Vector b(n_ + m_);
+  b << f, h;
+  for (int r = 0; r < m_; ++r)
+    if (!taken_[r]) b[n_ + r] = 0;
+  return b;
+}
+
+/// A random vector grows by the inverse of the least eigenvalue.
+bool WorkingKkt::probe() const {
+  const Vector b = rhs(random_.head(n_), random_.tail(m_));
+  return std::max(1e-9, delta_) * regularised(b).norm() > 0.05 * b.norm() / std::sqrt(1.0 + b.size());
+}
+
+WorkingKkt::Solution WorkingKkt::solve(const Vector& f, const Vector& h, const Vector& y0) {
+  if (stale_) factor(std::max(least_, kRegular));
+  Vector known = y0;
+  for (int r = 0; r < m_; ++r)
+    if (!taken_[r]) known[r] = 0;
+  const Vector b = rhs(f - p_.A.transpose() * known, h);
+  const double size = std::max(peak(f), peak(rhs(f, h)));
+  const auto K = [&](const Vector& z) { return kkt_times(p_, taken_, z); };
+  const auto inverse = [&](const Vector& v) { return regularised(v); };
+  const auto good = [&](const Refined& r) { return peak(r.residual) <= kConsistent * size && r.z.allFinite(); };
+  Refined refined = refine(K, inverse, b, kRefined * size, 10);
+  if (!good(refined) && (!border_.empty() || delta_ < kSafe)) {
+    factor(std::max(kSafe, delta_));  // the border, or a pivot, may have lost digits
+    refined = refine(K, inverse, b, kRefined * size, 20);
+  }
+  Solution out;
+  out.consistent = good(refined);
+  out.singular = probe();
+  out.y = known + refined.z.tail(m_);
+  out.p = out.consistent ? refined.z.head(n_) : inverse(b).head(n_);
+  return out;
+}
+
+Vector WorkingKkt::restore(const Vector& h) {
+  SparseMatrix unit(n_, n_);
+  unit.setIdentity();
+  QuadraticProgram nearest = p_;
+  nearest.P = unit;
+  Kkt kkt(nearest);
+  const double delta = 1e-8;
+  if (!kkt.factor(delta, Vector::Constant(m_, delta), taken_)) return Vector::Zero(n_);
+  const Vector b = rhs(Vector::Zero(n_), h);
+  return refine([&](const Vector& z) { return kkt_times(nearest, taken_, z); },
+                [&](const Vector& v) { return kkt.solve(v); }, b, kRefined * peak(b), 10).z.head(n_);
+}
+
+}  // namespace dotyk::program
