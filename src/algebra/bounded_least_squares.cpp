@@ -62,7 +62,9 @@ class Iteration {
       DenseMatrix F(A_.rows(), static_cast<Eigen::Index>(free.size()));
       Vector rest = b_ - A_ * x_;
       for (std::size_t k = 0; k < free.size(); ++k) F.col(k) = A_.col(free[k]);
-      const Vector step = Eigen::CompleteOrthogonalDecomposition<DenseMatrix>(F).solve(rest);
+      Eigen::CompleteOrthogonalDecomposition<DenseMatrix> decomposition;
+      decomposition.setThreshold(1e-10);  // rows of A that are zero but for rounding carry nothing
+      const Vector step = decomposition.compute(F).solve(rest);
       double length = 1;
       int blocking = -1;
       for (std::size_t k = 0; k < free.size(); ++k) {

@@ -1,17 +1,46 @@
 #include "algebra/condensation.hpp"
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
 
 #include "algebra/dense.hpp"
 
 namespace dotyk::algebra {
 
+namespace {
+
+/// As many rows of R as it has columns, such that they are as independent as can be.
+std::vector<int> holding_rows(const DenseMatrix& R) {
+  if (R.cols() == 0) return {};
+  const Eigen::ColPivHouseholderQR<DenseMatrix> qr(R.transpose());
+  std::vector<int> rows;
+  for (int k = 0; k < R.cols(); ++k) rows.push_back(qr.colsPermutation().indices()[k]);
+  return rows;
+}
+
+double& diagonal(SparseMatrix& lower, int unknown) {
+  return lower.valuePtr()[lower.outerIndexPtr()[unknown]];  // the first entry of its column
+}
+
+}  // namespace
+
 Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
                            const std::vector<int>& last, const DenseMatrix& kernel,
                            Ordering ordering)
     : factor_(K, node, last, ordering) {
-  kernel_.resize(static_cast<Eigen::Index>(boundary().size()), kernel.cols());
-  for (std::size_t k = 0; k < boundary().size(); ++k) kernel_.row(k) = kernel.row(boundary()[k]);
+  const Eigen::Index n = static_cast<Eigen::Index>(boundary().size()), modes = kernel.cols();
+  kernel_.resize(n, modes);
+  for (Eigen::Index k = 0; k < n; ++k) kernel_.row(k) = kernel.row(boundary()[k]);
+  if (modes == 0) return;
+  DenseMatrix square = DenseMatrix::Zero(std::max(n, modes), modes);
+  square.topRows(n) = kernel_;
+  const Eigen::JacobiSVD<DenseMatrix> svd(square, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  const double largest = kernel.lpNorm<Eigen::Infinity>();
+  Eigen::Index rank = 0;
+  while (rank < modes && svd.singularValues()[rank] > 1e-9 * largest) ++rank;
+  basis_ = svd.matrixU().topRows(n).leftCols(rank);
+  pinned_ = holding_rows(kernel * svd.matrixV().rightCols(modes - rank));
 }
 
 bool Condensation::factor(const SparseMatrix& K) {
@@ -23,21 +52,17 @@ bool Condensation::factor(const SparseMatrix& K) {
   // Shift by the diagonal itself: of the size of the stiffness, so that taking it off again
   // loses a digit at most, and only on Γ.
   SparseMatrix shifted = K;
+  for (int unknown : pinned_) diagonal(shifted, unknown) *= 2;
   Vector shift(boundary().size());
   for (std::size_t k = 0; k < boundary().size(); ++k) {
-    double& diagonal = shifted.valuePtr()[K.outerIndexPtr()[boundary()[k]]];
-    shift[k] = diagonal;
-    diagonal += shift[k];
+    shift[k] = diagonal(shifted, boundary()[k]);
+    diagonal(shifted, boundary()[k]) *= 2;
   }
   if (!factor_.factor(shifted)) return false;
   l_gamma_ = factor_.boundary_factor();
   l_dense_ = square(l_gamma_);
   l_dense_.diagonal() -= shift;
-  const Eigen::HouseholderQR<DenseMatrix> qr(kernel_);
-  const DenseMatrix basis =
-      qr.householderQ() * DenseMatrix::Identity(kernel_.rows(), kernel_.cols());
-  const double tau = shift.mean();
-  l_dense_ += tau * basis * basis.transpose();
+  if (basis_.cols() > 0) l_dense_ += shift.mean() * basis_ * basis_.transpose();
   return algebra::cholesky(l_dense_);
 }
 

@@ -12,10 +12,12 @@ namespace dotyk::algebra {
 /// nodes: the Schur complement S from the trailing block of one factor, and
 /// what is needed to work with it.
 ///
-/// A kernel R of K (rigid modes) is allowed as long as Γ holds it (R restricted
-/// to Γ has full rank): K is then factored with a known diagonal D added on Γ,
-/// S = L_Γ L_Γᵀ − D, and the small dense M = S + τ R̂R̂ᵀ (R̂ an orthonormal basis
-/// of R on Γ) is positive definite, M⁻¹ a generalised inverse of S.
+/// A kernel R of K (rigid modes) is allowed: K is then factored with a known
+/// diagonal D added on Γ, S = L_Γ L_Γᵀ − D, and the small dense M = S + τ R̂R̂ᵀ
+/// (R̂ an orthonormal basis of R on Γ) is positive definite, M⁻¹ a generalised
+/// inverse of S. Motions in the kernel that vanish on Γ are held by a diagonal
+/// added at as many well-chosen unknowns (pivoted QR on R): it carries nothing
+/// for loads in equilibrium, so S is as it would be.
 class Condensation {
  public:
   /// Orders and analyses. `last`: nodes of Γ, see order(). `kernel`: K.rows() × modes.
@@ -46,8 +48,9 @@ class Condensation {
 
  private:
   Cholesky factor_;
-  std::vector<int> shifted_;  ///< entries of K's diagonal on Γ
-  DenseMatrix kernel_;        ///< on Γ
+  std::vector<int> pinned_;   ///< unknowns off Γ that hold the motions vanishing on Γ
+  DenseMatrix kernel_;        ///< R on Γ
+  DenseMatrix basis_;         ///< R̂
   DenseMatrix l_gamma_;       ///< L_Γ (of the shifted matrix)
   DenseMatrix l_dense_;       ///< Cholesky factor of M; empty without a kernel
   Vector swept_;

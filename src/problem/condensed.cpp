@@ -1,5 +1,7 @@
 #include "problem/condensed.hpp"
 
+#include <Eigen/QR>
+
 #include "algebra/dense.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
@@ -59,17 +61,20 @@ SparseRows pick_rows(const SparseRows& rows, const std::vector<int>& picked) {
 
 }  // namespace
 
-CondensedProblem::CondensedProblem(const Problem& problem, algebra::Ordering ordering, Clock& clock,
-                                   Monitor& monitor)
-    : unknowns_(problem.unknowns()) {
+CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& rigid,
+                                   algebra::Ordering ordering, Clock& clock, Monitor& monitor)
+    : noticed_(rigid.noticed), unknowns_(problem.unknowns()) {
   const int m = problem.rows();
   require_memory(3.0 * 8 * m * m, text("the dense matrix of ", m, " rows"));  // W, a block's share, its factor
   W_ = DenseMatrix::Zero(m, m);
   x0_ = -problem.c;
-  int modes = 0;
-  for (const Block& block : problem.blocks) modes += static_cast<int>(block.kernel.cols());
-  N_ = DenseMatrix::Zero(m, modes);
-  e_ = Vector::Zero(modes);
+  N_ = rigid.N * noticed_;
+  e_ = noticed_.transpose() * rigid.e;
+  if (rigid.unnoticed.cols() > 0) {
+    const DenseMatrix motions = displacement(problem, rigid.unnoticed);
+    unnoticed_ = Eigen::HouseholderQR<DenseMatrix>(motions).householderQ() *
+                 DenseMatrix::Identity(motions.rows(), motions.cols());
+  }
   for (const Block& block : problem.blocks) add(problem, block, ordering, clock, monitor);
 }
 
@@ -79,7 +84,7 @@ void CondensedProblem::add(const Problem& problem, const Block& block, algebra::
   const SparseRows rows = problem.rows_of(block);
   monitor.phase(text("ordering '", block.name, "' (", block.size(), " unknowns)"));
   Part part{{block.K, block.node, nodes_of_rows(block, rows), block.kernel, ordering}, {}, {},
-            block.first, block.size(), static_cast<int>(mode_names_.size())};
+            block.first, block.size(), modes_};
   clock.ordering += watch.lap();
   monitor.check();
   monitor.phase(text("factoring '", block.name, "' (", part.condensation.cholesky().method(), ", ",
@@ -103,11 +108,7 @@ void CondensedProblem::add(const Problem& problem, const Block& block, algebra::
   for (std::size_t j = 0; j < present.size(); ++j)
     for (std::size_t i = 0; i < present.size(); ++i) W_(present[i], present[j]) += own(i, j);
   x0_ += part.rows * part.condensation.solve(part.load);
-  for (int k = 0; k < part.condensation.kernel_size(); ++k) {
-    N_.col(part.first_mode + k) = part.rows * part.condensation.boundary_kernel().col(k);
-    e_[part.first_mode + k] = block.kernel.col(k).dot(block.f);
-    mode_names_.push_back("'" + block.name + "': " + block.kernel_names[k]);
-  }
+  modes_ += part.condensation.kernel_size();
   parts_.push_back(std::move(part));
   clock.iterate += watch.lap();
 }
@@ -120,12 +121,14 @@ Vector CondensedProblem::jump(const Vector& lambda, const Vector& alpha) const {
 
 Vector CondensedProblem::recover(const Vector& lambda, const Vector& alpha) const {
   Vector u(unknowns_);
+  const Vector motion = alpha.size() ? Vector(noticed_ * alpha) : Vector::Zero(modes_);
   for (const Part& part : parts_) {
     Vector boundary = part.condensation.solve(part.load - part.rows.transpose() * lambda);
     const int modes = part.condensation.kernel_size();
-    if (modes) boundary += part.condensation.boundary_kernel() * alpha.segment(part.first_mode, modes);
+    if (modes) boundary += part.condensation.boundary_kernel() * motion.segment(part.first_mode, modes);
     u.segment(part.first_unknown, part.size) = part.condensation.recover(boundary);
   }
+  if (unnoticed_.cols() > 0) u -= unnoticed_ * (unnoticed_.transpose() * u);
   return u;
 }
 

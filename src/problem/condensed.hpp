@@ -5,6 +5,7 @@
 #include "algebra/condensation.hpp"
 #include "base/monitor.hpp"
 #include "problem/problem.hpp"
+#include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
 
@@ -18,12 +19,15 @@ struct Clock {
 ///   x = Bu − c = x₀ − W λ + N α,     Nᵀ λ = e,
 /// W = Σ_b B M⁻¹ Bᵀ dense, N = B R (R: rigid modes of every block, α their
 /// amounts), e = Rᵀ f. Without a kernel W is the Delassus operator B K⁻¹ Bᵀ and
-/// x₀ the jump of the unconstrained solution.
+/// x₀ the jump of the unconstrained solution. Motions that no row notices are
+/// left out of N, α and e: recover() gives the displacement of least norm among
+/// those that differ by them.
 class CondensedProblem {
  public:
   /// Orders, factors and condenses every block once; adds its times to `clock`.
   /// Throws InputError where a block is not held (its name, a node).
-  CondensedProblem(const Problem& problem, algebra::Ordering ordering, Clock& clock, Monitor& monitor);
+  CondensedProblem(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering,
+                   Clock& clock, Monitor& monitor);
 
   int rows() const { return static_cast<int>(x0_.size()); }
   int kernel_size() const { return static_cast<int>(e_.size()); }
@@ -31,8 +35,6 @@ class CondensedProblem {
   const algebra::Vector& x0() const { return x0_; }
   const algebra::DenseMatrix& N() const { return N_; }  ///< rows × kernel_size
   const algebra::Vector& e() const { return e_; }
-  /// What mode k of the kernel is: "'lid': translation along x".
-  const std::string& mode_name(int k) const { return mode_names_[k]; }
 
   algebra::Vector jump(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
   /// All unknowns, from the multipliers and the amounts of rigid motion: one backward sweep a block.
@@ -54,8 +56,9 @@ class CondensedProblem {
   std::vector<Part> parts_;
   algebra::DenseMatrix W_, N_;
   algebra::Vector x0_, e_;
-  std::vector<std::string> mode_names_;
-  int unknowns_ = 0;
+  algebra::DenseMatrix noticed_;    ///< orthonormal basis of the motions that rows notice: modes × kernel_size
+  algebra::DenseMatrix unnoticed_;  ///< orthonormal displacements that no row notices: unknowns × count
+  int unknowns_ = 0, modes_ = 0;
 };
 
 }  // namespace dotyk::problem

@@ -1,14 +1,11 @@
 #include "problem/solvability.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "algebra/bounded_least_squares.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::problem {
 
-using algebra::DenseMatrix;
 using algebra::Vector;
 
 namespace {
@@ -20,18 +17,6 @@ constexpr double kLimit = 1e-6;
 
 Vector unit(const Vector& v) { return v / v.lpNorm<Eigen::Infinity>(); }
 
-/// Motions that no row notices: the null space of N.
-DenseMatrix unnoticed(const RigidMotions& rigid) {
-  const int modes = rigid.count();
-  DenseMatrix square = DenseMatrix::Zero(std::max<Eigen::Index>(rigid.N.rows(), modes), modes);
-  square.topRows(rigid.N.rows()) = rigid.N;
-  const Eigen::JacobiSVD<DenseMatrix> svd(square, Eigen::ComputeFullV);
-  int rank = 0;
-  // Modes have greatest displacement 1: 1e-9 of that is "not at all".
-  while (rank < modes && svd.singularValues()[rank] > 1e-9 * std::max(1.0, svd.singularValues()[0])) ++rank;
-  return svd.matrixV().rightCols(modes - rank);
-}
-
 /// What of the load e no admissible multipliers balance: the admissible motion it drives most.
 Vector unbalanced(const RigidMotions& rigid, const Problem& problem, const Vector& e) {
   Vector low(problem.rows()), high(problem.rows());
@@ -41,7 +26,10 @@ Vector unbalanced(const RigidMotions& rigid, const Problem& problem, const Vecto
       low[r] = bounds.low;
       high[r] = bounds.high;
     }
-  return algebra::bounded_least_squares(rigid.N.transpose(), e, low, high).residual;
+  // What no row notices, no row balances; rounding in N must not seem to.
+  const auto noticed = algebra::bounded_least_squares((rigid.N * rigid.noticed).transpose(),
+                                                      rigid.noticed.transpose() * e, low, high);
+  return rigid.noticed * noticed.residual + rigid.unnoticed * (rigid.unnoticed.transpose() * e);
 }
 
 /// The middle of what unilateral rows can carry, unit length; zero where there are none.
@@ -55,44 +43,9 @@ Vector middle_load(const RigidMotions& rigid, const Problem& problem) {
 
 }  // namespace
 
-RigidMotions rigid_motions(const Problem& problem) {
-  RigidMotions rigid;
-  int modes = 0;
-  for (const Block& block : problem.blocks) modes += static_cast<int>(block.kernel.cols());
-  rigid.N = DenseMatrix::Zero(problem.rows(), modes);
-  rigid.e = Vector::Zero(modes);
-  int k = 0;
-  for (const Block& block : problem.blocks) {
-    const int count = static_cast<int>(block.kernel.cols());
-    if (count == 0) continue;
-    rigid.N.middleCols(k, count) = problem.rows_of(block) * block.kernel;
-    rigid.e.segment(k, count) = block.kernel.transpose() * block.f;
-    for (const std::string& name : block.kernel_names) rigid.names.push_back("'" + block.name + "': " + name);
-    k += count;
-  }
-  return rigid;
-}
-
-std::string describe(const RigidMotions& rigid, const Vector& motion) {
-  std::string out;
-  const double largest = motion.lpNorm<Eigen::Infinity>();
-  int terms = 0;
-  for (int k = 0; k < motion.size(); ++k)
-    if (std::abs(motion[k]) > 1e-6 * largest) ++terms;
-  for (int k = 0; k < motion.size(); ++k) {
-    if (!(std::abs(motion[k]) > 1e-6 * largest)) continue;
-    out += (out.empty() ? "" : ", ") + rigid.names[k];
-    if (terms > 1) out += text(" by ", std::round(1e4 * motion[k] / largest) / 1e4);
-    else if (motion[k] < 0) out += " (backwards)";
-  }
-  return out;
-}
-
 Solvability solvability(const RigidMotions& rigid, const Problem& problem) {
   Solvability s;
-  s.two_sided = DenseMatrix(rigid.count(), 0);
   if (rigid.count() == 0) return s;
-  s.two_sided = unnoticed(rigid);
   const double load = rigid.e.norm();
   const Vector residual = load > 0 ? unbalanced(rigid, problem, rigid.e) : Vector::Zero(rigid.count());
   if (residual.norm() > kRounding * load) {
@@ -106,9 +59,9 @@ Solvability solvability(const RigidMotions& rigid, const Problem& problem) {
   const Vector turned = rigid.e - kLimit * (load > 0 ? load : 1) * middle;
   const Vector edge = middle.norm() > 0 ? unbalanced(rigid, problem, turned) : Vector::Zero(rigid.count());
   s.limit = edge.norm() > 1e-3 * kLimit * (load > 0 ? load : 1);
-  if (s.two_sided.cols() > 0) {
+  if (rigid.unnoticed.cols() > 0) {
     s.verdict = Solvability::Verdict::up_to_motion;
-    s.motion = unit(s.two_sided.col(0));
+    s.motion = unit(rigid.unnoticed.col(0));
   } else if (s.limit) {
     s.verdict = Solvability::Verdict::up_to_motion;
     s.motion = unit(edge);

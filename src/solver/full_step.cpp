@@ -14,7 +14,8 @@ using problem::Problem;
 
 class FullStep final : public Step {
  public:
-  FullStep(const Problem& problem, const Vector& rho) : problem_(problem), rho_(rho) {
+  FullStep(const Problem& problem, const problem::RigidMotions& rigid, const Vector& rho)
+      : problem_(problem), rho_(rho), border_(problem::displacement(problem, rigid.unnoticed)) {
     for (const Block& block : problem.blocks)
       for (int j = 0; j < block.size(); ++j)
         for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
@@ -31,10 +32,10 @@ class FullStep final : public Step {
   }
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
-    const int n = problem_.unknowns(), m = problem_.rows();
+    const int n = problem_.unknowns(), m = problem_.rows(), k = static_cast<int>(border_.cols());
     // Rows of the laws: (Bu)_r − added_compliance λ_r = c_r + offset, and λ_r = P where D = 0.
     auto entries = stiffness_;
-    Vector b(n + m);
+    Vector b = Vector::Zero(n + m + k);
     for (const Block& block : problem_.blocks) b.segment(block.first, block.size()) = block.f;
     for (int r = 0; r < m; ++r) {
       const double slope = l.slope[r];
@@ -51,7 +52,13 @@ class FullStep final : public Step {
         b[n + r] = l.value[r] / unit_;
       }
     }
-    SparseMatrix A(n + m, n + m);
+    for (int j = 0; j < k; ++j)
+      for (int i = 0; i < n; ++i)
+        if (border_(i, j) != 0) {
+          entries.emplace_back(i, n + m + j, unit_ * border_(i, j));
+          entries.emplace_back(n + m + j, i, unit_ * border_(i, j));
+        }
+    SparseMatrix A(n + m + k, n + m + k);
     A.setFromTriplets(entries.begin(), entries.end());
     A.makeCompressed();
     const algebra::SparseLu lu(A);
@@ -59,7 +66,7 @@ class FullStep final : public Step {
     const Vector y = lu.solve(b);
     if (!y.allFinite()) return false;
     u_ = y.head(n);
-    lambda = unit_ * y.tail(m);
+    lambda = unit_ * y.segment(n, m);
     x = problem_.B * u_ - problem_.c;
     return true;
   }
@@ -71,13 +78,15 @@ class FullStep final : public Step {
   const Vector& rho_;
   std::vector<Eigen::Triplet<double>> stiffness_;
   double unit_ = 1;
+  algebra::DenseMatrix border_;  ///< displacements that no row notices
   Vector u_;
 };
 
 }  // namespace
 
-std::unique_ptr<Step> full_step(const Problem& problem, const Vector& rho) {
-  return std::make_unique<FullStep>(problem, rho);
+std::unique_ptr<Step> full_step(const Problem& problem, const problem::RigidMotions& rigid,
+                                const Vector& rho) {
+  return std::make_unique<FullStep>(problem, rigid, rho);
 }
 
 }  // namespace dotyk::solver

@@ -1,6 +1,7 @@
 #include "solver/hold.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -10,72 +11,64 @@ namespace dotyk::solver {
 
 using algebra::DenseMatrix;
 using algebra::Vector;
-using problem::Block;
 using problem::Problem;
 
-Holder::Holder(const Problem& problem) : problem_(problem) {
-  int modes = 0;
-  for (const Block& block : problem.blocks) modes += static_cast<int>(block.kernel.cols());
-  N_ = DenseMatrix::Zero(problem.rows(), modes);
-  e_ = Vector::Zero(modes);
-  int k = 0;
-  for (const Block& block : problem.blocks) {
-    if (block.kernel.cols() == 0) continue;
-    const int count = static_cast<int>(block.kernel.cols());
-    N_.middleCols(k, count) = problem.rows_of(block) * block.kernel;
-    e_.segment(k, count) = block.kernel.transpose() * block.f;
-    for (const std::string& name : block.kernel_names) names_.push_back(text("'", block.name, "': ", name));
-    k += count;
-  }
+namespace {
+
+/// Motions that the active rows leave free, as an orthonormal basis.
+DenseMatrix free_motions(const DenseMatrix& N, const std::vector<char>& active) {
+  const Eigen::Index modes = N.cols();
+  const Eigen::Index count = std::count(active.begin(), active.end(), 1);
+  DenseMatrix held = DenseMatrix::Zero(std::max(count, modes), modes);
+  Eigen::Index k = 0;
+  for (std::size_t r = 0; r < active.size(); ++r)
+    if (active[r]) held.row(k++) = N.row(static_cast<Eigen::Index>(r));
+  const Eigen::JacobiSVD<DenseMatrix> svd(held, Eigen::ComputeFullV);
+  Eigen::Index rank = 0;
+  // Modes have greatest displacement 1: 1e-9 of that is "not at all".
+  while (rank < modes && svd.singularValues()[rank] > 1e-9 * std::max(1.0, svd.singularValues()[0])) ++rank;
+  return svd.matrixV().rightCols(modes - rank);
+}
+
+constexpr double kApproaches = 1e-9;  // of a unit motion; less is sliding along the row
+
+}  // namespace
+
+Holder::Holder(const Problem& problem, const problem::RigidMotions& rigid)
+    : problem_(problem), rigid_(rigid), N_(rigid.N * rigid.noticed), e_(rigid.noticed.transpose() * rigid.e) {
   unilateral_.assign(problem.rows(), 0);
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
       unilateral_[r] = group.law->unilateral();
 }
 
-std::string Holder::motion_text(const Vector& motion) const {
-  std::string out;
-  for (int k = 0; k < motion.size(); ++k)
-    if (std::abs(motion[k]) > 0.1 * motion.lpNorm<Eigen::Infinity>())
-      out += (out.empty() ? "" : " with ") + names_[k];
-  return out;
+double Holder::distance(const Vector& approach, const std::vector<char>& active, const Vector& x) const {
+  double first = INFINITY;
+  for (int r = 0; r < problem_.rows(); ++r)
+    if (!active[r] && unilateral_[r] && approach[r] > kApproaches) first = std::min(first, -x[r] / approach[r]);
+  return first;
 }
 
 int Holder::hold(std::vector<char>& active, const Vector& x) const {
-  const int modes = static_cast<int>(e_.size());
-  if (modes == 0) return 0;
+  if (e_.size() == 0) return 0;
   int added = 0;
   for (;;) {
-    std::vector<int> rows;
-    for (int r = 0; r < problem_.rows(); ++r)
-      if (active[r]) rows.push_back(r);
-    DenseMatrix held(std::max<std::size_t>(rows.size(), modes), modes);
-    held.setZero();
-    for (std::size_t k = 0; k < rows.size(); ++k) held.row(k) = N_.row(rows[k]);
-    // Modes are scaled to unit greatest displacement, so 1e-9 of the largest is "not at all".
-    const Eigen::JacobiSVD<DenseMatrix> svd(held, Eigen::ComputeFullV);
-    const Vector s = svd.singularValues();
-    int rank = 0;
-    while (rank < modes && s[rank] > 1e-9 * std::max(1.0, s[0])) ++rank;
-    if (rank == modes) return added;
-
-    const DenseMatrix free = svd.matrixV().rightCols(modes - rank);
+    const DenseMatrix free = free_motions(N_, active);
+    if (free.cols() == 0) return added;
     Vector motion = free * (free.transpose() * e_);
-    const bool driven = motion.norm() > 1e-10 * e_.norm() && e_.norm() > 0;
-    if (!driven) motion = free.col(0);
+    if (!(motion.norm() > 1e-10 * rigid_.e.norm())) {
+      // No load drives it: towards the nearer side, for a state that multipliers can belong to.
+      motion = free.col(0);
+      if (distance(-(N_ * motion), active, x) < distance(N_ * motion, active, x)) motion = -motion;
+    }
     motion /= motion.lpNorm<Eigen::Infinity>();
     const Vector approach = N_ * motion;
-    double first = INFINITY;
+    const double first = distance(approach, active, x);
+    if (!std::isfinite(first))
+      throw InputError(text("not held: nothing stops ", problem::describe(rigid_, rigid_.noticed * motion),
+                            "; fix, slide or spring a part, or add a contact in its way"));
     for (int r = 0; r < problem_.rows(); ++r)
-      if (!active[r] && unilateral_[r] && approach[r] > 1e-9) first = std::min(first, -x[r] / approach[r]);
-    if (!std::isfinite(first) || !driven)
-      throw InputError(text("not held: nothing ", driven ? "stops " : "decides ", motion_text(motion),
-                            driven ? text("; the load does work ", e_.dot(motion),
-                                          " on a unit of this motion. Fix, slide or spring a part, or "
-                                          "add a contact in its way")
-                                   : ". No load drives it and no support holds it: fix or slide a part"));
-    for (int r = 0; r < problem_.rows(); ++r)
-      if (!active[r] && unilateral_[r] && approach[r] > 1e-9 &&
+      if (!active[r] && unilateral_[r] && approach[r] > kApproaches &&
           -x[r] / approach[r] <= first + 1e-9 * std::abs(first)) {
         active[r] = 1;
         ++added;

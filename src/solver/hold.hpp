@@ -2,28 +2,30 @@
 
 #include <vector>
 
-#include "problem/problem.hpp"
+#include "problem/rigid_motions.hpp"
 
 namespace dotyk::solver {
 
 /// Keeps the rigid motions of free bodies held by the active rows.
 class Holder {
  public:
-  explicit Holder(const problem::Problem& problem);
+  Holder(const problem::Problem& problem, const problem::RigidMotions& rigid);
 
-  /// Adds rows to `active` until the active rows hold every rigid motion of every block: while a
-  /// motion is free, the bodies move along the load's part of it until further unilateral rows close.
-  /// `x` = Bu − c says where the rows are. Returns how many were added.
-  /// Throws InputError where nothing would ever stop the motion, or no load drives it.
+  /// Adds rows to `active` until the active rows hold every motion that rows notice: while one is
+  /// free, the bodies move along the load's part of it (or, without one, towards the nearest row)
+  /// until further unilateral rows close. `x` = Bu − c says where the rows are. Returns how many
+  /// were added. Throws InputError where nothing would ever stop the motion.
   int hold(std::vector<char>& active, const algebra::Vector& x) const;
 
  private:
-  std::string motion_text(const algebra::Vector& motion) const;
+  /// Along `motion`, how far each row not active has to go: the least distance, infinite if none.
+  double distance(const algebra::Vector& approach, const std::vector<char>& active,
+                  const algebra::Vector& x) const;
 
   const problem::Problem& problem_;
-  algebra::DenseMatrix N_;  ///< B R, rows × modes
-  algebra::Vector e_;       ///< Rᵀ f
-  std::vector<std::string> names_;
+  const problem::RigidMotions& rigid_;
+  algebra::DenseMatrix N_;  ///< rows × noticed motions
+  algebra::Vector e_;
   std::vector<char> unilateral_;
 };
 

@@ -1,18 +1,45 @@
 #include "algebra/cholesky.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "problem/condensed.hpp"
+#include "solver/require_solvable.hpp"
 #include "solver/solver.hpp"
 
 namespace dotyk::solver {
 
 namespace {
 
-/// "translation along y and rotation about (0.5, 0)".
-std::string all(const std::vector<std::string>& names) {
-  std::string out;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    out += (k == 0 ? "" : k + 1 < names.size() ? ", " : " and ") + names[k];
-  return out;
+/// Blocks that are free, with loads in equilibrium: by condensation onto nothing.
+void solve_free(const problem::Problem& problem, const problem::RigidMotions& rigid,
+                algebra::Ordering ordering, Monitor& monitor, Result& result) {
+  const std::string note = require_solvable(problem, rigid);
+  if (!note.empty()) result.reason += "; " + note;
+  const problem::CondensedProblem condensed(problem, rigid, ordering, result.clock, monitor);
+  Stopwatch watch;
+  result.state.u = condensed.recover(algebra::Vector(0), algebra::Vector(0));
+  result.clock.recover += watch.seconds();
+  result.factor_bytes = condensed.factor_bytes();
+  result.ordering = condensed.ordering();
+}
+
+void solve_block(const problem::Block& block, algebra::Ordering ordering, Monitor& monitor, Result& result) {
+  Stopwatch watch;
+  monitor.phase(text("ordering '", block.name, "' (", block.size(), " unknowns)"));
+  algebra::Cholesky cholesky(block.K, block.node, {}, ordering);
+  result.clock.ordering += watch.lap();
+  monitor.check();
+  monitor.phase(text("factoring '", block.name, "' (", cholesky.method(), ", ", cholesky.flops() * 1e-9,
+                     " Gflop)"));
+  if (!cholesky.factor(block.K))
+    throw InputError(text("the stiffness of '", block.name, "' is singular near node ",
+                          block.node[cholesky.failed_unknown()] + 1,
+                          ": a material, spring or mesh value is out of range"));
+  result.clock.factor += watch.lap();
+  monitor.check();
+  result.state.u.segment(block.first, block.size()) = cholesky.solve(block.f);
+  result.clock.recover += watch.lap();
+  result.factor_bytes += cholesky.bytes();
+  result.ordering = cholesky.method();
 }
 
 }  // namespace
@@ -22,30 +49,13 @@ Result solve_linear(const problem::Problem& problem, algebra::Ordering ordering,
   result.method = "linear";
   result.state.u.resize(problem.unknowns());
   result.state.lambda.resize(0);
-  for (const problem::Block& block : problem.blocks) {
-    if (block.kernel.cols() > 0)
-      throw InputError(text("'", block.name, "' is not held: nothing stops its ", all(block.kernel_names),
-                            "; fix a part of it or put it in contact"));
-    Stopwatch watch;
-    monitor.phase(text("ordering '", block.name, "' (", block.size(), " unknowns)"));
-    algebra::Cholesky cholesky(block.K, block.node, {}, ordering);
-    result.clock.ordering += watch.lap();
-    monitor.check();
-    monitor.phase(text("factoring '", block.name, "' (", cholesky.method(), ", ",
-                       cholesky.flops() * 1e-9, " Gflop)"));
-    if (!cholesky.factor(block.K))
-      throw InputError(text("the stiffness of '", block.name, "' is singular near node ",
-                            block.node[cholesky.failed_unknown()] + 1,
-                            ": a material, spring or mesh value is out of range"));
-    result.clock.factor += watch.lap();
-    monitor.check();
-    result.state.u.segment(block.first, block.size()) = cholesky.solve(block.f);
-    result.clock.recover += watch.lap();
-    result.factor_bytes += cholesky.bytes();
-    result.ordering = cholesky.method();
-  }
-  result.converged = true;
   result.reason = "linear problem, solved directly";
+  const problem::RigidMotions rigid = problem::rigid_motions(problem);
+  if (rigid.count() > 0)
+    solve_free(problem, rigid, ordering, monitor, result);
+  else
+    for (const problem::Block& block : problem.blocks) solve_block(block, ordering, monitor, result);
+  result.converged = true;
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "solver/descent.hpp"
 #include "solver/hold.hpp"
 #include "solver/linearisation.hpp"
+#include "solver/require_solvable.hpp"
 #include "solver/step.hpp"
 
 namespace dotyk::solver {
@@ -32,7 +33,8 @@ std::string places(const Problem& problem, const std::vector<int>& rows) {
 class Iteration {
  public:
   Iteration(const Problem& problem, const Pdas& settings, Monitor& monitor)
-      : problem_(problem), settings_(settings), monitor_(monitor), holder_(problem),
+      : problem_(problem), settings_(settings), monitor_(monitor), rigid_(problem::rigid_motions(problem)),
+        holder_(problem, rigid_),
         rho_(settings.rho * problem.row_stiffness()) {
     // A row that no unknown moves has no stiffness; any ρ will do.
     const double largest = rho_.size() ? rho_.maxCoeff() : 1;
@@ -43,9 +45,10 @@ class Iteration {
   }
 
   Result run() {
-    Linearisation l = first();  // before any factorisation: a body that nothing holds has none
+    const std::string note = require_solvable(problem_, rigid_);
+    Linearisation l = first();
     if (settings_.reduced) condense();
-    step_ = settings_.reduced ? reduced_step(*condensed_, rho_) : full_step(problem_, rho_);
+    step_ = settings_.reduced ? reduced_step(*condensed_, rho_) : full_step(problem_, rigid_, rho_);
     Stopwatch iterating;
     while (result_.iterations < settings_.max_iterations) {
       if (monitor_.stop()) {
@@ -57,6 +60,7 @@ class Iteration {
     if (result_.reason.empty())
       result_.reason = text("no repeated active set within ", settings_.max_iterations,
                             " iterations; rows that still change: ", places(problem_, changed_));
+    if (!note.empty()) result_.reason += "; " + note;
     result_.clock.iterate += iterating.lap();
     monitor_.phase("recovering the displacement");
     result_.state.u = left_alpha_ ? condensed_->recover(lambda_, *left_alpha_) : step_->recover();
@@ -67,7 +71,7 @@ class Iteration {
 
  private:
   void condense() {
-    condensed_.emplace(problem_, settings_.ordering, result_.clock, monitor_);
+    condensed_.emplace(problem_, rigid_, settings_.ordering, result_.clock, monitor_);
     result_.factor_bytes = condensed_->factor_bytes();
     result_.ordering = condensed_->ordering();
   }
@@ -198,6 +202,7 @@ class Iteration {
   const Problem& problem_;
   const Pdas& settings_;
   Monitor& monitor_;
+  const problem::RigidMotions rigid_;
   Holder holder_;
   Vector rho_;
   Result result_;

@@ -15,7 +15,7 @@ struct Result {
   problem::State state;
   bool converged = false;
   std::string method;
-  std::string reason;  ///< one sentence: why it stopped
+  std::string reason;  ///< one sentence: why it stopped, and up to what the solution is unique
   int iterations = 0;
   std::vector<IterationInfo> history;
   /// Rows in contact (active branch of their law) in every iteration, as it began.
@@ -35,7 +35,8 @@ struct Settings {
 };
 
 /// K u = f for a problem without rows: order, factor, substitute. The yardstick of every other method.
-/// Throws InputError where a block is not held.
+/// Throws InputError where a free block's load is not in equilibrium; where it is, gives the
+/// displacement without rigid part.
 Result solve_linear(const problem::Problem& problem, algebra::Ordering ordering, Monitor& monitor);
 
 }  // namespace dotyk::solver

@@ -23,6 +23,8 @@ std::unique_ptr<Step> reduced_step(const problem::CondensedProblem& condensed,
                                    const algebra::Vector& rho);
 
 /// On the whole system [K Bᵀ; …], sparse LU anew in each iteration (TR965 (1.45)–(1.46)).
-std::unique_ptr<Step> full_step(const problem::Problem& problem, const algebra::Vector& rho);
+/// Motions that no row notices are taken out by a border: their part of u is zero.
+std::unique_ptr<Step> full_step(const problem::Problem& problem, const problem::RigidMotions& rigid,
+                                const algebra::Vector& rho);
 
 }  // namespace dotyk::solver

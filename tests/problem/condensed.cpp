@@ -38,7 +38,7 @@ TEST_CASE("condensed onto its rows a held problem is B K⁻¹ Bᵀ and the free 
     p.c = random.vector(9);
     Clock clock;
     Monitor quiet;
-    const CondensedProblem condensed(p, ordering, clock, quiet);
+    const CondensedProblem condensed(p, problem::rigid_motions(p), ordering, clock, quiet);
     const DenseMatrix K = test::stiffness(p), B = p.B, inverse = K.inverse();
     CHECK(condensed.kernel_size() == 0);
     CHECK(test::relative(condensed.W(), B * inverse * B.transpose()) < 1e-11);
@@ -59,10 +59,10 @@ TEST_CASE("condensed with a kernel: any balanced multipliers and any rigid motio
   p.c = random.vector(8);
   Clock clock;
   Monitor quiet;
-  const CondensedProblem condensed(p, Ordering::automatic, clock, quiet);
+  const CondensedProblem condensed(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet);
   REQUIRE(condensed.kernel_size() == 4);
-  CHECK(condensed.mode_name(0) == "'free': translation along x");
-  CHECK(condensed.mode_name(3) == "'loose': translation along y");
+  CHECK(problem::rigid_motions(p).names[0] == "'free': translation along x");
+  CHECK(problem::rigid_motions(p).names[3] == "'loose': translation along y");
   const DenseMatrix B = p.B;
   DenseMatrix R = DenseMatrix::Zero(p.unknowns(), 4);
   R.block(p.blocks[1].first, 0, 30, 2) = p.blocks[1].kernel;
@@ -91,7 +91,7 @@ TEST_CASE("a block that no row touches is solved along") {
   p.c = Vector::Zero(1);
   Clock clock;
   Monitor quiet;
-  const CondensedProblem condensed(p, Ordering::automatic, clock, quiet);
+  const CondensedProblem condensed(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet);
   CHECK(test::relative(condensed.recover(Vector::Zero(1), Vector()), test::stiffness(p).inverse() * test::load(p)) <
         1e-11);
 }
@@ -107,7 +107,7 @@ TEST_CASE("a block without unknowns is passed over") {
   p.c = Vector::Zero(1);
   Clock clock;
   Monitor quiet;
-  const CondensedProblem condensed(p, Ordering::automatic, clock, quiet);
+  const CondensedProblem condensed(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet);
   CHECK(condensed.recover(Vector::Zero(1), Vector()).size() == 18);
 }
 
@@ -123,6 +123,6 @@ TEST_CASE("a block that is not held is refused by name and node") {
   p.c = Vector::Zero(1);
   Clock clock;
   Monitor quiet;
-  CHECK_THROWS_WITH_AS(CondensedProblem(p, Ordering::automatic, clock, quiet),
+  CHECK_THROWS_WITH_AS(CondensedProblem(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet),
                        doctest::Contains("the stiffness of 'lid' is singular (node 9 is not held)"), InputError);
 }

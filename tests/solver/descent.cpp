@@ -19,7 +19,7 @@ TEST_CASE("a sweep never increases the dual energy, keeps its jump, and sweeps c
     p.groups = {test::group(problem::unilateral(), 0, n - 1),
                 test::group(problem::elastic({trial % 2 ? 3.0 : 0.0}), n - 1, 1)};
     problem::Clock clock;
-    const problem::CondensedProblem condensed(p, algebra::Ordering::automatic, clock, quiet);
+    const problem::CondensedProblem condensed(p, problem::rigid_motions(p), algebra::Ordering::automatic, clock, quiet);
     solver::DualDescent descent(p, condensed, random.vector(n));
     REQUIRE(descent.lambda().allFinite());
     double q = descent.energy();
@@ -54,7 +54,7 @@ TEST_CASE("with free bodies the augmented energy never increases between updates
     p.blocks[0].kernel_names = {"translation"};
     p.groups = {test::group(problem::unilateral(), 0, n)};
     problem::Clock clock;
-    const problem::CondensedProblem condensed(p, algebra::Ordering::automatic, clock, quiet);
+    const problem::CondensedProblem condensed(p, problem::rigid_motions(p), algebra::Ordering::automatic, clock, quiet);
     solver::DualDescent descent(p, condensed, Vector::Zero(n));
     for (int update = 0; update < 400; ++update) {
       double q = descent.energy();

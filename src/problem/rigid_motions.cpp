@@ -1,0 +1,81 @@
+#include "problem/rigid_motions.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "base/text.hpp"
+
+namespace dotyk::problem {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+namespace {
+
+/// Splits the motions into those that rows notice and the null space of N.
+void split(RigidMotions& rigid) {
+  const int modes = rigid.count();
+  rigid.noticed = rigid.unnoticed = DenseMatrix(modes, 0);
+  if (modes == 0) return;
+  DenseMatrix square = DenseMatrix::Zero(std::max<Eigen::Index>(rigid.N.rows(), modes), modes);
+  square.topRows(rigid.N.rows()) = rigid.N;
+  const Eigen::JacobiSVD<DenseMatrix> svd(square, Eigen::ComputeFullV);
+  int rank = 0;
+  // Modes have greatest displacement 1: 1e-9 of that is "not at all".
+  while (rank < modes && svd.singularValues()[rank] > 1e-9 * std::max(1.0, svd.singularValues()[0])) ++rank;
+  rigid.noticed = svd.matrixV().leftCols(rank);
+  if (rank == modes) rigid.noticed.setIdentity();  // the modes as they are named
+  rigid.unnoticed = svd.matrixV().rightCols(modes - rank);
+}
+
+}  // namespace
+
+RigidMotions rigid_motions(const Problem& problem) {
+  RigidMotions rigid;
+  int modes = 0;
+  for (const Block& block : problem.blocks) modes += static_cast<int>(block.kernel.cols());
+  rigid.N = DenseMatrix::Zero(problem.rows(), modes);
+  rigid.e = Vector::Zero(modes);
+  int k = 0;
+  for (const Block& block : problem.blocks) {
+    const int count = static_cast<int>(block.kernel.cols());
+    if (count == 0) continue;
+    rigid.N.middleCols(k, count) = problem.rows_of(block) * block.kernel;
+    rigid.e.segment(k, count) = block.kernel.transpose() * block.f;
+    for (const std::string& name : block.kernel_names) rigid.names.push_back("'" + block.name + "': " + name);
+    k += count;
+  }
+  split(rigid);
+  return rigid;
+}
+
+std::string describe(const RigidMotions& rigid, const Vector& motion) {
+  const double largest = motion.lpNorm<Eigen::Infinity>();
+  std::vector<int> terms;
+  for (int k = 0; k < motion.size(); ++k)
+    if (std::abs(motion[k]) > 1e-6 * largest) terms.push_back(k);
+  if (terms.size() == 1 && motion[terms[0]] < 0) {
+    std::string name = rigid.names[terms[0]];
+    const std::string along = "translation along ";
+    const auto place = name.find(along);
+    return place == std::string::npos ? name + " (backwards)" : name.insert(place + along.size(), "-");
+  }
+  std::string out;
+  for (int k : terms) {
+    out += (out.empty() ? "" : ", ") + rigid.names[k];
+    if (terms.size() > 1) out += text(" by ", std::round(1e4 * motion[k] / largest) / 1e4);
+  }
+  return out;
+}
+
+DenseMatrix displacement(const Problem& problem, const DenseMatrix& motions) {
+  DenseMatrix u = DenseMatrix::Zero(problem.unknowns(), motions.cols());
+  Eigen::Index mode = 0;
+  for (const Block& block : problem.blocks) {
+    u.middleRows(block.first, block.size()) = block.kernel * motions.middleRows(mode, block.kernel.cols());
+    mode += block.kernel.cols();
+  }
+  return u;
+}
+
+}  // namespace dotyk::problem

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "problem/problem.hpp"
+
+namespace dotyk::problem {
+
+/// The rigid motions of all blocks against the rows: with α the amounts of the kernel's modes,
+/// N α is the jump that a motion makes on the rows, and eᵀα the work of the load on it.
+struct RigidMotions {
+  algebra::DenseMatrix N;          ///< B R, rows × modes
+  algebra::Vector e;               ///< Rᵀ f
+  /// Orthonormal bases of the motions that some row notices (N α ≠ 0) and that none does.
+  algebra::DenseMatrix noticed, unnoticed;  ///< modes × count
+  std::vector<std::string> names;  ///< "'lid': translation along x", one a mode
+  int count() const { return static_cast<int>(e.size()); }
+};
+RigidMotions rigid_motions(const Problem& problem);
+
+/// "'lid': translation along x", or a combination with its amounts.
+std::string describe(const RigidMotions& rigid, const algebra::Vector& motion);
+
+/// R α, the displacement of all unknowns under motions α (modes × any number of columns).
+algebra::DenseMatrix displacement(const Problem& problem, const algebra::DenseMatrix& motions);
+
+}  // namespace dotyk::problem

@@ -1,0 +1,46 @@
+#include "solver/require_solvable.hpp"
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::solver {
+
+namespace {
+
+/// "translation along x, translation along y and rotation about (0, 0)".
+std::string all(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    out += (k == 0 ? "" : k + 1 < names.size() ? ", " : " and ") + names[k];
+  return out;
+}
+
+/// Refuses a block that no row touches unless its load is in equilibrium, and not nothing.
+void require_held(const problem::Problem& problem, const problem::Block& block) {
+  if (block.kernel.cols() == 0 || problem.rows_of(block).nonZeros() > 0) return;
+  const double load = block.f.lpNorm<1>();
+  if (load > 0 && (block.kernel.transpose() * block.f).lpNorm<Eigen::Infinity>() < 1e-10 * load) return;
+  throw InputError(text("'", block.name, "' is not held: nothing stops its ", all(block.kernel_names),
+                        "; fix a part of it or put it in contact"));
+}
+
+}  // namespace
+
+std::string require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid) {
+  for (const problem::Block& block : problem.blocks) require_held(problem, block);
+  using Verdict = problem::Solvability::Verdict;
+  const problem::Solvability s = problem::solvability(rigid, problem);
+  if (s.verdict == Verdict::unsolvable)
+    throw InputError(text("not held: nothing stops ", describe(rigid, s.motion), "; the load does work ", s.work,
+                          " on a unit of this motion. Fix, slide or spring a part, add a contact in its way, or "
+                          "turn the load"));
+  std::string note;
+  if (s.verdict == Verdict::up_to_motion)
+    note = text("unique up to ", describe(rigid, s.motion), rigid.unnoticed.cols() > 0
+                    ? ", which no support or contact notices: the stress is unique, the displacement is the least"
+                    : "");
+  if (s.limit) note += text(note.empty() ? "" : "; ", "a limit case: turned by 1e-6, the load has no solution");
+  return note;
+}
+
+}  // namespace dotyk::solver
