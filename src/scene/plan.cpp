@@ -1,6 +1,9 @@
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
+#include "scene/model.hpp"
 #include "scene/scene.hpp"
+#include "solver/require_solvable.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -14,6 +17,20 @@ std::string describe_contact(const Contact& contact) {
   if (contact.kind == Contact::Kind::glue)
     return text("  ", contact.name, ": ", contact.glued.size(), " node pairs");
   return text("  ", contact.name, ": ", contact.rows.size(), " rows, frictionless");
+}
+
+/// Whether the load can be carried; needs the loads and contacts assembled.
+std::string verdict(const Scene& scene) {
+  problem::Clock clock;
+  Monitor quiet;
+  const Model model = build(scene, clock, quiet);
+  try {
+    const std::string note = solver::require_solvable(model.problem, problem::rigid_motions(model.problem));
+    return note.empty() ? "a unique solution exists: the load presses every free body against what holds it"
+                        : "a solution exists, " + note;
+  } catch (const InputError& error) {
+    return std::string("no solution: ") + error.what();
+  }
 }
 
 }  // namespace
@@ -45,15 +62,10 @@ std::string plan(const Scene& scene) {
                                                                   : contact->rows.size());
     out += "\n" + describe_contact(*contact);
   }
-  if (rows == 0)
-    out += free == 0 ? text("\n  method: one linear solve of ", unknowns, " unknowns; a unique solution exists")
-                     : "\n  no solution: a body can move freely and no contact is there to stop it";
-  else
-    out += text("\n  method: pdas on ", rows, " condensed rows (", unknowns,
-                " unknowns factored once): finite and exact for frictionless contact",
-                free == 0 ? "; a unique solution exists: every body is held by its supports"
-                          : "; a solution exists if the load presses the free bodies against their contacts");
-  return out;
+  out += rows == 0 ? text("\n  method: one linear solve of ", unknowns, " unknowns")
+                   : text("\n  method: pdas on ", rows, " condensed rows (", unknowns,
+                          " unknowns factored once): finite and exact for frictionless contact");
+  return out + "\n  " + (free == 0 ? "a unique solution exists: every body is held by its supports" : verdict(scene));
 }
 
 }  // namespace dotyk::scene
