@@ -16,6 +16,7 @@ namespace {
 constexpr double kHeavier = 100;     ///< factor on the weight of violations
 constexpr double kHeaviest = 1e6;    ///< on its first value, before violations alone are minimised
 constexpr int kRounds = 50;          ///< in which the whole working set changes at once
+constexpr int kLeaves = 10;          ///< times a row may leave among many before rows change one by one
 
 double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 
@@ -23,7 +24,7 @@ class Iteration {
  public:
   Iteration(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monitor)
       : p_(p), settings_(settings), monitor_(monitor), kkt_(p), rows_(p, settings.tol), x_(Vector::Zero(p.unknowns())),
-        y_(Vector::Zero(p.rows())) {}
+        y_(Vector::Zero(p.rows())), left_(p.rows(), 0) {}
 
   Result run(const std::vector<Side>& start, const Vector& x, const Vector& y) {
     rows_.side = start;
@@ -79,9 +80,9 @@ class Iteration {
         const Side before = rows_.side[r];
         if (rows_.working(r)) {
           if (wrong(r) > 0 && !p_.equality(r)) rows_.side[r] = Side::free, ++result_.dropped;
-        } else if (activity[r] > p_.high[r] + rows_.slack_tolerance(r, p_.high[r])) {
+        } else if (activity[r] > p_.high[r] + rows_.slack_tolerance(p_.high[r])) {
           rows_.side[r] = p_.equality(r) ? Side::equal : Side::high, ++result_.added;
-        } else if (activity[r] < p_.low[r] - rows_.slack_tolerance(r, p_.low[r])) {
+        } else if (activity[r] < p_.low[r] - rows_.slack_tolerance(p_.low[r])) {
           rows_.side[r] = p_.equality(r) ? Side::equal : Side::low, ++result_.added;
         }
         changed += rows_.side[r] != before;
@@ -161,7 +162,7 @@ class Iteration {
     remember();
   }
 
-  bool many() const { return settings_.change == ActiveSet::Change::many && !blocked_ && !cautious_; }
+  bool many() const { return settings_.change == ActiveSet::Change::many && !blocked_ && !cautious_ && !zigzag_; }
 
   /// How wrong the multiplier of a row at work is, 0 where it is right; negative multipliers beyond the
   /// weight of an elastic row are wrong as well.
@@ -190,9 +191,11 @@ class Iteration {
       return heavier();
     }
     int count = 0;
+    const bool all = many();
     for (int r = 0; r < p_.rows(); ++r) {
-      const bool leaves = r == leaving || (many() && rows_.working(r) && wrong(r) >= 0.1 * worst && wrong(r) > 0);
+      const bool leaves = r == leaving || (all && rows_.working(r) && wrong(r) >= 0.1 * worst && wrong(r) > 0);
       if (!leaves) continue;
+      if (all && ++left_[r] > kLeaves && !zigzag_) zigzag_ = true, ++result_.repeats;
       rows_.side[r] = wrong(r) > 0 ? Side::free : y_[r] > 0 ? Side::above : Side::below;
       kkt_.change(r, false);
       ++result_.dropped, ++count;
@@ -205,6 +208,11 @@ class Iteration {
   /// Violations are left where nothing else is wrong: they are made dearer; at last they alone count.
   void heavier() {
     forget();
+    if (rows_.arrived(p_.A * x_)) {
+      for (int r = 0; r < p_.rows(); ++r)
+        if (rows_.violated(r)) rows_.engage(r, 0), kkt_.change(r, true), ++result_.added;
+      return;
+    }
     if (!objective_) {
       result_.direction = y_ + rows_.charge() * weight_;
       return finish(Status::infeasible, text("the rows contradict one another: ", rows_.violations(),
@@ -247,7 +255,8 @@ class Iteration {
   Vector x_, y_;
   Result result_;
   std::unordered_set<std::size_t> seen_;  ///< working sets since the objective last fell
-  bool finished_ = false, objective_ = true, cautious_ = false, blocked_ = false;
+  bool finished_ = false, objective_ = true, cautious_ = false, blocked_ = false, zigzag_ = false;
+  std::vector<int> left_;  ///< how often each row has left among many
   double weight_ = 1, first_weight_ = 1, scale_ = 0;
 };
 

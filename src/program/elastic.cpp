@@ -38,16 +38,22 @@ Vector Elastic::charge() const {
   return weight;
 }
 
-double Elastic::slack_tolerance(int, double limit) const { return tolerance_ * (1 + std::abs(limit)); }
+double Elastic::slack_tolerance(double limit) const { return tolerance_ * (1 + std::abs(limit)); }
 
 void Elastic::classify(const Vector& activity) {
   for (int r = 0; r < p_.rows(); ++r) {
     const double a = activity[r];
-    if (working(r) && std::abs(limit(r) - a) <= slack_tolerance(r, limit(r))) continue;
-    if (std::isfinite(p_.high[r]) && a > p_.high[r] + slack_tolerance(r, p_.high[r])) side[r] = Side::above;
-    else if (std::isfinite(p_.low[r]) && a < p_.low[r] - slack_tolerance(r, p_.low[r])) side[r] = Side::below;
+    if (working(r) && std::abs(limit(r) - a) <= slack_tolerance(limit(r))) continue;
+    if (std::isfinite(p_.high[r]) && a > p_.high[r] + slack_tolerance(p_.high[r])) side[r] = Side::above;
+    else if (std::isfinite(p_.low[r]) && a < p_.low[r] - slack_tolerance(p_.low[r])) side[r] = Side::below;
     else side[r] = p_.equality(r) ? Side::equal : Side::free;
   }
+}
+
+bool Elastic::arrived(const Vector& activity) const {
+  for (int r = 0; r < p_.rows(); ++r)
+    if (violated(r) && std::abs(activity[r] - limit(r)) > slack_tolerance(limit(r))) return false;
+  return true;
 }
 
 std::size_t Elastic::hash() const {
@@ -74,7 +80,7 @@ Elastic::Meeting Elastic::meeting(const Vector& activity, const Vector& speed, b
     if (working(r) || std::abs(speed[r]) <= slow) continue;
     const double room_left = room(r, activity[r], speed[r]);
     if (!std::isfinite(room_left)) continue;
-    const double tolerance = least_index ? 0 : slack_tolerance(r, activity[r] + room_left);
+    const double tolerance = least_index ? 0 : slack_tolerance(activity[r] + room_left);
     reach = std::min(reach, std::max(0.0, room_left + tolerance) / std::abs(speed[r]));
   }
   if (!std::isfinite(reach)) return out;

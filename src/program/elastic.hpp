@@ -28,9 +28,11 @@ class Elastic {
   /// Rows at work that have left their limit become elastic or free; others are looked at anew; an equality
   /// that holds goes to work.
   void classify(const Vector& activity);
+  /// Do all elastic rows stand at their limit, up to the tolerance?
+  bool arrived(const Vector& activity) const;
   /// A number that tells this set from others.
   std::size_t hash() const;
-  double slack_tolerance(int row, double limit) const;
+  double slack_tolerance(double limit) const;
 
   struct Meeting {
     double step = INFINITY;

@@ -44,7 +44,8 @@ Residuals residuals(const QuadraticProgram& p, const Vector& x, const Vector& y)
   const auto peak = [](const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; };
   const Vector Px = times(p.P, x), Ay = p.A.transpose() * y, Ax = p.A * x;
   const Vector size = p.A.cwiseAbs() * x.cwiseAbs();
-  out.stationarity_scale = std::max({peak(Px), peak(p.q), peak(Ay)});
+  const SparseMatrix sizes = p.P.cwiseAbs();
+  out.stationarity_scale = std::max({peak(times(sizes, x.cwiseAbs())), peak(p.q), peak(p.A.cwiseAbs().transpose() * y.cwiseAbs())});
   out.stationarity = peak(Px + p.q + Ay);
   double limits = 0, complementary = x.dot(Px) + p.q.dot(x);
   for (int r = 0; r < p.rows(); ++r) {

@@ -38,8 +38,8 @@ double objective(const QuadraticProgram& program, const Vector& x);
 
 /// How far x (n) and the multipliers y (m; positive at high, negative at low) are from optimal.
 struct Residuals {
-  double stationarity = 0;     ///< max |Px + q + Aᵀy| over max(|Px|, |q|, |Aᵀy|)
-  double feasibility = 0;      ///< max violation of a row over max(|A||x|, |limits that are finite and exceeded|)
+  double stationarity = 0;     ///< max |Px + q + Aᵀy| over max(|P||x|, |q|, |A|ᵀ|y|)
+  double feasibility = 0;      ///< max violation of a row over max(|A||x|, |limits exceeded|)
   double complementarity = 0;  ///< |xᵀPx + qᵀx + highᵀy⁺ − lowᵀy⁻| over 1 + |objective|
   double stationarity_scale = 1, feasibility_scale = 1, complementarity_scale = 1;  ///< those divisors
 };
@@ -67,7 +67,7 @@ struct Result {
   int singular = 0;              ///< singular KKT systems met
   int survived = 0;              ///< of these, the ones that still gave a step or the solution
   int factorisations = 0;
-  int repeats = 0;               ///< times a working set came back without progress, and the rule was changed
+  int repeats = 0;               ///< times zigzagging was noticed, and the rule changed
   int cg = 0;                    ///< CG iterations of the augmented Lagrangian
   double penalty = 0;            ///< its last penalty
   double seconds = 0;

@@ -1,0 +1,143 @@
+#include "program/augmented_lagrangian.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "algebra/quasi_definite.hpp"
+#include "base/error.hpp"
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::program {
+namespace {
+
+constexpr int kRestarts = 20;  ///< of CG with a freshly computed gradient, before rounding is blamed
+
+class Iteration {
+ public:
+  Iteration(const QuadraticProgram& p, const AugmentedLagrangian& settings, Monitor& monitor)
+      : p_(p), s_(settings), monitor_(monitor), d_(p.low), x_(Vector::Zero(p.unknowns())), mu_(Vector::Zero(p.rows())),
+        rho_(settings.rho), eta_(settings.eta), size_(p.q.norm() > 0 ? p.q.norm() : 1) {
+    if (settings.update == AugmentedLagrangian::Update::least_squares && p.rows() > 0) prepare_least_squares();
+  }
+
+  Result run() {
+    result_.reason = text("no end within ", s_.max_iterations, " outer iterations");
+    for (int k = 0; k < s_.max_iterations; ++k) {
+      const bool precise = inner();
+      result_.iterations = k + 1;
+      const Vector gap = p_.A * x_ - d_;
+      const bool optimal = gradient().norm() <= s_.gradient_tol * size_ && gap.norm() <= s_.feasibility_tol;
+      const Vector exact = mu_ + rho_ * gap;  // makes the gradient of the Lagrangian that of L
+      monitor_.iteration({.iteration = k + 1, .changed = result_.cg, .residual = gap.norm(), .seconds = clock_.seconds()});
+      if (result_.status != Status::stopped) break;
+      if (optimal) {
+        result_.status = Status::solved;
+        result_.reason = "gradient and feasibility are below their tolerances";
+        mu_ = exact;
+        break;
+      }
+      if (!precise) break;
+      mu_ = s_.update == AugmentedLagrangian::Update::multiplier ? exact : least_squares();
+      if (gap.norm() <= eta_) eta_ *= s_.alpha;
+      else rho_ *= s_.beta;
+      if (monitor_.stop()) {
+        result_.reason = "stopped on request";
+        break;
+      }
+    }
+    result_.penalty = rho_;
+    result_.x = x_;
+    result_.y = mu_;
+    return result_;
+  }
+
+ private:
+  /// (B + ρDᵀD) v.
+  Vector times_L(const Vector& v) const { return times(p_.P, v) + rho_ * (p_.A.transpose() * (p_.A * v)); }
+  Vector gradient() const {
+    return times(p_.P, x_) + p_.q + p_.A.transpose() * (mu_ + rho_ * (p_.A * x_ - d_));
+  }
+
+  /// ‖∇L‖ ≤ M‖Dx − d‖, or the end of the whole iteration.
+  bool precise(double gradient_norm) const {
+    const double gap = (p_.A * x_ - d_).norm();
+    return gradient_norm <= s_.M * gap || (gradient_norm <= s_.gradient_tol * size_ && gap <= s_.feasibility_tol);
+  }
+
+  /// CG from x until it is precise enough; false where it cannot be.
+  bool inner() {
+    for (int restart = 0; restart <= kRestarts; ++restart) {
+      Vector r = -gradient();
+      if (precise(r.norm())) return true;
+      Vector v = r;
+      double rr = r.squaredNorm();
+      const double begun = rr;
+      do {
+        if (result_.cg >= s_.max_cg) {
+          result_.reason = text("no end within ", s_.max_cg, " CG iterations");
+          return false;
+        }
+        const Vector Lv = times_L(v);
+        const double curvature = v.dot(Lv), flat = 1e-15 * v.norm() * (times(p_.P, v).norm() + v.norm());
+        if (curvature <= flat) return stop_flat(v, curvature);
+        const double step = rr / curvature;
+        x_ += step * v;
+        r -= step * Lv;
+        const double rr_new = r.squaredNorm();
+        v = r + rr_new / rr * v;
+        rr = rr_new;
+        ++result_.cg;
+      } while (!precise(std::sqrt(rr)) && rr > 1e-32 * begun);
+    }
+    result_.reason = "rounding keeps the inner iteration from its precision: a smaller penalty, or a larger M, is needed";
+    return false;
+  }
+
+  bool stop_flat(const Vector& v, double curvature) {
+    const bool negative = curvature < -1e-12 * v.squaredNorm();
+    result_.status = negative ? Status::not_convex : Status::unbounded;
+    result_.reason = negative ? "CG met negative curvature" : "the objective falls for ever along a direction of no curvature";
+    result_.direction = v.normalized();
+    return false;
+  }
+
+  void prepare_least_squares() {
+    const SparseMatrix D = p_.A;
+    const SparseMatrix product = D * SparseMatrix(D.transpose());
+    const SparseMatrix lower = product.triangularView<Eigen::Lower>();
+    gram_.emplace(lower);
+    if (!gram_->factor(lower) || gram_->negative_pivots() > 0)
+      throw InputError("the rows of D depend on one another: the least-squares update needs them independent");
+  }
+  Vector least_squares() const {
+    if (p_.rows() == 0) return mu_;
+    return -gram_->solve(p_.A * (times(p_.P, x_) + p_.q));
+  }
+
+  const QuadraticProgram& p_;
+  const AugmentedLagrangian& s_;
+  Monitor& monitor_;
+  Stopwatch clock_;
+  Vector d_, x_, mu_;
+  double rho_, eta_, size_;
+  std::optional<algebra::QuasiDefinite> gram_;
+  Result result_;
+};
+
+}  // namespace
+
+Result solve(const QuadraticProgram& program, const AugmentedLagrangian& settings, Monitor& monitor) {
+  check(program);
+  for (int r = 0; r < program.rows(); ++r)
+    if (!program.equality(r))
+      throw InputError(text("row ", r + 1, " is an inequality; augmented Lagrangians take equalities only (use "
+                            "\"active_set\" or \"interior_point\")"));
+  Stopwatch clock;
+  Result result = Iteration(program, settings, monitor).run();
+  measure(program, result);
+  result.seconds = clock.seconds();
+  return result;
+}
+
+}  // namespace dotyk::program

@@ -1,0 +1,161 @@
+#include "program/lcp.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::program {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+namespace {
+
+constexpr int kEnumerable = 16;
+constexpr double kSolved = 1e-9;
+
+/// z = scale ∘ ẑ, ŵ = scale ∘ w: complementarity stays, the diagonal becomes about 1.
+Lcp scaled(const Lcp& lcp, Vector& scale) {
+  const int n = lcp.size();
+  scale = Vector::Ones(n);
+  for (int i = 0; i < n; ++i) {
+    double size = std::abs(lcp.M(i, i));
+    if (size == 0) size = std::max(lcp.M.row(i).cwiseAbs().maxCoeff(), lcp.M.col(i).cwiseAbs().maxCoeff());
+    if (size > 0) scale[i] = 1 / std::sqrt(size);
+  }
+  return {scale.asDiagonal() * lcp.M * scale.asDiagonal(), scale.cwiseProduct(lcp.q), lcp.name};
+}
+
+bool semidefinite(const DenseMatrix& M) {
+  const DenseMatrix symmetric = 0.5 * (M + M.transpose());
+  const Vector values = Eigen::SelfAdjointEigenSolver<DenseMatrix>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+  return values.minCoeff() >= -1e-12 * std::max(1.0, values.cwiseAbs().maxCoeff());
+}
+
+class Solver {
+ public:
+  Solver(const Lcp& lcp, const LcpSettings& settings, Monitor& monitor)
+      : lcp_(lcp), settings_(settings), monitor_(monitor), n_(lcp.size()) {}
+
+  LcpResult run() {
+    using Method = LcpSettings::Method;
+    out_.z = Vector::Zero(n_);
+    const Method method = settings_.method;
+    if (method == Method::enumeration && n_ > kEnumerable)
+      throw InputError(text("enumeration takes up to ", kEnumerable, " unknowns, here are ", n_));
+    if (method == Method::automatic || method == Method::newton_min) newton();
+    if (!found_ && (method == Method::automatic || method == Method::lemke)) by_lemke();
+    const bool decide = method == Method::enumeration || (!found_ && method != Method::newton_min);
+    if ((decide || settings_.unique) && n_ <= kEnumerable && method != Method::newton_min) count();
+    return out_;
+  }
+
+ private:
+  bool accept(const Vector& z, const char* method) {
+    if (!z.size() || residual(lcp_, z) > kSolved) return false;
+    out_.z = z.cwiseMax(0);
+    out_.method = method;
+    out_.status = LcpStatus::solved;
+    return found_ = true;
+  }
+
+  void newton() {
+    const NewtonMin r = newton_min(lcp_, settings_.start);
+    out_.solves = r.solves;
+    out_.cycle = r.cycle;
+    if (r.end == NewtonMin::End::solved && accept(r.z, "newton_min")) out_.reason = "the active set repeats";
+    else if (r.end == NewtonMin::End::cycle) out_.reason = text("the active set goes round among ", r.cycle.size(), " sets");
+    else out_.reason = r.end == NewtonMin::End::singular ? "M is singular on an active set" : "no end";
+    if (!found_ && r.z.size()) out_.z = r.z;
+  }
+
+  void by_lemke() {
+    const Lemke r = lemke(lcp_);
+    out_.pivots = r.pivots;
+    const std::string before = out_.reason.empty() ? "" : out_.reason + "; ";
+    if (r.solved && accept(r.z, "lemke")) {
+      out_.reason = before + "Lemke's method found the solution";
+    } else if (r.ray && semidefinite(lcp_.M)) {
+      out_.status = LcpStatus::none;
+      out_.reason = before + "Lemke's method ends on a ray, and M is positive semidefinite: there is no solution";
+    } else {
+      out_.reason = before + "Lemke's method ends " + (r.ray ? "on a ray" : "without a solution") + ", which decides nothing for this M";
+    }
+  }
+
+  void count() {
+    const Enumeration all = enumerate(lcp_, 2, monitor_);
+    out_.counted = all.complete;
+    if (!found_ && !all.solutions.empty()) {
+      accept(all.solutions.front(), "enumeration");
+      out_.reason += std::string(out_.reason.empty() ? "" : "; ") + "found by enumeration";
+    }
+    if (!found_ && all.complete) {
+      out_.status = LcpStatus::none;
+      out_.reason = text("none of the ", 1ul << n_, " sets gives a solution");
+    }
+    for (const Vector& z : all.solutions)
+      if (found_ && (z - out_.z).norm() > 1e-6 * (1 + out_.z.norm())) out_.other = z;
+    if (out_.other.size()) {
+      out_.status = LcpStatus::several;
+      out_.reason += all.continuum ? "; there is more than one: a whole segment" : "; there is more than one";
+    }
+  }
+
+  const Lcp& lcp_;
+  const LcpSettings& settings_;
+  Monitor& monitor_;
+  int n_;
+  bool found_ = false;
+  LcpResult out_;
+};
+
+}  // namespace
+
+void check(const Lcp& lcp) {
+  if (lcp.size() == 0) throw InputError("the problem has no unknowns");
+  if (lcp.M.rows() != lcp.size() || lcp.M.cols() != lcp.size())
+    throw InputError(text("M is ", lcp.M.rows(), "x", lcp.M.cols(), "; q has ", lcp.size(), " entries"));
+  if (!lcp.M.allFinite() || !lcp.q.allFinite()) throw InputError("M or q holds nan or inf");
+}
+
+double residual(const Lcp& lcp, const Vector& z) {
+  const Vector w = lcp.M * z + lcp.q;
+  const Vector size = lcp.M.cwiseAbs() * z.cwiseAbs() + lcp.q.cwiseAbs();
+  const double largest = z.lpNorm<Eigen::Infinity>();
+  double worst = 0;
+  for (int i = 0; i < lcp.size(); ++i) {
+    const double z_part = z[i] / (1 + largest), w_part = w[i] / (size[i] > 0 ? std::max(size[i], 1e-300) : 1);
+    worst = std::max(worst, std::abs(std::min(z_part, w_part)));
+  }
+  return worst;
+}
+
+const char* text_of(LcpStatus status) {
+  switch (status) {
+    case LcpStatus::solved: return "solved";
+    case LcpStatus::several: return "several";
+    case LcpStatus::none: return "none";
+    case LcpStatus::stopped: return "stopped";
+  }
+  return "";
+}
+
+LcpResult solve(const Lcp& lcp, const LcpSettings& settings, Monitor& monitor) {
+  check(lcp);
+  if (!settings.start.empty() && static_cast<int>(settings.start.size()) != lcp.size())
+    throw InputError(text("the start has ", settings.start.size(), " flags for ", lcp.size(), " unknowns"));
+  Vector scale;
+  const Lcp units = scaled(lcp, scale);
+  LcpResult out = Solver(units, settings, monitor).run();
+  out.z = scale.cwiseProduct(out.z);
+  if (out.other.size()) out.other = scale.cwiseProduct(out.other);
+  out.w = lcp.M * out.z + lcp.q;
+  out.residual = residual(lcp, out.z);
+  return out;
+}
+
+}  // namespace dotyk::program

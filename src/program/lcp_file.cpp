@@ -1,0 +1,85 @@
+#include <fstream>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "program/lcp.hpp"
+
+namespace dotyk::program {
+namespace {
+
+class Reader {
+ public:
+  explicit Reader(const std::string& file) : file_(file), in_(file) {
+    if (!in_) throw InputError("cannot read '" + file + "'");
+  }
+
+  Lcp read() {
+    const int n = count("n", 1, 100000), storage = count("the storage", 0, 1);
+    const int rows = count("the rows", n, n), columns = count("the columns", n, n);
+    Lcp lcp;
+    lcp.M = algebra::DenseMatrix::Zero(rows, columns);
+    if (storage == 0) dense(lcp);
+    else blocks(lcp);
+    lcp.q.resize(n);
+    for (double& x : lcp.q) x = number("q");
+    const auto slash = file_.find_last_of('/');
+    lcp.name = file_.substr(slash == std::string::npos ? 0 : slash + 1);
+    check(lcp);
+    return lcp;
+  }
+
+ private:
+  double number(const char* what) {
+    double x;
+    if (!(in_ >> x)) throw InputError(text("'", file_, "': a number of ", what, " is missing"));
+    return x;
+  }
+  int count(const char* what, int least, int most) {
+    const double x = number(what);
+    if (!(x >= least && x <= most) || x != static_cast<int>(x))
+      throw InputError(text("'", file_, "': ", what, " is ", x, "; from ", least, " to ", most, " is expected"));
+    return static_cast<int>(x);
+  }
+
+  void dense(Lcp& lcp) {
+    const int n = static_cast<int>(lcp.M.rows());
+    count("the rows of M", n, n), count("the columns of M", n, n);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) lcp.M(i, j) = number("M");
+  }
+
+  /// Blocks by compressed rows: their number, the blocks a side, the cumulated sizes, the two index arrays, and
+  /// for each block its number and its entries by columns.
+  void blocks(Lcp& lcp) {
+    const int n = static_cast<int>(lcp.M.rows());
+    const int total = count("the number of blocks", 1, n * n);
+    const int down = count("the block rows", 1, n), across = count("the block columns", 1, n);
+    const auto ends = [&](int size) {
+      std::vector<int> list{0};
+      for (int k = 0; k < size; ++k) list.push_back(count("a block's end", list.back() + 1, n));
+      return list;
+    };
+    const std::vector<int> row = ends(down), column = ends(across);
+    const int starts = count("the row index's length", down + 1, down + 1);
+    const int filled = count("the column index's length", total, total);
+    std::vector<int> first, place;
+    for (int k = 0; k < starts; ++k) first.push_back(count("the row index", 0, total));
+    for (int k = 0; k < filled; ++k) place.push_back(count("the column index", 0, across - 1));
+    for (int k = 0; k < total; ++k) {
+      count("a block's number", k, k);
+      int i = 0;
+      while (first[i + 1] <= k) ++i;
+      for (int c = column[place[k]]; c < column[place[k] + 1]; ++c)
+        for (int r = row[i]; r < row[i + 1]; ++r) lcp.M(r, c) = number("M");
+    }
+  }
+
+  std::string file_;
+  std::ifstream in_;
+};
+
+}  // namespace
+
+Lcp read_lcp(const std::string& file) { return Reader(file).read(); }
+
+}  // namespace dotyk::program
