@@ -12,6 +12,7 @@
 #include "solver/hold.hpp"
 #include "solver/linearisation.hpp"
 #include "solver/require_solvable.hpp"
+#include "solver/screws.hpp"
 #include "solver/step.hpp"
 
 namespace dotyk::solver {
@@ -46,9 +47,12 @@ class Iteration {
 
   Result run() {
     const std::string note = require_solvable(problem_, rigid_);
+    place_screws();
     Linearisation l = first();
     if (settings_.reduced) condense();
-    step_ = settings_.reduced ? reduced_step(*condensed_, rho_) : full_step(problem_, rigid_, rho_);
+    step_ = screws_             ? screw_step(*condensed_, rho_, *screws_)
+            : settings_.reduced ? reduced_step(*condensed_, rho_)
+                                : full_step(problem_, rigid_, rho_);
     Stopwatch iterating;
     while (result_.iterations < settings_.max_iterations) {
       if (monitor_.stop()) {
@@ -70,6 +74,28 @@ class Iteration {
   }
 
  private:
+  void place_screws() {
+    if (settings_.kernel != Pdas::Kernel::screws || rigid_.noticed.cols() == 0) return;
+    if (!settings_.reduced) throw InputError("kernel = \"screws\" needs reduced = true");
+    screws_.emplace(problem_, rigid_, settings_.screws);
+    result_.method = "pdas with screws";
+  }
+
+  /// At the end: are the screws where something presses? Otherwise they move, and the iteration goes on.
+  bool move_screws(Linearisation& l) {
+    const double noise = 1e-9 * lambda_.lpNorm<Eigen::Infinity>();
+    if (!screws_ || !screws_->pulls(lambda_, noise)) return false;
+    if (screws_->moves() >= settings_.max_moves || !screws_->move(lambda_, noise)) {
+      result_.reason = text("a screw still pulls after ", screws_->moves(), " moves");
+      misplaced_ = true;
+      return false;
+    }
+    result_.screw_moves = screws_->moves();
+    l = held(std::move(l), x_);
+    seen_.clear();
+    return true;
+  }
+
   void condense() {
     condensed_.emplace(problem_, rigid_, settings_.ordering, result_.clock, monitor_);
     result_.factor_bytes = condensed_->factor_bytes();
@@ -90,8 +116,10 @@ class Iteration {
   /// The linearisation with rows added where a rigid motion would be free.
   Linearisation held(Linearisation l, const Vector& x) {
     std::vector<char> active = l.active;
-    if (holder_.hold(active, x) == 0) return l;
-    return from_flags_keeping(l, active);
+    if (screws_)
+      for (int r : screws_->rows()) active[r] = 1;
+    holder_.hold(active, x);
+    return active == l.active ? l : from_flags_keeping(l, active);
   }
 
   Linearisation from_flags_keeping(const Linearisation& l, const std::vector<char>& active) {
@@ -124,8 +152,9 @@ class Iteration {
       if (next.active[r] != l.active[r]) changed_.push_back(r);
     record(next);
     if (changed_.empty() && same_values(l, next)) {
-      result_.converged = true;
-      result_.reason = result_.reason.empty() ? "the active set repeats" : result_.reason;
+      if (move_screws(l)) return true;
+      result_.converged = !misplaced_;
+      if (result_.reason.empty()) result_.reason = "the active set repeats";
       return false;
     }
     l = std::move(next);
@@ -207,6 +236,8 @@ class Iteration {
   Vector rho_;
   Result result_;
   std::optional<CondensedProblem> condensed_;
+  std::optional<Screws> screws_;
+  bool misplaced_ = false;  ///< a screw pulls and has nowhere to go
   std::unique_ptr<Step> step_;
   Vector lambda_, x_;
   std::vector<int> changed_;

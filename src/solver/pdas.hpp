@@ -15,6 +15,13 @@ struct Pdas : Settings {
   /// On the condensed problem (one sparse factorisation in all), or on the whole system
   /// (one LU an iteration): the same iterates (TR965 remark 1.3).
   bool reduced = true;
+  /// How the rigid motions of free bodies are treated: exactly, as constraints of the dual, or by
+  /// magnetic screws (TR965 1.2.2; reduced form only).
+  enum class Kernel { exact, screws } kernel = Kernel::exact;
+  /// Rows on which the screws are placed first; empty: chosen.
+  std::vector<int> screws;
+  /// Screws whose multiplier comes out negative are moved, at most so many times in all.
+  int max_moves = 50;
 };
 
 /// Solves. Where active sets repeat without being a solution, the nodes concerned are put into

@@ -58,6 +58,8 @@ refused(function() s:render{ file = file, range = { 1, 0 } } end, "{least, great
 refused(function() s:render{ file = file, colour = "red" } end, "unknown key 'colour'")
 refused(function() dotyk.chart{ file = file, series = { { x = { 1, 2 }, y = { 1 } } } } end, "2 x and 1 y")
 refused(function() dotyk.chart{ file = file, series = { { x = { 1, 0/0 }, y = { 1, 2 } } } } end, "entry 2 must be a finite number, got nan")
+refused(function() s:render{ file = file, view = { 0, 0, 1 } } end, "'view' is for scenes in space; this one is 2-D")
+refused(function() dotyk.chart{ file = file, series = {} } end, "'series' must be a table of at least 1 item")
 refused(function() dotyk.chart{ file = file } end, "missing key 'series'")
 refused(function() dotyk.chart{ file = file, series = { { x = { 1 }, y = { 1 }, colour = 1 } } } end, "'series': entry 1: unknown key 'colour'")
 check.that(not exists(file))

@@ -1,0 +1,196 @@
+#include "solver/screws.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/bounded_least_squares.hpp"
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::solver {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+using problem::Problem;
+
+namespace {
+
+/// Least regularity at which screws are taken to hold: below, half of the digits are lost.
+constexpr double kRegular = 1e-8;
+
+DenseMatrix pick(const DenseMatrix& N, const std::vector<int>& rows) {
+  DenseMatrix picked(static_cast<Eigen::Index>(rows.size()), N.cols());
+  for (std::size_t k = 0; k < rows.size(); ++k) picked.row(static_cast<Eigen::Index>(k)) = N.row(rows[k]);
+  return picked;
+}
+
+double regularity_of(const DenseMatrix& N) {
+  if (N.rows() < N.cols() || N.cols() == 0) return N.cols() == 0 ? 1 : 0;
+  const Vector s = Eigen::JacobiSVD<DenseMatrix>(N).singularValues();
+  return s[0] > 0 ? s[s.size() - 1] / s[0] : 0;
+}
+
+std::vector<char> unilateral_rows(const Problem& problem) {
+  std::vector<char> flags(problem.rows(), 0);
+  for (const problem::RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r) flags[r] = group.law->unilateral();
+  return flags;
+}
+
+}  // namespace
+
+Screws::Screws(const Problem& problem, const problem::RigidMotions& rigid, std::vector<int> rows)
+    : problem_(problem), N_(rigid.N * rigid.noticed), e_(rigid.noticed.transpose() * rigid.e),
+      rows_(std::move(rows)), tried_(problem.rows(), 0) {
+  const std::size_t count = static_cast<std::size_t>(N_.cols());
+  if (rows_.empty()) {
+    complete();
+  } else {
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      if (std::count(rows_.begin(), rows_.end(), rows_[k]) > 1)
+        throw InputError(text("screws: row ", rows_[k] + 1, " is named twice"));
+    if (rows_.size() != count)
+      throw InputError(text("screws: ", rows_.size(), " are given; this problem needs ", count,
+                            ", one for each rigid motion that contacts notice"));
+  }
+  if (!regular(rows_))
+    throw InputError(text("the screws do not hold every rigid motion (regularity ", regularity(),
+                          "): place them on sides that face different ways, or not all on one line"));
+}
+
+double Screws::regularity() const { return regularity_of(pick(N_, rows_)); }
+
+bool Screws::regular(const std::vector<int>& rows) const {
+  return regularity_of(pick(N_, rows)) > kRegular;
+}
+
+void Screws::complete() {
+  const auto unilateral = unilateral_rows(problem_);
+  Vector low(problem_.rows()), high(problem_.rows());
+  for (int r = 0; r < problem_.rows(); ++r) {
+    low[r] = 0;
+    high[r] = unilateral[r] ? INFINITY : 0;
+  }
+  const Vector carried = algebra::bounded_least_squares(N_.transpose(), e_, low, high).x;
+  std::vector<int> order;
+  for (int r = 0; r < problem_.rows(); ++r)
+    if (unilateral[r]) order.push_back(r);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return carried[a] > carried[b]; });
+  // Greedily, those with the greatest predicted force that add a new direction.
+  for (int r : order) {
+    if (static_cast<Eigen::Index>(rows_.size()) == N_.cols()) return;
+    std::vector<int> more = rows_;
+    more.push_back(r);
+    const Vector s = Eigen::JacobiSVD<DenseMatrix>(pick(N_, more)).singularValues();
+    if (s[static_cast<Eigen::Index>(more.size()) - 1] > 1e-3 * s[0]) rows_ = more;
+  }
+  for (int r : order) {  // badly conditioned contacts: whatever is regular at all
+    if (static_cast<Eigen::Index>(rows_.size()) == N_.cols()) return;
+    std::vector<int> more = rows_;
+    more.push_back(r);
+    const Vector s = Eigen::JacobiSVD<DenseMatrix>(pick(N_, more)).singularValues();
+    if (s[static_cast<Eigen::Index>(more.size()) - 1] > kRegular * s[0]) rows_ = more;
+  }
+}
+
+bool Screws::pulls(const Vector& lambda, double noise) const {
+  return std::any_of(rows_.begin(), rows_.end(), [&](int r) { return lambda[r] < -noise; });
+}
+
+bool Screws::move(const Vector& lambda, double noise) {
+  if (!pulls(lambda, noise)) return false;
+  const auto worst = std::min_element(rows_.begin(), rows_.end(),
+                                      [&](int a, int b) { return lambda[a] < lambda[b]; });
+  tried_[*worst] = 1;
+  // Neighbours on the contact see rigid motions alike: the distance of rows of N. Rows that press
+  // come first, others only where none presses.
+  const auto unilateral = unilateral_rows(problem_);
+  int best = -1;
+  double nearest = INFINITY;
+  for (int r = 0; r < problem_.rows(); ++r) {
+    if (!unilateral[r] || tried_[r] || std::find(rows_.begin(), rows_.end(), r) != rows_.end()) continue;
+    const double far = lambda[r] > noise ? 0 : 1e6;
+    const double distance = far + (N_.row(r) - N_.row(*worst)).norm();
+    if (!(distance < nearest)) continue;
+    std::vector<int> moved = rows_;
+    moved[worst - rows_.begin()] = r;
+    if (!regular(moved)) continue;
+    nearest = distance;
+    best = r;
+  }
+  if (best < 0) return false;
+  *worst = best;
+  ++moves_;
+  return true;
+}
+
+namespace {
+
+class ScrewStep final : public Step {
+ public:
+  ScrewStep(const problem::CondensedProblem& condensed, const Vector& rho, const Screws& screws)
+      : condensed_(condensed), rho_(rho), screws_(screws), lambda_(Vector::Zero(condensed.rows())),
+        alpha_(Vector::Zero(condensed.kernel_size())) {}
+
+  bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
+    const std::vector<int>& s = screws_.rows();
+    std::vector<int> other;
+    lambda = Vector::Zero(condensed_.rows());
+    for (int r = 0; r < condensed_.rows(); ++r) {
+      if (std::find(s.begin(), s.end(), r) != s.end()) continue;
+      if (l.active[r])
+        other.push_back(r);
+      else
+        lambda[r] = l.value[r];
+    }
+    const DenseMatrix N_S = pick(condensed_.N(), s);
+    const Eigen::PartialPivLU<DenseMatrix> motions(N_S), equilibrium(N_S.transpose());
+    // λ = λ₀ + Z λ_O with the screws in equilibrium.
+    const Vector balance = equilibrium.solve(condensed_.e() - condensed_.N().transpose() * lambda);
+    for (std::size_t k = 0; k < s.size(); ++k) lambda[s[k]] = balance[static_cast<Eigen::Index>(k)];
+    const DenseMatrix T = -equilibrium.solve(pick(condensed_.N(), other).transpose());  // screws × others
+    const Eigen::Index n = static_cast<Eigen::Index>(other.size());
+    DenseMatrix Z = DenseMatrix::Zero(condensed_.rows(), n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      Z(other[j], j) = 1;
+      for (std::size_t k = 0; k < s.size(); ++k) Z(s[k], j) = T(static_cast<Eigen::Index>(k), j);
+    }
+    if (n > 0) {
+      const Vector jump = condensed_.jump(lambda, Vector());
+      DenseMatrix H = Z.transpose() * condensed_.W() * Z;
+      Vector g = Z.transpose() * jump;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        H(j, j) += l.added_compliance(other[j], rho_[other[j]]);
+        g[j] -= l.offset(other[j], rho_[other[j]]);
+      }
+      const Eigen::LDLT<DenseMatrix> ldlt(H);
+      if (ldlt.info() != Eigen::Success || ldlt.rcond() < 1e-15) return false;
+      lambda += Z * ldlt.solve(g);
+    }
+    const Vector jump = condensed_.jump(lambda, Vector());
+    alpha_ = motions.solve(-pick(jump, s));
+    lambda_ = lambda;
+    x = condensed_.jump(lambda, alpha_);
+    return lambda.allFinite() && x.allFinite();
+  }
+
+  Vector recover() override { return condensed_.recover(lambda_, alpha_); }
+
+ private:
+  const problem::CondensedProblem& condensed_;
+  const Vector& rho_;
+  const Screws& screws_;
+  Vector lambda_, alpha_;
+};
+
+}  // namespace
+
+std::unique_ptr<Step> screw_step(const problem::CondensedProblem& condensed, const Vector& rho,
+                                 const Screws& screws) {
+  return std::make_unique<ScrewStep>(condensed, rho, screws);
+}
+
+}  // namespace dotyk::solver
