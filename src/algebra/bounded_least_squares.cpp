@@ -1,6 +1,7 @@
 #include "algebra/bounded_least_squares.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -13,7 +14,7 @@ enum class Place { low, high, free };
 class Iteration {
  public:
   Iteration(const DenseMatrix& A, const Vector& b, const Vector& low, const Vector& high, double tolerance)
-      : A_(A), b_(b), low_(low), high_(high), tolerance_(tolerance), x_(A.cols()), place_(A.cols()) {
+      : A_(A), b_(b), low_(low), high_(high), tolerance_(tolerance), x_(A.cols()), place_(A.cols()), idle_(A.cols(), 0) {
     for (int j = 0; j < A.cols(); ++j) {
       place_[j] = std::isfinite(low[j]) ? Place::low : std::isfinite(high[j]) ? Place::high : Place::free;
       x_[j] = place_[j] == Place::low ? low[j] : place_[j] == Place::high ? high[j] : 0;
@@ -22,13 +23,20 @@ class Iteration {
 
   BoundedLeastSquares run() {
     settle();
+    Vector residual = b_ - A_ * x_;
     for (int steps = 0; steps <= 20 * A_.cols() + 100; ++steps) {
-      const Vector residual = b_ - A_ * x_;
       const int entering = choose(residual);
       if (entering < 0) return {x_, residual, steps};
       place_[entering] = Place::free;
-      last_ = entering;
       settle();
+      const Vector next = b_ - A_ * x_;
+      // Releasing a variable that rounding alone made attractive changes nothing: not again before
+      // another one has.
+      if (next.norm() < (1 - 1e-13) * residual.norm())
+        std::fill(idle_.begin(), idle_.end(), 0);
+      else
+        idle_[entering] = 1;
+      residual = next;
     }
     throw std::runtime_error("bounded least squares: no end within 20 steps a column");
   }
@@ -46,14 +54,13 @@ class Iteration {
       if (norm == 0) continue;
       double slope = A_.col(j).dot(residual) / (norm * size);
       if (place_[j] == Place::high) slope = -slope;
-      if (slope > most && j != stuck_) most = slope, best = j;
+      if (slope > most && !idle_[j]) most = slope, best = j;
     }
     return best;
   }
 
   /// Least squares over the free variables; those that would leave their bounds stop there.
   void settle() {
-    stuck_ = -1;
     for (;;) {
       std::vector<int> free;
       for (int j = 0; j < A_.cols(); ++j)
@@ -80,7 +87,6 @@ class Iteration {
       const bool up = std::abs(high_[blocking] - x_[blocking]) < std::abs(x_[blocking] - low_[blocking]);
       place_[blocking] = up ? Place::high : Place::low;
       x_[blocking] = up ? high_[blocking] : low_[blocking];
-      if (blocking == last_ && length == 0) stuck_ = blocking;  // rounding: do not release it again at once
     }
   }
 
@@ -89,7 +95,7 @@ class Iteration {
   double tolerance_;
   Vector x_;
   std::vector<Place> place_;
-  int last_ = -1, stuck_ = -1;
+  std::vector<char> idle_;
 };
 
 }  // namespace

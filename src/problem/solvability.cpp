@@ -50,6 +50,7 @@ Solvability solvability(const RigidMotions& rigid, const Problem& problem) {
   const Vector residual = load > 0 ? unbalanced(rigid, problem, rigid.e) : Vector::Zero(rigid.count());
   if (residual.norm() > kRounding * load) {
     s.verdict = Solvability::Verdict::unsolvable;
+    s.limit = residual.norm() < kLimit * load;
     s.motion = unit(residual);
     s.work = rigid.e.dot(s.motion);
     return s;

@@ -15,7 +15,7 @@ struct Solvability {
     unsolvable,    ///< the load does positive work on the admissible motion `motion`
   };
   Verdict verdict = Verdict::unique;
-  /// Solvable, but the least turn of the load (by 1e-6) makes it unsolvable.
+  /// On the edge: solvable, but turned by 1e-6 the load is not; or the other way round.
   bool limit = false;
   algebra::Vector motion;  ///< amounts of the modes, greatest 1; empty for unique
   double work = 0;         ///< of the load on `motion`

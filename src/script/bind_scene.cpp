@@ -2,7 +2,10 @@
 
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "problem/solvability.hpp"
+#include "scene/model.hpp"
 #include "script/space.hpp"
+#include "script/watch.hpp"
 #include "script/wrapped.hpp"
 
 namespace dotyk::script {
@@ -59,6 +62,22 @@ int add_contact(Call& call) {
 int add_glue(Call& call) {
   const auto parts = call.items<Part>();
   return call.give(scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1]));
+}
+
+int balance(Call& call) {
+  const auto scene = call.self<Scene>();
+  problem::Clock clock;
+  Watch watch(call.state(), "assembling");
+  const scene::Model model = scene::build(*scene, clock, watch);
+  const auto rigid = problem::rigid_motions(model.problem);
+  const auto s = problem::solvability(rigid, model.problem);
+  static const char* verdicts[] = {"unique", "up to motion", "unsolvable"};
+  return call.give(Record{"balance",
+                          {{"verdict", std::string(verdicts[static_cast<int>(s.verdict)])},
+                           {"solvable", s.verdict != problem::Solvability::Verdict::unsolvable},
+                           {"limit", s.limit},
+                           {"motion", s.motion.size() ? describe(rigid, s.motion) : std::string()},
+                           {"work", s.work}}});
 }
 
 int rigid_gap(Call& call) {
@@ -148,6 +167,12 @@ void bind_scene(Library& library) {
                .help = "What will be modelled, what is free to move, whether a solution exists, which method and why.",
                .example = "print(scene:plan())",
                .run = [](Call& call) { return call.give(scene::plan(*call.self<Scene>())); }})
+      .method({.name = "scene:balance",
+               .help = "Can supports and contacts carry the load? Looks at rigid motions only, solves nothing: verdict "
+                       "(\"unique\", \"up to motion\", \"unsolvable\"), solvable, limit (the least turn of the load "
+                       "makes it unsolvable), motion (what is free) and the load's work on it.",
+               .example = "print(scene:balance().verdict)",
+               .run = balance})
       .text([](const Scene& s) { return scene::describe(s); });
   library.type<Contact>("A contact or a glue of a scene.")
       .field("name", "what messages call it", [](const Contact& c) { return c.name; })

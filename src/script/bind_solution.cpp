@@ -110,6 +110,7 @@ void bind_solution(Library& library) {
       .field("method", "which method", [](const Solution& s) { return s.result().method; })
       .field("iterations", "how many", [](const Solution& s) { return s.result().iterations; })
       .field("reason", "why it ended", [](const Solution& s) { return s.result().reason; })
+      .field("screw_moves", "magnetic screws moved because they pulled", [](const Solution& s) { return s.result().screw_moves; })
       .field("energy", "½uᵀKu − fᵀu, springs included", [](const Solution& s) { return s.energy(); }, "force·length")
       .field("friction_energy", "the friction term of the energy", [](const Solution& s) { return s.friction_energy(); }, "force·length")
       .field("unknowns", "displacement unknowns", [](const Solution& s) { return s.unknowns(); })

@@ -40,6 +40,9 @@ int make_pdas(Call& call) {
   read_settings(call, made->pdas);
   made->pdas.rho = call.number("rho");
   made->pdas.reduced = call.boolean("reduced");
+  made->pdas.kernel = call.choice("kernel") == 0 ? solver::Pdas::Kernel::exact : solver::Pdas::Kernel::screws;
+  if (call.has("screws"))
+    for (const long long row : call.integers("screws")) made->pdas.screws.push_back(static_cast<int>(row - 1));
   made->verbose = call.boolean("verbose");
   return call.give_keeping(made, {"on_iteration"});
 }
@@ -95,7 +98,12 @@ void bind_solver(Library& library) {
               {key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
                                     "multiplies each row's own stiffness").fallback(1.0),
                key::boolean("reduced", "iterate on the contact boundary alone, after one factorisation; else on the "
-                                       "whole system, factored anew in each iteration").fallback(true)});
+                                       "whole system, factored anew in each iteration").fallback(true),
+               key::choice("kernel", {"exact", "screws"}, "rigid motions of free bodies: exactly, as constraints of the "
+                           "dual problem, or by magnetic screws (contact nodes taken as closed, moved where they pull)")
+                   .fallback("exact"),
+               key::list("screws", key::integer("", "").at_least(1), "rows (contact nodes, in order) where the screws "
+                         "are placed first").otherwise("chosen by the load's equilibrium")});
   library.function({.name = "dotyk.solver.pdas",
                     .help = "The primal-dual active set method, which is Newton's method on the contact conditions: "
                             "finite, exact, usually a handful of iterations.",

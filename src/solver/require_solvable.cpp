@@ -32,8 +32,8 @@ std::string require_solvable(const problem::Problem& problem, const problem::Rig
   const problem::Solvability s = problem::solvability(rigid, problem);
   if (s.verdict == Verdict::unsolvable)
     throw InputError(text("not held: nothing stops ", describe(rigid, s.motion), "; the load does work ", s.work,
-                          " on a unit of this motion. Fix, slide or spring a part, add a contact in its way, or "
-                          "turn the load"));
+                          " on a unit of this motion", s.limit ? " (a limit case: turned by 1e-6 the load has a solution)" : "",
+                          ". Fix, slide or spring a part, add a contact in its way, or turn the load"));
   std::string note;
   if (s.verdict == Verdict::up_to_motion)
     note = text("unique up to ", describe(rigid, s.motion), rigid.unnoticed.cols() > 0
