@@ -37,7 +37,7 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
   }
   for (std::size_t k = 0; k < model.slide_row[body].size(); ++k) {
     const int r = model.slide_row[body][k];
-    const SlideRow& slide = scene.bodies[body]->slides[k];
+    const SlideRow& slide = model.bodies[body].slides[k];
     if (r >= 0) push(slide.node, slide.normal, -lambda[r]);
   }
 }

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "figure/compose.hpp"
@@ -67,6 +69,8 @@ int render(Call& call) {
   }
   if (call.has("view")) {
     const auto view = call.vector("view");
+    if (s->scene().dimension() == 2) throw InputError("'view' is for scenes in space; this one is 2-D (try 'window')");
+    if (view == std::vector<double>{0, 0, 0}) throw InputError("'view' is zero; it must have a direction");
     picture.view_from = figure::Vec3{view[0], view[1], view[2]};
   }
   figure::draw(picture);
@@ -112,7 +116,7 @@ Key series_key() {
                                    key::choice("style", {"line", "points", "both"}, "how it is drawn").fallback("both"),
                                    key::boolean("reference", "a reference curve: dashed, without markers").fallback(false)},
                               "one curve"),
-                   "the curves").required();
+                   "the curves").count(1, std::numeric_limits<std::size_t>::max()).required();
 }
 
 }  // namespace
