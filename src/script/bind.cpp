@@ -15,6 +15,8 @@ void bind_all(Library& library) {
   bind_solution(library);
   bind_figure(library);
   bind_write(library);
+  bind_program(library);
+  bind_lcp(library);
 }
 
 }  // namespace dotyk::script

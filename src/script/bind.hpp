@@ -14,5 +14,7 @@ void bind_solver(Library& library);
 void bind_solution(Library& library);
 void bind_figure(Library& library);
 void bind_write(Library& library);
+void bind_program(Library& library);
+void bind_lcp(Library& library);
 
 }  // namespace dotyk::script

@@ -22,6 +22,13 @@ void Call::open_table(int first) {
     throw ArgumentError("takes one table of keys, got " + std::to_string(lua_gettop(L) - first + 1) +
                         " arguments");
   if (lua_gettop(L) < first) lua_newtable(L);
+  // A string alone stands for the key 'file' where that comes first: dotyk.qp "name.qps".
+  const auto& table = descriptor_.arguments[0].keys;
+  if (lua_type(L, first) == LUA_TSTRING && !table.empty() && table.front().name == "file") {
+    lua_createtable(L, 0, 1);
+    lua_insert(L, first);
+    lua_setfield(L, first, "file");
+  }
   if (lua_type(L, first) != LUA_TTABLE) {
     const auto& keys = descriptor_.arguments[0].keys;
     std::vector<std::string> names;
