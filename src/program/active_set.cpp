@@ -1,264 +1,20 @@
 #include "program/active_set.hpp"
 
 #include <cmath>
-#include <unordered_set>
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
-#include "program/elastic.hpp"
+#include "program/active_set_iteration.hpp"
+#include "program/certificate.hpp"
 #include "program/interior_point.hpp"
 #include "program/scaling.hpp"
-#include "program/working_kkt.hpp"
 
 namespace dotyk::program {
 namespace {
 
-constexpr double kHeavier = 100;     ///< factor on the weight of violations
-constexpr double kHeaviest = 1e6;    ///< on its first value, before violations alone are minimised
-constexpr int kRounds = 50;          ///< in which the whole working set changes at once
-constexpr int kLeaves = 10;          ///< times a row may leave among many before rows change one by one
+constexpr double kFeasible = 1e-7;    ///< relative violation with which a solution is still one
 
 double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
-
-class Iteration {
- public:
-  Iteration(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monitor)
-      : p_(p), settings_(settings), monitor_(monitor), kkt_(p), rows_(p, settings.tol), x_(Vector::Zero(p.unknowns())),
-        y_(Vector::Zero(p.rows())), left_(p.rows(), 0) {}
-
-  Result run(const std::vector<Side>& start, const Vector& x, const Vector& y) {
-    rows_.side = start;
-    x_ = x, y_ = y;
-    weight_ = first_weight_ = 10 * std::max({1.0, peak(p_.q), peak(y)});
-    if (settings_.change != ActiveSet::Change::many || !whole_sets()) {
-      settle();
-      while (!finished_) iterate();
-    }
-    result_.x = x_;
-    result_.y = y_;
-    result_.working = rows_.side;
-    result_.factorisations += kkt_.factorisations();
-    return result_;
-  }
-
- private:
-  Vector gradient() const {
-    Vector g = objective_ ? Vector(times(p_.P, x_) + p_.q) : Vector(Vector::Zero(p_.unknowns()));
-    if (rows_.violations()) g += weight_ * (p_.A.transpose() * rows_.charge());
-    return g;
-  }
-
-  void finish(Status status, std::string reason) {
-    result_.status = status;
-    result_.reason = std::move(reason);
-    finished_ = true;
-  }
-
-  WorkingKkt::Solution solve_kkt(const Vector& g, const Vector& activity) {
-    ++result_.iterations;
-    const auto s = kkt_.solve(-g, rows_.missing(activity), y_);
-    result_.singular += s.singular;
-    result_.survived += s.singular && s.p.allFinite();
-    return s;
-  }
-
-  /// Rounds in which every violated row goes to work and every wrong multiplier leaves. True if they end
-  /// at the solution; else the start is put back.
-  bool whole_sets() {
-    const auto side = rows_.side;
-    const Vector x = x_, y = y_;
-    std::unordered_set<std::size_t> seen;
-    kkt_.set(rows_.taken());
-    for (int round = 0; round < kRounds && seen.insert(rows_.hash()).second; ++round) {
-      const auto s = solve_kkt(times(p_.P, x_) + p_.q, p_.A * x_);
-      if (!s.consistent) break;
-      x_ += s.p;
-      y_ = s.y;
-      int changed = 0;
-      const Vector activity = p_.A * x_;
-      for (int r = 0; r < p_.rows(); ++r) {
-        const Side before = rows_.side[r];
-        if (rows_.working(r)) {
-          if (wrong(r) > 0 && !p_.equality(r)) rows_.side[r] = Side::free, ++result_.dropped;
-        } else if (activity[r] > p_.high[r] + rows_.slack_tolerance(p_.high[r])) {
-          rows_.side[r] = p_.equality(r) ? Side::equal : Side::high, ++result_.added;
-        } else if (activity[r] < p_.low[r] - rows_.slack_tolerance(p_.low[r])) {
-          rows_.side[r] = p_.equality(r) ? Side::equal : Side::low, ++result_.added;
-        }
-        changed += rows_.side[r] != before;
-      }
-      report(changed, s.p);
-      if (changed == 0) {
-        finish(Status::solved, "every row and every multiplier has its sign");
-        return true;
-      }
-      kkt_.set(rows_.taken());
-    }
-    result_.repeats += seen.count(rows_.hash()) > 0;
-    rows_.side = side;
-    x_ = x, y_ = y;
-    return false;
-  }
-
-  /// The first point: rows at work hold there as well as they can; the rest is looked at.
-  void settle() {
-    kkt_.set(rows_.taken());
-    const Vector activity = p_.A * x_;
-    const auto s = solve_kkt(times(p_.P, x_) + p_.q, activity);
-    if (s.consistent) x_ += s.p, y_ = s.y;
-    else x_ += kkt_.restore(rows_.missing(activity));
-    rows_.classify(p_.A * x_);
-    kkt_.set(rows_.taken());
-  }
-
-  void iterate() {
-    if (monitor_.stop()) return finish(Status::stopped, "stopped on request");
-    if (result_.iterations >= settings_.max_iterations)
-      return finish(Status::stopped, text("no end within ", settings_.max_iterations, " iterations"));
-    const bool elastic = rows_.violations() > 0;
-    if (!elastic && !objective_) objective_ = true, forget();
-    const Vector g = gradient(), activity = p_.A * x_;
-    auto s = solve_kkt(g, activity);
-    double fall = -g.dot(s.p), curvature = objective_ ? s.p.dot(times(p_.P, s.p)) : 0;
-    const double still = 1e-11 * (1 + peak(x_));
-    double whole = objective_ && s.consistent ? 1 : INFINITY;
-    const double negligible = 1e-14 * (1 + std::abs(objective(p_, x_)));
-    if (s.consistent && (peak(s.p) <= still || (objective_ && std::abs(fall) <= negligible))) {
-      if (peak(s.p) <= still) x_ += s.p;
-      y_ = s.y;
-      return stationary(elastic, s.p);
-    }
-    if (!s.consistent) {
-      s.p /= peak(s.p);
-      fall = -g.dot(s.p), curvature = objective_ ? s.p.dot(times(p_.P, s.p)) : 0;
-      if (!(fall > settings_.tol * (1 + peak(g)))) {  // stationary up to the tolerance on multipliers
-        y_ = s.y;
-        return stationary(elastic, s.p);
-      }
-      if (curvature > 1e-15) whole = fall / curvature;
-    }
-    const Vector speed = p_.A * s.p;
-    const auto meeting = rows_.meeting(activity, speed, cautious_, many());
-    if (!std::isfinite(whole) && !std::isfinite(meeting.step)) {
-      if (elastic) return heavier();
-      result_.direction = s.p;
-      return finish(Status::unbounded, "the objective falls for ever along a direction that meets no row");
-    }
-    const double step = std::min(whole, meeting.step);
-    x_ += step * s.p;
-    if (step * peak(s.p) > still) forget();
-    if (whole <= meeting.step) {
-      y_ = s.y;
-      if (s.consistent) return stationary(elastic, s.p);
-      return report(0, s.p);
-    }
-    for (int r : meeting.rows) {
-      rows_.engage(r, speed[r]);
-      kkt_.change(r, true);
-      ++result_.added;
-    }
-    if (step == 0) blocked_ = true;
-    report(static_cast<int>(meeting.rows.size()), s.p);
-    remember();
-  }
-
-  bool many() const { return settings_.change == ActiveSet::Change::many && !blocked_ && !cautious_ && !zigzag_; }
-
-  /// How wrong the multiplier of a row at work is, 0 where it is right; negative multipliers beyond the
-  /// weight of an elastic row are wrong as well.
-  double wrong(int r) const {
-    const double y = y_[r], tolerance = settings_.tol * (1 + scale_);
-    double out = 0;
-    if (rows_.side[r] == Side::low && y > tolerance) out = y;
-    if (rows_.side[r] == Side::high && y < -tolerance) out = -y;
-    return out;
-  }
-  bool too_heavy(int r) const { return std::abs(y_[r]) > weight_ * (1 + 1e-9) && wrong(r) == 0; }
-
-  /// The objective cannot fall with this working set: rows with wrong multipliers leave.
-  void stationary(bool elastic, const Vector& step) {
-    scale_ = peak(p_.q);
-    double worst = 0;
-    int leaving = -1;
-    for (int r = 0; r < p_.rows(); ++r) {
-      if (!rows_.working(r)) continue;
-      const double size = wrong(r) > 0 ? wrong(r) : elastic && too_heavy(r) ? std::abs(y_[r]) - weight_ : 0;
-      if (size > worst && (leaving < 0 || !cautious_)) worst = size, leaving = r;
-    }
-    if (leaving < 0) {
-      report(0, step);
-      if (!elastic) return finish(Status::solved, "every row and every multiplier has its sign");
-      return heavier();
-    }
-    int count = 0;
-    const bool all = many();
-    for (int r = 0; r < p_.rows(); ++r) {
-      const bool leaves = r == leaving || (all && rows_.working(r) && wrong(r) >= 0.1 * worst && wrong(r) > 0);
-      if (!leaves) continue;
-      if (all && ++left_[r] > kLeaves && !zigzag_) zigzag_ = true, ++result_.repeats;
-      rows_.side[r] = wrong(r) > 0 ? Side::free : y_[r] > 0 ? Side::above : Side::below;
-      kkt_.change(r, false);
-      ++result_.dropped, ++count;
-    }
-    blocked_ = false;
-    report(count, step);
-    remember();
-  }
-
-  /// Violations are left where nothing else is wrong: they are made dearer; at last they alone count.
-  void heavier() {
-    forget();
-    if (rows_.arrived(p_.A * x_)) {
-      for (int r = 0; r < p_.rows(); ++r)
-        if (rows_.violated(r)) rows_.engage(r, 0), kkt_.change(r, true), ++result_.added;
-      return;
-    }
-    if (!objective_) {
-      result_.direction = y_ + rows_.charge() * weight_;
-      return finish(Status::infeasible, text("the rows contradict one another: ", rows_.violations(),
-                                             " stay violated where the sum of violations is least"));
-    }
-    if (weight_ < kHeaviest * first_weight_) {
-      weight_ *= kHeavier;
-      return;
-    }
-    objective_ = false;
-    weight_ = 1;
-  }
-
-  void forget() {
-    seen_.clear();
-    cautious_ = blocked_ = false;
-  }
-  void remember() {
-    if (cautious_ || seen_.insert(rows_.hash()).second) return;
-    cautious_ = true;
-    ++result_.repeats;
-  }
-
-  void report(int changed, const Vector& step) {
-    IterationInfo info;
-    info.iteration = result_.iterations;
-    for (int r = 0; r < p_.rows(); ++r) info.active += rows_.working(r);
-    info.changed = changed;
-    info.residual = peak(step) / (1 + peak(x_));
-    info.seconds = clock_.seconds();
-    monitor_.iteration(info);
-  }
-
-  const QuadraticProgram& p_;
-  const ActiveSet& settings_;
-  Monitor& monitor_;
-  Stopwatch clock_;
-  WorkingKkt kkt_;
-  Elastic rows_;
-  Vector x_, y_;
-  Result result_;
-  std::unordered_set<std::size_t> seen_;  ///< working sets since the objective last fell
-  bool finished_ = false, objective_ = true, cautious_ = false, blocked_ = false, zigzag_ = false;
-  std::vector<int> left_;  ///< how often each row has left among many
-  double weight_ = 1, first_weight_ = 1, scale_ = 0;
-};
 
 /// A first working set, point and multipliers, in the scaled program.
 struct Guess {
@@ -266,10 +22,15 @@ struct Guess {
   Vector x, y;
 };
 
-Guess guess(const QuadraticProgram& p, const Scaled& scaled, const ActiveSet& settings, Monitor& monitor, Result& predicted) {
+Guess equalities(const QuadraticProgram& p) {
   Guess g{std::vector<Side>(p.rows(), Side::free), Vector::Zero(p.unknowns()), Vector::Zero(p.rows())};
   for (int r = 0; r < p.rows(); ++r)
     if (p.equality(r)) g.working[r] = Side::equal;
+  return g;
+}
+
+Guess guess(const QuadraticProgram& p, const Scaled& scaled, const ActiveSet& settings, Monitor& monitor, Result& predicted) {
+  Guess g = equalities(p);
   const bool small = p.unknowns() + p.rows() <= 200;
   if (!settings.working.empty()) g.working = settings.working;
   else if (settings.start == ActiveSet::Start::interior_point || (settings.start == ActiveSet::Start::automatic && !small)) {
@@ -282,6 +43,44 @@ Guess guess(const QuadraticProgram& p, const Scaled& scaled, const ActiveSet& se
   return g;
 }
 
+/// Far away rounding hides that rows contradict one another: is there any feasible point?
+void doubt(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monitor, Result& result) {
+  const bool violated = result.status == Status::solved && residuals(p, result.x, result.y).feasibility > kFeasible;
+  if (!violated && result.status != Status::unbounded) return;
+  const QuadraticProgram nearest = nearest_point(p);
+  const Guess start = equalities(p);
+  ActiveSet one_by_one = settings;
+  one_by_one.change = ActiveSet::Change::one;
+  const Result point = ActiveSetIteration(nearest, one_by_one, monitor).run(start.working, start.x, start.y);
+  result.iterations += point.iterations, result.singular += point.singular, result.survived += point.survived;
+  if (point.status == Status::infeasible) {
+    result.status = point.status, result.reason = point.reason, result.direction = point.direction;
+  } else if (violated) {
+    result.status = Status::stopped, result.reason = "rows stay violated: the working set is too ill-conditioned";
+  }
+}
+
+/// ": rows 1, 4 and 7" of a proof of infeasibility.
+std::string name_rows(const Vector& weights) {
+  constexpr int most = 6;
+  std::string out;
+  int count = 0;
+  const double least = 1e-6 * peak(weights);
+  for (int r = 0; r < weights.size(); ++r)
+    if (std::abs(weights[r]) > least && ++count <= most) out += text(count > 1 ? ", " : ": rows ", r + 1);
+  return count > most ? out + text(" and ", count - most, " more") : out;
+}
+
+/// Unknowns held by a single-entry row at work are on their bound to the last digit.
+void put_on_bounds(const QuadraticProgram& p, Result& result) {
+  for (int r = 0; r < p.rows(); ++r) {
+    const Side side = result.working[r];
+    if (side == Side::free || p.A.outerIndexPtr()[r + 1] - p.A.outerIndexPtr()[r] != 1) continue;
+    const SparseRows::InnerIterator entry(p.A, r);
+    if (entry.value() != 0) result.x[entry.col()] = (side == Side::low ? p.low[r] : p.high[r]) / entry.value();
+  }
+}
+
 }  // namespace
 
 Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor& monitor) {
@@ -292,11 +91,16 @@ Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor
   if (curved.size()) return solve(program, InteriorPoint{}, monitor);
   const Scaled scaled = scale(program);
   const Guess start = guess(program, scaled, settings, monitor, predicted);
-  result = Iteration(scaled.program, settings, monitor).run(start.working, start.x, start.y);
+  result = ActiveSetIteration(scaled.program, settings, monitor).run(start.working, start.x, start.y);
+  doubt(scaled.program, settings, monitor, result);
   result.x = scaled.x(result.x);
   result.y = scaled.y(result.y);
   if (result.status == Status::unbounded) result.direction = scaled.x(result.direction).normalized();
-  if (result.status == Status::infeasible) result.direction = scaled.row.cwiseProduct(result.direction);
+  if (result.status == Status::infeasible) {
+    result.direction = scaled.row.cwiseProduct(result.direction);
+    result.reason += name_rows(result.direction);
+  }
+  if (result.status == Status::solved) put_on_bounds(program, result);
   result.predictor_iterations = predicted.iterations;
   result.factorisations += predicted.factorisations;
   measure(program, result);

@@ -55,7 +55,7 @@ void Barrier::start(double far) {
     if (p_.equality(r)) theta_inverse[r] = 0;
     if (taken_[r]) h[r] = std::clamp(0.0, p_.low[r], p_.high[r]);
   }
-  at_ = zero();
+  at_ = last_ = zero();
   if (factor(theta_inverse, 1)) {
     regular_ = kRegular;
     Vector b(n_ + m_);
@@ -204,6 +204,7 @@ bool Barrier::step() {
     }
   }
   if (alpha < 1) alpha *= std::max(0.9, 1 - 10 * mu_ > 0.995 ? 0.995 : 1 - 10 * mu_);
+  last_ = d;
   at_.x += alpha * d.x;
   at_.y += alpha * d.y;
   at_.w += alpha * d.w;

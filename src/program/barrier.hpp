@@ -30,6 +30,8 @@ class Barrier {
   std::vector<Side> active(const Point& at) const;
 
   const Point& point() const { return at_; }
+  /// The last step's direction: of iterates that go to infinity it is the cleaner proof.
+  const Point& last() const { return last_; }
   int factorisations() const { return factorisations_; }
 
  private:
@@ -45,7 +47,7 @@ class Barrier {
   Kkt kkt_;
   std::vector<char> taken_, has_low_, has_high_;
   Vector D_, rd_, rp_, rl_, ru_;  ///< residuals: stationarity, Ax = w, the two slacks
-  Point at_;
+  Point at_, last_;
   double regular_ = 0, mu_ = 0, primal_ = 0, dual_ = 0, gap_ = 0, size_b_ = 0;
 };
 

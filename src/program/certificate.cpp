@@ -32,4 +32,11 @@ bool proves_unbounded(const QuadraticProgram& p, const Vector& d, double toleran
   return true;
 }
 
+QuadraticProgram nearest_point(const QuadraticProgram& p) {
+  QuadraticProgram out = p;
+  out.P.setIdentity();
+  out.q.setZero();
+  return out;
+}
+
 }  // namespace dotyk::program

@@ -13,4 +13,7 @@ bool proves_infeasible(const QuadraticProgram& program, const Vector& y, double 
 /// each up to `tolerance` times −qᵀd in units of a well-scaled program.
 bool proves_unbounded(const QuadraticProgram& program, const Vector& d, double tolerance = 1e-8);
 
+/// minimise ½|x|² over the same rows: never unbounded, infeasible where the program is.
+QuadraticProgram nearest_point(const QuadraticProgram& program);
+
 }  // namespace dotyk::program

@@ -17,18 +17,22 @@ constexpr double kEnough = 100;
 constexpr int kPatience = 15;
 
 /// Iterates that go to infinity show a direction that proves why.
-bool diverged(const QuadraticProgram& p, const Vector& x, const Vector& y, Result& result) {
-  const double far_x = x.lpNorm<Eigen::Infinity>(), far_y = y.size() ? y.lpNorm<Eigen::Infinity>() : 0;
-  if (far_y > 1e4 && proves_infeasible(p, y)) {
-    result.status = Status::infeasible;
-    result.reason = "the rows contradict one another";
-    result.direction = y / far_y;
-  } else if (far_x > 1e4 && proves_unbounded(p, x)) {
-    result.status = Status::unbounded;
-    result.reason = "the objective falls for ever along a direction that meets no row";
-    result.direction = x / far_x;
-  }
-  return result.status != Status::stopped;
+bool diverged(const QuadraticProgram& p, const Barrier& barrier, Result& result) {
+  for (const Vector* y : {&barrier.point().y, &barrier.last().y})
+    if (proves_infeasible(p, *y)) {
+      result.status = Status::infeasible;
+      result.reason = "the rows contradict one another";
+      result.direction = *y / y->lpNorm<Eigen::Infinity>();
+      return true;
+    }
+  for (const Vector* x : {&barrier.point().x, &barrier.last().x})
+    if (proves_unbounded(p, *x)) {
+      result.status = Status::unbounded;
+      result.reason = "the objective falls for ever along a direction that meets no row";
+      result.direction = *x / x->lpNorm<Eigen::Infinity>();
+      return true;
+    }
+  return false;
 }
 
 /// One run from a start with multipliers `far` inside.
@@ -57,7 +61,7 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
       result.reason = text("residuals and gap are below ", settings.tol);
       break;
     }
-    if (k > 5 && diverged(p, barrier.point().x, barrier.point().y, result)) break;
+    if (k > 2 && diverged(p, barrier, result)) break;
     if (monitor.stop()) {
       result.reason = "stopped on request";
       break;
@@ -100,6 +104,12 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
       result = run(scaled.program, settings, 1000, monitor);
       result.iterations += before;
       result.reason += ", at the second start";
+    }
+    if (result.status == Status::unbounded) {  // or without any point, which shows where the objective is strictly convex
+      const Result nearest = run(nearest_point(scaled.program), settings, 30, monitor);
+      if (nearest.status == Status::infeasible) {
+        result.status = nearest.status, result.reason = nearest.reason, result.direction = nearest.direction;
+      }
     }
     result.x = scaled.x(result.x);
     result.y = scaled.y(result.y);

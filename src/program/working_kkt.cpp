@@ -132,9 +132,17 @@ WorkingKkt::Solution WorkingKkt::solve(const Vector& f, const Vector& h, const V
   }
   Solution out;
   out.consistent = good(refined);
-  out.singular = probe();
+  out.singular = !out.consistent || probe();
   out.y = known + refined.z.tail(m_);
-  out.p = out.consistent ? refined.z.head(n_) : inverse(b).head(n_);
+  out.p = refined.z.head(n_);
+  if (out.consistent) return out;
+  // Each solve multiplies the part in the kernel by 1/δ and leaves the rest behind.
+  Vector z = inverse(b);
+  for (int round = 0; round < 2; ++round) {
+    z.head(n_) /= peak(z.head(n_));
+    z = inverse(rhs(z.head(n_), Vector::Zero(m_)));
+  }
+  out.p = z.head(n_);
   return out;
 }
 
