@@ -37,15 +37,21 @@ std::uint64_t Linearisation::fingerprint() const {
 int Linearisation::active_count() const { return std::accumulate(active.begin(), active.end(), 0); }
 
 Linearisation linearise(const Problem& problem, const Vector& lambda, const Vector& x,
-                        const Vector& rho, const Vector& noise, const Linearisation* previous) {
+                        const Vector& rho, const Noise& noise, const Linearisation* previous) {
   Linearisation l = sized(problem.rows());
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
-      const double y = lambda[r] + rho[r] * x[r];
-      if (previous && group.law->unilateral() && std::abs(y) <= noise[r])
-        set(l, r, y, previous->active[r] ? closed(y) : kOpen);
-      else
-        set(l, r, y, group.law->project(r - group.first, y, rho[r]));
+      double y = lambda[r] + rho[r] * x[r];
+      if (previous && group.law->unilateral()) {
+        const bool was_closed = previous->active[r];
+        y = was_closed ? lambda[r] : rho[r] * x[r];
+        const bool nothing = was_closed ? std::abs(lambda[r]) <= noise.force[r] : std::abs(x[r]) <= noise.gap[r];
+        if (nothing) {
+          set(l, r, y, was_closed ? closed(y) : kOpen);
+          continue;
+        }
+      }
+      set(l, r, y, group.law->project(r - group.first, y, rho[r]));
     }
   return l;
 }

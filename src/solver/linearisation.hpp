@@ -26,10 +26,16 @@ struct Linearisation {
   int active_count() const;
 };
 
-/// Linearises at (λ, x). A unilateral row whose |y| is below its `noise` keeps the branch of
-/// `previous` (nullptr: none): touching without force, it would flip with rounding.
+/// What rounding leaves, row by row, of a zero multiplier and of a zero gap.
+struct Noise {
+  algebra::Vector force, gap;
+};
+
+/// Linearises at (λ, x). With `previous`, (λ, x) solves it: of a unilateral row one of λ and x is zero but
+/// for rounding, which ρ must not blow up, so the other one alone decides; below its noise the row keeps its
+/// branch, for touching without force it would flip with rounding.
 Linearisation linearise(const problem::Problem& problem, const algebra::Vector& lambda,
-                        const algebra::Vector& x, const algebra::Vector& rho, const algebra::Vector& noise,
+                        const algebra::Vector& x, const algebra::Vector& rho, const Noise& noise,
                         const Linearisation* previous);
 
 /// The linearisation whose unilateral rows are active as flagged (others: at y = 0).

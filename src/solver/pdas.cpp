@@ -171,18 +171,20 @@ class Iteration {
     return true;
   }
 
-  /// What rounding leaves of y = λ + ρx on rows that touch without force: a few digits of the
-  /// greatest multiplier, and of the displacements and the row's own gap that cancel in x. A gap
-  /// that says "never" (1e30) is no measure of the others' rounding.
-  Vector noise(const Vector& lambda, const Vector& x) const {
-    if (lambda.size() == 0) return lambda;
+  /// What rounding leaves on rows that touch without force: a few digits of the greatest multiplier,
+  /// and of the displacements and the row's own gap that cancel in x, each turned into the other by the
+  /// row's stiffness. A gap that says "never" (1e30) is no measure of the others' rounding.
+  Noise noise(const Vector& lambda, const Vector& x) const {
+    if (lambda.size() == 0) return {lambda, lambda};
     const double force = lambda.lpNorm<Eigen::Infinity>();
     double moved = 0;
     for (int r = 0; r < x.size(); ++r) {
       const double jump = std::abs(x[r] + problem_.c[r]);
       if (std::abs(problem_.c[r]) < 1e6 * jump) moved = std::max(moved, jump);
     }
-    return (1e-13 * (force + rho_.array() * problem_.c.array().abs().max(moved))).matrix();
+    const Vector stiffness = rho_ / settings_.rho;
+    const Vector most = (1e-13 * (force + stiffness.array() * problem_.c.array().abs().max(moved))).matrix();
+    return {most, most.cwiseQuotient(stiffness)};
   }
 
   void record(const Linearisation& next) {

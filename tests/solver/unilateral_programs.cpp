@@ -123,3 +123,23 @@ TEST_CASE("a history has one entry an iteration, the last without changes") {
   CHECK(r.history.back().changed == 0);
   CHECK(r.history.back().residual < 1e-12);
 }
+
+TEST_CASE("rho may be anything: what rounding leaves of a zero is not measured by it") {
+  test::Random random(77);
+  Monitor quiet;
+  for (int trial = 0; trial < 20; ++trial) {
+    const int n = 6;
+    const auto p = test::program(random.positive_definite(n, 0.5), 2 * random.vector(n), DenseMatrix::Identity(n, n),
+                                 0.3 * random.vector(n));
+    const auto exact = test::by_enumeration(p);
+    REQUIRE(exact);
+    for (const double rho : {1e-16, 1e-12, 1e-6, 1e6, 1e12, 1e16})
+      for (const bool reduced : {true, false}) {
+        auto method = test::pdas(reduced);
+        method.rho = rho;
+        const auto r = solver::solve(p, method, quiet);
+        REQUIRE_MESSAGE(r.converged, r.reason);
+        CHECK((r.state.u - exact->u).norm() <= 1e-10 * exact->u.norm());
+      }
+  }
+}
