@@ -64,7 +64,7 @@ function describe(value, depth, seen)
   if kind == "string" then return depth == 0 and value:find "\n" and value or string.format("%q", value):gsub("\\\n", "\\n") .. "" end
   if kind == "table" then
     local meta = getmetatable(value)
-    if type(meta) == "table" and rawget(meta, "__tostring") then return tostring(value) end
+    if type(meta) == "table" and rawget(meta, "__tostring") and not rawget(meta, "__strict") then return tostring(value) end
     return describe_table(value, depth, seen)
   end
   if kind == "userdata" then

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "script/guard.hpp"
+#include "script/lua_side.hpp"
 #include "script/nearest.hpp"
 
 namespace dotyk::script {
@@ -16,6 +17,15 @@ int unknown_field(lua_State* L) {
   }
   const auto known = string_keys(L, 1);
   raise(L, name, unknown_name("field", lua_tostring(L, 2), known));
+}
+
+int show_table(lua_State* L) {
+  luaL_checktype(L, 1, LUA_TTABLE);
+  push_own_module(L, "show");
+  lua_getfield(L, -1, "text");
+  lua_pushvalue(L, 1);
+  lua_call(L, 1, 1);
+  return 1;
 }
 
 }  // namespace
@@ -39,6 +49,10 @@ void make_strict(lua_State* L, const std::string& name) {
     push(L, name);
     lua_pushcclosure(L, unknown_field, 1);
     lua_setfield(L, -2, "__index");
+    lua_pushcfunction(L, show_table);
+    lua_setfield(L, -2, "__tostring");
+    push(L, true);
+    lua_setfield(L, -2, "__strict");  // lua/show.lua looks inside these
   }
   lua_setmetatable(L, -2);
 }

@@ -60,7 +60,7 @@ void push(lua_State* L, const std::vector<T>& values) {
 }
 
 // Makes the table on top of the stack answer an unknown field with an error
-// that names the nearest one; `name` says what the table is.
+// that names the nearest one, and print what it holds; `name` says what the table is.
 void make_strict(lua_State* L, const std::string& name);
 
 // The string keys of the table at index, sorted.

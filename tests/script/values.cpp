@@ -28,6 +28,7 @@ TEST_CASE("values are shown readably") {
   shows("dotyk.test.toy{ name = 'a' }", "\"toy 'a'\"");
   shows("dotyk.test.each", "'dotyk.test.each(f)'");
   shows("dotyk.test.toy{ name = 'a' }.facts", "'{ good = true, size = 1 }'");
+  shows("tostring(dotyk.test.toy{ name = 'a' }.facts)", "\"\\\"{ good = true, size = 1 }\\\"\"");
   CHECK(bench.error("local t = {} t.me = t\nassert(shown.text(t) == '{ me = {…} }')") == "");
   CHECK(bench.error("local t = {} for i = 1, 1e5 do t[i] = i end\nassert(#shown.text(t) < 1000)") == "");
 }
