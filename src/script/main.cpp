@@ -76,6 +76,13 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
   return std::nullopt;
 }
 
+/// The exit status, or 1 with a message where what was printed did not arrive (a full disk, a closed output).
+int after_printing(int status) {
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
+  std::fprintf(stderr, "dotyk: standard output could not be written%s%s\n", errno ? ": " : "", errno ? std::strerror(errno) : "");
+  return status == 0 ? 1 : status;
+}
+
 int run(const Command& command) {
   if (command.file && *command.file != "-" && access(command.file->c_str(), R_OK) != 0) {
     std::fprintf(stderr, "dotyk: cannot open %s: %s\n", command.file->c_str(), std::strerror(errno));
@@ -103,8 +110,8 @@ int run(const Command& command) {
 int main(int count, char** words) {
   try {
     Command command;
-    if (const auto status = read_command({words + 1, words + count}, command)) return *status;
-    return run(command);
+    if (const auto status = read_command({words + 1, words + count}, command)) return after_printing(*status);
+    return after_printing(run(command));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "dotyk: %s\n", error.what());
     return 1;

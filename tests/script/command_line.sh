@@ -45,6 +45,10 @@ expect "an error of -" 1 '' 'dotyk: stdin:2: no' bash -c 'printf "\nerror [[no]]
 expect "-i" 0 $'7' '' bash -c 'echo y | "$0" -i sets.lua' "$dotyk"
 expect "the prompt from a pipe" 1 $'3\n3\n{ 1, "x" }\n5' "prompt:1: unknown variable 'nix'" \
   bash -c 'printf "%s\n" "1 +" "2" "_" "local t = {" "1, [[x]] }" t "= 5" nix | "$0"' "$dotyk"
+expect "a full disk" 1 '' 'dotyk: standard output could not be written: No space left on device' \
+  bash -c '"$0" -e "print(1)" >/dev/full' "$dotyk"
+expect "a closed output" 1 '' 'dotyk: standard output could not be written: Bad file descriptor' \
+  bash -c '"$0" -e "print(1)" >&-' "$dotyk"
 expect "a broken Lua folder" 1 '' "dotyk: the Lua files of dotyk, in /nowhere, cannot be loaded: cannot read /nowhere/init.lua" \
   env DOTYK_LUA=/nowhere "$dotyk" -e ''
 
