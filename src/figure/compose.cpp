@@ -199,6 +199,20 @@ double scene_size(const Solution& s) {
   return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
 }
 
+/// The greatest factor at which bodies that crossed a gap to touch are drawn overlapping by no more than
+/// 1 % of the scene's size: the gap is not magnified, the way across it is.
+double overlap_limit(const Solution& s, double size) {
+  double limit = INFINITY;
+  for (const auto& contact : s.scene().contacts) {
+    if (contact->kind != Contact::Kind::contact || !contact->second.body) continue;
+    const scene::ContactResult result = s.contact(*contact);
+    for (std::size_t k = 0; k < contact->rows.size(); ++k)
+      if (result.nodes[k].status != problem::Status::open && contact->rows[k].gap > 0)
+        limit = std::min(limit, 1 + 0.01 * size / contact->rows[k].gap);
+  }
+  return limit;
+}
+
 }  // namespace
 
 double visible_deformation(const Solution& s) {
@@ -206,7 +220,7 @@ double visible_deformation(const Solution& s) {
   for (std::size_t b = 0; b < s.scene().bodies.size(); ++b)
     for (double u : s.displacement(static_cast<int>(b))) largest = std::max(largest, std::abs(u));
   if (!(largest > 0)) return 1;
-  const double wanted = 0.1 * scene_size(s) / largest;
+  const double size = scene_size(s), wanted = std::min(0.1 * size / largest, overlap_limit(s, size));
   if (wanted <= 1) return 1;
   const double power = std::pow(10, std::floor(std::log10(wanted)));
   return power * (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1);

@@ -28,7 +28,7 @@ struct SceneOptions {
 ScenePicture compose(const scene::Solution& solution, const SceneOptions& options);
 
 // 1, 2 or 5 times a power of ten, at least 1, such that the greatest displacement comes to 4 to
-// 10 % of the scene's size.
+// 10 % of the scene's size; less where bodies that crossed a gap would be drawn into each other.
 double visible_deformation(const scene::Solution& solution);
 
 }  // namespace dotyk::figure
