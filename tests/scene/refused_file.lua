@@ -41,7 +41,7 @@ refused(function() s:write(folder .. "/b.vtk") end, "must end in .vtu")
 refused(function() s:write "" end, "a file name is needed, one that ends in .vtu")
 refused(function() s:write_contact "" end, "a file name is needed")
 refused(function() s:render{} end, "missing key 'file'")
-refused(function() s:render "b.png" end, "expected a table of keys (file, ")
+refused(function() s:render(7) end, "expected a table of keys (file, ")
 refused(function() s:write() end, "argument 1 'file' is missing, expected a string")
 refused(function() s:write{ file = "b.vtu" } end, "argument 1 'file' must be a string, got a table")
 
