@@ -173,21 +173,30 @@ std::vector<NodePair> match(const Face& first, const Face& second) {
 }
 
 std::vector<ContactRow> between(const Face& first, const Face& second,
-                                const elasticity::ScalarField& added) {
+                                const elasticity::ScalarField& added, bool interference) {
   std::unordered_map<int, NodePair> partner;
   for (const NodePair& p : match(first, second)) partner.emplace(p.first, p);
   std::vector<ContactRow> rows;
+  const double rounding = 1e-6 * first.mesh.size();
+  double deepest = 0;
+  Point where{0, 0, 0};
   for (const NodeSide& side : sides(first.mesh, first.facets)) {
     const auto found = partner.find(side.node);
     if (found == partner.end()) continue;
     const Point x = first.mesh.point(side.node);
     double gap = dot(minus(second.mesh.point(found->second.second), x), side.normal);
+    const double overlap = gap;
     if (added) gap += added(x);
+    if (std::max(gap, overlap) < deepest) deepest = std::max(gap, overlap), where = x;  // a negative `added` is meant
     if (!std::isfinite(gap))
       throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), first.mesh.dimension()),
                             "; it must be a finite number"));
     rows.push_back({side.node, found->second.second, side.normal, gap, side.weight});
   }
+  if (!interference && deepest < -rounding)
+    throw InputError(text(first.name, " and ", second.name, " overlap by ", -deepest, " at ",
+                          point_text(where.data(), first.mesh.dimension()),
+                          " before any load; move one, or say interference = true if the overlap is meant"));
   return rows;
 }
 

@@ -27,8 +27,9 @@ struct NodePair {
 std::vector<NodePair> match(const Face& first, const Face& second);
 
 /// Rows at the matching nodes, one a side of the first part at each; `added` (may be empty) is added
-/// to the geometric gap. Throws as match(), and for a gap that is not finite.
+/// to the geometric gap. Throws as match(), for a gap that is not finite, and unless `interference` is
+/// set for parts that overlap at rest (by more than 1e-6 of the first mesh's size; a negative `added` is no overlap).
 std::vector<ContactRow> between(const Face& first, const Face& second,
-                                const elasticity::ScalarField& added);
+                                const elasticity::ScalarField& added, bool interference = false);
 
 }  // namespace dotyk::contact

@@ -75,14 +75,14 @@ std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
 }  // namespace
 
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
-                                           const elasticity::ScalarField& added_gap) {
+                                           const elasticity::ScalarField& added_gap, bool interference) {
   require_member(scene, first);
   require_member(scene, second);
   Contact contact;
   contact.name = "contact of " + first.label() + " with " + second.label();
   contact.first = first;
   contact.second = second;
-  contact.rows = contact::between(face(first), face(second), added_gap);
+  contact.rows = contact::between(face(first), face(second), added_gap, interference);
   refuse_repetition(scene, contact);
   return keep(scene, std::move(contact));
 }

@@ -37,7 +37,7 @@ std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies);
 /// Frictionless contact of two parts with matching nodes. Throws as contact::between, and for a
 /// part whose body is not in the scene.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
-                                           const elasticity::ScalarField& added_gap);
+                                           const elasticity::ScalarField& added_gap, bool interference = false);
 /// Frictionless contact of a part with a rigid shape. Throws as contact::against.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
                                            const elasticity::ScalarField& added_gap, bool interference);

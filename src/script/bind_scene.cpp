@@ -56,7 +56,7 @@ int add_contact(Call& call) {
   }
   if (parts.size() != 2)
     throw InputError("give two parts, or one part and 'rigid'");
-  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added));
+  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, call.boolean("interference")));
 }
 
 int add_glue(Call& call) {
@@ -153,7 +153,7 @@ void bind_scene(Library& library) {
                .arguments = {key::table({key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
                                          key::field("gap", "added to the geometric gap; a number or a function of the coordinates").unit("length").otherwise("0"),
                                          key::choice("pairing", {"matching"}, "how nodes of the two parts are paired").fallback("matching"),
-                                         key::boolean("interference", "a rigid plane or ball may overlap the part at rest").fallback(false)})
+                                         key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest").fallback(false)})
                                  .with(key::object<Part>("parts", "one part, or two").count(1, 2))},
                .returns = "contact",
                .run = add_contact})

@@ -55,10 +55,27 @@ TEST_CASE("across a gap partners lie along the normal, and the gap is the distan
       for (const auto& p : contact::match(face(low, "top"), face(high, "bottom")))
         CHECK(p.distance == doctest::Approx(distance));
       const auto rows =
-          contact::between(face(low, "top"), face(high, "bottom"), [](const Point& x) { return 10 * x[0]; });
+          contact::between(face(low, "top"), face(high, "bottom"), [](const Point& x) { return 10 * x[0]; }, true);
       CHECK(rows.size() == (dim == 2 ? 4u : 16u));
       for (const auto& r : rows) CHECK(r.gap == doctest::Approx(distance + 10 * low.node(r.node)[0]));
     }
+}
+
+TEST_CASE("parts that overlap at rest are refused with depth and place, unless that is meant or made up for") {
+  for (int dim : {2, 3}) {
+    const auto low = test::unit(dim, Family::p1, 3);
+    auto high = test::unit(dim, Family::q1, 3);
+    mesh::transform(high, [&](Point x) { return x[dim - 1] += 0.95, x; });
+    const auto meet = [&](double added, bool interference = false) {
+      return contact::between(face(low, "top"), face(high, "bottom"), [=](const Point&) { return added; }, interference);
+    };
+    CHECK_THROWS_WITH_AS(meet(0), doctest::Contains("overlap by 0.05 at "), InputError);
+    CHECK_THROWS_WITH_AS(meet(-0.01), doctest::Contains("overlap by 0.05 at "), InputError);
+    CHECK_NOTHROW(meet(0.05));
+    CHECK(meet(0, true).front().gap == doctest::Approx(-0.05));
+    mesh::transform(high, [&](Point x) { return x[dim - 1] += 0.05 + 1e-9, x; });
+    CHECK(meet(-0.01).front().gap == doctest::Approx(-0.01));  // a press fit that is said
+  }
 }
 
 TEST_CASE("parts may overhang each other") {

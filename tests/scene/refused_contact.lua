@@ -76,6 +76,25 @@ bar:part "top":fix()
 local pressed <const> = dotyk.scene{ bar }
 local c <const> = pressed:contact{ bar:part "bottom", rigid = high, interference = true }
 check.near(dotyk.solve(pressed):contact(c).force, { 0, 1 }, 1e-12)  -- E × 0.1: the floor pushes upwards
+-- The same of two parts, where a negative gap is a press fit and no mistake.
+local function stacked(base)
+  local function square(name, y)
+    return dotyk.body{ name = name, material = it.material,
+                       mesh = dotyk.mesh.rectangle{ from = {0,y}, to = {1,y + 1}, cells = {2,2} } }
+  end
+  local low, high = square("low", 0), square("high", base)
+  low:part "bottom":fix()
+  high:part "top":fix()
+  return dotyk.scene{ low, high }, high:part "bottom", low:part "top"
+end
+local overlapping <const>, above <const>, below <const> = stacked(0.9)
+refused(function() overlapping:contact{ above, below } end, "'high' bottom and 'low' top overlap by 0.1 at (0, 0.9) before any load", "interference = true")
+overlapping:contact{ above, below, gap = 0.1 }
+local meant <const>, up <const>, down <const> = stacked(0.9)
+local fit <const>, over <const>, under <const> = stacked(1)
+local pushed <const>, fitted <const> = meant:contact{ up, down, interference = true }, fit:contact{ over, under, gap = -0.1 }
+check.near(dotyk.solve(meant):contact(pushed).force, { 0, 0.5 }, 1e-12)  -- E × 0.1, shared by two blocks
+check.near(dotyk.solve(fit):contact(fitted).force, { 0, 0.5 }, 1e-12)
 -- Normals of any length give the same.
 for _, length in ipairs{ 1e-300, 1.7e308 } do
   local far = dotyk.scene{ dotyk.body{ mesh = it.mesh, material = it.material } }
