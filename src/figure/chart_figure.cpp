@@ -117,11 +117,10 @@ private:
     return out;
   }
 
-  // Reference curves take no colour, so the k-th series keeps its own.
+  // Reference curves and twins take no colour of their own, so the k-th series keeps its own.
   int index(int k) const {
-    int n = 0;
-    for (int i = 0; i < k; ++i) n += !picture_.series[static_cast<std::size_t>(i)].reference;
-    return n;
+    const auto own = [](const SeriesPicture& s) { return !s.reference && !s.twin; };
+    return std::max(0, static_cast<int>(std::count_if(picture_.series.begin(), picture_.series.begin() + k + 1, own)) - 1);
   }
   Colour colour(int k) const {
     return picture_.series[static_cast<std::size_t>(k)].reference ? reference_grey : series_colour(index(k));
@@ -130,7 +129,7 @@ private:
 
   void stroke(Canvas& canvas, std::span<const Point> points, const SeriesPicture& s, int k) const {
     const std::array<double, 2> dash{0.42 * em_, 0.26 * em_};
-    canvas.polyline(points, line_width(), colour(k), s.reference ? std::span<const double>(dash) : std::span<const double>());
+    canvas.polyline(points, line_width(), colour(k), s.reference || s.twin ? std::span<const double>(dash) : std::span<const double>());
   }
 
   void draw_spread(int k) {

@@ -152,6 +152,7 @@ struct SeriesPicture {
   SeriesStyle style = SeriesStyle::both;
   std::vector<double> low, high;            // n each or empty: a spread about y, drawn as a band
   bool reference = false;                   // a reference curve: dashed, dark grey, no markers
+  bool twin = false;                        // dashed, with colour and marker of the series before it
 };
 
 // A guide of the given slope. With both axes logarithmic y ~ x^slope;

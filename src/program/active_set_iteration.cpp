@@ -174,7 +174,6 @@ double ActiveSetIteration::wrong(int r) const {
 bool ActiveSetIteration::too_heavy(int r) const { return std::abs(y_[r]) > weight_ * (1 + 1e-9) && wrong(r) == 0; }
 
 void ActiveSetIteration::stationary(bool elastic, const Vector& step) {
-
   double worst = 0;
   int leaving = -1;
   for (int r = 0; r < p_.rows(); ++r) {

@@ -16,7 +16,7 @@ constexpr int kRestarts = 20;  ///< of CG with a freshly computed gradient, befo
 class Iteration {
  public:
   Iteration(const QuadraticProgram& p, const AugmentedLagrangian& settings, Monitor& monitor)
-      : p_(p), s_(settings), monitor_(monitor), d_(p.low), x_(Vector::Zero(p.unknowns())), mu_(Vector::Zero(p.rows())),
+      : p_(p), s_(settings), monitor_(monitor), x_(Vector::Zero(p.unknowns())), mu_(Vector::Zero(p.rows())), gap_(-p.low),
         rho_(settings.rho), eta_(settings.eta), size_(p.q.norm() > 0 ? p.q.norm() : 1) {
     if (settings.update == AugmentedLagrangian::Update::least_squares && p.rows() > 0) prepare_least_squares();
   }
@@ -26,10 +26,9 @@ class Iteration {
     for (int k = 0; k < s_.max_iterations; ++k) {
       const bool precise = inner();
       result_.iterations = k + 1;
-      const Vector gap = p_.A * x_ - d_;
-      const bool optimal = gradient().norm() <= s_.gradient_tol * size_ && gap.norm() <= s_.feasibility_tol;
-      const Vector exact = mu_ + rho_ * gap;  // makes the gradient of the Lagrangian that of L
-      monitor_.iteration({.iteration = k + 1, .changed = result_.cg, .residual = gap.norm(), .seconds = clock_.seconds()});
+      const bool optimal = gradient().norm() <= s_.gradient_tol * size_ && gap_.norm() <= s_.feasibility_tol;
+      const Vector exact = mu_ + rho_ * gap_;  // makes the gradient of the Lagrangian that of L
+      monitor_.iteration({.iteration = k + 1, .changed = result_.cg, .residual = gap_.norm(), .seconds = clock_.seconds()});
       if (result_.status != Status::stopped) break;
       if (optimal) {
         result_.status = Status::solved;
@@ -39,7 +38,7 @@ class Iteration {
       }
       if (!precise) break;
       mu_ = s_.update == AugmentedLagrangian::Update::multiplier ? exact : least_squares();
-      if (gap.norm() <= eta_) eta_ *= s_.alpha;
+      if (gap_.norm() <= eta_) eta_ *= s_.alpha;
       else rho_ *= s_.beta;
       if (monitor_.stop()) {
         result_.reason = "stopped on request";
@@ -56,12 +55,12 @@ class Iteration {
   /// (B + ρDᵀD) v.
   Vector times_L(const Vector& v) const { return times(p_.P, v) + rho_ * (p_.A.transpose() * (p_.A * v)); }
   Vector gradient() const {
-    return times(p_.P, x_) + p_.q + p_.A.transpose() * (mu_ + rho_ * (p_.A * x_ - d_));
+    return times(p_.P, x_) + p_.q + p_.A.transpose() * (mu_ + rho_ * gap_);
   }
 
   /// ‖∇L‖ ≤ M‖Dx − d‖, or the end of the whole iteration.
   bool precise(double gradient_norm) const {
-    const double gap = (p_.A * x_ - d_).norm();
+    const double gap = gap_.norm();
     return gradient_norm <= s_.M * gap || (gradient_norm <= s_.gradient_tol * size_ && gap <= s_.feasibility_tol);
   }
 
@@ -83,6 +82,7 @@ class Iteration {
         if (curvature <= flat) return stop_flat(v, curvature);
         const double step = rr / curvature;
         x_ += step * v;
+        gap_ += step * (p_.A * v);
         r -= step * Lv;
         const double rr_new = r.squaredNorm();
         v = r + rr_new / rr * v;
@@ -119,7 +119,8 @@ class Iteration {
   const AugmentedLagrangian& s_;
   Monitor& monitor_;
   Stopwatch clock_;
-  Vector d_, x_, mu_;
+  Vector x_, mu_;
+  Vector gap_;  ///< Dx − d, carried along: computed from x it loses the digits that a large ρ brings out
   double rho_, eta_, size_;
   std::optional<algebra::QuasiDefinite> gram_;
   Result result_;

@@ -88,6 +88,7 @@ figure::SeriesPicture series_of(const Arguments& given) {
   if (given.has("high")) series.high = given.vector("high");
   series.style = static_cast<figure::SeriesStyle>(given.choice("style"));
   series.reference = given.boolean("reference");
+  series.twin = given.boolean("twin");
   return series;
 }
 
@@ -114,7 +115,8 @@ Key series_key() {
                                    key::vector("x", "abscissas").required(), key::vector("y", "ordinates").required(),
                                    key::vector("low", "lower end of a spread"), key::vector("high", "upper end of a spread"),
                                    key::choice("style", {"line", "points", "both"}, "how it is drawn").fallback("both"),
-                                   key::boolean("reference", "a reference curve: dashed, without markers").fallback(false)},
+                                   key::boolean("reference", "a reference curve: dashed, without markers").fallback(false),
+                              key::boolean("twin", "dashed, with the colour and marker of the series before it").fallback(false)},
                               "one curve"),
                    "the curves").count(1, std::numeric_limits<std::size_t>::max()).required();
 }
