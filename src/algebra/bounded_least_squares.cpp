@@ -30,9 +30,9 @@ class Iteration {
       place_[entering] = Place::free;
       settle();
       const Vector next = b_ - A_ * x_;
-      // Releasing a variable that rounding alone made attractive changes nothing: not again before
-      // another one has.
-      if (next.norm() < (1 - 1e-13) * residual.norm())
+      // Releasing a variable that rounding (or a column nearly parallel to a free one) made attractive
+      // changes next to nothing: not again before another one has.
+      if (next.norm() < (1 - 1e-9) * residual.norm())
         std::fill(idle_.begin(), idle_.end(), 0);
       else
         idle_[entering] = 1;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algebra/types.hpp"
+#include "problem/friction.hpp"
 #include "problem/law.hpp"
 
 namespace dotyk::problem {
@@ -37,7 +38,8 @@ struct Problem {
   std::vector<Block> blocks;
   algebra::SparseRows B;  ///< rows × unknowns of all blocks
   algebra::Vector c;      ///< gaps, one a row
-  std::vector<RowGroup> groups;
+  std::vector<RowGroup> groups;            ///< scalar laws
+  std::vector<FrictionGroup> friction;     ///< tangential rows; a row is under one law only
   /// Where a row is, for messages: "node 12 of 'block' at (0.5, 0)". May be empty.
   std::function<std::string(int)> row_name;
 

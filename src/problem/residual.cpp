@@ -16,6 +16,14 @@ double natural_residual(const Problem& problem, const Vector& x, const Vector& l
       const double d = lambda[r] - group.law->project(r - group.first, y, rho[r]).lambda;
       sum += d * d;
     }
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k) {
+      const int r = group.row(k), n = group.normal[k];
+      const auto own = lambda.segment(r, group.components);
+      const Vector y = own + rho[n] * x.segment(r, group.components);
+      const double bound = group.law->bound(k, lambda[n]);
+      sum += (own - project_disc(y, bound).value).squaredNorm();
+    }
   const double scale = lambda.norm();
   return std::sqrt(sum) / (scale > 0 ? scale : 1);
 }
@@ -34,6 +42,31 @@ double energy(const Problem& problem, const State& state) {
   return e;
 }
 
+double friction_energy(const Problem& problem, const State& state) {
+  const Vector x = problem.B * state.u - problem.c;
+  double e = 0;
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k)
+      e += group.law->bound(k, state.lambda[group.normal[k]]) * x.segment(group.row(k), group.components).norm();
+  return e;
+}
+
+namespace {
+
+/// Greatest excess of a friction force over its bound, relative to the greatest bound.
+double friction_violation(const Problem& problem, const State& state) {
+  double excess = 0, largest = 0;
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k) {
+      const double bound = group.law->bound(k, state.lambda[group.normal[k]]);
+      excess = std::max(excess, state.lambda.segment(group.row(k), group.components).norm() - bound);
+      largest = std::max(largest, bound);
+    }
+  return largest > 0 ? excess / largest : excess;
+}
+
+}  // namespace
+
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
   const Vector internal = stiffness_times(problem, state.u);
@@ -46,11 +79,16 @@ Residual residual(const Problem& problem, const State& state) {
 
   const Vector jump = problem.B * state.u, x = jump - problem.c;
   const double moved = std::max(jump.lpNorm<Eigen::Infinity>(), state.u.lpNorm<Eigen::Infinity>());
-  double work = 0, product = 0;
+  // Where loads meet their reactions at the contact itself nothing moves but by rounding: a millionth
+  // of what the multipliers would move a row of the greatest stiffness by is the least scale.
+  const Vector stiffness = problem.row_stiffness();
+  const double yielding =
+      stiffness.maxCoeff() > 0 ? 1e-6 * state.lambda.lpNorm<Eigen::Infinity>() / stiffness.maxCoeff() : 0;
+  double work = state.lambda.lpNorm<1>() * yielding, product = 0;
   for (const RowGroup& group : problem.groups) {
     if (!group.law->unilateral()) continue;
     for (int r = group.first; r < group.first + group.count; ++r) {
-      const double length = std::max(moved, std::abs(problem.c[r]));
+      const double length = std::max({moved, std::abs(problem.c[r]), yielding});
       if (length > 0) result.penetration = std::max(result.penetration, x[r] / length);
       product += std::abs(state.lambda[r] * x[r]);
       work += std::abs(state.lambda[r] * problem.c[r]);
@@ -58,7 +96,8 @@ Residual residual(const Problem& problem, const State& state) {
   }
   work += std::abs(0.5 * state.u.dot(internal)) + std::abs(state.u.dot(load));
   if (work > 0) result.complementarity = product / work;
-  result.law = natural_residual(problem, x, state.lambda, problem.row_stiffness());
+  result.friction = friction_violation(problem, state);
+  result.law = natural_residual(problem, x, state.lambda, stiffness);
   return result;
 }
 

@@ -1,11 +1,13 @@
 #include "problem/solvability.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "algebra/bounded_least_squares.hpp"
 
 namespace dotyk::problem {
 
+using algebra::DenseMatrix;
 using algebra::Vector;
 
 namespace {
@@ -17,19 +19,70 @@ constexpr double kLimit = 1e-6;
 
 Vector unit(const Vector& v) { return v / v.lpNorm<Eigen::Infinity>(); }
 
-/// What of the load e no admissible multipliers balance: the admissible motion it drives most.
-Vector unbalanced(const RigidMotions& rigid, const Problem& problem, const Vector& e) {
-  Vector low(problem.rows()), high(problem.rows());
+/// Loads on the rigid motions that the laws can carry, as columns with bounds on their amounts.
+struct Carried {
+  std::vector<Vector> columns;
+  std::vector<double> low, high;
+  void add(const Vector& column, double from, double to) {
+    columns.push_back(column);
+    low.push_back(from);
+    high.push_back(to);
+  }
+};
+
+Carried carried_by_rows(const DenseMatrix& N, const Problem& problem) {
+  Carried all;
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
       const Interval bounds = group.law->multipliers(r - group.first);
-      low[r] = bounds.low;
-      high[r] = bounds.high;
+      all.add(N.row(r), bounds.low, bounds.high);
     }
+  return all;
+}
+
+/// Adds what a friction point can carry in the tangential direction d: an amount up to the bound
+/// (given friction), or with the normal force, along the edge of the cone (Coulomb).
+void add_direction(const DenseMatrix& N, const FrictionGroup& group, int point, const Vector& d, Carried& all) {
+  const Vector tangential = N.middleRows(group.row(point), group.components).transpose() * d;
+  const double slope = group.law->bound_slope(point);
+  if (slope > 0)
+    all.add(N.row(group.normal[point]).transpose() + slope * tangential, 0, Law::kUnbounded);
+  else
+    all.add(tangential, 0, group.law->bound(point, 0));
+}
+
+/// What of the load e no admissible multipliers balance: the admissible motion it drives most (TR965
+/// (1.70), with friction (3.30)). Friction in space carries forces in every tangential direction:
+/// directions are added where the motion found still rubs.
+Vector unbalanced(const RigidMotions& rigid, const Problem& problem, const Vector& e) {
   // What no row notices, no row balances; rounding in N must not seem to.
-  const auto noticed = algebra::bounded_least_squares((rigid.N * rigid.noticed).transpose(),
-                                                      rigid.noticed.transpose() * e, low, high);
-  return rigid.noticed * noticed.residual + rigid.unnoticed * (rigid.unnoticed.transpose() * e);
+  const DenseMatrix N = rigid.N * rigid.noticed;
+  Carried all = carried_by_rows(N, problem);
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k)
+      for (int i = 0; i < group.components; ++i)
+        for (double sign : {1.0, -1.0}) add_direction(N, group, k, sign * Vector::Unit(group.components, i), all);
+  Vector residual;
+  for (int round = 0; round < 30; ++round) {
+    const auto count = static_cast<Eigen::Index>(all.columns.size());
+    DenseMatrix A(N.cols(), count);
+    for (Eigen::Index j = 0; j < count; ++j) A.col(j) = all.columns[j];
+    residual = algebra::bounded_least_squares(A, rigid.noticed.transpose() * e,
+                                              Eigen::Map<const Vector>(all.low.data(), count),
+                                              Eigen::Map<const Vector>(all.high.data(), count)).residual;
+    if (residual.norm() <= kRounding * e.norm()) break;
+    const std::size_t before = all.columns.size();
+    for (const FrictionGroup& group : problem.friction) {
+      if (group.components == 1) continue;  // both directions are there
+      for (int k = 0; k < group.points(); ++k) {
+        const Vector rub = N.middleRows(group.row(k), group.components) * residual;
+        const double along_axes = rub.lpNorm<Eigen::Infinity>();
+        if (rub.norm() > (1 + 1e-9) * along_axes) add_direction(N, group, k, rub / rub.norm(), all);
+      }
+    }
+    if (all.columns.size() == before || all.columns.size() > 20000) break;
+  }
+  return rigid.noticed * residual + rigid.unnoticed * (rigid.unnoticed.transpose() * e);
 }
 
 /// The middle of what unilateral rows can carry, unit length; zero where there are none.

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <algorithm>
 #include <set>
 
@@ -67,6 +68,22 @@ void refuse_repetition(const Scene& scene, const Contact& fresh) {
   }
 }
 
+/// Evaluates the friction at the contact nodes.
+void set_friction(Contact& contact, const Friction& friction) {
+  if (friction.kind == Friction::Kind::none) return;
+  const bool given = friction.kind == Friction::Kind::tresca;
+  contact.friction = friction.kind;
+  for (const contact::ContactRow& row : contact.rows) {
+    const mesh::Point x = contact.first.body->mesh->point(row.node);
+    const double value = friction.value(x);
+    if (!(value >= 0) || (!given && !std::isfinite(value)))
+      throw InputError(text("the friction ", given ? "bound" : "coefficient", " is ", value, " at ",
+                            point_text(x.data(), contact.first.body->dimension()), "; it must be zero or positive",
+                            given ? " (math.huge: no slip at all)" : " and finite"));
+    contact.friction_value.push_back(value);
+  }
+}
+
 std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
   scene.contacts.push_back(std::make_shared<const Contact>(std::move(contact)));
   return scene.contacts.back();
@@ -75,7 +92,8 @@ std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
 }  // namespace
 
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
-                                           const elasticity::ScalarField& added_gap, bool interference) {
+                                           const elasticity::ScalarField& added_gap, const Friction& friction,
+                                           bool interference) {
   require_member(scene, first);
   require_member(scene, second);
   Contact contact;
@@ -83,17 +101,20 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   contact.first = first;
   contact.second = second;
   contact.rows = contact::between(face(first), face(second), added_gap, interference);
+  set_friction(contact, friction);
   refuse_repetition(scene, contact);
   return keep(scene, std::move(contact));
 }
 
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
-                                           const elasticity::ScalarField& added_gap, bool interference) {
+                                           const elasticity::ScalarField& added_gap, bool interference,
+                                           const Friction& friction) {
   require_member(scene, part);
   Contact contact;
   contact.name = text("contact of ", part.label(), " with a ", contact::name(shape));
   contact.first = part;
   contact.rows = contact::against(*part.body->mesh, part.facets, shape, added_gap, interference);
+  set_friction(contact, friction);
   contact.shape = shape;
   if (auto* gap = std::get_if<contact::RigidGap>(&contact.shape)) gap->gap = nullptr;
   return keep(scene, std::move(contact));

@@ -15,6 +15,19 @@ Point at_node(const std::vector<double>& values, int node, int dim) {
   return p;
 }
 
+/// Shear on the first body, and whether the node sticks or slips.
+void add_friction(const TangentRows& tangent, const solver::Result& result, ContactNode& node) {
+  if (tangent.count == 0) return;
+  bool slips = false;
+  for (int i = 0; i < tangent.count; ++i) {
+    const int r = tangent.row[i];
+    slips = slips || (!result.slipping.empty() && result.slipping[r]);
+    for (int k = 0; k < 3; ++k) node.shear[k] -= result.state.lambda[r] * tangent.direction[i][k] / node.weight;
+  }
+  if (node.status == problem::Status::closed)
+    node.status = slips ? problem::Status::slip : problem::Status::stick;
+}
+
 }  // namespace
 
 ContactResult Solution::contact(const Contact& contact) const {
@@ -51,13 +64,15 @@ ContactResult Solution::contact(const Contact& contact) const {
       node.force = result_.state.lambda[r];
       node.pressure = row.weight > 0 ? node.force / row.weight : 0;
       if (active(r)) node.status = problem::Status::closed;
+      add_friction(model_.tangent_row[index][k], result_, node);
     }
-    for (int i = 0; i < 3; ++i) result.force[i] -= node.force * row.normal[i];
-    if (node.status == problem::Status::closed) {
-      ++result.closed;
-      result.area += row.weight;
-    } else {
-      ++result.open;
+    for (int i = 0; i < 3; ++i) result.force[i] += node.weight * node.shear[i] - node.force * row.normal[i];
+    if (node.status != problem::Status::open) result.area += row.weight;
+    switch (node.status) {
+      case problem::Status::open: ++result.open; break;
+      case problem::Status::closed: ++result.closed; break;
+      case problem::Status::stick: ++result.stick; break;
+      case problem::Status::slip: ++result.slip; break;
     }
     result.max_pressure = std::max(result.max_pressure, node.pressure);
     result.nodes.push_back(node);

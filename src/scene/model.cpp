@@ -7,77 +7,13 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
+#include "scene/row_builder.hpp"
 
 namespace dotyk::scene {
 namespace {
 
 using elasticity::Numbering;
 using mesh::Point;
-
-/// Where a row is, for messages made only when needed.
-struct RowPlace {
-  int body, node;
-};
-
-/// Gathers rows of B as they come.
-class RowBuilder {
- public:
-  RowBuilder(const Scene& scene, Model& model) : scene_(scene), model_(model) {}
-
-  void open_group(const std::string& name, std::shared_ptr<const problem::Law> law) {
-    model_.problem.groups.push_back({name, std::move(law), count_, 0});
-  }
-
-  /// Σ ± direction·u at one or two nodes = jump; returns the row, or -1 where nothing is unknown.
-  /// `gap` is reduced by what prescribed components contribute and left so.
-  int add(int body, int node, int other_body, int other_node, const Point& direction, double& gap) {
-    const std::size_t before = entries_.size();
-    collect(body, node, direction, 1, gap);
-    if (other_body >= 0) collect(other_body, other_node, direction, -1, gap);
-    if (entries_.size() == before) return -1;
-    gaps_.push_back(gap);
-    places_.push_back({body, node});
-    ++model_.problem.groups.back().count;
-    return count_++;
-  }
-
-  void finish() {
-    model_.problem.B.resize(count_, model_.problem.unknowns());
-    model_.problem.B.setFromTriplets(entries_.begin(), entries_.end());
-    model_.problem.c = Eigen::Map<const algebra::Vector>(gaps_.data(), count_);
-    std::vector<std::string> names;
-    for (const auto& body : scene_.bodies) names.push_back(body->name);
-    std::vector<std::shared_ptr<const mesh::Mesh>> meshes;
-    for (const auto& body : scene_.bodies) meshes.push_back(body->mesh);
-    model_.problem.row_name = [names, meshes, places = places_](int row) {
-      const RowPlace p = places[row];
-      return text("node ", p.node + 1, " of '", names[p.body], "' at ",
-                  point_text(meshes[p.body]->node(p.node), meshes[p.body]->dimension()));
-    };
-  }
-
- private:
-  void collect(int body, int node, const Point& direction, double sign, double& gap) {
-    const int dim = scene_.dimension();
-    const Numbering& numbering = model_.numbering[body];
-    for (int i = 0; i < dim; ++i) {
-      if (direction[i] == 0) continue;
-      const std::size_t at = static_cast<std::size_t>(node) * dim + i;
-      if (numbering.unknown[at] >= 0)
-        entries_.emplace_back(count_, model_.problem.blocks[body].first + numbering.unknown[at],
-                              sign * direction[i]);
-      else
-        gap -= sign * direction[i] * numbering.prescribed[at];
-    }
-  }
-
-  const Scene& scene_;
-  Model& model_;
-  int count_ = 0;
-  std::vector<Eigen::Triplet<double>> entries_;
-  std::vector<double> gaps_;
-  std::vector<RowPlace> places_;
-};
 
 /// Bytes of a lower triangle with as many couplings as a grid of these cells has.
 double matrix_bytes(const mesh::Mesh& mesh) {
@@ -163,10 +99,13 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor) {
   for (const auto& contact : scene.contacts) {
     model.contact_row.emplace_back();
     model.glue_row.emplace_back();
-    if (contact->kind == Contact::Kind::contact)
+    model.tangent_row.emplace_back();
+    if (contact->kind == Contact::Kind::contact) {
       add_contact_rows(scene, *contact, builder, model.contact_row.back());
-    else
+      add_friction_rows(scene, *contact, builder, model);
+    } else {
       add_glue_rows(scene, *contact, builder, model.glue_row.back());
+    }
   }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     model.slide_row.emplace_back();

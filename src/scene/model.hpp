@@ -9,6 +9,14 @@
 
 namespace dotyk::scene {
 
+/// The tangential rows of a contact row with friction: one in the plane, up to two in space (fewer
+/// where supports hold a direction on both sides), none without friction.
+struct TangentRows {
+  int count = 0;
+  int row[2] = {-1, -1};
+  mesh::Point direction[2] = {};
+};
+
 /// A scene as a problem, and the way back.
 struct Model {
   problem::Problem problem;
@@ -16,6 +24,7 @@ struct Model {
   std::vector<elasticity::Numbering> numbering;  ///< one a body
   /// Contact → its row → row of B, or -1 where no unknown moves it (both sides fixed).
   std::vector<std::vector<int>> contact_row;
+  std::vector<std::vector<TangentRows>> tangent_row;  ///< contact → its row → tangential rows
   /// Glue: contact → first row of B of each pair's component (dimension a pair), -1 likewise.
   std::vector<std::vector<int>> glue_row;
   std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1

@@ -16,7 +16,10 @@ std::string describe_body(const Body& body) {
 std::string describe_contact(const Contact& contact) {
   if (contact.kind == Contact::Kind::glue)
     return text("  ", contact.name, ": ", contact.glued.size(), " node pairs");
-  return text("  ", contact.name, ": ", contact.rows.size(), " rows, frictionless");
+  return text("  ", contact.name, ": ", contact.rows.size(),
+              contact.friction == Friction::Kind::tresca    ? " rows, given friction"
+              : contact.friction == Friction::Kind::coulomb ? " rows, Coulomb friction"
+                                                            : " rows, frictionless");
 }
 
 /// Whether the load can be carried; needs the loads and contacts assembled.
@@ -47,6 +50,7 @@ std::string describe(const Scene& scene) {
 std::string plan(const Scene& scene) {
   std::string out = "plan:";
   int unknowns = 0, rows = 0, free = 0;
+  bool rubs = false;
   for (const auto& body : scene.bodies) {
     const auto numbering = number(*body);
     const auto rigid = elasticity::rigid_modes(*body->mesh, numbering, body->facet_springs());
@@ -60,11 +64,14 @@ std::string plan(const Scene& scene) {
   for (const auto& contact : scene.contacts) {
     rows += static_cast<int>(contact->kind == Contact::Kind::glue ? contact->glued.size() * scene.dimension()
                                                                   : contact->rows.size());
+    rubs = rubs || contact->friction != Friction::Kind::none;
     out += "\n" + describe_contact(*contact);
   }
   out += rows == 0 ? text("\n  method: one linear solve of ", unknowns, " unknowns")
-                   : text("\n  method: pdas on ", rows, " condensed rows (", unknowns,
-                          " unknowns factored once): finite and exact for frictionless contact");
+         : rubs ? text("\n  method: newton on the condensed rows of contact and friction (", unknowns,
+                       " unknowns factored once)")
+                : text("\n  method: pdas on ", rows, " condensed rows (", unknowns,
+                       " unknowns factored once): finite and exact for frictionless contact");
   return out + "\n  " + (free == 0 ? "a unique solution exists: every body is held by its supports" : verdict(scene));
 }
 

@@ -24,6 +24,12 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
       if (r < 0) continue;
       if (first == body) push(contact.rows[k].node, contact.rows[k].normal, -lambda[r]);
       if (second == body) push(contact.rows[k].partner, contact.rows[k].normal, lambda[r]);
+      const TangentRows& tangent = model.tangent_row[c][k];
+      for (int i = 0; i < tangent.count; ++i) {
+        const double friction = lambda[tangent.row[i]];
+        if (first == body) push(contact.rows[k].node, tangent.direction[i], -friction);
+        if (second == body) push(contact.rows[k].partner, tangent.direction[i], friction);
+      }
     }
     for (std::size_t k = 0; k < model.glue_row[c].size(); ++k) {
       const int r = model.glue_row[c][k];

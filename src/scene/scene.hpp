@@ -10,6 +10,14 @@
 
 namespace dotyk::scene {
 
+/// Friction of a contact: none, given (Tresca, a bound per length or area) or Coulomb's coefficient,
+/// a number or a function of position.
+struct Friction {
+  enum class Kind { none, tresca, coulomb };
+  Kind kind = Kind::none;
+  elasticity::ScalarField value;  ///< evaluated at the contact nodes when the contact is made, not kept
+};
+
 /// A pair of parts, or a part and a rigid shape, in contact or glued.
 struct Contact {
   enum class Kind { contact, glue };
@@ -18,6 +26,8 @@ struct Contact {
   Part first;
   Part second;       ///< second.body is null against a rigid shape
   std::vector<contact::ContactRow> rows;   ///< of a contact
+  Friction::Kind friction = Friction::Kind::none;
+  std::vector<double> friction_value;      ///< of each row: bound per length or area, or coefficient
   std::vector<contact::NodePair> glued;    ///< of a glue
   contact::RigidShape shape;               ///< for drawing only; a gap function is not kept
 };
@@ -34,13 +44,16 @@ struct Scene {
 /// Throws InputError for no bodies, a body twice, two of one name, or mixed dimensions.
 std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies);
 
-/// Frictionless contact of two parts with matching nodes. Throws as contact::between, and for a
-/// part whose body is not in the scene.
+/// Contact of two parts with matching nodes. Throws as contact::between, for a part whose body is not
+/// in the scene, and for a friction value that is negative or not a number (an infinite bound of
+/// given friction is allowed: the parts then do not slip at all).
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
-                                           const elasticity::ScalarField& added_gap, bool interference = false);
-/// Frictionless contact of a part with a rigid shape. Throws as contact::against.
+                                           const elasticity::ScalarField& added_gap, const Friction& friction = {},
+                                           bool interference = false);
+/// Contact of a part with a rigid shape. Throws as contact::against, and for friction as above.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
-                                           const elasticity::ScalarField& added_gap, bool interference);
+                                           const elasticity::ScalarField& added_gap, bool interference,
+                                           const Friction& friction = {});
 /// Ties two parts with matching nodes together: no jump of the displacement.
 std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second);
 

@@ -32,6 +32,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, solver::Resu
       result_(std::move(result)), stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
   residual_ = problem::residual(model_.problem, result_.state);
   energy_ = problem::energy(model_.problem, result_.state);
+  friction_energy_ = problem::friction_energy(model_.problem, result_.state);
   const double sum = energy_ + residual_.equilibrium + residual_.penetration + residual_.complementarity;
   if (!result_.state.u.allFinite() || !result_.state.lambda.allFinite() || !std::isfinite(sum))
     throw std::runtime_error(

@@ -10,6 +10,7 @@
 #include "problem/residual.hpp"
 #include "scene/model.hpp"
 #include "scene/scene.hpp"
+#include "solver/newton.hpp"
 #include "solver/pdas.hpp"
 
 namespace dotyk::scene {
@@ -56,7 +57,7 @@ class Solution {
   const problem::Clock& clock() const { return result_.clock; }
   void set_total(double seconds) { result_.clock.total = seconds; }
   double energy() const { return energy_; }
-  double friction_energy() const { return 0; }
+  double friction_energy() const { return friction_energy_; }
   int unknowns() const { return static_cast<int>(result_.state.u.size()); }
   int rows() const { return static_cast<int>(result_.state.lambda.size()); }
 
@@ -88,14 +89,14 @@ class Solution {
   Model model_;
   mutable solver::Result result_;
   problem::Residual residual_;
-  double energy_ = 0;
+  double energy_ = 0, friction_energy_ = 0;
   std::vector<std::vector<double>> displacement_;
   mutable std::vector<std::vector<elasticity::Stress>> stress_;
   mutable std::vector<std::unique_ptr<Locator>> locators_;
 };
 
-/// The method: none named (the plan's choice) or PDAS.
-using Method = std::variant<std::monostate, solver::Pdas>;
+/// The method; none named: PDAS, or Newton where there is friction.
+using Method = std::variant<std::monostate, solver::Pdas, solver::Newton>;
 
 /// Where contacts start: as a coarser solution's nearest nodes were, or with the rows named
 /// (numbered over all contacts in order); empty: by the method's own rule.

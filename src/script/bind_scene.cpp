@@ -25,7 +25,17 @@ void require_rigid_dimension(const Rigid& rigid, const Scene& scene) {
                           " components, the scene is ", scene.dimension(), "-D"));
 }
 
-int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added) {
+/// The friction given; `field` owns a function of it during the call.
+scene::Friction friction(Call& call, const Scene& scene, std::optional<Field>& field) {
+  if (!call.has("friction")) return {};
+  const auto law = call.object<FrictionLaw>("friction");
+  if (!law->varies) return {law->kind, [value = law->value](const mesh::Point&) { return value; }};
+  field.emplace(call.kept_function(call.slot("friction"), "value").at(0), 1);
+  return {law->kind, scalar_field(*field, scene.dimension())};
+}
+
+int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added,
+                  const scene::Friction& friction) {
   const auto rigid = call.object<Rigid>("rigid");
   require_rigid_dimension(*rigid, scene);
   contact::RigidShape shape = rigid->shape;
@@ -37,7 +47,7 @@ int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::
       given->gap = scalar_field(*gap, scene.dimension());
     }
   }
-  return call.give(scene::add_contact(scene, part, shape, added, call.boolean("interference")));
+  return call.give(scene::add_contact(scene, part, shape, added, call.boolean("interference"), friction));
 }
 
 int add_contact(Call& call) {
@@ -49,14 +59,16 @@ int add_contact(Call& call) {
     gap = call.field("gap");
     added = scalar_field(*gap, scene->dimension());
   }
+  std::optional<Field> bound;
+  const scene::Friction law = friction(call, *scene, bound);
   if (call.has("rigid")) {
     if (parts.size() != 1)
       throw InputError("give one part with 'rigid', or two parts without it");
-    return against_rigid(call, *scene, *parts[0], added);
+    return against_rigid(call, *scene, *parts[0], added, law);
   }
   if (parts.size() != 2)
     throw InputError("give two parts, or one part and 'rigid'");
-  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, call.boolean("interference")));
+  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, law, call.boolean("interference")));
 }
 
 int add_glue(Call& call) {
@@ -100,6 +112,39 @@ int rigid_ball(Call& call) {
   const auto center = call.vector("center");
   return call.give(std::make_shared<Rigid>(
       Rigid{contact::RigidBall{point_of(center), call.number("radius")}, static_cast<int>(center.size())}));
+}
+
+int make_friction(Call& call, scene::Friction::Kind kind) {
+  auto law = std::make_shared<FrictionLaw>(FrictionLaw{kind});
+  law->varies = call.is("value", LUA_TFUNCTION);
+  if (!law->varies) law->value = call.is("value", LUA_TNUMBER) ? lua_tonumber(call.state(), call.slot("value")) : 0;
+  if (!law->varies && !(law->value >= 0))
+    throw InputError(text("the friction ", kind == scene::Friction::Kind::tresca ? "bound" : "coefficient", " is ",
+                          law->value, "; it must be zero or positive"));
+  call.give(law);
+  if (law->varies) call.keep(lua_gettop(call.state()), {"value"});
+  return 1;
+}
+
+void bind_friction(Library& library) {
+  library.module("dotyk.friction", "Friction laws for scene:contact. Nodal: a normal and a tangential multiplier at each contact node.");
+  library.function({.name = "dotyk.friction.tresca",
+                    .help = "Given friction (Tresca): the shear is at most g, whatever the pressure. math.huge: no slip at all.",
+                    .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.tresca(2.5) }",
+                    .arguments = {key::either("value", {key::any("", ""), key::function("", "")},
+                                              "bound, a number or a function of the coordinates").unit("force/length (2-D), force/area (3-D)").required()},
+                    .returns = "friction",
+                    .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::tresca); }});
+  library.function({.name = "dotyk.friction.coulomb",
+                    .help = "Coulomb friction: the shear is at most mu times the pressure.",
+                    .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.coulomb(0.3) }",
+                    .arguments = {key::field("value", "coefficient, a number or a function of the coordinates").required()},
+                    .returns = "friction",
+                    .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::coulomb); }});
+  library.type<FrictionLaw>("A friction law.").text([](const FrictionLaw& f) {
+    return text(f.kind == scene::Friction::Kind::tresca ? "given friction, bound " : "Coulomb friction, coefficient ",
+                f.varies ? std::string("a function") : text(f.value));
+  });
 }
 
 void bind_rigid(Library& library) {
@@ -146,11 +191,12 @@ void bind_scene(Library& library) {
       .field("contacts", "its contacts and glues, in order", [](const Scene& s) { return s.contacts; })
       .field("dimension", "2 or 3", [](const Scene& s) { return s.dimension(); })
       .method({.name = "scene:contact",
-               .help = "Unilateral contact without friction of two parts with matching nodes, or of a part with a "
-                       "rigid obstacle. At a corner of the (first) part there is one condition for each adjoining side.",
+               .help = "Unilateral contact of two parts with matching nodes, or of a part with a rigid obstacle, "
+                       "frictionless unless a friction law is given. At a corner of the (first) part there is one condition for each adjoining side.",
                .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\" }\n"
                           "local r = scene:contact{ top, rigid = punch }",
-               .arguments = {key::table({key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
+               .arguments = {key::table({key::object<FrictionLaw>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu)").otherwise("none"),
+                                         key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
                                          key::field("gap", "added to the geometric gap; a number or a function of the coordinates").unit("length").otherwise("0"),
                                          key::choice("pairing", {"matching"}, "how nodes of the two parts are paired").fallback("matching"),
                                          key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest").fallback(false)})
@@ -179,6 +225,7 @@ void bind_scene(Library& library) {
       .field("rows", "number of contact conditions", [](const Contact& c) { return c.rows.size(); })
       .text([](const Contact& c) { return c.name; });
   bind_rigid(library);
+  bind_friction(library);
 }
 
 }  // namespace dotyk::script

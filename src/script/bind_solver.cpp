@@ -35,16 +35,27 @@ void read_settings(const Call& call, solver::Settings& settings) {
   settings.ordering = static_cast<algebra::Ordering>(call.choice("ordering"));
 }
 
-int make_pdas(Call& call) {
-  auto made = std::make_shared<Solver>();
-  read_settings(call, made->pdas);
-  made->pdas.rho = call.number("rho");
-  made->pdas.reduced = call.boolean("reduced");
-  made->pdas.kernel = call.choice("kernel") == 0 ? solver::Pdas::Kernel::exact : solver::Pdas::Kernel::screws;
-  if (call.has("screws"))
-    for (const long long row : call.integers("screws")) made->pdas.screws.push_back(static_cast<int>(row - 1));
-  made->verbose = call.boolean("verbose");
+int give(Call& call, scene::Method method) {
+  auto made = std::make_shared<Solver>(Solver{std::move(method), call.boolean("verbose")});
   return call.give_keeping(made, {"on_iteration"});
+}
+
+int make_pdas(Call& call) {
+  solver::Pdas pdas;
+  read_settings(call, pdas);
+  pdas.rho = call.number("rho");
+  pdas.reduced = call.boolean("reduced");
+  pdas.kernel = call.choice("kernel") == 0 ? solver::Pdas::Kernel::exact : solver::Pdas::Kernel::screws;
+  if (call.has("screws"))
+    for (const long long row : call.integers("screws")) pdas.screws.push_back(static_cast<int>(row - 1));
+  return give(call, std::move(pdas));
+}
+
+int make_newton(Call& call) {
+  solver::Newton newton;
+  read_settings(call, newton);
+  newton.rho = call.number("rho");
+  return give(call, newton);
 }
 
 int count_rows(const Scene& scene) {
@@ -79,10 +90,19 @@ int run(Call& call, const std::shared_ptr<Scene>& scene, const scene::Method& me
 
 int solve_with(Call& call) {
   const auto solver = call.self<Solver>();
-  return run(call, call.object<Scene>("scene"), solver->pdas, call.kept_function(1, "on_iteration"), solver->verbose);
+  return run(call, call.object<Scene>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
 }
 
 int solve(Call& call) { return run(call, call.object<Scene>("scene"), {}, {}, false); }
+
+std::string show(const Solver& s) {
+  if (const auto* pdas = std::get_if<solver::Pdas>(&s.method))
+    return text("solver pdas: rho = ", pdas->rho, ", ", pdas->reduced ? "reduced" : "full", ", tol = ", pdas->tol,
+                ", max_iterations = ", pdas->max_iterations);
+  const auto& newton = std::get<solver::Newton>(s.method);
+  return text("solver newton: rho = ", newton.rho, ", tol = ", newton.tol, ", max_iterations = ",
+              newton.max_iterations);
+}
 
 std::vector<Key> solve_keys() {
   return {key::object<Scene>("scene", "what to solve").required(),
@@ -111,6 +131,17 @@ void bind_solver(Library& library) {
                     .arguments = {key::table(keys)},
                     .returns = "solver",
                     .run = make_pdas});
+  std::vector<Key> newton_keys = settings_keys();
+  newton_keys.insert(newton_keys.begin(),
+                     key::positive("rho", "weight of slip and gap against force in the projections; multiplies each "
+                                          "row's own stiffness").fallback(1.0));
+  library.function({.name = "dotyk.solver.newton",
+                    .help = "The generalised Newton method on normal and tangential part together: contact with given "
+                            "or Coulomb friction, in the plane and in space, on the contact boundary alone.",
+                    .example = "local s = dotyk.solver.newton{ tol = 1e-10 }:solve(scene)",
+                    .arguments = {key::table(newton_keys)},
+                    .returns = "solver",
+                    .run = make_newton});
   library.function({.name = "dotyk.solve",
                     .help = "Solves a scene by the method its plan names; without contact that is one linear solve.",
                     .example = "local s = dotyk.solve(scene)\nlocal finer = dotyk.solve(fine_scene, { start = s })",
@@ -124,10 +155,7 @@ void bind_solver(Library& library) {
                .arguments = solve_keys(),
                .returns = "solution",
                .run = solve_with})
-      .text([](const Solver& s) {
-        return text("solver pdas: rho = ", s.pdas.rho, ", ", s.pdas.reduced ? "reduced" : "full", ", tol = ", s.pdas.tol,
-                    ", max_iterations = ", s.pdas.max_iterations);
-      });
+      .text(show);
 }
 
 }  // namespace dotyk::script

@@ -35,9 +35,16 @@ struct Rigid {
   int dimension;
 };
 
+// A friction law; a function that it was made with is kept with the object.
+struct FrictionLaw {
+  scene::Friction::Kind kind;
+  double value = 0;
+  bool varies = false;
+};
+
 // A method with its options; on_iteration is kept with the object.
 struct Solver {
-  solver::Pdas pdas;
+  scene::Method method;
   bool verbose = false;
 };
 
@@ -68,6 +75,10 @@ struct Wrapped<scene::Contact> {
 template <>
 struct Wrapped<Rigid> {
   static constexpr const char* name = "rigid";
+};
+template <>
+struct Wrapped<FrictionLaw> {
+  static constexpr const char* name = "friction";
 };
 template <>
 struct Wrapped<Solver> {

@@ -20,6 +20,7 @@ struct Result {
   std::vector<IterationInfo> history;
   /// Rows in contact (active branch of their law) in every iteration, as it began.
   std::vector<std::vector<char>> active_sets;
+  std::vector<char> slipping;  ///< rows of friction points that slip at the end; empty without friction
   int screw_moves = 0;  ///< magnetic screws moved after their multiplier came out negative
   problem::Clock clock;
   double factor_bytes = 0;
