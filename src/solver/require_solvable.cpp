@@ -24,6 +24,16 @@ void require_held(const problem::Problem& problem, const problem::Block& block) 
                         "; fix a part of it or put it in contact"));
 }
 
+/// The motions that no row notices, by name where they are modes of their own, else by the first of them.
+std::string unnoticed_motions(const problem::RigidMotions& rigid, const algebra::Vector& first) {
+  std::vector<std::string> names;
+  for (Eigen::Index mode = 0; mode < rigid.unnoticed.rows(); ++mode)
+    if (rigid.unnoticed.row(mode).norm() > 1 - 1e-9) names.push_back(rigid.names[mode]);
+  const auto count = static_cast<std::size_t>(rigid.unnoticed.cols());
+  if (count < 2) return describe(rigid, first);
+  return names.size() == count ? all(names) : text(count, " motions, one of them ", describe(rigid, first));
+}
+
 }  // namespace
 
 std::string require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid) {
@@ -36,7 +46,7 @@ std::string require_solvable(const problem::Problem& problem, const problem::Rig
                           ". Fix, slide or spring a part, add a contact in its way, or turn the load"));
   std::string note;
   if (s.verdict == Verdict::up_to_motion)
-    note = text("unique up to ", describe(rigid, s.motion), rigid.unnoticed.cols() > 0
+    note = text("unique up to ", unnoticed_motions(rigid, s.motion), rigid.unnoticed.cols() > 0
                     ? ", which no support or contact notices: the stress is unique, the displacement is the least"
                     : "");
   if (s.limit) note += text(note.empty() ? "" : "; ", "a limit case: turned by 1e-6, the load has no solution");

@@ -51,6 +51,15 @@ scene, lid, contact = on_floor{ 0, -1 }
 local loose <const> = dotyk.solve(scene)
 check.that(loose.converged)
 check.that(loose.reason:find("unique up to 'lid': translation along x, which no support or contact notices", 1, true))
+
+-- All motions that nothing notices are named: a cube on a floor.
+local cube <const> = dotyk.body{ name = "cube", mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {2,2,2} },
+                                 material = dotyk.material{ E = 10, nu = 0.3 }, force = {0, 0, -1} }
+local ground <const> = dotyk.scene{ cube }
+local sole <const> = ground:contact{ cube:part "bottom", rigid = dotyk.rigid.plane{ point = {0,0,0}, normal = {0,0,1} } }
+local resting <const> = dotyk.solve(ground)
+check.near(resting:contact(sole).force, { 0, 0, 1 }, 1e-12)
+check.that(resting.reason:find("unique up to 'cube': translation along x, 'cube': translation along y and 'cube': rotation about", 1, true))
 check.near(loose:contact(contact).force, { 0, 1 })
 lid:part "left":fix "x"
 check.near(dotyk.solve(scene):contact(contact).force, { 0, 1 })
