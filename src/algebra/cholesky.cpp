@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "algebra/blas_threads.hpp"
 #include "algebra/cholmod_handle.hpp"
 #include "base/memory.hpp"
 
@@ -69,6 +70,7 @@ Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 bool Cholesky::factor(const SparseMatrix& lower) {
   if (!it_->factor) return true;
   require_memory(bytes(), text("the factor of ", lower.rows(), " unknowns"));
+  const BlasThreads threads(it_->flops);
   cholmod_sparse a = view(lower);
   cholmod_factorize(&a, it_->factor, it_->common.get());
   if (it_->common.get()->status == CHOLMOD_NOT_POSDEF) return false;

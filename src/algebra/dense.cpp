@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "algebra/blas_threads.hpp"
+
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m,
@@ -19,6 +21,7 @@ void triangular_solve(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x, const cha
             lda = static_cast<int>(l.rows()), ldb = static_cast<int>(x.outerStride());
   if (l.rows() != x.rows()) throw std::logic_error("triangular solve: sizes differ");
   if (m == 0 || n == 0) return;
+  const BlasThreads threads(1.0 * m * m * n);
   const double one = 1;
   dtrsm_("L", "L", transposed, "N", &m, &n, &one, l.data(), &lda, x.data(), &ldb);
 }
@@ -30,6 +33,7 @@ DenseMatrix rank_update(const DenseMatrix& x, const char* transposed) {
             lda = static_cast<int>(x.rows());
   DenseMatrix c = DenseMatrix::Zero(n, n);
   if (n == 0 || k == 0) return c;
+  const BlasThreads threads(1.0 * n * n * k);
   const double one = 1, zero = 0;
   dsyrk_("L", transposed, &n, &k, &one, x.data(), &lda, &zero, c.data(), &n);
   c.triangularView<Eigen::StrictlyUpper>() = c.transpose();
@@ -41,6 +45,7 @@ DenseMatrix rank_update(const DenseMatrix& x, const char* transposed) {
 bool cholesky(DenseMatrix& a) {
   const int n = static_cast<int>(a.rows());
   if (n == 0) return true;
+  const BlasThreads threads(1.0 / 3 * n * n * n);
   int info = 0;
   dpotrf_("L", &n, a.data(), &n, &info);
   if (info != 0) return false;

@@ -1,0 +1,64 @@
+-- Two blocks with friction between them, pulled sideways: where they stick, and where they slip.
+--
+--   ./dotyk scripts/friction.lua [CELLS]
+--
+-- Coulomb and given friction under refinement (energies, counts, iterations), the load at which the
+-- upper block slides off, the frictionless and the glued limits, and images/friction.png.
+
+local finest <const> = tonumber(arg[1]) or 128
+local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
+
+-- 1. The lower block is held below; the upper one is held by nothing but contact and friction.
+local function blocks(n, law, pull)
+  local function half(name, y)
+    return dotyk.body{ name = name, material = material,
+      mesh = dotyk.mesh.rectangle{ from = {0, y}, to = {2, y + 1}, cells = {n, n // 2} } }
+  end
+  local lower, upper = half("lower", 0), half("upper", 1)
+  lower:part"bottom":fix()
+  upper:part"top":load{ pull or 2, -10 }
+  local scene = dotyk.scene{ lower, upper }
+  return scene, scene:contact{ upper:part"bottom", lower:part"top", friction = law }
+end
+
+-- 2. Refinement.
+local function refine(name, law)
+  print(name)
+  print "    n  unknowns       energy   friction term   stick  slip  open  iterations  seconds"
+  local sizes = {}
+  for k = 2, 0, -1 do sizes[#sizes + 1] = math.max(8, finest >> k) end
+  local s, contact
+  for _, n in ipairs(sizes) do
+    local scene
+    scene, contact = blocks(n, law)
+    s = dotyk.solve(scene)
+    local c = s:contact(contact)
+    print(("%5d %9d  %.9f  %.9f  %6d %5d %5d  %10d  %7.3f"):format(
+      n, s.unknowns, s.energy, s.friction_energy, c.stick, c.slip, c.open, s.iterations, s.time.total))
+  end
+  return s, contact
+end
+local s = refine("Coulomb, mu = 0.3:", dotyk.friction.coulomb(0.3))
+refine("given friction, g = 2.5:", dotyk.friction.tresca(2.5))
+print(s)
+
+-- 3. The limit: the interface carries mu times the weight, 0.3 · 20 = 6, that is a pull of 3 on the
+-- length 2; given friction of 2.5 carries a pull of 2.5.
+for _, case in ipairs{ { "Coulomb", dotyk.friction.coulomb(0.3), 3 }, { "given", dotyk.friction.tresca(2.5), 2.5 } } do
+  local name, law, limit = table.unpack(case)
+  for _, pull in ipairs{ limit * (1 - 1e-4), limit * (1 + 1e-4) } do
+    print(("%-8s pull %.5f: %s"):format(name, pull, blocks(16, law, pull):balance().verdict))
+  end
+end
+
+-- 4. No friction, and no slip at all.
+for _, g in ipairs{ 10, 100, math.huge } do
+  local scene, contact = blocks(32, dotyk.friction.tresca(g))
+  local t = dotyk.solve(scene)
+  print(("given friction %g: energy %.9f, %d stick, %d slip"):format(g, t.energy, t:contact(contact).stick, t:contact(contact).slip))
+end
+
+-- 5. The figure.
+local shown = dotyk.solve((blocks(math.min(48, finest), dotyk.friction.coulomb(0.3))))
+shown:render{ file = "images/friction.png", field = "xy", supports = true, loads = true }
+print "images/friction.png"
