@@ -35,7 +35,7 @@ for k = 1, count do
   local above = k < count and s:contact(contacts[k + 1]).force[2] or top
   report("block " .. k, below - above - own, own * count + top)
 end
-s:render{ file = "images/stack.png", field = "yy", loads = true }
+s:render{ file = "images/stack.png", field = "yy", loads = true, pressure = "none" }
 
 -- 2. A ball in a rigid bowl.
 local ball = dotyk.body{ name = "ball", material = clay, force = { 0, 0, -weight },
