@@ -199,16 +199,17 @@ double scene_size(const Solution& s) {
   return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
 }
 
-/// The greatest factor at which bodies that crossed a gap to touch are drawn overlapping by no more than
-/// 1 % of the scene's size: the gap is not magnified, the way across it is.
+/// The greatest factor at which bodies that moved into a gap are drawn overlapping by no more than 1 % of
+/// the scene's size: the gap is not magnified, the way into it is.
 double overlap_limit(const Solution& s, double size) {
   double limit = INFINITY;
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact || !contact->second.body) continue;
     const scene::ContactResult result = s.contact(*contact);
-    for (std::size_t k = 0; k < contact->rows.size(); ++k)
-      if (result.nodes[k].status != problem::Status::open && contact->rows[k].gap > 0)
-        limit = std::min(limit, 1 + 0.01 * size / contact->rows[k].gap);
+    for (std::size_t k = 0; k < contact->rows.size(); ++k) {
+      const double gap = contact->rows[k].gap, way = gap - result.nodes[k].gap;
+      if (gap > 0 && way > 0) limit = std::min(limit, (gap + 0.01 * size) / way);
+    }
   }
   return limit;
 }
