@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "program/certificate.hpp"
 
 namespace dotyk::program {
 namespace {
 
 constexpr double kHeavier = 100;     ///< factor on the weight of violations
-constexpr double kHeaviest = 1e6;    ///< on its first value, before violations alone are minimised
+constexpr double kHeaviest = 100;    ///< on its first value, before violations alone are minimised
+constexpr double kFar = 1e9;         ///< a step this much longer than x runs along the kernel
 constexpr double kCurved = 1e-12;    ///< curvature along a direction, relative to its rounding terms
 constexpr int kRounds = 50;          ///< in which the whole working set changes at once
 constexpr int kLeaves = 10;          ///< times a row may leave among many before rows change one by one
@@ -116,6 +118,7 @@ void ActiveSetIteration::iterate() {
   if (!elastic && !objective_) objective_ = true, forget();
   const Vector g = gradient(), activity = p_.A * x_;
   auto s = solve_kkt(g, activity);
+  if (peak(s.p) > kFar * (1 + peak(x_))) s.consistent = false;
   double fall = -g.dot(s.p), curvature = objective_ ? s.p.dot(times(p_.P, s.p)) : 0;
   const double still = 1e-11 * (1 + peak(x_));
   double whole = s.consistent && (objective_ || restoring_) ? 1 : INFINITY;
@@ -127,6 +130,11 @@ void ActiveSetIteration::iterate() {
     y_ = s.y;
     return stationary(elastic, s.p);
   }
+  if (!s.consistent && restoring_) {
+    rows_.classify(activity);  // rows at work contradict one another: those that do not hold are violated ones
+    kkt_.set(rows_.taken());
+    return;
+  }
   if (!s.consistent) {
     s.p /= peak(s.p);
     fall = -g.dot(s.p), curvature = objective_ ? s.p.dot(times(p_.P, s.p)) : 0;
@@ -137,7 +145,7 @@ void ActiveSetIteration::iterate() {
     if (curvature > kCurved * s.p.cwiseAbs().dot(times(sizes_, s.p.cwiseAbs()))) whole = fall / curvature;
   }
   const Vector speed = p_.A * s.p;
-  const auto meeting = rows_.meeting(activity, speed, cautious_, many());
+  const auto meeting = rows_.meeting(activity, speed, p_.A.cwiseAbs() * s.p.cwiseAbs(), cautious_, many());
   if (!std::isfinite(whole) && !std::isfinite(meeting.step)) {
     if (elastic) return heavier();
     result_.direction = s.p;
@@ -209,7 +217,13 @@ void ActiveSetIteration::heavier() {
     return;
   }
   if (!objective_) {
-    result_.direction = y_ + rows_.charge() * weight_;
+    // Their multipliers once more, where P does not matter: A'y = 0 as well as it can be.
+    const QuadraticProgram nearest = nearest_point(p_);
+    WorkingKkt exact(nearest);
+    exact.set(rows_.taken());
+    const Vector charge = rows_.charge();
+    y_ = exact.solve(-(p_.A.transpose() * charge), Vector::Zero(p_.rows()), y_).y;
+    result_.direction = y_ + charge;
     return finish(Status::infeasible, "the rows contradict one another");
   }
   if (weight_ < kHeaviest * first_weight_) {
@@ -217,6 +231,7 @@ void ActiveSetIteration::heavier() {
     return;
   }
   objective_ = false;
+  y_ /= weight_;
   weight_ = 1;
 }
 

@@ -5,6 +5,8 @@
 
 namespace dotyk::program {
 
+constexpr double kSlow = 1e-11;  ///< speed of a row relative to its rounding terms
+
 Elastic::Elastic(const QuadraticProgram& program, double tolerance)
     : side(program.rows(), Side::free), p_(program), tolerance_(tolerance) {}
 
@@ -72,12 +74,13 @@ double Elastic::room(int row, double activity, double speed) const {
   }
 }
 
-Elastic::Meeting Elastic::meeting(const Vector& activity, const Vector& speed, bool least_index, bool all) const {
-  const double slow = 1e-11 * (speed.size() ? speed.lpNorm<Eigen::Infinity>() : 0.0);
+Elastic::Meeting Elastic::meeting(const Vector& activity, const Vector& speed, const Vector& terms, bool least_index,
+                                  bool all) const {
+  const auto slow = [&](int r) { return std::abs(speed[r]) <= kSlow * terms[r]; };
   Meeting out;
   double reach = INFINITY;
   for (int r = 0; r < p_.rows(); ++r) {
-    if (working(r) || std::abs(speed[r]) <= slow) continue;
+    if (working(r) || slow(r)) continue;
     const double room_left = room(r, activity[r], speed[r]);
     if (!std::isfinite(room_left)) continue;
     const double tolerance = least_index ? 0 : slack_tolerance(activity[r] + room_left);
@@ -86,7 +89,7 @@ Elastic::Meeting Elastic::meeting(const Vector& activity, const Vector& speed, b
   if (!std::isfinite(reach)) return out;
   int best = -1;
   for (int r = 0; r < p_.rows(); ++r) {
-    if (working(r) || std::abs(speed[r]) <= slow) continue;
+    if (working(r) || slow(r)) continue;
     const double room_left = room(r, activity[r], speed[r]);
     if (!(std::max(0.0, room_left) <= reach * std::abs(speed[r]) * (1 + 1e-12))) continue;
     if (all) out.rows.push_back(r);

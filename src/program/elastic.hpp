@@ -41,7 +41,8 @@ class Elastic {
   /// The first limits met along `speed` = Ap (m) from `activity`; elastic rows meet theirs coming back.
   /// Harris's test (1973): of the rows within the tolerance the one met most squarely; `least_index`: of the
   /// rows met first, within rounding, the first (Bland); `all`: all within the tolerance.
-  Meeting meeting(const Vector& activity, const Vector& speed, bool least_index, bool all) const;
+  /// A speed that is rounding beside its terms, `terms` = |A||p| (m), is none.
+  Meeting meeting(const Vector& activity, const Vector& speed, const Vector& terms, bool least_index, bool all) const;
   /// Puts a row to work at the limit it met at this speed.
   void engage(int row, double speed);
 

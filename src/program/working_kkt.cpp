@@ -9,7 +9,9 @@ namespace dotyk::program {
 namespace {
 
 constexpr double kRegular = 1e-14;     ///< least regularisation, in units of a scaled program
-constexpr double kSafe = 1e-9;         ///< regularisation of matrices that rounding spoils with less
+/// Regularisation of matrices that rounding spoils with less: where P is singular and rows are dependent,
+/// pivots are differences of numbers of size 1/δ, and δ² has to stay well above the rounding unit.
+constexpr double kSafe = 1e-7;
 constexpr std::size_t kBorders = 60;   ///< changes before the next factorisation
 constexpr double kRefined = 1e-13, kConsistent = 1e-8;
 
@@ -45,7 +47,7 @@ void WorkingKkt::factor(double least) {
     base_ = taken_;
     border_.clear();
     columns_.clear();
-    least_ = std::max(kRegular, 0.1 * delta_);
+    least_ = delta_ >= kSafe ? kSafe : std::max(kRegular, 0.1 * delta_);
     stale_ = false;
     return;
   }
@@ -137,10 +139,17 @@ WorkingKkt::Solution WorkingKkt::solve(const Vector& f, const Vector& h, const V
   out.p = refined.z.head(n_);
   if (out.consistent) return out;
   // Each solve multiplies the part in the kernel by 1/δ and leaves the rest behind.
+  const auto K_regularised = [&](const Vector& z) {
+    Vector out = K(z);
+    out.head(n_) += delta_ * z.head(n_);
+    out.tail(m_) -= delta_ * z.tail(m_);
+    return out;
+  };
   Vector z = inverse(b);
-  for (int round = 0; round < 2; ++round) {
-    z.head(n_) /= peak(z.head(n_));
-    z = inverse(rhs(z.head(n_), Vector::Zero(m_)));
+  for (int round = 0; round < 3; ++round) {
+    const Vector start = rhs(z.head(n_) / peak(z.head(n_)), Vector::Zero(m_));
+    z = inverse(start);
+    z += inverse(start - K_regularised(z));
   }
   out.p = z.head(n_);
   return out;

@@ -1,0 +1,126 @@
+#include <doctest/doctest.h>
+
+#include "base/error.hpp"
+#include "program/certificate.hpp"
+#include "programs.hpp"
+
+using namespace dotyk;
+using program::Status;
+using test::DenseMatrix;
+using test::Random;
+using test::Vector;
+
+namespace {
+
+enum class Kind { feasible, contradictory, unbounded };
+
+/// m rows ≥ low through a known point; contradictory ones by a positive combination of rows that is 0 ≥ 0.01,
+/// unbounded ones by a direction in the kernel of P along which every row opens and the objective falls.
+program::QuadraticProgram make(Random& random, Kind kind, int n, int m, int rank) {
+  const DenseMatrix P = test::semidefinite(random, n, rank);
+  DenseMatrix A = random.matrix(m, n);
+  Vector q = random.vector(n);
+  if (kind == Kind::unbounded) {
+    const Vector d = rank ? Vector(Eigen::FullPivLU<DenseMatrix>(P).kernel().col(0)) : Vector(Vector::Unit(n, 0));
+    if (q.dot(d) > 0) q = -q;
+    for (int r = 0; r < m; ++r)
+      if (A.row(r).dot(d) < 0) A.row(r) *= -1;
+  }
+  Vector low = A * random.vector(n) - random.vector(m).cwiseAbs();
+  if (kind == Kind::contradictory) {
+    const Vector weight = random.vector(m - 1).cwiseAbs();
+    A.row(m - 1) = -weight.transpose() * A.topRows(m - 1);
+    low[m - 1] = -weight.dot(low.head(m - 1)) + 0.01;
+  }
+  return test::quadratic(P, q, A, low, Vector::Constant(m, INFINITY));
+}
+
+}  // namespace
+
+TEST_CASE("contradictory rows are found and proved, whatever the objective does") {
+  Random random(311);
+  Monitor quiet;
+  for (int trial = 0; trial < 120; ++trial) {
+    const int n = 2 + trial % 7;
+    const auto p = make(random, Kind::contradictory, n, 3 + trial % 5, trial % (n + 1));
+    for (const auto& r : {program::solve(p, test::one(), quiet), program::solve(p, test::many(), quiet),
+                          program::solve(p, program::InteriorPoint{}, quiet)}) {
+      INFO(trial << ": " << r.reason);
+      REQUIRE(r.status == Status::infeasible);
+      CHECK(program::proves_infeasible(p, r.direction, 1e6));
+    }
+  }
+}
+
+TEST_CASE("unbounded programs are found, with the direction") {
+  Random random(312);
+  Monitor quiet;
+  for (int trial = 0; trial < 120; ++trial) {
+    const int n = 2 + trial % 7;
+    const auto p = make(random, Kind::unbounded, n, 3 + trial % 5, trial % n);
+    for (const auto& r : {program::solve(p, test::one(), quiet), program::solve(p, test::many(), quiet),
+                          program::solve(p, program::InteriorPoint{}, quiet)}) {
+      INFO(trial << ": " << r.reason);
+      REQUIRE(r.status == Status::unbounded);
+      CHECK(program::proves_unbounded(p, r.direction, 1e-6));
+    }
+  }
+}
+
+TEST_CASE("the methods agree on programs of unknown kind") {
+  Random random(313);
+  Monitor quiet;
+  int solved = 0, unbounded = 0;
+  for (int trial = 0; trial < 120; ++trial) {
+    const int n = 2 + trial % 7;
+    const auto p = make(random, Kind::feasible, n, 3 + trial % 5, trial % (n + 1));
+    const auto one = program::solve(p, test::one(), quiet), many = program::solve(p, test::many(), quiet);
+    const auto interior = program::solve(p, program::InteriorPoint{}, quiet);
+    INFO(trial << ": " << one.reason << ", " << many.reason << ", " << interior.reason);
+    CHECK(one.status == many.status);
+    CHECK(one.status == interior.status);
+    solved += one.status == Status::solved, unbounded += one.status == Status::unbounded;
+    if (one.status == Status::solved) {
+      CHECK(test::worst(one.residual) < 1e-8);
+      CHECK(std::abs(one.objective - many.objective) <= 1e-8 * (1 + std::abs(one.objective)));
+      CHECK(std::abs(one.objective - interior.objective) <= 1e-6 * (1 + std::abs(one.objective)));
+    }
+  }
+  CHECK(solved > 20);
+  CHECK(unbounded > 20);
+}
+
+TEST_CASE("the rows that contradict one another are named") {
+  Monitor quiet;
+  DenseMatrix A(3, 2);
+  A << 1, 1, 1, 0, 1, 1;
+  const auto p = test::quadratic(DenseMatrix::Zero(2, 2), Vector::Ones(2), A, Vector{{1, 0, -INFINITY}}, Vector{{INFINITY, INFINITY, 0}});
+  const auto r = program::solve(p, test::one(), quiet);
+  CHECK(r.status == Status::infeasible);
+  CHECK(r.reason == "the rows contradict one another: rows 1, 3");
+}
+
+TEST_CASE("a matrix that is not positive semidefinite is refused, with a direction that shows it") {
+  Random random(314);
+  Monitor quiet;
+  for (int trial = 0; trial < 40; ++trial) {
+    const int n = 2 + trial % 8;
+    DenseMatrix P = test::semidefinite(random, n, n - 1);
+    const Vector v = random.vector(n).normalized();
+    P -= (1e-4 + v.dot(P * v)) * v * v.transpose();
+    const auto p = test::quadratic(P, random.vector(n), DenseMatrix::Identity(n, n), -Vector::Ones(n), Vector::Ones(n));
+    const auto r = program::solve(p, test::one(), quiet);
+    REQUIRE(r.status == Status::not_convex);
+    CHECK(r.direction.dot(P * r.direction) < 0);
+    CHECK(program::solve(p, program::InteriorPoint{}, quiet).status == Status::not_convex);
+  }
+}
+
+TEST_CASE("input that does not fit is refused, naming the row") {
+  auto p = test::quadratic(DenseMatrix::Identity(2, 2), Vector::Ones(2), DenseMatrix::Identity(2, 2), Vector{{0, 3}}, Vector{{1, 2}});
+  CHECK_THROWS_WITH_AS(program::check(p), "row 2 has low = 3 above high = 2", InputError);
+  p.low[1] = NAN;
+  CHECK_THROWS_WITH_AS(program::check(p), "row 2 has nan as a limit", InputError);
+  p.q = Vector::Ones(3);
+  CHECK_THROWS_AS(program::check(p), InputError);
+}

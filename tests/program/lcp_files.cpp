@@ -1,0 +1,38 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <map>
+
+#include "program/lcp.hpp"
+
+using namespace dotyk;
+using program::LcpStatus;
+
+TEST_CASE("every file of ../shared/reference/lcp is solved, or said to have no solution, or more than one") {
+  const std::filesystem::path folder = std::string(DOTYK_TEST_DIR) + "/../../../shared/reference/lcp";
+  if (!std::filesystem::exists(folder)) {
+    MESSAGE("skipped: no " << folder.string());
+    return;
+  }
+  const std::map<std::string, LcpStatus> special = {
+      {"lcp_CPS_1.dat", LcpStatus::several}, {"lcp_CPS_3.dat", LcpStatus::several}, {"lcp_CPS_5.dat", LcpStatus::several},
+      {"lcp_Pang_isolated_sol_perturbed.dat", LcpStatus::none}, {"lcp_inf_sol_perturbed.dat", LcpStatus::several}};
+  Monitor quiet;
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".dat") continue;
+    ++files;
+    const auto lcp = program::read_lcp(entry.path());
+    const auto r = program::solve(lcp, {}, quiet);
+    INFO(lcp.name << ": " << r.reason);
+    const auto known = special.find(lcp.name);
+    CHECK(r.status == (known == special.end() ? LcpStatus::solved : known->second));
+    if (r.status != LcpStatus::none) CHECK(r.residual < 1e-12);
+    if (r.status == LcpStatus::several) CHECK(program::residual(lcp, r.other) < 1e-12);
+  }
+  CHECK(files == 20);
+  // The same problem in the two storages.
+  const auto dense = program::read_lcp(folder / "lcp_ortiz.dat"), blocks = program::read_lcp(folder / "lcp_ortiz_block.dat");
+  CHECK(dense.M == blocks.M);
+  CHECK(dense.q == blocks.q);
+}

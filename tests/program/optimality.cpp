@@ -1,0 +1,113 @@
+#include <doctest/doctest.h>
+
+#include "programs.hpp"
+
+using namespace dotyk;
+using test::DenseMatrix;
+using test::Random;
+using test::Vector;
+
+TEST_CASE("small programs: every method finds what enumeration finds") {
+  Random random(301);
+  Monitor quiet;
+  for (int trial = 0; trial < 150; ++trial) {
+    const int n = 1 + trial % 3, rows = trial % 4;
+    const auto p = test::boxed(random, n, rows, trial % (n + 1));
+    const auto exact = test::by_enumeration(p);
+    REQUIRE(exact);
+    const double close = 1e-8 * (1 + std::abs(*exact));
+    const auto one = program::solve(p, test::one(), quiet), many = program::solve(p, test::many(), quiet);
+    const auto interior = program::solve(p, program::InteriorPoint{}, quiet);
+    INFO(trial << ": " << one.reason << ", " << many.reason << ", " << interior.reason);
+    REQUIRE(one.status == program::Status::solved);
+    REQUIRE(many.status == program::Status::solved);
+    REQUIRE(interior.status == program::Status::solved);
+    CHECK(std::abs(one.objective - *exact) <= close);
+    CHECK(std::abs(many.objective - *exact) <= close);
+    CHECK(std::abs(interior.objective - *exact) <= 10 * close);
+  }
+}
+
+TEST_CASE("programs of some size: optimality conditions hold, from cold and from a prediction") {
+  Random random(302);
+  Monitor quiet;
+  for (int trial = 0; trial < 120; ++trial) {
+    const int n = 5 + trial % 30, rows = trial % 25;
+    const auto p = test::boxed(random, n, rows, trial % (n + 1));
+    double objective = NAN;
+    for (const auto start : {program::ActiveSet::Start::cold, program::ActiveSet::Start::interior_point})
+      for (auto settings : {test::one(), test::many()}) {
+        settings.start = start;
+        const auto r = program::solve(p, settings, quiet);
+        INFO(trial << ": " << r.reason);
+        REQUIRE(r.status == program::Status::solved);
+        CHECK(test::worst(r.residual) < 1e-8);
+        CHECK(r.survived == r.singular);
+        if (!std::isnan(objective)) CHECK(std::abs(r.objective - objective) <= 1e-8 * (1 + std::abs(objective)));
+        objective = r.objective;
+        for (int k = 0; k < p.rows(); ++k)
+          if (r.working[k] == program::Side::free) CHECK(std::abs(r.y[k]) == 0);
+      }
+  }
+}
+
+TEST_CASE("degenerate: more rows through the optimum than unknowns, and rows twice") {
+  Random random(303);
+  Monitor quiet;
+  for (int trial = 0; trial < 100; ++trial) {
+    const int n = 2 + trial % 6, rows = 3 * n;
+    const Vector optimum = random.vector(n);
+    DenseMatrix A = random.matrix(rows, n);
+    A.row(rows - 1) = A.row(0);
+    A.row(rows - 2) = 2 * A.row(1);
+    // A cone with its tip at the optimum: −q is a positive combination of the rows.
+    const Vector high = A * optimum, weight = random.vector(rows).cwiseAbs();
+    const DenseMatrix P = test::semidefinite(random, n, trial % (n + 1));
+    const auto p = test::quadratic(P, -P * optimum - A.transpose() * weight, A, Vector::Constant(rows, -INFINITY), high);
+    for (const auto& settings : {test::one(), test::many()}) {
+      const auto r = program::solve(p, settings, quiet);
+      INFO(trial << ": " << r.reason);
+      REQUIRE(r.status == program::Status::solved);
+      CHECK((r.x - optimum).norm() < 1e-7);
+      CHECK(test::worst(r.residual) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("scales from 1e-6 to 1e6 in rows, unknowns and objective change nothing") {
+  Random random(304);
+  Monitor quiet;
+  for (int trial = 0; trial < 40; ++trial) {
+    const int n = 6;
+    auto p = test::boxed(random, n, 5, 3 + trial % 4);
+    const auto plain = program::solve(p, test::one(), quiet);
+    REQUIRE(plain.status == program::Status::solved);
+    const auto power = [&] { return std::pow(10.0, random.below(13) - 6); };
+    Vector column(n), row(p.rows());
+    for (double& c : column) c = power();
+    for (double& r : row) r = power();
+    const double cost = power();
+    auto q = p;
+    q.P = test::lower(cost * column.asDiagonal() * test::full(p.P) * column.asDiagonal());
+    q.q = cost * column.cwiseProduct(p.q);
+    q.A = DenseMatrix(row.asDiagonal() * DenseMatrix(p.A) * column.asDiagonal()).sparseView(0, 0);
+    q.low = row.cwiseProduct(p.low), q.high = row.cwiseProduct(p.high);
+    const auto r = program::solve(q, test::one(), quiet);
+    REQUIRE(r.status == program::Status::solved);
+    CHECK(std::abs(r.objective / cost - plain.objective) <= 1e-7 * (1 + std::abs(plain.objective)));
+  }
+}
+
+TEST_CASE("a program without rows, and one whose rows never matter") {
+  Random random(305);
+  Monitor quiet;
+  const DenseMatrix P = random.positive_definite(5, 1);
+  const Vector q = random.vector(5);
+  const Vector exact = -P.llt().solve(q);
+  const auto bare = test::quadratic(P, q, DenseMatrix(0, 5), Vector(0), Vector(0));
+  const auto loose = test::quadratic(P, q, DenseMatrix::Identity(5, 5), Vector::Constant(5, -INFINITY), Vector::Constant(5, 1e6));
+  for (const auto& p : {bare, loose}) {
+    CHECK((program::solve(p, test::one(), quiet).x - exact).norm() < 1e-12);
+    CHECK((program::solve(p, program::InteriorPoint{}, quiet).x - exact).norm() < 1e-7);
+  }
+}
