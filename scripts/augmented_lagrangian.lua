@@ -116,6 +116,7 @@ print(("For rho0 >= 1e6 every run takes %d or %d outer and %d to %d CG iteration
   o1, o2, c1, c2, differ, 5 * #precisions))
 print(("For rho0 <= 1e2 it is %d to %d outer and %d to %d CG iterations. The paper's claims hold: few outer iterations for large"):format(p1, p2, q1, q2))
 print "penalties whatever the update, and no growth of CG, for D adds only as many large eigenvalues as it has rows."
+print(("Where there is one outer iteration no multiplier is used at all: that is the penalty method, here right to %.0e."):format(select(2, over("multiplier", {8, 10}, "error"))))
 print("The penalty was raised (first order) for (M, rho0) = " .. table.concat(raised, " ") .. ".")
 
 -- 4. The ten graphs as two figures: solid the first-order update, dashed the least-squares one.
