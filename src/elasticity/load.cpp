@@ -93,39 +93,17 @@ void add_body_force(const Mesh& mesh, const VectorField& f, std::vector<double>&
   });
 }
 
-void add_traction(const Mesh& mesh, const std::vector<Facet>& facets, const VectorField& t,
-                  std::vector<double>& nodal) {
+void add_traction(const Mesh& mesh, const std::vector<Facet>& facets,
+                  const std::function<Point(const FacetPoint&)>& t, std::vector<double>& nodal) {
   const int dim = mesh.dimension();
   for (const Facet facet : facets)
     for_each_facet_point(mesh, facet, [&](const FacetPoint& p) {
-      const Point value = t(p.x);
+      const Point value = t(p);
       for (int a = 0; a < p.nodes; ++a)
         for (int i = 0; i < dim; ++i)
           nodal[static_cast<std::size_t>(mesh.facet_node(facet, a)) * dim + i] +=
               p.measure * p.shape[a] * value[i];
     });
-}
-
-void add_pressure(const Mesh& mesh, const std::vector<Facet>& facets, const ScalarField& pressure,
-                  std::vector<double>& nodal) {
-  const int dim = mesh.dimension();
-  for (const Facet facet : facets)
-    for_each_facet_point(mesh, facet, [&](const FacetPoint& p) {
-      const double value = pressure(p.x);
-      for (int a = 0; a < p.nodes; ++a)
-        for (int i = 0; i < dim; ++i)
-          nodal[static_cast<std::size_t>(mesh.facet_node(facet, a)) * dim + i] -=
-              p.measure * p.shape[a] * value * p.normal[i];
-    });
-}
-
-std::vector<double> lumped_measure(const Mesh& mesh, const std::vector<Facet>& facets) {
-  std::vector<double> weight(mesh.node_count(), 0.0);
-  for (const Facet facet : facets)
-    for_each_facet_point(mesh, facet, [&](const FacetPoint& p) {
-      for (int a = 0; a < p.nodes; ++a) weight[mesh.facet_node(facet, a)] += p.measure * p.shape[a];
-    });
-  return weight;
 }
 
 }  // namespace dotyk::elasticity

@@ -28,16 +28,8 @@ void for_each_facet_point(const mesh::Mesh& mesh, mesh::Facet facet,
 /// Adds ∫ φ f over all cells to `nodal` (node × dimension); f is force per volume.
 void add_body_force(const mesh::Mesh& mesh, const VectorField& f, std::vector<double>& nodal);
 
-/// Adds ∫ φ t over the facets; t is force per length (2-D) or area (3-D).
+/// Adds ∫ φ t over the facets; t is force per length (2-D) or area (3-D), asked for at each point.
 void add_traction(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
-                  const VectorField& t, std::vector<double>& nodal);
-
-/// Adds −∫ φ p n over the facets: positive p pushes inwards.
-void add_pressure(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
-                  const ScalarField& p, std::vector<double>& nodal);
-
-/// ∫ φ over the facets at each node (node_count values): h/2 at the ends and h
-/// inside for even edges (TR965 chapter 2's κ), a third of the triangles' area.
-std::vector<double> lumped_measure(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets);
+                  const std::function<mesh::Point(const FacetPoint&)>& t, std::vector<double>& nodal);
 
 }  // namespace dotyk::elasticity

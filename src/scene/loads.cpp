@@ -21,16 +21,12 @@ void add(Part& part, Traction&& traction) {
   for (const mesh::Facet f : part.facets) {
     LoadArrow arrow{mark, body.mesh->facet_centre(f), {0, 0, 0}};
     double area = 0;
-    elasticity::for_each_facet_point(*body.mesh, f, [&](const FacetPoint& p) {
+    elasticity::add_traction(*body.mesh, {f}, [&](const FacetPoint& p) {
       const Point t = traction(p);
       area += p.measure;
-      for (int i = 0; i < dim; ++i) {
-        arrow.value[i] += p.measure * t[i];
-        for (int a = 0; a < p.nodes; ++a)
-          force[static_cast<std::size_t>(body.mesh->facet_node(f, a)) * dim + i] +=
-              p.measure * p.shape[a] * t[i];
-      }
-    });
+      for (int i = 0; i < dim; ++i) arrow.value[i] += p.measure * t[i];
+      return t;
+    }, force);
     for (double& v : arrow.value) v /= area;
     arrows.push_back(arrow);
   }

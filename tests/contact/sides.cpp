@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "../support/elastic.hpp"
 #include "../support/facets.hpp"
 #include "elasticity/load.hpp"
 
@@ -100,8 +101,8 @@ TEST_CASE("weights of a face: constant pressure has the nodal forces of the trac
     const auto m = test::box(family, 3, 2, 2);
     const auto& top = m.parts.at("top");
     std::vector<double> force(m.coordinates.size(), 0);
-    elasticity::add_pressure(
-        m, top, [](const Point&) { return 1.0; }, force);
+    test::add_pressure(
+        m, top, 1, force);
     for (const auto& s : contact::sides(m, top))
       CHECK(s.weight == doctest::Approx(-force[3 * s.node + 2]).epsilon(1e-14));
   }

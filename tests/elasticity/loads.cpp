@@ -44,7 +44,7 @@ TEST_CASE("tractions that are linear do exact work on linear displacements") {
     for (const auto family : test::kFamilies) {
       const auto m = test::unit(dim, family, 3);
       std::vector<double> force(m.coordinates.size(), 0);
-      elasticity::add_traction(
+      test::add_traction(
           m, m.parts.at("top"),
           [](const Point& x) {
             return Point{0, 2 + 3 * x[0], 0};
@@ -72,8 +72,8 @@ TEST_CASE("pressure pushes inwards; on a closed boundary it balances, and its vi
   for (const auto& m : meshes) {
     const int dim = m.dimension();
     std::vector<double> force(m.coordinates.size(), 0);
-    elasticity::add_pressure(
-        m, mesh::boundary(m), [](const Point&) { return 2.0; }, force);
+    test::add_pressure(
+        m, mesh::boundary(m), 2, force);
     for (int i = 0; i < dim; ++i) {
       double sum = 0, virial = 0;
       for (int n = 0; n < m.node_count(); ++n) {
@@ -83,25 +83,6 @@ TEST_CASE("pressure pushes inwards; on a closed boundary it balances, and its vi
       CHECK(std::abs(sum) < 1e-13);
       CHECK(virial == doctest::Approx(-2 * test::measure(m)).epsilon(1e-12));
     }
-  }
-}
-
-TEST_CASE("lumped measures: halves at the ends of edges, thirds of triangles, the sum is the measure") {
-  const auto line = test::rectangle(mesh::Family::p1, 4, 2);
-  const auto w = elasticity::lumped_measure(line, line.parts.at("bottom"));
-  CHECK(w[0] == doctest::Approx(0.125));
-  for (int n : {1, 2, 3}) CHECK(w[n] == doctest::Approx(0.25));
-  CHECK(w[4] == doctest::Approx(0.125));
-  CHECK(w[5] == 0);
-  for (const auto family : test::kFamilies) {
-    const auto m = test::box(family, 3, 2, 1, {0, 0, 0}, {3, 2, 1});
-    const auto area = elasticity::lumped_measure(m, m.parts.at("top"));
-    double sum = 0;
-    for (double a : area) sum += a;
-    CHECK(sum == doctest::Approx(6).epsilon(1e-14));
-    const int corner =
-        m.node_count() - 12;  // least corner of the top: in two triangles of half a square, or one square
-    CHECK(area[corner] == doctest::Approx(family == mesh::Family::p1 ? 1.0 / 3 : 0.25));
   }
 }
 

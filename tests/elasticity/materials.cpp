@@ -34,7 +34,7 @@ DenseMatrix voigt() {
 /// Nodal displacement of a unit square or cube pulled along x by traction 1, held without restraint.
 std::vector<double> pulled(const mesh::Mesh& m, const test::MaterialField& material) {
   std::vector<double> force(m.coordinates.size(), 0);
-  elasticity::add_traction(
+  test::add_traction(
       m, m.parts.at("right"),
       [](const Point&) {
         return Point{1, 0, 0};

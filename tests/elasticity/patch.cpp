@@ -51,7 +51,7 @@ TEST_CASE("patch test with tractions: the stress vector of a constant stress on 
         Point n = m.facet_area_vector(facets[0]);
         const double area = test::length(n);
         for (double& v : n) v /= area;
-        elasticity::add_traction(
+        test::add_traction(
             m, facets,
             [&](const Point&) {
               Point t{0, 0, 0};

@@ -20,6 +20,20 @@ inline MaterialField steel(int dimension, double E = 210, double nu = 0.3,
   return MaterialField(elasticity::isotropic(E, nu, dimension, plane));
 }
 
+/// Adds a traction given as a function of position.
+inline void add_traction(const Mesh& m, const std::vector<mesh::Facet>& facets, const VectorField& t,
+                         std::vector<double>& force) {
+  elasticity::add_traction(m, facets, [&](const elasticity::FacetPoint& p) { return t(p.x); }, force);
+}
+
+/// Adds a constant pressure on the facets.
+inline void add_pressure(const Mesh& m, const std::vector<mesh::Facet>& facets, double pressure,
+                         std::vector<double>& force) {
+  elasticity::add_traction(m, facets, [&](const elasticity::FacetPoint& p) {
+    return Point{-pressure * p.normal[0], -pressure * p.normal[1], -pressure * p.normal[2]};
+  }, force);
+}
+
 /// Every component unknown but those where `given(x, i)` says so, which take `value(x)`.
 inline Numbering prescribe(const Mesh& m, const std::function<bool(const Point&, int)>& given,
                            const VectorField& value) {
