@@ -66,7 +66,10 @@ std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::
   if (geometric && !interference && deepest < -rounding)
     throw InputError(text("the ", name(shape), " penetrates the part by ", -deepest, " at ",
                           point_text(where.data(), mesh.dimension()),
-                          " before any load; move it, or say interference = true if the overlap is meant"));
+                          " before any load; move it, or say interference = true if the overlap is meant",
+                          std::holds_alternative<RigidPlane>(shape) && facing < 0
+                              ? " (its normal must point out of the rigid half-space, towards the body)"
+                              : ""));
   // A ball inside the body keeps its distance from the part, and would let the part sink into it from behind.
   if (std::holds_alternative<RigidBall>(shape) && facing < 0)
     throw InputError(text("the rigid ball lies behind the part: at ", point_text(nearest_at.data(), mesh.dimension()),

@@ -67,6 +67,9 @@ TEST_CASE("an obstacle that penetrates at rest is refused with depth and place, 
                        doctest::Contains("the rigid plane penetrates the part by 0.1 at "), InputError);
   CHECK_THROWS_WITH_AS(contact::against(m, m.parts.at("top"), ball, {}, false),
                        doctest::Contains("the rigid ball penetrates the part by 0.25 at (0.5, 1)"), InputError);
+  // A normal that points the wrong way puts the body inside the half-space: said so.
+  CHECK_THROWS_WITH_AS(contact::against(m, m.parts.at("top"), contact::RigidPlane{{0, 1.2, 0}, {0, 1, 0}}, {}, false),
+                       doctest::Contains("its normal must point out of the rigid half-space"), InputError);
   CHECK(contact::against(m, m.parts.at("top"), plane, {}, true).size() == 5);
   CHECK(contact::against(m, m.parts.at("top"), ball, {}, true).size() == 5);
   // Touching is no penetration, rounding included.
