@@ -76,6 +76,10 @@ class Iteration {
   /// λ, α := those that solve the problem linearised in `v`.
   bool solve_step(const NaturalMap::Value& v) {
     NaturalMap::System system = map_.linearise(v);
+    if (system.matrix.size() == 0) {  // everything is open
+      map_.take(system, Vector(0), lambda_, alpha_);
+      return true;
+    }
     Eigen::PartialPivLU<DenseMatrix> lu(system.matrix);
     if (!(lu.rcond() > 1e-15)) {
       ++regularised_;

@@ -148,28 +148,9 @@ class ScrewStep final : public Step {
     }
     const DenseMatrix N_S = pick(condensed_.N(), s);
     const Eigen::PartialPivLU<DenseMatrix> motions(N_S), equilibrium(N_S.transpose());
-    // λ = λ₀ + Z λ_O with the screws in equilibrium.
     const Vector balance = equilibrium.solve(condensed_.e() - condensed_.N().transpose() * lambda);
     for (std::size_t k = 0; k < s.size(); ++k) lambda[s[k]] = balance[static_cast<Eigen::Index>(k)];
-    const DenseMatrix T = -equilibrium.solve(pick(condensed_.N(), other).transpose());  // screws × others
-    const Eigen::Index n = static_cast<Eigen::Index>(other.size());
-    DenseMatrix Z = DenseMatrix::Zero(condensed_.rows(), n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      Z(other[j], j) = 1;
-      for (std::size_t k = 0; k < s.size(); ++k) Z(s[k], j) = T(static_cast<Eigen::Index>(k), j);
-    }
-    if (n > 0) {
-      const Vector jump = condensed_.jump(lambda, Vector());
-      DenseMatrix H = Z.transpose() * condensed_.W() * Z;
-      Vector g = Z.transpose() * jump;
-      for (Eigen::Index j = 0; j < n; ++j) {
-        H(j, j) += l.added_compliance(other[j], rho_[other[j]]);
-        g[j] -= l.offset(other[j], rho_[other[j]]);
-      }
-      const Eigen::LDLT<DenseMatrix> ldlt(H);
-      if (ldlt.info() != Eigen::Success || ldlt.rcond() < 1e-15) return false;
-      lambda += Z * ldlt.solve(g);
-    }
+    if (!other.empty() && !add_others(l, other, equilibrium, lambda)) return false;
     const Vector jump = condensed_.jump(lambda, Vector());
     alpha_ = motions.solve(-pick(jump, s));
     lambda_ = lambda;
@@ -180,6 +161,29 @@ class ScrewStep final : public Step {
   Vector recover() override { return condensed_.recover(lambda_, alpha_); }
 
  private:
+  /// Adds to λ (in equilibrium) what closes the other active rows, Z μ: μ on these, the screws following.
+  bool add_others(const Linearisation& l, const std::vector<int>& other,
+                  const Eigen::PartialPivLU<DenseMatrix>& equilibrium, Vector& lambda) const {
+    const std::vector<int>& s = screws_.rows();
+    const DenseMatrix T = -equilibrium.solve(pick(condensed_.N(), other).transpose());  // screws × others
+    const Eigen::Index n = static_cast<Eigen::Index>(other.size());
+    DenseMatrix Z = DenseMatrix::Zero(condensed_.rows(), n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      Z(other[j], j) = 1;
+      for (std::size_t k = 0; k < s.size(); ++k) Z(s[k], j) = T(static_cast<Eigen::Index>(k), j);
+    }
+    DenseMatrix H = Z.transpose() * condensed_.W() * Z;
+    Vector g = Z.transpose() * condensed_.jump(lambda, Vector());
+    for (Eigen::Index j = 0; j < n; ++j) {
+      H(j, j) += l.added_compliance(other[j], rho_[other[j]]);
+      g[j] -= l.offset(other[j], rho_[other[j]]);
+    }
+    const Eigen::LDLT<DenseMatrix> ldlt(H);
+    if (ldlt.info() != Eigen::Success || ldlt.rcond() < 1e-15) return false;
+    lambda += Z * ldlt.solve(g);
+    return true;
+  }
+
   const problem::CondensedProblem& condensed_;
   const Vector& rho_;
   const Screws& screws_;

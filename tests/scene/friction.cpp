@@ -168,3 +168,16 @@ TEST_CASE("pdas says that it cannot treat friction, and what can") {
   CHECK_THROWS_WITH_AS(scene::solve(blocks(8, coulomb(0.3)).scene, solver::Pdas{}, {}, quiet),
                        doctest::Contains("pdas cannot treat the Coulomb friction"), InputError);
 }
+
+TEST_CASE("friction where nothing touches: the linear solution, with no multipliers") {
+  Monitor quiet;
+  const auto block = test::block("block", 2, mesh::Family::p1, 3);
+  test::fix(block, "bottom");
+  test::press(block, "top", 1);
+  auto scene = scene::make_scene({block});
+  scene::add_contact(*scene, test::part(block, "top"), contact::RigidPlane{{0, 2, 0}, {0, -1, 0}}, {}, false, coulomb(0.3));
+  const auto s = scene::solve(scene, solver::Newton{}, {}, quiet);
+  CHECK(s->result().converged);
+  CHECK(s->result().state.lambda.norm() == 0);
+  CHECK(s->residual().equilibrium < 1e-13);
+}
