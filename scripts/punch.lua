@@ -48,9 +48,11 @@ local function refine(name, make, sizes)
 end
 
 local sizes = {}
-for k = 2, 0, -1 do sizes[#sizes + 1] = math.max(8, finest >> k) end
+for k = 4, 0, -1 do
+  if finest >> k >= 16 then sizes[#sizes + 1] = finest >> k end
+end
 local s = refine("plane:", plane, sizes)
-refine("space:", space, { math.max(4, finest // 32), math.max(6, finest // 16) })
+refine("space:", space, finest >= 256 and { 8, 16, 24 } or { 4, 6 })
 print(s)
 
 -- 4. The figure, on a mesh whose cells can be seen.
