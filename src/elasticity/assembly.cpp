@@ -98,19 +98,27 @@ class Scatter {
   std::vector<char> pulls_;  ///< some component prescribed and not zero
 };
 
-template <class E>
-void add_cells(const Mesh& mesh, const MaterialField& material, Scatter& scatter) {
+/// Calls visit(nodes of the cell, k) for every cell; k[a][b][i][j] couples component i of its node a
+/// to component j of its node b ≤ a.
+template <class E, class Visit>
+void for_each_stiffness(const Mesh& mesh, const MaterialField& material, Visit&& visit) {
   double x[E::nodes][E::dim], k[E::nodes][E::nodes][E::dim][E::dim];
   Hooke hooke = material.at(0);
   for (int c = 0; c < mesh.cell_count(); ++c) {
     if (material.varies()) hooke = material.at(c);
     cell_coordinates<E>(mesh, c, x);
     stiffness<E>(x, hooke, k);
-    const int* n = mesh.cell(c);
+    visit(mesh.cell(c), k);
+  }
+}
+
+template <class E>
+void add_cells(const Mesh& mesh, const MaterialField& material, Scatter& scatter) {
+  for_each_stiffness<E>(mesh, material, [&](const int* n, const auto& k) {
     for (int a = 0; a < E::nodes; ++a)
       for (int b = 0; b <= a; ++b)
         scatter.add(n[a], n[b], [&](int i, int j) { return k[a][b][i][j]; });
-  }
+  });
 }
 
 void add_springs(const Mesh& mesh, const std::vector<FacetSpring>& springs, Scatter& scatter) {
@@ -151,20 +159,14 @@ std::vector<double> internal_force(const Mesh& mesh, const MaterialField& materi
   std::vector<double> force(u.size(), 0.0);
   const int dim = mesh.dimension();
   dispatch(mesh.element, [&]<class E>() {
-    double x[E::nodes][E::dim], k[E::nodes][E::nodes][E::dim][E::dim];
-    Hooke hooke = material.at(0);
-    for (int c = 0; c < mesh.cell_count(); ++c) {
-      if (material.varies()) hooke = material.at(c);
-      cell_coordinates<E>(mesh, c, x);
-      stiffness<E>(x, hooke, k);
-      const int* n = mesh.cell(c);
+    for_each_stiffness<E>(mesh, material, [&](const int* n, const auto& k) {
       for (int a = 0; a < E::nodes; ++a)
         for (int b = 0; b < E::nodes; ++b)
           for (int i = 0; i < E::dim; ++i)
             for (int j = 0; j < E::dim; ++j)
               force[static_cast<std::size_t>(n[a]) * dim + i] +=
                   (a >= b ? k[a][b][i][j] : k[b][a][j][i]) * u[static_cast<std::size_t>(n[b]) * dim + j];
-    }
+    });
   });
   for (const FacetSpring& spring : springs)
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {

@@ -68,8 +68,8 @@ CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& r
   require_memory(3.0 * 8 * m * m, text("the dense matrix of ", m, " rows"));  // W, a block's share, its factor
   W_ = DenseMatrix::Zero(m, m);
   x0_ = -problem.c;
-  N_ = rigid.N * noticed_;
-  e_ = noticed_.transpose() * rigid.e;
+  N_ = rigid.noticed_N;
+  e_ = rigid.noticed_e;
   if (rigid.unnoticed.cols() > 0) {
     const DenseMatrix motions = displacement(problem, rigid.unnoticed);
     unnoticed_ = Eigen::HouseholderQR<DenseMatrix>(motions).householderQ() *

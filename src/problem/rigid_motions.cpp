@@ -46,6 +46,8 @@ RigidMotions rigid_motions(const Problem& problem) {
     k += count;
   }
   split(rigid);
+  rigid.noticed_N = rigid.N * rigid.noticed;
+  rigid.noticed_e = rigid.noticed.transpose() * rigid.e;
   return rigid;
 }
 

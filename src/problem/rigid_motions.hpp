@@ -14,6 +14,8 @@ struct RigidMotions {
   algebra::Vector e;               ///< Rᵀ f
   /// Orthonormal bases of the motions that some row notices (N α ≠ 0) and that none does.
   algebra::DenseMatrix noticed, unnoticed;  ///< modes × count
+  algebra::DenseMatrix noticed_N;  ///< N on the noticed motions, rows × their count
+  algebra::Vector noticed_e;       ///< e on them
   std::vector<std::string> names;  ///< "'lid': translation along x", one a mode
   int count() const { return static_cast<int>(e.size()); }
 };

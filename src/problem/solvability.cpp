@@ -56,7 +56,7 @@ void add_direction(const DenseMatrix& N, const FrictionGroup& group, int point, 
 /// directions are added where the motion found still rubs.
 Vector unbalanced(const RigidMotions& rigid, const Problem& problem, const Vector& e) {
   // What no row notices, no row balances; rounding in N must not seem to.
-  const DenseMatrix N = rigid.N * rigid.noticed;
+  const DenseMatrix& N = rigid.noticed_N;
   Carried all = carried_by_rows(N, problem);
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k)

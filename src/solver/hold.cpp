@@ -35,7 +35,7 @@ constexpr double kApproaches = 1e-9;  // of a unit motion; less is sliding along
 }  // namespace
 
 Holder::Holder(const Problem& problem, const problem::RigidMotions& rigid)
-    : problem_(problem), rigid_(rigid), N_(rigid.N * rigid.noticed), e_(rigid.noticed.transpose() * rigid.e) {
+    : problem_(problem), rigid_(rigid), N_(rigid.noticed_N), e_(rigid.noticed_e) {
   unilateral_.assign(problem.rows(), 0);
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)

@@ -12,7 +12,11 @@ using problem::Problem;
 using problem::RowGroup;
 
 NaturalMap::NaturalMap(const Problem& problem, const problem::CondensedProblem& condensed, const Vector& rho)
-    : problem_(problem), condensed_(condensed), rho_(rho) {}
+    : problem_(problem), condensed_(condensed), rho_(rho) {
+  for (const FrictionGroup& group : problem.friction)  // the projection onto a disc needs one ρ
+    for (int k = 0; k < group.points(); ++k)
+      rho_.segment(group.row(k), group.components).setConstant(rho[group.normal[k]]);
+}
 
 int NaturalMap::Value::differences(const Value& other) const {
   int count = 0;
@@ -42,9 +46,6 @@ NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) cons
       const int first = group.row(k), n = group.normal[k], d = group.components;
       const double bound = group.law->bound(k, v.projected[n]);
       if (bound == 0) continue;  // open, or without friction here
-      // One ρ for a point: the projection onto a disc needs it.
-      const Vector x = (v.y.segment(first, d) - lambda.segment(first, d)).cwiseQuotient(rho_.segment(first, d));
-      v.y.segment(first, d) = lambda.segment(first, d) + rho_[n] * x;
       const problem::DiscProjection p = problem::project_disc(v.y.segment(first, d), bound);
       v.projected.segment(first, d) = p.value;
       for (int i = 0; i < d; ++i) {
@@ -90,11 +91,6 @@ NaturalMap::System NaturalMap::linearise(const Value& v) const {
   const int m = problem_.rows();
   Eigen::SparseMatrix<double, Eigen::RowMajor> S(m, m);
   S.setFromTriplets(v.slope.begin(), v.slope.end());
-  std::vector<double> rho(m);
-  for (int r = 0; r < m; ++r) rho[r] = rho_[r];
-  for (const FrictionGroup& group : problem_.friction)
-    for (int k = 0; k < group.points(); ++k)
-      for (int i = 0; i < group.components; ++i) rho[group.row(k) + i] = rho_[group.normal[k]];
   System system;
   std::vector<int> place(m, -1);
   for (int r = 0; r < m; ++r)
@@ -120,9 +116,9 @@ NaturalMap::System NaturalMap::linearise(const Value& v) const {
         system.matrix(i, place[c]) -= s;
       else
         b += s * system.fixed[c];
-      b += s * (rho[c] * rest[c] - v.y[c]);
-      for (Eigen::Index j = 0; j < n; ++j) system.matrix(i, j) += s * rho[c] * condensed_.W()(c, system.rows[j]);
-      for (Eigen::Index j = 0; j < k; ++j) system.matrix(i, n + j) -= s * rho[c] * condensed_.N()(c, j);
+      b += s * (rho_[c] * rest[c] - v.y[c]);
+      for (Eigen::Index j = 0; j < n; ++j) system.matrix(i, j) += s * rho_[c] * condensed_.W()(c, system.rows[j]);
+      for (Eigen::Index j = 0; j < k; ++j) system.matrix(i, n + j) -= s * rho_[c] * condensed_.N()(c, j);
     }
   }
   for (Eigen::Index j = 0; j < k; ++j) {

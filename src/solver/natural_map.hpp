@@ -11,7 +11,7 @@ namespace dotyk::solver {
 class NaturalMap {
  public:
   NaturalMap(const problem::Problem& problem, const problem::CondensedProblem& condensed,
-             const algebra::Vector& rho);
+             const algebra::Vector& rho);  ///< a friction point takes its normal row's ρ throughout
 
   /// F with what its pieces are at (λ, α).
   struct Value {
@@ -44,7 +44,7 @@ class NaturalMap {
  private:
   const problem::Problem& problem_;
   const problem::CondensedProblem& condensed_;
-  const algebra::Vector& rho_;
+  algebra::Vector rho_;
 };
 
 }  // namespace dotyk::solver

@@ -24,7 +24,7 @@ class Iteration {
       : problem_(problem), settings_(settings), monitor_(monitor), rigid_(problem::rigid_motions(problem)),
         note_(require_solvable(problem, rigid_)),
         condensed_(problem, rigid_, settings.ordering, result_.clock, monitor),
-        rho_(settings.rho * problem.row_stiffness()), map_(problem, condensed_, rho_) {
+        map_(problem, condensed_, settings.rho * problem.row_stiffness()) {
     result_.method = "newton";
     result_.factor_bytes = condensed_.factor_bytes();
     result_.ordering = condensed_.ordering();
@@ -136,7 +136,6 @@ class Iteration {
   const problem::RigidMotions rigid_;
   const std::string note_;
   CondensedProblem condensed_;
-  Vector rho_;
   NaturalMap map_;
   Vector lambda_, alpha_;
   std::vector<double> norms_;  ///< of F, the last few

@@ -43,7 +43,7 @@ std::vector<char> unilateral_rows(const Problem& problem) {
 }  // namespace
 
 Screws::Screws(const Problem& problem, const problem::RigidMotions& rigid, std::vector<int> rows)
-    : problem_(problem), N_(rigid.N * rigid.noticed), e_(rigid.noticed.transpose() * rigid.e),
+    : problem_(problem), N_(rigid.noticed_N), e_(rigid.noticed_e),
       rows_(std::move(rows)), tried_(problem.rows(), 0) {
   const std::size_t count = static_cast<std::size_t>(N_.cols());
   if (rows_.empty()) {
