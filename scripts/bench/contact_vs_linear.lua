@@ -8,40 +8,29 @@
 
 local runs <const> = tonumber(arg[1]) or 5
 local n_plane <const>, n_space <const> = tonumber(arg[2]) or 512, tonumber(arg[3]) or 24
-local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
-
-local function median(values)
-  local sorted = table.move(values, 1, #values, 1, {})
-  table.sort(sorted)
-  return sorted[(#sorted + 1) // 2]
-end
+local here <const> = arg[0]:match "^(.*)/[^/]*$" or "."
+local scenes <const> = dofile(here .. "/punch_scenes.lua")
+local median <const> = scenes.median
 
 -- 1. The two scenes; without contact they carry a load instead.
-local function plane(n, contact)
-  local block = dotyk.body{ material = material,
-    mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {n, n // 2} } }
+local function finish(block, scene, punch, contact, load)
   block:part"bottom":fix()
-  local scene = dotyk.scene{ block }
   if contact then
-    scene:contact{ block:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 - 0.02 end } }
+    scene:contact{ block:part"top", rigid = punch }
   else
-    block:part"top":load{ 0, -1 }
+    block:part"top":load(load)
   end
-  return scene, function(s) return s:stress(block, 0, -0.1) end
+  return scene
+end
+
+local function plane(n, contact)
+  local block, scene, punch = scenes.plane(n)
+  return finish(block, scene, punch, contact, { 0, -1 }), function(s) return s:stress(block, 0, -0.1) end
 end
 
 local function space(n, contact)
-  local cube = dotyk.body{ material = material,
-    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, 1}, cells = {n, n, n} } }
-  cube:part"bottom":fix()
-  local scene = dotyk.scene{ cube }
-  if contact then
-    scene:contact{ cube:part"top", rigid = dotyk.rigid.gap{ normal = {0, 0, 1},
-      gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.02 end } }
-  else
-    cube:part"top":load{ 0, 0, -1 }
-  end
-  return scene, function(s) return s:stress(cube, 0.5, 0.5, 0.9) end
+  local cube, scene, punch = scenes.space(n)
+  return finish(cube, scene, punch, contact, { 0, 0, -1 }), function(s) return s:stress(cube, 0.5, 0.5, 0.9) end
 end
 
 -- 2. One solve, stress included, and its clock.
@@ -57,7 +46,6 @@ local function timed(make, n, contact)
 end
 
 -- 3. Bare CHOLMOD: a function that solves once by each ordering; nil without a compiler.
-local here <const> = arg[0]:match "^(.*)/[^/]*$" or "."
 local program <const> = os.tmpname()
 local built <const> = os.execute(("g++ -O3 -I/usr/include/suitesparse '%s/linear_limit.cpp' -lcholmod "
   .. "-L/usr/lib/$(uname -m)-linux-gnu/openblas-pthread -lopenblas -o %s 2>/dev/null"):format(here, program))

@@ -7,31 +7,23 @@
 
 local runs <const> = tonumber(arg[1]) or 5
 local n_plane <const>, n_space <const> = tonumber(arg[2]) or 512, tonumber(arg[3]) or 24
-local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
-
-local function median(values)
-  local sorted = table.move(values, 1, #values, 1, {})
-  table.sort(sorted)
-  return sorted[(#sorted + 1) // 2]
-end
+local scenes <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/punch_scenes.lua")
+local median <const> = scenes.median
 
 local function plane(n, free)
-  local block = dotyk.body{ material = material,
-    mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {n, n // 2} } }
+  local block, scene, punch = scenes.plane(n)
   if free then
     block:part"left":fix "x"
     block:part"bottom":pressure(7)
   else
     block:part"bottom":fix()
   end
-  local scene = dotyk.scene{ block }
-  scene:contact{ block:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 - 0.02 end } }
+  scene:contact{ block:part"top", rigid = punch }
   return scene
 end
 
 local function space(n, free)
-  local cube = dotyk.body{ material = material,
-    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, 1}, cells = {n, n, n} } }
+  local cube, scene, punch = scenes.space(n)
   if free then
     cube:part"left":fix "x"
     cube:part"front":fix "y"
@@ -39,9 +31,7 @@ local function space(n, free)
   else
     cube:part"bottom":fix()
   end
-  local scene = dotyk.scene{ cube }
-  scene:contact{ cube:part"top", rigid = dotyk.rigid.gap{ normal = {0, 0, 1},
-    gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.02 end } }
+  scene:contact{ cube:part"top", rigid = punch }
   return scene
 end
 
