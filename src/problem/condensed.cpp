@@ -78,6 +78,9 @@ CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& r
   for (const Block& block : problem.blocks) add(problem, block, ordering, clock, monitor);
 }
 
+CondensedProblem::CondensedProblem(DenseMatrix W, Vector x0)
+    : W_(std::move(W)), N_(x0.size(), 0), x0_(std::move(x0)), e_(0) {}
+
 void CondensedProblem::add(const Problem& problem, const Block& block, algebra::Ordering ordering,
                            Clock& clock, Monitor& monitor) {
   Stopwatch watch;

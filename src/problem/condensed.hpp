@@ -28,6 +28,9 @@ class CondensedProblem {
   /// Throws InputError where a block is not held (its name, a node).
   CondensedProblem(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering,
                    Clock& clock, Monitor& monitor);
+  /// Given as it is: W (rows × rows, symmetric positive semidefinite) and x₀, no rigid motions, and no
+  /// displacements to recover.
+  CondensedProblem(algebra::DenseMatrix W, algebra::Vector x0);
 
   int rows() const { return static_cast<int>(x0_.size()); }
   int kernel_size() const { return static_cast<int>(e_.size()); }

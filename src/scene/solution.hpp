@@ -3,15 +3,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "elasticity/stress.hpp"
 #include "problem/residual.hpp"
 #include "scene/model.hpp"
 #include "scene/scene.hpp"
-#include "solver/newton.hpp"
-#include "solver/pdas.hpp"
+#include "solver/method.hpp"
 
 namespace dotyk::scene {
 
@@ -95,9 +93,6 @@ class Solution {
   mutable std::vector<std::unique_ptr<Locator>> locators_;
 };
 
-/// The method; none named: PDAS, or Newton where there is friction.
-using Method = std::variant<std::monostate, solver::Pdas, solver::Newton>;
-
 /// Where contacts start: as a coarser solution's nearest nodes were, or with the rows named
 /// (numbered over all contacts in order); empty: by the method's own rule.
 struct Start {
@@ -105,8 +100,8 @@ struct Start {
   std::optional<std::vector<int>> closed;
 };
 
-/// Assembles and solves.
-std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const Method& method, const Start& start,
+/// Assembles and solves. No method named: PDAS, or Newton where there is friction.
+std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const solver::Method& method, const Start& start,
                                 Monitor& monitor);
 
 /// The flags of a start, row by row of B; empty where `start` says nothing.

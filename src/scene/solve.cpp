@@ -1,29 +1,26 @@
 #include "base/stopwatch.hpp"
 #include "scene/solution.hpp"
+#include "solver/newton.hpp"
+#include "solver/pdas.hpp"
 
 namespace dotyk::scene {
 
 namespace {
 
-solver::Result run(const Scene& scene, const Model& model, const Method& method, const Start& start,
+solver::Result run(const Scene& scene, const Model& model, const solver::Method& named, const Start& start,
                    Monitor& monitor) {
-  const auto with_start = [&](auto settings) {
-    if (start.coarse || start.closed) settings.start = start_flags(scene, model, start);
-    return settings;
-  };
-  const auto* pdas = std::get_if<solver::Pdas>(&method);
-  const auto* newton = std::get_if<solver::Newton>(&method);
-  if (model.problem.rows() == 0)
-    return solver::solve_linear(model.problem, pdas ? pdas->ordering : newton ? newton->ordering
-                                                                             : algebra::Ordering::automatic, monitor);
-  if (newton) return solver::solve(model.problem, with_start(*newton), monitor);
-  if (!pdas && !model.problem.friction.empty()) return solver::solve(model.problem, with_start(solver::Newton{}), monitor);
-  return solver::solve(model.problem, with_start(pdas ? *pdas : solver::Pdas{}), monitor);
+  if (model.problem.rows() == 0) return solver::solve_linear(model.problem, named.ordering(), monitor);
+  std::vector<char> flags;
+  if (start.coarse || start.closed) flags = start_flags(scene, model, start);
+  const solver::Method method = named                           ? named
+                                : model.problem.friction.empty() ? solver::Method(solver::Pdas{})
+                                                                 : solver::Method(solver::Newton{});
+  return method.run(model.problem, std::move(flags), monitor);
 }
 
 }  // namespace
 
-std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const Method& method, const Start& start,
+std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const solver::Method& method, const Start& start,
                                 Monitor& monitor) {
   Stopwatch watch;
   // A copy: on_iteration may run a script that adds contacts to the scene.

@@ -44,7 +44,8 @@ struct FrictionLaw {
 
 // A method with its options; on_iteration is kept with the object.
 struct Solver {
-  scene::Method method;
+  solver::Method method;
+  std::string text;  // name and options, as printed
   bool verbose = false;
 };
 

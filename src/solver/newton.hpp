@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/solver.hpp"
+#include "solver/row_iteration.hpp"
 
 namespace dotyk::solver {
 
@@ -9,14 +9,11 @@ namespace dotyk::solver {
 ///   F_n = λ_n − P(λ_n + ρ x_n),   F_t = λ_t − π_b(λ_t + ρ x_t),   Nᵀλ = e,
 /// b the bound of given friction or μ (λ_n + ρ x_n)⁺ for Coulomb, with the exact derivative of both
 /// projections. Steps are damped where the norm of F would exceed all of its last few values. Takes
-/// every scalar law as well.
-struct Newton : Settings {
-  /// Multiplies each row's own stiffness Σ_j B_rj² K_jj (force per displacement).
-  double rho = 1.0;
+/// every scalar law as well. Where the derivative is singular to working precision a multiple of the
+/// identity is added and `reason` says so.
+struct Newton : RowMethod {
+  const char* name() const override { return "newton"; }
+  void iterate(RowIteration& iteration) const override;
 };
-
-/// Solves. Where the derivative is singular to working precision a multiple of the identity is added
-/// and `reason` says so. Throws InputError where there is no solution, naming the motion.
-Result solve(const problem::Problem& problem, const Newton& settings, Monitor& monitor);
 
 }  // namespace dotyk::solver

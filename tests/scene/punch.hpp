@@ -4,6 +4,7 @@
 
 #include "mesh/generators.hpp"
 #include "scene/solution.hpp"
+#include "solver/pdas.hpp"
 
 // Scenes S2 and S3 of the reference values: a rigid parabola pressed into a block.
 

@@ -2,6 +2,8 @@
 
 #include "facets.hpp"
 #include "scene/solution.hpp"
+#include "solver/newton.hpp"
+#include "solver/pdas.hpp"
 
 namespace dotyk::test {
 

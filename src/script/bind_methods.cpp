@@ -1,0 +1,62 @@
+#include "base/text.hpp"
+#include "script/library.hpp"
+#include "script/method_keys.hpp"
+#include "solver/newton.hpp"
+#include "solver/pdas.hpp"
+
+namespace dotyk::script {
+namespace {
+
+int make_pdas(Call& call) {
+  solver::Pdas pdas;
+  read_settings(call, pdas);
+  pdas.rho = call.number("rho");
+  pdas.reduced = call.boolean("reduced");
+  pdas.kernel = call.choice("kernel") == 0 ? solver::Pdas::Kernel::exact : solver::Pdas::Kernel::screws;
+  if (call.has("screws"))
+    for (const long long row : call.integers("screws")) pdas.screws.push_back(static_cast<int>(row - 1));
+  const std::string shown = text("pdas: rho = ", pdas.rho, ", ", pdas.reduced ? "reduced" : "full");
+  return give_method(call, std::move(pdas), shown);
+}
+
+int make_newton(Call& call) {
+  solver::Newton newton;
+  read_settings(call, newton);
+  newton.rho = call.number("rho");
+  return give_method(call, newton, text("newton: rho = ", newton.rho));
+}
+
+}  // namespace
+
+void bind_methods(Library& library) {
+  library.module("dotyk.solver", "Methods. Each is made with its options and then solves scenes.");
+  library.function(
+      {.name = "dotyk.solver.pdas",
+       .help = "The primal-dual active set method, which is Newton's method on the contact conditions: "
+               "finite, exact, usually a handful of iterations.",
+       .example = "local s = dotyk.solver.pdas{ reduced = true }:solve(scene)",
+       .arguments = {key::table(method_keys(
+           {key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
+                                 "multiplies each row's own stiffness").fallback(1.0),
+            key::boolean("reduced", "iterate on the contact boundary alone, after one factorisation; else on the "
+                                    "whole system, factored anew in each iteration").fallback(true),
+            key::choice("kernel", {"exact", "screws"}, "rigid motions of free bodies: exactly, as constraints of the "
+                        "dual problem, or by magnetic screws (contact nodes taken as closed, moved where they pull)")
+                .fallback("exact"),
+            key::list("screws", key::integer("", "").at_least(1), "rows (contact nodes, in order) where the screws "
+                      "are placed first").otherwise("chosen by the load's equilibrium")}))},
+       .returns = "solver",
+       .run = make_pdas});
+  library.function(
+      {.name = "dotyk.solver.newton",
+       .help = "The generalised Newton method on normal and tangential part together: contact with given "
+               "or Coulomb friction, in the plane and in space, on the contact boundary alone.",
+       .example = "local s = dotyk.solver.newton{ tol = 1e-10 }:solve(scene)",
+       .arguments = {key::table(method_keys({key::positive(
+           "rho", "weight of slip and gap against force in the projections; multiplies the stiffness that each row sees")
+                                                 .fallback(1.0)}))},
+       .returns = "solver",
+       .run = make_newton});
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,35 @@
+#include "script/method_keys.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "script/library.hpp"
+#include "script/wrapped.hpp"
+
+namespace dotyk::script {
+
+std::vector<Key> method_keys(std::vector<Key> own, int max_iterations) {
+  const std::vector<Key> common = {
+      key::positive("tol", "relative natural residual at which iterative methods stop").fallback(1e-10),
+      key::integer("max_iterations", "give up after so many").at_least(1).fallback(static_cast<double>(max_iterations)),
+      key::choice("ordering", {"automatic", "minimum_degree", "nested_dissection"},
+                  "elimination order of the sparse factorisation").fallback("automatic"),
+      key::function("on_iteration", "called as f(k, info) after each iteration; returning false stops the solve"),
+      key::boolean("verbose", "a line on standard error for each iteration").fallback(false)};
+  own.insert(own.end(), common.begin(), common.end());
+  return own;
+}
+
+void read_settings(const Call& call, solver::Settings& settings) {
+  settings.tol = call.number("tol");
+  settings.max_iterations = static_cast<int>(std::min<long long>(call.integer("max_iterations"), 1'000'000));
+  settings.ordering = static_cast<algebra::Ordering>(call.choice("ordering"));
+}
+
+int give_method(Call& call, solver::Method method, std::string text) {
+  text += dotyk::text(", tol = ", call.number("tol"), ", max_iterations = ", call.integer("max_iterations"));
+  auto made = std::make_shared<Solver>(Solver{std::move(method), "solver " + std::move(text), call.boolean("verbose")});
+  return call.give_keeping(made, {"on_iteration"});
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,22 @@
+#pragma once
+// What the makers of methods, dotyk.solver.*, share.
+#include <string>
+#include <vector>
+
+#include "script/call.hpp"
+#include "script/descriptor.hpp"
+#include "solver/method.hpp"
+
+namespace dotyk::script {
+
+class Library;
+
+// Keys that every method takes: tol, max_iterations, ordering, on_iteration, verbose; `own` come first.
+std::vector<Key> method_keys(std::vector<Key> own, int max_iterations = 100);
+void read_settings(const Call& call, solver::Settings& settings);
+// The solver object: `text` is its name and options as printed.
+int give_method(Call& call, solver::Method method, std::string text);
+
+void bind_methods(Library& library);
+
+}  // namespace dotyk::script

@@ -1,0 +1,110 @@
+#include "solver/row_iteration.hpp"
+
+#include "base/text.hpp"
+#include "solver/require_solvable.hpp"
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+using problem::CondensedProblem;
+using problem::Problem;
+
+namespace {
+
+/// 1/W_rr; rows that nothing moves take the greatest of the others'.
+Vector stiffness_of_rows(const CondensedProblem& condensed) {
+  const Vector compliance = condensed.W().diagonal();
+  const double least = compliance.size() ? 1e-14 * compliance.maxCoeff() : 0;
+  Vector stiffness(compliance.size());
+  double greatest = 0;
+  for (Eigen::Index r = 0; r < compliance.size(); ++r)
+    if (compliance[r] > least) greatest = std::max(greatest, stiffness[r] = 1 / compliance[r]);
+  for (Eigen::Index r = 0; r < compliance.size(); ++r)
+    if (!(compliance[r] > least)) stiffness[r] = greatest > 0 ? greatest : 1;
+  return stiffness;
+}
+
+}  // namespace
+
+RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
+                           Monitor& monitor)
+    : problem(on), condensed(rows), map(on, rows, rho * stiffness_of_rows(rows)), settings_(settings),
+      monitor_(monitor) {
+  move_to(Vector::Zero(rows.rows()), Vector::Zero(rows.kernel_size()));
+  recorded_ = value_;
+}
+
+double RowIteration::residual() const {
+  const double size = lambda_.norm();
+  return size > 0 ? value_.norm / size : value_.norm;
+}
+
+void RowIteration::move_to(Vector lambda, Vector alpha) {
+  lambda_ = std::move(lambda);
+  alpha_ = std::move(alpha);
+  value_ = map.at(lambda_, alpha_);
+}
+
+bool RowIteration::next() {
+  if (result_.iterations >= settings_.max_iterations || monitor_.stop()) return false;
+  ++result_.iterations;
+  return true;
+}
+
+bool RowIteration::record() {
+  IterationInfo info;
+  info.iteration = result_.iterations;
+  info.active = value_.active;
+  info.stick = value_.stick;
+  info.slip = value_.slip;
+  info.changed = value_.differences(recorded_);
+  info.residual = residual();
+  info.seconds = watch_.seconds();
+  result_.history.push_back(info);
+  result_.active_sets.push_back(value_.closed);
+  monitor_.iteration(info);
+  recorded_ = value_;
+  return result_.converged = info.residual <= settings_.tol;
+}
+
+Result RowIteration::finish() {
+  if (result_.converged)
+    result_.reason = "the residual fell below tol";
+  else if (result_.reason.empty())
+    result_.reason = monitor_.stop() ? "interrupted; this is the state so far"
+                                     : text("no convergence within ", result_.iterations, " iterations");
+  for (const std::string& remark : remarks_) result_.reason += "; " + remark;
+  result_.state.lambda = lambda_;
+  result_.slipping = value_.slipping;
+  return std::move(result_);
+}
+
+Result solve(const Problem& problem, const CondensedProblem& condensed, const RowMethod& method, Monitor& monitor) {
+  Stopwatch watch;
+  RowIteration iteration(problem, condensed, method, method.rho, monitor);
+  method.iterate(iteration);
+  const Vector alpha = iteration.alpha();
+  Result result = iteration.finish();
+  result.method = method.name();
+  result.clock.iterate = watch.lap();
+  result.state.u = condensed.recover(result.state.lambda, alpha);
+  result.clock.recover = watch.lap();
+  result.factor_bytes = condensed.factor_bytes();
+  result.ordering = condensed.ordering();
+  return result;
+}
+
+Result solve(const Problem& problem, const RowMethod& method, Monitor& monitor) {
+  const problem::RigidMotions rigid = problem::rigid_motions(problem);
+  const std::string note = require_solvable(problem, rigid);
+  problem::Clock clock;
+  const CondensedProblem condensed(problem, rigid, method.ordering, clock, monitor);
+  Result result = solve(problem, condensed, method, monitor);
+  if (!note.empty()) result.reason += "; " + note;
+  clock.iterate += result.clock.iterate;
+  clock.recover += result.clock.recover;
+  result.clock = clock;
+  return result;
+}
+
+}  // namespace dotyk::solver

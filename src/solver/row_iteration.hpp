@@ -1,0 +1,71 @@
+#pragma once
+
+#include <string>
+
+#include "base/stopwatch.hpp"
+#include "problem/condensed.hpp"
+#include "solver/natural_map.hpp"
+#include "solver/solver.hpp"
+
+namespace dotyk::solver {
+
+/// A method at work on a condensed problem: the iterate (λ, α), what the natural map says there, the
+/// history it writes and how it ends. The natural map has ρ_r = 1/W_rr, the stiffness that a row sees.
+class RowIteration {
+ public:
+  RowIteration(const problem::Problem& problem, const problem::CondensedProblem& condensed, const Settings& settings,
+               double rho, Monitor& monitor);
+
+  const problem::Problem& problem;
+  const problem::CondensedProblem& condensed;
+  const NaturalMap map;
+
+  const algebra::Vector& lambda() const { return lambda_; }
+  const algebra::Vector& alpha() const { return alpha_; }
+  const NaturalMap::Value& value() const { return value_; }
+  /// Of the iterate: ‖F‖ / ‖λ‖ (‖F‖ where λ = 0).
+  double residual() const;
+  void move_to(algebra::Vector lambda, algebra::Vector alpha);
+
+  /// Begins an iteration; false after the last one allowed, or where the user stops.
+  bool next();
+  /// Writes the iterate into the history; true where its residual is within tol.
+  bool record();
+  /// Gives up, for this reason.
+  void give_up(std::string reason) { result_.reason = std::move(reason); }
+  /// Adds a remark to the reason, however the method ends.
+  void remark(std::string text) { remarks_.push_back(std::move(text)); }
+
+  int iterations() const { return result_.iterations; }
+  /// The result of the iterate, without displacements.
+  Result finish();
+
+ private:
+  const Settings& settings_;
+  Monitor& monitor_;
+  Result result_;
+  algebra::Vector lambda_, alpha_;
+  NaturalMap::Value value_, recorded_;
+  std::vector<std::string> remarks_;
+  Stopwatch watch_;
+};
+
+/// A method that works on the condensed problem alone.
+struct RowMethod : Settings {
+  /// Multiplies 1/W_rr, the stiffness (force per displacement) that each row sees.
+  double rho = 1.0;
+  virtual ~RowMethod() = default;
+  virtual const char* name() const = 0;
+  virtual void iterate(RowIteration& iteration) const = 0;
+};
+
+/// Condenses, iterates and recovers the displacements. Throws InputError where there is no solution,
+/// naming the motion.
+Result solve(const problem::Problem& problem, const RowMethod& method, Monitor& monitor);
+
+/// Iterates on a problem already condensed and recovers its displacements; whether it has a solution is
+/// the caller's to know. The clock and the factor's size are added by the caller.
+Result solve(const problem::Problem& problem, const problem::CondensedProblem& condensed, const RowMethod& method,
+             Monitor& monitor);
+
+}  // namespace dotyk::solver
