@@ -1,23 +1,14 @@
 #include "algebra/condensation.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 
 #include "algebra/dense.hpp"
+#include "algebra/generalised_inverse.hpp"
 
 namespace dotyk::algebra {
 
 namespace {
-
-/// As many rows of R as it has columns, such that they are as independent as can be.
-std::vector<int> holding_rows(const DenseMatrix& R) {
-  if (R.cols() == 0) return {};
-  const Eigen::ColPivHouseholderQR<DenseMatrix> qr(R.transpose());
-  std::vector<int> rows;
-  for (int k = 0; k < R.cols(); ++k) rows.push_back(qr.colsPermutation().indices()[k]);
-  return rows;
-}
 
 double& diagonal(SparseMatrix& lower, int unknown) {
   return lower.valuePtr()[lower.outerIndexPtr()[unknown]];  // the first entry of its column
@@ -40,7 +31,7 @@ Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
   Eigen::Index rank = 0;
   while (rank < modes && svd.singularValues()[rank] > 1e-9 * largest) ++rank;
   basis_ = svd.matrixU().topRows(n).leftCols(rank);
-  pinned_ = holding_rows(kernel * svd.matrixV().rightCols(modes - rank));
+  pinned_ = fixing_unknowns(kernel * svd.matrixV().rightCols(modes - rank));
 }
 
 bool Condensation::factor(const SparseMatrix& K) {

@@ -16,7 +16,7 @@ namespace dotyk::algebra {
 /// diagonal D added on Γ, S = L_Γ L_Γᵀ − D, and the small dense M = S + τ R̂R̂ᵀ
 /// (R̂ an orthonormal basis of R on Γ) is positive definite, M⁻¹ a generalised
 /// inverse of S. Motions in the kernel that vanish on Γ are held by a diagonal
-/// added at as many well-chosen unknowns (pivoted QR on R): it carries nothing
+/// added at as many well-chosen unknowns (fixing_unknowns): it carries nothing
 /// for loads in equilibrium, so S is as it would be.
 class Condensation {
  public:
