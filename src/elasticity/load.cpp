@@ -55,12 +55,13 @@ void for_each_facet_point(const Mesh& mesh, Facet facet,
     const double weight = facet_rule(mesh.dimension(), p.nodes, p.index, p.shape, du, dv);
     Point tu{0, 0, 0}, tv{0, 0, 0};
     p.x = {0, 0, 0};
+    const Point first = mesh.point(mesh.facet_node(facet, 0));
     for (int a = 0; a < p.nodes; ++a) {
       const Point x = mesh.point(mesh.facet_node(facet, a));
       for (int i = 0; i < 3; ++i) {
         p.x[i] += p.shape[a] * x[i];
-        tu[i] += du[a] * x[i];
-        tv[i] += dv[a] * x[i];
+        tu[i] += du[a] * (x[i] - first[i]);
+        tv[i] += dv[a] * (x[i] - first[i]);
       }
     }
     p.normal = mesh.dimension() == 2 ? Point{tu[1], -tu[0], 0} : cross(tu, tv);

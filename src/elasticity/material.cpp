@@ -41,9 +41,11 @@ Hooke from_voigt(const algebra::DenseMatrix& v) {
   if (!v.allFinite()) throw InputError("stiffness has an entry that is not finite");
   if ((v - v.transpose()).norm() > 1e-9 * v.norm())
     throw InputError("stiffness must be symmetric");
-  const double least = Eigen::SelfAdjointEigenSolver<algebra::DenseMatrix>(v).eigenvalues()(0);
-  if (!(least > 0))
-    throw InputError(text("stiffness must be positive definite; its least eigenvalue is ", least));
+  const algebra::Vector values = Eigen::SelfAdjointEigenSolver<algebra::DenseMatrix>(v).eigenvalues();
+  const double least = values[0], greatest = values[values.size() - 1];
+  // Below that the eigenvalue is rounding: a strain that costs no energy, though no rigid motion.
+  if (!(least > 1e-15 * greatest))
+    throw InputError(text("stiffness must be positive definite; its least eigenvalue is ", least, ", its greatest ", greatest));
   static const int plane[3][2] = {{0, 0}, {1, 1}, {0, 1}};
   static const int space[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
   const auto* pair = v.rows() == 3 ? plane : space;

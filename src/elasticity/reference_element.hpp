@@ -100,7 +100,8 @@ struct HexahedronQ1 {
 };
 
 /// Gradients in the cell's own coordinates at `xi`, and the Jacobian there.
-/// x: nodes × dim coordinates of the cell.
+/// x: nodes × dim coordinates of the cell. Only their differences enter: far from the origin, too,
+/// rigid motions then strain nothing.
 template <class E>
 double physical_gradient(const double x[][E::dim], const std::array<double, E::dim>& xi,
                          double g[][E::dim]) {
@@ -109,7 +110,7 @@ double physical_gradient(const double x[][E::dim], const std::array<double, E::d
   for (int i = 0; i < E::dim; ++i)
     for (int k = 0; k < E::dim; ++k) {
       j[i][k] = 0;
-      for (int a = 0; a < E::nodes; ++a) j[i][k] += x[a][i] * r[a][k];
+      for (int a = 1; a < E::nodes; ++a) j[i][k] += (x[a][i] - x[0][i]) * r[a][k];
     }
   double inverse[3][3];
   for (int i = 0; i < 3; ++i)

@@ -96,7 +96,8 @@ void CondensedProblem::add(const Problem& problem, const Block& block, algebra::
     const int unknown = part.condensation.failed_unknown();
     throw InputError(text("the stiffness of '", block.name, "' is singular",
                           unknown >= 0 ? text(" (node ", block.node[unknown] + 1, " is not held)") : "",
-                          ": the body is not held, or a material or mesh value is out of range"));
+                          block.kernel.cols() > 0 ? text(" beyond its ", block.kernel.cols(), " rigid motions") : "",
+                          ": a material, spring or mesh value is out of range, or cells hang together at single nodes only"));
   }
   clock.factor += watch.lap();
   monitor.check();
