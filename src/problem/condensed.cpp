@@ -67,15 +67,24 @@ CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& r
   const int m = problem.rows();
   require_memory(3.0 * 8 * m * m, text("the dense matrix of ", m, " rows"));  // W, a block's share, its factor
   W_ = DenseMatrix::Zero(m, m);
-  x0_ = -problem.c;
   N_ = rigid.noticed_N;
-  e_ = rigid.noticed_e;
   if (rigid.unnoticed.cols() > 0) {
     const DenseMatrix motions = displacement(problem, rigid.unnoticed);
     unnoticed_ = Eigen::HouseholderQR<DenseMatrix>(motions).householderQ() *
                  DenseMatrix::Identity(motions.rows(), motions.cols());
   }
   for (const Block& block : problem.blocks) add(problem, block, ordering, clock, monitor);
+  set_load(problem, rigid);
+}
+
+void CondensedProblem::set_load(const Problem& problem, const RigidMotions& rigid) {
+  x0_ = -problem.c;
+  e_ = rigid.noticed_e;
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    Part& part = parts_[b];
+    part.load = part.condensation.condense(problem.blocks[b].f);
+    x0_ += part.rows * part.condensation.solve(part.load);
+  }
 }
 
 CondensedProblem::CondensedProblem(DenseMatrix W, Vector x0)
@@ -106,12 +115,10 @@ void CondensedProblem::add(const Problem& problem, const Block& block, algebra::
   monitor.phase(text("condensing '", block.name, "' onto ", part.condensation.boundary().size(),
                      " contact unknowns"));
   part.rows = restrict_columns(rows, part.condensation.boundary());
-  part.load = part.condensation.condense(block.f);
   const std::vector<int> present = rows_present(part.rows);
   const DenseMatrix own = algebra::gram(part.condensation.half_compliance(pick_rows(part.rows, present)));
   for (std::size_t j = 0; j < present.size(); ++j)
     for (std::size_t i = 0; i < present.size(); ++i) W_(present[i], present[j]) += own(i, j);
-  x0_ += part.rows * part.condensation.solve(part.load);
   modes_ += part.condensation.kernel_size();
   parts_.push_back(std::move(part));
   clock.iterate += watch.lap();
@@ -148,6 +155,18 @@ std::string CondensedProblem::ordering() const {
     if (names.find(part.condensation.cholesky().method()) == std::string::npos)
       names += (names.empty() ? "" : ", ") + part.condensation.cholesky().method();
   return names;
+}
+
+const CondensedProblem& Condenser::condense(const Problem& problem, const RigidMotions& rigid,
+                                            algebra::Ordering ordering, Clock& clock, Monitor& monitor) {
+  if (!condensed_) return condensed_.emplace(problem, rigid, ordering, clock, monitor);
+  if (problem.rows() != condensed_->rows() || problem.unknowns() != condensed_->unknowns())
+    throw InputError(text("condensed before with ", condensed_->unknowns(), " unknowns and ", condensed_->rows(),
+                          " rows, now there are ", problem.unknowns(), " and ", problem.rows()));
+  Stopwatch watch;
+  condensed_->set_load(problem, rigid);
+  clock.iterate += watch.lap();
+  return *condensed_;
 }
 
 }  // namespace dotyk::problem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "algebra/condensation.hpp"
@@ -28,11 +29,14 @@ class CondensedProblem {
   /// Throws InputError where a block is not held (its name, a node).
   CondensedProblem(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering,
                    Clock& clock, Monitor& monitor);
+  /// Takes another f and c, of a problem with the same K and B; `rigid` are its motions. What was factored stays.
+  void set_load(const Problem& problem, const RigidMotions& rigid);
   /// Given as it is: W (rows × rows, symmetric positive semidefinite) and x₀, no rigid motions, and no
   /// displacements to recover.
   CondensedProblem(algebra::DenseMatrix W, algebra::Vector x0);
 
   int rows() const { return static_cast<int>(x0_.size()); }
+  int unknowns() const { return unknowns_; }
   int kernel_size() const { return static_cast<int>(e_.size()); }
   const algebra::DenseMatrix& W() const { return W_; }
   const algebra::Vector& x0() const { return x0_; }
@@ -62,6 +66,18 @@ class CondensedProblem {
   algebra::DenseMatrix noticed_;    ///< orthonormal basis of the motions that rows notice: modes × kernel_size
   algebra::DenseMatrix unnoticed_;  ///< orthonormal displacements that no row notices: unknowns × count
   int unknowns_ = 0, modes_ = 0;
+};
+
+/// Condenses problems that differ in f and c alone: the first is ordered, factored and condensed, the
+/// following take over its factors and W.
+class Condenser {
+ public:
+  /// Valid until the next call. Throws InputError for another number of rows or unknowns than the first had.
+  const CondensedProblem& condense(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering,
+                                   Clock& clock, Monitor& monitor);
+
+ private:
+  std::optional<CondensedProblem> condensed_;
 };
 
 }  // namespace dotyk::problem

@@ -15,7 +15,7 @@ solver::Result run(const Scene& scene, const Model& model, const solver::Method&
   const solver::Method method = named                           ? named
                                 : model.problem.friction.empty() ? solver::Method(solver::Pdas{})
                                                                  : solver::Method(solver::Newton{});
-  return method.run(model.problem, std::move(flags), monitor);
+  return method.run(model.problem, {std::move(flags), nullptr}, monitor);
 }
 
 }  // namespace

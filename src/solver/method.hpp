@@ -6,6 +6,12 @@
 
 namespace dotyk::solver {
 
+/// What a run begins with; see Settings.
+struct Beginning {
+  std::vector<char> start;  ///< empty: the method's own choice
+  std::shared_ptr<problem::Condenser> condenser;
+};
+
 /// Any method with its options, by value: what a model needs to know of it. Made of anything derived
 /// from Settings for which there is a solve(problem, settings, monitor). Empty: none named.
 class Method {
@@ -15,22 +21,22 @@ class Method {
     requires std::derived_from<Chosen, Settings>
   Method(Chosen chosen)  // NOLINT: a method is taken wherever its options are given
       : ordering_(chosen.ordering),
-        run_([chosen = std::move(chosen)](const problem::Problem& problem, std::vector<char> start, Monitor& monitor) {
+        run_([chosen = std::move(chosen)](const problem::Problem& problem, Beginning from, Monitor& monitor) {
           Chosen started = chosen;
-          if (!start.empty()) started.start = std::move(start);
+          if (!from.start.empty()) started.start = std::move(from.start);
+          started.condenser = std::move(from.condenser);
           return solve(problem, started, monitor);
         }) {}
 
   explicit operator bool() const { return static_cast<bool>(run_); }
   algebra::Ordering ordering() const { return ordering_; }
-  /// `start`: rows that start active, one flag a row; empty: the method's own choice.
-  Result run(const problem::Problem& problem, std::vector<char> start, Monitor& monitor) const {
-    return run_(problem, std::move(start), monitor);
+  Result run(const problem::Problem& problem, Beginning from, Monitor& monitor) const {
+    return run_(problem, std::move(from), monitor);
   }
 
  private:
   algebra::Ordering ordering_ = algebra::Ordering::automatic;
-  std::function<Result(const problem::Problem&, std::vector<char>, Monitor&)> run_;
+  std::function<Result(const problem::Problem&, Beginning, Monitor&)> run_;
 };
 
 }  // namespace dotyk::solver

@@ -100,7 +100,8 @@ class Iteration {
   }
 
   void condense() {
-    condensed_.emplace(problem_, rigid_, settings_.ordering, result_.clock, monitor_);
+    condensed_ = &(settings_.condenser ? *settings_.condenser : own_)
+                      .condense(problem_, rigid_, settings_.ordering, result_.clock, monitor_);
     result_.factor_bytes = condensed_->factor_bytes();
     result_.ordering = condensed_->ordering();
   }
@@ -240,7 +241,8 @@ class Iteration {
   Holder holder_;
   Vector rho_;
   Result result_;
-  std::optional<CondensedProblem> condensed_;
+  problem::Condenser own_;
+  const CondensedProblem* condensed_ = nullptr;
   std::optional<Screws> screws_;
   bool misplaced_ = false;  ///< a screw pulls and has nowhere to go
   std::unique_ptr<Step> step_;

@@ -98,7 +98,9 @@ Result solve(const Problem& problem, const RowMethod& method, Monitor& monitor) 
   const problem::RigidMotions rigid = problem::rigid_motions(problem);
   const std::string note = require_solvable(problem, rigid);
   problem::Clock clock;
-  const CondensedProblem condensed(problem, rigid, method.ordering, clock, monitor);
+  problem::Condenser own;
+  const CondensedProblem& condensed =
+      (method.condenser ? *method.condenser : own).condense(problem, rigid, method.ordering, clock, monitor);
   Result result = solve(problem, condensed, method, monitor);
   if (!note.empty()) result.reason += "; " + note;
   clock.iterate += result.clock.iterate;

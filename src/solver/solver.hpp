@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct Settings {
   algebra::Ordering ordering = algebra::Ordering::automatic;
   /// Rows taken as active at the start, one flag a row; empty: the rows whose gap is closed at rest.
   std::vector<char> start;
+  /// Shared by problems that differ in f and c alone, for methods that condense; empty: condensed anew.
+  std::shared_ptr<problem::Condenser> condenser;
 };
 
 /// K u = f for a problem without rows: order, factor, substitute. The yardstick of every other method.

@@ -126,3 +126,31 @@ TEST_CASE("a block that is not held is refused by name and node") {
   CHECK_THROWS_WITH_AS(CondensedProblem(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet),
                        doctest::Contains("the stiffness of 'lid' is singular (node 9 is not held)"), InputError);
 }
+
+TEST_CASE("another load on the same factors is what a condensation anew gives") {
+  Random random(45);
+  Problem p;
+  add(p, test::block("held", test::spring_grid(random, 4, 4, 2, 0.2), random.vector(32), 2, false));
+  add(p, test::block("free", test::spring_grid(random, 5, 3, 2, 0), random.vector(30), 2, true));
+  p.B = test::rows(random_rows(random, p, 8));
+  p.c = random.vector(8);
+  Clock clock;
+  Monitor quiet;
+  Condenser condenser;
+  condenser.condense(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet);
+  const double factored = clock.factor;
+  for (Block& block : p.blocks) block.f = random.vector(block.size());
+  p.c = random.vector(8);
+  const RigidMotions rigid = problem::rigid_motions(p);
+  const CondensedProblem& taken = condenser.condense(p, rigid, Ordering::automatic, clock, quiet);
+  CHECK(clock.factor == factored);
+  const CondensedProblem anew(p, rigid, Ordering::automatic, clock, quiet);
+  const Vector lambda = random.vector(8), alpha = random.vector(anew.kernel_size());
+  CHECK(test::relative(taken.x0(), anew.x0()) < 1e-14);
+  CHECK(test::relative(taken.e(), anew.e()) < 1e-14);
+  CHECK(test::relative(taken.recover(lambda, alpha), anew.recover(lambda, alpha)) < 1e-14);
+  p.B = test::rows(random_rows(random, p, 7));
+  p.c = random.vector(7);
+  CHECK_THROWS_WITH_AS(condenser.condense(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet),
+                       doctest::Contains("condensed before with 62 unknowns and 8 rows"), InputError);
+}
