@@ -17,6 +17,7 @@ void bind_all(Library& library) {
   bind_write(library);
   bind_program(library);
   bind_lcp(library);
+  bind_fclib(library);
 }
 
 }  // namespace dotyk::script

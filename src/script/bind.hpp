@@ -16,5 +16,6 @@ void bind_figure(Library& library);
 void bind_write(Library& library);
 void bind_program(Library& library);
 void bind_lcp(Library& library);
+void bind_fclib(Library& library);
 
 }  // namespace dotyk::script

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "script/bind.hpp"
+#include "script/bind_fclib.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
 #include "script/watch.hpp"
@@ -53,14 +54,25 @@ int run(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& m
 
 int solve_with(Call& call) {
   const auto solver = call.self<Solver>();
+  if (call.holds<fclib::ContactProblem>("scene")) {
+    if (call.has("options")) throw InputError("options are for scenes; a contact_problem takes none");
+    return solve_contact_problem(call, call.object<fclib::ContactProblem>("scene"), *solver,
+                                 call.kept_function(1, "on_iteration"));
+  }
   return run(call, call.object<Scene>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
 }
 
 int solve(Call& call) { return run(call, call.object<Scene>("scene"), {}, {}, false); }
 
-std::vector<Key> solve_keys() {
-  return {key::object<Scene>("scene", "what to solve").required(),
-          key::table("options", {start_key()}, "start = a coarser solution, or the rows that start closed")};
+Key scene_key() { return key::object<Scene>("scene", "what to solve").required(); }
+
+Key scene_or_problem_key() {
+  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<fclib::ContactProblem>("", "a problem from a file")},
+                     "what to solve: a scene, or a problem that dotyk.fclib read").required();
+}
+
+std::vector<Key> solve_keys(Key what) {
+  return {std::move(what), key::table("options", {start_key()}, "start = a coarser solution, or the rows that start closed")};
 }
 
 }  // namespace
@@ -71,14 +83,15 @@ void bind_solver(Library& library) {
   library.function({.name = "dotyk.solve",
                     .help = "Solves a scene by the method its plan names; without contact that is one linear solve.",
                     .example = "local s = dotyk.solve(scene)\nlocal finer = dotyk.solve(fine_scene, { start = s })",
-                    .arguments = solve_keys(),
+                    .arguments = solve_keys(scene_key()),
                     .returns = "solution",
                     .run = solve});
   library.type<Solver>("A method with its options.")
       .method({.name = "solver:solve",
-               .help = "Solves a scene.",
+               .help = "Solves a scene, or a frictional contact problem from a file (see dotyk.fclib): then a "
+                       "contact_problem_result is returned.",
                .example = "local s = solver:solve(scene)",
-               .arguments = solve_keys(),
+               .arguments = solve_keys(scene_or_problem_key()),
                .returns = "solution",
                .run = solve_with})
       .text([](const Solver& s) { return s.text; });

@@ -2,7 +2,8 @@
 
 #include <functional>
 
-#include "solver/solver.hpp"
+#include "base/error.hpp"
+#include "solver/row_iteration.hpp"
 
 namespace dotyk::solver {
 
@@ -21,22 +22,32 @@ class Method {
     requires std::derived_from<Chosen, Settings>
   Method(Chosen chosen)  // NOLINT: a method is taken wherever its options are given
       : ordering_(chosen.ordering),
-        run_([chosen = std::move(chosen)](const problem::Problem& problem, Beginning from, Monitor& monitor) {
+        run_([chosen](const problem::Problem& problem, Beginning from, Monitor& monitor) {
           Chosen started = chosen;
           if (!from.start.empty()) started.start = std::move(from.start);
           started.condenser = std::move(from.condenser);
           return solve(problem, started, monitor);
-        }) {}
+        }) {
+    if constexpr (std::derived_from<Chosen, RowMethod>)
+      run_on_rows_ = [chosen](const problem::Problem& problem, const problem::CondensedProblem& condensed,
+                              Monitor& monitor) { return solve(problem, condensed, chosen, monitor); };
+  }
 
   explicit operator bool() const { return static_cast<bool>(run_); }
   algebra::Ordering ordering() const { return ordering_; }
   Result run(const problem::Problem& problem, Beginning from, Monitor& monitor) const {
     return run_(problem, std::move(from), monitor);
   }
+  /// On a problem already condensed. Throws InputError for a method that works on bodies.
+  Result run(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) const {
+    if (!run_on_rows_) throw InputError("this method works on scenes alone; methods on rows alone are newton and its like");
+    return run_on_rows_(problem, condensed, monitor);
+  }
 
  private:
   algebra::Ordering ordering_ = algebra::Ordering::automatic;
   std::function<Result(const problem::Problem&, Beginning, Monitor&)> run_;
+  std::function<Result(const problem::Problem&, const problem::CondensedProblem&, Monitor&)> run_on_rows_;
 };
 
 }  // namespace dotyk::solver

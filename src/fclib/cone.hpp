@@ -1,0 +1,20 @@
+#pragma once
+
+#include "fclib/contact_problem.hpp"
+
+namespace dotyk::fclib {
+
+/// The point of the cone {‖r_T‖ ≤ μ r_N} nearest to y = (y_N, y_T), 2 or 3 components.
+Eigen::VectorXd project_cone(const Eigen::Ref<const Eigen::VectorXd>& y, double mu);
+
+/// What a contact force r says of the problem.
+struct Measure {
+  algebra::Vector u;      ///< W r + q
+  /// ‖r − P_K(r − ρ û)‖ / ‖r‖ (the numerator alone where r = 0), ρ = 1/max W_ii: the natural map with û = u + μ‖u_T‖ e_N.
+  double residual = 0;
+  /// Where r − ρ û lies: with u and r exact, open is r = 0; stick is u = 0; slip the rest.
+  int open = 0, stick = 0, slip = 0;
+};
+Measure measure(const ContactProblem& problem, const algebra::Vector& r);
+
+}  // namespace dotyk::fclib

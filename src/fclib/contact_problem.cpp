@@ -1,0 +1,108 @@
+#include "fclib/contact_problem.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <numeric>
+
+#include "algebra/cholesky.hpp"
+#include "algebra/sparse_lu.hpp"
+#include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::fclib {
+
+using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using algebra::Vector;
+
+namespace {
+
+/// Greater unsymmetry is meant, lesser is rounding.
+constexpr double kRounding = 1e-6;
+
+template <class Matrix>
+double greatest(const Matrix& a) {
+  return a.size() ? a.cwiseAbs().maxCoeff() : 0;
+}
+double greatest(const SparseMatrix& a) { return a.nonZeros() ? a.coeffs().abs().maxCoeff() : 0; }
+
+template <class Matrix>
+double unsymmetry_of(const Matrix& a) {
+  const double size = greatest(a);
+  return size > 0 ? greatest(Matrix(a - Matrix(a.transpose()))) / size : 0;
+}
+
+/// M⁻¹ times every column of b; empty where M is singular.
+DenseMatrix solve(const SparseMatrix& M, const DenseMatrix& b) {
+  if (unsymmetry_of(M) == 0) {
+    std::vector<int> node(M.rows());
+    std::iota(node.begin(), node.end(), 0);
+    const SparseMatrix lower = M.triangularView<Eigen::Lower>();
+    algebra::Cholesky factor(lower, node, {});
+    if (factor.factor(lower)) return factor.solve(b);
+  }
+  const algebra::SparseLu factor(M);
+  if (factor.singular()) return {};
+  DenseMatrix x(b.rows(), b.cols());
+  for (Eigen::Index j = 0; j < b.cols(); ++j) x.col(j) = factor.solve(b.col(j));
+  return x;
+}
+
+}  // namespace
+
+void check(const ContactProblem& p) {
+  const auto fail = [&](const std::string& what) { throw InputError(text("'", p.name, "': ", what)); };
+  const auto size = [&](const char* name, const Vector& v, Eigen::Index expected) {
+    if (v.size() != expected) fail(text(name, " has ", v.size(), " entries; ", expected, " are expected"));
+    if (!v.allFinite()) fail(text(name, " holds a number that is not finite"));
+  };
+  if (p.dimension != 2 && p.dimension != 3) fail(text("the dimension is ", p.dimension, "; it must be 2 or 3"));
+  for (Eigen::Index k = 0; k < p.mu.size(); ++k)
+    if (!(p.mu[k] >= 0) || !std::isfinite(p.mu[k]))
+      fail(text("the friction coefficient of contact ", k + 1, " is ", p.mu[k], "; it must be zero or positive"));
+  const auto shape = [&](const char* name, Eigen::Index rows, Eigen::Index columns, Eigen::Index r, Eigen::Index c) {
+    if (rows != r || columns != c) fail(text(name, " is ", rows, " x ", columns, "; ", r, " x ", c, " is expected"));
+  };
+  if (p.kind == ContactProblem::Kind::local) {
+    shape("W", p.W.rows(), p.W.cols(), p.rows(), p.rows());
+    if (!p.W.allFinite()) fail("W holds a number that is not finite");
+    size("q", p.q, p.rows());
+  } else {
+    shape("M", p.M.rows(), p.M.cols(), p.f.size(), p.f.size());
+    shape("H", p.H.rows(), p.H.cols(), p.f.size(), p.rows());
+    if (p.M.nonZeros() && !p.M.coeffs().allFinite()) fail("M holds a number that is not finite");
+    if (p.H.nonZeros() && !p.H.coeffs().allFinite()) fail("H holds a number that is not finite");
+    size("f", p.f, p.f.size());
+    size("w", p.w, p.rows());
+  }
+}
+
+void condense(ContactProblem& p, Monitor& monitor) {
+  const int m = p.rows();
+  require_memory(8.0 * (2.0 * p.f.size() * (m + 1) + 1.0 * m * m), text("the dense matrix of ", m, " rows"));
+  monitor.phase(text("condensing ", p.f.size(), " unknowns onto ", p.contacts(), " contacts"));
+  monitor.check();
+  DenseMatrix right(p.f.size(), m + 1);
+  right << DenseMatrix(p.H), p.f;
+  if (p.f.size() > 0) {
+    const double unsymmetric = unsymmetry_of(p.M);
+    p.symmetrised = unsymmetric > 0 && unsymmetric < kRounding;
+    right = solve(p.symmetrised ? SparseMatrix(0.5 * (p.M + SparseMatrix(p.M.transpose()))) : p.M, right);
+    if (right.size() == 0 || !right.allFinite()) throw InputError(text("'", p.name, "': M is singular"));
+  }
+  p.W = p.H.transpose() * right.leftCols(m);
+  p.q = p.H.transpose() * right.col(m) + p.w;
+}
+
+double unsymmetry(const ContactProblem& p) {
+  return p.kind == ContactProblem::Kind::global ? unsymmetry_of(p.M) : unsymmetry_of(p.W);
+}
+
+int rank_of_W(const ContactProblem& p) {
+  if (p.W.size() == 0) return 0;
+  const Vector values = Eigen::BDCSVD<DenseMatrix>(p.W).singularValues();
+  return static_cast<int>((values.array() > 1e-10 * values[0]).count());
+}
+
+}  // namespace dotyk::fclib

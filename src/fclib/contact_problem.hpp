@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+
+#include "algebra/types.hpp"
+#include "base/monitor.hpp"
+
+namespace dotyk::fclib {
+
+/// A frictional contact problem in the form of the FCLIB collection. Contact k has d = dimension components
+/// (N, T or N, T1, T2) in rows d·k …; u is the relative velocity, r the impulse or force, and
+///   u = W r + q,   0 ≤ r_N ⊥ u_N ≥ 0,   ‖r_T‖ ≤ μ r_N, with r_T = −μ r_N u_T/‖u_T‖ where u_T ≠ 0.
+/// With û = u + μ‖u_T‖ e_N (De Saxcé) that is: r ∈ K, û ∈ K*, r·û = 0, K = {‖r_T‖ ≤ μ r_N}.
+struct ContactProblem {
+  std::string name;         ///< the file's, without folder
+  std::string title, description;
+  /// local: W and q are the file's own. global: M v = H r + f, u = Hᵀ v + w, so that W = Hᵀ M⁻¹ H and
+  /// q = Hᵀ M⁻¹ f + w.
+  enum class Kind { local, global } kind = Kind::local;
+  int dimension = 3;        ///< of space, and components a contact: 2 or 3
+  algebra::DenseMatrix W;   ///< rows × rows, as stored: not symmetric where the file's is not
+  algebra::Vector q;        ///< rows
+  algebra::Vector mu;       ///< contacts
+  algebra::SparseMatrix M;  ///< global: unknowns × unknowns, both triangles, as stored; else 0 × 0
+  algebra::SparseMatrix H;  ///< global: unknowns × rows
+  algebra::Vector f, w;     ///< global: unknowns; rows
+
+  /// W is made of the symmetric part of M: the file's own is unsymmetric by less than 1e-6, its rounding.
+  bool symmetrised = false;
+
+  int contacts() const { return static_cast<int>(mu.size()); }
+  int rows() const { return dimension * contacts(); }
+  int unknowns() const { return kind == Kind::global ? static_cast<int>(f.size()) : rows(); }
+};
+
+/// Throws InputError naming the problem where sizes do not fit together, a number is not finite, or a μ is
+/// negative.
+void check(const ContactProblem& problem);
+
+/// Fills W and q of a global problem, by sparse Cholesky, or by LU where M is not symmetric positive definite.
+/// An M that is unsymmetric by less than 1e-6 is taken for a symmetric one stored with seven digits: in soft
+/// directions of a stiff body that rounding would be many per cent of W. Throws InputError where M is singular, Interrupted where the monitor asks to stop.
+void condense(ContactProblem& problem, Monitor& monitor);
+
+/// max |A − Aᵀ| / max |A| of the matrix stored, W or M; 0 where it is empty.
+double unsymmetry(const ContactProblem& problem);
+
+/// How many singular values of W exceed 1e-10 of the greatest.
+int rank_of_W(const ContactProblem& problem);
+
+}  // namespace dotyk::fclib
