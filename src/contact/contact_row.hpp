@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "mesh/mesh.hpp"
 
 namespace dotyk::contact {
@@ -11,7 +13,8 @@ struct ContactRow {
   int partner = -1;     ///< node of the second body's mesh, -1 against a rigid shape
   mesh::Point normal;   ///< unit, out of the first body
   double gap = 0;       ///< at rest, positive when open
-  double weight = 0;    ///< length or area that the node stands for: pressure = λ / weight
+  double weight = 0;    ///< length or area that the node stands for
+  std::vector<int> facets;  ///< of the first part, those of the row's side at the node
 };
 
 }  // namespace dotyk::contact

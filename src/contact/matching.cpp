@@ -191,7 +191,7 @@ std::vector<ContactRow> between(const Face& first, const Face& second,
     if (!std::isfinite(gap))
       throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), first.mesh.dimension()),
                             "; it must be a finite number"));
-    rows.push_back({side.node, found->second.second, side.normal, gap, side.weight});
+    rows.push_back({side.node, found->second.second, side.normal, gap, side.weight, side.facets});
   }
   if (!interference && deepest < -rounding)
     throw InputError(text(first.name, " and ", second.name, " overlap by ", -deepest, " at ",

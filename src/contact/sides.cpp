@@ -17,6 +17,7 @@ using mesh::Point;
 struct Share {
   Point normal;   ///< unit
   double weight;  ///< ∫ φ
+  int facet;
   int side = -1;
 };
 
@@ -24,8 +25,9 @@ double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + 
 
 std::map<int, std::vector<Share>> shares(const Mesh& mesh, const std::vector<Facet>& facets) {
   std::map<int, std::vector<Share>> by_node;
-  for (const Facet f : facets) {
-    Share share{mesh.facet_area_vector(f), 0};
+  for (std::size_t k = 0; k < facets.size(); ++k) {
+    const Facet f = facets[k];
+    Share share{mesh.facet_area_vector(f), 0, static_cast<int>(k)};
     const double area = std::sqrt(dot(share.normal, share.normal));
     for (double& n : share.normal) n /= area;
     double weight[4] = {0, 0, 0, 0};
@@ -41,10 +43,11 @@ std::map<int, std::vector<Share>> shares(const Mesh& mesh, const std::vector<Fac
 }
 
 NodeSide sum(int node, const std::vector<Share>& shares, int side) {
-  NodeSide result{node, {0, 0, 0}, 0};
+  NodeSide result{node, {0, 0, 0}, 0, {}};
   for (const Share& s : shares)
     if (s.side == side) {
       result.weight += s.weight;
+      result.facets.push_back(s.facet);
       for (int i = 0; i < 3; ++i) result.normal[i] += s.weight * s.normal[i];
     }
   const double length = std::sqrt(dot(result.normal, result.normal));

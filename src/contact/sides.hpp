@@ -11,6 +11,7 @@ struct NodeSide {
   int node;
   mesh::Point normal;  ///< unit, outward: of the side's facets, weighted by their measure
   double weight;       ///< ∫ φ over the side's facets: length (2-D) or area
+  std::vector<int> facets;  ///< the side's facets at the node, as indices into the part's
 };
 
 /// Facets whose normals differ by more than this meet in an edge; below it the surface is taken

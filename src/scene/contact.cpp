@@ -84,6 +84,32 @@ void set_friction(Contact& contact, const Friction& friction) {
   }
 }
 
+/// Throws InputError where the friction does not go with the multipliers.
+void set_discretisation(Contact& contact, const Discretisation& discretisation) {
+  contact.discretisation = discretisation;
+  const bool own_size = discretisation.friction_size > 0;
+  if (own_size && (discretisation.multipliers == contact::Multipliers::nodal ||
+                   contact.friction == Friction::Kind::none))
+    throw InputError("'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"; it is given "
+                     "without them");
+  if (discretisation.multipliers == contact::Multipliers::nodal) return;
+  if (contact.friction == Friction::Kind::coulomb)
+    throw InputError("Coulomb friction does not go with multipliers = \"P1-P0\": their friction rows are weighted "
+                     "with the bound, which here follows from the pressure sought; take \"nodal\"");
+  const auto infinite = std::count_if(contact.friction_value.begin(), contact.friction_value.end(),
+                                      [](double g) { return std::isinf(g); });
+  if (infinite > 0 && infinite < std::ssize(contact.friction_value))
+    throw InputError("the friction bound is infinite on a part of the contact only; with multipliers = \"P1-P0\" it "
+                     "must be finite, or infinite everywhere");
+}
+
+/// Nodes stand for their share of the contact boundary: of what overhangs the other part they have none.
+void set_weights(Contact& contact) {
+  const std::vector<double> measures = contact::measures(surface_of(contact));
+  for (std::size_t k = 0; k < measures.size(); ++k)
+    if (measures[k] > 0) contact.rows[k].weight = measures[k];
+}
+
 std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
   scene.contacts.push_back(std::make_shared<const Contact>(std::move(contact)));
   return scene.contacts.back();
@@ -91,9 +117,15 @@ std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
 
 }  // namespace
 
+contact::Surface surface_of(const Contact& contact) {
+  const bool itself = contact.second.body && contact.first.body->mesh == contact.second.body->mesh;
+  return contact::surface(*contact.first.body->mesh, contact.first.facets, contact.rows,
+                          itself ? contact.second.facets : std::vector<mesh::Facet>());
+}
+
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
                                            const elasticity::ScalarField& added_gap, const Friction& friction,
-                                           bool interference) {
+                                           bool interference, const Discretisation& discretisation) {
   require_member(scene, first);
   require_member(scene, second);
   Contact contact;
@@ -101,20 +133,23 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   contact.first = first;
   contact.second = second;
   contact.rows = contact::between(face(first), face(second), added_gap, interference);
+  set_weights(contact);
   set_friction(contact, friction);
+  set_discretisation(contact, discretisation);
   refuse_repetition(scene, contact);
   return keep(scene, std::move(contact));
 }
 
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
                                            const elasticity::ScalarField& added_gap, bool interference,
-                                           const Friction& friction) {
+                                           const Friction& friction, const Discretisation& discretisation) {
   require_member(scene, part);
   Contact contact;
   contact.name = text("contact of ", part.label(), " with a ", contact::name(shape));
   contact.first = part;
   contact.rows = contact::against(*part.body->mesh, part.facets, shape, added_gap, interference);
   set_friction(contact, friction);
+  set_discretisation(contact, discretisation);
   contact.shape = shape;
   if (auto* gap = std::get_if<contact::RigidGap>(&contact.shape)) gap->gap = nullptr;
   return keep(scene, std::move(contact));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -15,17 +16,56 @@ Point at_node(const std::vector<double>& values, int node, int dim) {
   return p;
 }
 
-/// Shear on the first body, and whether the node sticks or slips.
-void add_friction(const TangentRows& tangent, const solver::Result& result, ContactNode& node) {
-  if (tangent.count == 0) return;
-  bool slips = false;
-  for (int i = 0; i < tangent.count; ++i) {
-    const int r = tangent.row[i];
-    slips = slips || (!result.slipping.empty() && result.slipping[r]);
-    for (int k = 0; k < 3; ++k) node.shear[k] -= result.state.lambda[r] * tangent.direction[i][k] / node.weight;
+/// Pressures: the values of the pressure at the contact rows, λ/∫ψ a basis function.
+std::vector<double> pressures(const Contact& contact, const Model& model, int index, const algebra::Vector& lambda) {
+  std::vector<double> value(contact.rows.size(), 0);
+  for (std::size_t j = 0; j < value.size(); ++j) {
+    const int r = model.contact_row[index][j];
+    const contact::NormalRow& row = model.normal[index][j];
+    if (r < 0 || !(row.measure > 0)) continue;
+    for (const contact::Term& at : row.values) value[at.row] += at.weight * lambda[r] / row.measure;
   }
-  if (node.status == problem::Status::closed)
-    node.status = slips ? problem::Status::slip : problem::Status::stick;
+  return value;
+}
+
+/// Shear on the first body at the contact rows: μ g, where a node lies in several cells the mean by their share
+/// of its surroundings; and whether it slips (at least half of these cells, by share, do) or sticks.
+struct Rubbing {
+  std::vector<Point> shear;
+  std::vector<char> rubs, slips;
+};
+
+Rubbing rubbing(const Contact& contact, const Model& model, int index, const solver::Result& result) {
+  const std::size_t count = contact.rows.size();
+  Rubbing rubbing{std::vector<Point>(count, Point{0, 0, 0}), std::vector<char>(count, 0), std::vector<char>(count, 0)};
+  std::vector<double> slipping(count, 0), sticking(count, 0);
+  const bool given = contact.friction == Friction::Kind::tresca;
+  for (const FrictionRows& rows : model.friction[index]) {
+    bool slips = false;
+    for (int i = 0; i < rows.count; ++i) slips = slips || (!result.slipping.empty() && result.slipping[rows.row[i]]);
+    for (const contact::Term& node : rows.cell.nodes) {
+      const double g = given ? contact.friction_value[node.row] : INFINITY;
+      const double density = node.weight * (std::isfinite(g) ? g / rows.cell.bound : 1 / rows.cell.measure);
+      for (int i = 0; i < rows.count; ++i) {
+        const Point t = rows.at(i, contact.rows[node.row], contact.first.body->dimension());
+        for (int k = 0; k < 3; ++k) rubbing.shear[node.row][k] -= density * result.state.lambda[rows.row[i]] * t[k];
+      }
+      rubbing.rubs[node.row] = 1;
+      (slips ? slipping : sticking)[node.row] += node.weight;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) rubbing.slips[k] = slipping[k] > (1 - 1e-9) * sticking[k];
+  return rubbing;
+}
+
+void count(const ContactNode& node, ContactResult& result) {
+  if (node.status != problem::Status::open) result.area += node.weight;
+  switch (node.status) {
+    case problem::Status::open: ++result.open; break;
+    case problem::Status::closed: ++result.closed; break;
+    case problem::Status::stick: ++result.stick; break;
+    case problem::Status::slip: ++result.slip; break;
+  }
 }
 
 }  // namespace
@@ -42,6 +82,9 @@ ContactResult Solution::contact(const Contact& contact) const {
   const int second = scene_->index_of(contact.second.body.get());
   const int dim = scene_->dimension();
   ContactResult result;
+  const std::vector<double> pressure = pressures(contact, model_, index, result_.state.lambda);
+  const std::vector<Point> force = model_.contact_force(contact, index, result_.state.lambda);
+  const Rubbing rubbing = scene::rubbing(contact, model_, index, result_);
   for (std::size_t k = 0; k < contact.rows.size(); ++k) {
     const contact::ContactRow& row = contact.rows[k];
     const int r = model_.contact_row[index][k];
@@ -60,20 +103,14 @@ ContactResult Solution::contact(const Contact& contact) const {
     }
     node.gap = row.gap - normal_jump;
     for (int i = 0; i < 3; ++i) node.slip[i] = jump[i] - normal_jump * row.normal[i];
-    if (r >= 0) {
-      node.force = result_.state.lambda[r];
-      node.pressure = row.weight > 0 ? node.force / row.weight : 0;
-      if (active(r)) node.status = problem::Status::closed;
-      add_friction(model_.tangent_row[index][k], result_, node);
-    }
-    for (int i = 0; i < 3; ++i) result.force[i] += node.weight * node.shear[i] - node.force * row.normal[i];
-    if (node.status != problem::Status::open) result.area += row.weight;
-    switch (node.status) {
-      case problem::Status::open: ++result.open; break;
-      case problem::Status::closed: ++result.closed; break;
-      case problem::Status::stick: ++result.stick; break;
-      case problem::Status::slip: ++result.slip; break;
-    }
+    node.pressure = pressure[k];
+    node.force = pressure[k] * row.weight;
+    node.shear = rubbing.shear[k];
+    if (r >= 0 ? active(r) : node.pressure > 0) node.status = problem::Status::closed;
+    if (node.status == problem::Status::closed && rubbing.rubs[k])
+      node.status = rubbing.slips[k] ? problem::Status::slip : problem::Status::stick;
+    for (int i = 0; i < 3; ++i) result.force[i] += force[k][i];
+    count(node, result);
     result.max_pressure = std::max(result.max_pressure, node.pressure);
     result.nodes.push_back(node);
   }

@@ -7,7 +7,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
-#include "scene/row_builder.hpp"
+#include "scene/contact_rows.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -38,24 +38,6 @@ void add_body(const Body& body, Model& model) {
   block.kernel = std::move(rigid.modes);
   block.kernel_names = std::move(rigid.names);
   problem::add(model.problem, std::move(block));
-}
-
-void add_contact_rows(const Scene& scene, const Contact& contact, RowBuilder& builder,
-                      std::vector<int>& row_of) {
-  const int first = scene.index_of(contact.first.body.get());
-  const int second = scene.index_of(contact.second.body.get());
-  const double size = contact.first.body->mesh->size();
-  builder.open_group(contact.name, problem::unilateral());
-  for (const contact::ContactRow& row : contact.rows) {
-    double gap = row.gap;
-    row_of.push_back(builder.add(first, row.node, second, row.partner, row.normal, gap));
-    // Rounding of coordinates may leave a fixed node this far inside.
-    if (row_of.back() < 0 && gap < -1e-9 * size)
-      throw InputError(text(contact.name, ": the node at ",
-                            point_text(contact.first.body->mesh->node(row.node), scene.dimension()),
-                            " is fixed in the normal direction and lies ", -gap,
-                            " inside the other side; no displacement can part them"));
-  }
 }
 
 void add_glue_rows(const Scene& scene, const Contact& contact, RowBuilder& builder,
@@ -99,9 +81,10 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor) {
   for (const auto& contact : scene.contacts) {
     model.contact_row.emplace_back();
     model.glue_row.emplace_back();
-    model.tangent_row.emplace_back();
+    model.normal.emplace_back();
+    model.friction.emplace_back();
     if (contact->kind == Contact::Kind::contact) {
-      add_contact_rows(scene, *contact, builder, model.contact_row.back());
+      add_normal_rows(scene, *contact, builder, model);
       add_friction_rows(scene, *contact, builder, model);
     } else {
       add_glue_rows(scene, *contact, builder, model.glue_row.back());

@@ -9,12 +9,15 @@
 
 namespace dotyk::scene {
 
-/// The tangential rows of a contact row with friction: one in the plane, up to two in space (fewer
-/// where supports hold a direction on both sides), none without friction.
-struct TangentRows {
+/// A cell of friction and its tangential rows: one in the plane, up to two in space (fewer where supports hold a
+/// direction on both sides).
+struct FrictionRows {
+  contact::FrictionCell cell;
   int count = 0;
   int row[2] = {-1, -1};
-  mesh::Point direction[2] = {};
+  mesh::Point direction[2] = {};  ///< in space: unit, perpendicular to the cell's mean normal
+  /// The direction of row i at one of the cell's contact rows: perpendicular to its normal.
+  mesh::Point at(int i, const contact::ContactRow& row, int dimension) const;
 };
 
 /// A scene as a problem, and the way back.
@@ -22,15 +25,19 @@ struct Model {
   problem::Problem problem;
   std::vector<Body> bodies;                      ///< as they were: a script may add supports and loads later
   std::vector<elasticity::Numbering> numbering;  ///< one a body
-  /// Contact → its row → row of B, or -1 where no unknown moves it (both sides fixed).
+  /// Contact → its row → row of B of the normal multiplier there, or -1 where no unknown moves it (both sides fixed).
   std::vector<std::vector<int>> contact_row;
-  std::vector<std::vector<TangentRows>> tangent_row;  ///< contact → its row → tangential rows
+  std::vector<std::vector<contact::NormalRow>> normal;  ///< contact → its row → what that row of B measures
+  std::vector<std::vector<FrictionRows>> friction;      ///< contact → its cells
   /// Glue: contact → first row of B of each pair's component (dimension a pair), -1 likewise.
   std::vector<std::vector<int>> glue_row;
   std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1
 
   /// A body's displacement, node × dimension, from the unknowns of all blocks.
   std::vector<double> displacement(int body, const algebra::Vector& u) const;
+  /// The force that a contact's multipliers exert on its first body, at the node of each contact row (the
+  /// opposite one acts on the partner).
+  std::vector<mesh::Point> contact_force(const Contact& contact, int index, const algebra::Vector& lambda) const;
 };
 
 /// Assembles. Throws InputError for contradictory supports, and for a contact that nodes fixed on

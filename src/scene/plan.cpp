@@ -16,10 +16,13 @@ std::string describe_body(const Body& body) {
 std::string describe_contact(const Contact& contact) {
   if (contact.kind == Contact::Kind::glue)
     return text("  ", contact.name, ": ", contact.glued.size(), " node pairs");
+  const char* multipliers =
+      contact.discretisation.multipliers == contact::Multipliers::p1_p0 ? ", multipliers P1-P0" : "";
   return text("  ", contact.name, ": ", contact.rows.size(),
               contact.friction == Friction::Kind::tresca    ? " rows, given friction"
               : contact.friction == Friction::Kind::coulomb ? " rows, Coulomb friction"
-                                                            : " rows, frictionless");
+                                                            : " rows, frictionless",
+              multipliers);
 }
 
 /// Whether the load can be carried; needs the loads and contacts assembled.

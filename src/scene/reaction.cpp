@@ -19,16 +19,11 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
   for (std::size_t c = 0; c < model.contact_row.size(); ++c) {
     const Contact& contact = *scene.contacts[c];
     const int first = scene.index_of(contact.first.body.get()), second = scene.index_of(contact.second.body.get());
-    for (std::size_t k = 0; k < contact.rows.size(); ++k) {
-      const int r = model.contact_row[c][k];
-      if (r < 0) continue;
-      if (first == body) push(contact.rows[k].node, contact.rows[k].normal, -lambda[r]);
-      if (second == body) push(contact.rows[k].partner, contact.rows[k].normal, lambda[r]);
-      const TangentRows& tangent = model.tangent_row[c][k];
-      for (int i = 0; i < tangent.count; ++i) {
-        const double friction = lambda[tangent.row[i]];
-        if (first == body) push(contact.rows[k].node, tangent.direction[i], -friction);
-        if (second == body) push(contact.rows[k].partner, tangent.direction[i], friction);
+    if (contact.kind == Contact::Kind::contact && (first == body || second == body)) {
+      const std::vector<Point> pushed = model.contact_force(contact, static_cast<int>(c), lambda);
+      for (std::size_t k = 0; k < pushed.size(); ++k) {
+        if (first == body) push(contact.rows[k].node, pushed[k], 1);
+        if (second == body) push(contact.rows[k].partner, pushed[k], -1);
       }
     }
     for (std::size_t k = 0; k < model.glue_row[c].size(); ++k) {

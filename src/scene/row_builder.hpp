@@ -8,6 +8,12 @@
 
 namespace dotyk::scene {
 
+/// What a pair of nodes gives to a row: direction·(u_node − u_other_node), a weight in the direction's length.
+struct Pull {
+  int node, other_node;
+  mesh::Point direction;
+};
+
 /// Gathers rows of B as they come. Used while a model is built.
 class RowBuilder {
  public:
@@ -21,6 +27,11 @@ class RowBuilder {
   /// Σ ± direction·u at one or two nodes = jump; returns the row, or -1 where nothing is unknown.
   /// `gap` is reduced by what prescribed components contribute and left so.
   int add(int body, int node, int other_body, int other_node, const mesh::Point& direction, double& gap);
+
+  /// The same of several pairs (at least one) of two bodies, or of one and a rigid shape (other_body -1).
+  int add(int body, int other_body, const std::vector<Pull>& pulls, double& gap);
+  /// Has the node an unknown along the direction?
+  bool moves(int body, int node, const mesh::Point& direction) const;
 
   /// Sets B, c and the rows' names.
   void finish();
@@ -39,10 +50,5 @@ class RowBuilder {
   std::vector<double> gaps_;
   std::vector<Place> places_;  ///< where a row is, for messages made only when needed
 };
-
-/// Adds the tangential rows of a contact with friction: for each row of the contact with an unknown
-/// along its normal. No rows where the bound or coefficient is 0; rows that never slip where it is
-/// infinite.
-void add_friction_rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model);
 
 }  // namespace dotyk::scene

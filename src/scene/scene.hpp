@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/matching.hpp"
+#include "contact/multipliers.hpp"
 #include "contact/rigid.hpp"
 #include "scene/body.hpp"
 
@@ -18,6 +19,12 @@ struct Friction {
   elasticity::ScalarField value;  ///< evaluated at the contact nodes when the contact is made, not kept
 };
 
+/// The multipliers of a contact. `friction_size`: see contact::friction_cells; for p1_p0 with friction only.
+struct Discretisation {
+  contact::Multipliers multipliers = contact::Multipliers::nodal;
+  double friction_size = 0;
+};
+
 /// A pair of parts, or a part and a rigid shape, in contact or glued.
 struct Contact {
   enum class Kind { contact, glue };
@@ -28,6 +35,7 @@ struct Contact {
   std::vector<contact::ContactRow> rows;   ///< of a contact
   Friction::Kind friction = Friction::Kind::none;
   std::vector<double> friction_value;      ///< of each row: bound per length or area, or coefficient
+  Discretisation discretisation;
   std::vector<contact::NodePair> glued;    ///< of a glue
   contact::RigidShape shape;               ///< for drawing only; a gap function is not kept
 };
@@ -44,16 +52,21 @@ struct Scene {
 /// Throws InputError for no bodies, a body twice, two of one name, or mixed dimensions.
 std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies);
 
+/// The contact boundary of a contact.
+contact::Surface surface_of(const Contact& contact);
+
 /// Contact of two parts with matching nodes. Throws as contact::between, for a part whose body is not
 /// in the scene, and for a friction value that is negative or not a number (an infinite bound of
-/// given friction is allowed: the parts then do not slip at all).
+/// given friction is allowed: the parts then do not slip at all). Multipliers p1_p0 refuse Coulomb friction
+/// (the bound is in the rows' weights, before the pressure is known) and a bound infinite in places only.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
                                            const elasticity::ScalarField& added_gap, const Friction& friction = {},
-                                           bool interference = false);
+                                           bool interference = false, const Discretisation& discretisation = {});
 /// Contact of a part with a rigid shape. Throws as contact::against, and for friction as above.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
                                            const elasticity::ScalarField& added_gap, bool interference,
-                                           const Friction& friction = {});
+                                           const Friction& friction = {},
+                                           const Discretisation& discretisation = {});
 /// Ties two parts with matching nodes together: no jump of the displacement.
 std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second);
 

@@ -34,6 +34,13 @@ scene::Friction friction(Call& call, const Scene& scene, std::optional<Field>& f
   return {law->kind, scalar_field(*field, scene.dimension())};
 }
 
+scene::Discretisation discretisation(Call& call) {
+  scene::Discretisation d;
+  d.multipliers = static_cast<contact::Multipliers>(call.choice("multipliers"));
+  if (call.has("friction_size")) d.friction_size = call.number("friction_size");
+  return d;
+}
+
 int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added,
                   const scene::Friction& friction) {
   const auto rigid = call.object<Rigid>("rigid");
@@ -47,7 +54,8 @@ int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::
       given->gap = scalar_field(*gap, scene.dimension());
     }
   }
-  return call.give(scene::add_contact(scene, part, shape, added, call.boolean("interference"), friction));
+  return call.give(scene::add_contact(scene, part, shape, added, call.boolean("interference"), friction,
+                                      discretisation(call)));
 }
 
 int add_contact(Call& call) {
@@ -68,7 +76,8 @@ int add_contact(Call& call) {
   }
   if (parts.size() != 2)
     throw InputError("give two parts, or one part and 'rigid'");
-  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, law, call.boolean("interference")));
+  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, law, call.boolean("interference"),
+                                      discretisation(call)));
 }
 
 int add_glue(Call& call) {
@@ -199,6 +208,11 @@ void bind_scene(Library& library) {
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
                                          key::field("gap", "added to the geometric gap; a number or a function of the coordinates").unit("length").otherwise("0"),
                                          key::choice("pairing", {"matching"}, "how nodes of the two parts are paired").fallback("matching"),
+                                         key::choice("multipliers", {"nodal", "P1-P0"},
+                                                     "nodal: a normal and a tangential force at each node. P1-P0: pressure continuous and piecewise "
+                                                     "linear; friction piecewise constant times its given bound, in the plane on the dual cells between "
+                                                     "midpoints of edges, in space on cells of several facets; not with Coulomb friction").fallback("nodal"),
+                                         key::positive("friction_size", "P1-P0: extent H of the cells of friction").unit("length").otherwise("in the plane one dual cell, in space twice the widest facet"),
                                          key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest").fallback(false)})
                                  .with(key::object<Part>("parts", "one part, or two").count(1, 2))},
                .returns = "contact",

@@ -29,6 +29,15 @@ refused(function() scene:contact{ top, other:part "bottom" } end, "which is not 
 refused(function() scene:glue{ top } end, "glue: takes 2 parts, got 1")
 refused(function() scene:contact{ top, top } end, "'block' top and 'block' top do not face each other")
 
+-- Multipliers and the friction that goes with them.
+local given <const>, coulomb <const> = dotyk.friction.tresca(1), dotyk.friction.coulomb(0.3)
+refused(function() scene:contact{ top, rigid = floor, multipliers = "P1" } end, "'multipliers'", "\"P1-P0\"")
+refused(function() scene:contact{ top, rigid = floor, friction = coulomb, multipliers = "P1-P0" } end, "Coulomb friction does not go with multipliers = \"P1-P0\"", "take \"nodal\"")
+refused(function() scene:contact{ top, rigid = floor, friction = given, friction_size = 0.5 } end, "'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"")
+refused(function() scene:contact{ top, rigid = floor, multipliers = "P1-P0", friction_size = 0.5 } end, "it is given without them")
+refused(function() scene:contact{ top, rigid = floor, friction = given, multipliers = "P1-P0", friction_size = 0 } end, "'friction_size' must be a positive number")
+refused(function() scene:contact{ top, rigid = floor, multipliers = "P1-P0", friction = dotyk.friction.tresca(function(x) return x < 0.6 and 1 or math.huge end) } end, "infinite on a part of the contact only")
+
 -- Meshes that do not match, faces that do not face, the same said twice.
 local base <const> = dotyk.body{ name = "base", mesh = it.mesh, material = it.material }
 base:part "bottom":fix()

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "contact/multipliers.hpp"
+#include "contact/partition.hpp"
+
+namespace dotyk::contact {
+namespace {
+
+using mesh::Point;
+
+/// A facet or half an edge, and the cell it belongs to.
+struct Share {
+  const SurfaceFacet* facet;
+  Gram gram;      ///< of the facet's hats on the piece
+  int corner;     ///< the corner whose surroundings it is; -1 for a whole facet
+  int cell;
+};
+
+/// ∫ φ_a φ_b over the half of an edge next to corner c, by Simpson's rule (exact).
+Gram half_gram(double length, int c) {
+  Gram g{};
+  const int other = 1 - c;
+  const double near[3] = {1, 0.75, 0.5}, weight[3] = {1, 4, 1};
+  for (int q = 0; q < 3; ++q) {
+    double phi[2];
+    phi[c] = near[q];
+    phi[other] = 1 - near[q];
+    for (int a = 0; a < 2; ++a)
+      for (int b = 0; b < 2; ++b) g[a][b] += length / 12 * weight[q] * phi[a] * phi[b];
+  }
+  return g;
+}
+
+Piece around(const std::vector<Point>& points, int component) {
+  Piece piece{{0, 0, 0}, points[0], points[0], component};
+  for (const Point& p : points)
+    for (int i = 0; i < 3; ++i) {
+      piece.centre[i] += p[i] / static_cast<double>(points.size());
+      piece.low[i] = std::min(piece.low[i], p[i]);
+      piece.high[i] = std::max(piece.high[i], p[i]);
+    }
+  return piece;
+}
+
+int component_of(const SurfaceFacet& f, const std::vector<int>& component) {
+  for (int a = 0; a < f.corners; ++a)
+    if (f.row[a] >= 0) return component[f.row[a]];
+  return -1;
+}
+
+/// Half edges, their cells named by the moving node they belong to; halves between nodes that stay are left out.
+std::vector<Share> dual_shares(const Surface& surface, const std::vector<char>& moves) {
+  std::vector<Share> shares;
+  for (const SurfaceFacet& f : surface.facets) {
+    const Point v = surface.mesh.facet_area_vector(f.facet);
+    for (int c = 0; c < 2; ++c) {
+      int owner = f.row[c];
+      if (owner < 0 || !moves[owner]) owner = f.row[1 - c];
+      if (owner >= 0 && moves[owner]) shares.push_back({&f, half_gram(std::hypot(v[0], v[1]), c), c, owner});
+    }
+  }
+  return shares;
+}
+
+/// Numbers cells from 0, joining dual cells where a size is given.
+void join_dual_cells(const Surface& surface, double size, std::vector<Share>& shares) {
+  std::map<int, std::vector<Point>> ends;  // of each dual cell
+  std::map<int, int> number;
+  for (const Share& s : shares) {
+    const Point near = surface.mesh.point(surface.mesh.facet_node(s.facet->facet, s.corner));
+    ends[s.cell].push_back(near);
+    ends[s.cell].push_back(surface.mesh.facet_centre(s.facet->facet));
+  }
+  const std::vector<int> component = components(surface);
+  std::vector<Piece> pieces;
+  for (const auto& [owner, points] : ends) {
+    number[owner] = static_cast<int>(pieces.size());
+    pieces.push_back(around(points, component[owner]));
+  }
+  const std::vector<int> joined = size > 0 ? partition(pieces, size) : std::vector<int>();
+  for (Share& s : shares) s.cell = size > 0 ? joined[number[s.cell]] : number[s.cell];
+}
+
+std::vector<Share> facet_shares(const Surface& surface, double size) {
+  const std::vector<int> component = components(surface);
+  std::vector<Piece> pieces;
+  for (const SurfaceFacet& f : surface.facets) {
+    std::vector<Point> corners;
+    for (int a = 0; a < f.corners; ++a) corners.push_back(surface.mesh.point(surface.mesh.facet_node(f.facet, a)));
+    pieces.push_back(around(corners, component_of(f, component)));
+  }
+  const std::vector<int> cell = partition(pieces, size > 0 ? size : kCellWidth * facet_width(surface));
+  std::vector<Share> shares;
+  for (std::size_t k = 0; k < surface.facets.size(); ++k)
+    shares.push_back({&surface.facets[k], gram(surface.mesh, surface.facets[k].facet), -1, cell[k]});
+  return shares;
+}
+
+/// g at a corner; a crack's tip takes the mean of the others.
+double corner_bound(const SurfaceFacet& f, int corner, const std::vector<double>& g) {
+  if (f.row[corner] >= 0) return g[f.row[corner]];
+  double sum = 0;
+  int count = 0;
+  for (int a = 0; a < f.corners; ++a)
+    if (f.row[a] >= 0) sum += g[f.row[a]], ++count;
+  return sum / count;
+}
+
+/// Sums of one cell, contact row by contact row.
+struct Sum {
+  std::map<int, double> jumps, nodes;
+  double bound = 0, measure = 0;
+};
+
+void add(const Share& share, const std::vector<double>& g, Sum& sum) {
+  const SurfaceFacet& f = *share.facet;
+  for (int a = 0; a < f.corners; ++a) {
+    double jump = 0, measure = 0;
+    for (int b = 0; b < f.corners; ++b) {
+      jump += share.gram[a][b] * corner_bound(f, b, g);
+      measure += share.gram[a][b];
+    }
+    sum.bound += jump;
+    sum.measure += measure;
+    if (f.row[a] < 0) continue;
+    sum.jumps[f.row[a]] += jump;
+    if (share.corner < 0) sum.nodes[f.row[a]] += measure;
+  }
+  if (share.corner < 0 || f.row[share.corner] < 0) return;
+  double whole = 0;  // half an edge surrounds one node
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < 2; ++b) whole += share.gram[a][b];
+  sum.nodes[f.row[share.corner]] += whole;
+}
+
+}  // namespace
+
+double facet_width(const Surface& surface) {
+  double width = 0;
+  for (const SurfaceFacet& f : surface.facets) {
+    const Point v = surface.mesh.facet_area_vector(f.facet);
+    const double measure = std::hypot(v[0], v[1], v[2]);
+    width = std::max(width, f.corners == 2 ? measure : std::sqrt(f.corners == 3 ? 2 * measure : measure));
+  }
+  return width;
+}
+
+std::vector<FrictionCell> friction_cells(const Surface& surface, const std::vector<double>& g,
+                                         const std::vector<char>& moves, double size) {
+  std::vector<Share> shares;
+  if (surface.mesh.dimension() == 2) {
+    shares = dual_shares(surface, moves);
+    join_dual_cells(surface, size, shares);
+  } else {
+    shares = facet_shares(surface, size);
+  }
+  std::map<int, Sum> sums;
+  for (const Share& share : shares) add(share, g, sums[share.cell]);
+  std::vector<double> around(surface.rows, 0);
+  for (const auto& [cell, sum] : sums)
+    for (const auto& [row, measure] : sum.nodes) around[row] += measure;
+  std::vector<FrictionCell> cells;
+  for (const auto& [number, sum] : sums) {
+    if (!(sum.bound > 0)) continue;
+    FrictionCell cell{{}, {}, sum.bound, sum.measure};
+    for (const auto& [row, weight] : sum.jumps) cell.jumps.push_back({row, weight / sum.bound});
+    for (const auto& [row, measure] : sum.nodes) cell.nodes.push_back({row, measure / around[row]});
+    cells.push_back(std::move(cell));
+  }
+  return cells;
+}
+
+}  // namespace dotyk::contact

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "contact/surface.hpp"
+
+namespace dotyk::contact {
+
+/// What the multipliers of a contact are.
+/// nodal: a normal and a tangential force at each contact node (b(μ, v) by the trapezoidal rule throughout).
+/// p1_p0, TR965's own: the pressure is continuous and piecewise linear, the friction's part μ_t of its bound g
+/// piecewise constant: in the plane on the dual cells between the midpoints of the edges (2.13)–(2.15), in space
+/// on a coarser partition T_H of the surface (3.10)–(3.12).
+enum class Multipliers { nodal, p1_p0 };
+
+/// A number at a contact row.
+struct Term {
+  int row;
+  double weight;
+};
+
+/// The normal multiplier of the basis function ψ: its row is ∫ψ [u_n] / ∫ψ ≤ ∫ψ gap / ∫ψ, its multiplier λ the
+/// force ∫ of the pressure (λ/∫ψ) ψ.
+struct NormalRow {
+  std::vector<Term> jumps;   ///< [u_n] at contact rows, weighted; the weights are positive
+  std::vector<Term> values;  ///< ψ at contact rows
+  double measure = 0;        ///< ∫ψ, length or area
+};
+
+/// One normal row a contact row, with that node's share of the length or area: TR965 (2.15)–(2.16) in the plane.
+std::vector<NormalRow> nodal_normal_rows(const std::vector<ContactRow>& rows);
+
+/// Normal rows with the Gram matrix of the surface's facets (TR965 (3.12), (3.17), (3.19)). Hats of nodes that do
+/// not move (`moves`, one a contact row) are shared out among the moving nodes of their facets, and have no row of
+/// their own (empty `jumps`): with them multipliers oscillate that no displacement notices.
+std::vector<NormalRow> gram_normal_rows(const Surface& surface, const std::vector<ContactRow>& rows,
+                                        const std::vector<char>& moves);
+
+/// A piece of the contact boundary with one friction multiplier μ: constant in the plane, a pair in space. Its row
+/// is the slip's mean weighted with the bound, ∫ g [u_t] / ∫g, its multiplier the force μ∫g, its bound ∫g.
+struct FrictionCell {
+  std::vector<Term> jumps;  ///< [u_t] at contact rows, weighted; their weights are 1 in sum but for nodes without jump
+  std::vector<Term> nodes;  ///< which share of a contact row's surroundings belongs to the cell
+  double bound = 0;         ///< ∫g, a force (nodal Coulomb: the coefficient)
+  double measure = 0;       ///< length or area
+};
+
+/// The cells of p1_p0 for the bound g at the contact rows (g_h is its linear interpolation; at a crack's tip the
+/// mean of the facet's other corners). Cells where g_h vanishes are left out.
+/// In the plane a dual cell a node; the half cells of a node that does not move belong to its neighbour's. `size`
+/// joins dual cells, or in space facets, into cells of about that extent H (see partition.hpp); 0 stands for the
+/// dual cells themselves, in space for kCellWidth times the widest facet.
+std::vector<FrictionCell> friction_cells(const Surface& surface, const std::vector<double>& g,
+                                         const std::vector<char>& moves, double size);
+
+/// h in space: the side of the square that the widest facet, a quadrilateral or a triangle and its mirror image,
+/// fills; in the plane the longest edge.
+double facet_width(const Surface& surface);
+
+/// The default H/h in space.
+inline constexpr double kCellWidth = 2;
+
+}  // namespace dotyk::contact

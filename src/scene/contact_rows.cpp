@@ -1,0 +1,231 @@
+#include "scene/contact_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::scene {
+
+using mesh::Point;
+
+namespace {
+
+bool nodal(const Contact& contact) { return contact.discretisation.multipliers == contact::Multipliers::nodal; }
+
+/// Unit tangents: one in the plane, two in space.
+std::vector<Point> tangents(const Point& n, int dim) {
+  if (dim == 2) return {{-n[1], n[0], 0}};
+  // Along the axis that the normal is least along, made perpendicular; axes stay axes where they can.
+  int least = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(n[i]) < std::abs(n[least]) - 1e-12) least = i;
+  Point t{0, 0, 0};
+  t[least] = 1;
+  for (int i = 0; i < 3; ++i) t[i] -= n[least] * n[i];
+  const double length = std::hypot(t[0], t[1], t[2]);
+  for (double& v : t) v = std::abs(v) < 1e-15 ? 0 : v / length;
+  return {t, {n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]}};
+}
+
+/// One contact's rows, as they are made.
+class Rows {
+ public:
+  Rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model)
+      : contact_(contact), builder_(builder), model_(model), dim_(scene.dimension()),
+        first_(scene.index_of(contact.first.body.get())), second_(scene.index_of(contact.second.body.get())) {}
+
+  void normal() {
+    builder_.open_group(contact_.name, problem::unilateral());
+    std::vector<char> moves;
+    for (const contact::ContactRow& row : contact_.rows) moves.push_back(this->moves(row, row.normal));
+    for (std::size_t k = 0; k < moves.size(); ++k)
+      if (!moves[k]) require_apart(contact_.rows[k]);
+    model_.normal.back() = nodal(contact_) || dim_ == 2
+                               ? contact::nodal_normal_rows(contact_.rows)
+                               : contact::gram_normal_rows(surface_of(contact_), contact_.rows, moves);
+    for (const contact::NormalRow& row : model_.normal.back()) {
+      std::vector<Pull> pulls;
+      double gap = 0;
+      for (const contact::Term& jump : row.jumps) {
+        pulls.push_back(pull(jump, contact_.rows[jump.row].normal));
+        gap += jump.weight * contact_.rows[jump.row].gap;
+      }
+      model_.contact_row.back().push_back(pulls.empty() ? -1 : builder_.add(first_, second_, pulls, gap));
+    }
+  }
+
+  void friction() {
+    if (contact_.friction == Friction::Kind::none) return;
+    std::vector<Candidate> points = nodal(contact_) ? nodal_points() : cell_points();
+    for (int components = 1; components < dim_; ++components)
+      for (const bool slips : {true, false}) add(points, components, slips);
+  }
+
+ private:
+  /// A friction point before it has rows.
+  struct Candidate {
+    contact::FrictionCell cell;
+    bool slips;  ///< the bound is finite
+    int normal;  ///< row of B
+    std::vector<Point> tangents;  ///< along which some unknown moves
+  };
+
+  Pull pull(const contact::Term& term, const Point& direction) const {
+    const contact::ContactRow& row = contact_.rows[term.row];
+    return {row.node, row.partner,
+            {term.weight * direction[0], term.weight * direction[1], term.weight * direction[2]}};
+  }
+  bool moves(const contact::ContactRow& row, const Point& direction) const {
+    return builder_.moves(first_, row.node, direction) ||
+           (second_ >= 0 && builder_.moves(second_, row.partner, direction));
+  }
+
+  void require_apart(const contact::ContactRow& row) {
+    double gap = row.gap;
+    builder_.add(first_, row.node, second_, row.partner, row.normal, gap);
+    // Rounding of coordinates may leave a fixed node this far inside.
+    if (gap < -1e-9 * contact_.first.body->mesh->size())
+      throw InputError(text(contact_.name, ": the node at ",
+                            point_text(contact_.first.body->mesh->node(row.node), dim_),
+                            " is fixed in the normal direction and lies ", -gap,
+                            " inside the other side; no displacement can part them"));
+  }
+
+  std::vector<Candidate> nodal_points() const {
+    std::vector<Candidate> points;
+    for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
+      const contact::ContactRow& row = contact_.rows[k];
+      const double value = contact_.friction_value[k];
+      const int n = model_.contact_row.back()[k], index = static_cast<int>(k);
+      if (n < 0 || value == 0) continue;
+      const double bound = contact_.friction == Friction::Kind::tresca ? value * row.weight : value;
+      Candidate point{{{{index, 1}}, {{index, 1}}, bound, row.weight}, std::isfinite(value), n, {}};
+      point.tangents = free_tangents(point.cell, row.normal);
+      points.push_back(std::move(point));
+    }
+    return points;
+  }
+
+  std::vector<Candidate> cell_points() const {
+    std::vector<double> g = contact_.friction_value;
+    const bool slips = std::none_of(g.begin(), g.end(), [](double v) { return std::isinf(v); });
+    if (!slips) g.assign(g.size(), 1);
+    std::vector<char> moving;
+    for (const contact::ContactRow& row : contact_.rows) {
+      const std::vector<Point> t = tangents(row.normal, dim_);
+      moving.push_back(std::any_of(t.begin(), t.end(), [&](const Point& d) { return moves(row, d); }));
+    }
+    std::vector<Candidate> points;
+    for (contact::FrictionCell& cell :
+         contact::friction_cells(surface_of(contact_), g, moving, contact_.discretisation.friction_size)) {
+      Candidate point{std::move(cell), slips, -1, {}};
+      Point mean{0, 0, 0};
+      double most = 0;
+      for (const contact::Term& jump : point.cell.jumps) {
+        for (int i = 0; i < 3; ++i) mean[i] += jump.weight * contact_.rows[jump.row].normal[i];
+        const int n = model_.contact_row.back()[jump.row];
+        if (n >= 0 && jump.weight > most) most = jump.weight, point.normal = n;
+      }
+      const double length = std::hypot(mean[0], mean[1], mean[2]);
+      for (double& v : mean) v /= length;
+      point.tangents = free_tangents(point.cell, mean);
+      if (point.normal >= 0) points.push_back(std::move(point));
+    }
+    return points;
+  }
+
+  std::vector<Point> free_tangents(const contact::FrictionCell& cell, const Point& normal) const {
+    std::vector<Point> free;
+    for (const Point& t : tangents(normal, dim_)) {
+      const FrictionRows frame{cell, 1, {-1, -1}, {t, {}}};
+      if (std::any_of(cell.jumps.begin(), cell.jumps.end(), [&](const contact::Term& jump) {
+            const contact::ContactRow& row = contact_.rows[jump.row];
+            return moves(row, frame.at(0, row, dim_));
+          }))
+        free.push_back(t);
+    }
+    return free;
+  }
+
+  /// The points of one kind, with this many free tangents each.
+  void add(const std::vector<Candidate>& points, int components, bool slips) {
+    std::vector<int> normal;
+    std::vector<double> bounds;
+    int first_row = -1;
+    for (const Candidate& point : points) {
+      if (point.slips != slips || static_cast<int>(point.tangents.size()) != components) continue;
+      if (first_row < 0) first_row = slips ? builder_.open_friction() : open_bilateral();
+      FrictionRows rows{point.cell, 0, {-1, -1}, {}};
+      for (const Point& t : point.tangents) {
+        const int i = rows.count++;
+        rows.direction[i] = t;
+        std::vector<Pull> pulls;
+        for (const contact::Term& jump : point.cell.jumps)
+          pulls.push_back(pull(jump, rows.at(i, contact_.rows[jump.row], dim_)));
+        double jump = 0;
+        rows.row[i] = builder_.add(first_, second_, pulls, jump);
+      }
+      model_.friction.back().push_back(std::move(rows));
+      normal.push_back(point.normal);
+      bounds.push_back(point.cell.bound);
+    }
+    if (!slips || normal.empty()) return;
+    auto law = contact_.friction == Friction::Kind::tresca ? problem::tresca(std::move(bounds))
+                                                           : problem::coulomb(std::move(bounds));
+    model_.problem.friction.push_back({contact_.name, std::move(law), first_row, components, std::move(normal)});
+  }
+
+  int open_bilateral() {
+    builder_.open_group(contact_.name + " (no slip)", problem::bilateral());
+    return 0;
+  }
+
+  const Contact& contact_;
+  RowBuilder& builder_;
+  Model& model_;
+  int dim_, first_, second_;
+};
+
+}  // namespace
+
+Point FrictionRows::at(int i, const contact::ContactRow& row, int dimension) const {
+  const Point& n = row.normal;
+  if (dimension == 2) return {-n[1], n[0], 0};
+  Point t = direction[i];
+  double along = 0;
+  for (int k = 0; k < 3; ++k) along += t[k] * n[k];
+  if (std::abs(along) < 1e-15) return t;
+  for (int k = 0; k < 3; ++k) t[k] -= along * n[k];
+  return t;
+}
+
+std::vector<Point> Model::contact_force(const Contact& contact, int index, const algebra::Vector& lambda) const {
+  std::vector<Point> force(contact.rows.size(), Point{0, 0, 0});
+  const auto push = [&](int k, const Point& direction, double amount) {
+    for (int i = 0; i < 3; ++i) force[k][i] -= amount * direction[i];
+  };
+  for (std::size_t j = 0; j < normal[index].size(); ++j) {
+    const int r = contact_row[index][j];
+    if (r < 0) continue;
+    for (const contact::Term& jump : normal[index][j].jumps)
+      push(jump.row, contact.rows[jump.row].normal, jump.weight * lambda[r]);
+  }
+  const int dim = contact.first.body->dimension();
+  for (const FrictionRows& rows : friction[index])
+    for (int i = 0; i < rows.count; ++i)
+      for (const contact::Term& jump : rows.cell.jumps)
+        push(jump.row, rows.at(i, contact.rows[jump.row], dim), jump.weight * lambda[rows.row[i]]);
+  return force;
+}
+
+void add_normal_rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model) {
+  Rows(scene, contact, builder, model).normal();
+}
+
+void add_friction_rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model) {
+  Rows(scene, contact, builder, model).friction();
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "scene/row_builder.hpp"
+
+namespace dotyk::scene {
+
+/// Adds the normal rows of the newest contact of the model. Throws InputError where nodes fixed on both sides
+/// lie inside each other.
+void add_normal_rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model);
+
+/// Adds its tangential rows: for each cell of friction with an unknown along its tangents, a node's surroundings
+/// where multipliers are nodal. No rows where the bound or coefficient is 0; rows that never slip where it is
+/// infinite. The normal row of a friction point is its node's; of a cell (given friction only, whose bound does
+/// not depend on it) that of the node with most weight in it.
+void add_friction_rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model);
+
+}  // namespace dotyk::scene
