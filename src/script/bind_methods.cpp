@@ -57,6 +57,7 @@ void bind_methods(Library& library) {
                                                  .fallback(1.0)}))},
        .returns = "solver",
        .run = make_newton});
+  bind_friction_methods(library);
 }
 
 }  // namespace dotyk::script

@@ -18,5 +18,6 @@ void read_settings(const Call& call, solver::Settings& settings);
 int give_method(Call& call, solver::Method method, std::string text);
 
 void bind_methods(Library& library);
+void bind_friction_methods(Library& library);
 
 }  // namespace dotyk::script

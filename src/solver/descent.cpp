@@ -1,5 +1,7 @@
 #include "solver/descent.hpp"
 
+#include "solver/projection.hpp"
+
 namespace dotyk::solver {
 
 using algebra::Vector;
@@ -8,57 +10,28 @@ using problem::Problem;
 using problem::RowGroup;
 
 Vector admissible(const Problem& problem, const Vector& lambda) {
-  Vector result(lambda.size());
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r)
-      result[r] = group.law->project(r - group.first, lambda[r], 0).lambda;
-  return result;
+  return project(problem, lambda, Vector::Zero(lambda.size()));
 }
 
 DualDescent::DualDescent(const Problem& problem, const CondensedProblem& condensed, const Vector& lambda)
-    : problem_(problem), condensed_(condensed), lambda_(admissible(problem, lambda)),
-      alpha_(Vector::Zero(condensed.kernel_size())) {
-  if (condensed.kernel_size() > 0) {
-    // Both terms of the augmented energy weigh alike.
-    gamma_ = condensed.W().trace() / condensed.N().squaredNorm();
-    augmented_ = condensed.W() + gamma_ * condensed.N() * condensed.N().transpose();
-  }
-  x_ = jump_at(lambda_);
-}
+    : problem_(problem), equilibrium_(condensed), relaxation_(problem, equilibrium_.W()),
+      lambda_(admissible(problem, lambda)), x_(jump_at(lambda_)) {}
 
-Vector DualDescent::jump_at(const Vector& lambda) const {
-  if (gamma_ == 0) return condensed_.jump(lambda, Vector());
-  const Vector unbalanced = condensed_.N().transpose() * lambda - condensed_.e();
-  return condensed_.jump(lambda, alpha_ - gamma_ * unbalanced);
-}
+Vector DualDescent::jump_at(const Vector& lambda) const { return equilibrium_.x0() - equilibrium_.W() * lambda; }
 
 double DualDescent::energy_at(const Vector& lambda) const {
-  double q = 0.5 * lambda.dot(condensed_.W() * lambda) - condensed_.x0().dot(lambda);
-  if (gamma_ > 0) {
-    const Vector unbalanced = condensed_.N().transpose() * lambda - condensed_.e();
-    q += 0.5 * gamma_ * unbalanced.squaredNorm() - alpha_.dot(unbalanced);
-  }
+  double q = 0.5 * lambda.dot(equilibrium_.W() * lambda) - equilibrium_.x0().dot(lambda);
   for (const RowGroup& group : problem_.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
       q += group.law->conjugate(r - group.first, lambda[r]);
   return q;
 }
 
-void DualDescent::sweep() {
-  for (const RowGroup& group : problem_.groups)
-    for (int r = group.first; r < group.first + group.count; ++r) {
-      const double w = W()(r, r);
-      if (!(w > 0)) continue;  // a row that nothing moves
-      const double minimiser =
-          group.law->project(r - group.first, x_[r] / w + lambda_[r], 1 / w).lambda;
-      x_ -= (minimiser - lambda_[r]) * W().col(r);
-      lambda_[r] = minimiser;
-    }
-}
+void DualDescent::sweep() { relaxation_.sweep(1, lambda_, x_); }
 
 void DualDescent::update_equilibrium() {
-  if (gamma_ == 0) return;
-  alpha_ -= gamma_ * (condensed_.N().transpose() * lambda_ - condensed_.e());
+  if (!equilibrium_.needed()) return;
+  equilibrium_.update(lambda_);
   x_ = jump_at(lambda_);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "problem/condensed.hpp"
+#include "solver/equilibrium.hpp"
+#include "solver/relaxation.hpp"
 
 namespace dotyk::solver {
 
@@ -9,11 +10,10 @@ algebra::Vector admissible(const problem::Problem& problem, const algebra::Vecto
 
 /// Descends the dual energy of a condensed problem,
 ///   q(λ) = ½λᵀWλ − x₀ᵀλ + Σ φ*_r(λ_r)    subject to Nᵀλ = e (the equilibrium of free bodies),
-/// by Gauss–Seidel sweeps: each row in turn takes its exact minimiser λ_r = P(x̄/W_rr) with
-/// ρ = 1/W_rr, x̄ the jump without its own part. Sweeps never increase q and converge for positive
-/// definite W: the way out where active sets repeat. Equilibrium enters by an augmented Lagrangian
-/// with multipliers α (the amounts of rigid motion): between two updates of α it is the augmented
-/// energy q − αᵀ(Nᵀλ − e) + ½γ‖Nᵀλ − e‖² that never increases.
+/// by Gauss–Seidel sweeps (Relaxation, ω = 1): each row in turn takes its exact minimiser. Sweeps never
+/// increase q and converge for positive definite W: the way out where active sets repeat. Equilibrium
+/// enters by an augmented Lagrangian (Equilibrium) with multipliers α, the amounts of rigid motion: between
+/// two updates of α it is the augmented energy that never increases. Scalar laws only.
 class DualDescent {
  public:
   /// Starts at the nearest admissible multipliers to `lambda`.
@@ -22,13 +22,13 @@ class DualDescent {
 
   /// One sweep over all rows.
   void sweep();
-  /// α := α − γ(Nᵀλ − e); nothing without free bodies.
+  /// The next α; nothing without free bodies.
   void update_equilibrium();
   /// Moves to `candidate`, made admissible, if the energy is lower there.
   void take_if_lower(const algebra::Vector& candidate);
 
   const algebra::Vector& lambda() const { return lambda_; }
-  const algebra::Vector& alpha() const { return alpha_; }
+  algebra::Vector alpha() const { return equilibrium_.alpha(lambda_); }
   /// The (augmented) jump: minus the gradient of the smooth part of the energy.
   const algebra::Vector& jump() const { return x_; }
   double energy() const { return energy_at(lambda_); }
@@ -38,12 +38,9 @@ class DualDescent {
   algebra::Vector jump_at(const algebra::Vector& lambda) const;
 
   const problem::Problem& problem_;
-  const problem::CondensedProblem& condensed_;
-  double gamma_ = 0;
-  algebra::DenseMatrix augmented_;  ///< W + γ N Nᵀ; empty without free bodies
-  algebra::Vector lambda_, alpha_, x_;
-
-  const algebra::DenseMatrix& W() const { return gamma_ > 0 ? augmented_ : condensed_.W(); }
+  Equilibrium equilibrium_;
+  Relaxation relaxation_;
+  algebra::Vector lambda_, x_;
 };
 
 }  // namespace dotyk::solver

@@ -26,7 +26,10 @@ int NaturalMap::Value::differences(const Value& other) const {
 
 NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) const {
   const int m = problem_.rows();
-  Value v{Vector::Zero(m), lambda + rho_.cwiseProduct(condensed_.jump(lambda, alpha)), {}, 0, {}, {}, {}, 0, 0, 0};
+  Value v;
+  v.projected = Vector::Zero(m);
+  v.x = condensed_.jump(lambda, alpha);
+  v.y = lambda + rho_.cwiseProduct(v.x);
   v.closed.assign(m, 0);
   v.slipping.assign(m, 0);
   v.piece.assign(m, 0);

@@ -16,7 +16,7 @@ class NaturalMap {
   /// F with what its pieces are at (λ, α).
   struct Value {
     algebra::Vector projected;       ///< P(y), π_b(y): F = λ − projected
-    algebra::Vector y;
+    algebra::Vector y, x;            ///< x = x₀ − Wλ + Nα
     /// ∂projected/∂y, row by row: entries (row, column, value) on rows of one node only.
     std::vector<Eigen::Triplet<double>> slope;
     double norm = 0;                 ///< of F and of e − Nᵀλ
@@ -40,6 +40,8 @@ class NaturalMap {
   System linearise(const Value& v) const;
   void take(const System& system, const algebra::Vector& solved, algebra::Vector& lambda,
             algebra::Vector& alpha) const;
+
+  const algebra::Vector& rho() const { return rho_; }
 
  private:
   const problem::Problem& problem_;

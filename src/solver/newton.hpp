@@ -12,6 +12,9 @@ namespace dotyk::solver {
 /// every scalar law as well. Where the derivative is singular to working precision a multiple of the
 /// identity is added and `reason` says so.
 struct Newton : RowMethod {
+  /// Multiplies 1/W_rr, the stiffness (force per displacement) that each row sees.
+  double rho = 1.0;
+  double map_weight() const override { return rho; }
   const char* name() const override { return "newton"; }
   void iterate(RowIteration& iteration) const override;
 };

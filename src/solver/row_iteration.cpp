@@ -61,10 +61,28 @@ bool RowIteration::record() {
   info.residual = residual();
   info.seconds = watch_.seconds();
   result_.history.push_back(info);
-  result_.active_sets.push_back(value_.closed);
+  record_active_set();
   monitor_.iteration(info);
   recorded_ = value_;
+  if (info.residual < best_.residual) best_ = {lambda_, alpha_, info.residual};
+  if (info.residual < 0.99 * milestone_) milestone_ = info.residual, at_milestone_ = info.iteration;
   return result_.converged = info.residual <= settings_.tol;
+}
+
+bool RowIteration::stalled() {
+  if (!(residual() < 1e12 * milestone_)) {
+    give_up(text("the iterates diverge: the residual is ", residual(), " after ", milestone_));
+    return true;
+  }
+  constexpr int patience = 2000;
+  if (result_.iterations - at_milestone_ < patience) return false;
+  give_up(text("the residual has not fallen for ", patience, " iterations"));
+  return true;
+}
+
+void RowIteration::record_active_set() {
+  if (result_.active_sets.empty() || result_.active_sets.back() != value_.closed)
+    result_.active_sets.push_back(value_.closed);
 }
 
 Result RowIteration::finish() {
@@ -74,6 +92,8 @@ Result RowIteration::finish() {
     result_.reason = monitor_.stop() ? "interrupted; this is the state so far"
                                      : text("no convergence within ", result_.iterations, " iterations");
   for (const std::string& remark : remarks_) result_.reason += "; " + remark;
+  if (!result_.converged && best_.lambda.size() && !(residual() <= best_.residual)) move_to(best_.lambda, best_.alpha);
+  record_active_set();
   result_.state.lambda = lambda_;
   result_.slipping = value_.slipping;
   return std::move(result_);
@@ -81,10 +101,10 @@ Result RowIteration::finish() {
 
 Result solve(const Problem& problem, const CondensedProblem& condensed, const RowMethod& method, Monitor& monitor) {
   Stopwatch watch;
-  RowIteration iteration(problem, condensed, method, method.rho, monitor);
+  RowIteration iteration(problem, condensed, method, method.map_weight(), monitor);
   method.iterate(iteration);
-  const Vector alpha = iteration.alpha();
   Result result = iteration.finish();
+  const Vector alpha = iteration.alpha();
   result.method = method.name();
   result.clock.iterate = watch.lap();
   result.state.u = condensed.recover(result.state.lambda, alpha);

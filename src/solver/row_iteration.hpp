@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "base/stopwatch.hpp"
@@ -23,27 +24,44 @@ class RowIteration {
   const algebra::Vector& lambda() const { return lambda_; }
   const algebra::Vector& alpha() const { return alpha_; }
   const NaturalMap::Value& value() const { return value_; }
+  /// x = x₀ − Wλ + Nα of the iterate.
+  const algebra::Vector& jump() const { return value_.x; }
   /// Of the iterate: ‖F‖ / ‖λ‖ (‖F‖ where λ = 0).
   double residual() const;
+  /// ‖λ − P(λ + ρx)‖ of the iterate: F without what is out of balance.
+  double law_residual() const { return (lambda_ - value_.projected).norm(); }
   void move_to(algebra::Vector lambda, algebra::Vector alpha);
 
   /// Begins an iteration; false after the last one allowed, or where the user stops.
   bool next();
   /// Writes the iterate into the history; true where its residual is within tol.
   bool record();
+  /// The residual's least value has not fallen by a hundredth in the last 2000 iterations, or the residual is
+  /// beyond all measure. Gives up then.
+  bool stalled();
   /// Gives up, for this reason.
   void give_up(std::string reason) { result_.reason = std::move(reason); }
   /// Adds a remark to the reason, however the method ends.
   void remark(std::string text) { remarks_.push_back(std::move(text)); }
 
   int iterations() const { return result_.iterations; }
-  /// The result of the iterate, without displacements.
+  /// The result of the iterate (without convergence: of the one of least residual recorded), without
+  /// displacements.
   Result finish();
 
  private:
+  struct Best {
+    algebra::Vector lambda, alpha;
+    double residual = std::numeric_limits<double>::infinity();
+  };
+  void record_active_set();
+
   const Settings& settings_;
   Monitor& monitor_;
   Result result_;
+  Best best_;
+  double milestone_ = std::numeric_limits<double>::infinity();  ///< the last residual below all before by a hundredth
+  int at_milestone_ = 0;
   algebra::Vector lambda_, alpha_;
   NaturalMap::Value value_, recorded_;
   std::vector<std::string> remarks_;
@@ -52,10 +70,11 @@ class RowIteration {
 
 /// A method that works on the condensed problem alone.
 struct RowMethod : Settings {
-  /// Multiplies 1/W_rr, the stiffness (force per displacement) that each row sees.
-  double rho = 1.0;
   virtual ~RowMethod() = default;
   virtual const char* name() const = 0;
+  /// What multiplies 1/W_rr, the stiffness (force per displacement) that each row sees, to the ρ of the
+  /// natural map.
+  virtual double map_weight() const { return 1.0; }
   virtual void iterate(RowIteration& iteration) const = 0;
 };
 

@@ -19,7 +19,8 @@ struct Result {
   std::string reason;  ///< one sentence: why it stopped, and up to what the solution is unique
   int iterations = 0;
   std::vector<IterationInfo> history;
-  /// Rows in contact (active branch of their law) in every iteration, as it began.
+  /// Rows in contact (active branch of their law) in every iteration, as it began; of methods on the
+  /// condensed rows alone, each time that they changed, and at the end.
   std::vector<std::vector<char>> active_sets;
   std::vector<char> slipping;  ///< rows of friction points that slip at the end; empty without friction
   int screw_moves = 0;  ///< magnetic screws moved after their multiplier came out negative

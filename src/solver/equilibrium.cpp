@@ -1,0 +1,43 @@
+#include "solver/equilibrium.hpp"
+
+#include "algebra/largest_eigenvalue.hpp"
+
+namespace dotyk::solver {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+Equilibrium::Equilibrium(const problem::CondensedProblem& condensed, double weight)
+    : condensed_(condensed), alpha_(Vector::Zero(condensed.kernel_size())) {
+  if (!needed()) return;
+  const DenseMatrix& N = condensed.N();
+  const Eigen::HouseholderQR<DenseMatrix> qr(N);
+  Q_ = qr.householderQ() * DenseMatrix::Identity(N.rows(), N.cols());
+  R_ = qr.matrixQR().topRows(N.cols()).triangularView<Eigen::Upper>();
+  e_ = R_.transpose().triangularView<Eigen::Lower>().solve(condensed.e());
+  const double largest = algebra::largest_eigenvalue(condensed.W());
+  gamma_ = weight * (largest > 0 ? largest : 1);
+  augmented_ = condensed.W() + gamma_ * Q_ * Q_.transpose();
+}
+
+Vector Equilibrium::x0() const {
+  if (!needed()) return condensed_.x0();
+  return condensed_.x0() + condensed_.N() * alpha_ + gamma_ * Q_ * e_;
+}
+
+Vector Equilibrium::alpha(const Vector& lambda) const {
+  if (!needed()) return alpha_;
+  return alpha_ - gamma_ * R_.triangularView<Eigen::Upper>().solve(excess(lambda));
+}
+
+double Equilibrium::unbalanced(const Vector& lambda) const { return needed() ? excess(lambda).norm() : 0; }
+
+void Equilibrium::update(const Vector& lambda) { alpha_ = alpha(lambda); }
+
+bool Equilibrium::settle(double residual, const Vector& lambda) {
+  if (!needed() || residual > unbalanced(lambda) / 3) return false;
+  update(lambda);
+  return true;
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/QR>
+
+#include "problem/condensed.hpp"
+
+namespace dotyk::solver {
+
+/// The equilibrium of free bodies, Nᵀλ = e, by an augmented Lagrangian, so that a method sees rows without
+/// rigid motions. With N = QR, Q orthonormal, ê = R⁻ᵀe and
+///   α(λ) = α − γ R⁻¹(Qᵀλ − ê)
+/// the jump x₀ − Wλ + Nα(λ) equals x₀' − W'λ with
+///   W' = W + γ QQᵀ,    x₀' = x₀ + Nα + γ Q ê,
+/// minus the gradient of ½λᵀWλ − x₀ᵀλ − αᵀ(Nᵀλ − e) + ½γ‖Qᵀλ − ê‖². γ is in displacement per force; where
+/// it is the greatest eigenvalue of W, W' has none that is greater by more than the factor two. Without
+/// free bodies W' = W, x₀' = x₀, and nothing is stored or updated.
+class Equilibrium {
+ public:
+  /// γ = `weight` times (a bound of) the greatest eigenvalue of W.
+  explicit Equilibrium(const problem::CondensedProblem& condensed, double weight = 1.0);
+
+  bool needed() const { return condensed_.kernel_size() > 0; }
+  double gamma() const { return gamma_; }
+  const algebra::DenseMatrix& W() const { return needed() ? augmented_ : condensed_.W(); }
+  algebra::Vector x0() const;
+  algebra::Vector alpha(const algebra::Vector& lambda) const;
+  /// ‖Qᵀλ − ê‖, a force: how far λ is from balancing the loads.
+  double unbalanced(const algebra::Vector& lambda) const;
+  /// α := α(λ), the multiplier's first-order update.
+  void update(const algebra::Vector& lambda);
+  /// Updates where the rows at λ are solved precisely enough for it: where their own residual (a force) is
+  /// below a third of what is out of balance. True where it did.
+  bool settle(double residual, const algebra::Vector& lambda);
+
+ private:
+  const problem::CondensedProblem& condensed_;
+  double gamma_ = 0;
+  algebra::DenseMatrix Q_, R_, augmented_;
+  algebra::Vector e_, alpha_;
+  algebra::Vector excess(const algebra::Vector& lambda) const { return Q_.transpose() * lambda - e_; }
+};
+
+}  // namespace dotyk::solver

@@ -1,0 +1,51 @@
+#include "algebra/largest_eigenvalue.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "../support/random.hpp"
+
+using namespace dotyk;
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+namespace {
+double exact(const DenseMatrix& A) { return Eigen::SelfAdjointEigenSolver<DenseMatrix>(A).eigenvalues().maxCoeff(); }
+}  // namespace
+
+TEST_CASE("the greatest eigenvalue is bounded from above, closely, with and without scaling") {
+  test::Random random(7);
+  for (const int n : {1, 2, 3, 10, 60, 61, 150})
+    for (const int rank : {1, n / 2, n}) {
+      if (rank < 1) continue;
+      const DenseMatrix G = random.matrix(n, rank), A = G * G.transpose();
+      Vector s(n);
+      for (double& v : s) v = std::pow(10, random.between(-2, 2));
+      const DenseMatrix scaled = s.asDiagonal() * A * s.asDiagonal();
+      for (const auto& [bound, value] : {std::pair(algebra::largest_eigenvalue(A), exact(A)),
+                                         std::pair(algebra::largest_eigenvalue(A, s), exact(scaled))}) {
+        CHECK(bound >= value);
+        CHECK(bound <= 1.01 * value);
+      }
+    }
+}
+
+TEST_CASE("the greatest eigenvalue of the chain's stiffness, in closed form") {
+  const int n = 200;
+  DenseMatrix K = DenseMatrix::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    K(i, i) = 2;
+    if (i) K(i, i - 1) = K(i - 1, i) = -1;
+  }
+  const double value = 2 + 2 * std::cos(std::acos(-1.0) / (n + 1));
+  CHECK(algebra::largest_eigenvalue(K) >= value);
+  CHECK(algebra::largest_eigenvalue(K) <= 4);  // the row sum
+}
+
+TEST_CASE("nothing, zero, and the identity") {
+  CHECK(algebra::largest_eigenvalue(DenseMatrix(0, 0)) == 0);
+  CHECK(algebra::largest_eigenvalue(DenseMatrix::Zero(4, 4)) == 0);
+  CHECK(algebra::largest_eigenvalue(DenseMatrix::Identity(4, 4)) == doctest::Approx(1));
+}
