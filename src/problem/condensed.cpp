@@ -90,6 +90,14 @@ void CondensedProblem::set_load(const Problem& problem, const RigidMotions& rigi
 CondensedProblem::CondensedProblem(DenseMatrix W, Vector x0)
     : W_(std::move(W)), N_(x0.size(), 0), x0_(std::move(x0)), e_(0) {}
 
+CondensedProblem CondensedProblem::softened(const Vector& compliance, const Vector& centre) const {
+  CondensedProblem soft(W_, x0_ + compliance.cwiseProduct(centre));
+  soft.W_.diagonal() += compliance;
+  soft.N_ = N_;
+  soft.e_ = e_;
+  return soft;
+}
+
 void CondensedProblem::add(const Problem& problem, const Block& block, algebra::Ordering ordering,
                            Clock& clock, Monitor& monitor) {
   Stopwatch watch;

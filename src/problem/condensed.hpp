@@ -31,9 +31,12 @@ class CondensedProblem {
                    Clock& clock, Monitor& monitor);
   /// Takes another f and c, of a problem with the same K and B; `rigid` are its motions. What was factored stays.
   void set_load(const Problem& problem, const RigidMotions& rigid);
-  /// Given as it is: W (rows × rows, symmetric positive semidefinite) and x₀, no rigid motions, and no
-  /// displacements to recover.
+  /// Given as it is: W (rows × rows, positive semidefinite; symmetric, but that methods which need it say so) and
+  /// x₀, no rigid motions, and no displacements to recover.
   CondensedProblem(algebra::DenseMatrix W, algebra::Vector x0);
+  /// The same with a spring in each row, pressed by λ − centre: x = x₀ − Wλ − compliance (λ − centre) + Nα.
+  /// Without displacements to recover.
+  CondensedProblem softened(const algebra::Vector& compliance, const algebra::Vector& centre) const;
 
   int rows() const { return static_cast<int>(x0_.size()); }
   int unknowns() const { return unknowns_; }

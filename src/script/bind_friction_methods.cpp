@@ -1,8 +1,9 @@
-// The iterative methods on the condensed rows beside Newton's: uzawa, psor, projected_cg.
+// The methods on the condensed rows beside Newton's: uzawa, psor, projected_cg, proximal.
 #include "base/text.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
 #include "solver/projected_cg.hpp"
+#include "solver/proximal.hpp"
 #include "solver/psor.hpp"
 #include "solver/uzawa.hpp"
 
@@ -30,6 +31,13 @@ int make_projected_cg(Call& call) {
   solver::ProjectedCg cg;
   read_settings(call, cg);
   return give_method(call, cg, "projected_cg");
+}
+
+int make_proximal(Call& call) {
+  solver::Proximal proximal;
+  read_settings(call, proximal);
+  proximal.sigma = call.number("sigma");
+  return give_method(call, proximal, text("proximal: sigma = ", proximal.sigma));
 }
 
 }  // namespace
@@ -61,6 +69,18 @@ void bind_friction_methods(Library& library) {
        .arguments = {key::table(method_keys({}, kMany))},
        .returns = "solver",
        .run = make_projected_cg});
+  library.function(
+      {.name = "dotyk.solver.proximal",
+       .help = "Newton's method with springs in the rows whose rest position follows the iterates and whose compliance "
+               "goes to zero (the proximal point method): contact with given or Coulomb friction, also where there are more "
+               "contact forces than motions, so that the forces are not unique (hyperstatic problems). An iteration takes one or "
+               "several Newton steps; s.reason tells how many in all.",
+       .example = "local r = dotyk.solver.proximal{ tol = 1e-12 }:solve(dotyk.fclib \"stack.hdf5\")",
+       .arguments = {key::table(method_keys(
+           {key::positive("sigma", "compliance of the springs at the start, as a part of that of the rows themselves")
+                .fallback(0.1)}))},
+       .returns = "solver",
+       .run = make_proximal});
 }
 
 }  // namespace dotyk::script

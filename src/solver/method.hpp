@@ -40,7 +40,7 @@ class Method {
   }
   /// On a problem already condensed. Throws InputError for a method that works on bodies.
   Result run(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) const {
-    if (!run_on_rows_) throw InputError("this method works on scenes alone; methods on rows alone are newton and its like");
+    if (!run_on_rows_) throw InputError("this method works on scenes alone; these work on rows alone, too: newton, proximal, psor, uzawa, projected_cg");
     return run_on_rows_(problem, condensed, monitor);
   }
 

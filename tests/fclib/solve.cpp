@@ -1,8 +1,13 @@
 #include "fclib/solve.hpp"
 
+#include <cmath>
+
+#include "program/active_set.hpp"
 #include "reference.hpp"
 #include "solver/newton.hpp"
 #include "solver/pdas.hpp"
+#include "solver/proximal.hpp"
+#include "solver/psor.hpp"
 
 using namespace dotyk;
 using fclib::ContactProblem;
@@ -18,6 +23,26 @@ solver::Newton newton() {
   solver::Newton n;
   n.tol = 1e-12;
   return n;
+}
+
+solver::Proximal proximal() {
+  solver::Proximal p;
+  p.tol = 1e-12;
+  p.max_iterations = 200;
+  return p;
+}
+
+/// W singular or not, the residual of the file's own problem; what is left is the tolerance of the
+/// method's map, whose scaling of rows differs.
+void check_solved(const std::string& name) {
+  CAPTURE(name);
+  ContactProblem p;
+  if (!reference::read(name, p)) return;
+  Monitor quiet;
+  const fclib::Result r = fclib::solve(p, proximal(), quiet);
+  CHECK_MESSAGE(r.iteration.converged, r.iteration.reason);
+  CHECK(r.measure.residual < 1e-11);
+  CHECK(r.measure.open + r.measure.stick + r.measure.slip == p.contacts());
 }
 
 }  // namespace
@@ -95,4 +120,72 @@ TEST_CASE("no contacts at all; a method that works on bodies") {
   CHECK(r.r.size() == 0);
   CHECK(r.measure.residual == 0);
   CHECK_THROWS_AS(fclib::solve(p, solver::Pdas(), quiet), InputError);
+}
+
+TEST_CASE("every HDF5 file is solved, though W is singular") {
+  if (!reference::present()) return;
+  for (const std::string& name : reference::files(""))
+    if (name.rfind("Chute", 0) != 0) check_solved(name);
+}
+
+TEST_CASE("every text file is solved") {
+  if (!reference::present()) return;
+  for (const std::string& name : reference::files("dat/"))
+    if (name != "dat/ACinputs.dat") check_solved(name);
+}
+
+TEST_CASE("PerioBox: u is that of an independent computation, whatever the forces, which are not unique") {
+  if (!reference::present()) return;
+  ContactProblem p;
+  if (!reference::read("LMGC_100_PR_PerioBox-i00361-60-03000.hdf5", p)) return;
+  Monitor quiet;
+  solver::Psor psor;
+  psor.tol = 1e-12;
+  psor.max_iterations = 10000;
+  const fclib::Result one = fclib::solve(p, proximal(), quiet), other = fclib::solve(p, psor, quiet);
+  REQUIRE(one.iteration.converged);
+  REQUIRE(other.iteration.converged);
+  for (const auto* r : {&one, &other}) CHECK(r->measure.u.norm() == doctest::Approx(0.3119524231).epsilon(3e-10));
+  CHECK((one.measure.u - other.measure.u).norm() < 1e-10 * one.measure.u.norm());
+  // Both solve the problem, with forces that differ in the kernel of W.
+  const Vector difference = one.r - other.r;
+  CHECK(difference.norm() > 1e-3 * one.r.norm());
+  CHECK((p.W * difference).norm() < 1e-10 * one.measure.u.norm());
+}
+
+TEST_CASE("friction ignored: the values of the bound-constrained program, by two methods") {
+  if (!reference::present()) return;
+  for (const auto& [name, value] : {std::pair{"local_problem_test.hdf5", -1.443542005e-06},
+                                    std::pair{"LMGC_100_PR_PerioBox-i00361-60-03000.hdf5", -1.110126663e+05}}) {
+    CAPTURE(name);
+    ContactProblem p;
+    if (!reference::read(name, p)) return;
+    const int n = p.contacts();
+    algebra::DenseMatrix W(n, n);
+    Vector q(n);
+    for (int i = 0; i < n; ++i) {
+      q[i] = p.q[3 * i];
+      for (int j = 0; j < n; ++j) W(i, j) = 0.5 * (p.W(3 * i, 3 * j) + p.W(3 * j, 3 * i));
+    }
+    const auto objective = [&](const Vector& r) { return 0.5 * r.dot(W * r) + q.dot(r); };
+    Monitor quiet;
+
+    program::QuadraticProgram bounded;
+    bounded.P = algebra::SparseMatrix(algebra::DenseMatrix(W.triangularView<Eigen::Lower>()).sparseView());
+    bounded.q = q;
+    bounded.A = algebra::SparseRows(algebra::DenseMatrix::Identity(n, n).sparseView());
+    bounded.low = Vector::Zero(n);
+    bounded.high = Vector::Constant(n, INFINITY);
+    const program::Result exact = program::solve(bounded, program::ActiveSet(), quiet);
+    REQUIRE_MESSAGE(exact.status == program::Status::solved, exact.reason);
+    CHECK(exact.objective == doctest::Approx(value).epsilon(2e-10));  // ten digits are given
+
+    problem::Problem rows;
+    rows.B = algebra::SparseRows(n, 0);
+    rows.c = Vector::Zero(n);
+    rows.groups = {{name, problem::unilateral(), 0, n}};
+    const auto r = solver::solve(rows, problem::CondensedProblem(W, -q), proximal(), quiet);
+    REQUIRE_MESSAGE(r.converged, r.reason);
+    CHECK(objective(r.state.lambda) == doctest::Approx(value).epsilon(2e-10));
+  }
 }

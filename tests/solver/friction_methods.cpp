@@ -9,6 +9,7 @@
 #include "solver/method.hpp"
 #include "solver/newton.hpp"
 #include "solver/projected_cg.hpp"
+#include "solver/proximal.hpp"
 #include "solver/psor.hpp"
 #include "solver/uzawa.hpp"
 
@@ -31,7 +32,9 @@ Named named(Chosen method, double tol = 1e-11) {
 }
 
 /// Every method on the condensed rows but Newton's.
-std::vector<Named> methods() { return {named(solver::Uzawa{}), named(solver::Psor{}), named(solver::ProjectedCg{})}; }
+std::vector<Named> methods() {
+  return {named(solver::Uzawa{}), named(solver::Psor{}), named(solver::ProjectedCg{}), named(solver::Proximal{})};
+}
 
 solver::Result solve(const Named& m, const problem::Problem& p) {
   Monitor quiet;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "solver/row_iteration.hpp"
+
+namespace dotyk::solver {
+
+/// The proximal point method (Rockafellar 1976) around Newton's: each iteration puts a spring into every row,
+/// pressed by λ − λ_k,
+///   x = x₀ − Wλ − σC(λ − λ_k) + Nα,     C diagonal: W_rr, for all rows of a friction point their mean,
+/// and moves to the solution of that problem. It is regular where W is not (hyperstatic systems: more
+/// multipliers than motions, so that λ need not be unique), and a fixed point solves the problem itself. With
+/// given friction it descends the dual energy for every σ; with Coulomb's nothing is proved, the residual decides.
+///
+/// Newton's steps are damped until ‖F‖ decreases, and end where ‖F‖ is a tenth of ‖λ − λ_k‖. Where they get
+/// there, σ is divided by ten, and iterations become Newton's own; where not, λ_k stays and σ grows a hundredfold.
+/// W need not be symmetric.
+struct Proximal : RowMethod {
+  double sigma = 0.1;  ///< at the start: compliance of the springs against that of the rows themselves
+  const char* name() const override { return "proximal"; }
+  void iterate(RowIteration& iteration) const override;
+};
+
+}  // namespace dotyk::solver
