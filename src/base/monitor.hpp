@@ -8,6 +8,7 @@ namespace dotyk {
 
 /// What one outer iteration of a method did; also the row of `s.history`.
 struct IterationInfo {
+  int step = 0;           ///< of a history, from 1; 0 without one
   int iteration = 0;
   int active = 0;         ///< rows closed (or otherwise carrying their law's active branch)
   int stick = 0;          ///< friction points that stick

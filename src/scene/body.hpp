@@ -31,6 +31,7 @@ struct Support {
   std::vector<std::array<bool, 3>> components;  ///< which are prescribed, one entry a node
   std::vector<mesh::Point> values;              ///< to what, one entry a node
   std::vector<mesh::Point> normals;             ///< outward, one entry a node
+  std::string load_case = {};                   ///< of the values
 };
 
 /// Bilateral sliding u·normal = 0 at a node whose normal is along no axis: a row of B.
@@ -45,6 +46,13 @@ struct LoadArrow {
   PartMark part;
   mesh::Point at;
   mesh::Point value;
+  std::string load_case = {};
+};
+
+/// Loads of one name, which the steps of a history scale apart from the others.
+struct LoadCase {
+  std::string name;
+  std::vector<double> force;  ///< nodal loads, node × dimension
 };
 
 struct SpringPatch {
@@ -61,7 +69,8 @@ struct Body {
   std::vector<Support> supports;
   std::vector<SlideRow> slides;
   std::vector<SpringPatch> springs;
-  std::vector<double> force;  ///< nodal loads, node × dimension
+  std::vector<double> force;  ///< nodal loads of no case, node × dimension
+  std::vector<LoadCase> cases;
   std::vector<LoadArrow> arrows;
 
   int dimension() const { return mesh->dimension(); }
@@ -97,12 +106,12 @@ void fix(Part& part, const std::array<bool, 3>& components);
 /// Bilateral contact without friction: u·n = 0 on the part; at an edge between two of its sides, for both normals.
 void slide(Part& part);
 /// Prescribes the components given; a component left empty stays free.
-void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components);
+void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components, const std::string& load_case = {});
 
 /// Force per length (2-D) or area (3-D).
-void load(Part& part, const elasticity::VectorField& traction);
+void load(Part& part, const elasticity::VectorField& traction, const std::string& load_case = {});
 /// Positive along the inward normal.
-void pressure(Part& part, const elasticity::ScalarField& value);
+void pressure(Part& part, const elasticity::ScalarField& value, const std::string& load_case = {});
 /// Elastic support per length or area; a component left empty has none. Throws InputError where negative.
 void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness);
 

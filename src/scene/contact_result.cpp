@@ -58,6 +58,14 @@ Rubbing rubbing(const Contact& contact, const Model& model, int index, const sol
   return rubbing;
 }
 
+/// The multipliers of these rows alone.
+algebra::Vector friction_part(const std::vector<FrictionRows>& friction, const algebra::Vector& lambda) {
+  algebra::Vector part = algebra::Vector::Zero(lambda.size());
+  for (const FrictionRows& rows : friction)
+    for (int i = 0; i < rows.count; ++i) part[rows.row[i]] = lambda[rows.row[i]];
+  return part;
+}
+
 void count(const ContactNode& node, ContactResult& result) {
   if (node.status != problem::Status::open) result.area += node.weight;
   switch (node.status) {
@@ -82,8 +90,10 @@ ContactResult Solution::contact(const Contact& contact) const {
   const int second = scene_->index_of(contact.second.body.get());
   const int dim = scene_->dimension();
   ContactResult result;
+  result.dissipated = dissipated_[index];
   const std::vector<double> pressure = pressures(contact, model_, index, result_.state.lambda);
   const std::vector<Point> force = model_.contact_force(contact, index, result_.state.lambda);
+  const std::vector<Point> rubbed = model_.contact_force(contact, index, friction_part(model_.friction[index], result_.state.lambda));
   const Rubbing rubbing = scene::rubbing(contact, model_, index, result_);
   for (std::size_t k = 0; k < contact.rows.size(); ++k) {
     const contact::ContactRow& row = contact.rows[k];
@@ -94,7 +104,7 @@ ContactResult Solution::contact(const Contact& contact) const {
     node.displacement = at_node(displacement_[first], row.node, dim);
     node.normal = row.normal;
     node.weight = row.weight;
-    const Point other = second >= 0 ? at_node(displacement_[second], row.partner, dim) : Point{0, 0, 0};
+    const Point other = second >= 0 ? at_node(displacement_[second], row.partner, dim) : model_.move[index];
     Point jump;
     double normal_jump = 0;
     for (int i = 0; i < 3; ++i) {
@@ -109,7 +119,10 @@ ContactResult Solution::contact(const Contact& contact) const {
     if (r >= 0 ? active(r) : node.pressure > 0) node.status = problem::Status::closed;
     if (node.status == problem::Status::closed && rubbing.rubs[k])
       node.status = rubbing.slips[k] ? problem::Status::slip : problem::Status::stick;
-    for (int i = 0; i < 3; ++i) result.force[i] += force[k][i];
+    for (int i = 0; i < 3; ++i) {
+      result.force[i] += force[k][i];
+      result.friction_force[i] += rubbed[k][i];
+    }
     count(node, result);
     result.max_pressure = std::max(result.max_pressure, node.pressure);
     result.nodes.push_back(node);

@@ -68,17 +68,33 @@ std::vector<double> Model::displacement(int body, const algebra::Vector& u) cons
   return result;
 }
 
-Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor) {
-  Stopwatch watch;
-  Model model;
-  for (const auto& body : scene.bodies) {
-    monitor.phase(text("assembling '", body->name, "' (", body->mesh->cell_count(), " cells)"));
-    model.bodies.push_back(*body);
-    add_body(model.bodies.back(), model);
-    monitor.check();
-  }
+namespace {
+
+/// The load of a body's block for its prescribed components as they are now: f and offset as elasticity::assemble.
+void set_load(const Body& body, const Numbering& numbering, problem::Block& block) {
+  const auto held = elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), numbering.prescribed);
+  block.offset = 0;
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (numbering.unknown[k] >= 0)
+      block.f[numbering.unknown[k]] = body.force[k] - held[k];
+    else
+      block.offset += numbering.prescribed[k] * (0.5 * held[k] - body.force[k]);
+}
+
+/// All rows anew, for the prescribed displacements and moves as they are now.
+void set_rows(const Scene& scene, const Loading& loading, Model& model) {
+  model.problem.groups.clear();
+  model.problem.friction.clear();
+  model.contact_row.clear();
+  model.normal.clear();
+  model.friction.clear();
+  model.glue_row.clear();
+  model.slide_row.clear();
+  model.move.clear();
   RowBuilder builder(scene, model);
   for (const auto& contact : scene.contacts) {
+    model.move.push_back(loading.move_of(static_cast<int>(model.move.size())));
+    builder.set_move(model.move.back());
     model.contact_row.emplace_back();
     model.glue_row.emplace_back();
     model.normal.emplace_back();
@@ -90,6 +106,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor) {
       add_glue_rows(scene, *contact, builder, model.glue_row.back());
     }
   }
+  builder.set_move({0, 0, 0});
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     model.slide_row.emplace_back();
     const Body& body = model.bodies[b];
@@ -107,8 +124,34 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor) {
     }
   }
   builder.finish();
+}
+
+}  // namespace
+
+Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading) {
+  Stopwatch watch;
+  Model model;
+  for (const auto& body : scene.bodies) {
+    monitor.phase(text("assembling '", body->name, "' (", body->mesh->cell_count(), " cells)"));
+    model.bodies.push_back(loading.applied_to(*body));
+    add_body(model.bodies.back(), model);
+    monitor.check();
+  }
+  set_rows(scene, loading, model);
   clock.assembly += watch.seconds();
   return model;
+}
+
+void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& loading, Model& model,
+            problem::Clock& clock) {
+  Stopwatch watch;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    model.bodies[b] = loading.applied_to(bodies[b]);
+    model.numbering[b] = number(model.bodies[b]);
+    set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
+  }
+  set_rows(scene, loading, model);
+  clock.assembly += watch.seconds();
 }
 
 }  // namespace dotyk::scene

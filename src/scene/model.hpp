@@ -5,7 +5,7 @@
 #include "base/monitor.hpp"
 #include "problem/condensed.hpp"
 #include "problem/problem.hpp"
-#include "scene/scene.hpp"
+#include "scene/loading.hpp"
 
 namespace dotyk::scene {
 
@@ -23,7 +23,7 @@ struct FrictionRows {
 /// A scene as a problem, and the way back.
 struct Model {
   problem::Problem problem;
-  std::vector<Body> bodies;                      ///< as they were: a script may add supports and loads later
+  std::vector<Body> bodies;                      ///< as they were: a script may add supports and loads later; scaled
   std::vector<elasticity::Numbering> numbering;  ///< one a body
   /// Contact → its row → row of B of the normal multiplier there, or -1 where no unknown moves it (both sides fixed).
   std::vector<std::vector<int>> contact_row;
@@ -32,6 +32,7 @@ struct Model {
   /// Glue: contact → first row of B of each pair's component (dimension a pair), -1 likewise.
   std::vector<std::vector<int>> glue_row;
   std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1
+  std::vector<mesh::Point> move;                 ///< contact → displacement of its rigid shape
 
   /// A body's displacement, node × dimension, from the unknowns of all blocks.
   std::vector<double> displacement(int body, const algebra::Vector& u) const;
@@ -42,6 +43,10 @@ struct Model {
 
 /// Assembles. Throws InputError for contradictory supports, and for a contact that nodes fixed on
 /// both sides make impossible. Adds its time to clock.assembly.
-Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor);
+Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading = {});
+/// Puts another loading on a model: f and c change, K and B stay. `bodies`: the scene's, unscaled, as
+/// when it was built. Throws as build.
+void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& loading, Model& model,
+            problem::Clock& clock);
 
 }  // namespace dotyk::scene

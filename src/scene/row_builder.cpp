@@ -33,7 +33,10 @@ int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, do
   const Pull* main = &pulls.front();
   for (const Pull& pull : pulls) {
     collect(body, pull.node, pull.direction, 1, gap);
-    if (other_body >= 0) collect(other_body, pull.other_node, pull.direction, -1, gap);
+    if (other_body >= 0)
+      collect(other_body, pull.other_node, pull.direction, -1, gap);
+    else
+      for (int i = 0; i < 3; ++i) gap += pull.direction[i] * move_[i];
     if (squared(pull.direction) > squared(main->direction)) main = &pull;
   }
   if (entries_.size() == before) return -1;

@@ -19,6 +19,8 @@ class RowBuilder {
  public:
   RowBuilder(const Scene& scene, Model& model) : scene_(scene), model_(model) {}
 
+  /// The rigid shape of rows added from now on is displaced by this: part of their gap.
+  void set_move(const mesh::Point& move) { move_ = move; }
   /// Rows added from now on are under this law.
   void open_group(const std::string& name, std::shared_ptr<const problem::Law> law);
   /// Rows added from now on are tangential, under a law set later; returns the next row.
@@ -44,6 +46,7 @@ class RowBuilder {
   };
   const Scene& scene_;
   Model& model_;
+  mesh::Point move_{0, 0, 0};
   bool scalar_ = true;  ///< rows belong to the last scalar group
   int count_ = 0;
   std::vector<Eigen::Triplet<double>> entries_;

@@ -27,20 +27,41 @@ void refuse_noise(const problem::Residual& r, solver::Result& result) {
 
 }  // namespace
 
-Solution::Solution(std::shared_ptr<const Scene> scene, Model model, solver::Result result)
-    : scene_(std::move(scene)), model_(std::move(model)),
-      result_(std::move(result)), stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
-  residual_ = problem::residual(model_.problem, result_.state);
-  energy_ = problem::energy(model_.problem, result_.state);
-  friction_energy_ = problem::friction_energy(model_.problem, result_.state);
+Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const problem::Problem* with_stiffness,
+                   solver::Result result, Past past)
+    : scene_(std::move(scene)), model_(std::move(model)), result_(std::move(result)), past_(std::move(past)),
+      stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
+  const problem::Problem& problem = with_stiffness ? *with_stiffness : model_.problem;
+  residual_ = problem::residual(problem, result_.state);
+  energy_ = problem::energy(problem, result_.state);
+  friction_energy_ = problem::friction_energy(problem, result_.state);
   const double sum = energy_ + residual_.equilibrium + residual_.penetration + residual_.complementarity;
   if (!result_.state.u.allFinite() || !result_.state.lambda.allFinite() || !std::isfinite(sum))
     throw std::runtime_error(
         "the solution has values beyond the range of numbers: stiffness, loads or sizes are too large or too "
         "small; choose units in which they are moderate");
   refuse_noise(residual_, result_);
+  add_step(problem);
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
+}
+
+void Solution::add_step(const problem::Problem& problem) {
+  const algebra::Vector x = problem.B * result_.state.u - problem.c;
+  slip_ = past_.slip.size() ? past_.slip : algebra::Vector::Zero(x.size());
+  dissipated_ = past_.dissipated.empty() ? std::vector<double>(scene_->contacts.size(), 0.0) : past_.dissipated;
+  for (std::size_t c = 0; c < model_.friction.size(); ++c)
+    for (const FrictionRows& rows : model_.friction[c])
+      for (int i = 0; i < rows.count; ++i) {
+        slip_[rows.row[i]] += x[rows.row[i]];
+        dissipated_[c] += result_.state.lambda[rows.row[i]] * x[rows.row[i]];
+      }
+}
+
+std::vector<std::shared_ptr<const Solution>> Solution::steps() const {
+  auto all = past_.steps;
+  all.push_back(shared_from_this());
+  return all;
 }
 
 Solution::~Solution() = default;

@@ -24,12 +24,15 @@ struct ContactNode {
   double pressure = 0;         ///< force / weight
   double weight = 0;           ///< length or area of the node
   mesh::Point shear{};         ///< per length or area, on the first body
-  mesh::Point slip{};          ///< tangential jump
+  mesh::Point slip{};          ///< tangential jump since the beginning, less a rigid shape's displacement
   problem::Status status = problem::Status::open;
 };
 
 struct ContactResult {
-  mesh::Point force{};         ///< on the first part
+  mesh::Point force{};           ///< on the first part
+  mesh::Point friction_force{};  ///< its part by friction
+  /// Work that friction has dissipated, over all steps: Σ λ_t·(increment of slip), each term ≥ 0.
+  double dissipated = 0;
   double area = 0;             ///< of closed nodes
   double max_pressure = 0;
   int open = 0, closed = 0, stick = 0, slip = 0;
@@ -37,12 +40,23 @@ struct ContactResult {
 };
 
 class Locator;
+class Solution;
+
+/// What a solution follows in a quasi-static history.
+struct Past {
+  Loading loading;                 ///< of the solution itself
+  algebra::Vector slip;            ///< on the rows of friction, up to the last step; empty at the beginning
+  std::vector<double> dissipated;  ///< of each contact, up to the last step; empty at the beginning
+  std::vector<std::shared_ptr<const Solution>> steps;  ///< the steps before in the same call of solve
+};
 
 /// What a solve gives: the state of every body and contact, how it ended, and how far to trust it.
-class Solution {
+class Solution : public std::enable_shared_from_this<Solution> {
  public:
-  /// `scene` as the model was built from it: nothing may be added to it any more.
-  Solution(std::shared_ptr<const Scene> scene, Model model, solver::Result result);
+  /// `scene` as the model was built from it: nothing may be added to it any more. `with_stiffness`: the
+  /// problem where `model` lacks the stiffness matrices, else null.
+  Solution(std::shared_ptr<const Scene> scene, Model model, const problem::Problem* with_stiffness,
+           solver::Result result, Past past);
   ~Solution();
 
   /// The scene as it was solved: contacts added since are not in it. Its bodies are the ones the script
@@ -54,8 +68,17 @@ class Solution {
   const problem::Residual& residual() const { return residual_; }
   const problem::Clock& clock() const { return result_.clock; }
   void set_total(double seconds) { result_.clock.total = seconds; }
+  /// "step 3 of 10: " before the reason.
+  void name_step(const std::string& step) { result_.reason = step + result_.reason; }
   double energy() const { return energy_; }
+  /// Σ bound ‖increment of slip‖: what friction dissipates in this step.
   double friction_energy() const { return friction_energy_; }
+  const Loading& loading() const { return past_.loading; }
+  /// Slip on the rows of friction since the beginning (0 on others), and what each contact has dissipated.
+  const algebra::Vector& slip() const { return slip_; }
+  const std::vector<double>& dissipated() const { return dissipated_; }
+  /// The steps of the solve, this one the last.
+  std::vector<std::shared_ptr<const Solution>> steps() const;
   int unknowns() const { return static_cast<int>(result_.state.u.size()); }
   int rows() const { return static_cast<int>(result_.state.lambda.size()); }
 
@@ -76,11 +99,12 @@ class Solution {
   /// Recovery estimate of the relative error in the energy norm.
   double error_estimate() const;
 
-  /// Rows flagged active, contact by contact, for starting another solve.
+  /// As the scene was solved; a step that is not the last has no stiffness matrices.
   const Model& model() const { return model_; }
   bool active(int row) const;
 
  private:
+  void add_step(const problem::Problem& problem);
   const Locator& locator(int body) const;
 
   std::shared_ptr<const Scene> scene_;
@@ -88,21 +112,32 @@ class Solution {
   mutable solver::Result result_;
   problem::Residual residual_;
   double energy_ = 0, friction_energy_ = 0;
+  Past past_;
+  algebra::Vector slip_;
+  std::vector<double> dissipated_;
   std::vector<std::vector<double>> displacement_;
   mutable std::vector<std::vector<elasticity::Stress>> stress_;
   mutable std::vector<std::unique_ptr<Locator>> locators_;
 };
 
 /// Where contacts start: as a coarser solution's nearest nodes were, or with the rows named
-/// (numbered over all contacts in order); empty: by the method's own rule.
+/// (numbered over all contacts in order); empty: by the method's own rule, or as `after` ended.
 struct Start {
   std::shared_ptr<const Solution> coarse;
   std::optional<std::vector<int>> closed;
+  /// The solution that this one follows: slip is measured from it, and its loading goes on.
+  std::shared_ptr<const Solution> after = nullptr;
 };
 
 /// Assembles and solves. No method named: PDAS, or Newton where there is friction.
+///
+/// With `steps`, quasi-statically one after the other: in step k the friction force opposes the increment
+/// of slip, λ_t ∈ ∂(b‖·‖)((Bu_k)_t − (Bu_{k−1})_t) (the rows' gap is the slip of the last step), so friction
+/// remembers. The steps have one K and one B, condensed once; each starts from the contacts of the last.
+/// The result is the last step; a step that does not converge is the last. Throws InputError with the
+/// step's number where a step has no solution, and where the rows of `after` are not those of the scene.
 std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const solver::Method& method, const Start& start,
-                                Monitor& monitor);
+                                Monitor& monitor, const std::vector<Step>& steps = {});
 
 /// The flags of a start, row by row of B; empty where `start` says nothing.
 std::vector<char> start_flags(const Scene& scene, const Model& model, const Start& start);

@@ -1,4 +1,8 @@
+#include <utility>
+
+#include "base/error.hpp"
 #include "base/stopwatch.hpp"
+#include "base/text.hpp"
 #include "scene/solution.hpp"
 #include "solver/newton.hpp"
 #include "solver/pdas.hpp"
@@ -7,31 +11,147 @@ namespace dotyk::scene {
 
 namespace {
 
-solver::Result run(const Scene& scene, const Model& model, const solver::Method& named, const Start& start,
-                   Monitor& monitor) {
-  if (model.problem.rows() == 0) return solver::solve_linear(model.problem, named.ordering(), monitor);
-  std::vector<char> flags;
-  if (start.coarse || start.closed) flags = start_flags(scene, model, start);
-  const solver::Method method = named                           ? named
-                                : model.problem.friction.empty() ? solver::Method(solver::Pdas{})
-                                                                 : solver::Method(solver::Newton{});
-  return method.run(model.problem, {std::move(flags), nullptr}, monitor);
+/// Tells the watcher which step is at work.
+class StepMonitor final : public Monitor {
+ public:
+  StepMonitor(Monitor& watcher, int step, std::size_t count) : watcher_(watcher), step_(step), count_(count) {}
+  void phase(const std::string& what) override { watcher_.phase(text("step ", step_, " of ", count_, ": ", what)); }
+  void iteration(const IterationInfo& info) override {
+    IterationInfo told = info;
+    told.step = step_;
+    watcher_.iteration(told);
+  }
+  bool stop() override { return watcher_.stop(); }
+
+ private:
+  Monitor& watcher_;
+  int step_;
+  std::size_t count_;
+};
+
+/// Throws InputError where slip on the rows of one is not slip on the rows of the other.
+void require_same_rows(const Model& model, const Model& before) {
+  bool same = model.problem.rows() == before.problem.rows() && model.friction.size() == before.friction.size();
+  for (std::size_t c = 0; same && c < model.friction.size(); ++c) {
+    same = model.friction[c].size() == before.friction[c].size();
+    for (std::size_t k = 0; same && k < model.friction[c].size(); ++k)
+      for (int i = 0; i < 2; ++i) same = same && model.friction[c][k].row[i] == before.friction[c][k].row[i];
+  }
+  if (!same)
+    throw InputError("the solution given as 'after' has other contact rows than the scene; it must be of the same "
+                     "meshes, contacts and friction, only supports' values and loads may differ");
 }
+
+/// Solves a scene step by step.
+class History {
+ public:
+  History(std::shared_ptr<const Scene> scene, const solver::Method& method, const Start& start, Monitor& monitor)
+      : scene_(std::make_shared<const Scene>(*scene)),  // on_iteration may run a script that adds to the scene
+        method_(method), start_(start), monitor_(monitor), last_(start.after) {
+    if (last_) loading_ = last_->loading();
+    for (const auto& body : scene_->bodies) bodies_.push_back(*body);
+  }
+
+  std::shared_ptr<Solution> run(const std::vector<Step>& steps) {
+    if (steps.empty()) return advance({}, monitor_, true);
+    if (steps.size() > 1) condenser_ = std::make_shared<problem::Condenser>();
+    for (std::size_t k = 0;; ++k) try {
+        StepMonitor monitor(monitor_, static_cast<int>(k) + 1, steps.size());
+        const auto solution = advance(steps[k], monitor, k + 1 == steps.size());
+        const bool converged = solution->result().converged;
+        if (!converged) solution->name_step(text("step ", k + 1, " of ", steps.size(), ": "));
+        if (!converged || k + 1 == steps.size()) return solution;
+        steps_.push_back(solution);
+      } catch (const InputError& error) {
+        throw InputError(text("step ", k + 1, ": ", error.what()));
+      }
+  }
+
+ private:
+  std::shared_ptr<Solution> advance(const Step& step, Monitor& monitor, bool is_last) {
+    load(step, monitor);
+    solver::Result result = iterate(monitor);
+    add_times(result.clock);
+    Past past{loading_, last_ ? last_->slip() : algebra::Vector(), last_ ? last_->dissipated() : std::vector<double>(),
+              steps_};
+    const auto solution = std::make_shared<Solution>(scene_, is_last ? std::move(model_) : without_stiffness(),
+                                                     is_last ? nullptr : &model_.problem, std::move(result),
+                                                     std::move(past));
+    solution->set_total(watch_.seconds());
+    last_ = solution;
+    return solution;
+  }
+
+  void load(const Step& step, Monitor& monitor) {
+    loading_.take(step, *scene_);
+    if (built_)
+      reload(*scene_, bodies_, loading_, model_, clock_);
+    else
+      model_ = build(*scene_, clock_, monitor, loading_);
+    built_ = true;
+    if (!last_) return;
+    if (last_ == start_.after) require_same_rows(model_, last_->model());
+    for (const problem::FrictionGroup& group : model_.problem.friction) {
+      const int count = group.points() * group.components;
+      model_.problem.c.segment(group.first, count) += last_->slip().segment(group.first, count);
+    }
+  }
+
+  solver::Result iterate(Monitor& monitor) const {
+    if (model_.problem.rows() == 0) return solver::solve_linear(model_.problem, method_.ordering(), monitor);
+    const solver::Method method = method_                         ? method_
+                                  : model_.problem.friction.empty() ? solver::Method(solver::Pdas{})
+                                                                    : solver::Method(solver::Newton{});
+    return method.run(model_.problem, {flags(), condenser_}, monitor);
+  }
+
+  std::vector<char> flags() const {
+    const bool begins = !last_ || last_ == start_.after;
+    if (begins && (start_.coarse || start_.closed)) return start_flags(*scene_, model_, start_);
+    std::vector<char> flags;
+    if (last_)
+      for (int r = 0; r < model_.problem.rows(); ++r) flags.push_back(last_->active(r));
+    return flags;
+  }
+
+  /// Times are since the first step began.
+  void add_times(problem::Clock& step) {
+    clock_.ordering += step.ordering;
+    clock_.factor += step.factor;
+    clock_.iterate += step.iterate;
+    clock_.recover += step.recover;
+    step = clock_;
+  }
+
+  /// A copy of the model but for K, which the next step needs and no earlier solution does.
+  Model without_stiffness() {
+    std::vector<algebra::SparseMatrix> kept;
+    for (problem::Block& block : model_.problem.blocks) kept.push_back(std::exchange(block.K, {}));
+    Model copy = model_;
+    for (std::size_t b = 0; b < kept.size(); ++b) model_.problem.blocks[b].K = std::move(kept[b]);
+    return copy;
+  }
+
+  Stopwatch watch_;
+  std::shared_ptr<const Scene> scene_;
+  const solver::Method& method_;
+  const Start& start_;
+  Monitor& monitor_;
+  std::vector<Body> bodies_;  ///< as the script gave them, unscaled
+  Loading loading_;
+  Model model_;
+  bool built_ = false;
+  problem::Clock clock_;
+  std::shared_ptr<problem::Condenser> condenser_;
+  std::shared_ptr<const Solution> last_;
+  std::vector<std::shared_ptr<const Solution>> steps_;
+};
 
 }  // namespace
 
 std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const solver::Method& method, const Start& start,
-                                Monitor& monitor) {
-  Stopwatch watch;
-  // A copy: on_iteration may run a script that adds contacts to the scene.
-  scene = std::make_shared<const Scene>(*scene);
-  problem::Clock clock;
-  Model model = build(*scene, clock, monitor);
-  solver::Result result = run(*scene, model, method, start, monitor);
-  result.clock.assembly += clock.assembly;
-  auto solution = std::make_shared<Solution>(std::move(scene), std::move(model), std::move(result));
-  solution->set_total(watch.seconds());
-  return solution;
+                                Monitor& monitor, const std::vector<Step>& steps) {
+  return History(std::move(scene), method, start, monitor).run(steps);
 }
 
 }  // namespace dotyk::scene

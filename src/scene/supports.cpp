@@ -13,7 +13,7 @@ constexpr double kAlongAxis = 1e-9;
 
 /// A support of all the part's nodes, nothing prescribed yet.
 Support on_nodes(const Part& part, SupportKind kind) {
-  Support support{kind, part.mark(), {}, {}, {}, {}};
+  Support support{kind, part.mark(), {}, {}, {}, {}, {}};
   for (const contact::NodeSide& n : contact::nodes(*part.body->mesh, part.facets)) {
     support.nodes.push_back(n.node);
     support.normals.push_back(n.normal);
@@ -43,7 +43,7 @@ void fix(Part& part, const std::array<bool, 3>& components) {
 
 void slide(Part& part) {
   Body& body = *part.body;
-  Support support{SupportKind::slide, part.mark(), {}, {}, {}, {}};
+  Support support{SupportKind::slide, part.mark(), {}, {}, {}, {}, {}};
   std::vector<SlideRow> oblique;
   for (const contact::NodeSide& side : contact::sides(*body.mesh, part.facets)) {
     std::array<bool, 3> along{false, false, false};
@@ -65,8 +65,9 @@ void slide(Part& part) {
   body.slides.insert(body.slides.end(), oblique.begin(), oblique.end());
 }
 
-void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components) {
+void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components, const std::string& load_case) {
   Support support = on_nodes(part, SupportKind::displace);
+  support.load_case = load_case;
   std::array<bool, 3> given;
   for (int i = 0; i < 3; ++i) given[i] = static_cast<bool>(components[i]);
   support.components.assign(support.nodes.size(), given);

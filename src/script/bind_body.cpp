@@ -118,7 +118,7 @@ std::array<elasticity::ScalarField, 3> components(const Call& call, const Part& 
 int displace(Call& call) {
   auto part = call.self<Part>();
   std::vector<Field> kept;
-  scene::displace(*part, components(call, *part, kept));
+  scene::displace(*part, components(call, *part, kept), call.has("case") ? call.text("case") : "");
   return call.give_self();
 }
 
@@ -132,14 +132,14 @@ int spring(Call& call) {
 int load(Call& call) {
   auto part = call.self<Part>();
   const Field traction = call.field("traction", part->body->dimension());
-  scene::load(*part, vector_field(traction, part->body->dimension()));
+  scene::load(*part, vector_field(traction, part->body->dimension()), call.has("case") ? call.text("case") : "");
   return call.give_self();
 }
 
 int pressure(Call& call) {
   auto part = call.self<Part>();
   const Field value = call.field("value");
-  scene::pressure(*part, scalar_field(value, part->body->dimension()));
+  scene::pressure(*part, scalar_field(value, part->body->dimension()), call.has("case") ? call.text("case") : "");
   return call.give_self();
 }
 
@@ -150,9 +150,19 @@ std::string show_body(const Body& b) {
 
 Key component(const char* name) { return key::choice(name, {"x", "y", "z"}, "a component"); }
 
+Key load_case() {
+  return key::string("case", "a name by which the steps of a history scale it apart from others (dotyk.solve, steps)");
+}
+
 Key components_table(const std::string& help, const std::string& unit) {
   const auto one = [&](const char* name) { return key::field(name, help).unit(unit); };
   return key::table({one("x"), one("y"), one("z")});
+}
+
+Key displacement_table() {
+  Key table = components_table("displacement, a number or a function of the coordinates", "length");
+  table.keys.push_back(load_case());
+  return table;
 }
 
 void bind_part(Library& library) {
@@ -174,21 +184,21 @@ void bind_part(Library& library) {
                .run = slide})
       .method({.name = "part:displace",
                .help = "Prescribes displacement components; those not named stay free.",
-               .example = "block:part\"right\":displace{ x = 0.01 }",
-               .arguments = {components_table("displacement, a number or a function of the coordinates", "length")},
+               .example = "block:part\"right\":displace{ x = 0.01 }\nblock:part\"top\":displace{ y = -0.1, case = \"press\" }",
+               .arguments = {displacement_table()},
                .returns = "part",
                .run = displace})
       .method({.name = "part:load",
                .help = "A load per length (2-D) or area (3-D), constant or a function of the coordinates that returns "
                        "its components. Loads add up.",
-               .example = "top:load{ 0, -10 }\ntop:load(function(x, y) return 0, -x end)",
-               .arguments = {key::field("traction", "its components").unit("force/length (2-D), force/area (3-D)").required()},
+               .example = "top:load{ 0, -10 }\ntop:load(function(x, y) return 0, -x end)\ntop:load({ 4, 0 }, \"shear\")",
+               .arguments = {key::field("traction", "its components").unit("force/length (2-D), force/area (3-D)").required(), load_case()},
                .returns = "part",
                .run = load})
       .method({.name = "part:pressure",
                .help = "A load along the inward normal, constant or a function of the coordinates.",
                .example = "top:pressure(10)",
-               .arguments = {key::field("value", "positive when it pushes").unit("force/length (2-D), force/area (3-D)").required()},
+               .arguments = {key::field("value", "positive when it pushes").unit("force/length (2-D), force/area (3-D)").required(), load_case()},
                .returns = "part",
                .run = pressure})
       .method({.name = "part:spring",

@@ -92,6 +92,8 @@ int contact(Call& call) {
   for (const auto& n : c.nodes) nodes.push_back(node_record(n, s->scene().dimension()));
   return call.give(Record{"contact result",
                           {{"force", components(c.force, s->scene().dimension())}, {"area", c.area},
+                           {"friction_force", components(c.friction_force, s->scene().dimension())},
+                           {"dissipated", c.dissipated},
                            {"max_pressure", c.max_pressure}, {"open", static_cast<long long>(c.open)},
                            {"closed", static_cast<long long>(c.closed)}, {"stick", static_cast<long long>(c.stick)},
                            {"slip", static_cast<long long>(c.slip)}, {"nodes", nodes}}});
@@ -112,10 +114,11 @@ void bind_solution(Library& library) {
       .field("reason", "why it ended", [](const Solution& s) { return s.result().reason; })
       .field("screw_moves", "magnetic screws moved because they pulled", [](const Solution& s) { return s.result().screw_moves; })
       .field("energy", "½uᵀKu − fᵀu, springs included", [](const Solution& s) { return s.energy(); }, "force·length")
-      .field("friction_energy", "the friction term of the energy", [](const Solution& s) { return s.friction_energy(); }, "force·length")
+      .field("friction_energy", "the friction term of the energy: what friction dissipates in this step", [](const Solution& s) { return s.friction_energy(); }, "force·length")
+      .field("steps", "the solutions of a history's steps, the last is this one", [](const Solution& s) { return s.steps(); })
       .field("unknowns", "displacement unknowns", [](const Solution& s) { return s.unknowns(); })
       .field("rows", "interface conditions", [](const Solution& s) { return s.rows(); })
-      .field("time", "seconds: total assembly ordering factor iterate recover", time_record, "s")
+      .field("time", "seconds, of a history since its first step: total assembly ordering factor iterate recover", time_record, "s")
       .field("residual", "relative: equilibrium penetration complementarity friction law", residual_record)
       .field("history", "one entry an iteration: active stick slip changed residual time", history)
       .field("ordering", "elimination order used", [](const Solution& s) { return s.result().ordering; })
@@ -131,8 +134,11 @@ void bind_solution(Library& library) {
                .arguments = point_keys(),
                .run = stress})
       .method({.name = "solution:contact",
-               .help = "A contact's force on its first part, area, max_pressure, counts of open and closed nodes, and "
-                       "nodes[i] with x y z gap pressure shear slip status.",
+               .help = "A contact's force on its first part and the part of it by friction (friction_force), area, "
+                       "max_pressure, the work dissipated by friction over all steps, counts of open, closed, stick and "
+                       "slip nodes, and nodes[i] with x y z gap pressure shear slip status. Shear is the friction per "
+                       "length or area on the first part; slip is the tangential jump since the beginning, status what "
+                       "the node did in this step.",
                .example = "local c = s:contact(contact)\nprint(c.max_pressure, c.nodes[1].status)",
                .arguments = {key::object<Contact>("contact", "what scene:contact returned").required()},
                .run = contact})

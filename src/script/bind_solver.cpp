@@ -6,6 +6,7 @@
 #include "script/bind_fclib.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
+#include "script/read_steps.hpp"
 #include "script/watch.hpp"
 #include "script/wrapped.hpp"
 
@@ -33,8 +34,11 @@ int count_rows(const Scene& scene) {
 int run(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& method,
         std::vector<Function> on_iteration, bool verbose) {
   scene::Start start;
+  std::vector<scene::Step> steps;
   if (call.has("options")) {
     const Arguments options = call.table("options");
+    if (options.has("after")) start.after = options.object<Solution>("after");
+    if (options.has("steps")) steps = read_steps(options, *scene);
     if (options.holds<Solution>("start")) {
       start.coarse = options.object<Solution>("start");
     } else if (options.has("start")) {
@@ -47,7 +51,7 @@ int run(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& m
     }
   }
   Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
-  const auto solution = scene::solve(scene, method, start, watch);
+  const auto solution = scene::solve(scene, method, start, watch, steps);
   watch.answer();
   return call.give(solution);
 }
@@ -64,6 +68,10 @@ int solve_with(Call& call) {
 
 int solve(Call& call) { return run(call, call.object<Scene>("scene"), {}, {}, false); }
 
+constexpr const char* kSteps =
+    "With steps, quasi-statically one load after the other: friction opposes the slip since the last step, and all "
+    "steps share one factorisation. The result is the last step; all of them are in s.steps.";
+
 Key scene_key() { return key::object<Scene>("scene", "what to solve").required(); }
 
 Key scene_or_problem_key() {
@@ -72,7 +80,13 @@ Key scene_or_problem_key() {
 }
 
 std::vector<Key> solve_keys(Key what) {
-  return {std::move(what), key::table("options", {start_key()}, "start = a coarser solution, or the rows that start closed")};
+  return {std::move(what),
+          key::table("options",
+                     {start_key(), steps_key(),
+                      key::object<Solution>("after", "the solution that this one follows in a quasi-static history: slip is "
+                                            "measured from it, its factors and moves go on; of the same meshes, contacts "
+                                            "and friction, on this scene or one like it")},
+                     "start, steps, after")};
 }
 
 }  // namespace
@@ -81,16 +95,18 @@ void bind_solver(Library& library) {
   library.module("dotyk.solver", "Methods. Each is made with its options and then solves scenes.");
   bind_methods(library);
   library.function({.name = "dotyk.solve",
-                    .help = "Solves a scene by the method its plan names; without contact that is one linear solve.",
-                    .example = "local s = dotyk.solve(scene)\nlocal finer = dotyk.solve(fine_scene, { start = s })",
+                    .help = std::string("Solves a scene by the method its plan names; without contact that is one linear solve. ") + kSteps,
+                    .example = "local s = dotyk.solve(scene)\nlocal finer = dotyk.solve(fine_scene, { start = s })\n"
+                               "local h = dotyk.solve(scene, { steps = { { load = { shear = 0 } }, { load = { shear = 1 } } } })",
                     .arguments = solve_keys(scene_key()),
                     .returns = "solution",
                     .run = solve});
   library.type<Solver>("A method with its options.")
       .method({.name = "solver:solve",
-               .help = "Solves a scene, or a frictional contact problem from a file (see dotyk.fclib): then a "
-                       "contact_problem_result is returned.",
-               .example = "local s = solver:solve(scene)",
+               .help = std::string("Solves a scene, or a frictional contact problem from a file (see dotyk.fclib): then a "
+                                   "contact_problem_result is returned. ") + kSteps,
+               .example = "local s = solver:solve(scene)\n"
+                          "local h = solver:solve(scene, { steps = { { load = 1 }, { load = 0 } } })",
                .arguments = solve_keys(scene_or_problem_key()),
                .returns = "solution",
                .run = solve_with})

@@ -11,13 +11,15 @@
 namespace dotyk::script {
 
 Record iteration_record(const IterationInfo& info) {
-  return {"iteration",
+  Record record{"iteration",
           {{"active", static_cast<long long>(info.active)},
            {"stick", static_cast<long long>(info.stick)},
            {"slip", static_cast<long long>(info.slip)},
            {"changed", static_cast<long long>(info.changed)},
            {"residual", info.residual},
            {"time", info.seconds}}};
+  if (info.step > 0) record.entries.push_back({"step", static_cast<long long>(info.step)});
+  return record;
 }
 
 Watch::Watch(lua_State* L, std::string work, std::vector<Function> on_iteration, bool verbose)
@@ -29,7 +31,7 @@ void Watch::phase(const std::string& what) { show_progress(work_ + ": " + what +
 
 void Watch::iteration(const IterationInfo& info) {
   const auto line =
-      text(work_, ": iteration ", info.iteration, ", ", info.active, " active, ", info.changed, " changed, ",
+      text(work_, info.step > 0 ? text(": step ", info.step, ", iteration ") : ": iteration ", info.iteration, ", ", info.active, " active, ", info.changed, " changed, ",
            info.stick, " stick, ", info.slip, " slip, residual ", info.residual, ", ", info.seconds, " s");
   if (verbose_) {
     clear_progress();
