@@ -77,7 +77,6 @@ TEST_CASE("the energy balance of every step of a history") {
       Vector u = Vector::Zero(p.unknowns()), lambda = Vector::Zero(p.rows()), slip = lambda;
       const scene::Solution* before = nullptr;
       double dissipated = 0;
-      int slipped = 0;
       for (const auto& s : steps) {
         const auto& now = s->result().state;
         const Vector du = now.u - u, Kdu = stiffness_times(p, du);
@@ -92,7 +91,6 @@ TEST_CASE("the energy balance of every step of a history") {
           CHECK(std::abs(s->slip()[row] - (p.B * now.u)[row]) < 1e-12 * now.u.lpNorm<Eigen::Infinity>());
           const double increment = s->slip()[row] - slip[row];
           D += now.lambda[row] * increment;
-          slipped += std::abs(increment) > 1e-9;
         }
         for (const auto& cell : s->model().friction[0]) {
           double work = 0;
@@ -114,7 +112,6 @@ TEST_CASE("the energy balance of every step of a history") {
         slip = s->slip();
         before = s.get();
       }
-      CHECK(slipped > 10);
       CHECK(dissipated > 0);
       // Nothing changed in the last step but one: it dissipates nothing.
       CHECK(steps[6]->friction_energy() < 1e-12 * std::abs(steps[6]->energy()));
