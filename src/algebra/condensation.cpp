@@ -44,17 +44,22 @@ bool Condensation::factor(const SparseMatrix& K) {
   // loses a digit at most, and only on Γ.
   SparseMatrix shifted = K;
   for (int unknown : pinned_) diagonal(shifted, unknown) *= 2;
-  Vector shift(boundary().size());
+  shift_.resize(static_cast<Eigen::Index>(boundary().size()));
   for (std::size_t k = 0; k < boundary().size(); ++k) {
-    shift[k] = diagonal(shifted, boundary()[k]);
+    shift_[k] = diagonal(shifted, boundary()[k]);
     diagonal(shifted, boundary()[k]) *= 2;
   }
   if (!factor_.factor(shifted)) return false;
   l_gamma_ = factor_.boundary_factor();
-  l_dense_ = square(l_gamma_);
-  l_dense_.diagonal() -= shift;
-  if (basis_.cols() > 0) l_dense_ += shift.mean() * basis_ * basis_.transpose();
+  l_dense_ = schur();
+  if (basis_.cols() > 0) l_dense_ += shift_.mean() * basis_ * basis_.transpose();
   return algebra::cholesky(l_dense_);
+}
+
+DenseMatrix Condensation::schur() const {
+  DenseMatrix S = square(l_gamma_);
+  if (shift_.size()) S.diagonal() -= shift_;
+  return S;
 }
 
 Vector Condensation::condense(const Vector& f) {

@@ -36,6 +36,8 @@ class Condensation {
 
   /// Sweeps f down to Γ and returns the condensed load f_Γ − K_ΓI K_II⁻¹ f_I.
   Vector condense(const Vector& f);
+  /// S on Γ, semidefinite with a kernel.
+  DenseMatrix schur() const;
   /// M⁻¹ b, b on Γ (S⁻¹ b without a kernel).
   Vector solve(const Vector& b) const;
   /// X = L_M⁻¹ Bᵀ for a sparse B (rows × |Γ|, columns in boundary() order), so that
@@ -52,6 +54,7 @@ class Condensation {
   DenseMatrix kernel_;        ///< R on Γ
   DenseMatrix basis_;         ///< R̂
   DenseMatrix l_gamma_;       ///< L_Γ (of the shifted matrix)
+  Vector shift_;              ///< D; empty without a kernel
   DenseMatrix l_dense_;       ///< Cholesky factor of M; empty without a kernel
   Vector swept_;
 

@@ -1,7 +1,5 @@
 #include "problem/condensed.hpp"
 
-#include <Eigen/QR>
-
 #include "algebra/dense.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
@@ -15,30 +13,6 @@ using algebra::SparseRows;
 using algebra::Vector;
 
 namespace {
-
-/// The nodes of a block that some row acts on.
-std::vector<int> nodes_of_rows(const Block& block, const SparseRows& rows) {
-  std::vector<char> touched(block.node.empty() ? 0 : block.node.back() + 1, 0);
-  for (int r = 0; r < rows.rows(); ++r)
-    for (SparseRows::InnerIterator it(rows, r); it; ++it) touched[block.node[it.col()]] = 1;
-  std::vector<int> nodes;
-  for (std::size_t n = 0; n < touched.size(); ++n)
-    if (touched[n]) nodes.push_back(static_cast<int>(n));
-  return nodes;
-}
-
-/// Columns picked and renumbered: column boundary[k] becomes k.
-SparseRows restrict_columns(const SparseRows& rows, const std::vector<int>& boundary) {
-  std::vector<int> place(rows.cols(), -1);
-  for (std::size_t k = 0; k < boundary.size(); ++k) place[boundary[k]] = static_cast<int>(k);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int r = 0; r < rows.rows(); ++r)
-    for (SparseRows::InnerIterator it(rows, r); it; ++it)
-      entries.emplace_back(r, place[it.col()], it.value());
-  SparseRows result(rows.rows(), static_cast<int>(boundary.size()));
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
 
 /// The rows that act on this block, as indices.
 std::vector<int> rows_present(const SparseRows& rows) {
@@ -68,11 +42,7 @@ CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& r
   require_memory(3.0 * 8 * m * m, text("the dense matrix of ", m, " rows"));  // W, a block's share, its factor
   W_ = DenseMatrix::Zero(m, m);
   N_ = rigid.noticed_N;
-  if (rigid.unnoticed.cols() > 0) {
-    const DenseMatrix motions = displacement(problem, rigid.unnoticed);
-    unnoticed_ = Eigen::HouseholderQR<DenseMatrix>(motions).householderQ() *
-                 DenseMatrix::Identity(motions.rows(), motions.cols());
-  }
+  unnoticed_ = unnoticed_displacements(problem, rigid);
   for (const Block& block : problem.blocks) add(problem, block, ordering, clock, monitor);
   set_load(problem, rigid);
 }
@@ -82,7 +52,7 @@ void CondensedProblem::set_load(const Problem& problem, const RigidMotions& rigi
   e_ = rigid.noticed_e;
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     Part& part = parts_[b];
-    part.load = part.condensation.condense(problem.blocks[b].f);
+    part.take_load(problem.blocks[b].f);
     x0_ += part.rows * part.condensation.solve(part.load);
   }
 }
@@ -100,29 +70,9 @@ CondensedProblem CondensedProblem::softened(const Vector& compliance, const Vect
 
 void CondensedProblem::add(const Problem& problem, const Block& block, algebra::Ordering ordering,
                            Clock& clock, Monitor& monitor) {
+  Part part{condense(problem, block, ordering, clock, monitor), modes_};
   Stopwatch watch;
-  const SparseRows rows = problem.rows_of(block);
-  monitor.phase(text("ordering '", block.name, "' (", block.size(), " unknowns)"));
-  Part part{{block.K, block.node, nodes_of_rows(block, rows), block.kernel, ordering}, {}, {},
-            block.first, block.size(), modes_};
-  clock.ordering += watch.lap();
-  monitor.check();
-  monitor.phase(text("factoring '", block.name, "' (", part.condensation.cholesky().method(), ", ",
-                     part.condensation.cholesky().flops() * 1e-9, " Gflop)"));
-  if (!part.condensation.factor(block.K)) {
-    const int unknown = part.condensation.failed_unknown();
-    throw InputError(text("the stiffness of '", block.name, "' is singular",
-                          unknown >= 0 ? text(" (node ", block.node[unknown] + 1, " is not held)") : "",
-                          block.kernel.cols() > 0 ? text(" beyond its ", block.kernel.cols(), " rigid motions") : "",
-                          ": a material, spring or mesh value is out of range, or cells hang together at single nodes only"));
-  }
-  clock.factor += watch.lap();
-  monitor.check();
-
   // Only the rows present on this block make columns of the half compliance.
-  monitor.phase(text("condensing '", block.name, "' onto ", part.condensation.boundary().size(),
-                     " contact unknowns"));
-  part.rows = restrict_columns(rows, part.condensation.boundary());
   const std::vector<int> present = rows_present(part.rows);
   const DenseMatrix own = algebra::gram(part.condensation.half_compliance(pick_rows(part.rows, present)));
   for (std::size_t j = 0; j < present.size(); ++j)

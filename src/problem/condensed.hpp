@@ -3,17 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "algebra/condensation.hpp"
 #include "base/monitor.hpp"
-#include "problem/problem.hpp"
+#include "problem/condensed_block.hpp"
 #include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
-
-/// Seconds of the steps of a solve; `total` is set by the caller that owns the whole.
-struct Clock {
-  double assembly = 0, ordering = 0, factor = 0, iterate = 0, recover = 0, total = 0;
-};
 
 /// The problem on its rows alone. With the unknowns off the contact boundary
 /// eliminated (TR965 (1.52)–(1.69)),
@@ -54,11 +48,8 @@ class CondensedProblem {
   std::string ordering() const;
 
  private:
-  struct Part {
-    algebra::Condensation condensation;
-    algebra::SparseRows rows;     ///< B on Γ, rows × |Γ|
-    algebra::Vector load;         ///< condensed
-    int first_unknown, size, first_mode;
+  struct Part : CondensedBlock {
+    int first_mode;
   };
   void add(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
            Monitor& monitor);

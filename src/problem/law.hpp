@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,8 @@ class Law {
   virtual Interval multipliers(int row) const = 0;
   /// λ ≥ 0 pushes, and only where x reaches 0: penetration and complementarity are defined.
   virtual bool unilateral() const { return false; }
+  /// k where φ(x) = ½kx² for every x (infinite: x = 0); nothing where the law has branches.
+  virtual std::optional<double> linear_stiffness(int /*row*/) const { return std::nullopt; }
 };
 
 /// Signorini: φ = 0 for x ≤ 0, ∞ beyond; λ ≥ 0, λx = 0. P(y) = y⁺.

@@ -1,5 +1,6 @@
 #include "problem/rigid_motions.hpp"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 
@@ -78,6 +79,13 @@ DenseMatrix displacement(const Problem& problem, const DenseMatrix& motions) {
     mode += block.kernel.cols();
   }
   return u;
+}
+
+DenseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid) {
+  const DenseMatrix motions = displacement(problem, rigid.unnoticed);
+  if (motions.cols() == 0) return motions;
+  return Eigen::HouseholderQR<DenseMatrix>(motions).householderQ() *
+         DenseMatrix::Identity(motions.rows(), motions.cols());
 }
 
 }  // namespace dotyk::problem

@@ -27,4 +27,7 @@ std::string describe(const RigidMotions& rigid, const algebra::Vector& motion);
 /// R α, the displacement of all unknowns under motions α (modes × any number of columns).
 algebra::DenseMatrix displacement(const Problem& problem, const algebra::DenseMatrix& motions);
 
+/// The motions that no row notices as displacements, orthonormal: unknowns × count.
+algebra::DenseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid);
+
 }  // namespace dotyk::problem

@@ -40,6 +40,7 @@ Guess guess(const QuadraticProgram& p, const Scaled& scaled, const ActiveSet& se
     g.x = predicted.x.cwiseQuotient(scaled.column);
     g.y = scaled.cost * predicted.y.cwiseQuotient(scaled.row);
   }
+  if (settings.point.size() > 0) g.x = settings.point.cwiseQuotient(scaled.column);
   return g;
 }
 

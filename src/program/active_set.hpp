@@ -13,6 +13,9 @@ struct ActiveSet {
   double tol = 1e-9;         ///< on violations and on signs of multipliers, in the scaled program
   int max_iterations = 20000;
   std::vector<Side> working; ///< a first working set of one's own (m), or empty
+  /// A first point (n), or empty. Where it is feasible the method starts there with the rows of `working` that
+  /// hold (step 0 of the algorithm), and no row is ever violated.
+  Vector point;
 };
 
 /// The active-set method for convex, also semidefinite programs: algorithm 3.1 of Netuka (ODAM 2001) with
@@ -20,7 +23,8 @@ struct ActiveSet {
 /// refinement; an inconsistent one gives a direction of the kernel along which the objective falls.
 /// Steps end at the first row met, which enters W; at a stationary point the row with the worst
 /// multiplier leaves (`one`), or all rows whose multipliers are within a tenth of it, after rounds in which
-/// every violated row enters and every wrong multiplier leaves at once (`many`).
+/// every violated row enters and every wrong multiplier leaves at once (`many`); a motion that such a set
+/// leaves free is followed to the first rows met.
 ///
 /// Rows violated at the start are elastic: they cost a weight times their violation, become ordinary
 /// rows when met, and the weight grows; if violations are left, their sum alone is minimised, whose

@@ -30,7 +30,7 @@ Result ActiveSetIteration::run(const std::vector<Side>& start, const Vector& x, 
   scale_ = peak(p_.q);
   weight_ = first_weight_ = 10 * std::max({1.0, peak(p_.q), peak(y)});
   if (settings_.change != ActiveSet::Change::many || !whole_sets()) {
-    settle();
+    if (!begin_feasible()) settle();
     while (!finished_) iterate();
   }
   result_.x = x_;
@@ -71,7 +71,10 @@ bool ActiveSetIteration::whole_sets() {
   kkt_.set(rows_.taken());
   for (int round = 0; round < kRounds && seen.insert(rows_.hash()).second; ++round) {
     const auto s = solve_kkt(times(p_.P, x_) + p_.q, p_.A * x_);
-    if (!s.consistent) break;
+    if (!s.consistent) {
+      if (!fall(s.p)) break;
+      continue;
+    }
     x_ += s.p;
     y_ = s.y;
     int changed = 0;
@@ -98,6 +101,35 @@ bool ActiveSetIteration::whole_sets() {
   rows_.side = side;
   x_ = x, y_ = y;
   return false;
+}
+
+bool ActiveSetIteration::fall(const Vector& kernel) {
+  const Vector p = kernel / peak(kernel), g = gradient(), speed = p_.A * p;
+  const bool moves_rows = [&] {
+    for (int r = 0; r < p_.rows(); ++r)
+      if (rows_.working(r) && std::abs(speed[r]) > settings_.tol) return true;
+    return false;
+  }();
+  if (!p.allFinite() || moves_rows || !(-g.dot(p) > settings_.tol * (1 + peak(g)))) return false;
+  const auto meeting = rows_.meeting(p_.A * x_, speed, p_.A.cwiseAbs() * p.cwiseAbs(), false, true);
+  if (!std::isfinite(meeting.step)) return false;
+  x_ += meeting.step * p;
+  for (int r : meeting.rows) rows_.engage(r, speed[r]), ++result_.added;
+  report(static_cast<int>(meeting.rows.size()), meeting.step * p);
+  kkt_.set(rows_.taken());
+  return true;
+}
+
+bool ActiveSetIteration::begin_feasible() {
+  if (settings_.point.size() == 0) return false;
+  const auto side = rows_.side;
+  rows_.classify(p_.A * x_);
+  if (rows_.violations() > 0) {
+    rows_.side = side;
+    return false;
+  }
+  kkt_.set(rows_.taken());
+  return true;
 }
 
 void ActiveSetIteration::settle() {

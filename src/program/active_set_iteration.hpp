@@ -24,6 +24,11 @@ class ActiveSetIteration {
   /// Rounds in which every violated row goes to work and every wrong multiplier leaves. True if they end
   /// at the solution; else the start is put back.
   bool whole_sets();
+  /// Of a set that leaves a motion free: along it, downhill, to the first rows met, which go to work. False where
+  /// it is no such motion, or meets no row.
+  bool fall(const Vector& kernel);
+  /// Puts the rows that hold at the point given to work; false, and nothing changed, where some row is violated.
+  bool begin_feasible();
   /// The first point: rows at work hold there as well as they can; the rest is looked at.
   void settle();
   void iterate();

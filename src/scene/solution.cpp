@@ -17,7 +17,8 @@ namespace {
 
 /// A direct method ends with rounding. Where rounding is most of what it returns, that is no solution.
 void refuse_noise(const problem::Residual& r, solver::Result& result) {
-  const double worst = std::max({r.equilibrium, r.penetration, r.complementarity});
+  const double worst =
+      result.penalty ? r.equilibrium : std::max({r.equilibrium, r.penetration, r.complementarity});
   if (!result.converged || worst <= 1e-6) return;
   result.converged = false;
   result.reason = text("rounding leaves a residual of ", worst,

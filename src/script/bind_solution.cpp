@@ -27,6 +27,21 @@ Record residual_record(const Solution& s) {
                        {"complementarity", r.complementarity}, {"friction", r.friction}, {"law", r.law}}};
 }
 
+std::optional<Record> working_set_record(const Solution& s) {
+  const auto& w = s.result().working_set;
+  if (!w) return std::nullopt;
+  const auto number = [](int value) { return static_cast<long long>(value); };
+  return Record{"working set", {{"added", number(w->added)}, {"dropped", number(w->dropped)}, {"singular", number(w->singular)},
+                                {"survived", number(w->survived)}, {"factorisations", number(w->factorisations)},
+                                {"repeats", number(w->repeats)}}};
+}
+
+std::optional<Record> penalty_record(const Solution& s) {
+  const auto& p = s.result().penalty;
+  if (!p) return std::nullopt;
+  return Record{"penalty", {{"factor", p->factor}, {"penetration", p->penetration}, {"energy", p->energy}}};
+}
+
 std::vector<Record> history(const Solution& s) {
   std::vector<Record> rows;
   for (const IterationInfo& info : s.result().history) rows.push_back(iteration_record(info));
@@ -120,6 +135,8 @@ void bind_solution(Library& library) {
       .field("rows", "interface conditions", [](const Solution& s) { return s.rows(); })
       .field("time", "seconds, of a history since its first step: total assembly ordering factor iterate recover", time_record, "s")
       .field("residual", "relative: equilibrium penetration complementarity friction law", residual_record)
+      .field("working_set", "of active_set, else nil: added dropped singular survived factorisations repeats", working_set_record)
+      .field("penalty", "of penalty, else nil: factor, penetration (length), energy (force·length, too low by)", penalty_record)
       .field("history", "one entry an iteration: active stick slip changed residual time", history)
       .field("ordering", "elimination order used", [](const Solution& s) { return s.result().ordering; })
       .field("factor_bytes", "size of the sparse factors", [](const Solution& s) { return s.result().factor_bytes; }, "bytes");

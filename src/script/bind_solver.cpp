@@ -94,6 +94,7 @@ std::vector<Key> solve_keys(Key what) {
 void bind_solver(Library& library) {
   library.module("dotyk.solver", "Methods. Each is made with its options and then solves scenes.");
   bind_methods(library);
+  bind_program_methods(library);
   library.function({.name = "dotyk.solve",
                     .help = std::string("Solves a scene by the method its plan names; without contact that is one linear solve. ") + kSteps,
                     .example = "local s = dotyk.solve(scene)\nlocal finer = dotyk.solve(fine_scene, { start = s })\n"

@@ -19,5 +19,6 @@ int give_method(Call& call, solver::Method method, std::string text);
 
 void bind_methods(Library& library);
 void bind_friction_methods(Library& library);
+void bind_program_methods(Library& library);
 
 }  // namespace dotyk::script

@@ -2,6 +2,7 @@
 // C++ values to Lua.
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -48,6 +49,13 @@ void push(lua_State* L, const Record& record);
 template <class T>
 requires requires { Wrapped<std::remove_const_t<T>>::name; }
 void push(lua_State* L, const std::shared_ptr<T>& pointer);
+
+// A value or nil.
+template <class T>
+void push(lua_State* L, const std::optional<T>& value) {
+  if (value) push(L, *value);
+  else lua_pushnil(L);
+}
 
 // A list.
 template <class T>

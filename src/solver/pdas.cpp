@@ -55,6 +55,7 @@ class Iteration {
     if (settings_.reduced) condense();
     step_ = screws_             ? screw_step(*condensed_, rho_, *screws_)
             : settings_.reduced ? reduced_step(*condensed_, rho_)
+            : settings_.step    ? settings_.step(problem_, rigid_, rho_)
                                 : full_step(problem_, rigid_, rho_);
     Stopwatch iterating;
     while (result_.iterations < settings_.max_iterations) {

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <functional>
+
+#include "problem/rigid_motions.hpp"
 #include "solver/solver.hpp"
+#include "solver/step.hpp"
 
 namespace dotyk::solver {
 
@@ -15,6 +19,9 @@ struct Pdas : Settings {
   /// On the condensed problem (one sparse factorisation in all), or on the whole system
   /// (one LU an iteration): the same iterates (TR965 remark 1.3).
   bool reduced = true;
+  /// What solves the linear problem of an iteration where not reduced; empty: full_step.
+  std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>
+      step;
   /// How the rigid motions of free bodies are treated: exactly, as constraints of the dual, or by
   /// magnetic screws (TR965 1.2.2; reduced form only).
   enum class Kernel { exact, screws } kernel = Kernel::exact;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,23 @@
 #include "problem/problem.hpp"
 
 namespace dotyk::solver {
+
+/// What an active-set method for programs counted.
+struct WorkingSetCounts {
+  int added = 0, dropped = 0;        ///< rows that entered and left the working set
+  int singular = 0, survived = 0;    ///< singular KKT systems met, and those that still gave a step
+  int factorisations = 0;
+  int repeats = 0;                   ///< times zigzagging was noticed
+};
+
+/// How far a penalised problem's solution is from the one asked for.
+struct PenaltyError {
+  double factor = 0;
+  double penetration = 0;  ///< greatest violation of a row, a length
+  /// λᵀ(Bu − c): what the energy is too low by, up to terms of second order in 1/factor, and never more than
+  /// that: J(u) + λᵀ(Bu − c) is the dual energy at λ.
+  double energy = 0;
+};
 
 /// How a method ended.
 struct Result {
@@ -20,9 +38,11 @@ struct Result {
   int iterations = 0;
   std::vector<IterationInfo> history;
   /// Rows in contact (active branch of their law) in every iteration, as it began; of methods on the
-  /// condensed rows alone, each time that they changed, and at the end.
+  /// condensed rows alone, each time that they changed, and at the end; of methods on programs, at the end.
   std::vector<std::vector<char>> active_sets;
   std::vector<char> slipping;  ///< rows of friction points that slip at the end; empty without friction
+  std::optional<WorkingSetCounts> working_set;
+  std::optional<PenaltyError> penalty;
   int screw_moves = 0;  ///< magnetic screws moved after their multiplier came out negative
   problem::Clock clock;
   double factor_bytes = 0;

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "algebra/condensation.hpp"
+#include "base/monitor.hpp"
+#include "problem/problem.hpp"
+
+namespace dotyk::problem {
+
+/// Seconds of the steps of a solve; `total` is set by the caller that owns the whole.
+struct Clock {
+  double assembly = 0, ordering = 0, factor = 0, iterate = 0, recover = 0, total = 0;
+};
+
+/// One block condensed onto the unknowns Γ of the nodes that rows act on.
+struct CondensedBlock {
+  algebra::Condensation condensation;
+  algebra::SparseRows rows;  ///< B on Γ, rows × |Γ|
+  algebra::Vector load;      ///< condensed, once taken
+  int first_unknown, size;
+  void take_load(const algebra::Vector& f) { load = condensation.condense(f); }
+};
+
+/// Orders, factors and condenses a block, without its load; adds its times to `clock`. Throws InputError where the block
+/// is not held (its name, a node).
+CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
+                        Monitor& monitor);
+
+}  // namespace dotyk::problem

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "solver/solver.hpp"
+
+namespace dotyk::solver {
+
+/// Mehrotra's predictor–corrector interior-point method on the program of a frictionless problem, see
+/// program/interior_point.hpp. At its end every multiplier and every gap is positive; a row is called closed
+/// where the multiplier is the larger one, in units in which rows and energy are of size 1.
+struct InteriorPoint : Settings {
+  /// On the unknowns of the contact boundary (the semidefinite Schur complement), or on all of them.
+  bool reduced = true;
+};
+
+/// Throws InputError for friction, and where there is no solution, naming the motion.
+Result solve(const problem::Problem& problem, const InteriorPoint& settings, Monitor& monitor);
+
+}  // namespace dotyk::solver
