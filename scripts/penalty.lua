@@ -2,8 +2,8 @@
 --
 --   ./dotyk scripts/penalty.lua [CELLS]
 --
--- A rigid parabola pressed into a block, contact springs from as stiff as the contact nodes to 1e14 times as stiff. Too soft,
--- the bodies overlap: error ~ 1/factor. Too stiff, the classical way (springs added to the stiffness matrix, forces
+-- A rigid parabola pressed into a block, contact springs from as stiff as the contact nodes to
+-- 1e14 times as stiff. Too soft, the bodies overlap: error ~ 1/factor. Too stiff, the classical way (springs added to the stiffness matrix, forces
 -- from the overlap) loses digits: error ~ factor. On the contact rows, with forces as unknowns, nothing is lost.
 -- Shows errors of force and energy against pdas, what the method says of itself, and images/penalty.png.
 

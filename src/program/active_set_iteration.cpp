@@ -13,6 +13,7 @@ constexpr double kHeavier = 100;     ///< factor on the weight of violations
 constexpr double kHeaviest = 100;    ///< on its first value, before violations alone are minimised
 constexpr double kFar = 1e9;         ///< a step this much longer than x runs along the kernel
 constexpr double kCurved = 1e-12;    ///< curvature along a direction, relative to its rounding terms
+constexpr double kSmall = 1e-6;      ///< greatest correction of a solution, relative to x
 constexpr int kRounds = 50;          ///< in which the whole working set changes at once
 constexpr int kLeaves = 10;          ///< times a row may leave among many before rows change one by one
 
@@ -33,6 +34,7 @@ Result ActiveSetIteration::run(const std::vector<Side>& start, const Vector& x, 
     if (!begin_feasible()) settle();
     while (!finished_) iterate();
   }
+  if (result_.status == Status::solved) polish();
   result_.x = x_;
   result_.y = y_;
   result_.working = rows_.side;
@@ -101,6 +103,18 @@ bool ActiveSetIteration::whole_sets() {
   rows_.side = side;
   x_ = x, y_ = y;
   return false;
+}
+
+void ActiveSetIteration::polish() {
+  const auto off = [&] { return std::max(peak(gradient() + p_.A.transpose() * y_), peak(rows_.missing(p_.A * x_))); };
+  const double before = off();
+  const auto s = kkt_.solve(-gradient(), rows_.missing(p_.A * x_), y_);
+  const bool small = peak(s.p) <= kSmall * (1 + peak(x_)) && peak(s.y - y_) <= kSmall * (1 + peak(y_));
+  if (!s.consistent || !small) return;
+  const Vector x = x_, y = y_;
+  x_ += s.p;
+  y_ = s.y;
+  if (!(off() < before)) x_ = x, y_ = y;
 }
 
 bool ActiveSetIteration::fall(const Vector& kernel) {

@@ -24,6 +24,8 @@ class ActiveSetIteration {
   /// Rounds in which every violated row goes to work and every wrong multiplier leaves. True if they end
   /// at the solution; else the start is put back.
   bool whole_sets();
+  /// A last correction of the solution, of the size of what refinement left.
+  void polish();
   /// Of a set that leaves a motion free: along it, downhill, to the first rows met, which go to work. False where
   /// it is no such motion, or meets no row.
   bool fall(const Vector& kernel);
