@@ -14,6 +14,7 @@
 #include "solver/require_solvable.hpp"
 #include "solver/screws.hpp"
 #include "solver/step.hpp"
+#include "solver/treatable.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -37,9 +38,7 @@ class Iteration {
       : problem_(problem), settings_(settings), monitor_(monitor), rigid_(problem::rigid_motions(problem)),
         holder_(problem, rigid_),
         rho_(settings.rho * problem.row_stiffness()) {
-    if (!problem.friction.empty())
-      throw InputError(text("pdas cannot treat the ", problem.friction[0].law->name(), " of the ",
-                            problem.friction[0].name, "; newton can"));
+    require_frictionless(problem, "pdas");
     // A row that no unknown moves has no stiffness; any ρ will do.
     const double largest = rho_.size() ? rho_.maxCoeff() : 1;
     for (double& r : rho_)

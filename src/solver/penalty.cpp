@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "problem/residual.hpp"
 #include "solver/pdas.hpp"
 #include "solver/penalty_step.hpp"
+#include "solver/treatable.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -38,19 +38,10 @@ PenaltyError error_of(const Problem& problem, const Vector& springs, const probl
   return error;
 }
 
-void require_treatable(const Problem& problem) {
-  if (!problem.friction.empty())
-    throw InputError(text("penalty cannot treat the ", problem.friction[0].law->name(), " of the ",
-                          problem.friction[0].name, "; newton can"));
-  for (const problem::RowGroup& group : problem.groups)
-    if (!group.law->unilateral() && group.count > 0 && !group.law->linear_stiffness(0))
-      throw InputError(text("penalty cannot treat the ", group.law->name(), " law of the ", group.name, "; pdas can"));
-}
-
 }  // namespace
 
 Result solve(const Problem& problem, const Penalty& settings, Monitor& monitor) {
-  require_treatable(problem);
+  require_unilateral_or_linear(problem, "penalty");
   const Vector springs = spring_stiffness(problem, settings.factor);
   Pdas pdas;
   static_cast<Settings&>(pdas) = settings;

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "solver/treatable.hpp"
 
 namespace dotyk::solver {
 
@@ -24,12 +24,10 @@ struct PrimalProgram::Entries {
 PrimalProgram::PrimalProgram(const Problem& problem, const problem::RigidMotions& rigid, const std::string& method,
                              bool reduced, algebra::Ordering ordering, problem::Clock& clock, Monitor& monitor)
     : problem_(problem), unnoticed_(problem::unnoticed_displacements(problem, rigid)) {
-  if (!problem.friction.empty())
-    throw InputError(text(method, " cannot treat the ", problem.friction[0].law->name(), " of the ",
-                          problem.friction[0].name, "; newton can"));
+  require_unilateral_or_linear(problem, method);
   Entries entries;
   take_blocks(entries, reduced, ordering, clock, monitor);
-  take_rows(entries, method);
+  take_rows(entries);
   rescale();
 }
 
@@ -68,7 +66,7 @@ void PrimalProgram::take_blocks(Entries& entries, bool reduced, algebra::Orderin
   entries.f.conservativeResize(first);
 }
 
-void PrimalProgram::take_rows(Entries& entries, const std::string& method) {
+void PrimalProgram::take_rows(Entries& entries) {
   const int n = static_cast<int>(entries.f.size());
   SparseRows B(problem_.rows(), n);
   B.setFromTriplets(entries.B.begin(), entries.B.end());
@@ -78,8 +76,6 @@ void PrimalProgram::take_rows(Entries& entries, const std::string& method) {
   for (const problem::RowGroup& group : problem_.groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
       const auto k = group.law->linear_stiffness(r - group.first);
-      if (!group.law->unilateral() && !k)
-        throw InputError(text(method, " cannot treat the ", group.law->name(), " law of the ", group.name, "; pdas can"));
       if (k && std::isfinite(*k)) {
         for (SparseRows::InnerIterator i(B, r); i; ++i) {
           program_.q[i.col()] -= *k * problem_.c[r] * i.value();

@@ -35,7 +35,7 @@ class PrimalProgram {
  private:
   struct Entries;
   void take_blocks(Entries& entries, bool reduced, algebra::Ordering ordering, problem::Clock& clock, Monitor& monitor);
-  void take_rows(Entries& entries, const std::string& method);
+  void take_rows(Entries& entries);
   void rescale();
 
   const problem::Problem& problem_;
