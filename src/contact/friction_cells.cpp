@@ -13,6 +13,7 @@ using mesh::Point;
 /// A facet or half an edge, and the cell it belongs to.
 struct Share {
   const SurfaceFacet* facet;
+  int index;      ///< of the facet
   Gram gram;      ///< of the facet's hats on the piece
   int corner;     ///< the corner whose surroundings it is; -1 for a whole facet
   int cell;
@@ -53,12 +54,13 @@ int component_of(const SurfaceFacet& f, const std::vector<int>& component) {
 /// Half edges, their cells named by the moving node they belong to; halves between nodes that stay are left out.
 std::vector<Share> dual_shares(const Surface& surface, const std::vector<char>& moves) {
   std::vector<Share> shares;
-  for (const SurfaceFacet& f : surface.facets) {
+  for (std::size_t k = 0; k < surface.facets.size(); ++k) {
+    const SurfaceFacet& f = surface.facets[k];
     const Point v = surface.mesh.facet_area_vector(f.facet);
     for (int c = 0; c < 2; ++c) {
       int owner = f.row[c];
       if (owner < 0 || !moves[owner]) owner = f.row[1 - c];
-      if (owner >= 0 && moves[owner]) shares.push_back({&f, half_gram(std::hypot(v[0], v[1]), c), c, owner});
+      if (owner >= 0 && moves[owner]) shares.push_back({&f, static_cast<int>(k), half_gram(std::hypot(v[0], v[1]), c), c, owner});
     }
   }
   return shares;
@@ -94,7 +96,7 @@ std::vector<Share> facet_shares(const Surface& surface, double size) {
   const std::vector<int> cell = partition(pieces, size > 0 ? size : kCellWidth * facet_width(surface));
   std::vector<Share> shares;
   for (std::size_t k = 0; k < surface.facets.size(); ++k)
-    shares.push_back({&surface.facets[k], gram(surface.mesh, surface.facets[k].facet), -1, cell[k]});
+    shares.push_back({&surface.facets[k], static_cast<int>(k), gram(surface.mesh, surface.facets[k].facet), -1, cell[k]});
   return shares;
 }
 
@@ -111,11 +113,13 @@ double corner_bound(const SurfaceFacet& f, int corner, const std::vector<double>
 /// Sums of one cell, contact row by contact row.
 struct Sum {
   std::map<int, double> jumps, nodes;
+  std::vector<CellPiece> pieces;
   double bound = 0, measure = 0;
 };
 
 void add(const Share& share, const std::vector<double>& g, Sum& sum) {
   const SurfaceFacet& f = *share.facet;
+  sum.pieces.push_back({share.index, share.corner});
   for (int a = 0; a < f.corners; ++a) {
     double jump = 0, measure = 0;
     for (int b = 0; b < f.corners; ++b) {
@@ -164,7 +168,7 @@ std::vector<FrictionCell> friction_cells(const Surface& surface, const std::vect
   std::vector<FrictionCell> cells;
   for (const auto& [number, sum] : sums) {
     if (!(sum.bound > 0)) continue;
-    FrictionCell cell{{}, {}, sum.bound, sum.measure};
+    FrictionCell cell{{}, {}, sum.bound, sum.measure, sum.pieces};
     for (const auto& [row, weight] : sum.jumps) cell.jumps.push_back({row, weight / sum.bound});
     for (const auto& [row, measure] : sum.nodes) cell.nodes.push_back({row, measure / around[row]});
     cells.push_back(std::move(cell));

@@ -34,6 +34,12 @@ std::vector<NormalRow> nodal_normal_rows(const std::vector<ContactRow>& rows);
 std::vector<NormalRow> gram_normal_rows(const Surface& surface, const std::vector<ContactRow>& rows,
                                         const std::vector<char>& moves);
 
+/// A facet of the surface, or (plane) the half of an edge next to one of its corners.
+struct CellPiece {
+  int facet;
+  int half;  ///< corner, -1 for all of it
+};
+
 /// A piece of the contact boundary with one friction multiplier μ: constant in the plane, a pair in space. Its row
 /// is the slip's mean weighted with the bound, ∫ g [u_t] / ∫g, its multiplier the force μ∫g, its bound ∫g.
 struct FrictionCell {
@@ -41,6 +47,7 @@ struct FrictionCell {
   std::vector<Term> nodes;  ///< which share of a contact row's surroundings belongs to the cell
   double bound = 0;         ///< ∫g, a force (nodal Coulomb: the coefficient)
   double measure = 0;       ///< length or area
+  std::vector<CellPiece> pieces;  ///< of p1_p0
 };
 
 /// The cells of p1_p0 for the bound g at the contact rows (g_h is its linear interpolation; at a crack's tip the

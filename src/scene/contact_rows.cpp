@@ -42,6 +42,7 @@ class Rows {
     for (const contact::ContactRow& row : contact_.rows) moves.push_back(this->moves(row, row.normal));
     for (std::size_t k = 0; k < moves.size(); ++k)
       if (!moves[k]) require_apart(contact_.rows[k]);
+    if (!contact_.discretisation.share_fixed) moves.assign(moves.size(), 1);
     model_.normal.back() = nodal(contact_) || dim_ == 2
                                ? contact::nodal_normal_rows(contact_.rows)
                                : contact::gram_normal_rows(surface_of(contact_), contact_.rows, moves);
@@ -101,7 +102,7 @@ class Rows {
       const int n = model_.contact_row.back()[k], index = static_cast<int>(k);
       if (n < 0 || value == 0) continue;
       const double bound = contact_.friction == Friction::Kind::tresca ? value * row.weight : value;
-      Candidate point{{{{index, 1}}, {{index, 1}}, bound, row.weight}, std::isfinite(value), n, {}};
+      Candidate point{{{{index, 1}}, {{index, 1}}, bound, row.weight, {}}, std::isfinite(value), n, {}};
       point.tangents = free_tangents(point.cell, row.normal);
       points.push_back(std::move(point));
     }
@@ -117,6 +118,7 @@ class Rows {
       const std::vector<Point> t = tangents(row.normal, dim_);
       moving.push_back(std::any_of(t.begin(), t.end(), [&](const Point& d) { return moves(row, d); }));
     }
+    if (!contact_.discretisation.share_fixed) moving.assign(moving.size(), 1);
     std::vector<Candidate> points;
     for (contact::FrictionCell& cell :
          contact::friction_cells(surface_of(contact_), g, moving, contact_.discretisation.friction_size)) {

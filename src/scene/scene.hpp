@@ -23,6 +23,7 @@ struct Friction {
 struct Discretisation {
   contact::Multipliers multipliers = contact::Multipliers::nodal;
   double friction_size = 0;
+  bool share_fixed = true;  ///< false, for the study of (3.16): nodes that do not move keep multipliers of their own
 };
 
 /// A pair of parts, or a part and a rigid shape, in contact or glued.

@@ -234,10 +234,7 @@ void bind_scene(Library& library) {
                .example = "print(scene:balance().verdict)",
                .run = balance})
       .text([](const Scene& s) { return scene::describe(s); });
-  library.type<Contact>("A contact or a glue of a scene.")
-      .field("name", "what messages call it", [](const Contact& c) { return c.name; })
-      .field("rows", "number of contact conditions", [](const Contact& c) { return c.rows.size(); })
-      .text([](const Contact& c) { return c.name; });
+  bind_contact(library);
   bind_rigid(library);
   bind_friction(library);
 }

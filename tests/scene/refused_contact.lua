@@ -36,7 +36,6 @@ refused(function() scene:contact{ top, rigid = floor, friction = coulomb, multip
 refused(function() scene:contact{ top, rigid = floor, friction = given, friction_size = 0.5 } end, "'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"")
 refused(function() scene:contact{ top, rigid = floor, multipliers = "P1-P0", friction_size = 0.5 } end, "it is given without them")
 refused(function() scene:contact{ top, rigid = floor, friction = given, multipliers = "P1-P0", friction_size = 0 } end, "'friction_size' must be a positive number")
-refused(function() scene:contact{ top, rigid = floor, multipliers = "P1-P0", friction = dotyk.friction.tresca(function(x) return x < 0.6 and 1 or math.huge end) } end, "infinite on a part of the contact only")
 
 -- Meshes that do not match, faces that do not face, the same said twice.
 local base <const> = dotyk.body{ name = "base", mesh = it.mesh, material = it.material }

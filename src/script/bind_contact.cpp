@@ -1,0 +1,43 @@
+#include "scene/inf_sup.hpp"
+#include "script/bind.hpp"
+#include "script/library.hpp"
+#include "script/wrapped.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using scene::Contact;
+
+int inf_sup(Call& call) {
+  const auto part = static_cast<scene::MultiplierPart>(call.choice("part"));
+  const scene::InfSup s = scene::inf_sup(*call.self<Contact>(), part, call.choice("fixed_nodes") == 0);
+  return call.give(Record{"inf-sup",
+                          {{"constant", s.constant},
+                           {"above_kernel", s.above_kernel},
+                           {"kernel", static_cast<long long>(s.kernel)},
+                           {"multipliers", static_cast<long long>(s.multipliers)},
+                           {"h", s.h},
+                           {"H", s.H}}});
+}
+
+}  // namespace
+
+void bind_contact(Library& library) {
+  library.type<Contact>("A contact or a glue of a scene.")
+      .field("name", "what messages call it", [](const Contact& c) { return c.name; })
+      .field("rows", "number of contact conditions", [](const Contact& c) { return c.rows.size(); })
+      .method({.name = "contact:inf_sup",
+               .help = "The stability constant of the contact's multipliers against the displacements of its bodies "
+                       "(inf-sup, Babuška–Brezzi): constant, the least b(mu, v)/(|v|_1 |mu|_-1/2) over multipliers, greatest over "
+                       "displacements; 0 where multipliers form a kernel that no displacement notices (kernel, its dimension; "
+                       "above_kernel, the least constant but 0); multipliers, h, H. About 1 is as good as it "
+                       "gets. Supports, meshes and multipliers enter, the material does not.",
+               .example = "print(contact:inf_sup{ part = \"normal\" }.constant)",
+               .arguments = {key::table({key::choice("part", {"tangential", "normal", "both"}, "which multipliers").fallback("tangential"),
+                                         key::choice("fixed_nodes", {"shared", "kept"},
+                                                     "multipliers of nodes held on both sides: shared out among their neighbours, as in a solve, or kept").fallback("shared")})},
+               .run = inf_sup})
+      .text([](const Contact& c) { return c.name; });
+}
+
+}  // namespace dotyk::script
