@@ -136,7 +136,7 @@ int make_friction(Call& call, scene::Friction::Kind kind) {
 }
 
 void bind_friction(Library& library) {
-  library.module("dotyk.friction", "Friction laws for scene:contact. Nodal: a normal and a tangential multiplier at each contact node.");
+  library.module("dotyk.friction", "Friction laws for scene:contact. A normal and a tangential force at each contact node, or, for given friction, multipliers = \"P1-P0\" of scene:contact.");
   library.function({.name = "dotyk.friction.tresca",
                     .help = "Given friction (Tresca): the shear is at most g, whatever the pressure. math.huge: no slip at all.",
                     .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.tresca(2.5) }",

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "../support/scenes.hpp"
 #include "scene/solution.hpp"
@@ -18,7 +19,8 @@ struct Rubbed {
   std::vector<scene::Step> steps;
 };
 
-Rubbed rubbed(int dim, scene::Friction::Kind kind, double value) {
+Rubbed rubbed(int dim, scene::Friction::Kind kind, double value,
+              contact::Multipliers multipliers = contact::Multipliers::nodal) {
   const auto lower = test::block("lower", dim, mesh::Family::p1, 4), upper = test::block("upper", dim, mesh::Family::p1, 4, 1, 400);
   test::fix(lower, "bottom");
   auto top = test::part(upper, "top"), side = test::part(upper, "right");
@@ -32,7 +34,7 @@ Rubbed rubbed(int dim, scene::Friction::Kind kind, double value) {
   Rubbed r;
   r.scene = scene::make_scene({lower, upper});
   r.contact = scene::add_contact(*r.scene, test::part(upper, "bottom"), test::part(lower, "top"), {},
-                                 {kind, [=](const Point& x) { return value * (1 + x[0]); }});
+                                 {kind, [=](const Point& x) { return value * (1 + x[0]); }}, false, {multipliers, 0});
   const double path[][3] = {{1, 0, 0}, {1, .7, 0}, {1, .7, 1}, {.8, -.5, 1}, {1.2, -.7, -1}, {1, .6, .3}, {1, .6, .3}, {.7, 0, 0}};
   for (const auto& p : path) {
     scene::Step step;
@@ -66,8 +68,11 @@ TEST_CASE("the energy balance of every step of a history") {
   // and all of D_k, ½ΔuᵀKΔu and λ_n,k (x_n,k − x_n,k−1) = −λ_n,k x_n,k−1 are ≥ 0: loads never do less
   // work, taken at the step's end, than is stored and dissipated.
   for (int dim : {2, 3})
-    for (const auto& [kind, value] : {std::pair{scene::Friction::Kind::tresca, 0.3}, {scene::Friction::Kind::coulomb, 0.35}}) {
-      const Rubbed r = rubbed(dim, kind, value);
+    for (const auto& [kind, value, multipliers] :
+         {std::tuple{scene::Friction::Kind::tresca, 0.3, contact::Multipliers::nodal},
+          {scene::Friction::Kind::tresca, 0.3, contact::Multipliers::p1_p0},
+          {scene::Friction::Kind::coulomb, 0.35, contact::Multipliers::nodal}}) {
+      const Rubbed r = rubbed(dim, kind, value, multipliers);
       Monitor quiet;
       const auto last = scene::solve(r.scene, {}, {}, quiet, r.steps);
       REQUIRE_MESSAGE(last->result().converged, last->result().reason);
