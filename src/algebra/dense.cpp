@@ -1,6 +1,8 @@
 #include "algebra/dense.hpp"
 
+#include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "algebra/blas_threads.hpp"
 
@@ -11,6 +13,8 @@ void dtrsm_(const char* side, const char* uplo, const char* trans, const char* d
             const int* ldb);
 void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* beta, double* c, const int* ldc);
+void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int* lda, double* s, double* u,
+             const int* ldu, double* vt, const int* ldvt, double* work, const int* lwork, int* iwork, int* info);
 }
 
 namespace dotyk::algebra {
@@ -61,5 +65,26 @@ void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) {
 
 DenseMatrix gram(const DenseMatrix& x) { return rank_update(x, "T"); }
 DenseMatrix square(const DenseMatrix& l) { return rank_update(l, "N"); }
+
+double smallest_singular_value(DenseMatrix a) {
+  if (a.rows() != a.cols()) throw std::logic_error("smallest singular value: the matrix is not square");
+  const int n = static_cast<int>(a.rows()), one = 1;
+  if (n == 0) return std::numeric_limits<double>::infinity();
+  if (!a.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+  const BlasThreads threads(8.0 / 3 * n * n * n);
+  Vector s(n);
+  std::vector<int> integers(8 * static_cast<std::size_t>(n));
+  double unused = 0, best_length = 0;
+  int info = 0, length = -1;
+  const auto factor = [&](double* work) {
+    dgesdd_("N", &n, &n, a.data(), &n, s.data(), &unused, &one, &unused, &one, work, &length, integers.data(), &info);
+  };
+  factor(&best_length);  // asks for the length of the work space
+  length = static_cast<int>(best_length);
+  Vector work(length);
+  factor(work.data());
+  if (info != 0) throw std::runtime_error("the singular values did not converge");
+  return s[n - 1];
+}
 
 }  // namespace dotyk::algebra

@@ -22,4 +22,8 @@ DenseMatrix gram(const DenseMatrix& x);
 /// L Lᵀ of a lower-triangular L, both triangles.
 DenseMatrix square(const DenseMatrix& l);
 
+/// The least singular value of a square matrix, by all of them; +∞ for an empty one, NaN where an entry is
+/// not finite.
+double smallest_singular_value(DenseMatrix a);
+
 }  // namespace dotyk::algebra

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "base/error.hpp"
@@ -16,6 +17,8 @@ struct IterationInfo {
   int changed = 0;        ///< rows whose branch differs from the last iteration
   double residual = 0.0;  ///< relative natural residual, as the method defines it
   double seconds = 0.0;   ///< since the method started
+  /// Least singular value of the derivative that led here, where the method knows it; else NaN.
+  double singular_value = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Who watches a long computation: told of its phases and iterations, asked

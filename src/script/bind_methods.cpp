@@ -23,6 +23,8 @@ int make_newton(Call& call) {
   solver::Newton newton;
   read_settings(call, newton);
   newton.rho = call.number("rho");
+  newton.watch = call.boolean("watch");
+  if (call.has("seed")) newton.seed = static_cast<unsigned>(call.integer("seed"));
   return give_method(call, newton, text("newton: rho = ", newton.rho));
 }
 
@@ -52,9 +54,14 @@ void bind_methods(Library& library) {
        .help = "The generalised Newton method on normal and tangential part together: contact with given "
                "or Coulomb friction, in the plane and in space, on the contact boundary alone.",
        .example = "local s = dotyk.solver.newton{ tol = 1e-10 }:solve(scene)",
-       .arguments = {key::table(method_keys({key::positive(
-           "rho", "weight of slip and gap against force in the projections; multiplies the stiffness that each row sees")
-                                                 .fallback(1.0)}))},
+       .arguments = {key::table(method_keys(
+           {key::positive("rho", "weight of slip and gap against force in the projections; multiplies the stiffness "
+                                 "that each row sees").fallback(1.0),
+            key::boolean("watch", "history[k].singular_value exactly; else estimated from the factors, right up to the "
+                                  "root of the number of rows").fallback(false),
+            key::integer("seed", "start at random multipliers, the same for the same seed: in a box from a tenth to a "
+                                 "hundred times the size of those with everything stuck").within(0, 4294967295.0)
+                .otherwise("start with all that touches stuck")}))},
        .returns = "solver",
        .run = make_newton});
   bind_friction_methods(library);

@@ -1,5 +1,6 @@
 #include "script/watch.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -19,6 +20,7 @@ Record iteration_record(const IterationInfo& info) {
            {"residual", info.residual},
            {"time", info.seconds}}};
   if (info.step > 0) record.entries.push_back({"step", static_cast<long long>(info.step)});
+  if (!std::isnan(info.singular_value)) record.entries.push_back({"singular_value", info.singular_value});
   return record;
 }
 

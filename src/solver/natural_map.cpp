@@ -1,11 +1,13 @@
 #include "solver/natural_map.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 namespace dotyk::solver {
 
 using algebra::DenseMatrix;
+using algebra::SparseRows;
 using algebra::Vector;
 using problem::FrictionGroup;
 using problem::Problem;
@@ -16,6 +18,34 @@ NaturalMap::NaturalMap(const Problem& problem, const problem::CondensedProblem& 
   for (const FrictionGroup& group : problem.friction)  // the projection onto a disc needs one ρ
     for (int k = 0; k < group.points(); ++k)
       rho_.segment(group.row(k), group.components).setConstant(rho[group.normal[k]]);
+  root_ = rho_.cwiseSqrt();
+  const DenseMatrix N = root_.asDiagonal() * condensed.N();
+  if (N.size() == 0) return;
+  const Eigen::HouseholderQR<DenseMatrix> qr(N);
+  Q_ = qr.householderQ() * DenseMatrix::Identity(N.rows(), N.cols());
+  R_ = qr.matrixQR().topRows(N.cols()).triangularView<Eigen::Upper>();
+}
+
+Vector NaturalMap::alpha(const Vector& a) const {
+  return a.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>().solve(a)) : a;
+}
+
+Vector NaturalMap::scaled_alpha(const Vector& alpha) const {
+  return alpha.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>() * alpha) : alpha;
+}
+
+Vector NaturalMap::scaled_load(const Vector& e) const {
+  return e.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>().transpose().solve(e)) : e;
+}
+
+Vector NaturalMap::unbalanced(const Vector& lambda) const {
+  return scaled_load(condensed_.e() - condensed_.N().transpose() * lambda);
+}
+
+double NaturalMap::greatest_compliance() const {
+  if (root_.size() == 0) return 0;
+  const double of_W = (condensed_.W().cwiseAbs() * root_).cwiseProduct(root_).maxCoeff();
+  return of_W + (condensed_.kernel_size() > 0 ? 1 : 0);
 }
 
 int NaturalMap::Value::differences(const Value& other) const {
@@ -63,6 +93,8 @@ NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) cons
     }
   const Vector unbalanced = condensed_.e() - condensed_.N().transpose() * lambda;
   v.norm = std::sqrt((lambda - v.projected).squaredNorm() + unbalanced.squaredNorm());
+  v.scaled_norm = (lambda - v.projected).cwiseQuotient(root_).norm();
+  v.unbalanced = this->unbalanced(lambda);
   return v;
 }
 
@@ -90,9 +122,8 @@ NaturalMap::Value NaturalMap::sticking(const std::vector<char>& start) const {
 }
 
 NaturalMap::System NaturalMap::linearise(const Value& v) const {
-  // λ' = projected + S (λ' + ρ x' − y) with x' = x₀ − W λ' + N α'.
   const int m = problem_.rows();
-  Eigen::SparseMatrix<double, Eigen::RowMajor> S(m, m);
+  SparseRows S(m, m);
   S.setFromTriplets(v.slope.begin(), v.slope.end());
   System system;
   std::vector<int> place(m, -1);
@@ -103,38 +134,46 @@ NaturalMap::System NaturalMap::linearise(const Value& v) const {
     }
   system.fixed = v.projected;
   for (int r : system.rows) system.fixed[r] = 0;
-  const Vector rest = condensed_.jump(system.fixed, Vector());
   const Eigen::Index n = static_cast<Eigen::Index>(system.rows.size()), k = condensed_.kernel_size();
   system.matrix = DenseMatrix::Zero(n + k, n + k);
   system.right_side = Vector::Zero(n + k);
+  const Vector rest = condensed_.jump(system.fixed, Vector());
   for (Eigen::Index i = 0; i < n; ++i) {
-    const int r = system.rows[i];
-    system.matrix(i, i) += 1;
-    double& b = system.right_side[i];
-    b = v.projected[r];
-    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(S, r); it; ++it) {
-      const int c = static_cast<int>(it.col());
-      const double s = it.value();
-      if (place[c] >= 0)
-        system.matrix(i, place[c]) -= s;
-      else
-        b += s * system.fixed[c];
-      b += s * (rho_[c] * rest[c] - v.y[c]);
-      for (Eigen::Index j = 0; j < n; ++j) system.matrix(i, j) += s * rho_[c] * condensed_.W()(c, system.rows[j]);
-      for (Eigen::Index j = 0; j < k; ++j) system.matrix(i, n + j) -= s * rho_[c] * condensed_.N()(c, j);
-    }
+    fill_row(system, i, S, v, place, rest);
+    if (k > 0) system.matrix.col(i).tail(k) = Q_.row(system.rows[i]).transpose();
   }
-  for (Eigen::Index j = 0; j < k; ++j) {
-    for (Eigen::Index i = 0; i < n; ++i) system.matrix(n + j, i) = condensed_.N()(system.rows[i], j);
-    system.right_side[n + j] = condensed_.e()[j] - condensed_.N().col(j).dot(system.fixed);
-  }
+  system.right_side.tail(k) = unbalanced(system.fixed);
   return system;
+}
+
+void NaturalMap::fill_row(System& system, Eigen::Index i, const SparseRows& S, const Value& v,
+                          const std::vector<int>& place, const Vector& rest) const {
+  // λ' = projected + S (λ' + ρ x' − y) with x' = x₀ − W λ' + N α', divided by √ρ.
+  DenseMatrix& matrix = system.matrix;
+  double& right_side = system.right_side[i];
+  const Eigen::Index n = static_cast<Eigen::Index>(system.rows.size()), k = matrix.cols() - n;
+  const int r = system.rows[i];
+  matrix(i, i) += 1;
+  right_side = v.projected[r] / root_[r];
+  for (SparseRows::InnerIterator it(S, r); it; ++it) {
+    const int c = static_cast<int>(it.col());
+    const double s = it.value(), by = s * root_[c];
+    if (place[c] >= 0)
+      matrix(i, place[c]) -= s;
+    else
+      right_side += s * system.fixed[c] / root_[c];
+    right_side += by * rest[c] - s * v.y[c] / root_[c];
+    for (Eigen::Index j = 0; j < n; ++j)
+      matrix(i, j) += by * condensed_.W()(c, system.rows[j]) * root_[system.rows[j]];
+    if (k > 0) matrix.row(i).tail(k) -= s * Q_.row(c);
+  }
 }
 
 void NaturalMap::take(const System& system, const Vector& solved, Vector& lambda, Vector& alpha) const {
   lambda = system.fixed;
-  for (std::size_t i = 0; i < system.rows.size(); ++i) lambda[system.rows[i]] = solved[static_cast<Eigen::Index>(i)];
-  alpha = solved.tail(condensed_.kernel_size());
+  for (std::size_t i = 0; i < system.rows.size(); ++i)
+    lambda[system.rows[i]] = solved[static_cast<Eigen::Index>(i)] * root_[system.rows[i]];
+  alpha = this->alpha(solved.tail(condensed_.kernel_size()));
 }
 
 }  // namespace dotyk::solver

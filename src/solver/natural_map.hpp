@@ -20,6 +20,8 @@ class NaturalMap {
     /// ∂projected/∂y, row by row: entries (row, column, value) on rows of one node only.
     std::vector<Eigen::Triplet<double>> slope;
     double norm = 0;                 ///< of F and of e − Nᵀλ
+    double scaled_norm = 0;          ///< of D^{-1/2} F
+    algebra::Vector unbalanced;      ///< of λ, scaled
     std::vector<char> closed;        ///< scalar rows with slope > 0
     std::vector<char> slipping;      ///< rows of friction points that are closed and slip
     std::vector<char> piece;         ///< row by row: 0 open, 1 closed or stick, 2 slip
@@ -30,11 +32,24 @@ class NaturalMap {
   /// The pieces with every row that touches at rest closed and sticking (or those flagged).
   Value sticking(const std::vector<char>& start) const;
 
-  /// The Newton system on the rows with a slope (the others have λ' = projected), and α.
+  /// Unknowns in one unit, the root of an energy: v = D^{-1/2} λ, a = Rα, where D = diag ρ and D^{1/2}N = QR
+  /// with orthonormal columns of Q. A friction point has one ρ, so that D commutes with ∂P.
+  algebra::Vector scaled_lambda(const algebra::Vector& lambda) const { return lambda.cwiseQuotient(root_); }
+  algebra::Vector lambda(const algebra::Vector& v) const { return v.cwiseProduct(root_); }
+  algebra::Vector scaled_alpha(const algebra::Vector& alpha) const;
+  algebra::Vector alpha(const algebra::Vector& a) const;
+  /// R^{-T}(e − Nᵀλ), in the same unit.
+  algebra::Vector unbalanced(const algebra::Vector& lambda) const;
+  /// Not less than the greatest eigenvalue of W̃ + QQᵀ, W̃ = D^{1/2} W D^{1/2}.
+  double greatest_compliance() const;
+
+  /// The Newton system in (v, a), on the rows with a slope; the others have λ' = projected, rows of the identity:
+  ///   [ I − S(I − W̃)  −SQ ]
+  ///   [ Qᵀ              0  ],   S = ∂projected/∂y,  W̃ = D^{1/2} W D^{1/2}.
   struct System {
     algebra::DenseMatrix matrix;
     algebra::Vector right_side;
-    std::vector<int> rows;           ///< of the unknowns λ'
+    std::vector<int> rows;           ///< of the unknowns v
     algebra::Vector fixed;           ///< λ' of the other rows (0 on `rows`)
   };
   System linearise(const Value& v) const;
@@ -44,9 +59,14 @@ class NaturalMap {
   const algebra::Vector& rho() const { return rho_; }
 
  private:
+  void fill_row(System& system, Eigen::Index i, const algebra::SparseRows& S, const Value& v,
+                const std::vector<int>& place, const algebra::Vector& rest) const;
+  algebra::Vector scaled_load(const algebra::Vector& e) const;  ///< R^{-T} e
+
   const problem::Problem& problem_;
   const problem::CondensedProblem& condensed_;
-  algebra::Vector rho_;
+  algebra::Vector rho_, root_;  ///< ρ, √ρ
+  algebra::DenseMatrix Q_, R_;
 };
 
 }  // namespace dotyk::solver

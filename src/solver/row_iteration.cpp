@@ -51,7 +51,7 @@ bool RowIteration::next() {
   return true;
 }
 
-bool RowIteration::record() {
+bool RowIteration::record(double singular_value) {
   IterationInfo info;
   info.iteration = result_.iterations;
   info.active = value_.active;
@@ -60,6 +60,7 @@ bool RowIteration::record() {
   info.changed = value_.differences(recorded_);
   info.residual = residual();
   info.seconds = watch_.seconds();
+  info.singular_value = singular_value;
   result_.history.push_back(info);
   record_active_set();
   monitor_.iteration(info);

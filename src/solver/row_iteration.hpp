@@ -34,8 +34,9 @@ class RowIteration {
 
   /// Begins an iteration; false after the last one allowed, or where the user stops.
   bool next();
-  /// Writes the iterate into the history; true where its residual is within tol.
-  bool record();
+  /// Writes the iterate into the history; true where its residual is within tol. `singular_value`: least one
+  /// of the derivative of the step that led here.
+  bool record(double singular_value = std::numeric_limits<double>::quiet_NaN());
   /// The residual's least value has not fallen by a hundredth in the last 2000 iterations, or the residual is
   /// beyond all measure. Gives up then.
   bool stalled();

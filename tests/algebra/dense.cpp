@@ -49,3 +49,18 @@ TEST_CASE("dense kernels of nothing") {
   DenseMatrix wrong(2, 1);
   CHECK_THROWS_AS(solve_lower(none, wrong), std::logic_error);
 }
+
+TEST_CASE("the least singular value of a matrix made of known ones") {
+  test::Random random(22);
+  for (int n : {1, 2, 5, 40, 130})
+    for (const double least : {1.0, 1e-5, 1e-13, 0.0}) {
+      const DenseMatrix U = Eigen::HouseholderQR<DenseMatrix>(random.matrix(n, n)).householderQ(),
+                        V = Eigen::HouseholderQR<DenseMatrix>(random.matrix(n, n)).householderQ();
+      Vector s = Vector::LinSpaced(n, 1, 3);
+      s[n / 2] = least;
+      CHECK(std::abs(smallest_singular_value(U * s.asDiagonal() * V) - least) < 1e-14);
+    }
+  CHECK(smallest_singular_value(DenseMatrix(0, 0)) == std::numeric_limits<double>::infinity());
+  CHECK(std::isnan(smallest_singular_value(DenseMatrix::Constant(2, 2, std::nan("")))));
+  CHECK_THROWS_AS(smallest_singular_value(DenseMatrix::Zero(2, 3)), std::logic_error);
+}
