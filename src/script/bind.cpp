@@ -12,6 +12,7 @@ void bind_all(Library& library) {
   bind_body(library);
   bind_scene(library);
   bind_solver(library);
+  bind_all_solutions(library);
   bind_solution(library);
   bind_figure(library);
   bind_write(library);

@@ -12,6 +12,7 @@ void bind_body(Library& library);
 void bind_scene(Library& library);
 void bind_contact(Library& library);
 void bind_solver(Library& library);
+void bind_all_solutions(Library& library);
 void bind_solution(Library& library);
 void bind_figure(Library& library);
 void bind_write(Library& library);

@@ -13,6 +13,18 @@ using problem::FrictionGroup;
 using problem::Problem;
 using problem::RowGroup;
 
+Vector stiffness_of_rows(const problem::CondensedProblem& condensed) {
+  const Vector compliance = condensed.W().diagonal();
+  const double least = compliance.size() ? 1e-14 * compliance.maxCoeff() : 0;
+  Vector stiffness(compliance.size());
+  double greatest = 0;
+  for (Eigen::Index r = 0; r < compliance.size(); ++r)
+    if (compliance[r] > least) greatest = std::max(greatest, stiffness[r] = 1 / compliance[r]);
+  for (Eigen::Index r = 0; r < compliance.size(); ++r)
+    if (!(compliance[r] > least)) stiffness[r] = greatest > 0 ? greatest : 1;
+  return stiffness;
+}
+
 NaturalMap::NaturalMap(const Problem& problem, const problem::CondensedProblem& condensed, const Vector& rho)
     : problem_(problem), condensed_(condensed), rho_(rho) {
   for (const FrictionGroup& group : problem.friction)  // the projection onto a disc needs one ρ

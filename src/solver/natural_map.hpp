@@ -6,6 +6,10 @@
 
 namespace dotyk::solver {
 
+/// 1/W_rr, the stiffness (force per displacement) that each row sees; rows that nothing moves take the greatest
+/// of the others'.
+algebra::Vector stiffness_of_rows(const problem::CondensedProblem& condensed);
+
 /// F(λ, α) = (λ_n − P(y_n), λ_t − π_b(y_t)), y = λ + ρx, on a condensed problem, and its generalised
 /// derivative.
 class NaturalMap {

@@ -9,23 +9,6 @@ using algebra::Vector;
 using problem::CondensedProblem;
 using problem::Problem;
 
-namespace {
-
-/// 1/W_rr; rows that nothing moves take the greatest of the others'.
-Vector stiffness_of_rows(const CondensedProblem& condensed) {
-  const Vector compliance = condensed.W().diagonal();
-  const double least = compliance.size() ? 1e-14 * compliance.maxCoeff() : 0;
-  Vector stiffness(compliance.size());
-  double greatest = 0;
-  for (Eigen::Index r = 0; r < compliance.size(); ++r)
-    if (compliance[r] > least) greatest = std::max(greatest, stiffness[r] = 1 / compliance[r]);
-  for (Eigen::Index r = 0; r < compliance.size(); ++r)
-    if (!(compliance[r] > least)) stiffness[r] = greatest > 0 ? greatest : 1;
-  return stiffness;
-}
-
-}  // namespace
-
 RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
                            Monitor& monitor)
     : problem(on), condensed(rows), map(on, rows, rho * stiffness_of_rows(rows)), settings_(settings),

@@ -1,0 +1,137 @@
+-- Coulomb friction with several solutions: an inclined strut that jams, slides or lifts off under the same load.
+--
+--   ./dotyk scripts/several_solutions.lua [ANGLES] [STARTS]
+--
+-- A strut clamped at its upper end leans on a rigid floor. Pulled sideways it would swing up and away; with
+-- enough friction it may as well stay jammed. For each load (a force per area, all directions, ANGLES of them) and
+-- coefficient all solutions are found by enumeration of open, stick and slip at each contact node. On one load:
+-- which of its three solutions Newton's method finds from STARTS random starts, and what the fixed-point
+-- iteration over given friction, g = mu times the last pressure, does. Draws images/several_solutions.png and the
+-- three states, images/several_open.png, several_stick.png and several_slip.png.
+
+local angles <const>, starts <const> = tonumber(arg[1]) or 90, tonumber(arg[2]) or 1000
+local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
+
+-- 1. The strut: 60° to the floor, three contact nodes.
+local function strut(law, force)
+  local mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 6}, cells = {2, 12} }
+  local tangent = math.tan(math.rad(60))
+  mesh:transform(function(x, y) return x + y / tangent, y end)
+  local body = dotyk.body{ name = "strut", material = material, mesh = mesh, force = force }
+  body:part"top":fix()
+  local scene = dotyk.scene{ body }
+  return scene, scene:contact{ body:part"bottom", rigid = dotyk.rigid.gap{ normal = {0, -1}, gap = 0 }, friction = law }
+end
+
+local function states(c)
+  local text = {}
+  for k, node in ipairs(c.nodes) do
+    text[k] = node.status == "slip" and (node.slip[1] > 0 and "slip right" or "slip left") or node.status
+  end
+  return table.concat(text, ", ")
+end
+
+-- 2. How many solutions? Load directions against coefficients.
+local counts, rings = {}, { x = {}, y = {} }
+local coefficients <const> = { 0.25, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.1, 1.25, 1.5, 1.75, 2, 2.5, 3 }
+print "coefficient   directions with 1, 2, 3, … solutions"
+for _, mu in ipairs(coefficients) do
+  local of = {}
+  for k = 1, angles do
+    local angle = 360 * (k - 0.37) / angles
+    local t = math.rad(angle)
+    local all, tried = dotyk.all_solutions((strut(dotyk.friction.coulomb(mu), { math.cos(t), math.sin(t) })))
+    if #all == 0 then print(("none at %g°, mu = %g: %s"):format(angle, mu, tried)) end
+    of[#all] = (of[#all] or 0) + 1
+    counts[#all] = counts[#all] or { name = #all .. (#all == 1 and " solution" or " solutions"), style = "points", x = {}, y = {} }
+    table.insert(counts[#all].x, angle)
+    table.insert(counts[#all].y, mu)
+  end
+  local line = {}
+  for n = 0, 9 do if of[n] then line[#line + 1] = n .. ": " .. of[n] end end
+  print(("%8.2f      %s"):format(mu, table.concat(line, ", ")))
+end
+local series = {}
+for n = 0, 9 do series[#series + 1] = counts[n] end
+dotyk.chart{ file = "images/several_solutions.png", x = "direction of the load [degrees]", y = "coefficient of friction",
+             series = series }
+
+-- 3. One load in full.
+local mu <const>, force <const> = 1, { -0.3, -0.3 }
+local scene, contact = strut(dotyk.friction.coulomb(mu), force)
+local all, tried = dotyk.all_solutions(scene)
+print(("\nmu = %g, force per area (%g, %g): %s"):format(mu, force[1], force[2], tried))
+print "      energy   normal force   friction force   equilibrium  law        contact nodes"
+for k, s in ipairs(all) do
+  local c = s:contact(contact)
+  print(("%d  %10.6f  %12.6f  %15.6f      %.0e    %.0e  %s"):format(k, s.energy, c.force[2], c.force[1],
+    s.residual.equilibrium, s.residual.law, states(c)))
+end
+
+-- 4. What Newton's method finds.
+local found, unconverged, elsewhere = {}, 0, 0
+for seed = 1, starts do
+  local s = dotyk.solver.newton{ seed = seed }:solve(scene)
+  local which
+  for k, one in ipairs(all) do
+    if math.abs(s.energy - one.energy) < 1e-7 * math.abs(one.energy) then which = k end
+  end
+  if not s.converged then unconverged = unconverged + 1
+  elseif which then found[which] = (found[which] or 0) + 1
+  else elsewhere = elsewhere + 1 end
+end
+print(("\nNewton's method from %d random starts, %d unconverged, %d at none of these:"):format(starts, unconverged, elsewhere))
+for k = 1, #all do print(("   solution %d: %d times"):format(k, found[k] or 0)) end
+local cold = dotyk.solve(scene)
+for k, one in ipairs(all) do
+  if math.abs(cold.energy - one.energy) < 1e-7 * math.abs(one.energy) then print("   from rest: solution " .. k) end
+end
+assert(unconverged == 0 and elsewhere == 0)
+
+-- 5. The fixed-point iteration g := mu p over given friction, from no friction and from near each solution.
+local function outer(pressure)
+  local state = "no convergence in 200 iterations"
+  for iteration = 1, 200 do
+    local given = dotyk.friction.tresca(function(x) return mu * pressure(x) end)
+    local s2, c2 = strut(given, force)
+    local s = dotyk.solve(s2)
+    local next = {}
+    local change, size = 0, 0
+    for _, node in ipairs(s:contact(c2).nodes) do
+      next[#next + 1] = { node.x, node.pressure }
+      change, size = change + math.abs(node.pressure - pressure(node.x)), size + node.pressure
+    end
+    local before = pressure
+    pressure = function(x)
+      for _, p in ipairs(next) do if math.abs(p[1] - x) < 1e-9 then return p[2] end end
+      return before(x)
+    end
+    if change <= 1e-9 * size then
+      for k, one in ipairs(all) do
+        if math.abs(s.energy - one.energy) < 1e-6 * math.abs(one.energy) then
+          state = ("solution %d after %d iterations"):format(k, iteration)
+        end
+      end
+      break
+    end
+  end
+  return state
+end
+print "\nthe fixed-point iteration over given friction:"
+print("   from no friction: " .. outer(function() return 0 end))
+for k, one in ipairs(all) do
+  local nodes = one:contact(contact).nodes
+  local function near(x)
+    for _, node in ipairs(nodes) do if math.abs(node.x - x) < 1e-9 then return 0.999 * node.pressure end end
+    return 0
+  end
+  print(("   from 0.999 times the pressure of solution %d: %s"):format(k, outer(near)))
+end
+
+-- 6. The states.
+for _, s in ipairs(all) do
+  local c = s:contact(contact)
+  local name = c.slip + c.stick == 0 and "open" or c.slip == 0 and "stick" or "slip"
+  s:render{ file = "images/several_" .. name .. ".png", field = "displacement", deform = 10, supports = true, size = { 800, 800 } }
+end
+print "images/several_solutions.png, several_open.png, several_stick.png, several_slip.png"

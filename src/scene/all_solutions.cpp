@@ -1,0 +1,23 @@
+#include "scene/all_solutions.hpp"
+
+#include "base/stopwatch.hpp"
+#include "solver/enumeration.hpp"
+
+namespace dotyk::scene {
+
+AllSolutions all_solutions(std::shared_ptr<const Scene> scene, Monitor& monitor) {
+  Stopwatch watch;
+  scene = std::make_shared<const Scene>(*scene);
+  problem::Clock clock;
+  const Model model = build(*scene, clock, monitor);
+  solver::Enumeration found = solver::enumerate(model.problem, monitor);
+  AllSolutions all{{}, found.summary()};
+  for (solver::Enumeration::Solution& each : found.solutions) {
+    each.result.clock.assembly += clock.assembly;
+    all.solutions.push_back(std::make_shared<Solution>(scene, model, std::move(each.result)));
+    all.solutions.back()->set_total(watch.seconds());
+  }
+  return all;
+}
+
+}  // namespace dotyk::scene
