@@ -3,13 +3,13 @@
 --   ./dotyk scripts/several_solutions.lua [ANGLES] [STARTS]
 --
 -- A strut clamped at its upper end leans on a rigid floor. Pulled sideways it would swing up and away; with
--- enough friction it may as well stay jammed. For each load (a force per area, all directions, ANGLES of them) and
+-- enough friction it may as well stay jammed. For each load (a force per area, ANGLES directions) and
 -- coefficient all solutions are found by enumeration of open, stick and slip at each contact node. On one load:
 -- which of its three solutions Newton's method finds from STARTS random starts, and what the fixed-point
 -- iteration over given friction, g = mu times the last pressure, does. Draws images/several_solutions.png and the
 -- three states, images/several_open.png, several_stick.png and several_slip.png.
 
-local angles <const>, starts <const> = tonumber(arg[1]) or 90, tonumber(arg[2]) or 1000
+local angles <const>, starts <const> = tonumber(arg[1]) or 45, tonumber(arg[2]) or 1000
 local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
 
 -- 1. The strut: 60° to the floor, three contact nodes.
@@ -31,30 +31,33 @@ local function states(c)
   return table.concat(text, ", ")
 end
 
--- 2. How many solutions? Load directions against coefficients.
-local counts, rings = {}, { x = {}, y = {} }
-local coefficients <const> = { 0.25, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.1, 1.25, 1.5, 1.75, 2, 2.5, 3 }
-print "coefficient   directions with 1, 2, 3, … solutions"
-for _, mu in ipairs(coefficients) do
-  local of = {}
-  for k = 1, angles do
-    local angle = 360 * (k - 0.37) / angles
-    local t = math.rad(angle)
-    local all, tried = dotyk.all_solutions((strut(dotyk.friction.coulomb(mu), { math.cos(t), math.sin(t) })))
-    if #all == 0 then print(("none at %g°, mu = %g: %s"):format(angle, mu, tried)) end
-    of[#all] = (of[#all] or 0) + 1
-    counts[#all] = counts[#all] or { name = #all .. (#all == 1 and " solution" or " solutions"), style = "points", x = {}, y = {} }
-    table.insert(counts[#all].x, angle)
-    table.insert(counts[#all].y, mu)
-  end
-  local line = {}
-  for n = 0, 9 do if of[n] then line[#line + 1] = n .. ": " .. of[n] end end
-  print(("%8.2f      %s"):format(mu, table.concat(line, ", ")))
+-- 2. How many solutions? Load directions against coefficients: all round, then where there are several.
+local function count(mu, angle)
+  local t = math.rad(angle)
+  return #dotyk.all_solutions((strut(dotyk.friction.coulomb(mu), { math.cos(t), math.sin(t) })))
 end
-local series = {}
-for n = 0, 9 do series[#series + 1] = counts[n] end
+local first <const>, last <const> = 160, 250
+for _, mu in ipairs{ 0.3, 1, 2, 3 } do
+  for angle = last, first + 360, 10 do assert(count(mu, angle + 0.37) == 1) end
+end
+print(("one solution for all directions from %d° on to %d°; between these:"):format(last, first))
+print "coefficient   directions with one, with three solutions, from … to …"
+local regions <const> = { [1] = { name = "1 solution", style = "points", x = {}, y = {} },
+                          [3] = { name = "3 solutions", style = "points", x = {}, y = {} } }
+for tenths = 1, 30 do
+  local mu, of, from, to = tenths / 10, { [1] = 0, [3] = 0 }, nil, nil
+  for k = 1, angles do
+    local angle = first + (last - first) * (k - 0.37) / angles
+    local n = count(mu, angle)
+    of[n] = of[n] + 1
+    table.insert(regions[n].x, angle)
+    table.insert(regions[n].y, mu)
+    if n == 3 then from, to = from or angle, angle end
+  end
+  print(("%8.1f      %4d  %4d  %s"):format(mu, of[1], of[3], from and ("%.1f° to %.1f°"):format(from, to) or ""))
+end
 dotyk.chart{ file = "images/several_solutions.png", x = "direction of the load [degrees]", y = "coefficient of friction",
-             series = series }
+             series = { regions[1], regions[3] } }
 
 -- 3. One load in full.
 local mu <const>, force <const> = 1, { -0.3, -0.3 }
@@ -131,7 +134,7 @@ end
 -- 6. The states.
 for _, s in ipairs(all) do
   local c = s:contact(contact)
-  local name = c.slip + c.stick == 0 and "open" or c.slip == 0 and "stick" or "slip"
+  local name = c.slip + c.stick == 0 and "open" or c.stick > 0 and "stick" or "slip"
   s:render{ file = "images/several_" .. name .. ".png", field = "displacement", deform = 10, supports = true, size = { 800, 800 } }
 end
 print "images/several_solutions.png, several_open.png, several_stick.png, several_slip.png"

@@ -14,7 +14,7 @@ AllSolutions all_solutions(std::shared_ptr<const Scene> scene, Monitor& monitor)
   AllSolutions all{{}, found.summary()};
   for (solver::Enumeration::Solution& each : found.solutions) {
     each.result.clock.assembly += clock.assembly;
-    all.solutions.push_back(std::make_shared<Solution>(scene, model, std::move(each.result)));
+    all.solutions.push_back(std::make_shared<Solution>(scene, model, nullptr, std::move(each.result), Past{}));
     all.solutions.back()->set_total(watch.seconds());
   }
   return all;

@@ -25,8 +25,8 @@ struct Enumeration {
 };
 
 /// Tries all combinations: 2 for a contact row, 4 for one with Coulomb friction, 3 for a point with given
-/// friction; rows of other laws have one piece. Throws InputError where there are more than 2²⁰, or friction has two components
-/// (slip to any side: not finitely many pieces), or the load has no solution on account of a rigid motion.
+/// friction; rows of other laws have one piece. Throws InputError where there are more than 2²⁰, or friction has
+/// two components (slip to any side: not finitely many pieces), or nothing stops a rigid motion.
 Enumeration enumerate(const problem::Problem& problem, Monitor& monitor);
 
 }  // namespace dotyk::solver
