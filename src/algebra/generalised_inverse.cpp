@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -57,6 +58,23 @@ std::vector<int> fixing_unknowns(const DenseMatrix& kernel) {
   for (Eigen::Index k = 0; k < kernel.cols(); ++k) unknowns.push_back(qr.colsPermutation().indices()[k]);
   exchange(kernel, unknowns);
   return unknowns;
+}
+
+Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R) {
+  Vector rows = Vector::Zero(lower.rows());
+  for (int j = 0; R.cols() > 0 && j < lower.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+      rows[it.row()] += std::abs(it.value());
+      if (it.row() != j) rows[j] += std::abs(it.value());
+    }
+  Vector result = Vector::Zero(R.cols());
+  for (Eigen::Index k = 0; rows.size() > 0 && k < R.cols(); ++k) {
+    const Vector force = lower.selfadjointView<Eigen::Lower>() * R.col(k);
+    for (Eigen::Index i = 0; i < rows.size(); ++i)
+      if (rows[i] > 0) result[k] = std::max(result[k], std::abs(force[i]) / rows[i]);
+    result[k] /= R.col(k).lpNorm<Eigen::Infinity>();
+  }
+  return result;
 }
 
 GeneralisedInverse::GeneralisedInverse(const SparseMatrix& lower, const std::vector<int>& node,

@@ -15,6 +15,11 @@ namespace dotyk::algebra {
 /// in a line. `kernel`: n × d, linearly independent columns. The choice depends on its span alone.
 std::vector<int> fixing_unknowns(const DenseMatrix& kernel);
 
+/// How far K R is from zero: for each column r of R the greatest |K r|_i / Σ_j |K_ij|, relative to r's
+/// greatest entry. Row by row, so that soft parts of a body count as stiff ones do. Rounding leaves a few
+/// 1e-16 for rigid modes; one product with K a column. `lower`: K's lower triangle.
+Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R);
+
 /// A generalised inverse K⁺ of a symmetric positive semidefinite K with known kernel R (P2): with as
 /// many unknowns F fixed as R has columns, R_F regular, the rest K_JJ is positive definite, and
 ///   K⁺ = [K_JJ⁻¹ on J, 0 on F],     K K⁺ K = K,   K K⁺ f = f for every f ⟂ R.

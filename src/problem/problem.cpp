@@ -1,8 +1,6 @@
 #include "problem/problem.hpp"
 
-#include <algorithm>
-#include <cmath>
-
+#include "algebra/generalised_inverse.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -45,24 +43,6 @@ SparseRows Problem::rows_of(const Block& block) const {
 
 namespace {
 
-/// Entry k: the greatest |K R|_i / Σ_j |K_ij| of mode k.
-Vector resistance(const Block& block) {
-  Vector rows = Vector::Zero(block.size());
-  for (int j = 0; j < block.K.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
-      rows[it.row()] += std::abs(it.value());
-      if (it.row() != j) rows[j] += std::abs(it.value());
-    }
-  Vector result = Vector::Zero(block.kernel.cols());
-  for (Eigen::Index k = 0; k < result.size(); ++k) {
-    const Vector force = block.K.selfadjointView<Eigen::Lower>() * block.kernel.col(k);
-    for (int i = 0; i < block.size(); ++i)
-      if (rows[i] > 0) result[k] = std::max(result[k], std::abs(force[i]) / rows[i]);
-    if (block.size() > 0) result[k] /= block.kernel.col(k).lpNorm<Eigen::Infinity>();
-  }
-  return result;
-}
-
 /// Between rounding (a few 1e-16, flat cells, great distances and near incompressibility included) and
 /// whatever holds a body.
 constexpr double kResists = 1e-12;
@@ -70,7 +50,7 @@ constexpr double kResists = 1e-12;
 void require_kernel(const Block& block) {
   if (block.kernel.cols() == 0) return;
   Eigen::Index worst;
-  const double most = resistance(block).maxCoeff(&worst);
+  const double most = algebra::kernel_residual(block.K, block.kernel).maxCoeff(&worst);
   if (most <= kResists) return;
   throw InputError(text("'", block.name, "': the stiffness resists ",
                         worst < static_cast<Eigen::Index>(block.kernel_names.size()) ? block.kernel_names[worst]
@@ -81,10 +61,6 @@ void require_kernel(const Block& block) {
 }
 
 }  // namespace
-
-double kernel_residual(const Block& block) {
-  return block.kernel.cols() == 0 ? 0 : resistance(block).maxCoeff();
-}
 
 void add(Problem& problem, Block block) {
   require_kernel(block);

@@ -53,13 +53,8 @@ struct Problem {
   algebra::SparseRows rows_of(const Block& block) const;
 };
 
-/// How far K R is from zero: the greatest |K R|_i of any mode (greatest entry 1) relative to Σ_j |K_ij|,
-/// row by row, so that soft parts of a body count as stiff ones do. Rounding leaves a few 1e-16; one
-/// product with K a mode. 0 without a kernel.
-double kernel_residual(const Block& block);
-
 /// Adds a block, setting its `first`. Throws InputError, naming the motion, where K resists one of the
-/// modes said to be its kernel: kernel_residual() above 1e-12.
+/// modes said to be its kernel: algebra::kernel_residual() above 1e-12.
 void add(Problem& problem, Block block);
 
 struct State {

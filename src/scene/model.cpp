@@ -7,6 +7,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
+#include "elasticity/weak_motions.hpp"
 #include "scene/contact_rows.hpp"
 
 namespace dotyk::scene {
@@ -20,6 +21,34 @@ double matrix_bytes(const mesh::Mesh& mesh) {
   const double dim = mesh.dimension(), neighbours = dim == 2 ? (mesh.topology().nodes == 3 ? 7 : 9)
                                                              : (mesh.topology().nodes == 4 ? 15 : 27);
   return 12 * 0.5 * mesh.node_count() * dim * (dim * neighbours + 1);
+}
+
+/// "fix of left (2 nodes), spring on top".
+std::string supports_of(const Body& body) {
+  static const char* kind[] = {"fix of ", "slide on ", "displacement of "};
+  std::vector<std::string> all;
+  for (const Support& s : body.supports)
+    all.push_back(text(kind[static_cast<int>(s.kind)], s.part.name, " (", s.nodes.size(),
+                       s.nodes.size() == 1 ? " node)" : " nodes)"));
+  for (std::size_t k = 0; k < body.springs.size(); ++k)
+    if (k == 0 || !(body.springs[k].part == body.springs[k - 1].part))
+      all.push_back("spring on " + body.springs[k].part.name);
+  std::string out;
+  for (std::size_t k = 0; k < all.size() && k < 4; ++k) out += (k ? ", " : "") + all[k];
+  return all.size() > 4 ? text(out, " and ", all.size() - 4, " more") : out;
+}
+
+/// The entry of Model::nearly_free.
+std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block) {
+  const auto weak = elasticity::weak_motions(*body.mesh, numbering, block.K, block.kernel);
+  if (weak.names.empty()) return "";
+  std::string motions;
+  for (const std::string& name : weak.names) motions += (motions.empty() ? "" : ", ") + name;
+  if (weak.stiffness == 0)
+    throw InputError(text("'", body.name, "' is as good as free: ", motions, " is held only by ", supports_of(body),
+                          ", whose stiffness is lost in rounding beside the body's; leave that away, or make it stiffer"));
+  return text("nearly free: ", motions, "; held only by ", supports_of(body), ", ", weak.stiffness,
+              " as stiff as the body");
 }
 
 void add_body(const Body& body, Model& model) {
@@ -37,6 +66,7 @@ void add_body(const Body& body, Model& model) {
   block.node = numbering.node;
   block.kernel = std::move(rigid.modes);
   block.kernel_names = std::move(rigid.names);
+  model.nearly_free.push_back(nearly_free(body, numbering, block));
   problem::add(model.problem, std::move(block));
 }
 

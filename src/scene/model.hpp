@@ -34,6 +34,10 @@ struct Model {
   std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1
   std::vector<mesh::Point> move;                 ///< contact → displacement of its rigid shape
 
+  /// Body → rigid motions that its supports hardly hold, with what they are and how stiff: "nearly free:
+  /// rotation about (0, 0); held only by fix of left (2 nodes), 3e-08 as stiff as the body". Mostly empty.
+  std::vector<std::string> nearly_free;
+
   /// A body's displacement, node × dimension, from the unknowns of all blocks.
   std::vector<double> displacement(int body, const algebra::Vector& u) const;
   /// The force that a contact's multipliers exert on its first body, at the node of each contact row (the
@@ -41,8 +45,9 @@ struct Model {
   std::vector<mesh::Point> contact_force(const Contact& contact, int index, const algebra::Vector& lambda) const;
 };
 
-/// Assembles. Throws InputError for contradictory supports, and for a contact that nodes fixed on
-/// both sides make impossible. Adds its time to clock.assembly.
+/// Assembles. Throws InputError for contradictory supports, for a contact that nodes fixed on both sides
+/// make impossible, and for a body whose supports are lost in rounding beside its stiffness. Adds its
+/// time to clock.assembly.
 Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading = {});
 /// Puts another loading on a model: f and c change, K and B stay. `bodies`: the scene's, unscaled, as
 /// when it was built. Throws as build.

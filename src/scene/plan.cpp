@@ -25,15 +25,20 @@ std::string describe_contact(const Contact& contact) {
               multipliers);
 }
 
-/// Whether the load can be carried; needs the loads and contacts assembled.
-std::string verdict(const Scene& scene) {
+/// Whether the load can be carried, and by supports worth the name; needs everything assembled.
+std::string verdict(const Scene& scene, bool any_free) {
   problem::Clock clock;
   Monitor quiet;
-  const Model model = build(scene, clock, quiet);
   try {
+    const Model model = build(scene, clock, quiet);
+    std::string warnings;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      if (!model.nearly_free[b].empty())
+        warnings += "\n  warning: '" + scene.bodies[b]->name + "' is " + model.nearly_free[b];
+    if (!any_free) return "a unique solution exists: every body is held by its supports" + warnings;
     const std::string note = solver::require_solvable(model.problem, problem::rigid_motions(model.problem));
-    return note.empty() ? "a unique solution exists: the load presses every free body against what holds it"
-                        : "a solution exists, " + note;
+    return (note.empty() ? "a unique solution exists: the load presses every free body against what holds it"
+                         : "a solution exists, " + note) + warnings;
   } catch (const InputError& error) {
     return std::string("no solution: ") + error.what();
   }
@@ -75,7 +80,7 @@ std::string plan(const Scene& scene) {
                        " unknowns factored once)")
                 : text("\n  method: pdas on ", rows, " condensed rows (", unknowns,
                        " unknowns factored once): finite and exact for frictionless contact");
-  return out + "\n  " + (free == 0 ? "a unique solution exists: every body is held by its supports" : verdict(scene));
+  return out + "\n  " + verdict(scene, free > 0);
 }
 
 }  // namespace dotyk::scene

@@ -44,6 +44,8 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
   refuse_noise(residual_, result_);
   add_step(problem);
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
+    if (!model_.nearly_free[b].empty()) result_.reason += "; '" + scene_->bodies[b]->name + "' is " + model_.nearly_free[b];
+  for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
 }
 

@@ -1,0 +1,86 @@
+#include "elasticity/rigid_frame.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "base/text.hpp"
+
+namespace dotyk::elasticity {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+RigidFrame::RigidFrame(const mesh::Mesh& mesh) : dimension(mesh.dimension()), size(mesh.size()) {
+  for (int n = 0; n < mesh.node_count(); ++n)
+    for (int i = 0; i < dimension; ++i) centre[i] += mesh.node(n)[i] / mesh.node_count();
+}
+
+Eigen::RowVectorXd RigidFrame::row(const double* x, int i) const {
+  Eigen::RowVectorXd r = Eigen::RowVectorXd::Zero(count());
+  double d[3] = {0, 0, 0};
+  for (int k = 0; k < dimension; ++k) d[k] = (x[k] - centre[k]) / size;
+  r[i] = 1;
+  if (dimension == 2) {
+    r[2] = i == 0 ? -d[1] : d[0];
+  } else {  // (ω × d)_i = ω_j d_k − ω_k d_j
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    r[3 + j] = d[k];
+    r[3 + k] = -d[j];
+  }
+  return r;
+}
+
+DenseMatrix pure(DenseMatrix V) {
+  int done = 0;
+  for (int i = 0; i < V.rows() && done < V.cols(); ++i) {
+    Eigen::Index pivot;
+    const double largest = V.row(i).tail(V.cols() - done).cwiseAbs().maxCoeff(&pivot);
+    if (largest < 1e-7) continue;
+    V.col(done).swap(V.col(done + pivot));
+    V.col(done) /= V(i, done);
+    for (int k = 0; k < V.cols(); ++k)
+      if (k != done) V.col(k) -= V(i, k) * V.col(done);
+    ++done;
+  }
+  return V.unaryExpr([](double v) { return std::abs(v) < 1e-12 ? 0.0 : v; });
+}
+
+namespace {
+
+/// To the nearest multiple of 10^k ≤ noise · scale, so that no digit of noise is printed.
+double rounded(double v, double scale, double noise) {
+  if (std::abs(v) < noise * scale) return 0;
+  const double step = std::pow(10, std::floor(std::log10(noise * scale)));
+  return std::round(v / step) * step;
+}
+
+std::string direction_text(const Vector& d, double noise) {
+  static const char* axis[] = {"x", "y", "z"};
+  Eigen::Index largest;
+  d.cwiseAbs().maxCoeff(&largest);
+  Vector rest = d;
+  rest[largest] = 0;
+  if (rest.norm() < noise * d.norm()) return axis[largest];
+  std::string out = "(";
+  for (int i = 0; i < d.size(); ++i) out += (i ? ", " : "") + text(rounded(d[i] / d.norm(), 1, noise));
+  return out + ")";
+}
+
+}  // namespace
+
+std::string RigidFrame::name(const Vector& c, double noise) const {
+  const Vector t = c.head(dimension), omega = c.tail(c.size() - dimension) / size;
+  if (omega.norm() * size < noise * std::max(1.0, t.norm())) return "translation along " + direction_text(t, noise);
+  if (dimension == 2)  // the point that stays: t + ω e_z × (x − centre) = 0
+    return text("rotation about (", rounded(centre[0] - t[1] / omega[0], size, noise), ", ",
+                rounded(centre[1] + t[0] / omega[0], size, noise), ")");
+  const Eigen::Vector3d w = omega, v = t;
+  const Eigen::Vector3d foot = w.cross(v) / w.squaredNorm();
+  std::string out = text("rotation about the axis along ", direction_text(w, noise), " through (");
+  for (int i = 0; i < 3; ++i) out += (i ? ", " : "") + text(rounded(centre[i] + foot[i], size, noise));
+  out += ")";
+  if (std::abs(w.dot(v)) > noise * w.norm() * std::max(1.0, v.norm())) out += " with a slide along it";
+  return out;
+}
+
+}  // namespace dotyk::elasticity

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algebra/types.hpp"
+#include "elasticity/numbering.hpp"
+#include "mesh/mesh.hpp"
+
+namespace dotyk::elasticity {
+
+/// Rigid motions that a body's supports hold, but hardly.
+struct WeakMotions {
+  /// Of the softest, relative to the body's own: see weak_motions(). 0 where the stiffness matrix
+  /// cannot be told from that of the free body.
+  double stiffness = 1;
+  std::vector<std::string> names;  ///< "rotation about (0.5, 0)", …; empty: all is well held
+};
+
+/// A body is nearly free in a motion where its supports are far softer than the body itself. With Q an
+/// M-orthonormal basis of the rigid motions without the kernel (M: lumped volumes) and μ an eigenvalue of
+/// the compliance QᵀM K⁺ M Q, 1/μ is the stiffness of what holds the motion, supports and the body around
+/// them in series; the body's own is the least Rayleigh quotient of deformations (M-orthogonal to rigid
+/// motions), by a step of inverse iteration from those that come with the responses;
+///   stiffness = (1/μ) / the body's own.
+/// Motions below 1e-6 are named: there a load that strains the body by a millionth turns or moves it by its
+/// own size, so that the statement of small displacements has lost its meaning, and six digits of the
+/// deformation are lost beside the rigid part.
+///
+/// Cost: a screen of four products with K in the plane, seven in space (least Rayleigh quotient of rigid
+/// motions, an upper bound of the supports' stiffness, against that of a dilatation), some 2 % of a solve;
+/// only where the quotient is below 1e-3, one factorisation of K and twice as many solutions as motions are held.
+/// `lower`: K on the unknowns; `kernel`: its exact rigid modes, unknowns × modes.
+WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, const algebra::SparseMatrix& lower,
+                         const algebra::DenseMatrix& kernel);
+
+}  // namespace dotyk::elasticity
