@@ -2,6 +2,7 @@
 #include "base/text.hpp"
 #include "program/active_set.hpp"
 #include "program/augmented_lagrangian.hpp"
+#include "program/bracket.hpp"
 #include "program/interior_point.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
@@ -109,6 +110,13 @@ Record residual_record(const ProgramResult& result) {
                        {"feasibility_scale", r.feasibility_scale}, {"complementarity_scale", r.complementarity_scale}}};
 }
 
+Record bracket_record(const ProgramResult& r) {
+  const program::Bracket b = r.result.x.size() && r.result.y.size() == r.program->rows()
+                                 ? program::bracket(*r.program, r.result.x, r.result.y)
+                                 : program::Bracket{0, -INFINITY, INFINITY, 0, 0};
+  return {"bracket", {{"primal", b.primal}, {"dual", b.dual}, {"gap", b.gap}, {"violation", b.violation}, {"slack", b.slack}}};
+}
+
 std::string show(const ProgramResult& r) {
   const program::Result& s = r.result;
   return text("program_result (", r.method, "): ", program::text_of(s.status), ", ", s.reason, "\n  objective ",
@@ -163,6 +171,9 @@ void bind_program(Library& library) {
              [](const R& r) { return list(r.result.direction); })
       .field("objective", "its value at x", [](const R& r) { return r.result.objective; })
       .field("residual", "stationarity, feasibility, complementarity, relative to the scales given beside them", residual_record)
+      .field("bracket", "where the optimum lies, from x and y alone in extended precision: primal (the objective at x), "
+                        "dual (no feasible point falls below it), gap between them and slack (what violated rows may "
+                        "hide), both relative, violation", bracket_record)
       .field("iterations", "KKT systems solved for a step (active_set), or outer iterations",
              [](const R& r) { return r.result.iterations; })
       .field("predictor_iterations", "interior-point iterations that chose the first working set",
