@@ -48,6 +48,22 @@ std::vector<Record> history(const Solution& s) {
   return rows;
 }
 
+std::vector<Record> screws(const Solution& s) {
+  std::vector<Record> placements;
+  for (const solver::ScrewPlacement& p : s.result().screws) {
+    std::vector<double> rows;
+    for (const int row : p.rows) rows.push_back(row + 1);
+    placements.push_back({"screws", {{"rows", rows}, {"regularity", p.regularity}, {"determinant", p.determinant}}});
+  }
+  return placements;
+}
+
+long long kernel_size(const Solution& s) {
+  long long size = 0;
+  for (const auto& block : s.model().problem.blocks) size += block.kernel.cols();
+  return size;
+}
+
 int index_of(const Solution& s, const Body& body) {
   const int index = s.scene().index_of(&body);
   if (index < 0) throw InputError(text("'", body.name, "' is not of the scene that was solved"));
@@ -128,6 +144,9 @@ void bind_solution(Library& library) {
       .field("iterations", "how many", [](const Solution& s) { return s.result().iterations; })
       .field("reason", "why it ended", [](const Solution& s) { return s.result().reason; })
       .field("screw_moves", "magnetic screws moved because they pulled", [](const Solution& s) { return s.result().screw_moves; })
+      .field("screws", "magnetic screws, first and after each move: rows, regularity (least over greatest singular value "
+                       "of their equilibrium), determinant", screws)
+      .field("kernel", "rigid motions that supports leave free, all bodies", kernel_size)
       .field("energy", "½uᵀKu − fᵀu, springs included", [](const Solution& s) { return s.energy(); }, "force·length")
       .field("friction_energy", "the friction term of the energy: what friction dissipates in this step", [](const Solution& s) { return s.friction_energy(); }, "force·length")
       .field("steps", "the solutions of a history's steps, the last is this one", [](const Solution& s) { return s.steps(); })

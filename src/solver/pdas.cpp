@@ -82,6 +82,11 @@ class Iteration {
     if (!settings_.reduced) throw InputError("kernel = \"screws\" needs reduced = true");
     screws_.emplace(problem_, rigid_, settings_.screws);
     result_.method = "pdas with screws";
+    note_screws();
+  }
+
+  void note_screws() {
+    result_.screws.push_back({screws_->rows(), screws_->regularity(), screws_->determinant()});
   }
 
   /// At the end: are the screws where something presses? Otherwise they move, and the iteration goes on.
@@ -94,6 +99,7 @@ class Iteration {
       return false;
     }
     result_.screw_moves = screws_->moves();
+    note_screws();
     l = held(std::move(l), x_);
     seen_.clear();
     return true;

@@ -63,6 +63,8 @@ Screws::Screws(const Problem& problem, const problem::RigidMotions& rigid, std::
 
 double Screws::regularity() const { return regularity_of(pick(N_, rows_)); }
 
+double Screws::determinant() const { return std::abs(pick(N_, rows_).partialPivLu().determinant()); }
+
 bool Screws::regular(const std::vector<int>& rows) const {
   return regularity_of(pick(N_, rows)) > kRegular;
 }

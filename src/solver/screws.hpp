@@ -23,6 +23,8 @@ class Screws {
   const std::vector<int>& rows() const { return rows_; }
   /// Ratio of the least to the greatest singular value of N_S: near zero where screws hold badly.
   double regularity() const;
+  /// |det N_S|, the modes' greatest displacement being 1 (remark 1.6).
+  double determinant() const;
   int moves() const { return moves_; }
 
   /// Moves the screw with the most negative multiplier to the closed row with λ > 0 nearest along N

@@ -29,6 +29,13 @@ struct PenaltyError {
   double energy = 0;
 };
 
+/// Where magnetic screws were: rows of B, and how well they hold (see Screws).
+struct ScrewPlacement {
+  std::vector<int> rows;
+  double regularity = 1;
+  double determinant = 1;
+};
+
 /// How a method ended.
 struct Result {
   problem::State state;
@@ -44,6 +51,7 @@ struct Result {
   std::optional<WorkingSetCounts> working_set;
   std::optional<PenaltyError> penalty;
   int screw_moves = 0;  ///< magnetic screws moved after their multiplier came out negative
+  std::vector<ScrewPlacement> screws;  ///< first and after each move; empty without screws
   problem::Clock clock;
   double factor_bytes = 0;
   std::string ordering;  ///< the ordering used, "AMD", "METIS", …

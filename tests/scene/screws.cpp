@@ -64,6 +64,17 @@ TEST_CASE("screws placed wrong on purpose are moved, and end right") {
       ++tried;
       REQUIRE_MESSAGE(s->result().converged, s->result().reason);
       CHECK(s->result().screw_moves <= screws.max_moves);
+      // Every placement is on record, and each move changes one row.
+      const auto& placed = s->result().screws;
+      REQUIRE(placed.size() == static_cast<std::size_t>(s->result().screw_moves) + 1);
+      CHECK(placed[0].rows == screws.screws);
+      for (std::size_t k = 0; k < placed.size(); ++k) {
+        CHECK(placed[k].regularity > 1e-8);
+        CHECK(placed[k].determinant > 0);
+        int changed = 0;
+        for (std::size_t m = 0; k > 0 && m < placed[k].rows.size(); ++m) changed += placed[k].rows[m] != placed[k - 1].rows[m];
+        CHECK(changed == (k > 0));
+      }
       moved += s->result().screw_moves > 0;
       agree(*s, *exact);
     }
