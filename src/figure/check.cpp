@@ -126,7 +126,7 @@ void check(const ScenePicture& p) {
   for (const ContactPicture& contact : p.contacts) {
     const std::string who = "contact \"" + contact.name + "\"";
     for (const ContactNode& node : contact.nodes)
-      require(finite(node.position) && finite(node.displacement) && finite(node.normal) && std::isfinite(node.pressure),
+      require(finite(node.position) && finite(node.displacement) && finite(node.normal) && finite(node.shear) && std::isfinite(node.pressure),
               who + ": a node has a value that is not finite");
     require(contact.nodes_per_facet >= 2 && contact.nodes_per_facet <= 4, who + ": a facet has 2, 3 or 4 nodes");
     check_nodes(contact.facets, contact.nodes_per_facet, contact.nodes.size(), who + ", facets");

@@ -105,7 +105,7 @@ ContactPicture contact_picture(const Contact& contact, const scene::ContactResul
   picture.facets = contact_facets(contact, result.nodes);
   for (const scene::ContactNode& n : result.nodes)
     picture.nodes.push_back({n.x, n.displacement, n.normal, n.pressure, n.weight,
-                             static_cast<Status>(static_cast<int>(n.status))});
+                             static_cast<Status>(static_cast<int>(n.status)), n.shear});
   return picture;
 }
 

@@ -97,6 +97,7 @@ void draw_inset(Stage& stage, const Box& room) {
       const double share = contact->nodes[i].pressure / stage.greatest_pressure;
       if (share > 0.002) stage.over.disc(at[i], 0.45 * spacing * std::sqrt(share), pressure_line);
     }
+  draw_shear(stage, *contact, at, plan.across, plan.up);
   const std::vector<int> edges = rim(contact->facets, contact->nodes_per_facet);
   for (std::size_t e = 0; e + 1 < edges.size(); e += 2)
     stage.over.line(at[static_cast<std::size_t>(edges[e])], at[static_cast<std::size_t>(edges[e + 1])], std::max(1.2, em / 18), ink);

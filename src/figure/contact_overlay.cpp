@@ -122,6 +122,7 @@ std::vector<LegendEntry> contact_legend(const Stage& stage) {
                      c.arrow({x, b.top - 0.1 * em}, {x, b.bottom + 0.1 * em}, std::max(1.2, em / 14), 0.42 * em, pressure_line);
                      if (dots) c.disc({x + 0.9 * em, (b.bottom + b.top) / 2}, 0.24 * em, pressure_line);
                    }});
+  for (LegendEntry& entry : shear_legend(stage)) out.push_back(std::move(entry));
   return out;
 }
 
@@ -131,6 +132,7 @@ void draw_contacts(Stage& stage, vtkRenderer* renderer) {
       if (stage.strips()) draw_strip(stage, contact);
       if (contact.nodes_per_facet == 2) draw_line(stage, contact);
       if (stage.arrows()) draw_arrows(stage, contact);
+      draw_shear(stage, contact);
     } else {
       add_contact_surface(stage, contact, renderer);
     }

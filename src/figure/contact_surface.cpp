@@ -21,6 +21,24 @@ Vec3 rendered(const Stage& stage, Vec3 pixel, double lift) {
   return pixel;
 }
 
+// The rim of the contact part where it is open, up to the middles of the edges beside.
+void add_open_rim(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
+  std::vector<Vec3> points;
+  std::vector<int> lines;
+  const std::vector<int> edges = rim(contact.facets, contact.nodes_per_facet);
+  for (std::size_t e = 0; e + 1 < edges.size(); e += 2)
+    for (const std::size_t end : {e, e + 1}) {
+      const ContactNode &own = contact.nodes[static_cast<std::size_t>(edges[end])], &other = contact.nodes[static_cast<std::size_t>(edges[end == e ? e + 1 : e])];
+      if (own.status != Status::open) continue;
+      const Vec3 p = stage.place(own);
+      for (const Vec3& q : {p, plus(p, plus(stage.place(other), p, -1), 0.5)}) {
+        lines.push_back(static_cast<int>(points.size()));
+        points.push_back(rendered(stage, stage.view.pixel(q), 4));
+      }
+    }
+  if (!points.empty()) add_plain(renderer, poly_data(points, lines, 2), status_colour(Status::open), 0.16 * stage.em * stage.factor);
+}
+
 // Each facet, quartered to its nodes, in their colours.
 void add_facets(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
   const auto each = static_cast<std::size_t>(contact.nodes_per_facet);
@@ -47,11 +65,7 @@ void add_facets(const Stage& stage, const ContactPicture& contact, vtkRenderer* 
     }
     if (!points.empty()) add_plain(renderer, poly_data(points, quads, 4), status_colour(status));
   }
-  // The rim of the contact part, where some of it is open.
-  if (std::none_of(contact.nodes.begin(), contact.nodes.end(), [](const ContactNode& n) { return n.status == Status::open; })) return;
-  std::vector<Vec3> points;
-  for (const ContactNode& node : contact.nodes) points.push_back(rendered(stage, stage.view.pixel(stage.place(node)), 4));
-  add_plain(renderer, poly_data(points, rim(contact.facets, contact.nodes_per_facet), 2), status_colour(Status::open), 0.16 * stage.em * stage.factor);
+  add_open_rim(stage, contact, renderer);
 }
 
 // Flat arrows that face the eye: a shaft of four corners, a head of four of

@@ -70,6 +70,7 @@ struct ContactNode {
   double pressure = 0;                      // force per length (plane) or area (space)
   double weight = 0;                        // length or area the node stands for; 0: unknown
   Status status = Status::open;
+  Vec3 shear = {0, 0, 0};                   // friction on the first part, as the pressure
 };
 
 // One contact: its nodes on the first part, and how they hang together.
@@ -134,7 +135,8 @@ struct ScenePicture {
   std::vector<SupportSymbol> supports;
   std::vector<LoadArrow> loads;
 
-  std::string pressure_unit;                // beside the greatest pressure; may be empty
+  std::string pressure_unit;                // beside the greatest pressure and shear; may be empty
+  bool shear = true;                        // arrows of the shear, where there is any
   PressureStyle pressure = PressureStyle::automatic;
   MeshEdges edges = MeshEdges::automatic;
   bool undeformed_outline = true;           // thin, where the deformation can be seen

@@ -21,7 +21,7 @@ Stage::Stage(const ScenePicture& p, int oversampled)
     : picture(p), factor(oversampled), plane(p.bodies.front().dimension == 2),
       em(0.032 * std::min<double>(p.height, 0.8 * p.width)), scale(colour_scale(p, p.window)), window(p.window),
       under(oversampled), over(oversampled) {
-  set_greatest_pressure();
+  set_greatest();
   for (const BodyPicture& body : p.bodies) {
     Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
     for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -110,12 +110,15 @@ std::vector<bool> Stage::shown(const ContactPicture& contact) const {
   return out;
 }
 
-void Stage::set_greatest_pressure() {
-  greatest_pressure = 0;
+void Stage::set_greatest() {
+  greatest_pressure = greatest_shear = 0;
   for (const ContactPicture& contact : picture.contacts) {
     const std::vector<bool> seen = shown(contact);
     for (std::size_t i = 0; i < seen.size(); ++i)
-      if (seen[i]) greatest_pressure = std::max(greatest_pressure, contact.nodes[i].pressure);
+      if (seen[i]) {
+        greatest_pressure = std::max(greatest_pressure, contact.nodes[i].pressure);
+        if (picture.shear) greatest_shear = std::max(greatest_shear, std::sqrt(dot(contact.nodes[i].shear, contact.nodes[i].shear)));
+      }
   }
 }
 

@@ -25,6 +25,11 @@ void add_symbols(Bounds& bounds, const Stage& stage) {
         const double length = stage.strip_height() * node.pressure / stage.greatest_pressure;
         bounds.add({at.x + n.x * length, at.y + n.y * length});
       }
+  if (stage.plane && stage.greatest_shear > 0)
+    for (const ContactPicture& contact : p.contacts)
+      for (const ContactNode& node : contact.nodes)
+        if (dot(node.shear, node.shear) > 0)
+          for (const Point& end : shear_arrow(stage, node)) bounds.add(end);
   if ((stage.strips() || stage.arrows()) && inset_width(stage) == 0)
     for (const ContactPicture& contact : p.contacts)
       if (const std::optional<PeakLabel> label = peak_label(stage, contact)) {

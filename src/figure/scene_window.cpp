@@ -21,7 +21,7 @@ void place(Stage& stage, const Box& room) {
   f.top = f.bottom + std::max(1.0, std::round(scale * (w[3] - w[1])));
   stage.view.scale = scale;
   stage.view.origin = {f.left - scale * w[0], f.bottom - scale * w[1]};
-  stage.set_greatest_pressure();
+  stage.set_greatest();
 }
 
 // Those sides of the frame through which the contact itself leaves it, the

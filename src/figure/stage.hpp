@@ -29,7 +29,7 @@ struct Stage {
   std::vector<std::array<Vec3, 2>> body_boxes;  // least and greatest reference corner of each body
   std::optional<Window> window;  // what the figure shows, where that is not all; at least the picture's
   double window_strip = 0;    // pixels of the greatest pressure in a window
-  double greatest_pressure = 0;  // of what is seen
+  double greatest_pressure = 0, greatest_shear = 0;  // of what is seen
   bool deformation_shows = false;
   Canvas under, over;         // below and above the bodies
   std::vector<LegendEntry> legend;
@@ -44,7 +44,7 @@ struct Stage {
   bool shows(Point p, Point q) const { return !window || crop(p, q, frame); }
   // Of each node, whether it or some of its facets is seen.
   std::vector<bool> shown(const ContactPicture& contact) const;
-  void set_greatest_pressure();
+  void set_greatest();
   // Numbers of those positions that are shown, `within` the frame, and stand
   // at least `spacing` pixels apart, taken in the order given.
   std::vector<std::size_t> spaced(const std::vector<Point>& at, double spacing, double within = 0) const;
@@ -66,6 +66,14 @@ void draw_contacts(Stage& stage, vtkRenderer* renderer);
 // and its drawing in the room given to it.
 double inset_width(const Stage& stage);
 void draw_inset(Stage& stage, const Box& room);
+// Arrows of the shear, in the plane beside the contact line on the side of the
+// first part, which they act on; on the plan of a contact in space, whose
+// nodes are drawn at `at` and whose coordinates are those two.
+void draw_shear(Stage& stage, const ContactPicture& contact);
+void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, std::size_t across, std::size_t up);
+// The ends of a node's arrow in the plane.
+std::array<Point, 2> shear_arrow(const Stage& stage, const ContactNode& node);
+std::vector<LegendEntry> shear_legend(const Stage& stage);
 // Of one contact in space: statuses and arrows of the pressure.
 void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer);
 // Symbols of supports, arrows of loads.
@@ -88,7 +96,7 @@ Point pressure_tip(const Stage& stage, const ContactNode& node, Point at);
 std::vector<LegendEntry> contact_legend(const Stage& stage);
 std::vector<LegendEntry> support_legend(const Stage& stage);
 
-constexpr Colour pressure_line{45, 50, 90};
+constexpr Colour pressure_line{45, 50, 90}, shear_line{150, 15, 40};
 // Sizes of symbols in em, for the room they need.
 constexpr double support_size = 0.85, load_length = 2.6, hatch_depth = 0.75;
 // Where a load arrow begins and ends, in pixels.

@@ -145,7 +145,9 @@ std::string describe(const Solution& s) {
     if (contact->kind != Contact::Kind::contact) continue;
     const ContactResult c = s.contact(*contact);
     out += text("  ", contact->name, ": force ", point_text(c.force.data(), s.scene().dimension()), ", ",
-                c.closed, " closed, ", c.open, " open, greatest pressure ", c.max_pressure, "\n");
+                c.stick + c.slip > 0 ? text(c.stick, " stick, ", c.slip, " slip, ") : "",
+                c.closed > 0 || c.stick + c.slip == 0 ? text(c.closed, " closed, ") : "", c.open, " open, greatest pressure ",
+                c.max_pressure, c.dissipated > 0 ? text(", dissipated ", c.dissipated) : "", "\n");
   }
   const problem::Clock& t = s.clock();
   out += text("  seconds: total ", t.total, " (assembly ", t.assembly, ", ordering ", t.ordering, ", factor ",

@@ -142,7 +142,8 @@ std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const solver
 /// The flags of a start, row by row of B; empty where `start` says nothing.
 std::vector<char> start_flags(const Scene& scene, const Model& model, const Start& start);
 
-/// Contact nodes of all contacts as comma-separated values with a header line. The file appears
+/// Contact nodes of all contacts as comma-separated values with a header line: contact, node, x y (z), gap,
+/// pressure, force, weight, the components of shear and of slip, status. The file appears
 /// whole or not at all. Throws InputError where it cannot be written.
 void write_contact(const Solution& solution, const std::string& file);
 

@@ -59,6 +59,7 @@ int render(Call& call) {
   picture.edges = call.has("edges") ? (call.boolean("edges") ? figure::MeshEdges::on : figure::MeshEdges::off)
                                     : figure::MeshEdges::automatic;
   picture.pressure = static_cast<figure::PressureStyle>(call.choice("pressure"));
+  picture.shear = call.boolean("shear");
   if (call.has("range")) {
     const auto range = call.vector("range");
     picture.field_range = {range[0], range[1]};
@@ -152,6 +153,8 @@ void bind_figure(Library& library) {
             key::boolean("loads", "arrows for loads").fallback(false),
             key::boolean("obstacle", "rigid obstacles").otherwise("true in the plane, false in space"),
             key::choice("pressure", {"auto", "strip", "arrows", "none"}, "how contact pressure is drawn").fallback("auto"),
+            key::boolean("shear", "arrows of the friction on the first part of each contact, where there is any: in the plane "
+                                  "beside the contact line, in space on the plan of the contact").fallback(true),
             key::boolean("edges", "edges of the cells").otherwise("while they can be told apart"),
             key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's"),
             key::vector("window", "in the plane: {x0, y0, x1, y1} of the deformed picture, all that is shown; colours and "

@@ -189,7 +189,8 @@ void bind_solution(Library& library) {
                .example = "print(s:error_estimate())",
                .run = [](Call& call) { return call.give(call.self<Solution>()->error_estimate()); }})
       .method({.name = "solution:write_contact",
-               .help = "Writes the contact nodes of all contacts as comma-separated values.",
+               .help = "Writes the contact nodes of all contacts as comma-separated values: contact, node, coordinates, gap, "
+                       "pressure, force, weight, components of shear and slip, status.",
                .example = "s:write_contact \"contact.csv\"",
                .arguments = {key::string("file", "where to").required()},
                .run = [](Call& call) {

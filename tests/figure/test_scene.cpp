@@ -74,6 +74,30 @@ TEST_CASE("statuses present are drawn in their colours, others are not") {
   CHECK(p.count(status_colour(Status::slip)) > 100);
 }
 
+TEST_CASE("shear is drawn where there is some, unless it is not wanted") {
+  const Colour line{150, 15, 40};
+  ScenePicture scene = scene_of(square(6, [](double, double) { return 0.0; }), "shear.png");
+  scene.bodies[0].values.clear();
+  scene.contacts = {top_contact(6, {Status::slip})};
+  draw(scene);
+  CHECK(read_png("shear.png").count(line) == 0);
+  for (ContactNode& node : scene.contacts[0].nodes) node.shear = {0.3, 0, 0};
+  draw(scene);
+  Pixels p = read_png("shear.png");
+  CHECK(white_rim(p));
+  const auto whole = p.count(line);
+  CHECK(whole > 100);
+  // Arrows are relative to the greatest: half of them a tenth as long are less to see.
+  for (std::size_t i = 0; i < scene.contacts[0].nodes.size(); i += 2) scene.contacts[0].nodes[i].shear = {0.03, 0, 0};
+  draw(scene);
+  const auto half = read_png("shear.png").count(line);
+  CHECK(half > 50);
+  CHECK(half < whole);
+  scene.shear = false;
+  draw(scene);
+  CHECK(read_png("shear.png").count(line) == 0);
+}
+
 TEST_CASE("a field runs over the colours of its map, from end to end") {
   ScenePicture scene = scene_of(square(8, [](double x, double) { return x; }), "field.png");
   scene.field_label = "displacement";

@@ -35,14 +35,14 @@ TEST_CASE("write_contact: a header, one whole line a node, numbers that read bac
   std::ifstream in(file);
   std::string line;
   std::getline(in, line);
-  CHECK(line == "contact,node,x,y,gap,pressure,force,weight,status");
+  CHECK(line == "contact,node,x,y,gap,pressure,force,weight,shear_x,shear_y,slip_x,slip_y,status");
   const auto result = s->contact(*s->scene().contacts[0]);
   std::size_t row = 0;
   while (std::getline(in, line)) {
     std::stringstream cells(line);
     std::vector<std::string> values;
     for (std::string cell; std::getline(cells, cell, ',');) values.push_back(cell);
-    REQUIRE(values.size() == 9);
+    REQUIRE(values.size() == 13);
     REQUIRE(row < result.nodes.size());
     const auto& node = result.nodes[row++];
     CHECK(values[0] == "1");
@@ -50,7 +50,11 @@ TEST_CASE("write_contact: a header, one whole line a node, numbers that read bac
     CHECK(std::stod(values[2]) == node.x[0]);
     CHECK(std::stod(values[5]) == node.pressure);
     CHECK(std::stod(values[6]) == node.force);
-    CHECK(values[8] == problem::status_name(node.status));
+    CHECK(std::stod(values[7]) == node.weight);
+    CHECK(std::stod(values[8]) == node.shear[0]);
+    CHECK(std::stod(values[10]) == node.slip[0]);
+    CHECK(std::stod(values[11]) == node.slip[1]);
+    CHECK(values[12] == problem::status_name(node.status));
   }
   CHECK(row == 17);
 }

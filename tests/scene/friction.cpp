@@ -181,3 +181,27 @@ TEST_CASE("friction where nothing touches: the linear solution, with no multipli
   CHECK(s->result().state.lambda.norm() == 0);
   CHECK(s->residual().equilibrium < 1e-13);
 }
+
+TEST_CASE("given friction that jumps: nothing where it is zero, each node within its own bound, no slip where infinite") {
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double high : {10.0, infinite}) {
+    const auto bound = [=](const Point& x) { return x[0] < 0.9 ? 0 : x[0] < 1.6 ? 1.5 : high; };
+    const auto b = blocks(32, {scene::Friction::Kind::tresca, bound});
+    const auto s = solve(b.scene);
+    REQUIRE_MESSAGE(s->result().converged, s->result().reason);
+    const auto c = s->contact(*b.contact);
+    CHECK(c.friction_force[0] == doctest::Approx(-4).epsilon(1e-11));
+    CHECK(std::abs(c.friction_force[1]) < 1e-12);
+    CHECK(c.closed == 15);  // the nodes with g = 0 have no tangential unknowns
+    for (const auto& node : c.nodes) {
+      const double g = bound(node.x), shear = std::abs(node.shear[0]);
+      if (g == 0) {
+        CHECK(shear == 0);
+        CHECK(node.status == problem::Status::closed);
+      } else {
+        CHECK(shear <= g * (1 + 1e-12));
+        CHECK(std::abs(node.slip[0]) < (shear < g * (1 - 1e-9) ? 1e-12 : infinite));
+      }
+    }
+  }
+}
