@@ -167,7 +167,7 @@ print(("  dissipated in a cycle %.6f N, closed form %.6f N: %.2f%%; the loop's p
 print(("  the loop closes within %.1e of its width"):format(math.abs(excess[61] - excess[13]) / (2 * w(top))))
 
 -- 7. Figures: tractions, zones, the loop.
-local at, p, shear, ex, pe, qe = {}, {}, {}, {}, {}, {}
+local at, p, shear, px, pe, qx, qe = {}, {}, {}, {}, {}, {}, {}
 local stride <const> = math.max(1, cells // 256)
 for k, node in ipairs(result.nodes) do
   if k % stride == 0 and math.abs(node.x) < 1.4 * result.exact.a then
@@ -175,14 +175,14 @@ for k, node in ipairs(result.nodes) do
   end
 end
 for i = -200, 200 do
-  local x = 1.2 * result.exact.a * i / 200
-  ex[#ex + 1], pe[#pe + 1], qe[#qe + 1] = x, mu * result.exact.p(x), result.exact.q(x)
+  local x, stick = result.exact.a * i / 200, result.exact.c * i / 200
+  px[#px + 1], pe[#pe + 1], qx[#qx + 1], qe[#qe + 1] = x, mu * result.exact.p(x), stick, result.exact.q(stick)
 end
 dotyk.chart{ file = "images/cattaneo_mindlin.png", x = "x [mm]", y = "traction [MPa]", series = {
   { name = "mu times pressure, nodes", x = at, y = p, style = "points" },
   { name = "shear, nodes", x = at, y = shear, style = "points" },
-  { name = "Hertz, Cattaneo and Mindlin", x = ex, y = pe, reference = true },
-  { x = ex, y = qe, reference = true } } }
+  { name = "Hertz, Cattaneo and Mindlin", x = px, y = pe, reference = true },
+  { x = qx, y = qe, reference = true } } }
 solve(coarse):render{ file = "images/cattaneo_mindlin_zones.png", field = "xy", unit = "MPa", edges = false, window = { -2.2, -1.6, 2.2, 1.6 } }
 local function curve(from, to, turn)
   local x, y = {}, {}
