@@ -19,6 +19,7 @@ struct IterationInfo {
   double seconds = 0.0;   ///< since the method started
   /// Least singular value of the derivative that led here, where the method knows it; else NaN.
   double singular_value = std::numeric_limits<double>::quiet_NaN();
+  double contraction = 0.0;  ///< of an outer loop: its change against the last step's; 0 where there is none
 };
 
 /// Who watches a long computation: told of its phases and iterations, asked

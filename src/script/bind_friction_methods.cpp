@@ -2,10 +2,14 @@
 #include "base/text.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
+#include "script/wrapped.hpp"
+#include "solver/coulomb_loop.hpp"
+#include "solver/newton.hpp"
 #include "solver/projected_cg.hpp"
 #include "solver/proximal.hpp"
 #include "solver/psor.hpp"
 #include "solver/uzawa.hpp"
+#include "solver/uzawa_pdas.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -18,6 +22,16 @@ int make_uzawa(Call& call) {
   read_settings(call, uzawa);
   uzawa.rho = call.number("rho");
   return give_method(call, uzawa, text("uzawa: rho = ", uzawa.rho));
+}
+
+int make_uzawa_pdas(Call& call) {
+  solver::UzawaPdas method;
+  read_settings(call, method);
+  method.rho = call.number("rho");
+  using Unit = solver::UzawaPdas::Unit;
+  method.unit = call.choice("unit") == 0 ? Unit::bound : Unit::stiffness;
+  return give_method(call, method,
+                     text("uzawa_pdas: rho = ", method.rho, method.unit == Unit::bound ? "" : " force per displacement"));
 }
 
 int make_psor(Call& call) {
@@ -40,6 +54,21 @@ int make_proximal(Call& call) {
   return give_method(call, proximal, text("proximal: sigma = ", proximal.sigma));
 }
 
+int make_coulomb_loop(Call& call) {
+  solver::CoulombLoop loop;
+  read_settings(call, loop);
+  loop.inner = std::make_shared<solver::Newton>();
+  std::string inner = "newton";
+  if (call.has("inner")) {
+    const auto given = call.object<Solver>("inner");
+    loop.inner = given->method.on_rows();
+    inner = given->text;
+    if (!loop.inner)
+      throw InputError(text("inner is a ", inner, ", which cannot treat friction; ", solver::kFrictionMethods, " can"));
+  }
+  return give_method(call, loop, text("coulomb_loop: inner = ", inner));
+}
+
 }  // namespace
 
 void bind_friction_methods(Library& library) {
@@ -53,6 +82,19 @@ void bind_friction_methods(Library& library) {
                 .fallback(0.9)}, kMany))},
        .returns = "solver",
        .run = make_uzawa});
+  library.function(
+      {.name = "dotyk.solver.uzawa_pdas",
+       .help = "The alternating algorithm of TR965 2.1.3 and 3.1.3, as printed: contact by an active set step with "
+               "friction frozen, then friction with contact frozen, with projected steps of length rho before each. "
+               "It need not converge for rho beyond Uzawa's bound; s.reason tells a cycle from a stall. For Coulomb friction the bound "
+               "is that of the normal forces at hand.",
+       .example = "local s = dotyk.solver.uzawa_pdas{ rho = 1 }:solve(scene)",
+       .arguments = {key::table(method_keys(
+           {key::positive("rho", "length of the projected steps, and weight of the jumps where sets are chosen").fallback(0.5),
+            key::choice("unit", {"bound", "force/displacement"}, "of rho: Uzawa's bound 2/λ_max, as for uzawa, or force per "
+                        "displacement, the same on every row").fallback("bound")}, 1000))},
+       .returns = "solver",
+       .run = make_uzawa_pdas});
   library.function(
       {.name = "dotyk.solver.psor",
        .help = "Projected over-relaxation, node by node: the normal force, then its friction, given or Coulomb.",
@@ -81,6 +123,17 @@ void bind_friction_methods(Library& library) {
                 .fallback(0.1)}))},
        .returns = "solver",
        .run = make_proximal});
+  library.function(
+      {.name = "dotyk.solver.coulomb_loop",
+       .help = "Coulomb friction by the outer loop over given friction: bounds mu times the normal force of the last "
+               "step, by any method that treats given friction. An iteration is a step of the loop; s.history[k].contraction "
+               "is the change of the bounds against the change before, below 1 where the loop converges.",
+       .example = "local s = dotyk.solver.coulomb_loop{ inner = dotyk.solver.projected_cg{} }:solve(scene)",
+       .arguments = {key::table(method_keys(
+           {key::object<Solver>("inner", "what solves with given friction, made by one of dotyk.solver's")
+                .otherwise("dotyk.solver.newton{}")}, 500))},
+       .returns = "solver",
+       .run = make_coulomb_loop});
 }
 
 }  // namespace dotyk::script

@@ -21,6 +21,7 @@ Record iteration_record(const IterationInfo& info) {
            {"time", info.seconds}}};
   if (info.step > 0) record.entries.push_back({"step", static_cast<long long>(info.step)});
   if (!std::isnan(info.singular_value)) record.entries.push_back({"singular_value", info.singular_value});
+  if (info.contraction > 0) record.entries.push_back({"contraction", info.contraction});
   return record;
 }
 

@@ -14,7 +14,8 @@ Vector admissible(const Problem& problem, const Vector& lambda) {
 }
 
 DualDescent::DualDescent(const Problem& problem, const CondensedProblem& condensed, const Vector& lambda)
-    : problem_(problem), equilibrium_(condensed), relaxation_(problem, equilibrium_.W()),
+    : problem_(problem), equilibrium_(condensed, Vector::Zero(condensed.kernel_size())),
+      relaxation_(problem, equilibrium_.W()),
       lambda_(admissible(problem, lambda)), x_(jump_at(lambda_)) {}
 
 Vector DualDescent::jump_at(const Vector& lambda) const { return equilibrium_.x0() - equilibrium_.W() * lambda; }

@@ -7,8 +7,8 @@ namespace dotyk::solver {
 using algebra::DenseMatrix;
 using algebra::Vector;
 
-Equilibrium::Equilibrium(const problem::CondensedProblem& condensed, double weight)
-    : condensed_(condensed), alpha_(Vector::Zero(condensed.kernel_size())) {
+Equilibrium::Equilibrium(const problem::CondensedProblem& condensed, Vector start, double weight)
+    : condensed_(condensed), alpha_(std::move(start)) {
   if (!needed()) return;
   const DenseMatrix& N = condensed.N();
   const Eigen::HouseholderQR<DenseMatrix> qr(N);
@@ -23,6 +23,11 @@ Equilibrium::Equilibrium(const problem::CondensedProblem& condensed, double weig
 Vector Equilibrium::x0() const {
   if (!needed()) return condensed_.x0();
   return condensed_.x0() + condensed_.N() * alpha_ + gamma_ * Q_ * e_;
+}
+
+double Equilibrium::step_bound(const Vector& stiffness) const {
+  const double largest = algebra::largest_eigenvalue(W(), stiffness.cwiseSqrt());
+  return 2 / (largest > 0 ? largest : 1);
 }
 
 Vector Equilibrium::alpha(const Vector& lambda) const {

@@ -16,13 +16,16 @@ namespace dotyk::solver {
 /// free bodies W' = W, x₀' = x₀, and nothing is stored or updated.
 class Equilibrium {
  public:
-  /// γ = `weight` times (a bound of) the greatest eigenvalue of W.
-  explicit Equilibrium(const problem::CondensedProblem& condensed, double weight = 1.0);
+  /// γ = `weight` times (a bound of) the greatest eigenvalue of W; α is `start`.
+  Equilibrium(const problem::CondensedProblem& condensed, algebra::Vector start, double weight = 1.0);
 
   bool needed() const { return condensed_.kernel_size() > 0; }
   double gamma() const { return gamma_; }
   const algebra::DenseMatrix& W() const { return needed() ? augmented_ : condensed_.W(); }
   algebra::Vector x0() const;
+  /// 2/λ_max(D^½W'D^½), D the diagonal matrix of `stiffness` > 0: steps x ↦ λ + ρDx of projected gradients
+  /// contract for ρ below. The eigenvalue is estimated from above; 2 where W is zero.
+  double step_bound(const algebra::Vector& stiffness) const;
   algebra::Vector alpha(const algebra::Vector& lambda) const;
   /// ‖Qᵀλ − ê‖, a force: how far λ is from balancing the loads.
   double unbalanced(const algebra::Vector& lambda) const;

@@ -3,7 +3,9 @@
 #include <functional>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "solver/row_iteration.hpp"
+#include "solver/treatable.hpp"
 
 namespace dotyk::solver {
 
@@ -28,9 +30,7 @@ class Method {
           started.condenser = std::move(from.condenser);
           return solve(problem, started, monitor);
         }) {
-    if constexpr (std::derived_from<Chosen, RowMethod>)
-      run_on_rows_ = [chosen](const problem::Problem& problem, const problem::CondensedProblem& condensed,
-                              Monitor& monitor) { return solve(problem, condensed, chosen, monitor); };
+    if constexpr (std::derived_from<Chosen, RowMethod>) on_rows_ = std::make_shared<const Chosen>(chosen);
   }
 
   explicit operator bool() const { return static_cast<bool>(run_); }
@@ -40,14 +40,16 @@ class Method {
   }
   /// On a problem already condensed. Throws InputError for a method that works on bodies.
   Result run(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) const {
-    if (!run_on_rows_) throw InputError("this method works on scenes alone; these work on rows alone, too: newton, proximal, psor, uzawa, projected_cg");
-    return run_on_rows_(problem, condensed, monitor);
+    if (!on_rows_) throw InputError(text("this method works on scenes alone; on rows alone work ", kFrictionMethods));
+    return solve(problem, condensed, *on_rows_, monitor);
   }
+  /// The method, where it works on the condensed problem alone; else null.
+  const std::shared_ptr<const RowMethod>& on_rows() const { return on_rows_; }
 
  private:
   algebra::Ordering ordering_ = algebra::Ordering::automatic;
   std::function<Result(const problem::Problem&, Beginning, Monitor&)> run_;
-  std::function<Result(const problem::Problem&, const problem::CondensedProblem&, Monitor&)> run_on_rows_;
+  std::shared_ptr<const RowMethod> on_rows_;
 };
 
 }  // namespace dotyk::solver

@@ -28,12 +28,12 @@ void scatter(RowIteration& iteration, unsigned seed) {
 void Newton::iterate(RowIteration& iteration) const {
   NewtonStepper stepper(iteration, watch);
   // Everything that touches at rest (or is told to) sticks: one linear problem.
-  stepper.start(iteration.map.sticking(start));
+  if (!iteration.begun()) stepper.start(iteration.map.sticking(start));
   if (seed) scatter(iteration, *seed);
   // On the right pieces a step of given friction in the plane is exact; others converge quadratically.
   while (iteration.next()) {
     stepper.step();
-    if (iteration.record(stepper.singular_value())) break;
+    if (iteration.record({.singular_value = stepper.singular_value()})) break;
   }
   for (const std::string& remark : stepper.remarks()) iteration.remark(remark);
 }

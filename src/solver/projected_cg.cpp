@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "algebra/largest_eigenvalue.hpp"
 #include "base/text.hpp"
 #include "solver/equilibrium.hpp"
 #include "solver/face.hpp"
@@ -25,9 +24,8 @@ constexpr double kStep = 0.95;
 class Run {
  public:
   explicit Run(RowIteration& it)
-      : it_(it), equilibrium_(it.condensed, kWeight), coulomb_(bounds_depend_on_normal(it.problem)) {
-    const double largest = algebra::largest_eigenvalue(equilibrium_.W(), it.map.rho().cwiseSqrt());
-    step_ = kStep * 2 / (largest > 0 ? largest : 1) * it.map.rho();
+      : it_(it), equilibrium_(it.condensed, it.alpha(), kWeight), coulomb_(bounds_depend_on_normal(it.problem)) {
+    step_ = kStep * equilibrium_.step_bound(it.map.rho()) * it.map.rho();
     start(it.lambda());
   }
 

@@ -9,7 +9,7 @@ namespace dotyk::solver {
 using algebra::Vector;
 
 void Psor::iterate(RowIteration& it) const {
-  Equilibrium equilibrium(it.condensed);
+  Equilibrium equilibrium(it.condensed, it.alpha());
   const Relaxation relaxation(it.problem, equilibrium.W());
   it.move_to(it.lambda(), equilibrium.alpha(it.lambda()));
   while (it.next()) {

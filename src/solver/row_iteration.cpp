@@ -28,13 +28,19 @@ void RowIteration::move_to(Vector lambda, Vector alpha) {
   value_ = map.at(lambda_, alpha_);
 }
 
+void RowIteration::begin_at(Vector lambda, Vector alpha) {
+  move_to(std::move(lambda), std::move(alpha));
+  recorded_ = value_;
+  begun_ = true;
+}
+
 bool RowIteration::next() {
   if (result_.iterations >= settings_.max_iterations || monitor_.stop()) return false;
   ++result_.iterations;
   return true;
 }
 
-bool RowIteration::record(double singular_value) {
+bool RowIteration::record(const IterationDetail& detail) {
   IterationInfo info;
   info.iteration = result_.iterations;
   info.active = value_.active;
@@ -43,7 +49,8 @@ bool RowIteration::record(double singular_value) {
   info.changed = value_.differences(recorded_);
   info.residual = residual();
   info.seconds = watch_.seconds();
-  info.singular_value = singular_value;
+  info.singular_value = detail.singular_value;
+  info.contraction = detail.contraction;
   result_.history.push_back(info);
   record_active_set();
   monitor_.iteration(info);
@@ -53,12 +60,13 @@ bool RowIteration::record(double singular_value) {
   return result_.converged = info.residual <= settings_.tol;
 }
 
-bool RowIteration::stalled() {
-  if (!(residual() < 1e12 * milestone_)) {
-    give_up(text("the iterates diverge: the residual is ", residual(), " after ", milestone_));
+bool RowIteration::stalled(int patience) {
+  // Forces of the size of what the free jump meets, or of the best state's, are the measure.
+  const double measure = best_.lambda.norm() + map.rho().cwiseProduct(condensed.x0()).norm();
+  if (!(lambda_.norm() <= 1e9 * measure)) {
+    give_up(text("the iterates diverge: the multipliers have grown to ", lambda_.norm()));
     return true;
   }
-  constexpr int patience = 2000;
   if (result_.iterations - at_milestone_ < patience) return false;
   give_up(text("the residual has not fallen for ", patience, " iterations"));
   return true;

@@ -10,6 +10,12 @@
 
 namespace dotyk::solver {
 
+/// What some methods know of an iteration beyond its iterate; see IterationInfo.
+struct IterationDetail {
+  double singular_value = std::numeric_limits<double>::quiet_NaN();
+  double contraction = 0;
+};
+
 /// A method at work on a condensed problem: the iterate (λ, α), what the natural map says there, the
 /// history it writes and how it ends. The natural map has ρ_r = 1/W_rr, the stiffness that a row sees.
 class RowIteration {
@@ -32,20 +38,25 @@ class RowIteration {
   double law_residual() const { return (lambda_ - value_.projected).norm(); }
   void move_to(algebra::Vector lambda, algebra::Vector alpha);
 
+  /// Starts from here, in place of λ = 0 and α = 0.
+  void begin_at(algebra::Vector lambda, algebra::Vector alpha);
+  /// Was it told where to start?
+  bool begun() const { return begun_; }
+
   /// Begins an iteration; false after the last one allowed, or where the user stops.
   bool next();
-  /// Writes the iterate into the history; true where its residual is within tol. `singular_value`: least one
-  /// of the derivative of the step that led here.
-  bool record(double singular_value = std::numeric_limits<double>::quiet_NaN());
-  /// The residual's least value has not fallen by a hundredth in the last 2000 iterations, or the residual is
-  /// beyond all measure. Gives up then.
-  bool stalled();
+  /// Writes the iterate into the history; true where its residual is within tol.
+  bool record(const IterationDetail& detail = {});
+  /// The residual's least value has not fallen by a hundredth in the last `patience` iterations, or the
+  /// multipliers are beyond all measure. Gives up then.
+  bool stalled(int patience = 2000);
   /// Gives up, for this reason.
   void give_up(std::string reason) { result_.reason = std::move(reason); }
   /// Adds a remark to the reason, however the method ends.
   void remark(std::string text) { remarks_.push_back(std::move(text)); }
 
   int iterations() const { return result_.iterations; }
+  Monitor& monitor() const { return monitor_; }
   /// The result of the iterate (without convergence: of the one of least residual recorded), without
   /// displacements.
   Result finish();
@@ -61,6 +72,7 @@ class RowIteration {
   Monitor& monitor_;
   Result result_;
   Best best_;
+  bool begun_ = false;
   double milestone_ = std::numeric_limits<double>::infinity();  ///< the last residual below all before by a hundredth
   int at_milestone_ = 0;
   algebra::Vector lambda_, alpha_;

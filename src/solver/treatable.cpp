@@ -8,7 +8,7 @@ namespace dotyk::solver {
 void require_frictionless(const problem::Problem& problem, const std::string& method) {
   if (problem.friction.empty()) return;
   const problem::FrictionGroup& group = problem.friction.front();
-  throw InputError(text(method, " cannot treat the ", group.law->name(), " of the ", group.name, "; newton, proximal, uzawa, psor and projected_cg can"));
+  throw InputError(text(method, " cannot treat the ", group.law->name(), " of the ", group.name, "; ", kFrictionMethods, " can"));
 }
 
 void require_unilateral_or_linear(const problem::Problem& problem, const std::string& method) {

@@ -6,6 +6,9 @@
 
 namespace dotyk::solver {
 
+/// Those that treat friction; all of them work on the condensed rows alone.
+inline constexpr const char* kFrictionMethods = "newton, proximal, uzawa, uzawa_pdas, psor, projected_cg and coulomb_loop";
+
 /// Throws InputError where the problem has friction: `method` cannot treat it, and those that can are named.
 void require_frictionless(const problem::Problem& problem, const std::string& method);
 

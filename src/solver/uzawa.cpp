@@ -1,6 +1,5 @@
 #include "solver/uzawa.hpp"
 
-#include "algebra/largest_eigenvalue.hpp"
 #include "base/text.hpp"
 #include "solver/equilibrium.hpp"
 #include "solver/projection.hpp"
@@ -10,9 +9,8 @@ namespace dotyk::solver {
 using algebra::Vector;
 
 void Uzawa::iterate(RowIteration& it) const {
-  Equilibrium equilibrium(it.condensed);
-  const double largest = algebra::largest_eigenvalue(equilibrium.W(), it.map.rho().cwiseSqrt());
-  const double bound = 2 / (largest > 0 ? largest : 1);
+  Equilibrium equilibrium(it.condensed, it.alpha());
+  const double bound = equilibrium.step_bound(it.map.rho());
   const Vector step = rho * bound * it.map.rho();
   it.remark(text("rho = ", rho * bound, " for a bound 2/λ_max of ", bound, " (in units of 1/W_rr)",
                  rho >= 1 ? ", beyond which steps need not converge" : ""));

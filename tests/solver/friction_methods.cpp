@@ -6,12 +6,14 @@
 #include "../support/friction.hpp"
 #include "base/error.hpp"
 #include "problem/residual.hpp"
+#include "solver/coulomb_loop.hpp"
 #include "solver/method.hpp"
 #include "solver/newton.hpp"
 #include "solver/projected_cg.hpp"
 #include "solver/proximal.hpp"
 #include "solver/psor.hpp"
 #include "solver/uzawa.hpp"
+#include "solver/uzawa_pdas.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -20,7 +22,7 @@ using algebra::Vector;
 namespace {
 
 struct Named {
-  const char* name;
+  std::string name;
   solver::Method method;
 };
 
@@ -32,8 +34,11 @@ Named named(Chosen method, double tol = 1e-11) {
 }
 
 /// Every method on the condensed rows but Newton's.
-std::vector<Named> methods() {
-  return {named(solver::Uzawa{}), named(solver::Psor{}), named(solver::ProjectedCg{}), named(solver::Proximal{})};
+std::vector<Named> methods(std::shared_ptr<const solver::RowMethod> inner = std::make_shared<solver::Newton>()) {
+  solver::CoulombLoop loop;
+  loop.inner = std::move(inner);
+  return {named(solver::Uzawa{}), named(solver::UzawaPdas{}), named(solver::Psor{}), named(solver::ProjectedCg{}),
+          named(solver::Proximal{}), named(loop)};
 }
 
 solver::Result solve(const Named& m, const problem::Problem& p) {
@@ -199,7 +204,8 @@ TEST_CASE("rows given twice: the jump is the one of the rows given once") {
     twice.c << once.c.head(3), once.c.head(3), once.c.tail(t), once.c.tail(t);
     const auto exact = solve(named(solver::Newton{}), once);
     REQUIRE(exact.converged);
-    for (const Named& m : methods()) {
+    // Newton's derivative is singular there.
+    for (const Named& m : methods(std::make_shared<solver::ProjectedCg>())) {
       CAPTURE(m.name);
       const auto r = solve(m, twice);
       REQUIRE_MESSAGE(r.converged, r.reason);

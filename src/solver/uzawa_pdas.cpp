@@ -1,0 +1,154 @@
+#include "solver/uzawa_pdas.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <deque>
+#include <optional>
+
+#include "base/text.hpp"
+#include "solver/equilibrium.hpp"
+#include "solver/projection.hpp"
+
+namespace dotyk::solver {
+namespace {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+using problem::FrictionGroup;
+using problem::RowGroup;
+
+/// Iterations without a fall of the residual, each of them two dense factorisations.
+constexpr int kPatience = 200;
+/// Cycles up to this length are recognised, by iterates that return up to rounding.
+constexpr std::size_t kPeriods = 16;
+constexpr double kReturned = 1e-12;
+
+class Alternation {
+ public:
+  explicit Alternation(RowIteration& it) : it_(it), equilibrium_(it.condensed, it.alpha()) {}
+
+  double step_bound(const Vector& stiffness) const { return equilibrium_.step_bound(stiffness); }
+
+
+  void begin(Vector rho) {
+    rho_ = std::move(rho);
+    load();
+    move_to(it_.lambda());
+  }
+
+  void step() {
+    Vector lambda = it_.lambda();
+    lambda = solve(contact_alone(lambda, it_.jump()));
+    lambda = solve(friction_alone(lambda, rows_->jump(lambda, Vector())));
+    move_to(std::move(lambda));
+  }
+
+  void settle() {
+    if (!equilibrium_.settle(it_.law_residual(), it_.lambda())) return;
+    load();
+    move_to(it_.lambda());
+    earlier_.clear();
+  }
+
+  /// After how many iterations the iterate returns; 0 where it does not.
+  std::size_t period() {
+    const double close = kReturned * it_.lambda().norm();
+    std::size_t found = 0;
+    for (std::size_t p = 1; p <= earlier_.size() && found == 0; ++p)
+      if ((it_.lambda() - earlier_[p - 1]).norm() <= close) found = p;
+    earlier_.push_front(it_.lambda());
+    if (earlier_.size() > kPeriods) earlier_.pop_back();
+    return found;
+  }
+
+ private:
+  /// The rows without rigid motions, at the present α.
+  void load() {
+    rows_.emplace(equilibrium_.W(), equilibrium_.x0());
+    map_.emplace(it_.problem, *rows_, rho_);
+  }
+
+  void move_to(Vector lambda) {
+    Vector alpha = equilibrium_.alpha(lambda);
+    it_.move_to(std::move(lambda), std::move(alpha));
+  }
+
+  NaturalMap::Value at(const Vector& lambda, const Vector& x) const {
+    NaturalMap::Value v;
+    v.y = lambda + map_->rho().cwiseProduct(x);
+    v.projected = Vector::Zero(lambda.size());
+    return v;
+  }
+
+  /// Steps 1a and 1b.
+  NaturalMap::Value contact_alone(const Vector& lambda, const Vector& x) const {
+    NaturalMap::Value v = at(lambda, x);
+    const Vector bounds = friction_bounds(it_.problem, lambda);
+    v.projected = project(it_.problem, v.y, map_->rho(), &bounds);
+    for (const RowGroup& group : it_.problem.groups)
+      for (int r = group.first; r < group.first + group.count; ++r) {
+        const double slope = group.law->project(r - group.first, v.y[r], map_->rho()[r]).slope;
+        if (slope != 0) v.slope.emplace_back(r, r, slope);
+      }
+    return v;
+  }
+
+  /// Steps 2a and 2b.
+  NaturalMap::Value friction_alone(const Vector& lambda, const Vector& x) const {
+    NaturalMap::Value v = at(lambda, x);
+    v.projected = project(it_.problem, v.y, map_->rho());
+    for (const FrictionGroup& group : it_.problem.friction)
+      for (int k = 0; k < group.points(); ++k) {
+        const int first = group.row(k);
+        if (!(v.y.segment(first, group.components).norm() < group.law->bound(k, v.projected[group.normal[k]]))) continue;
+        for (int i = 0; i < group.components; ++i) v.slope.emplace_back(first + i, first + i, 1.0);
+      }
+    return v;
+  }
+
+  /// Steps 1c and 2c: λ of the linear problem.
+  Vector solve(const NaturalMap::Value& v) const {
+    const NaturalMap::System system = map_->linearise(v);
+    Vector solved(0), lambda, alpha;
+    if (system.matrix.size() > 0) {
+      const Eigen::PartialPivLU<DenseMatrix> lu(system.matrix);
+      // Rows that depend on each other: their multipliers of least norm.
+      solved = lu.rcond() > 1e-15 ? Vector(lu.solve(system.right_side))
+                                  : Vector(system.matrix.completeOrthogonalDecomposition().solve(system.right_side));
+    }
+    map_->take(system, solved, lambda, alpha);
+    return lambda;
+  }
+
+  RowIteration& it_;
+  Equilibrium equilibrium_;
+  Vector rho_;
+  std::optional<problem::CondensedProblem> rows_;
+  std::optional<NaturalMap> map_;
+  std::deque<Vector> earlier_;
+};
+
+}  // namespace
+
+void UzawaPdas::iterate(RowIteration& it) const {
+  Alternation alternation(it);
+  const Vector stiffness = unit == Unit::bound ? it.map.rho() : Vector(Vector::Ones(it.map.rho().size()));
+  const double bound = alternation.step_bound(stiffness), length = unit == Unit::bound ? rho * bound : rho;
+  it.remark(text("rho = ", length, " for Uzawa's bound 2/λ_max of ", bound,
+                 unit == Unit::bound ? " (in units of 1/W_rr)" : " (force per displacement)",
+                 length >= bound ? ", beyond which sets need not settle" : ""));
+  alternation.begin(length * stiffness);
+  while (it.next()) {
+    alternation.step();
+    if (it.record()) break;
+    if (const std::size_t period = alternation.period()) {
+      it.give_up(period == 1 ? text("the iteration repeats itself at a state that is no solution")
+                             : text("the iterates return every ", period, " iterations: a cycle"));
+      break;
+    }
+    alternation.settle();
+    if (it.stalled(kPatience)) break;
+  }
+}
+
+}  // namespace dotyk::solver
