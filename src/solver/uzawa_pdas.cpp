@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 #include <deque>
 #include <optional>
 
@@ -19,9 +20,10 @@ using problem::RowGroup;
 
 /// Iterations without a fall of the residual, each of them two dense factorisations.
 constexpr int kPatience = 200;
-/// Cycles up to this length are recognised, by iterates that return up to rounding.
+/// Cycles up to this length are recognised, by iterates that return: up to rounding, and much closer than the
+/// residual, which slow convergence moves by as little.
 constexpr std::size_t kPeriods = 16;
-constexpr double kReturned = 1e-12;
+constexpr double kRounding = 1e-14, kReturned = 1e-3;
 
 class Alternation {
  public:
@@ -52,7 +54,7 @@ class Alternation {
 
   /// After how many iterations the iterate returns; 0 where it does not.
   std::size_t period() {
-    const double close = kReturned * it_.lambda().norm();
+    const double close = std::min(kRounding * it_.lambda().norm(), kReturned * it_.law_residual());
     std::size_t found = 0;
     for (std::size_t p = 1; p <= earlier_.size() && found == 0; ++p)
       if ((it_.lambda() - earlier_[p - 1]).norm() <= close) found = p;
