@@ -11,9 +11,10 @@
 -- What the numbers say. Newton's method takes a handful of iterations on every mesh, the loop over given friction
 -- a handful of Newton's solves. The first-order methods pay for the condition number of the compliance, which
 -- grows like the number of nodes along the interface: iterations of Uzawa's method grow by that factor, those of
--- over-relaxation and of the conjugate gradients by its root or a little more. The alternating algorithm of the
--- report does not notice the mesh in the plane, as long as its steps are below Uzawa's bound (alternating.lua);
--- in space it moves slipping forces by Uzawa's steps, and is as slow as those.
+-- the conjugate gradients by about its root, over-relaxation's in between. The alternating algorithm of the report
+-- hardly notices the mesh in the plane, as long as its steps are below Uzawa's bound (alternating.lua); in space it
+-- moves slipping forces by Uzawa's steps, and is as slow as those. Every method that says it converged has the same
+-- solution; the proximal method, made for other problems, is the one that may say that it has not.
 
 local finest <const> = tonumber(arg[1]) or 256
 local folder <const> = arg[0]:match "^(.*)/[^/]*$" or "."
@@ -70,7 +71,11 @@ for _, case in ipairs(cases) do
     local first_u, first_status
     for _, method in ipairs(methods) do
       local s = method:solve(scene)
-      assert(s.converged, s.method .. ": " .. s.reason)
+      if not s.converged then
+        print(("  %-12s  %10d  %7.3f  %s"):format(s.method, s.iterations, s.time.iterate, s.reason))
+        assert(s.method == "proximal", s.reason)
+        goto next_method
+      end
       local u, status = sample(s, scene, contact)
       first_u, first_status = first_u or u, first_status or status
       local differs = 0
@@ -83,6 +88,7 @@ for _, case in ipairs(cases) do
         assert(math.abs(s.energy - value) < 1e-10 * math.abs(value), "other codes' energy")
         references = references + 1
       end
+      ::next_method::
     end
   end
 end

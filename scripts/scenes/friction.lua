@@ -20,17 +20,17 @@ end
 
 -- The same, pulled up at its left end: that part of the interface opens.
 function scenes.lifted(n, law)
-  return scenes.blocks(n, law, function(x) return 1.5, x < 0.4 and 8 or -10 end)
+  return scenes.blocks(n, law, function(x) return 1.5, x < 0.5 and 4 or -10 end)
 end
 
--- S3C: a rigid paraboloid pressed straight down onto a cube.
-function scenes.cube(n, law)
+-- S3C: a rigid paraboloid pressed straight down onto a cube. `multipliers` as for scene:contact.
+function scenes.cube(n, law, multipliers)
   local cube = dotyk.body{ name = "cube", material = material,
     mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, 1}, cells = {n, n, n} } }
   cube:part"bottom":fix()
   local scene = dotyk.scene{ cube }
   local punch = dotyk.rigid.gap{ normal = {0, 0, 1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.02 end }
-  return scene, scene:contact{ cube:part"top", rigid = punch, friction = law }
+  return scene, scene:contact{ cube:part"top", rigid = punch, friction = law, multipliers = multipliers or "nodal" }
 end
 
 -- A block 2 long and 1 high, held at its bottom, which moves by (0.5, 0.05): the middle half of its top is
