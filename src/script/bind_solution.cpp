@@ -156,8 +156,8 @@ void bind_solution(Library& library) {
       .field("residual", "relative: equilibrium penetration complementarity friction law", residual_record)
       .field("working_set", "of active_set, else nil: added dropped singular survived factorisations repeats", working_set_record)
       .field("penalty", "of penalty, else nil: factor, penetration (length), energy (force·length, too low by)", penalty_record)
-      .field("history", "one entry an iteration: active stick slip changed residual time, and of newton singular_value: the least one ; of coulomb_loop contraction"
-                         "of the scaled derivative of that step", history)
+      .field("history", "one entry an iteration: active stick slip changed residual time, and of newton singular_value: the least one "
+                         "of the scaled derivative of that step; of coulomb_loop contraction", history)
       .field("ordering", "elimination order used", [](const Solution& s) { return s.result().ordering; })
       .field("factor_bytes", "size of the sparse factors", [](const Solution& s) { return s.result().factor_bytes; }, "bytes");
   type.method({.name = "solution:displacement",
