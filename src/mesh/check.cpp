@@ -51,6 +51,17 @@ void refuse_repeated_cells(const Mesh& mesh, const std::string& what) {
                                 " have the same nodes; remove one of them"));
 }
 
+void refuse_stray_nodes(const Mesh& mesh, const std::string& what) {
+  std::vector<char> used(mesh.node_count(), 0);
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (int k = 0; k < mesh.topology().nodes; ++k) used[mesh.cell(c)[k]] = 1;
+  const auto stray = std::find(used.begin(), used.end(), 0);
+  if (stray == used.end()) return;
+  const int node = static_cast<int>(stray - used.begin());
+  throw InputError(text(what, ": node ", node + 1, " at ", point_text(mesh.node(node), mesh.dimension()),
+                        " belongs to no cell; remove it"));
+}
+
 }  // namespace
 
 double least_jacobian(const Mesh& mesh, int c) {
@@ -93,6 +104,7 @@ void check(const Mesh& mesh, const std::string& what) {
                           ", it must be positive: check the order of nodes or the map of the mesh"));
   }
   refuse_repeated_cells(mesh, what);
+  refuse_stray_nodes(mesh, what);
 }
 
 }  // namespace dotyk::mesh

@@ -15,6 +15,7 @@ enum class Element { triangle_p1, quadrilateral_q1, tetrahedron_p1, hexahedron_q
 struct ElementTopology {
   const char* name;       ///< "P1", "Q1"
   const char* shape;      ///< "triangle", …
+  const char* shapes;     ///< "triangles", …
   int dimension;
   int nodes;              ///< per cell
   int facets;             ///< per cell

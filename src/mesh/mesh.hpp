@@ -56,7 +56,7 @@ std::vector<Facet> select(const Mesh& mesh,
                           const std::function<bool(const Point&, const Point&)>& chosen);
 
 /// Throws InputError where a cell is inverted or flat (naming it and its first
-/// node), repeated, or a coordinate is not finite. `what` names the mesh in the message.
+/// node), repeated, a coordinate is not finite, or a node belongs to no cell. `what` names the mesh in the message.
 void check(const Mesh& mesh, const std::string& what);
 
 /// Twice the area (triangle), the volume times six (tetrahedron), or the least

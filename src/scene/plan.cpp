@@ -9,7 +9,7 @@ namespace dotyk::scene {
 namespace {
 
 std::string describe_body(const Body& body) {
-  return text("  '", body.name, "': ", body.mesh->topology().name, " ", body.mesh->topology().shape, "s, ",
+  return text("  '", body.name, "': ", body.mesh->topology().name, " ", body.mesh->topology().shapes, ", ",
               body.mesh->node_count(), " nodes, ", body.mesh->cell_count(), " cells");
 }
 

@@ -144,7 +144,7 @@ int pressure(Call& call) {
 }
 
 std::string show_body(const Body& b) {
-  return text("body '", b.name, "': ", b.mesh->topology().name, " ", b.mesh->topology().shape, "s, ",
+  return text("body '", b.name, "': ", b.mesh->topology().name, " ", b.mesh->topology().shapes, ", ",
               b.mesh->node_count(), " nodes, ", b.supports.size() + (b.slides.empty() ? 0 : 1), " supports");
 }
 

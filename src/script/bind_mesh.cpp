@@ -110,7 +110,7 @@ std::vector<std::string> part_names(const MeshHandle& m) {
 std::string show(const MeshHandle& m) {
   std::string parts;
   for (const auto& name : part_names(m)) parts += " " + name;
-  return text("mesh: ", m.mesh->topology().name, " ", m.mesh->topology().shape, "s, ", m.mesh->node_count(),
+  return text("mesh: ", m.mesh->topology().name, " ", m.mesh->topology().shapes, ", ", m.mesh->node_count(),
               " nodes, ", m.mesh->cell_count(), " cells, parts", parts.empty() ? " none" : parts);
 }
 

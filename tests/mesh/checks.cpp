@@ -76,3 +76,12 @@ TEST_CASE("least Jacobians: twice the area, six times the volume, corners") {
   for (int c = 0; c < 6; ++c) CHECK(mesh::least_jacobian(test::box(mesh::Family::p1, 1, 1, 1), c) == 1);
   CHECK(mesh::least_jacobian(test::box(mesh::Family::q1, 1, 1, 1), 0) == 1);
 }
+
+TEST_CASE("a node that belongs to no cell is refused with its number and place") {
+  for (auto m : all_elements()) {
+    const int node = m.node_count();
+    for (int k = 0; k < m.dimension(); ++k) m.coordinates.push_back(7);
+    CHECK_THROWS_WITH_AS(mesh::check(m, "gear"), doctest::Contains(("gear: node " + std::to_string(node + 1) + " at (7, 7").c_str()), InputError);
+    CHECK_THROWS_WITH_AS(mesh::check(m, "gear"), doctest::Contains("belongs to no cell"), InputError);
+  }
+}
