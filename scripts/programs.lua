@@ -1,6 +1,6 @@
 -- The quadratic programs of the Maros–Mészáros collection in ../shared/reference/qp.
 --
---   ./dotyk scripts/programs.lua [LARGEST]
+--   ./dotyk scripts/programs.lua [LARGEST] [START]
 --
 -- Solves every file (with at most LARGEST unknowns) by the active-set method, changing one row of the
 -- working set in a step, and many. Each result is proved from x and y alone, in extended precision: the
@@ -11,6 +11,7 @@
 -- larger programs. VALUES is not convex and has to be refused.
 
 local largest <const> = tonumber(arg[1]) or math.huge
+local start <const> = arg[2] or "automatic" -- "cold": without the interior-point prediction
 local folder <const> = (arg[0]:match "^(.*)/[^/]*$" or ".") .. "/../../shared/reference/qp/"
 local index <const> = io.open(folder .. "maros_meszaros_index.csv")
 if not index then
@@ -46,7 +47,7 @@ local count, off = { proved = 0, listed = 0, refused = 0, FAILED = 0, NOT = 0 },
 local total, singular, survived, zigzags = { one = 0, many = 0 }, 0, 0, 0
 for _, entry in ipairs(list) do
   local program = dotyk.qp(folder .. "maros_meszaros/" .. entry.name .. ".mat")
-  local r, many = program:solve{ change = "one" }, program:solve{ change = "many" }
+  local r, many = program:solve{ change = "one", start = start }, program:solve{ change = "many", start = start }
   local words, other = verdict(entry, r), verdict(entry, many)
   if other:match "^FAILED" then words = "FAILED: many rows a step: " .. other end
   count[words:match "^%a+"] = count[words:match "^%a+"] + 1

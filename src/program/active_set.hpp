@@ -31,7 +31,7 @@ struct ActiveSet {
 /// multipliers prove the rows contradictory. No end of a step with no row violated: unbounded.
 ///
 /// A working set that comes back without progress is noticed, and Bland's least-index rule followed until
-/// the objective falls again; rows that leave again and again among many are from then on changed one by one.
+/// the objective falls again; rows that leave again and again among many are changed one by one after a new start.
 ///
 /// Counts: `iterations` are KKT systems solved for a step; `predictor_iterations` interior-point ones.
 Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor& monitor);

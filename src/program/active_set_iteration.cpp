@@ -14,7 +14,6 @@ constexpr double kHeaviest = 100;    ///< on its first value, before violations 
 constexpr double kFar = 1e9;         ///< a step this much longer than x runs along the kernel
 constexpr double kCurved = 1e-12;    ///< curvature along a direction, relative to its rounding terms
 constexpr double kSmall = 1e-6;      ///< greatest correction of a solution, relative to x
-constexpr int kRounds = 50;          ///< in which the whole working set changes at once
 constexpr int kLeaves = 10;          ///< times a row may leave among many before rows change one by one
 
 double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
@@ -31,8 +30,19 @@ Result ActiveSetIteration::run(const std::vector<Side>& start, const Vector& x, 
   scale_ = peak(p_.q);
   weight_ = first_weight_ = 10 * std::max({1.0, peak(p_.q), peak(y)});
   if (settings_.change != ActiveSet::Change::many || !whole_sets()) {
-    if (!begin_feasible()) settle();
-    while (!finished_) iterate();
+    begin();
+    while (!finished_) {
+      const bool before = zigzag_;
+      iterate();
+      if (zigzag_ == before || finished_) continue;
+      // Where rows leave again and again the multipliers are rounding, and so is the point: from the start.
+      rows_.side = start;
+      x_ = x, y_ = y;
+      weight_ = first_weight_;
+      objective_ = true;
+      forget();
+      begin();
+    }
   }
   if (result_.status == Status::solved) polish();
   result_.x = x_;
@@ -66,45 +76,6 @@ WorkingKkt::Solution ActiveSetIteration::solve_kkt(const Vector& g, const Vector
   return s;
 }
 
-bool ActiveSetIteration::whole_sets() {
-  const auto side = rows_.side;
-  const Vector x = x_, y = y_;
-  std::unordered_set<std::size_t> seen;
-  kkt_.set(rows_.taken());
-  for (int round = 0; round < kRounds && seen.insert(rows_.hash()).second; ++round) {
-    const auto s = solve_kkt(times(p_.P, x_) + p_.q, p_.A * x_);
-    if (!s.consistent) {
-      if (!fall(s.p)) break;
-      continue;
-    }
-    x_ += s.p;
-    y_ = s.y;
-    int changed = 0;
-    const Vector activity = p_.A * x_;
-    for (int r = 0; r < p_.rows(); ++r) {
-      const Side before = rows_.side[r];
-      if (rows_.working(r)) {
-        if (wrong(r) > 0 && !p_.equality(r)) rows_.side[r] = Side::free, ++result_.dropped;
-      } else if (activity[r] > p_.high[r] + rows_.slack_tolerance(p_.high[r])) {
-        rows_.side[r] = p_.equality(r) ? Side::equal : Side::high, ++result_.added;
-      } else if (activity[r] < p_.low[r] - rows_.slack_tolerance(p_.low[r])) {
-        rows_.side[r] = p_.equality(r) ? Side::equal : Side::low, ++result_.added;
-      }
-      changed += rows_.side[r] != before;
-    }
-    report(changed, s.p);
-    if (changed == 0) {
-      finish(Status::solved, "every row and every multiplier has its sign");
-      return true;
-    }
-    kkt_.set(rows_.taken());
-  }
-  result_.repeats += seen.count(rows_.hash()) > 0;
-  rows_.side = side;
-  x_ = x, y_ = y;
-  return false;
-}
-
 void ActiveSetIteration::polish() {
   const auto off = [&] { return std::max(peak(gradient() + p_.A.transpose() * y_), peak(rows_.missing(p_.A * x_))); };
   const double before = off();
@@ -117,21 +88,8 @@ void ActiveSetIteration::polish() {
   if (!(off() < before)) x_ = x, y_ = y;
 }
 
-bool ActiveSetIteration::fall(const Vector& kernel) {
-  const Vector p = kernel / peak(kernel), g = gradient(), speed = p_.A * p;
-  const bool moves_rows = [&] {
-    for (int r = 0; r < p_.rows(); ++r)
-      if (rows_.working(r) && std::abs(speed[r]) > settings_.tol) return true;
-    return false;
-  }();
-  if (!p.allFinite() || moves_rows || !(-g.dot(p) > settings_.tol * (1 + peak(g)))) return false;
-  const auto meeting = rows_.meeting(p_.A * x_, speed, p_.A.cwiseAbs() * p.cwiseAbs(), false, true);
-  if (!std::isfinite(meeting.step)) return false;
-  x_ += meeting.step * p;
-  for (int r : meeting.rows) rows_.engage(r, speed[r]), ++result_.added;
-  report(static_cast<int>(meeting.rows.size()), meeting.step * p);
-  kkt_.set(rows_.taken());
-  return true;
+void ActiveSetIteration::begin() {
+  if (!begin_feasible()) settle();
 }
 
 bool ActiveSetIteration::begin_feasible() {

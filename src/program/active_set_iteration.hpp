@@ -29,6 +29,7 @@ class ActiveSetIteration {
   /// Of a set that leaves a motion free: along it, downhill, to the first rows met, which go to work. False where
   /// it is no such motion, or meets no row.
   bool fall(const Vector& kernel);
+  void begin();
   /// Puts the rows that hold at the point given to work; false, and nothing changed, where some row is violated.
   bool begin_feasible();
   /// The first point: rows at work hold there as well as they can; the rest is looked at.

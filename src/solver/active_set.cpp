@@ -11,7 +11,8 @@ namespace {
 /// The first working set: the rows flagged, or those that touch at rest.
 program::ActiveSet options(const problem::Problem& problem, const ActiveSet& settings, const PrimalProgram& primal) {
   program::ActiveSet out;
-  out.change = settings.change == ActiveSet::Change::one ? program::ActiveSet::Change::one : program::ActiveSet::Change::many;
+  out.change = settings.change == ActiveSet::Change::one ? program::ActiveSet::Change::one
+                                                         : program::ActiveSet::Change::many;
   out.start = program::ActiveSet::Start::cold;
   out.tol = settings.tol;
   out.max_iterations = settings.max_iterations;
@@ -40,7 +41,8 @@ Result solve(const problem::Problem& problem, const ActiveSet& settings, Monitor
   take_over(problem, primal, solved, result);
   result.clock.recover += watch.lap();
   result.method = settings.change == ActiveSet::Change::one ? "active_set" : "active_set (many)";
-  result.working_set = {solved.added, solved.dropped, solved.singular, solved.survived, solved.factorisations, solved.repeats};
+  result.working_set = {solved.added,    solved.dropped,        solved.singular,
+                        solved.survived, solved.factorisations, solved.repeats};
   if (!note.empty()) result.reason += "; " + note;
   return result;
 }
