@@ -12,6 +12,7 @@
 namespace dotyk::program {
 namespace {
 
+constexpr double kStationary = 1e-6;  ///< gradient left at a solution, beside the data
 constexpr double kFeasible = 1e-7;    ///< relative violation with which a solution is still one
 
 double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
@@ -61,6 +62,22 @@ void doubt(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monito
   }
 }
 
+/// Far away rounding hides the gradient as well: beside the terms Px of a huge x nothing is left of q. The objective
+/// then falls for ever along x, or no more is known.
+void doubt_stationarity(const QuadraticProgram& p, Result& result) {
+  if (result.status != Status::solved) return;
+  const Vector pull = p.A.transpose() * result.y;
+  const double left = peak(times(p.P, result.x) + p.q + pull);
+  if (left <= kStationary * (1 + peak(p.q) + peak(p.A.cwiseAbs().transpose() * result.y.cwiseAbs()))) return;
+  const Vector along = result.x / peak(result.x);
+  if (proves_unbounded(p, along)) {
+    result.status = Status::unbounded, result.direction = along;
+    result.reason = "the objective falls for ever along a direction that meets no row";
+  } else {
+    result.status = Status::stopped, result.reason = "the unknowns have grown beyond the digits of the gradient";
+  }
+}
+
 /// ": rows 1, 4 and 7" of a proof of infeasibility.
 std::string name_rows(const Vector& weights) {
   constexpr int most = 6;
@@ -93,6 +110,7 @@ Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor
   const Scaled scaled = scale(program);
   const Guess start = guess(program, scaled, settings, monitor, predicted);
   result = ActiveSetIteration(scaled.program, settings, monitor).run(start.working, start.x, start.y);
+  doubt_stationarity(scaled.program, result);
   doubt(scaled.program, settings, monitor, result);
   result.x = scaled.x(result.x);
   result.y = scaled.y(result.y);

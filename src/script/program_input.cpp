@@ -184,7 +184,8 @@ std::shared_ptr<program::QuadraticProgram> read_program(const Arguments& given) 
   p->P = SparseMatrix(n, n);
   if (given.has("B")) {
     const Matrix B = matrix_of(given, "B", n);
-    if (B.rows > n) throw InputError(text("'B' has ", B.rows, " rows; 'c' has ", n, " entries"));
+    const bool triplets = given.table("B").has("i");  // whose last rows may be empty
+    if (B.rows > n || (!triplets && B.rows < n)) throw InputError(text("'B' has ", B.rows, " rows; 'c' has ", n, " entries"));
     SparseMatrix full(n, n);
     full.setFromTriplets(B.entries.begin(), B.entries.end());
     const SparseMatrix transposed = full.transpose();

@@ -124,3 +124,24 @@ TEST_CASE("input that does not fit is refused, naming the row") {
   p.q = Vector::Ones(3);
   CHECK_THROWS_AS(program::check(p), InputError);
 }
+
+TEST_CASE("programs without a minimum whose P has empty rows are unbounded, not solved far away") {
+  Monitor quiet;
+  for (const double slope : {1.0, 1e-3, 1e3})
+    for (const double stiff : {1.0, 2.0, 1e-4})
+      for (const bool bounded : {false, true}) {
+        DenseMatrix P = DenseMatrix::Zero(3, 3);
+        P(0, 0) = stiff;
+        Vector q(3);
+        q << -1, -slope, 0;
+        const DenseMatrix A = bounded ? DenseMatrix(DenseMatrix::Identity(3, 3)) : DenseMatrix(0, 3);
+        const Vector low = Vector::Zero(A.rows());
+        const auto p = test::quadratic(P, q, A, low, Vector::Constant(A.rows(), INFINITY));
+        for (const auto& r : {program::solve(p, test::one(), quiet), program::solve(p, test::many(), quiet),
+                              program::solve(p, program::InteriorPoint{}, quiet)}) {
+          INFO(slope << ' ' << stiff << ' ' << bounded << ": " << r.reason);
+          REQUIRE(r.status == Status::unbounded);
+          CHECK(program::proves_unbounded(p, r.direction, 1e-6));
+        }
+      }
+}
