@@ -150,7 +150,9 @@ void ActiveSetIteration::iterate() {
   }
   const Vector speed = p_.A * s.p;
   const auto meeting = rows_.meeting(activity, speed, p_.A.cwiseAbs() * s.p.cwiseAbs(), cautious_, many());
-  if (!std::isfinite(whole) && !std::isfinite(meeting.step)) {
+  // Curvature along a kernel direction may be rounding; the proof does not look at it.
+  const bool endless = !std::isfinite(whole) || (!s.consistent && objective_ && !elastic && proves_unbounded(p_, s.p));
+  if (endless && !std::isfinite(meeting.step)) {
     if (elastic) return heavier();
     result_.direction = s.p;
     return finish(Status::unbounded, "the objective falls for ever along a direction that meets no row");
