@@ -114,8 +114,11 @@ local p1, p2 = over("multiplier", {0, 2}, "outer")
 local q1, q2 = over("multiplier", {0, 2}, "cg")
 print(("For rho0 >= 1e6 every run takes %d or %d outer and %d to %d CG iterations, whatever M; the updates differ in %d of %d runs."):format(
   o1, o2, c1, c2, differ, 5 * #precisions))
-print(("For rho0 <= 1e2 it is %d to %d outer and %d to %d CG iterations. The paper's claims hold: few outer iterations for large"):format(p1, p2, q1, q2))
-print "penalties whatever the update, and no growth of CG, for D adds only as many large eigenvalues as it has rows."
+print(("For rho0 <= 1e2 it is %d to %d outer and %d to %d CG iterations."):format(p1, p2, q1, q2))
+print(("The paper: few outer iterations for large penalties whatever the update. %s (at most %d)."):format(
+  math.max(o2, (select(2, over("least_squares", {6, 10}, "outer")))) <= 3 and "So it is" or "Not so", o2))
+print(("No growth of CG, for D adds only as many large eigenvalues as it has rows. %s (%d against %d)."):format(
+  c2 <= q2 and "So it is" or "Not so", c2, q2))
 print(("Where there is one outer iteration no multiplier is used at all: that is the penalty method, here right to %.0e."):format(select(2, over("multiplier", {8, 10}, "error"))))
 print("The penalty was raised (first order) for (M, rho0) = " .. table.concat(raised, " ") .. ".")
 

@@ -58,17 +58,18 @@ for row, case in ipairs(cases) do
   for k = 1, 2 do table.move(refused[k], 1, #refused[k], #all_refused[k] + 1, all_refused[k]) end
 end
 
--- 4. On the edge of what floor and wall carry, to either side.
-for _, turn in ipairs{ -1e-4, -1e-5, -1e-7, 0, 1e-7, 1e-5, 1e-4 } do
-  local verdict = square(270 + math.deg(turn), cases[3].planes):balance()
-  print(("floor and wall, turned by %8.0e beyond straight down: %s%s"):format(
-    turn, verdict.verdict, verdict.limit and ", a limit case" or ""))
+-- 4. On the edge, to either side: within 1e-6 of it a load is a limit case, farther away it is none.
+local function edge(what, turn, verdict)
+  print(("%s, turned by %8.0e beyond the edge: %s%s"):format(what, turn, verdict.verdict, verdict.limit and ", a limit case" or ""))
+  if verdict.limit ~= (math.abs(turn) < 1e-6) or (turn ~= 0 and verdict.solvable ~= (turn < 0)) then wrong = wrong + 1 end
 end
-
-for _, turn in ipairs{ -1e-5, -1e-7, 1e-7, 1e-5 } do
-  local verdict = square(270 + math.deg(math.atan(mu) + turn), cases[2].planes, cases[2].friction):balance()
-  print(("with friction, turned by %8.0e beyond the angle of friction: %s%s"):format(
-    turn, verdict.verdict, verdict.limit and ", a limit case" or ""))
+local turns <const> = { -1e-4, -1e-5, -2e-6, -5e-7, -1e-7, 1e-7, 5e-7, 2e-6, 1e-5, 1e-4 }
+for _, turn in ipairs(turns) do
+  edge("floor and wall", turn, square(270 + math.deg(turn), cases[3].planes):balance())
+end
+for _, turn in ipairs(turns) do
+  edge("floor with friction", turn,
+    square(270 + math.deg(math.atan(mu) + turn), cases[2].planes, cases[2].friction):balance())
 end
 
 -- 5. In space: a cube in a corner of three planes carries the octant of directions into the corner; on
@@ -82,6 +83,14 @@ local function cube(x, y, z, friction)
     scene:contact{ block:part(part), rigid = dotyk.rigid.gap{ normal = normal, gap = 0 }, friction = friction }
   end
   return scene
+end
+for _, longitude in ipairs{ 0, 30, 90, 200 } do
+  local b = math.rad(longitude)
+  for _, turn in ipairs(turns) do
+    local a = math.atan(mu) + turn -- from straight down
+    edge(("cone of friction in space, towards %3d°"):format(longitude), turn,
+      cube(math.sin(a) * math.cos(b), math.sin(a) * math.sin(b), -math.cos(a), dotyk.friction.coulomb(mu)):balance())
+  end
 end
 local count, spherical = 0, 0
 local sphere <const> = { carried = { {}, {} }, refused = { {}, {} }, rubs = { {}, {} } }

@@ -11,7 +11,7 @@ local worst = 0
 -- (along the axes where symmetry holds it) supports.
 local function report(name, missing, weight)
   worst = math.max(worst, math.abs(missing) / weight)
-  print(("  %-8s missing %.1e of the weight"):format(name, math.abs(missing) / weight))
+  print(("  %-16s missing %.1e of the weight"):format(name, math.abs(missing) / weight))
 end
 
 -- 1. Five blocks on the ground; nothing but contact holds them upright. Sideways no load acts and no
@@ -30,21 +30,31 @@ print(scene:plan())
 local s = dotyk.solve(scene)
 print(s)
 local own <const>, top <const> = weight * 2 * 0.5, 10 * 0.6
+local function moment(contact) -- about the middle axis x = 0
+  local sum = 0
+  for _, node in ipairs(s:contact(contact).nodes) do sum = sum + node.x * node.pressure * node.weight end
+  return sum
+end
 for k = 1, count do
-  local below = s:contact(contacts[k]).force[2]
-  local above = k < count and s:contact(contacts[k + 1]).force[2] or top
-  report("block " .. k, below - above - own, own * count + top)
+  local below, above = s:contact(contacts[k]).force, k < count and s:contact(contacts[k + 1]).force or { 0, top }
+  local turned = moment(contacts[k]) - (k < count and moment(contacts[k + 1]) or 0.3 * top)
+  report("block " .. k .. ", x", below[1] - above[1], own * count + top)
+  report("block " .. k .. ", y", below[2] - above[2] - own, own * count + top)
+  report("block " .. k .. ", moment", turned, own * count + top)
 end
 s:render{ file = "images/stack.png", field = "yy", loads = true, pressure = "none" }
 
 -- 2. A ball in a rigid bowl.
-local ball = dotyk.body{ name = "ball", material = clay, force = { 0, 0, -weight },
+local function make_ball()
+  return dotyk.body{ name = "ball", material = clay, force = { 0, 0, -weight },
   mesh = dotyk.mesh.box{ from = {-1, -1, -1}, to = {1, 1, 1}, cells = {8, 8, 8}, element = "Q1" }
     :transform(function(x, y, z) -- the cube onto the ball
       return x * math.sqrt(1 - y^2 / 2 - z^2 / 2 + y^2 * z^2 / 3),
              y * math.sqrt(1 - z^2 / 2 - x^2 / 2 + z^2 * x^2 / 3),
              z * math.sqrt(1 - x^2 / 2 - y^2 / 2 + x^2 * y^2 / 3)
     end) }
+end
+local ball = make_ball()
 local bowl = dotyk.scene{ ball }
 local lower = ball:part("lower", function(_, _, z, _, _, nz) return nz < -0.3 end)
 -- The bowl z = 0.35 (x² + y²) - 1, as a gap below the ball's surface.
@@ -53,8 +63,19 @@ local socket = bowl:contact{ lower, rigid = dotyk.rigid.gap{ normal = {0, 0, -1}
 print(bowl:plan())
 local b = dotyk.solve(bowl)
 print(b)
+local held = make_ball() -- its weight, from what holds it when it is fixed
+local top_part = held:part("top", function(_, _, z) return z > 0.5 end)
+top_part:fix()
+local _, _, whole = dotyk.solve(dotyk.scene{ held }):reaction(top_part)
+local carried, about_x, about_y = b:contact(socket).force, 0, 0
+for _, node in ipairs(b:contact(socket).nodes) do
+  about_x, about_y = about_x + node.y * node.pressure * node.weight, about_y + node.x * node.pressure * node.weight
+end
+for _, one in ipairs{ { "x", carried[1] }, { "y", carried[2] }, { "z", carried[3] - whole }, { "about x", about_x }, { "about y", about_y } } do
+  report("ball, " .. one[1], one[2], whole)
+end
 print(("  the bowl carries a volume of %.6f (a ball: %.6f, its polyhedron less)"):format(
   b:contact(socket).force[3] / weight, 4 * math.pi / 3))
 print(("greatest residual of equilibrium: blocks %.1e, ball %.1e"):format(s.residual.equilibrium, b.residual.equilibrium))
 print "images/stack.png"
-if worst > 1e-10 then error "a block is not in equilibrium" end
+if worst > 1e-10 then error "a body is not in equilibrium" end

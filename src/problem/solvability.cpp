@@ -94,6 +94,19 @@ Vector middle_load(const RigidMotions& rigid, const Problem& problem) {
   return sum.norm() > 0 ? Vector(sum / sum.norm()) : sum;
 }
 
+/// What is left unbalanced of a load turned by kLimit towards the nearest edge of what can be carried; zero where that
+/// is balanced. Taking ten times as much of the middle load away shows the motion that this edge is the end of; the
+/// shortest way to the edge is along that motion.
+Vector beyond_edge(const RigidMotions& rigid, const Problem& problem, double load) {
+  const Vector middle = middle_load(rigid, problem), none = Vector::Zero(rigid.count());
+  if (middle.norm() == 0) return none;
+  const double least = 1e-3 * kLimit * load;
+  const Vector motion = unbalanced(rigid, problem, rigid.e - 10 * kLimit * load * middle);
+  if (motion.norm() <= least) return none;
+  const Vector left = unbalanced(rigid, problem, rigid.e + kLimit * load * motion / motion.norm());
+  return left.norm() > least ? left : none;
+}
+
 }  // namespace
 
 Solvability solvability(const RigidMotions& rigid, const Problem& problem) {
@@ -108,11 +121,8 @@ Solvability solvability(const RigidMotions& rigid, const Problem& problem) {
     s.work = rigid.e.dot(s.motion);
     return s;
   }
-  // Towards the edge: take a little of the middle load away and see whether the rest still balances.
-  const Vector middle = middle_load(rigid, problem);
-  const Vector turned = rigid.e - kLimit * (load > 0 ? load : 1) * middle;
-  const Vector edge = middle.norm() > 0 ? unbalanced(rigid, problem, turned) : Vector::Zero(rigid.count());
-  s.limit = edge.norm() > 1e-3 * kLimit * (load > 0 ? load : 1);
+  const Vector edge = beyond_edge(rigid, problem, load > 0 ? load : 1);
+  s.limit = edge.norm() > 0;
   if (rigid.unnoticed.cols() > 0) {
     s.verdict = Solvability::Verdict::up_to_motion;
     s.motion = unit(rigid.unnoticed.col(0));
