@@ -79,7 +79,9 @@ std::string plan(const Scene& scene) {
          : rubs ? text("\n  method: newton on the condensed rows of contact and friction (", unknowns,
                        " unknowns factored once)")
                 : text("\n  method: pdas on ", rows, " condensed rows (", unknowns,
-                       " unknowns factored once): finite and exact for frictionless contact");
+                       " unknowns factored once): finite and exact for frictionless contact",
+                       free > 0 ? "; rigid motions exactly, as constraints of the dual (to compare: magnetic screws, "
+                                  "pdas{ kernel = \"screws\" })" : "");
   return out + "\n  " + verdict(scene, free > 0);
 }
 

@@ -34,6 +34,22 @@ std::string unnoticed_motions(const problem::RigidMotions& rigid, const algebra:
   return names.size() == count ? all(names) : text(count, " motions, one of them ", describe(rigid, first));
 }
 
+/// What would stop a motion: for a single mode the support that holds it, by body and direction.
+std::string what_would_hold(const problem::RigidMotions& rigid, const algebra::Vector& motion) {
+  Eigen::Index mode;
+  const double greatest = motion.cwiseAbs().maxCoeff(&mode);
+  const std::string& name = rigid.names[mode];  // "'lid': translation along x"
+  const std::string body = name.substr(0, name.find(": ")), along = "translation along ";
+  if (motion.cwiseAbs().sum() > (1 + 1e-6) * greatest)
+    return "Fix, slide or spring a part, add a contact in its way, or turn the load";
+  const auto place = name.find(along);
+  if (place == std::string::npos)
+    return "Fix or spring a part of " + body + " away from the axis, add a contact in its way, or turn the load";
+  const std::string axis = name.substr(place + along.size());
+  return text("Hold ", body, " along ", axis, " (", axis.size() == 1 ? "fix \"" + axis + "\"" : "a slide", " or a spring on a part of it), add a contact in its way on the side of ",
+              motion[mode] > 0 ? "greater " : "lesser ", axis, ", or turn the load");
+}
+
 }  // namespace
 
 std::string require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid) {
@@ -43,7 +59,7 @@ std::string require_solvable(const problem::Problem& problem, const problem::Rig
   if (s.verdict == Verdict::unsolvable)
     throw InputError(text("not held: nothing stops ", describe(rigid, s.motion), "; the load does work ", s.work,
                           " on a unit of this motion", s.limit ? " (a limit case: turned by 1e-6 the load has a solution)" : "",
-                          ". Fix, slide or spring a part, add a contact in its way, or turn the load"));
+                          ". ", what_would_hold(rigid, s.motion)));
   std::string note;
   if (s.verdict == Verdict::up_to_motion)
     note = text("unique up to ", unnoticed_motions(rigid, s.motion), rigid.unnoticed.cols() > 0

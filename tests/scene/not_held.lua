@@ -68,6 +68,8 @@ lid:part "left":fix "x"
 refused(function() dotyk.solve(scene) end, "nothing stops 'lid': translation along y; the load does work 1", "add a contact in its way")
 -- Both ways of solving agree on that.
 refused(function() dotyk.solver.pdas{ reduced = false }:solve(scene) end, "nothing stops 'lid': translation along y")
+-- What would hold it is said: where, and which way.
+refused(function() dotyk.solve(scene) end, "Hold 'lid' along y (fix \"y\" or a spring on a part of it)", "on the side of greater y")
 
 -- In space rotations are named too.
 local cube <const> = dotyk.body{ name = "cube", material = material,
