@@ -40,11 +40,11 @@ for _, list in ipairs{ hdf5, text } do
 end
 
 -- 2. Every method on every file.
-local methods <const> = { "proximal", "newton", "psor", "projected_cg", "uzawa" }
+local methods <const> = { "proximal", "newton", "psor", "projected_cg", "uzawa", "uzawa_pdas", "coulomb_loop" }
 local function solve(p, name)
   local from <const> = os.clock()
-  local method <const> = dotyk.solver[name]{ tol = 1e-11, max_iterations = 1000000,
-    on_iteration = function() return os.clock() - from < limit end }
+  local keys <const> = { tol = 1e-11, max_iterations = 1000000, on_iteration = function() return os.clock() - from < limit end }
+  local method <const> = dotyk.solver[name](keys)
   local r <const> = method:solve(p)
   return { name = name, residual = r.residual, iterations = r.iterations, seconds = r.seconds, result = r,
            solved = r.residual <= solved_at }
@@ -81,13 +81,14 @@ for _, entry in ipairs(problems) do
   ::continue::
 end
 
-print(("\n%-40s %8s %6s %7s  %s"):format("text files: residuals", "contacts", "rank W", "of rows",
-  "proximal    newton      psor  proj._cg     uzawa   best"))
+local heading = ("\n%-40s %8s %6s %7s"):format("text files: residuals", "contacts", "rank W", "of rows")
+for _, name in ipairs(methods) do heading = heading .. ("  %12s"):format(name) end
+print(heading .. "   best")
 for _, entry in ipairs(problems) do
   if not entry.text then goto continue end
   local p <const> = entry.problem
   local line = ("%-40s %8d %6d %7d"):format(p.name, p.contacts, p.rank_W, p.rows)
-  for _, name in ipairs(methods) do line = line .. ("  %8.0e"):format(entry.runs[name].residual) end
+  for _, name in ipairs(methods) do line = line .. ("  %12.0e"):format(entry.runs[name].residual) end
   print(line .. ("   %.0e %s"):format(entry.best.residual, entry.best.name))
   ::continue::
 end
