@@ -13,6 +13,7 @@ local R <const>, E <const>, nu <const>, mu <const> = 50, 210e3, 0.3, 0.3
 local E_star <const> = E / (1 - nu^2) / 2     -- of the pair
 local L <const> = 60                          -- half the width and the height of each block
 local press <const>, pull <const> = 0.0436, 0.0105 -- of the top
+local fit <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/scenes/least_squares.lua")
 
 -- 1. Two square blocks that touch along a line: the gap is that of a cylinder of radius R on a plane. Equal
 -- materials, so that pressing causes no slip and shearing no pressure (Dundurs' second constant is 0). The
@@ -53,12 +54,8 @@ end
 --   p = p0 √(1 − x²/a²),  q = μ p − μ p0 (c/a) √(1 − x²/c²),  a² = 4PR/(πE*),  c² = a² (1 − Q/μP).
 -- p² is linear in x², and so is (μp − q)² where it sticks: least-squares lines through the inner nodes give
 -- the half-widths found.
-local function zero_of_line(points)
-  local n, sx, sy, sxx, sxy = #points, 0, 0, 0, 0
-  for _, p in ipairs(points) do sx, sy, sxx, sxy = sx + p[1], sy + p[2], sxx + p[1]^2, sxy + p[1] * p[2] end
-  local slope = (n * sxy - sx * sy) / (n * sxx - sx^2)
-  return math.sqrt(-(sy - slope * sx) / n / slope)
-end
+local function add(points, x, y) points.x[#points.x + 1], points.y[#points.y + 1] = x, y end
+local function half_width(points) return math.sqrt(fit.zero(points.x, points.y)) end
 local function root(x) return math.sqrt(math.max(0, x)) end
 local function closed_form(P, Q)
   local a = math.sqrt(4 * P * R / (math.pi * E_star))
@@ -70,28 +67,20 @@ local function compare(s, contact)
   local r = s:contact(contact)
   local P, Q = r.force[2], -r.friction_force[1] -- on the upper body
   local exact = closed_form(P, Q)
-  local inner, stuck, l2p, l2q, p2, q2 = {}, {}, 0, 0, 0, 0
+  local inner, stuck, l2p, l2q, p2, q2 = { x = {}, y = {} }, { x = {}, y = {} }, 0, 0, 0, 0
   for _, node in ipairs(r.nodes) do
     local x, p, q = node.x, node.pressure, -node.shear[1]
-    if math.abs(x) < 0.9 * exact.a then inner[#inner + 1] = { x^2, p^2 } end
-    if math.abs(x) < 0.9 * exact.c then stuck[#stuck + 1] = { x^2, (mu * p - q)^2 } end
+    if math.abs(x) < 0.9 * exact.a then add(inner, x^2, p^2) end
+    if math.abs(x) < 0.9 * exact.c then add(stuck, x^2, (mu * p - q)^2) end
     l2p, l2q = l2p + node.weight * (p - exact.p(x))^2, l2q + node.weight * (q - exact.q(x))^2
     p2, q2 = p2 + node.weight * exact.p(x)^2, q2 + node.weight * exact.q(x)^2
   end
-  return { P = P, Q = Q, exact = exact, nodes = r.nodes, a = zero_of_line(inner), c = zero_of_line(stuck),
+  return { P = P, Q = Q, exact = exact, nodes = r.nodes, a = half_width(inner), c = half_width(stuck),
            l2p = math.sqrt(l2p / p2), l2q = math.sqrt(l2q / q2), stick = r.stick, slip = r.slip }
 end
 
 -- 4. Refinement. The single errors jump about with the place of the zones' ends between the nodes: the order
 -- is the slope of the least-squares line.
-local function order(h, error)
-  local n, sx, sy, sxx, sxy = #h, 0, 0, 0, 0
-  for k = 1, n do
-    local x, y = math.log(h[k]), math.log(error[k])
-    sx, sy, sxx, sxy = sx + x, sy + y, sxx + x * x, sxy + x * y
-  end
-  return (n * sxy - sx * sy) / (n * sxx - sx^2)
-end
 print(("blocks of %g mm, R = %g mm, E = %g MPa, nu = %g, mu = %g"):format(2 * L, R, E, nu, mu))
 print "cells  unknowns  stick slip    P [N/mm]   Q/(mu P)   half-width a [mm]         stick half-width c [mm]   L2 error of     seconds"
 print "                                                     found   closed    error    found   closed    error     p       q"
@@ -111,12 +100,11 @@ for k = 4, 0, -1 do
   ::continue::
 end
 if #h >= 3 then -- piecewise constant forces and roots at the ends: order 1
-  assert(order(h, ep) > 0.9 and order(h, eq) > 0.9, "pressure and shear do not converge as they should")
+  assert(fit.order(h, ep) > 0.9 and fit.order(h, eq) > 0.9, "pressure and shear do not converge as they should")
   assert(ea[#h] < 0.02 and ec[#h] < 0.02, "the zones are not where they should be")
 end
 print(("observed order: half-width %.2f, stick half-width %.2f, pressure in L2 %.2f, shear in L2 %.2f (theory in L2: 1, for the roots)")
-  :format(order(h, ea), order(h, ec), order(h, ep), order(h, eq)))
-
+  :format(fit.order(h, ea), fit.order(h, ec), fit.order(h, ep), fit.order(h, eq)))
 
 -- 5. Pressing alone causes no slip, shearing no pressure; and sheared far enough everything slides, with the
 -- force mu P.

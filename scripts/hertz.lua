@@ -10,6 +10,7 @@ local cells <const> = tonumber(arg[1]) or 128 -- along the radius, on the finest
 local R <const>, E <const>, nu <const> = 50, 210e3, 0.3
 local E_star <const> = E / (1 - nu^2)
 local descent <const> = 0.12 -- of the top of the disc
+local fit <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/scenes/least_squares.lua")
 
 -- 1. A disc that touches y = 0 at the origin. The conformal map f(z) = (z - m)/(1 - m z) of the disc
 -- onto itself moves its nodes towards the contact: cells there are (1 - m)/(1 + m) of their size.
@@ -43,33 +44,22 @@ local function compare(s, contact)
   local force = c.force[2]
   local a = math.sqrt(4 * force * R / (math.pi * E_star))
   local p0 = 2 * force / (math.pi * a)
-  local n, sx, sy, sxx, sxy, l2, middle = 0, 0, 0, 0, 0, 0, nil
+  local squares, pressures, l2, middle = {}, {}, 0, nil
   for _, node in ipairs(c.nodes) do
     if math.abs(node.x) < 0.9 * a then
-      local x, y = node.x^2, node.pressure^2
-      n, sx, sy, sxx, sxy = n + 1, sx + x, sy + y, sxx + x * x, sxy + x * y
+      squares[#squares + 1], pressures[#pressures + 1] = node.x^2, node.pressure^2
     end
     if not middle or math.abs(node.x) < math.abs(middle.x) then middle = node end
     local hertz = p0 * math.sqrt(math.max(0, 1 - (node.x / a)^2))
     l2 = l2 + node.weight * (node.pressure - hertz)^2
   end
-  local slope = (n * sxy - sx * sy) / (n * sxx - sx^2)
   return { force = force, a = a, p0 = p0, peak = middle.pressure, nodes = c.nodes,
-           width = math.sqrt(-(sy - slope * sx) / n / slope),
+           width = math.sqrt(fit.zero(squares, pressures)),
            l2 = math.sqrt(l2 / (4 / 3 * a * p0^2)) }
 end
 
 -- 4. Five meshes, four refinements. The single errors jump about: how far the contact's edge lies from
 -- the nearest node is different on every mesh. The order is the slope of the least-squares line.
-local function order(h, error)
-  local n, sx, sy, sxx, sxy = #h, 0, 0, 0, 0
-  for k = 1, n do
-    local x, y = math.log(h[k]), math.log(error[k])
-    sx, sy, sxx, sxy = sx + x, sy + y, sxx + x * x, sxy + x * y
-  end
-  return (n * sxy - sx * sy) / (n * sxx - sx^2)
-end
-
 print(("disc R = %g mm on a rigid plane, E = %g MPa, nu = %g; Hertz for the force found"):format(R, E, nu))
 print "cells  unknowns  closed      force    peak pressure [MPa]          half-width [mm]           pressure  seconds"
 print "                            [N/mm]    found     Hertz    error    found    Hertz    error    in L2"
@@ -87,7 +77,7 @@ for k = 4, 0, -1 do
     result.width, result.a, 100 * width[#width], 100 * l2[#l2], s.time.total))
 end
 print(("observed order: peak pressure %.2f, half-width %.2f, pressure in L2 %.2f (theory: 1, for the root at the edge)")
-  :format(order(h, peak), order(h, width), order(h, l2)))
+  :format(fit.order(h, peak), fit.order(h, width), fit.order(h, l2)))
 print(s)
 
 -- 5. Figures.
