@@ -6,20 +6,10 @@
 -- upper block slides off, the frictionless and the glued limits, and images/friction.png.
 
 local finest <const> = tonumber(arg[1]) or 128
-local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
 
--- 1. The lower block is held below; the upper one is held by nothing but contact and friction.
-local function blocks(n, law, pull, multipliers)
-  local function half(name, y)
-    return dotyk.body{ name = name, material = material,
-      mesh = dotyk.mesh.rectangle{ from = {0, y}, to = {2, y + 1}, cells = {n, n // 2} } }
-  end
-  local lower, upper = half("lower", 0), half("upper", 1)
-  lower:part"bottom":fix()
-  upper:part"top":load{ pull or 2, -10 }
-  local scene = dotyk.scene{ lower, upper }
-  return scene, scene:contact{ upper:part"bottom", lower:part"top", friction = law, multipliers = multipliers or "nodal" }
-end
+-- 1. The lower block is held below; the upper one, pulled by 2 and pressed by 10 per length, is held by nothing
+-- but contact and friction.
+local scenes <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/scenes/friction.lua")
 
 -- 2. Refinement.
 local function refine(name, law)
@@ -30,7 +20,7 @@ local function refine(name, law)
   local s, contact
   for _, n in ipairs(sizes) do
     local scene
-    scene, contact = blocks(n, law)
+    scene, contact = scenes.blocks(n, law)
     s = dotyk.solve(scene)
     local c = s:contact(contact)
     print(("%5d %9d  %.9f  %.9f  %6d %5d %5d  %10d  %7.3f"):format(
@@ -47,13 +37,13 @@ print(s)
 for _, case in ipairs{ { "Coulomb", dotyk.friction.coulomb(0.3), 3 }, { "given", dotyk.friction.tresca(2.5), 2.5 } } do
   local name, law, limit = table.unpack(case)
   for _, pull in ipairs{ limit * (1 - 1e-4), limit * (1 + 1e-4) } do
-    print(("%-8s pull %.5f: %s"):format(name, pull, blocks(16, law, pull):balance().verdict))
+    print(("%-8s pull %.5f: %s"):format(name, pull, scenes.blocks(16, law, { pull, -10 }):balance().verdict))
   end
 end
 
 -- 4. No friction, and no slip at all.
 for _, g in ipairs{ 10, 100, math.huge } do
-  local scene, contact = blocks(32, dotyk.friction.tresca(g))
+  local scene, contact = scenes.blocks(32, dotyk.friction.tresca(g))
   local t = dotyk.solve(scene)
   print(("given friction %g: energy %.9f, %d stick, %d slip"):format(g, t.energy, t:contact(contact).stick, t:contact(contact).slip))
 end
@@ -65,7 +55,7 @@ local before
 for n = 3, 6 do
   local energy = {}
   for _, multipliers in ipairs{ "nodal", "P1-P0" } do
-    local t = dotyk.solve((blocks(1 << n, dotyk.friction.tresca(2.5), 2, multipliers)))
+    local t = dotyk.solve((scenes.blocks(1 << n, dotyk.friction.tresca(2.5), nil, multipliers)))
     energy[#energy + 1] = t.energy + t.friction_energy
   end
   local difference = math.abs(energy[1] - energy[2])
@@ -75,6 +65,6 @@ for n = 3, 6 do
 end
 
 -- 6. The figure.
-local shown = dotyk.solve((blocks(math.min(48, finest), dotyk.friction.coulomb(0.3))))
+local shown = dotyk.solve((scenes.blocks(math.min(48, finest), dotyk.friction.coulomb(0.3))))
 shown:render{ file = "images/friction.png", field = "xy", supports = true, loads = true }
 print "images/friction.png"

@@ -5,8 +5,8 @@ local scenes = {}
 local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
 
 -- A free block on a fixed one, both 2 long and 1 high, under a traction on top: C2 with Coulomb friction 0.3,
--- T2 with given friction 2.5, both with the traction (2, −10).
-function scenes.blocks(n, law, traction)
+-- T2 with given friction 2.5, both with the traction (2, −10). `multipliers` as for scene:contact.
+function scenes.blocks(n, law, traction, multipliers)
   local function half(name, y)
     return dotyk.body{ name = name, material = material,
       mesh = dotyk.mesh.rectangle{ from = {0, y}, to = {2, y + 1}, cells = {n, n // 2} } }
@@ -15,7 +15,7 @@ function scenes.blocks(n, law, traction)
   lower:part"bottom":fix()
   upper:part"top":load(traction or { 2, -10 })
   local scene = dotyk.scene{ lower, upper }
-  return scene, scene:contact{ upper:part"bottom", lower:part"top", friction = law }
+  return scene, scene:contact{ upper:part"bottom", lower:part"top", friction = law, multipliers = multipliers or "nodal" }
 end
 
 -- The same, pulled up at its left end: that part of the interface opens.
