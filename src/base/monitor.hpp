@@ -14,6 +14,7 @@ struct IterationInfo {
   int active = 0;         ///< rows closed (or otherwise carrying their law's active branch)
   int stick = 0;          ///< friction points that stick
   int slip = 0;           ///< friction points that slip
+  int inner = 0;          ///< steps of an inner method so far, where there is one
   int changed = 0;        ///< rows whose branch differs from the last iteration
   double residual = 0.0;  ///< relative natural residual, as the method defines it
   double seconds = 0.0;   ///< since the method started

@@ -8,6 +8,7 @@
 #include "algebra/types.hpp"
 #include "problem/friction.hpp"
 #include "problem/law.hpp"
+#include "problem/subdomain.hpp"
 
 namespace dotyk::problem {
 
@@ -40,6 +41,8 @@ struct Problem {
   algebra::Vector c;      ///< gaps, one a row
   std::vector<RowGroup> groups;            ///< scalar laws
   std::vector<FrictionGroup> friction;     ///< tangential rows; a row is under one law only
+  /// The blocks cut into pieces, by block, where the method asked for it; empty: each block is one piece.
+  std::vector<Subdomain> subdomains;
   /// Where a row is, for messages: "node 12 of 'block' at (0.5, 0)". May be empty.
   std::function<std::string(int)> row_name;
 

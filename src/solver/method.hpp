@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -24,6 +25,7 @@ class Method {
     requires std::derived_from<Chosen, Settings>
   Method(Chosen chosen)  // NOLINT: a method is taken wherever its options are given
       : ordering_(chosen.ordering),
+        decomposition_(decomposition_of(chosen)),
         run_([chosen](const problem::Problem& problem, Beginning from, Monitor& monitor) {
           Chosen started = chosen;
           if (!from.start.empty()) started.start = std::move(from.start);
@@ -35,6 +37,8 @@ class Method {
 
   explicit operator bool() const { return static_cast<bool>(run_); }
   algebra::Ordering ordering() const { return ordering_; }
+  /// How the method wants bodies cut into subdomains; nothing where it has no use for them.
+  const std::optional<problem::Decomposition>& decomposition() const { return decomposition_; }
   Result run(const problem::Problem& problem, Beginning from, Monitor& monitor) const {
     return run_(problem, std::move(from), monitor);
   }
@@ -47,7 +51,14 @@ class Method {
   const std::shared_ptr<const RowMethod>& on_rows() const { return on_rows_; }
 
  private:
+  template <class Chosen>
+  static std::optional<problem::Decomposition> decomposition_of(const Chosen& chosen) {
+    if constexpr (requires { chosen.decomposition; }) return chosen.decomposition;
+    return std::nullopt;
+  }
+
   algebra::Ordering ordering_ = algebra::Ordering::automatic;
+  std::optional<problem::Decomposition> decomposition_;
   std::function<Result(const problem::Problem&, Beginning, Monitor&)> run_;
   std::shared_ptr<const RowMethod> on_rows_;
 };
