@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace dotyk {
+
+/// Calls work(0), …, work(count − 1), each once, on as many threads as there are cores; an idle thread takes
+/// the next number. The calls must not touch what another one writes. Serial on one core and for count ≤ 1.
+///
+/// Where calls throw, no further ones begin, and the exception of the least number that threw is rethrown:
+/// the one that a serial loop would meet, since every lesser number had begun before.
+inline void parallel_for(int count, const std::function<void(int)>& work) {
+  const int workers = std::min(count, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  if (workers <= 1) {
+    for (int k = 0; k < count; ++k) work(k);
+    return;
+  }
+  std::atomic<int> next{0};
+  std::mutex failing;
+  int failed = count;
+  std::exception_ptr failure;
+  const auto run = [&] {
+    for (int k; (k = next++) < count;) try {
+        work(k);
+      } catch (...) {  // thrown on in the calling thread
+        next = count;
+        const std::lock_guard lock(failing);
+        if (k < failed) failed = k, failure = std::current_exception();
+      }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int t = 1; t < workers; ++t) try {
+        others.emplace_back(run);
+      } catch (const std::system_error&) {  // no more threads to be had: those there are do it
+        break;
+      }
+    run();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace dotyk

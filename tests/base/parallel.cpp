@@ -1,0 +1,54 @@
+#include "base/parallel.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+using namespace dotyk;
+
+TEST_CASE("every number is worked on once") {
+  for (int count : {0, 1, 2, 3, 1000}) {
+    std::vector<int> calls(count, 0);
+    parallel_for(count, [&](int k) { ++calls[k]; });
+    CHECK(calls == std::vector<int>(count, 1));
+  }
+}
+
+TEST_CASE("threads work side by side where there are cores") {
+  if (std::thread::hardware_concurrency() < 2) return;
+  // Two calls that wait for each other end only if both are under way at once.
+  std::atomic<int> begun{0};
+  std::set<std::thread::id> who;
+  std::mutex guard;
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  parallel_for(2, [&](int) {
+    ++begun;
+    while (begun < 2 && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
+    const std::lock_guard lock(guard);
+    who.insert(std::this_thread::get_id());
+  });
+  CHECK(who.size() == 2);
+}
+
+TEST_CASE("of several exceptions the one of the least number comes out, and no call begins after it") {
+  for (int trial = 0; trial < 50; ++trial) {
+    std::atomic<int> calls{0};
+    std::string message;
+    try {
+      parallel_for(100000, [&](int k) {
+        ++calls;
+        if (k >= 17) throw std::runtime_error(std::to_string(k));
+        if (k >= 10) std::this_thread::yield();
+      });
+    } catch (const std::runtime_error& error) {
+      message = error.what();
+    }
+    CHECK(message == "17");
+    CHECK(calls >= 18);
+    CHECK(calls <= 17 + static_cast<int>(std::thread::hardware_concurrency()));
+  }
+}
