@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "base/text.hpp"
-#include "solver/equilibrium.hpp"
 #include "solver/face.hpp"
 #include "solver/projection.hpp"
+#include "solver/stationary_iteration.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -47,12 +47,7 @@ class Run {
   /// Takes the bounds at λ, and λ into them.
   void start(const Vector& lambda) {
     bounds_ = friction_bounds(it_.problem, lambda);
-    move_to(project(it_.problem, lambda, Vector::Zero(lambda.size()), &bounds_));
-  }
-
-  void move_to(Vector lambda) {
-    Vector alpha = equilibrium_.alpha(lambda);
-    it_.move_to(std::move(lambda), std::move(alpha));
+    move_to(it_, equilibrium_, project(it_.problem, lambda, Vector::Zero(lambda.size()), &bounds_));
   }
 
   Face face() const { return Face(it_.problem, it_.lambda(), it_.jump(), it_.map.rho(), bounds_); }
@@ -72,7 +67,7 @@ class Run {
   }
 
   void gradient_step() {
-    move_to(projected(it_.lambda(), it_.jump(), step_));
+    move_to(it_, equilibrium_, projected(it_.lambda(), it_.jump(), step_));
     face_.emplace(face());
     direction_.resize(0);
   }
@@ -109,7 +104,7 @@ class Run {
   bool descend(Vector target) {
     const Vector lambda = it_.lambda(), alpha = it_.alpha();
     const double before = energy();
-    move_to(std::move(target));
+    move_to(it_, equilibrium_, std::move(target));
     if (energy() <= before + 1e-13 * std::abs(before)) return true;
     it_.move_to(lambda, alpha);
     return false;

@@ -1,8 +1,7 @@
 #include "solver/psor.hpp"
 
-#include "base/text.hpp"
-#include "solver/equilibrium.hpp"
 #include "solver/relaxation.hpp"
+#include "solver/stationary_iteration.hpp"
 
 namespace dotyk::solver {
 
@@ -11,17 +10,10 @@ using algebra::Vector;
 void Psor::iterate(RowIteration& it) const {
   Equilibrium equilibrium(it.condensed, it.alpha());
   const Relaxation relaxation(it.problem, equilibrium.W());
-  it.move_to(it.lambda(), equilibrium.alpha(it.lambda()));
-  while (it.next()) {
-    Vector lambda = it.lambda(), x = it.jump();
+  solver::iterate(it, equilibrium, [&](Vector lambda, Vector x) {
     relaxation.sweep(omega, lambda, x);
-    Vector alpha = equilibrium.alpha(lambda);
-    it.move_to(std::move(lambda), std::move(alpha));
-    if (it.record()) break;
-    if (equilibrium.settle(it.law_residual(), it.lambda()))
-      it.move_to(it.lambda(), equilibrium.alpha(it.lambda()));
-    if (it.stalled()) break;
-  }
+    return lambda;
+  });
 }
 
 }  // namespace dotyk::solver

@@ -1,8 +1,8 @@
 #include "solver/uzawa.hpp"
 
 #include "base/text.hpp"
-#include "solver/equilibrium.hpp"
 #include "solver/projection.hpp"
+#include "solver/stationary_iteration.hpp"
 
 namespace dotyk::solver {
 
@@ -14,16 +14,9 @@ void Uzawa::iterate(RowIteration& it) const {
   const Vector step = rho * bound * it.map.rho();
   it.remark(text("rho = ", rho * bound, " for a bound 2/λ_max of ", bound, " (in units of 1/W_rr)",
                  rho >= 1 ? ", beyond which steps need not converge" : ""));
-  it.move_to(it.lambda(), equilibrium.alpha(it.lambda()));
-  while (it.next()) {
-    Vector lambda = project(it.problem, it.lambda() + step.cwiseProduct(it.jump()), step);
-    Vector alpha = equilibrium.alpha(lambda);
-    it.move_to(std::move(lambda), std::move(alpha));
-    if (it.record()) break;
-    if (equilibrium.settle(it.law_residual(), it.lambda()))
-      it.move_to(it.lambda(), equilibrium.alpha(it.lambda()));
-    if (it.stalled()) break;
-  }
+  solver::iterate(it, equilibrium, [&](const Vector& lambda, const Vector& x) {
+    return project(it.problem, lambda + step.cwiseProduct(x), step);
+  });
 }
 
 }  // namespace dotyk::solver

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "base/text.hpp"
-#include "solver/equilibrium.hpp"
 #include "solver/projection.hpp"
+#include "solver/stationary_iteration.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -31,24 +31,23 @@ class Alternation {
 
   double step_bound(const Vector& stiffness) const { return equilibrium_.step_bound(stiffness); }
 
-
   void begin(Vector rho) {
     rho_ = std::move(rho);
     load();
-    move_to(it_.lambda());
+    move_to(it_, equilibrium_, it_.lambda());
   }
 
   void step() {
     Vector lambda = it_.lambda();
     lambda = solve(contact_alone(lambda, it_.jump()));
     lambda = solve(friction_alone(lambda, rows_->jump(lambda, Vector())));
-    move_to(std::move(lambda));
+    move_to(it_, equilibrium_, std::move(lambda));
   }
 
   void settle() {
     if (!equilibrium_.settle(it_.law_residual(), it_.lambda())) return;
     load();
-    move_to(it_.lambda());
+    move_to(it_, equilibrium_, it_.lambda());
     earlier_.clear();
   }
 
@@ -68,11 +67,6 @@ class Alternation {
   void load() {
     rows_.emplace(equilibrium_.W(), equilibrium_.x0());
     map_.emplace(it_.problem, *rows_, rho_);
-  }
-
-  void move_to(Vector lambda) {
-    Vector alpha = equilibrium_.alpha(lambda);
-    it_.move_to(std::move(lambda), std::move(alpha));
   }
 
   NaturalMap::Value at(const Vector& lambda, const Vector& x) const {
