@@ -1,9 +1,7 @@
 #include "solver/active_set.hpp"
 
-#include "base/stopwatch.hpp"
 #include "program/active_set.hpp"
 #include "solver/primal_program.hpp"
-#include "solver/require_solvable.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -30,20 +28,17 @@ program::ActiveSet options(const problem::Problem& problem, const ActiveSet& set
 }  // namespace
 
 Result solve(const problem::Problem& problem, const ActiveSet& settings, Monitor& monitor) {
-  Result result;
-  const problem::RigidMotions rigid = problem::rigid_motions(problem);
-  const PrimalProgram primal(problem, rigid, "active_set", settings.reduced, settings.ordering, result.clock, monitor);
-  const std::string note = require_solvable(problem, rigid);
-  Stopwatch watch;
-  Recorder recorder(monitor, result.history);
-  const program::Result solved = program::solve(primal.program(), options(problem, settings, primal), recorder);
-  result.clock.iterate += watch.lap();
-  take_over(problem, primal, solved, result);
-  result.clock.recover += watch.lap();
-  result.method = settings.change == ActiveSet::Change::one ? "active_set" : "active_set (many)";
-  result.working_set = {solved.added,    solved.dropped,        solved.singular,
-                        solved.survived, solved.factorisations, solved.repeats};
-  if (!note.empty()) result.reason += "; " + note;
+  WorkingSetCounts counts;
+  Result result = solve_primal(
+      problem, "active_set", settings.reduced, settings.ordering, monitor,
+      [&](const PrimalProgram& primal, Monitor& recorder) {
+        program::Result solved = program::solve(primal.program(), options(problem, settings, primal), recorder);
+        counts = {solved.added,    solved.dropped,        solved.singular,
+                  solved.survived, solved.factorisations, solved.repeats};
+        return solved;
+      });
+  if (settings.change == ActiveSet::Change::many) result.method = "active_set (many)";
+  result.working_set = counts;
   return result;
 }
 

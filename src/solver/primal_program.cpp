@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "base/memory.hpp"
+#include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "solver/require_solvable.hpp"
 #include "solver/treatable.hpp"
 
 namespace dotyk::solver {
@@ -143,6 +145,25 @@ double PrimalProgram::factor_bytes() const {
   return bytes;
 }
 
+namespace {
+
+/// Tells the watcher of a program's iterations and writes them into a history.
+class Recorder final : public Monitor {
+ public:
+  Recorder(Monitor& watcher, std::vector<IterationInfo>& history) : watcher_(watcher), history_(history) {}
+  void phase(const std::string& what) override { watcher_.phase(what); }
+  bool stop() override { return watcher_.stop(); }
+  void iteration(const IterationInfo& info) override {
+    history_.push_back(info);
+    watcher_.iteration(info);
+  }
+
+ private:
+  Monitor& watcher_;
+  std::vector<IterationInfo>& history_;
+};
+
+/// What a program's solution says of the problem.
 void take_over(const Problem& problem, const PrimalProgram& primal, const program::Result& solved, Result& result) {
   result.converged = solved.status == program::Status::solved;
   result.reason = solved.reason;
@@ -153,6 +174,26 @@ void take_over(const Problem& problem, const PrimalProgram& primal, const progra
     closed[primal.rows()[k]] = !solved.working.empty() && solved.working[k] != program::Side::free;
   result.active_sets.push_back(std::move(closed));
   result.state = primal.state(solved.x, solved.y);
+}
+
+}  // namespace
+
+Result solve_primal(const Problem& problem, const std::string& method, bool reduced, algebra::Ordering ordering,
+                    Monitor& monitor,
+                    const std::function<program::Result(const PrimalProgram&, Monitor&)>& solve) {
+  Result result;
+  const problem::RigidMotions rigid = problem::rigid_motions(problem);
+  const PrimalProgram primal(problem, rigid, method, reduced, ordering, result.clock, monitor);
+  const std::string note = require_solvable(problem, rigid);
+  Stopwatch watch;
+  Recorder recorder(monitor, result.history);
+  const program::Result solved = solve(primal, recorder);
+  result.clock.iterate += watch.lap();
+  take_over(problem, primal, solved, result);
+  result.clock.recover += watch.lap();
+  result.method = method;
+  if (!note.empty()) result.reason += "; " + note;
+  return result;
 }
 
 }  // namespace dotyk::solver

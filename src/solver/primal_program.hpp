@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,24 +48,11 @@ class PrimalProgram {
   double unit_ = 1;
 };
 
-/// Tells the watcher of a program's iterations and writes them into a history.
-class Recorder final : public Monitor {
- public:
-  Recorder(Monitor& watcher, std::vector<IterationInfo>& history) : watcher_(watcher), history_(history) {}
-  void phase(const std::string& what) override { watcher_.phase(what); }
-  bool stop() override { return watcher_.stop(); }
-  void iteration(const IterationInfo& info) override {
-    history_.push_back(info);
-    watcher_.iteration(info);
-  }
-
- private:
-  Monitor& watcher_;
-  std::vector<IterationInfo>& history_;
-};
-
-/// What a program's solution says of the problem: state, rows closed at the end, how it ended.
-void take_over(const problem::Problem& problem, const PrimalProgram& primal, const program::Result& solved,
-               Result& result);
+/// Solves a frictionless problem by a method for programs: states it (PrimalProgram), has it solved, and takes
+/// over state, rows closed at the end, history, times and how it ended. Throws InputError where there is no
+/// solution, naming the motion. `method` is the result's, and names who asks in messages.
+Result solve_primal(
+    const problem::Problem& problem, const std::string& method, bool reduced, algebra::Ordering ordering,
+    Monitor& monitor, const std::function<program::Result(const PrimalProgram& primal, Monitor& monitor)>& solve);
 
 }  // namespace dotyk::solver
