@@ -73,24 +73,28 @@ void check_laws(const problem::Problem& p, const problem::State& s, double slack
     }
 }
 
+/// Newton's method converges, and every other to the same solution, which fulfils the laws.
+void check_every_method(const problem::Problem& p) {
+  const auto exact = solve(named(solver::Newton{}), p);
+  REQUIRE_MESSAGE(exact.converged, exact.reason);
+  for (const Named& m : methods()) {
+    CAPTURE(m.name);
+    const auto r = solve(m, p);
+    REQUIRE_MESSAGE(r.converged, r.reason);
+    CHECK(r.method == m.name);
+    check_laws(p, r.state, 1e-8);
+    CHECK((r.state.u - exact.state.u).norm() < 1e-8 * exact.state.u.norm());
+    CHECK((r.state.lambda - exact.state.lambda).norm() < 1e-8 * (1 + exact.state.lambda.norm()));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("every method finds the one solution with given friction, in the plane and in space") {
   test::Random random(301);
   for (int trial = 0; trial < 40; ++trial) {
     const int nodes = 1 + trial % 6, d = 1 + trial % 2;
-    const auto p = test::friction_program(random, nodes, d, problem::tresca(several(random, nodes, trial % 4 ? 1 : 0)));
-    const auto exact = solve(named(solver::Newton{}), p);
-    REQUIRE_MESSAGE(exact.converged, exact.reason);
-    for (const Named& m : methods()) {
-      CAPTURE(m.name);
-      const auto r = solve(m, p);
-      REQUIRE_MESSAGE(r.converged, r.reason);
-      CHECK(r.method == m.name);
-      check_laws(p, r.state, 1e-8);
-      CHECK((r.state.u - exact.state.u).norm() < 1e-8 * exact.state.u.norm());
-      CHECK((r.state.lambda - exact.state.lambda).norm() < 1e-8 * (1 + exact.state.lambda.norm()));
-    }
+    check_every_method(test::friction_program(random, nodes, d, problem::tresca(several(random, nodes, trial % 4 ? 1 : 0))));
   }
 }
 
@@ -98,16 +102,7 @@ TEST_CASE("every method finds the solution with a small coefficient of Coulomb f
   test::Random random(302);
   for (int trial = 0; trial < 40; ++trial) {
     const int nodes = 1 + trial % 6, d = 1 + trial % 2;
-    const auto p = test::friction_program(random, nodes, d, problem::coulomb(several(random, nodes, 0.3)));
-    const auto exact = solve(named(solver::Newton{}), p);
-    REQUIRE_MESSAGE(exact.converged, exact.reason);
-    for (const Named& m : methods()) {
-      CAPTURE(m.name);
-      const auto r = solve(m, p);
-      REQUIRE_MESSAGE(r.converged, r.reason);
-      check_laws(p, r.state, 1e-8);
-      CHECK((r.state.u - exact.state.u).norm() < 1e-8 * exact.state.u.norm());
-    }
+    check_every_method(test::friction_program(random, nodes, d, problem::coulomb(several(random, nodes, 0.3))));
   }
 }
 
