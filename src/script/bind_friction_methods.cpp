@@ -18,15 +18,13 @@ namespace {
 constexpr int kMany = 20000;
 
 int make_uzawa(Call& call) {
-  solver::Uzawa uzawa;
-  read_settings(call, uzawa);
+  auto uzawa = settings_of<solver::Uzawa>(call);
   uzawa.rho = call.number("rho");
   return give_method(call, uzawa, text("uzawa: rho = ", uzawa.rho));
 }
 
 int make_uzawa_pdas(Call& call) {
-  solver::UzawaPdas method;
-  read_settings(call, method);
+  auto method = settings_of<solver::UzawaPdas>(call);
   method.rho = call.number("rho");
   using Unit = solver::UzawaPdas::Unit;
   method.unit = call.choice("unit") == 0 ? Unit::bound : Unit::stiffness;
@@ -35,28 +33,24 @@ int make_uzawa_pdas(Call& call) {
 }
 
 int make_psor(Call& call) {
-  solver::Psor psor;
-  read_settings(call, psor);
+  auto psor = settings_of<solver::Psor>(call);
   psor.omega = call.number("omega");
   return give_method(call, psor, text("psor: omega = ", psor.omega));
 }
 
 int make_projected_cg(Call& call) {
-  solver::ProjectedCg cg;
-  read_settings(call, cg);
+  auto cg = settings_of<solver::ProjectedCg>(call);
   return give_method(call, cg, "projected_cg");
 }
 
 int make_proximal(Call& call) {
-  solver::Proximal proximal;
-  read_settings(call, proximal);
+  auto proximal = settings_of<solver::Proximal>(call);
   proximal.sigma = call.number("sigma");
   return give_method(call, proximal, text("proximal: sigma = ", proximal.sigma));
 }
 
 int make_coulomb_loop(Call& call) {
-  solver::CoulombLoop loop;
-  read_settings(call, loop);
+  auto loop = settings_of<solver::CoulombLoop>(call);
   loop.inner = std::make_shared<solver::Newton>();
   std::string inner = "newton";
   if (call.has("inner")) {

@@ -8,8 +8,7 @@ namespace dotyk::script {
 namespace {
 
 int make_pdas(Call& call) {
-  solver::Pdas pdas;
-  read_settings(call, pdas);
+  auto pdas = settings_of<solver::Pdas>(call);
   pdas.rho = call.number("rho");
   pdas.reduced = call.boolean("reduced");
   pdas.kernel = call.choice("kernel") == 0 ? solver::Pdas::Kernel::exact : solver::Pdas::Kernel::screws;
@@ -20,8 +19,7 @@ int make_pdas(Call& call) {
 }
 
 int make_newton(Call& call) {
-  solver::Newton newton;
-  read_settings(call, newton);
+  auto newton = settings_of<solver::Newton>(call);
   newton.rho = call.number("rho");
   newton.watch = call.boolean("watch");
   if (call.has("seed")) newton.seed = static_cast<unsigned>(call.integer("seed"));

@@ -14,8 +14,7 @@ const char* const kBoundary =
     "on the unknowns of the contact boundary, the stiffness condensed onto it once; else on all unknowns";
 
 int make_active_set(Call& call) {
-  solver::ActiveSet method;
-  read_settings(call, method);
+  auto method = settings_of<solver::ActiveSet>(call);
   method.change = call.choice("change") == 0 ? solver::ActiveSet::Change::one : solver::ActiveSet::Change::many;
   method.reduced = call.boolean("reduced");
   const bool one = method.change == solver::ActiveSet::Change::one;
@@ -23,15 +22,13 @@ int make_active_set(Call& call) {
 }
 
 int make_interior_point(Call& call) {
-  solver::InteriorPoint method;
-  read_settings(call, method);
+  auto method = settings_of<solver::InteriorPoint>(call);
   method.reduced = call.boolean("reduced");
   return give_method(call, method, text("interior_point: ", method.reduced ? "reduced" : "full"));
 }
 
 int make_penalty(Call& call) {
-  solver::Penalty method;
-  read_settings(call, method);
+  auto method = settings_of<solver::Penalty>(call);
   method.factor = call.number("factor");
   method.reduced = call.boolean("reduced");
   return give_method(call, method, text("penalty: factor = ", method.factor, ", ", method.reduced ? "reduced" : "classical"));

@@ -14,6 +14,13 @@ class Library;
 // Keys that every method takes: tol, max_iterations, ordering, on_iteration, verbose; `own` come first.
 std::vector<Key> method_keys(std::vector<Key> own, int max_iterations = 100);
 void read_settings(const Call& call, solver::Settings& settings);
+// A method with those of its options that every method takes.
+template <class Method>
+Method settings_of(const Call& call) {
+  Method method;
+  read_settings(call, method);
+  return method;
+}
 // The solver object: `text` is its name and options as printed.
 int give_method(Call& call, solver::Method method, std::string text);
 
