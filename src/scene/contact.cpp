@@ -77,7 +77,7 @@ void set_friction(Contact& contact, const Friction& friction) {
     const mesh::Point x = contact.first.body->mesh->point(row.node);
     const double value = friction.value(x);
     if (!(value >= 0) || (!given && !std::isfinite(value)))
-      throw InputError(text("the friction ", given ? "bound" : "coefficient", " is ", value, " at ",
+      throw InputError(text("the friction ", given ? "bound" : "coefficient", " is ", std::isnan(value) ? "not a number" : text(value), " at ",
                             point_text(x.data(), contact.first.body->dimension()), "; it must be zero or positive",
                             given ? " (math.huge: no slip at all)" : " and finite"));
     contact.friction_value.push_back(value);

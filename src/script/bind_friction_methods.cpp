@@ -94,7 +94,7 @@ void bind_friction_methods(Library& library) {
        .help = "Projected over-relaxation, node by node: the normal force, then its friction, given or Coulomb.",
        .example = "local s = dotyk.solver.psor{ omega = 1.2 }:solve(scene)",
        .arguments = {key::table(method_keys(
-           {key::number("omega", "relaxation, 1 for Gauss-Seidel").above(0).within(0, 2).fallback(1.0)}, kMany))},
+           {key::number("omega", "relaxation, 1 for Gauss-Seidel").above(0).below(2).fallback(1.0)}, kMany))},
        .returns = "solver",
        .run = make_psor});
   library.function(

@@ -14,7 +14,10 @@ int make_pdas(Call& call) {
   pdas.kernel = call.choice("kernel") == 0 ? solver::Pdas::Kernel::exact : solver::Pdas::Kernel::screws;
   if (call.has("screws"))
     for (const long long row : call.integers("screws")) pdas.screws.push_back(static_cast<int>(row - 1));
-  const std::string shown = text("pdas: rho = ", pdas.rho, ", ", pdas.reduced ? "reduced" : "full");
+  std::string shown = text("pdas: rho = ", pdas.rho, ", ", pdas.reduced ? "reduced" : "full");
+  if (pdas.kernel == solver::Pdas::Kernel::screws) shown += ", kernel by screws";
+  for (std::size_t k = 0; k < pdas.screws.size(); ++k)
+    shown += text(k == 0 ? " first at rows " : ", ", pdas.screws[k] + 1);
   return give_method(call, std::move(pdas), shown);
 }
 
@@ -22,14 +25,17 @@ int make_newton(Call& call) {
   auto newton = settings_of<solver::Newton>(call);
   newton.rho = call.number("rho");
   newton.watch = call.boolean("watch");
-  if (call.has("seed")) newton.seed = static_cast<unsigned>(call.integer("seed"));
-  return give_method(call, newton, text("newton: rho = ", newton.rho));
+  std::string shown = text("newton: rho = ", newton.rho, newton.watch ? ", watch" : "");
+  if (call.has("seed")) {
+    newton.seed = static_cast<unsigned>(call.integer("seed"));
+    shown += text(", seed = ", *newton.seed);
+  }
+  return give_method(call, newton, shown);
 }
 
 }  // namespace
 
 void bind_methods(Library& library) {
-  library.module("dotyk.solver", "Methods. Each is made with its options and then solves scenes.");
   library.function(
       {.name = "dotyk.solver.pdas",
        .help = "The primal-dual active set method, which is Newton's method on the contact conditions: "

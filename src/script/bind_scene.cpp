@@ -126,10 +126,7 @@ int rigid_ball(Call& call) {
 int make_friction(Call& call, scene::Friction::Kind kind) {
   auto law = std::make_shared<FrictionLaw>(FrictionLaw{kind});
   law->varies = call.is("value", LUA_TFUNCTION);
-  if (!law->varies) law->value = call.is("value", LUA_TNUMBER) ? lua_tonumber(call.state(), call.slot("value")) : 0;
-  if (!law->varies && !(law->value >= 0))
-    throw InputError(text("the friction ", kind == scene::Friction::Kind::tresca ? "bound" : "coefficient", " is ",
-                          law->value, "; it must be zero or positive"));
+  if (!law->varies) law->value = lua_tonumber(call.state(), call.slot("value"));
   call.give(law);
   if (law->varies) call.keep(lua_gettop(call.state()), {"value"});
   return 1;
@@ -140,14 +137,15 @@ void bind_friction(Library& library) {
   library.function({.name = "dotyk.friction.tresca",
                     .help = "Given friction (Tresca): the shear is at most g, whatever the pressure. math.huge: no slip at all.",
                     .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.tresca(2.5) }",
-                    .arguments = {key::either("value", {key::any("", ""), key::function("", "")},
+                    .arguments = {key::either("value", {key::number("", "").at_least(0).or_infinite(), key::function("", "")},
                                               "bound, a number or a function of the coordinates").unit("force/length (2-D), force/area (3-D)").required()},
                     .returns = "friction",
                     .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::tresca); }});
   library.function({.name = "dotyk.friction.coulomb",
                     .help = "Coulomb friction: the shear is at most mu times the pressure.",
                     .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.coulomb(0.3) }",
-                    .arguments = {key::field("value", "coefficient, a number or a function of the coordinates").required()},
+                    .arguments = {key::either("value", {key::number("", "").at_least(0), key::function("", "")},
+                                              "coefficient, a number or a function of the coordinates").required()},
                     .returns = "friction",
                     .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::coulomb); }});
   library.type<FrictionLaw>("A friction law.").text([](const FrictionLaw& f) {

@@ -60,6 +60,11 @@ Key& Key::above(double value) {
   least_excluded = true;
   return *this;
 }
+Key& Key::below(double value) {
+  greatest = value;
+  greatest_excluded = true;
+  return *this;
+}
 Key& Key::at_least(double value) {
   least = value;
   least_excluded = false;
@@ -68,6 +73,10 @@ Key& Key::at_least(double value) {
 Key& Key::within(double least_value, double greatest_value) {
   least = least_value;
   greatest = greatest_value;
+  return *this;
+}
+Key& Key::or_infinite() {
+  infinite = true;
   return *this;
 }
 Key& Key::count(std::size_t exactly) { return count(exactly, exactly); }
@@ -95,10 +104,11 @@ std::string count_text(const Key& key, const std::string& noun) {
 
 std::string range_text(const Key& key) {
   const bool low = std::isfinite(key.least), high = std::isfinite(key.greatest);
-  if (low && high) return " from " + number_text(key.least) + " to " + number_text(key.greatest);
-  if (low) return (key.least_excluded ? " above " : " of at least ") + number_text(key.least);
-  if (high) return " of at most " + number_text(key.greatest);
-  return "";
+  const std::string least = number_text(key.least), greatest = number_text(key.greatest);
+  if (low && high && !key.least_excluded && !key.greatest_excluded) return " from " + least + " to " + greatest;
+  const std::string above = !low ? "" : (key.least_excluded ? " above " : " of at least ") + least;
+  const std::string below = !high ? "" : (key.greatest_excluded ? " below " : " of at most ") + greatest;
+  return above + (low && high ? " and" : "") + below + (key.infinite ? " (math.huge too)" : "");
 }
 
 }  // namespace

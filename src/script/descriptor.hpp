@@ -14,7 +14,7 @@ class Call;
 
 // What a value given by a script may be.
 enum class Kind {
-  number,   // finite, within [least, greatest]
+  number,   // finite unless said otherwise, within [least, greatest]
   integer,  // a number without a fraction
   boolean,
   string,
@@ -43,7 +43,8 @@ struct Key {
   bool needed = false;
   double least = -std::numeric_limits<double>::infinity();
   double greatest = std::numeric_limits<double>::infinity();
-  bool least_excluded = false;
+  bool least_excluded = false, greatest_excluded = false;
+  bool infinite = false;   // math.huge is a value
   std::size_t fewest = 0;  // entries of a vector, items of a list or table
   std::size_t most = std::numeric_limits<std::size_t>::max();
   std::vector<std::string> choices;
@@ -58,8 +59,10 @@ struct Key {
   Key& fallback(const char* value);
   Key& otherwise(std::string text);  // what happens when absent, in words
   Key& above(double value);          // value < x
+  Key& below(double value);          // x < value
   Key& at_least(double value);       // value <= x
   Key& within(double least_value, double greatest_value);
+  Key& or_infinite();               // math.huge as well
   Key& count(std::size_t exactly);  // entries or items
   Key& count(std::size_t fewest_count, std::size_t most_count);
   Key& with(Key item);  // a table that takes items as well as keys

@@ -75,7 +75,7 @@ void Function::numbers(std::span<const double> arguments, std::span<double> valu
       fail(describe_value(L_, index) + (packed ? " (write: return fx, fy)" : ", " + wanted));
     }
     values[i] = lua_tonumber(L_, index);
-    if (!std::isfinite(values[i])) fail(std::isnan(values[i]) ? "nan" : number_text(values[i]));
+    if (!std::isfinite(values[i])) fail(std::isnan(values[i]) ? "nan (not a number)" : number_text(values[i]));
   }
   if (given != values.size()) fail(counted(given, "number") + ", " + wanted);
   lua_settop(L_, base);

@@ -28,6 +28,7 @@ void read_settings(const Call& call, solver::Settings& settings) {
 
 int give_method(Call& call, solver::Method method, std::string text) {
   text += dotyk::text(", tol = ", call.number("tol"), ", max_iterations = ", call.integer("max_iterations"));
+  if (call.choice("ordering") != 0) text += ", ordering = " + call.text("ordering");
   auto made = std::make_shared<Solver>(Solver{std::move(method), "solver " + std::move(text), call.boolean("verbose")});
   return call.give_keeping(made, {"on_iteration"});
 }

@@ -4,8 +4,9 @@ local solver <const> = dotyk.solver
 
 refused(function() solver.uzawa{ rho = 0 } end, "'rho' must be a positive number")
 refused(function() solver.uzawa{ omega = 1 } end, "unknown key 'omega'")
-refused(function() solver.psor{ omega = 2.5 } end, "'omega'", "2.5")
-refused(function() solver.psor{ omega = 0 } end, "'omega'")
+for _, omega in ipairs{ 0, 2, 2.5 } do
+  refused(function() solver.psor{ omega = omega } end, "'omega' must be a number above 0 and below 2, got the number " .. omega)
+end
 refused(function() solver.uzawa_pdas{ unit = "force" } end, "'unit'", "\"force/displacement\"")
 refused(function() solver.coulomb_loop{ inner = "newton" } end, "'inner'", "a solver")
 refused(function() solver.coulomb_loop{ inner = solver.pdas{} } end, "which cannot treat friction", "newton, proximal, uzawa, uzawa_pdas, psor, projected_cg and coulomb_loop can")
@@ -51,3 +52,20 @@ assert(not stopped.converged and stopped.iterations == 2 and stopped.reason:find
 -- A step beyond the bound is told.
 local far <const> = solver.uzawa{ rho = 3, max_iterations = 20 }:solve(scene)
 assert(not far.converged and far.reason:find("beyond which steps need not converge", 1, true))
+
+-- A method is printed with the options that change what it does.
+assert(tostring(solver.newton{ watch = true, seed = 7 }) == "solver newton: rho = 1, watch, seed = 7, tol = 1e-10, max_iterations = 100")
+assert(tostring(solver.newton{}) == "solver newton: rho = 1, tol = 1e-10, max_iterations = 100")
+assert(tostring(solver.pdas{ kernel = "screws", screws = { 3, 1 }, ordering = "minimum_degree" }) ==
+  "solver pdas: rho = 1, reduced, kernel by screws first at rows 3, 1, tol = 1e-10, max_iterations = 100, ordering = minimum_degree")
+
+-- Bounds and coefficients.
+for _, law in ipairs{ dotyk.friction.tresca, dotyk.friction.coulomb } do
+  refused(function() law(0/0) end, "'value' must be a finite number, got nan (not a number)")
+  refused(function() law(-1) end, "'value' must be a number of at least 0", "got the number -1")
+  refused(function() law "2" end, "or a function, got the string \"2\"")
+  refused(function() law{ 1 } end, "or a function, got a table")
+end
+refused(function() dotyk.friction.tresca(-1/0) end, "got the number -inf")
+refused(function() dotyk.friction.coulomb(1/0) end, "'value' must be a finite number, got inf")
+assert(tostring(dotyk.friction.tresca(1/0)) == "given friction, bound inf")

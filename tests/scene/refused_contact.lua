@@ -68,7 +68,7 @@ refused(function() dotyk.rigid.ball{ center = {0,0}, radius = 1/0 } end, "'radiu
 local deep <const> = dotyk.rigid.plane{ point = {0,0,0}, normal = {0,0,1} }
 refused(function() scene:contact{ it.right, rigid = deep } end, "the rigid plane has 3 components, the scene is 2-D")
 local holed <const> = dotyk.rigid.gap{ normal = {1,0}, gap = function(x, y) return y > 0.7 and 0/0 or 1 end }
-refused(function() scene:contact{ it.right, rigid = holed } end, "contact: function 'gap' returned nan at (1, 1)")
+refused(function() scene:contact{ it.right, rigid = holed } end, "contact: function 'gap' returned nan (not a number) at (1, 1)")
 
 -- An obstacle that overlaps the body at rest, unless that is meant.
 local high <const> = dotyk.rigid.plane{ point = {0,0.1}, normal = {0,1} }

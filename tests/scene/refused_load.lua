@@ -6,7 +6,7 @@ local it <const> = refused.pressed_block()
 refused.intact = it.solve
 local top <const> = it.top
 
-refused(function() top:load(function(x, y) return 0, x > 0.5 and 0/0 or 1 end) end, "load: function 'traction' returned nan at (0.", ", 1)")
+refused(function() top:load(function(x, y) return 0, x > 0.5 and 0/0 or 1 end) end, "load: function 'traction' returned nan (not a number) at (0.", ", 1)")
 refused(function() top:load(function(x, y) return 1/0, 0 end) end, "function 'traction' returned inf at (0.")
 refused(function() top:load(function(x, y) return 0 end) end, "function 'traction' returned 1 number, expected 2 numbers at (")
 refused(function() top:load(function(x, y) return 0, 1, 2 end) end, "returned 3 numbers, expected 2 numbers")
@@ -15,7 +15,7 @@ refused(function() top:load(function(x, y) return 0, "much" end) end, "returned 
 refused(function() top:load(function(x, y) return { 0, 1 } end) end, "returned a table (write: return fx, fy) at (")
 refused(function() top:pressure(function(x, y) return 0, 1 end) end, "function 'value' returned 2 numbers, expected a number")
 refused(function() top:displace{ y = function(x, y) return nil end } end, "function 'y' returned nil, expected a number")
-refused(function() dotyk.body{ mesh = it.mesh, material = it.material, force = function(x, y) return 0, 0/0 end } end, "body: function 'force' returned nan at (")
+refused(function() dotyk.body{ mesh = it.mesh, material = it.material, force = function(x, y) return 0, 0/0 end } end, "body: function 'force' returned nan (not a number) at (")
 
 -- An error inside the function keeps its own line; the call that asked for it is named after it.
 local function broken(x, y)

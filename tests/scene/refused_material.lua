@@ -33,7 +33,7 @@ refused(function() dotyk.body{ mesh = box, material = soft } end, "body: materia
 local falling <const> = dotyk.material{ E = function(x, y) return 0.5 - x end }
 refused(function() dotyk.body{ mesh = it.mesh, material = falling } end, "body: material at (0.833333, 0.166667): E is -0.333333", "must be positive")
 local holed <const> = dotyk.material{ E = function(x, y) return y > 0.5 and 0/0 or 1 end }
-refused(function() dotyk.body{ mesh = it.mesh, material = holed } end, "body: function 'E' returned nan at (")
+refused(function() dotyk.body{ mesh = it.mesh, material = holed } end, "body: function 'E' returned nan (not a number) at (")
 
 -- General stiffness.
 local function diagonal(n)

@@ -47,7 +47,7 @@ local function graded(f) return { from = {0,0}, to = {1,1}, cells = {2,2}, gradi
 refused(function() dotyk.mesh.rectangle(graded(function() return 0.5 end)) end, "grading.x must increase", "at s = 0.5 it gives 0.5")
 refused(function() dotyk.mesh.rectangle(graded(function(s) return s / 2 end)) end, "grading.x must map 0 to 0 and 1 to 1")
 refused(function() dotyk.mesh.rectangle(graded(function(s) end)) end, "function 'x' returned nothing at (0)")
-refused(function() dotyk.mesh.rectangle(graded(function(s) return 0/0 end)) end, "returned nan at (0)")
+refused(function() dotyk.mesh.rectangle(graded(function(s) return 0/0 end)) end, "returned nan (not a number) at (0)")
 refused(function() dotyk.mesh.rectangle(graded(function(s) error "mine" end)) end, "mine (in 'x' of rectangle at")
 refused(function() dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2}, grading = { z = math.abs } } end, "unknown key 'z'")
 
@@ -62,7 +62,7 @@ refused.intact = function() check.near(area(), 1) end
 refused(function() m:transform(function(x, y) return -x, y end) end, "transform: the moved mesh: cell 1", "inverted", "must be positive")
 refused(function() m:transform(function(x, y) return x, 0 end) end, "is flat")
 refused(function() m:transform(function(x, y) return x < 0.4 and 1 - x or x, y end) end, "inverted")
-refused(function() m:transform(function(x, y) return 0/0, y end) end, "function 'map' returned nan at (0, 0)")
+refused(function() m:transform(function(x, y) return 0/0, y end) end, "function 'map' returned nan (not a number) at (0, 0)")
 refused(function() m:transform(function(x, y) return x end) end, "function 'map' returned 1 number, expected 2 numbers")
 refused(function() m:transform(function(x, y) return x, y, 0 end) end, "returned 3 numbers, expected 2 numbers")
 refused(function() m:transform(function(x, y) if x > 0.5 then error "mine" end return 2 * x, y end) end, "mine")

@@ -38,7 +38,7 @@ TEST_CASE("errors carry the line, the callable, and what is wrong") {
   says(toy("size = '3'"), "'size' must be a positive number, got the string \"3\"");
   says(toy("size = -3"), "'size' must be a positive number, got the number -3");
   says(toy("size = 0"), "'size' must be a positive number, got the number 0");
-  says(toy("size = 0/0"), "'size' must be a finite number, got nan");
+  says(toy("size = 0/0"), "'size' must be a finite number, got nan (not a number)");
   says(toy("size = 1/0"), "'size' must be a finite number, got inf");
   says(toy("size = {}"), "'size' must be a positive number, got a table");
   says(toy("size = print"), "'size' must be a positive number, got a function");

@@ -53,6 +53,30 @@ TEST_CASE("a binding without help is found") {
   CHECK(std::find(missing.begin(), missing.end(), "dotyk.bare: no example") != missing.end());
 }
 
+TEST_CASE("every name is registered once") {
+  Interpreter interpreter;
+  const auto& library = interpreter.library();
+  std::vector<std::string> names;
+  for (const auto& one : library.modules()) names.push_back(one.name);
+  for (const auto& one : library.functions()) names.push_back(one.name);
+  for (const auto& type : library.types()) {
+    names.push_back("object " + type.name);
+    for (const auto& one : type.methods) names.push_back(one.name);
+  }
+  std::sort(names.begin(), names.end());
+  for (std::size_t k = 1; k < names.size(); ++k) CHECK(names[k] != names[k - 1]);
+}
+
+TEST_CASE("ranges in words") {
+  CHECK(key::number("", "").expected() == "a number");
+  CHECK(key::positive("", "").expected() == "a positive number");
+  CHECK(key::number("", "").within(0, 1).expected() == "a number from 0 to 1");
+  CHECK(key::number("", "").above(0).below(2).expected() == "a number above 0 and below 2");
+  CHECK(key::number("", "").at_least(1).below(2).expected() == "a number of at least 1 and below 2");
+  CHECK(key::number("", "").below(2).expected() == "a number below 2");
+  CHECK(key::number("", "").at_least(0).or_infinite().expected() == "a number of at least 0 (math.huge too)");
+}
+
 TEST_CASE("signatures and help texts") {
   Bench bench;
   auto& library = bench.interpreter.library();

@@ -29,7 +29,7 @@ TEST_CASE("what a function returns is checked, and the point named") {
     CHECK(bench.error(weigh("function(x, y) " + body + " end")) ==
           "t.lua:1: toy: function 'weight' returned " + message + " at (0.5, 1)");
   };
-  says("return 0/0 * x, 1", "nan");
+  says("return 0/0 * x, 1", "nan (not a number)");
   says("return x, math.huge", "inf");
   says("return x", "1 number, expected 2 numbers");
   says("return x, y, 1", "3 numbers, expected 2 numbers");
