@@ -15,8 +15,8 @@ struct Key {
 
 }  // namespace
 
-std::vector<Facet> boundary(const Mesh& mesh) {
-  // Inner facets have their least node's facets in pairs: bucket by least node,
+std::vector<int> facet_neighbours(const Mesh& mesh) {
+  // The two sides of an inner facet have one least node: bucket by least node,
   // then compare within the few of a bucket.
   const ElementTopology& t = mesh.topology();
   const std::size_t facet_count = static_cast<std::size_t>(mesh.cell_count()) * t.facets;
@@ -38,17 +38,22 @@ std::vector<Facet> boundary(const Mesh& mesh) {
       std::sort(key.nodes.begin(), key.nodes.end());
       keys[fill[key.nodes[0]]++] = key;
     }
-  std::vector<Facet> result;
+  std::vector<int> neighbour(facet_count, -1);
   for (int n = 0; n < mesh.node_count(); ++n)
     for (int i = start[n]; i < start[n + 1]; ++i) {
-      bool inner = false;
-      for (int j = start[n]; j < start[n + 1] && !inner; ++j)
-        inner = j != i && keys[j].nodes == keys[i].nodes;
-      if (!inner) result.push_back(keys[i].facet);
+      int& other = neighbour[static_cast<std::size_t>(keys[i].facet.cell) * t.facets + keys[i].facet.local];
+      for (int j = start[n]; j < start[n + 1] && other < 0; ++j)
+        if (j != i && keys[j].nodes == keys[i].nodes) other = keys[j].facet.cell;
     }
-  std::sort(result.begin(), result.end(), [](Facet a, Facet b) {
-    return a.cell != b.cell ? a.cell < b.cell : a.local < b.local;
-  });
+  return neighbour;
+}
+
+std::vector<Facet> boundary(const Mesh& mesh) {
+  const std::vector<int> neighbour = facet_neighbours(mesh);
+  const int facets = mesh.topology().facets;
+  std::vector<Facet> result;
+  for (std::size_t k = 0; k < neighbour.size(); ++k)
+    if (neighbour[k] < 0) result.push_back({static_cast<int>(k) / facets, static_cast<int>(k) % facets});
   return result;
 }
 

@@ -48,6 +48,10 @@ struct Mesh {
   Point facet_area_vector(Facet f) const;
 };
 
+/// Cell × facets of a cell → the cell on the other side, or -1 on the boundary. Where more than two cells
+/// share a facet, each has one of the others.
+std::vector<int> facet_neighbours(const Mesh& mesh);
+
 /// All boundary facets (those that belong to one cell only), by cell.
 std::vector<Facet> boundary(const Mesh& mesh);
 
