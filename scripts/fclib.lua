@@ -1,9 +1,10 @@
 -- Frictional contact problems of the FCLIB and siconos collections, every file by every method.
 --
---   ./dotyk scripts/fclib.lua [SECONDS]
+--   ./dotyk scripts/fclib.lua [SECONDS [PATTERN...]]
 --
--- Reads the files of ../shared/reference/fclib (HDF5, and plain text in its folder dat) and solves each by every
--- method on rows, for at most SECONDS. Compared is the natural-map residual |r - P(r - rho u^)| / |r| (see
+-- Reads the files of ../shared/reference/fclib (HDF5, and plain text in its folder dat), those whose name matches one
+-- of the Lua patterns where any are given (Rover: all files with Rover in their names), and solves each by every
+-- method on rows, for at most SECONDS (5). Compared is the natural-map residual |r - P(r - rho u^)| / |r| (see
 -- help "contact_problem_result"), the same for all methods; 1e-8 counts as solved. Most of the files hold more contact
 -- forces than motions (rank W < rows), so that the forces are not unique; the velocities of a solution are shown by |u|.
 -- images/fclib.png: how many problems are solved after how many seconds; images/fclib_history.png: one hard one.
@@ -13,18 +14,31 @@ local solved_at <const> = 1e-8
 local folder <const> = (arg[0]:match "^(.*)/[^/]*$" or ".") .. "/../../shared/reference/fclib/"
 
 -- 1. The files, and what they are.
+local function picked(name)
+  for k = 2, #arg do
+    if name:find(arg[k]) then return true end
+  end
+  return #arg < 2
+end
+local found = 0
 local function files(sub, ending)
   local list, names = io.popen("ls '" .. folder .. sub .. "' 2>/dev/null"), {}
   for name in list:lines() do
-    if name:sub(-#ending) == ending then names[#names + 1] = sub .. name end
+    if name:sub(-#ending) == ending then
+      found = found + 1
+      if picked(name) then names[#names + 1] = sub .. name end
+    end
   end
   list:close()
   return names
 end
 local hdf5 <const>, text <const> = files("", ".hdf5"), files("dat/", ".dat")
-if #hdf5 + #text == 0 then
+if found == 0 then
   print("no problems in " .. folder .. ": nothing to solve")
   return
+end
+if #hdf5 + #text == 0 then
+  error(("none of the %d files of %s matches '%s'"):format(found, folder, table.concat(arg, "' or '", 2)), 0)
 end
 
 local problems, refused = {}, {}
@@ -38,6 +52,7 @@ for _, list in ipairs{ hdf5, text } do
     end
   end
 end
+if #problems == 0 then error("none can be read: " .. table.concat(refused, "; "), 0) end
 
 -- 2. Every method on every file.
 local methods <const> = { "proximal", "newton", "psor", "projected_cg", "uzawa", "uzawa_pdas", "coulomb_loop" }
@@ -117,29 +132,28 @@ for _, name in ipairs(methods) do
   print(("  %-12s %d solved"):format(name, #times))
 end
 dotyk.chart{ file = "images/fclib.png", x = "seconds", y = "problems solved, of " .. #problems, log = "x", series = series, size = {1000, 700} }
+print "images/fclib.png"
 
--- 5. The residual on the way, on one that sweeps do not solve.
-local hard
+-- 5. The residual on the way, on one that sweeps hardly solve (the first where that one is not picked).
+local hard = problems[1]
 for _, entry in ipairs(problems) do
   if entry.problem.name:match "^local_problem_test" then hard = entry end
 end
-if hard then
-  local curves = {}
-  for _, name in ipairs(methods) do
-    local x, y, next = {}, {}, 0
-    local history <const> = hard.runs[name].result.history
-    for k, one in ipairs(history) do
-      if (one.time >= next or k == #history) and one.residual > 0 then  -- equally spaced on the axis
-        x[#x + 1], y[#y + 1] = math.max(one.time, 1e-5), math.max(one.residual, 1e-17)
-        next = one.time * 1.05
-      end
+local curves = {}
+for _, name in ipairs(methods) do
+  local x, y, next = {}, {}, 0
+  local history <const> = hard.runs[name].result.history
+  for k, one in ipairs(history) do
+    if (one.time >= next or k == #history) and one.residual > 0 then  -- equally spaced on the axis
+      x[#x + 1], y[#y + 1] = math.max(one.time, 1e-5), math.max(one.residual, 1e-17)
+      next = one.time * 1.05
     end
-    curves[#curves + 1] = { name = name, x = x, y = y, style = "line" }
   end
-  dotyk.chart{ file = "images/fclib_history.png", x = "seconds", y = "relative residual of the method's map", log = "xy",
-               title = hard.problem.name .. ": rank W " .. hard.problem.rank_W .. " of " .. hard.problem.rows, series = curves, size = {1000, 700} }
-  print "images/fclib.png, images/fclib_history.png"
+  curves[#curves + 1] = { name = name, x = x, y = y, style = #x > 1 and "line" or "points" }
 end
+dotyk.chart{ file = "images/fclib_history.png", x = "seconds", y = "relative residual of the method's map", log = "xy",
+             title = hard.problem.name .. ": rank W " .. hard.problem.rank_W .. " of " .. hard.problem.rows, series = curves, size = {1000, 700} }
+print "images/fclib_history.png"
 local solved = 0
 for _, entry in ipairs(problems) do solved = solved + (entry.runs.proximal.solved and 1 or 0) end
 assert(solved == #problems or limit < 5, "the proximal method leaves a problem unsolved")
