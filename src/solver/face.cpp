@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/disc.hpp"
+
 namespace dotyk::solver {
 
 using algebra::Vector;
@@ -85,11 +87,8 @@ double Face::room(const Vector& p) const {
     }
   for (const Disc& disc : discs_) {
     const auto own = lambda_.segment(disc.first, disc.count), step = p.segment(disc.first, disc.count);
-    const double a = step.squaredNorm(), b = own.dot(step), c = own.squaredNorm() - disc.bound * disc.bound;
-    if (a == 0) continue;
-    // ‖λ_t + s p‖ = b, in the form without cancellation.
-    const double root = std::sqrt(std::max(0.0, b * b - a * c));
-    room = std::min(room, disc.circle ? disc.bound / std::sqrt(a) : b > 0 ? -c / (b + root) : (root - b) / a);
+    if (disc.circle && !step.isZero(0)) room = std::min(room, disc.bound / step.norm());
+    if (!disc.circle) room = std::min(room, room_in_disc(own, step, disc.bound));
   }
   return room;
 }

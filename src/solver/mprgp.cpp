@@ -1,0 +1,233 @@
+#include "solver/mprgp.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// ᾱ‖A‖ for intervals alone and with discs.
+constexpr double kIntervalStep = 1.9, kDiscStep = 1;
+/// Recurrences of g after which it is computed anew: one product more in a hundred.
+constexpr int kRefresh = 100;
+/// pᵀAp below this part of ‖A‖‖p‖² is none.
+constexpr double kNoCurvature = 1e-14;
+/// g is never known better than this part of ‖A‖‖x‖ + ‖b‖.
+constexpr double kRounding = 1e-14;
+/// Noticed so often in succession, rounding is all that is left.
+constexpr int kAgain = 3;
+/// So many steps without a lesser ‖g^P‖, already below kSmall (‖A‖‖x‖ + ‖b‖), are steps in rounding, too.
+constexpr int kIdle = 2000;
+constexpr double kSmall = 1e-7;
+
+}  // namespace
+
+Mprgp::Mprgp(LinearMap A, double norm, Vector b, const SeparableSet& set, Vector x, MprgpSettings settings)
+    : A_(std::move(A)), norm_(norm), b_(std::move(b)), set_(set), settings_(std::move(settings)), x_(set.project(std::move(x))) {
+  set_gradient(x_.isZero(0) ? Vector(-b_) : Vector(times(x_) - b_));
+  q_ = 0.5 * x_.dot(g_ - b_);
+  least_ = projected_gradient_norm();
+  if (!std::isfinite(q_) || !g_.allFinite()) halt_ = Halt::not_finite;
+}
+
+Vector Mprgp::times(const Vector& v) {
+  ++products_;
+  return A_(v);
+}
+
+void Mprgp::set_gradient(Vector g) {
+  g_ = std::move(g);
+  gradients_ = set_.gradients(x_, g_);
+}
+
+double Mprgp::projected_gradient_norm() const { return std::hypot(gradients_.free.norm(), gradients_.chopped.norm()); }
+
+double Mprgp::fixed_step_length() const { return norm_ > 0 ? (set_.has_discs() ? kDiscStep : kIntervalStep) / norm_ : 1; }
+
+bool Mprgp::proportional() const {
+  const Vector& phi = gradients_.free;
+  return gradients_.chopped.squaredNorm() <=
+         settings_.gamma * settings_.gamma * set_.reduced_free(x_, phi, fixed_step_length()).dot(phi);
+}
+
+/// A has a Rayleigh quotient that its norm must reach.
+void Mprgp::raise_norm(double quotient) {
+  if (quotient > 1.001 * norm_) norm_ = 1.1 * quotient;
+}
+
+Mprgp::Step Mprgp::stop(Halt why) {
+  halt_ = why;
+  return Step::none;
+}
+
+bool Mprgp::at_rounding() const {
+  return projected_gradient_norm() <= std::max(kRounding * (norm_ * x_.norm() + b_.norm()), 10 * noise_);
+}
+
+void Mprgp::refresh() {
+  if (recurrences_ == 0 || halt_ == Halt::not_finite) return;
+  Vector g = times(x_) - b_;
+  if (!g.allFinite()) return void(stop(Halt::not_finite));
+  noise_ = (g - g_).norm();
+  recurrences_ = 0;
+  set_gradient(std::move(g));
+  q_ = 0.5 * x_.dot(g_ - b_);
+  noisy_ = at_rounding() ? noisy_ + 1 : 0;
+  if (noisy_ > 0) direction_.resize(0);
+  if (noisy_ >= kAgain) halt_ = Halt::rounding;
+}
+
+void Mprgp::restart(Vector b, double norm, Vector g) {
+  b_ = std::move(b);
+  norm_ = norm;
+  set_gradient(std::move(g));
+  q_ = 0.5 * x_.dot(g_ - b_);
+  direction_.resize(0);
+  least_ = projected_gradient_norm();
+  noisy_ = failed_ = since_least_ = 0;
+  ++recurrences_;
+  halt_ = std::isfinite(q_) && g_.allFinite() ? Halt::none : Halt::not_finite;
+}
+
+Mprgp::Step Mprgp::step() {
+  if (halt_ == Halt::none && projected_gradient_norm() == 0) refresh();
+  if (halt_ != Halt::none) return Step::none;
+  if (projected_gradient_norm() == 0) return stop(Halt::solved);
+  const Step made = proportional() ? conjugate_step() : proportioning_step();
+  if (made == Step::none) return made;
+  ++steps_;
+  watch();
+  return made;
+}
+
+void Mprgp::minimise(const std::function<bool(const Mprgp&)>& until) {
+  for (;;) {
+    if (until(*this)) {
+      refresh();
+      if (until(*this)) return;
+    }
+    if (step() == Step::none) return;
+  }
+}
+
+/// Notices where there is nothing more to win; keeps g true.
+void Mprgp::watch() {
+  if (recurrences_ >= kRefresh) refresh();
+  const double now = projected_gradient_norm();
+  since_least_ = now < 0.99 * least_ ? 0 : since_least_ + 1;
+  least_ = std::min(least_, now);
+  if (failed_ >= kAgain || (since_least_ >= kIdle && now <= kSmall * (norm_ * x_.norm() + b_.norm())))
+    if (halt_ == Halt::none) halt_ = Halt::rounding;
+}
+
+Vector Mprgp::preconditioned() const {
+  const Vector& phi = gradients_.free;
+  if (!settings_.preconditioner) return phi;
+  Vector z = settings_.preconditioner(phi);
+  for (Eigen::Index i = 0; i < z.size(); ++i)
+    if (!gradients_.face[i]) z[i] = 0;
+  return z.allFinite() && z.dot(phi) > 0 ? z : phi;
+}
+
+void Mprgp::advance(double alpha, const Vector& p, const Vector& Ap) {
+  q_ += alpha * (0.5 * alpha * p.dot(Ap) - p.dot(g_));
+  x_ = set_.along(x_, p, alpha);
+  ++recurrences_;
+  set_gradient(g_ - alpha * Ap);
+}
+
+Mprgp::Step Mprgp::conjugate_step() {
+  bool first = direction_.size() == 0;
+  if (first) direction_ = preconditioned();
+  if (!first && !(direction_.dot(gradients_.free) > 0)) direction_ = preconditioned();
+  const Vector Ap = times(direction_);
+  const double slope = direction_.dot(gradients_.free), curvature = direction_.dot(Ap);
+  if (!Ap.allFinite() || !std::isfinite(curvature)) return stop(Halt::not_finite);
+  raise_norm(curvature / direction_.squaredNorm());
+  const bool curved = curvature > kNoCurvature * norm_ * direction_.squaredNorm();
+  if (!curved && at_rounding()) return stop(Halt::rounding);
+  const double alpha_cg = curved ? slope / curvature : kInfinity, alpha_free = set_.longest_step(x_, direction_);
+  if (alpha_cg > alpha_free) return expand(alpha_cg, alpha_free, Ap);
+  if (!curved) return stop(Halt::unbounded);
+  const std::vector<char> face = gradients_.face;
+  advance(alpha_cg, direction_, Ap);
+  if (gradients_.face == face) {
+    const Vector z = preconditioned();
+    direction_ = z - z.dot(Ap) / curvature * direction_;
+  } else {
+    direction_.resize(0);
+  }
+  return Step::conjugate;
+}
+
+Mprgp::Step Mprgp::expand(double alpha_cg, double alpha_free, const Vector& Ap) {
+  const double half = alpha_free * (0.5 * alpha_free * direction_.dot(Ap) - direction_.dot(g_));
+  if (settings_.expansion == MprgpSettings::Expansion::projected_cg_step && std::isfinite(alpha_cg) &&
+      projected_cg_step(alpha_cg, half))
+    return Step::projection;
+  if (halt_ != Halt::none) return Step::none;
+  advance(alpha_free, direction_, Ap);
+  direction_.resize(0);
+  fixed_step(gradients_.free);
+  return halt_ == Halt::none ? Step::expansion : Step::none;
+}
+
+bool Mprgp::projected_cg_step(double alpha_cg, double to_beat) {
+  if (!lowers(set_.project(x_ - alpha_cg * direction_), to_beat)) return false;
+  direction_.resize(0);
+  return true;
+}
+
+/// Moves to the target, if q changes by less than to_beat ≤ 0 there, as far as it is known; g is computed anew.
+bool Mprgp::lowers(const Vector& target, double to_beat) {
+  Vector g = times(target) - b_;
+  if (!g.allFinite()) return stop(Halt::not_finite), false;
+  const Vector d = target - x_;
+  const double change = 0.5 * d.dot(g + g_), length = d.squaredNorm();
+  if (!(change < to_beat + set_.rounding(g))) {
+    if (std::sqrt(length) > kSmall * x_.norm()) raise_norm(d.dot(g - g_) / length);
+    return false;
+  }
+  x_ = target;
+  q_ += change;
+  recurrences_ = 0;
+  set_gradient(std::move(g));
+  return true;
+}
+
+/// x ← P(x − ᾱv). False where that is x, or where rounding lets q not fall.
+bool Mprgp::fixed_step(const Vector& v) {
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    const double norm = norm_;
+    const Vector target = set_.project(x_ - fixed_step_length() * v);
+    if (target == x_) return false;
+    if (lowers(target, 0)) return true;
+    if (halt_ != Halt::none || !(norm_ > norm)) return false;
+  }
+  return false;
+}
+
+Mprgp::Step Mprgp::proportioning_step() {
+  direction_.resize(0);
+  if (set_.chopped_on_circle(gradients_)) {
+    failed_ = fixed_step(g_) ? 0 : failed_ + 1;
+    return halt_ == Halt::none ? Step::proportioning : Step::none;
+  }
+  const Vector beta = gradients_.chopped, Ab = times(beta);
+  const double slope = beta.squaredNorm(), curvature = beta.dot(Ab);
+  if (!Ab.allFinite() || !std::isfinite(curvature)) return stop(Halt::not_finite);
+  raise_norm(curvature / slope);
+  const bool curved = curvature > kNoCurvature * norm_ * slope;
+  if (!curved && at_rounding()) return stop(Halt::rounding);
+  const double alpha = std::min(curved ? slope / curvature : kInfinity, set_.longest_step(x_, beta));
+  if (!std::isfinite(alpha)) return direction_ = beta, stop(Halt::unbounded);
+  advance(alpha, beta, Ab);
+  return Step::proportioning;
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <functional>
+
+#include "solver/separable_set.hpp"
+
+namespace dotyk::solver {
+
+/// A linear map of Rⁿ.
+using LinearMap = std::function<algebra::Vector(const algebra::Vector&)>;
+
+struct MprgpSettings {
+  /// What follows a conjugate gradient step that would leave Ω.
+  enum class Expansion {
+    /// The part of the step up to the boundary, then x ← P(x − ᾱφ): MPRGP (Dostál 2009, ch. 5).
+    fixed_step,
+    /// x ← P(x − α_cg p) where that lowers q, else as above: proportioning with projections (Dostál 1997,
+    /// SIAM J. Optim. 7).
+    projected_cg_step
+  } expansion = Expansion::projected_cg_step;
+  double gamma = 1;          ///< Γ: conjugate gradients go on while ‖β‖² ≤ Γ² φ̃ᵀφ
+  LinearMap preconditioner = {};  ///< ≈ A⁻¹, symmetric positive definite, for conjugate gradients in a face; or none
+};
+
+/// Minimises q(x) = ½xᵀAx − bᵀx over Ω, A symmetric positive semidefinite, one step at a time. A step is one of
+///   conjugate gradients in the face of x, while x is proportional, ‖β(x)‖² ≤ Γ² φ̃(x)ᵀφ(x): one product with A;
+///   proportioning, x ← x − αβ with α the minimiser or the longest feasible step; where points of circles
+///   take part, x ← P(x − ᾱg) instead (MPGP): one product;
+///   expansion, where the conjugate gradient step would leave Ω: see Expansion. Two products; three where
+///   the projected step is refused.
+/// Every one lowers q and keeps x in Ω. A fixed step P(x − ᾱv), v = φ or g, lowers q by at least
+/// ᾱ(1 − ½ᾱ‖A‖)‖ṽ‖², ṽ = (x − P(x − ᾱv))/ᾱ, since vᵀṽ ≥ ‖ṽ‖² for every convex Ω: so for all ᾱ < 2/‖A‖. The
+/// R-linear bound of the decrease of q holds for these, too: 1 − α̂λ_min/(ϑ + ϑΓ̂²), α̂ = min(ᾱ, 2/‖A‖ − ᾱ),
+/// ϑ = 2 max(ᾱ‖A‖, 1), Γ̂ = max(Γ, 1/Γ) (Dostál 2009, theorem 5.14). Here ᾱ = 1.9/‖A‖ for intervals, whose faces
+/// long steps find faster, 1/‖A‖ where there are discs, along whose circles it is the step that counts. A step that
+/// shows a greater norm than given raises it.
+///
+/// The gradient follows from recurrences, is computed anew at each fixed or projected step and else after
+/// kRefresh products; a difference beyond the gradient itself, time and again, is rounding: the end.
+class Mprgp {
+ public:
+  enum class Step { none, conjugate, proportioning, expansion, projection };
+  enum class Halt {
+    none,       ///< can go on
+    solved,     ///< g^P = 0
+    rounding,   ///< what is left of g^P is rounding
+    unbounded,  ///< q falls for ever along direction()
+    not_finite  ///< A gave a number that is not finite; x is the last one before it
+  };
+
+  /// Starts at the projection of x. `norm` ≥ ‖A‖, b: n. The set must outlive this.
+  Mprgp(LinearMap A, double norm, algebra::Vector b, const SeparableSet& set, algebra::Vector x, MprgpSettings settings = {});
+
+  /// Makes one step; `none` where halt() says why there is none.
+  Step step();
+  /// Steps until until(*this), which is confirmed with g computed anew, or a halt. Never ends by itself
+  /// where rounding is far below what until asks; until may count steps().
+  void minimise(const std::function<bool(const Mprgp&)>& until);
+  /// Computes g = Ax − b anew, unless it is.
+  void refresh();
+  /// Goes on from x with another b, ‖A‖ and gradient at x: A and b have changed so that Ax − b = g.
+  void restart(algebra::Vector b, double norm, algebra::Vector g);
+
+  const algebra::Vector& x() const { return x_; }
+  const algebra::Vector& g() const { return g_; }
+  const algebra::Vector& free_gradient() const { return gradients_.free; }
+  const algebra::Vector& chopped_gradient() const { return gradients_.chopped; }
+  const std::vector<char>& face() const { return gradients_.face; }
+  double projected_gradient_norm() const;
+  double q() const { return q_; }
+  bool proportional() const;
+  /// ᾱ.
+  double fixed_step_length() const;
+  double norm() const { return norm_; }
+  Halt halt() const { return halt_; }
+  const algebra::Vector& direction() const { return direction_; }
+  int steps() const { return steps_; }
+  int products() const { return products_; }
+
+ private:
+  algebra::Vector times(const algebra::Vector& v);
+  algebra::Vector preconditioned() const;
+  Step conjugate_step();
+  Step proportioning_step();
+  Step expand(double alpha_cg, double alpha_free, const algebra::Vector& Ap);
+  bool projected_cg_step(double alpha_cg, double to_beat);
+  bool fixed_step(const algebra::Vector& v);
+  bool lowers(const algebra::Vector& target, double to_beat);
+  void advance(double alpha, const algebra::Vector& p, const algebra::Vector& Ap);
+  void raise_norm(double quotient);
+  void set_gradient(algebra::Vector g);
+  Step stop(Halt why);
+  bool at_rounding() const;
+  void watch();
+
+  LinearMap A_;
+  double norm_;
+  algebra::Vector b_;
+  const SeparableSet& set_;
+  MprgpSettings settings_;
+  algebra::Vector x_, g_, direction_;  ///< direction_ p: empty where conjugate gradients start anew
+  SeparableSet::Gradients gradients_;
+  double q_ = 0, noise_ = 0;  ///< noise_: ‖·‖ of what the last refresh changed g by
+  double least_ = 0;          ///< the least ‖g^P‖ so far
+  int steps_ = 0, products_ = 0, recurrences_ = 0, noisy_ = 0, failed_ = 0, since_least_ = 0;
+  Halt halt_ = Halt::none;
+};
+
+}  // namespace dotyk::solver

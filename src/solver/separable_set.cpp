@@ -1,0 +1,156 @@
+#include "solver/separable_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "solver/disc.hpp"
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+void check_intervals(const Vector& low, const Vector& high) {
+  if (low.size() != high.size())
+    throw InputError(text("separable set: ", low.size(), " lower ends and ", high.size(), " upper ones"));
+  for (Eigen::Index i = 0; i < low.size(); ++i)
+    if (!(low[i] <= high[i]) || low[i] == kInfinity || high[i] == -kInfinity)
+      throw InputError(text("separable set: component ", i, " has no point in [", low[i], ", ", high[i], "]"));
+}
+
+void check_discs(const Vector& low, const Vector& high, const std::vector<SeparableSet::Disc>& discs) {
+  std::vector<char> taken(low.size(), 0);
+  for (const auto& disc : discs) {
+    if (!(disc.radius >= 0 && std::isfinite(disc.radius)) || !disc.centre.allFinite())
+      throw InputError(text("separable set: a disc of radius ", disc.radius, " about ", disc.centre.transpose()));
+    for (const int i : {disc.first, disc.second}) {
+      if (i < 0 || i >= low.size() || taken[i]++)
+        throw InputError(text("separable set: component ", i, " of a disc is not one of ", low.size(), " or has another"));
+      if (low[i] != -kInfinity || high[i] != kInfinity)
+        throw InputError(text("separable set: component ", i, " has a disc and an interval"));
+    }
+  }
+}
+
+/// The point of the disc nearest to v = (x_i, x_j); drawn inward by rounding units until it is in it.
+Eigen::Vector2d nearest(const SeparableSet::Disc& disc, const Eigen::Vector2d& v) {
+  const Eigen::Vector2d u = v - disc.centre;
+  const double length = u.norm();
+  if (!(length > disc.radius)) return v;
+  for (double shrink = 0; shrink < 1; shrink = std::max(kEpsilon, 2 * shrink)) {
+    const Eigen::Vector2d point = disc.centre + disc.radius / length * (1 - shrink) * u;
+    if ((point - disc.centre).norm() <= disc.radius) return point;
+  }
+  return disc.centre;
+}
+
+}  // namespace
+
+SeparableSet::SeparableSet(Vector low, Vector high, std::vector<Disc> discs)
+    : low_(std::move(low)), high_(std::move(high)), discs_(std::move(discs)) {
+  check_intervals(low_, high_);
+  check_discs(low_, high_, discs_);
+  for (const Disc& disc : discs_)
+    edge_.push_back(disc.radius - 16 * kEpsilon * (disc.radius + disc.centre.lpNorm<1>()));
+}
+
+Vector SeparableSet::project(Vector x) const {
+  x = x.cwiseMax(low_).cwiseMin(high_);
+  for (const Disc& disc : discs_) {
+    const Eigen::Vector2d point = nearest(disc, {x[disc.first], x[disc.second]});
+    x[disc.first] = point[0];
+    x[disc.second] = point[1];
+  }
+  return x;
+}
+
+bool SeparableSet::contains(const Vector& x) const {
+  return x.size() == size() && (x.array() >= low_.array()).all() && (x.array() <= high_.array()).all() &&
+         std::all_of(discs_.begin(), discs_.end(), [&](const Disc& disc) { return offset(disc, x).norm() <= disc.radius; });
+}
+
+bool SeparableSet::on_circle(std::size_t disc, const Vector& x) const {
+  return offset(discs_[disc], x).norm() >= edge_[disc];
+}
+
+SeparableSet::Gradients SeparableSet::gradients(const Vector& x, const Vector& g) const {
+  Gradients out{Vector::Zero(size()), Vector::Zero(size()), std::vector<char>(size(), 0)};
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    const bool lowest = x[i] <= low_[i], highest = x[i] >= high_[i];
+    if (!lowest && !highest) {
+      out.face[i] = 1;
+      out.free[i] = g[i];
+    } else if ((g[i] < 0 && !highest) || (g[i] > 0 && !lowest)) {
+      out.chopped[i] = g[i];
+    }
+  }
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    if (!on_circle(k, x)) continue;
+    const Disc& disc = discs_[k];
+    const Eigen::Vector2d u = offset(disc, x);
+    Eigen::Vector2d part(g[disc.first], g[disc.second]);
+    if (const double length = u.norm(); length > 0 && u.dot(part) < 0) part -= u.dot(part) / length * (u / length);
+    if (disc.radius == 0) part.setZero();
+    for (const int c : {0, 1}) {
+      const int i = c ? disc.second : disc.first;
+      out.face[i] = 0;
+      out.free[i] = 0;
+      out.chopped[i] = part[c];
+    }
+  }
+  return out;
+}
+
+bool SeparableSet::chopped_on_circle(const Gradients& gradients) const {
+  return std::any_of(discs_.begin(), discs_.end(), [&](const Disc& disc) {
+    return gradients.chopped[disc.first] != 0 || gradients.chopped[disc.second] != 0;
+  });
+}
+
+Vector SeparableSet::reduced_free(const Vector& x, const Vector& free, double alpha) const {
+  // (x − low)/α rather than a difference of points: exact far from the ends.
+  Vector reduced = free.cwiseMin((x - low_) / alpha).cwiseMax((x - high_) / alpha);
+  for (const Disc& disc : discs_) {
+    const Eigen::Vector2d own(x[disc.first], x[disc.second]), moved = own - alpha * Eigen::Vector2d(free[disc.first], free[disc.second]);
+    const Eigen::Vector2d point = nearest(disc, moved);
+    if (point == moved) continue;
+    reduced[disc.first] = (own[0] - point[0]) / alpha;
+    reduced[disc.second] = (own[1] - point[1]) / alpha;
+  }
+  return reduced;
+}
+
+double SeparableSet::longest_step(const Vector& x, const Vector& p) const {
+  double step = kInfinity;
+  for (Eigen::Index i = 0; i < size(); ++i)
+    if (p[i] != 0) step = std::min(step, (x[i] - (p[i] > 0 ? low_[i] : high_[i])) / p[i]);
+  for (const Disc& disc : discs_)
+    step = std::min(step, room_in_disc(offset(disc, x), -Eigen::Vector2d(p[disc.first], p[disc.second]), disc.radius));
+  return step;
+}
+
+double SeparableSet::rounding(const Vector& g) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < discs_.size(); ++k)
+    sum += (discs_[k].radius - edge_[k]) * std::hypot(g[discs_[k].first], g[discs_[k].second]);
+  return sum;
+}
+
+Vector SeparableSet::along(const Vector& x, const Vector& p, double alpha) const {
+  Vector y = x - alpha * p;
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    if (p[i] == 0) continue;
+    const double end = p[i] > 0 ? low_[i] : high_[i], left = p[i] > 0 ? y[i] - end : end - y[i];
+    if (left <= 4 * kEpsilon * (std::abs(x[i]) + alpha * std::abs(p[i]))) y[i] = end;
+  }
+  return discs_.empty() ? y : project(std::move(y));
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <vector>
+
+#include "algebra/types.hpp"
+
+namespace dotyk::solver {
+
+/// Ω ⊂ Rⁿ, a product of intervals [low_i, high_i] (ends may be infinite) and of discs
+/// ‖(x_i, x_j) − centre‖ ≤ radius, and what minimising a function of gradient g over Ω needs of it.
+///
+/// x_i is free where low_i < x_i < high_i, a pair where it lies strictly within its disc; all others are
+/// active. The projected gradient g^P, minus the projection of −g onto the tangent cone of Ω at x, is zero
+/// exactly at the solution. It splits into φ + β (Dostál 2009, ch. 5; for discs Dostál and Kozubek 2012):
+///   the free gradient    φ = g at free components, 0 at active ones,
+///   the chopped gradient β = 0 at free components; at an active end g where the step −g leads inward,
+///                        else 0; on a circle of outer normal n, g − min(nᵀg, 0) n.
+/// So a point that slides along its circle is active, since its face is not flat. An interval of one
+/// point and a disc of radius 0 are fixed: φ = β = 0.
+class SeparableSet {
+ public:
+  struct Disc {
+    int first, second;          ///< the components i ≠ j
+    Eigen::Vector2d centre;
+    double radius;              ///< ≥ 0, finite
+  };
+  struct Gradients {
+    algebra::Vector free, chopped;  ///< φ and β, n
+    std::vector<char> face;         ///< n; 1 where the component is free
+  };
+
+  /// Throws InputError where sizes differ, low > high, a number is nan, or a component of a disc is out of
+  /// range, shared, or has an interval as well (it must be (−∞, ∞)).
+  SeparableSet(algebra::Vector low, algebra::Vector high, std::vector<Disc> discs = {});
+
+  Eigen::Index size() const { return low_.size(); }
+  bool has_discs() const { return !discs_.empty(); }
+  const algebra::Vector& low() const { return low_; }
+  const algebra::Vector& high() const { return high_; }
+  const std::vector<Disc>& discs() const { return discs_; }
+
+  /// The nearest point of Ω to x; contains() it exactly, rounding included.
+  algebra::Vector project(algebra::Vector x) const;
+  bool contains(const algebra::Vector& x) const;
+
+  /// φ, β and the face of x ∈ Ω.
+  Gradients gradients(const algebra::Vector& x, const algebra::Vector& g) const;
+  /// Does β have a part along or off a circle at x ∈ Ω, where no straight step along −β need stay in Ω?
+  bool chopped_on_circle(const Gradients& gradients) const;
+  /// φ̃ = (x − P(x − αφ))/α, the reduced free gradient for a step length α > 0.
+  algebra::Vector reduced_free(const algebra::Vector& x, const algebra::Vector& free, double alpha) const;
+  /// The longest step α_f ≥ 0 with x − α_f p ∈ Ω, x ∈ Ω; infinite where nothing ends it.
+  double longest_step(const algebra::Vector& x, const algebra::Vector& p) const;
+  /// x − αp for 0 ≤ α ≤ α_f; a component that reaches an end up to rounding is put there, so that the
+  /// step of length α_f leaves the face.
+  algebra::Vector along(const algebra::Vector& x, const algebra::Vector& p, double alpha) const;
+  /// By how much gᵀx may differ between two points that are the same but for rounding on the circles.
+  double rounding(const algebra::Vector& g) const;
+
+ private:
+  bool on_circle(std::size_t disc, const algebra::Vector& x) const;
+  Eigen::Vector2d offset(const Disc& disc, const algebra::Vector& x) const {
+    return Eigen::Vector2d(x[disc.first], x[disc.second]) - disc.centre;
+  }
+
+  algebra::Vector low_, high_;
+  std::vector<Disc> discs_;
+  std::vector<double> edge_;  ///< a point this far from the centre is on the circle, up to rounding
+};
+
+}  // namespace dotyk::solver

@@ -1,0 +1,145 @@
+#include "solver/smalbe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+
+namespace {
+
+using End = SmalbeResult::End;
+using Halt = Mprgp::Halt;
+
+/// L is known up to this part of itself.
+constexpr double kRounding = 1e-13;
+/// Outer steps in succession that end in rounding, no norm halved.
+constexpr int kAgain = 3;
+
+class Run {
+ public:
+  Run(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x, Vector nu)
+      : program_(program), settings_(settings), caller_(caller), rho_(settings.rho * program.norm),
+        M_(settings.M * program.norm), nu_(std::move(nu)), inner_(map(), norm(), program.b - nu_, *program.set, std::move(x), inner_settings()) {
+    eta_ = settings.eta * std::max(program.b.norm(), inner_.g().norm());
+    if (settings.update == Smalbe::Update::penalty) eta_ /= program.norm;
+    measure();
+  }
+
+  SmalbeResult operator()() {
+    std::optional<End> end;
+    while (!end) {
+      end = minimise_inner();
+      if (end) break;
+      ++outer_;
+      if (caller_.outer) caller_.outer(state());
+      end = settled();
+      if (!end) update();
+    }
+    return result(*end);
+  }
+
+ private:
+  LinearMap map() {
+    return [this](const Vector& v) -> Vector { return program_.H(v) + rho_ * program_.Q(v); };
+  }
+
+  MprgpSettings inner_settings() {
+    MprgpSettings out = settings_.inner;
+    if (out.preconditioner)
+      out.preconditioner = [this](const Vector& v) -> Vector {
+        return settings_.inner.preconditioner(v) + program_.Q(v) / rho_;
+      };
+    return out;
+  }
+
+  double norm() const { return program_.complementary ? std::max(program_.norm, rho_) : program_.norm + rho_; }
+
+  void measure() {
+    Qx_ = program_.Q(inner_.x());
+    equality_ = Qx_.norm();
+    gradient_ = inner_.projected_gradient_norm();
+  }
+
+  SmalbeState state() const { return {inner_, gradient_, equality_, inner_.q(), rho_, M_, outer_}; }
+
+  /// With g computed anew.
+  bool done() {
+    if (!caller_.done(gradient_, equality_)) return false;
+    inner_.refresh();
+    measure();
+    return caller_.done(gradient_, equality_);
+  }
+
+  bool precise() const {
+    const double bound = M_ * equality_;
+    return gradient_ <= (settings_.update == Smalbe::Update::precision ? std::min(bound, eta_) : bound);
+  }
+
+  /// Until the outer step's precision, or rounding; or else the end of all.
+  std::optional<End> minimise_inner() {
+    for (;;) {
+      if (done()) return End::done;
+      if (precise()) return std::nullopt;
+      const bool made = inner_.step() != Mprgp::Step::none;
+      measure();
+      if (made && caller_.inner && !caller_.inner(state())) return End::stopped;
+      if (inner_.halt() == Halt::unbounded) return End::unbounded;
+      if (inner_.halt() == Halt::not_finite) return End::not_finite;
+      if (inner_.halt() != Halt::none) return done() ? std::optional(End::done) : std::nullopt;
+      if (inner_.steps() >= settings_.max_inner) return End::limit;
+    }
+  }
+
+  /// Is there nothing more to win?
+  std::optional<End> settled() {
+    const bool halted = inner_.halt() != Halt::none;
+    const double both = std::max(gradient_, M_ * equality_);
+    idle_ = halted && outer_ > 1 && both > 0.5 * best_ ? idle_ + 1 : 0;
+    best_ = outer_ > 1 ? std::min(best_, both) : both;
+    if (halted && (equality_ == 0 || idle_ >= kAgain)) return End::rounding;
+    if (outer_ >= settings_.max_outer) return End::limit;
+    return std::nullopt;
+  }
+
+  void update() {
+    Vector change = rho_ * Qx_;
+    if (settings_.update == Smalbe::Update::precision) {
+      const double L = inner_.q(), growth = 0.5 * rho_ * equality_ * equality_;
+      if (outer_ > 1 && L + kRounding * std::abs(L) < lagrangian_ + growth) M_ /= settings_.beta;
+      lagrangian_ = L;
+      nu_ += change;
+    } else if (equality_ <= eta_) {
+      nu_ += change;
+      eta_ *= settings_.alpha;
+    } else {
+      change *= settings_.beta - 1;
+      rho_ *= settings_.beta;
+    }
+    inner_.restart(program_.b - nu_, std::max(norm(), inner_.norm()), inner_.g() + change);
+    gradient_ = inner_.projected_gradient_norm();
+  }
+
+  SmalbeResult result(End end) {
+    return {end, inner_.x(), nu_ + rho_ * Qx_, gradient_, equality_, rho_, M_, outer_, inner_.steps(), inner_.products()};
+  }
+
+  const EqualityProgram& program_;
+  const Smalbe& settings_;
+  const SmalbeCaller& caller_;
+  double rho_, M_, eta_ = 0;
+  Vector nu_, Qx_;
+  Mprgp inner_;
+  double gradient_ = 0, equality_ = 0, lagrangian_ = 0, best_ = 0;
+  int outer_ = 0, idle_ = 0;
+};
+
+}  // namespace
+
+SmalbeResult minimise(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x, Vector nu) {
+  return Run(program, settings, caller, std::move(x), std::move(nu))();
+}
+
+}  // namespace dotyk::solver
