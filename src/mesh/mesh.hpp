@@ -71,4 +71,8 @@ double least_jacobian(const Mesh& mesh, int cell);
 /// coordinate is not finite, and then leaves the mesh as it was.
 void transform(Mesh& mesh, const std::function<Point(const Point&)>& map);
 
+/// The cells whose centre `chosen` accepts, with what is left of the parts; the facets laid bare become part
+/// `new_part` (added to one of that name). Cells and nodes keep their order. Throws InputError where no cell is left.
+Mesh keep(const Mesh& mesh, const std::function<bool(const Point&)>& chosen, const std::string& new_part);
+
 }  // namespace dotyk::mesh

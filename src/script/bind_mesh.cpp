@@ -101,6 +101,14 @@ int transform(Call& call) {
   return call.give_self();
 }
 
+int keep(Call& call) {
+  const MeshHandle& handle = *call.self<MeshHandle>();
+  const Function chosen = call.function("chosen");
+  const auto dimension = static_cast<std::size_t>(handle.mesh->dimension());
+  return give(call, mesh::keep(*handle.mesh, [&](const mesh::Point& x) { return chosen.truth({x.data(), dimension}); },
+                               call.text("part")));
+}
+
 std::vector<std::string> part_names(const MeshHandle& m) {
   std::vector<std::string> names;
   for (const auto& [name, facets] : m.mesh->parts) names.push_back(name);
@@ -159,6 +167,14 @@ void bind_mesh(Library& library) {
                .arguments = {key::function("map", "coordinates to new coordinates").required()},
                .returns = "mesh",
                .run = transform})
+      .method({.name = "mesh:keep",
+               .help = "A new mesh of the cells whose centre chosen(x, y[, z]) accepts, with what is left of the parts; the "
+                       "facets laid bare become a part of their own.",
+               .example = "local frame = m:keep(function(x, y) return math.max(math.abs(x), math.abs(y)) > 0.5 end, \"hole\")",
+               .arguments = {key::function("chosen", "coordinates of a cell's centre to true or false").required(),
+                             key::string("part", "name of the facets laid bare").fallback("cut")},
+               .returns = "mesh",
+               .run = keep})
       .text(show);
 }
 
