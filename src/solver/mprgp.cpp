@@ -18,12 +18,12 @@ constexpr int kRefresh = 100;
 /// pᵀAp below this part of ‖A‖‖p‖² is none.
 constexpr double kNoCurvature = 1e-14;
 /// g is never known better than this part of ‖A‖‖x‖ + ‖b‖.
-constexpr double kRounding = 1e-14;
+constexpr double kRounding = 1e-15;
 /// Noticed so often in succession, rounding is all that is left.
 constexpr int kAgain = 3;
 /// So many steps without a lesser ‖g^P‖, already below kSmall (‖A‖‖x‖ + ‖b‖), are steps in rounding, too.
 constexpr int kIdle = 2000;
-constexpr double kSmall = 1e-7;
+constexpr double kSmall = 1e-11;
 
 }  // namespace
 
@@ -77,9 +77,8 @@ void Mprgp::refresh() {
   recurrences_ = 0;
   set_gradient(std::move(g));
   q_ = 0.5 * x_.dot(g_ - b_);
-  noisy_ = at_rounding() ? noisy_ + 1 : 0;
+  count_noise();
   if (noisy_ > 0) direction_.resize(0);
-  if (noisy_ >= kAgain) halt_ = Halt::rounding;
 }
 
 void Mprgp::restart(Vector b, double norm, Vector g) {
@@ -115,22 +114,29 @@ void Mprgp::minimise(const std::function<bool(const Mprgp&)>& until) {
   }
 }
 
-/// Notices where there is nothing more to win; keeps g true.
+/// Keeps g true, and notices where there is nothing more to win.
 void Mprgp::watch() {
-  if (recurrences_ >= kRefresh) refresh();
+  if (recurrences_ >= kRefresh || (recurrences_ > 0 && at_rounding()))
+    refresh();
+  else if (recurrences_ == 0)
+    count_noise();
   const double now = projected_gradient_norm();
   since_least_ = now < 0.99 * least_ ? 0 : since_least_ + 1;
   least_ = std::min(least_, now);
-  if (failed_ >= kAgain || (since_least_ >= kIdle && now <= kSmall * (norm_ * x_.norm() + b_.norm())))
-    if (halt_ == Halt::none) halt_ = Halt::rounding;
+  const bool idle = since_least_ >= kIdle && now <= kSmall * (norm_ * x_.norm() + b_.norm());
+  if (halt_ == Halt::none && (failed_ >= kAgain || idle)) halt_ = Halt::rounding;
+}
+
+void Mprgp::count_noise() {
+  noisy_ = at_rounding() ? noisy_ + 1 : 0;
+  if (noisy_ >= kAgain && halt_ == Halt::none) halt_ = Halt::rounding;
 }
 
 Vector Mprgp::preconditioned() const {
   const Vector& phi = gradients_.free;
   if (!settings_.preconditioner) return phi;
   Vector z = settings_.preconditioner(phi);
-  for (Eigen::Index i = 0; i < z.size(); ++i)
-    if (!gradients_.face[i]) z[i] = 0;
+  z = set_.tangential(x_, gradients_, std::move(z));
   return z.allFinite() && z.dot(phi) > 0 ? z : phi;
 }
 
@@ -142,27 +148,49 @@ void Mprgp::advance(double alpha, const Vector& p, const Vector& Ap) {
 }
 
 Mprgp::Step Mprgp::conjugate_step() {
-  bool first = direction_.size() == 0;
-  if (first) direction_ = preconditioned();
-  if (!first && !(direction_.dot(gradients_.free) > 0)) direction_ = preconditioned();
-  const Vector Ap = times(direction_);
-  const double slope = direction_.dot(gradients_.free), curvature = direction_.dot(Ap);
-  if (!Ap.allFinite() || !std::isfinite(curvature)) return stop(Halt::not_finite);
-  raise_norm(curvature / direction_.squaredNorm());
+  if (direction_.size() == 0 || !(direction_.dot(gradients_.free) > 0)) direction_ = preconditioned();
+  Vector Hp = times(direction_);
+  raise_norm(direction_.dot(Hp) / direction_.squaredNorm());
+  if (gradients_.slides) Hp += gradients_.curvature.cwiseProduct(direction_);
+  const double slope = direction_.dot(gradients_.free), curvature = direction_.dot(Hp);
+  if (!std::isfinite(curvature) || !Hp.allFinite()) return stop(Halt::not_finite);
   const bool curved = curvature > kNoCurvature * norm_ * direction_.squaredNorm();
   if (!curved && at_rounding()) return stop(Halt::rounding);
-  const double alpha_cg = curved ? slope / curvature : kInfinity, alpha_free = set_.longest_step(x_, direction_);
-  if (alpha_cg > alpha_free) return expand(alpha_cg, alpha_free, Ap);
-  if (!curved) return stop(Halt::unbounded);
-  const std::vector<char> face = gradients_.face;
-  advance(alpha_cg, direction_, Ap);
-  if (gradients_.face == face) {
+  const double alpha_cg = curved ? slope / curvature : kInfinity, alpha_free = set_.longest_step(x_, gradients_, direction_);
+  if (!std::isfinite(std::min(alpha_cg, alpha_free))) return stop(Halt::unbounded);
+  const std::vector<SeparableSet::Place> face = gradients_.face;
+  const Step made = gradients_.slides        ? curved_step(alpha_cg, alpha_free)
+                    : alpha_cg <= alpha_free ? advance(alpha_cg, direction_, Hp), Step::conjugate
+                                             : expand(alpha_cg, alpha_free, Hp);
+  if (made == Step::conjugate && gradients_.face == face) {
     const Vector z = preconditioned();
-    direction_ = z - z.dot(Ap) / curvature * direction_;
-  } else {
+    direction_ = z - z.dot(Hp) / curvature * set_.tangential(x_, gradients_, direction_);
+  } else if (halt_ != Halt::unbounded) {
     direction_.resize(0);
   }
-  return Step::conjugate;
+  return made;
+}
+
+/// A conjugate gradient step whose sliding pairs go along their circles; or, where that does not lower q, a
+/// fixed step of the whole gradient.
+Mprgp::Step Mprgp::curved_step(double alpha_cg, double alpha_free) {
+  const bool within = alpha_cg <= alpha_free;
+  const bool projects = !within && settings_.expansion == MprgpSettings::Expansion::projected_cg_step && std::isfinite(alpha_cg);
+  if (lowers(projects ? set_.project(x_ - alpha_cg * direction_) : set_.along(x_, direction_, std::min(alpha_cg, alpha_free)), 0)) {
+    if (projects || within) return within ? Step::conjugate : Step::projection;
+    fixed_step(gradient_on_face());
+  } else if (halt_ == Halt::none) {
+    failed_ = fixed_step(g_) ? 0 : failed_ + 1;
+  }
+  return halt_ == Halt::none ? Step::expansion : Step::none;
+}
+
+/// g at free components and sliding pairs, else 0.
+Vector Mprgp::gradient_on_face() const {
+  Vector v = g_;
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (gradients_.face[i] == SeparableSet::Place::active) v[i] = 0;
+  return v;
 }
 
 Mprgp::Step Mprgp::expand(double alpha_cg, double alpha_free, const Vector& Ap) {
@@ -172,15 +200,12 @@ Mprgp::Step Mprgp::expand(double alpha_cg, double alpha_free, const Vector& Ap) 
     return Step::projection;
   if (halt_ != Halt::none) return Step::none;
   advance(alpha_free, direction_, Ap);
-  direction_.resize(0);
-  fixed_step(gradients_.free);
+  fixed_step(gradient_on_face());
   return halt_ == Halt::none ? Step::expansion : Step::none;
 }
 
 bool Mprgp::projected_cg_step(double alpha_cg, double to_beat) {
-  if (!lowers(set_.project(x_ - alpha_cg * direction_), to_beat)) return false;
-  direction_.resize(0);
-  return true;
+  return lowers(set_.project(x_ - alpha_cg * direction_), to_beat);
 }
 
 /// Moves to the target, if q changes by less than to_beat ≤ 0 there, as far as it is known; g is computed anew.
@@ -190,7 +215,7 @@ bool Mprgp::lowers(const Vector& target, double to_beat) {
   const Vector d = target - x_;
   const double change = 0.5 * d.dot(g + g_), length = d.squaredNorm();
   if (!(change < to_beat + set_.rounding(g))) {
-    if (std::sqrt(length) > kSmall * x_.norm()) raise_norm(d.dot(g - g_) / length);
+    if (std::sqrt(length) > 1e-7 * x_.norm()) raise_norm(d.dot(g - g_) / length);
     return false;
   }
   x_ = target;
@@ -224,7 +249,7 @@ Mprgp::Step Mprgp::proportioning_step() {
   raise_norm(curvature / slope);
   const bool curved = curvature > kNoCurvature * norm_ * slope;
   if (!curved && at_rounding()) return stop(Halt::rounding);
-  const double alpha = std::min(curved ? slope / curvature : kInfinity, set_.longest_step(x_, beta));
+  const double alpha = std::min(curved ? slope / curvature : kInfinity, set_.longest_step(x_, gradients_, beta));
   if (!std::isfinite(alpha)) return direction_ = beta, stop(Halt::unbounded);
   advance(alpha, beta, Ab);
   return Step::proportioning;

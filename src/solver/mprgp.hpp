@@ -24,10 +24,11 @@ struct MprgpSettings {
 
 /// Minimises q(x) = ½xᵀAx − bᵀx over Ω, A symmetric positive semidefinite, one step at a time. A step is one of
 ///   conjugate gradients in the face of x, while x is proportional, ‖β(x)‖² ≤ Γ² φ̃(x)ᵀφ(x): one product with A;
-///   proportioning, x ← x − αβ with α the minimiser or the longest feasible step; where points of circles
-///   take part, x ← P(x − ᾱg) instead (MPGP): one product;
+///   a second one where pairs slide along circles, whose curvature the step takes into account;
+///   proportioning, x ← x − αβ with α the minimiser or the longest feasible step; where pairs on circles have
+///   β ≠ 0, x ← P(x − ᾱg) instead (MPGP; Dostál and Kozubek 2012): one product;
 ///   expansion, where the conjugate gradient step would leave Ω: see Expansion. Two products; three where
-///   the projected step is refused.
+///   the projected step is refused, or one along circles, which then is x ← P(x − ᾱg), too.
 /// Every one lowers q and keeps x in Ω. A fixed step P(x − ᾱv), v = φ or g, lowers q by at least
 /// ᾱ(1 − ½ᾱ‖A‖)‖ṽ‖², ṽ = (x − P(x − ᾱv))/ᾱ, since vᵀṽ ≥ ‖ṽ‖² for every convex Ω: so for all ᾱ < 2/‖A‖. The
 /// R-linear bound of the decrease of q holds for these, too: 1 − α̂λ_min/(ϑ + ϑΓ̂²), α̂ = min(ᾱ, 2/‖A‖ − ᾱ),
@@ -65,7 +66,7 @@ class Mprgp {
   const algebra::Vector& g() const { return g_; }
   const algebra::Vector& free_gradient() const { return gradients_.free; }
   const algebra::Vector& chopped_gradient() const { return gradients_.chopped; }
-  const std::vector<char>& face() const { return gradients_.face; }
+  const std::vector<SeparableSet::Place>& face() const { return gradients_.face; }
   double projected_gradient_norm() const;
   double q() const { return q_; }
   bool proportional() const;
@@ -82,6 +83,8 @@ class Mprgp {
   algebra::Vector preconditioned() const;
   Step conjugate_step();
   Step proportioning_step();
+  Step curved_step(double alpha_cg, double alpha_free);
+  algebra::Vector gradient_on_face() const;
   Step expand(double alpha_cg, double alpha_free, const algebra::Vector& Ap);
   bool projected_cg_step(double alpha_cg, double to_beat);
   bool fixed_step(const algebra::Vector& v);
@@ -92,6 +95,7 @@ class Mprgp {
   Step stop(Halt why);
   bool at_rounding() const;
   void watch();
+  void count_noise();
 
   LinearMap A_;
   double norm_;

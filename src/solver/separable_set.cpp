@@ -76,42 +76,56 @@ bool SeparableSet::contains(const Vector& x) const {
          std::all_of(discs_.begin(), discs_.end(), [&](const Disc& disc) { return offset(disc, x).norm() <= disc.radius; });
 }
 
-bool SeparableSet::on_circle(std::size_t disc, const Vector& x) const {
-  return offset(discs_[disc], x).norm() >= edge_[disc];
-}
-
 SeparableSet::Gradients SeparableSet::gradients(const Vector& x, const Vector& g) const {
-  Gradients out{Vector::Zero(size()), Vector::Zero(size()), std::vector<char>(size(), 0)};
+  Gradients out{Vector::Zero(size()), Vector::Zero(size()), std::vector<Place>(size(), Place::active), {}};
   for (Eigen::Index i = 0; i < size(); ++i) {
     const bool lowest = x[i] <= low_[i], highest = x[i] >= high_[i];
     if (!lowest && !highest) {
-      out.face[i] = 1;
+      out.face[i] = Place::free;
       out.free[i] = g[i];
     } else if ((g[i] < 0 && !highest) || (g[i] > 0 && !lowest)) {
       out.chopped[i] = g[i];
     }
   }
-  for (std::size_t k = 0; k < discs_.size(); ++k) {
-    if (!on_circle(k, x)) continue;
-    const Disc& disc = discs_[k];
-    const Eigen::Vector2d u = offset(disc, x);
-    Eigen::Vector2d part(g[disc.first], g[disc.second]);
-    if (const double length = u.norm(); length > 0 && u.dot(part) < 0) part -= u.dot(part) / length * (u / length);
-    if (disc.radius == 0) part.setZero();
-    for (const int c : {0, 1}) {
-      const int i = c ? disc.second : disc.first;
-      out.face[i] = 0;
-      out.free[i] = 0;
-      out.chopped[i] = part[c];
-    }
-  }
+  if (has_discs()) out.curvature = Vector::Zero(size());
+  for (std::size_t k = 0; k < discs_.size(); ++k) classify(k, x, g, out);
   return out;
+}
+
+void SeparableSet::classify(std::size_t k, const Vector& x, const Vector& g, Gradients& out) const {
+  const Disc& disc = discs_[k];
+  const Eigen::Vector2d u = offset(disc, x), own(g[disc.first], g[disc.second]);
+  const double length = u.norm();
+  if (length < edge_[k]) return;
+  const double push = length > 0 ? -u.dot(own) / length : 0;
+  const bool slides = push > 0 && disc.radius > 0;
+  out.slides = out.slides || slides;
+  for (const int c : {0, 1}) {
+    const int i = c ? disc.second : disc.first;
+    out.face[i] = slides ? Place::sliding : Place::active;
+    out.free[i] = slides ? own[c] + push * u[c] / length : 0;
+    out.chopped[i] = slides || disc.radius == 0 ? 0 : own[c];
+    out.curvature[i] = slides ? push / disc.radius : 0;
+  }
 }
 
 bool SeparableSet::chopped_on_circle(const Gradients& gradients) const {
   return std::any_of(discs_.begin(), discs_.end(), [&](const Disc& disc) {
     return gradients.chopped[disc.first] != 0 || gradients.chopped[disc.second] != 0;
   });
+}
+
+Vector SeparableSet::tangential(const Vector& x, const Gradients& gradients, Vector v) const {
+  for (Eigen::Index i = 0; i < size(); ++i)
+    if (gradients.face[i] == Place::active) v[i] = 0;
+  for (const Disc& disc : discs_) {
+    if (gradients.face[disc.first] != Place::sliding) continue;
+    const Eigen::Vector2d n = offset(disc, x).normalized();
+    const double off = n[0] * v[disc.first] + n[1] * v[disc.second];
+    v[disc.first] -= off * n[0];
+    v[disc.second] -= off * n[1];
+  }
+  return v;
 }
 
 Vector SeparableSet::reduced_free(const Vector& x, const Vector& free, double alpha) const {
@@ -127,12 +141,16 @@ Vector SeparableSet::reduced_free(const Vector& x, const Vector& free, double al
   return reduced;
 }
 
-double SeparableSet::longest_step(const Vector& x, const Vector& p) const {
+double SeparableSet::longest_step(const Vector& x, const Gradients& gradients, const Vector& p) const {
   double step = kInfinity;
   for (Eigen::Index i = 0; i < size(); ++i)
     if (p[i] != 0) step = std::min(step, (x[i] - (p[i] > 0 ? low_[i] : high_[i])) / p[i]);
-  for (const Disc& disc : discs_)
-    step = std::min(step, room_in_disc(offset(disc, x), -Eigen::Vector2d(p[disc.first], p[disc.second]), disc.radius));
+  for (const Disc& disc : discs_) {
+    const Eigen::Vector2d own(p[disc.first], p[disc.second]);
+    if (own.isZero(0)) continue;
+    step = std::min(step, gradients.face[disc.first] == Place::sliding ? disc.radius / own.norm()
+                                                                       : room_in_disc(offset(disc, x), -own, disc.radius));
+  }
   return step;
 }
 

@@ -9,14 +9,15 @@ namespace dotyk::solver {
 /// Ω ⊂ Rⁿ, a product of intervals [low_i, high_i] (ends may be infinite) and of discs
 /// ‖(x_i, x_j) − centre‖ ≤ radius, and what minimising a function of gradient g over Ω needs of it.
 ///
-/// x_i is free where low_i < x_i < high_i, a pair where it lies strictly within its disc; all others are
-/// active. The projected gradient g^P, minus the projection of −g onto the tangent cone of Ω at x, is zero
-/// exactly at the solution. It splits into φ + β (Dostál 2009, ch. 5; for discs Dostál and Kozubek 2012):
-///   the free gradient    φ = g at free components, 0 at active ones,
-///   the chopped gradient β = 0 at free components; at an active end g where the step −g leads inward,
-///                        else 0; on a circle of outer normal n, g − min(nᵀg, 0) n.
-/// So a point that slides along its circle is active, since its face is not flat. An interval of one
-/// point and a disc of radius 0 are fixed: φ = β = 0.
+/// x_i is free where low_i < x_i < high_i, a pair where it lies strictly within its disc. A pair on its circle,
+/// outward normal n, that −g pushes outward slides: it may move along the circle, whose curvature adds
+/// −nᵀg/radius to the Hessian along it. All other components are active. The projected gradient g^P, minus the
+/// projection of −g onto the tangent cone of Ω at x, is zero exactly at the solution. It splits into φ + β
+/// (Dostál 2009, ch. 5):
+///   the free gradient    φ = g at free components, g − (nᵀg) n at sliding pairs, 0 at active components,
+///   the chopped gradient β = g at active components where the step −g leads into Ω, else 0.
+/// Dostál and Kozubek 2012 (MPGP) count the sliding pairs to the active ones. An interval of one point and a
+/// disc of radius 0 are fixed: active, β = 0.
 class SeparableSet {
  public:
   struct Disc {
@@ -24,9 +25,12 @@ class SeparableSet {
     Eigen::Vector2d centre;
     double radius;              ///< ≥ 0, finite
   };
+  enum class Place : char { active, free, sliding };
   struct Gradients {
     algebra::Vector free, chopped;  ///< φ and β, n
-    std::vector<char> face;         ///< n; 1 where the component is free
+    std::vector<Place> face;        ///< n
+    algebra::Vector curvature;      ///< −nᵀg/radius at sliding pairs, else 0; empty where there are no discs
+    bool slides = false;            ///< is there a sliding pair?
   };
 
   /// Throws InputError where sizes differ, low > high, a number is nan, or a component of a disc is out of
@@ -45,20 +49,23 @@ class SeparableSet {
 
   /// φ, β and the face of x ∈ Ω.
   Gradients gradients(const algebra::Vector& x, const algebra::Vector& g) const;
-  /// Does β have a part along or off a circle at x ∈ Ω, where no straight step along −β need stay in Ω?
+  /// Does a pair on a circle have β ≠ 0?
   bool chopped_on_circle(const Gradients& gradients) const;
+  /// v made a direction in the face of x: zero off it, without normal part at sliding pairs.
+  algebra::Vector tangential(const algebra::Vector& x, const Gradients& gradients, algebra::Vector v) const;
   /// φ̃ = (x − P(x − αφ))/α, the reduced free gradient for a step length α > 0.
   algebra::Vector reduced_free(const algebra::Vector& x, const algebra::Vector& free, double alpha) const;
-  /// The longest step α_f ≥ 0 with x − α_f p ∈ Ω, x ∈ Ω; infinite where nothing ends it.
-  double longest_step(const algebra::Vector& x, const algebra::Vector& p) const;
-  /// x − αp for 0 ≤ α ≤ α_f; a component that reaches an end up to rounding is put there, so that the
-  /// step of length α_f leaves the face.
+  /// The longest step α_f ≥ 0 along the face of x for which along() keeps to it, p = tangential(p); infinite
+  /// where nothing ends it. A sliding pair turns by 45° at most, an end of its own.
+  double longest_step(const algebra::Vector& x, const Gradients& gradients, const algebra::Vector& p) const;
+  /// x − αp for 0 ≤ α ≤ α_f, sliding pairs put back onto their circles; a component that reaches an end up to
+  /// rounding is put there, so that the step of length α_f leaves the face.
   algebra::Vector along(const algebra::Vector& x, const algebra::Vector& p, double alpha) const;
   /// By how much gᵀx may differ between two points that are the same but for rounding on the circles.
   double rounding(const algebra::Vector& g) const;
 
  private:
-  bool on_circle(std::size_t disc, const algebra::Vector& x) const;
+  void classify(std::size_t disc, const algebra::Vector& x, const algebra::Vector& g, Gradients& out) const;
   Eigen::Vector2d offset(const Disc& disc, const algebra::Vector& x) const {
     return Eigen::Vector2d(x[disc.first], x[disc.second]) - disc.centre;
   }

@@ -35,7 +35,7 @@ Counts follow(Mprgp& method, const SeparableSet& set, double tol, int limit) {
   while (method.projected_gradient_norm() > tol && counts.steps < limit) {
     const bool proportional = method.proportional();
     const double q = method.q();
-    const std::vector<char> face = method.face();
+    const auto face = method.face();
     const Step step = method.step();
     REQUIRE(step != Step::none);
     ++counts.steps;
