@@ -24,6 +24,8 @@ constexpr int kAgain = 3;
 /// So many steps without a lesser ‖g^P‖, already below kSmall (‖A‖‖x‖ + ‖b‖), are steps in rounding, too.
 constexpr int kIdle = 2000;
 constexpr double kSmall = 1e-11;
+/// A part that does not matter.
+constexpr double kHardly = 0.05;
 
 }  // namespace
 
@@ -73,12 +75,12 @@ void Mprgp::refresh() {
   if (recurrences_ == 0 || halt_ == Halt::not_finite) return;
   Vector g = times(x_) - b_;
   if (!g.allFinite()) return void(stop(Halt::not_finite));
-  noise_ = (g - g_).norm();
+  noise_ = std::max(0.0, (g - g_).norm() - norm_ * offset_);
+  offset_ = 0;
   recurrences_ = 0;
   set_gradient(std::move(g));
   q_ = 0.5 * x_.dot(g_ - b_);
   count_noise();
-  if (noisy_ > 0) direction_.resize(0);
 }
 
 void Mprgp::restart(Vector b, double norm, Vector g) {
@@ -94,7 +96,7 @@ void Mprgp::restart(Vector b, double norm, Vector g) {
 }
 
 Mprgp::Step Mprgp::step() {
-  if (halt_ == Halt::none && projected_gradient_norm() == 0) refresh();
+  if (halt_ == Halt::none && (projected_gradient_norm() == 0 || (offset_ > 0 && !proportional()))) refresh();
   if (halt_ != Halt::none) return Step::none;
   if (projected_gradient_norm() == 0) return stop(Halt::solved);
   const Step made = proportional() ? conjugate_step() : proportioning_step();
@@ -148,18 +150,18 @@ void Mprgp::advance(double alpha, const Vector& p, const Vector& Ap) {
 }
 
 Mprgp::Step Mprgp::conjugate_step() {
-  if (direction_.size() == 0 || !(direction_.dot(gradients_.free) > 0)) direction_ = preconditioned();
-  Vector Hp = times(direction_);
-  raise_norm(direction_.dot(Hp) / direction_.squaredNorm());
-  if (gradients_.slides) Hp += gradients_.curvature.cwiseProduct(direction_);
+  if (direction_.size() == 0 || noisy_ > 0 || !(direction_.dot(gradients_.free) > 0)) direction_ = preconditioned();
+  const Vector Ap = times(direction_);
+  raise_norm(direction_.dot(Ap) / direction_.squaredNorm());
+  const Vector Hp = gradients_.slides ? Vector(Ap + gradients_.curvature.cwiseProduct(direction_)) : Ap;
   const double slope = direction_.dot(gradients_.free), curvature = direction_.dot(Hp);
   if (!std::isfinite(curvature) || !Hp.allFinite()) return stop(Halt::not_finite);
   const bool curved = curvature > kNoCurvature * norm_ * direction_.squaredNorm();
   if (!curved && at_rounding()) return stop(Halt::rounding);
-  const double alpha_cg = curved ? slope / curvature : kInfinity, alpha_free = set_.longest_step(x_, gradients_, direction_);
+  const double alpha_cg = curved ? slope / curvature : kInfinity, alpha_free = set_.longest_step(x_, direction_);
   if (!std::isfinite(std::min(alpha_cg, alpha_free))) return stop(Halt::unbounded);
   const std::vector<SeparableSet::Place> face = gradients_.face;
-  const Step made = gradients_.slides        ? curved_step(alpha_cg, alpha_free)
+  const Step made = gradients_.slides        ? curved_step(alpha_cg, alpha_free, Ap)
                     : alpha_cg <= alpha_free ? advance(alpha_cg, direction_, Hp), Step::conjugate
                                              : expand(alpha_cg, alpha_free, Hp);
   if (made == Step::conjugate && gradients_.face == face) {
@@ -173,8 +175,11 @@ Mprgp::Step Mprgp::conjugate_step() {
 
 /// A conjugate gradient step whose sliding pairs go along their circles; or, where that does not lower q, a
 /// fixed step of the whole gradient.
-Mprgp::Step Mprgp::curved_step(double alpha_cg, double alpha_free) {
+Mprgp::Step Mprgp::curved_step(double alpha_cg, double alpha_free, const Vector& Ap) {
   const bool within = alpha_cg <= alpha_free;
+  if (within && straight_enough(alpha_cg, Ap)) return Step::conjugate;
+  refresh_offset();
+  if (halt_ != Halt::none) return Step::none;
   const bool projects = !within && settings_.expansion == MprgpSettings::Expansion::projected_cg_step && std::isfinite(alpha_cg);
   if (lowers(projects ? set_.project(x_ - alpha_cg * direction_) : set_.along(x_, direction_, std::min(alpha_cg, alpha_free)), 0)) {
     if (projects || within) return within ? Step::conjugate : Step::projection;
@@ -183,6 +188,25 @@ Mprgp::Step Mprgp::curved_step(double alpha_cg, double alpha_free) {
     failed_ = fixed_step(g_) ? 0 : failed_ + 1;
   }
   return halt_ == Halt::none ? Step::expansion : Step::none;
+}
+
+/// Makes the step along circles as if it were straight, which saves a product, if what A times its bending adds
+/// to g, offset_ ‖A‖ at most, can hardly matter for the decrease of q; nor, afterwards, in g^P.
+bool Mprgp::straight_enough(double alpha, const Vector& Ap) {
+  const Vector target = set_.along(x_, direction_, alpha), d = target - x_;
+  const double change = d.dot(g_ - 0.5 * alpha * Ap), offset = offset_ + (d + alpha * direction_).norm();
+  if (!(change < 0) || norm_ * offset * d.norm() > -kHardly * change) return false;
+  x_ = target;
+  q_ += change;
+  offset_ = offset;
+  ++recurrences_;
+  set_gradient(g_ - alpha * Ap);
+  if (norm_ * offset_ > kHardly * projected_gradient_norm()) refresh_offset();
+  return true;
+}
+
+void Mprgp::refresh_offset() {
+  if (offset_ > 0) refresh();
 }
 
 /// g at free components and sliding pairs, else 0.
@@ -221,6 +245,7 @@ bool Mprgp::lowers(const Vector& target, double to_beat) {
   x_ = target;
   q_ += change;
   recurrences_ = 0;
+  offset_ = 0;
   set_gradient(std::move(g));
   return true;
 }
@@ -239,17 +264,13 @@ bool Mprgp::fixed_step(const Vector& v) {
 
 Mprgp::Step Mprgp::proportioning_step() {
   direction_.resize(0);
-  if (set_.chopped_on_circle(gradients_)) {
-    failed_ = fixed_step(g_) ? 0 : failed_ + 1;
-    return halt_ == Halt::none ? Step::proportioning : Step::none;
-  }
   const Vector beta = gradients_.chopped, Ab = times(beta);
   const double slope = beta.squaredNorm(), curvature = beta.dot(Ab);
   if (!Ab.allFinite() || !std::isfinite(curvature)) return stop(Halt::not_finite);
   raise_norm(curvature / slope);
   const bool curved = curvature > kNoCurvature * norm_ * slope;
   if (!curved && at_rounding()) return stop(Halt::rounding);
-  const double alpha = std::min(curved ? slope / curvature : kInfinity, set_.longest_step(x_, gradients_, beta));
+  const double alpha = std::min(curved ? slope / curvature : kInfinity, set_.longest_step(x_, beta));
   if (!std::isfinite(alpha)) return direction_ = beta, stop(Halt::unbounded);
   advance(alpha, beta, Ab);
   return Step::proportioning;

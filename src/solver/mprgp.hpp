@@ -24,11 +24,12 @@ struct MprgpSettings {
 
 /// Minimises q(x) = ½xᵀAx − bᵀx over Ω, A symmetric positive semidefinite, one step at a time. A step is one of
 ///   conjugate gradients in the face of x, while x is proportional, ‖β(x)‖² ≤ Γ² φ̃(x)ᵀφ(x): one product with A;
-///   a second one where pairs slide along circles, whose curvature the step takes into account;
-///   proportioning, x ← x − αβ with α the minimiser or the longest feasible step; where pairs on circles have
-///   β ≠ 0, x ← P(x − ᾱg) instead (MPGP; Dostál and Kozubek 2012): one product;
+///   a second one where pairs slide along circles, whose curvature the step takes into account, so far that
+///   their bending matters;
+///   proportioning, x ← x − αβ with α the minimiser or the longest feasible step: one product;
 ///   expansion, where the conjugate gradient step would leave Ω: see Expansion. Two products; three where
-///   the projected step is refused, or one along circles, which then is x ← P(x − ᾱg), too.
+///   the projected step is refused, or one along circles, for which then x ← P(x − ᾱg) is made (the step of
+///   MPGP; Dostál and Kozubek 2012).
 /// Every one lowers q and keeps x in Ω. A fixed step P(x − ᾱv), v = φ or g, lowers q by at least
 /// ᾱ(1 − ½ᾱ‖A‖)‖ṽ‖², ṽ = (x − P(x − ᾱv))/ᾱ, since vᵀṽ ≥ ‖ṽ‖² for every convex Ω: so for all ᾱ < 2/‖A‖. The
 /// R-linear bound of the decrease of q holds for these, too: 1 − α̂λ_min/(ϑ + ϑΓ̂²), α̂ = min(ᾱ, 2/‖A‖ − ᾱ),
@@ -83,7 +84,9 @@ class Mprgp {
   algebra::Vector preconditioned() const;
   Step conjugate_step();
   Step proportioning_step();
-  Step curved_step(double alpha_cg, double alpha_free);
+  Step curved_step(double alpha_cg, double alpha_free, const algebra::Vector& Ap);
+  bool straight_enough(double alpha, const algebra::Vector& Ap);
+  void refresh_offset();
   algebra::Vector gradient_on_face() const;
   Step expand(double alpha_cg, double alpha_free, const algebra::Vector& Ap);
   bool projected_cg_step(double alpha_cg, double to_beat);
@@ -105,6 +108,7 @@ class Mprgp {
   algebra::Vector x_, g_, direction_;  ///< direction_ p: empty where conjugate gradients start anew
   SeparableSet::Gradients gradients_;
   double q_ = 0, noise_ = 0;  ///< noise_: ‖·‖ of what the last refresh changed g by
+  double offset_ = 0;         ///< g = A(x + e) − b, ‖e‖ ≤ offset_: bends of circles not multiplied with A yet
   double least_ = 0;          ///< the least ‖g^P‖ so far
   int steps_ = 0, products_ = 0, recurrences_ = 0, noisy_ = 0, failed_ = 0, since_least_ = 0;
   Halt halt_ = Halt::none;

@@ -97,22 +97,17 @@ void SeparableSet::classify(std::size_t k, const Vector& x, const Vector& g, Gra
   const Eigen::Vector2d u = offset(disc, x), own(g[disc.first], g[disc.second]);
   const double length = u.norm();
   if (length < edge_[k]) return;
-  const double push = length > 0 ? -u.dot(own) / length : 0;
-  const bool slides = push > 0 && disc.radius > 0;
+  const bool slides = disc.radius > 0 && length > 0;
+  const Eigen::Vector2d n = slides ? Eigen::Vector2d(u / length) : Eigen::Vector2d(0, 0);
+  const double inward = std::max(0.0, n.dot(own));
   out.slides = out.slides || slides;
   for (const int c : {0, 1}) {
     const int i = c ? disc.second : disc.first;
     out.face[i] = slides ? Place::sliding : Place::active;
-    out.free[i] = slides ? own[c] + push * u[c] / length : 0;
-    out.chopped[i] = slides || disc.radius == 0 ? 0 : own[c];
-    out.curvature[i] = slides ? push / disc.radius : 0;
+    out.free[i] = slides ? own[c] - n.dot(own) * n[c] : 0;
+    out.chopped[i] = inward * n[c];
+    out.curvature[i] = slides ? std::max(0.0, -n.dot(own)) / disc.radius : 0;
   }
-}
-
-bool SeparableSet::chopped_on_circle(const Gradients& gradients) const {
-  return std::any_of(discs_.begin(), discs_.end(), [&](const Disc& disc) {
-    return gradients.chopped[disc.first] != 0 || gradients.chopped[disc.second] != 0;
-  });
 }
 
 Vector SeparableSet::tangential(const Vector& x, const Gradients& gradients, Vector v) const {
@@ -141,15 +136,15 @@ Vector SeparableSet::reduced_free(const Vector& x, const Vector& free, double al
   return reduced;
 }
 
-double SeparableSet::longest_step(const Vector& x, const Gradients& gradients, const Vector& p) const {
+double SeparableSet::longest_step(const Vector& x, const Vector& p) const {
   double step = kInfinity;
   for (Eigen::Index i = 0; i < size(); ++i)
     if (p[i] != 0) step = std::min(step, (x[i] - (p[i] > 0 ? low_[i] : high_[i])) / p[i]);
-  for (const Disc& disc : discs_) {
-    const Eigen::Vector2d own(p[disc.first], p[disc.second]);
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    const Eigen::Vector2d own(p[discs_[k].first], p[discs_[k].second]), u = offset(discs_[k], x);
     if (own.isZero(0)) continue;
-    step = std::min(step, gradients.face[disc.first] == Place::sliding ? disc.radius / own.norm()
-                                                                       : room_in_disc(offset(disc, x), -own, disc.radius));
+    const bool slides = u.norm() >= edge_[k] && u.dot(own) <= 0.5 * u.norm() * own.norm();
+    step = std::min(step, slides ? discs_[k].radius / own.norm() : room_in_disc(u, -own, discs_[k].radius));
   }
   return step;
 }

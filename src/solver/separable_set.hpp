@@ -10,14 +10,16 @@ namespace dotyk::solver {
 /// ‖(x_i, x_j) − centre‖ ≤ radius, and what minimising a function of gradient g over Ω needs of it.
 ///
 /// x_i is free where low_i < x_i < high_i, a pair where it lies strictly within its disc. A pair on its circle,
-/// outward normal n, that −g pushes outward slides: it may move along the circle, whose curvature adds
-/// −nᵀg/radius to the Hessian along it. All other components are active. The projected gradient g^P, minus the
+/// outward normal n, slides: it may move along the circle, whose curvature adds −nᵀg/radius to the Hessian
+/// where −g pushes the pair outward. All other components are active. The projected gradient g^P, minus the
 /// projection of −g onto the tangent cone of Ω at x, is zero exactly at the solution. It splits into φ + β
 /// (Dostál 2009, ch. 5):
 ///   the free gradient    φ = g at free components, g − (nᵀg) n at sliding pairs, 0 at active components,
-///   the chopped gradient β = g at active components where the step −g leads into Ω, else 0.
-/// Dostál and Kozubek 2012 (MPGP) count the sliding pairs to the active ones. An interval of one point and a
-/// disc of radius 0 are fixed: active, β = 0.
+///   the chopped gradient β = max(nᵀg, 0) n at sliding pairs, g at active components where the step −g leads into
+///                        Ω, else 0.
+/// Dostál and Kozubek 2012 (MPGP) chop the gradient along circles, too, and leave it to fixed steps, which take κ
+/// steps where conjugate gradients along the circles take √κ. An interval of one point and a disc of radius 0 are
+/// fixed: active, β = 0.
 class SeparableSet {
  public:
   struct Disc {
@@ -29,7 +31,7 @@ class SeparableSet {
   struct Gradients {
     algebra::Vector free, chopped;  ///< φ and β, n
     std::vector<Place> face;        ///< n
-    algebra::Vector curvature;      ///< −nᵀg/radius at sliding pairs, else 0; empty where there are no discs
+    algebra::Vector curvature;      ///< max(−nᵀg, 0)/radius at sliding pairs, else 0; empty where there are no discs
     bool slides = false;            ///< is there a sliding pair?
   };
 
@@ -49,15 +51,13 @@ class SeparableSet {
 
   /// φ, β and the face of x ∈ Ω.
   Gradients gradients(const algebra::Vector& x, const algebra::Vector& g) const;
-  /// Does a pair on a circle have β ≠ 0?
-  bool chopped_on_circle(const Gradients& gradients) const;
   /// v made a direction in the face of x: zero off it, without normal part at sliding pairs.
   algebra::Vector tangential(const algebra::Vector& x, const Gradients& gradients, algebra::Vector v) const;
   /// φ̃ = (x − P(x − αφ))/α, the reduced free gradient for a step length α > 0.
   algebra::Vector reduced_free(const algebra::Vector& x, const algebra::Vector& free, double alpha) const;
-  /// The longest step α_f ≥ 0 along the face of x for which along() keeps to it, p = tangential(p); infinite
-  /// where nothing ends it. A sliding pair turns by 45° at most, an end of its own.
-  double longest_step(const algebra::Vector& x, const Gradients& gradients, const algebra::Vector& p) const;
+  /// The longest step α_f ≥ 0 with x − α_f p ∈ Ω, where −p leads into Ω or along the face; infinite where nothing
+  /// ends it. A sliding pair of tangential p turns by 45° at most.
+  double longest_step(const algebra::Vector& x, const algebra::Vector& p) const;
   /// x − αp for 0 ≤ α ≤ α_f, sliding pairs put back onto their circles; a component that reaches an end up to
   /// rounding is put there, so that the step of length α_f leaves the face.
   algebra::Vector along(const algebra::Vector& x, const algebra::Vector& p, double alpha) const;
