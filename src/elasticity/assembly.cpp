@@ -134,6 +134,12 @@ void add_springs(const Mesh& mesh, const std::vector<FacetSpring>& springs, Scat
 
 }  // namespace
 
+double matrix_bytes(const Mesh& mesh) {
+  const double dim = mesh.dimension(), neighbours = dim == 2 ? (mesh.topology().nodes == 3 ? 7 : 9)
+                                                             : (mesh.topology().nodes == 4 ? 15 : 27);
+  return 12 * 0.5 * mesh.node_count() * dim * (dim * neighbours + 1);
+}
+
 System assemble(const Mesh& mesh, const MaterialField& material,
                 const std::vector<FacetSpring>& springs, const std::vector<double>& force,
                 const Numbering& numbering) {

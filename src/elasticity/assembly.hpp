@@ -24,6 +24,9 @@ struct System {
   double offset = 0;        ///< energy of the prescribed components alone
 };
 
+/// Bytes of a lower triangle on all components, with as many couplings as a grid of these cells has.
+double matrix_bytes(const mesh::Mesh& mesh);
+
 /// Assembles a body's stiffness ∫ ε(v):c:ε(u) and springs. `force`: nodal loads,
 /// node × dimension. The pattern is made once from the mesh; entries are added
 /// in place (no triplets).

@@ -34,6 +34,16 @@ Hooke isotropic(double E, double nu, int dimension, Plane plane) {
   return h;
 }
 
+MaterialField MaterialField::of(const std::vector<int>& cells) const {
+  if (!varies()) return *this;
+  std::vector<double> E, nu;
+  for (const int c : cells) {
+    E.push_back(E_[c]);
+    nu.push_back(nu_[c]);
+  }
+  return MaterialField(std::move(E), std::move(nu), dimension_, plane_);
+}
+
 Hooke from_voigt(const algebra::DenseMatrix& v) {
   if (v.rows() != v.cols() || (v.rows() != 3 && v.rows() != 6))
     throw InputError(text("stiffness is ", v.rows(), "x", v.cols(),

@@ -16,6 +16,7 @@ struct Hooke {
   double c[3][3][3][3] = {};
   /// σ_zz = zz_factor (σ_xx + σ_yy) in the plane: ν in isotropic plane strain, else 0.
   double zz_factor = 0;
+  bool operator==(const Hooke&) const = default;
 };
 
 /// Isotropic material with Young's modulus E and Poisson's ratio nu.
@@ -44,6 +45,9 @@ class MaterialField {
   }
   /// c_xxxx of the first cell: the scale of stiffness in messages and tolerances.
   double scale() const { return at(0).c[0][0][0][0]; }
+  /// The material of these cells, numbered as they come.
+  MaterialField of(const std::vector<int>& cells) const;
+  bool operator==(const MaterialField&) const = default;
 
  private:
   Hooke uniform_;

@@ -11,7 +11,7 @@ namespace dotyk::mesh {
 /// space, at an edge) would have more motions without strain than a rigid body has.
 struct Pieces {
   std::vector<int> of_cell;  ///< which piece; numbered as their least cells are
-  int count = 0;           ///< of pieces, none empty
+  int count = 0;             ///< of pieces, none empty
   /// The cells of each piece, ascending.
   std::vector<std::vector<int>> cells() const;
 };

@@ -47,23 +47,23 @@ namespace {
 /// whatever holds a body.
 constexpr double kResists = 1e-12;
 
-void require_kernel(const Block& block) {
-  if (block.kernel.cols() == 0) return;
+}  // namespace
+
+void require_kernel(const SparseMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
+                    const std::vector<std::string>& modes) {
+  if (kernel.cols() == 0) return;
   Eigen::Index worst;
-  const double most = algebra::kernel_residual(block.K, block.kernel).maxCoeff(&worst);
+  const double most = algebra::kernel_residual(K, kernel).maxCoeff(&worst);
   if (most <= kResists) return;
-  throw InputError(text("'", block.name, "': the stiffness resists ",
-                        worst < static_cast<Eigen::Index>(block.kernel_names.size()) ? block.kernel_names[worst]
-                                                                                     : text("mode ", worst + 1),
+  throw InputError(text(name, ": the stiffness resists ",
+                        worst < static_cast<Eigen::Index>(modes.size()) ? modes[worst] : text("mode ", worst + 1),
                         ", which its supports leave free, by ", most,
                         " of its rows; rounding leaves 1e-16. The body is held by nodes or springs less than a "
                         "billionth of its size apart: hold it on more than that, or let it free"));
 }
 
-}  // namespace
-
 void add(Problem& problem, Block block) {
-  require_kernel(block);
+  require_kernel(block.K, block.kernel, "'" + block.name + "'", block.kernel_names);
   block.first = problem.unknowns();
   problem.blocks.push_back(std::move(block));
 }

@@ -56,8 +56,12 @@ struct Problem {
   algebra::SparseRows rows_of(const Block& block) const;
 };
 
-/// Adds a block, setting its `first`. Throws InputError, naming the motion, where K resists one of the
-/// modes said to be its kernel: algebra::kernel_residual() above 1e-12.
+/// Throws InputError where K (lower triangle) resists one of the modes said to be its kernel:
+/// algebra::kernel_residual() above 1e-12. `name`: whose K, in quotes; `modes`: names of the modes.
+void require_kernel(const algebra::SparseMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
+                    const std::vector<std::string>& modes);
+
+/// Adds a block, setting its `first`. Throws as require_kernel().
 void add(Problem& problem, Block block);
 
 struct State {

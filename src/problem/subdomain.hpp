@@ -32,4 +32,13 @@ struct Subdomain {
   int size() const { return static_cast<int>(f.size()); }
 };
 
+/// Sizes to report of subdomains.
+struct SubdomainCounts {
+  int subdomains = 0;
+  int least = 0, greatest = 0;  ///< own unknowns of one
+  int gluing = 0;               ///< equations between copies: one less than an unknown has, summed
+  int held = 0;                 ///< own unknowns with `unknown` -1: equations of supports
+};
+SubdomainCounts counts(const std::vector<Subdomain>& subdomains);
+
 }  // namespace dotyk::problem

@@ -9,19 +9,13 @@
 #include "elasticity/rigid_modes.hpp"
 #include "elasticity/weak_motions.hpp"
 #include "scene/contact_rows.hpp"
+#include "scene/subdomains.hpp"
 
 namespace dotyk::scene {
 namespace {
 
 using elasticity::Numbering;
 using mesh::Point;
-
-/// Bytes of a lower triangle with as many couplings as a grid of these cells has.
-double matrix_bytes(const mesh::Mesh& mesh) {
-  const double dim = mesh.dimension(), neighbours = dim == 2 ? (mesh.topology().nodes == 3 ? 7 : 9)
-                                                             : (mesh.topology().nodes == 4 ? 15 : 27);
-  return 12 * 0.5 * mesh.node_count() * dim * (dim * neighbours + 1);
-}
 
 /// "fix of left (2 nodes), spring on top".
 std::string supports_of(const Body& body) {
@@ -52,7 +46,7 @@ std::string nearly_free(const Body& body, const Numbering& numbering, const prob
 }
 
 void add_body(const Body& body, Model& model) {
-  require_memory(2 * matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
+  require_memory(2 * elasticity::matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
   model.numbering.push_back(number(body));
   const Numbering& numbering = model.numbering.back();
   const auto springs = body.facet_springs();
@@ -158,7 +152,8 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
 
 }  // namespace
 
-Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading) {
+Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading,
+            const std::optional<problem::Decomposition>& decomposition) {
   Stopwatch watch;
   Model model;
   for (const auto& body : scene.bodies) {
@@ -168,6 +163,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
     monitor.check();
   }
   set_rows(scene, loading, model);
+  if (decomposition) cut(*decomposition, model, monitor);
   clock.assembly += watch.seconds();
   return model;
 }
@@ -181,6 +177,7 @@ void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& 
     set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
   }
   set_rows(scene, loading, model);
+  load_subdomains(model);
   clock.assembly += watch.seconds();
 }
 

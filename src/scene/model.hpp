@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/monitor.hpp"
@@ -33,6 +34,7 @@ struct Model {
   std::vector<std::vector<int>> glue_row;
   std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1
   std::vector<mesh::Point> move;                 ///< contact → displacement of its rigid shape
+  std::optional<problem::Decomposition> decomposition;  ///< by which problem.subdomains were cut; none: they were not
 
   /// Body → rigid motions that its supports hardly hold, with what they are and how stiff: "nearly free:
   /// rotation about (0, 0); held only by fix of left (2 nodes), 3e-08 as stiff as the body". Mostly empty.
@@ -47,9 +49,10 @@ struct Model {
 
 /// Assembles. Throws InputError for contradictory supports, for a contact that nodes fixed on both sides
 /// make impossible, and for a body whose supports are lost in rounding beside its stiffness. Adds its
-/// time to clock.assembly.
-Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading = {});
-/// Puts another loading on a model: f and c change, K and B stay. `bodies`: the scene's, unscaled, as
+/// time to clock.assembly. With a `decomposition` the bodies are also cut into subdomains by it: see cut().
+Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading = {},
+            const std::optional<problem::Decomposition>& decomposition = {});
+/// Puts another loading on a model: f (of subdomains, too) and c change, K and B stay. `bodies`: the scene's, unscaled, as
 /// when it was built. Throws as build.
 void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& loading, Model& model,
             problem::Clock& clock);

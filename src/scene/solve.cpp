@@ -74,6 +74,7 @@ class History {
     add_times(result.clock);
     Past past{loading_, last_ ? last_->slip() : algebra::Vector(), last_ ? last_->dissipated() : std::vector<double>(),
               steps_};
+    if (is_last) model_.problem.subdomains = {};  // of use to methods alone
     const auto solution = std::make_shared<Solution>(scene_, is_last ? std::move(model_) : without_stiffness(),
                                                      is_last ? nullptr : &model_.problem, std::move(result),
                                                      std::move(past));
@@ -87,7 +88,7 @@ class History {
     if (built_)
       reload(*scene_, bodies_, loading_, model_, clock_);
     else
-      model_ = build(*scene_, clock_, monitor, loading_);
+      model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition());
     built_ = true;
     if (!last_) return;
     if (last_ == start_.after) require_same_rows(model_, last_->model());
@@ -123,11 +124,13 @@ class History {
     step = clock_;
   }
 
-  /// A copy of the model but for K, which the next step needs and no earlier solution does.
+  /// A copy of the model but for K and subdomains, which the next step needs and no earlier solution does.
   Model without_stiffness() {
     std::vector<algebra::SparseMatrix> kept;
     for (problem::Block& block : model_.problem.blocks) kept.push_back(std::exchange(block.K, {}));
+    auto subdomains = std::exchange(model_.problem.subdomains, {});
     Model copy = model_;
+    model_.problem.subdomains = std::move(subdomains);
     for (std::size_t b = 0; b < kept.size(); ++b) model_.problem.blocks[b].K = std::move(kept[b]);
     return copy;
   }
