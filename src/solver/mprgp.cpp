@@ -67,6 +67,11 @@ Mprgp::Step Mprgp::stop(Halt why) {
   return Step::none;
 }
 
+Mprgp::Step Mprgp::unbounded(Vector direction) {
+  direction_ = std::move(direction);
+  return stop(Halt::unbounded);
+}
+
 bool Mprgp::at_rounding() const {
   return projected_gradient_norm() <= std::max(kRounding * (norm_ * x_.norm() + b_.norm()), 10 * noise_);
 }
@@ -96,7 +101,7 @@ void Mprgp::restart(Vector b, double norm, Vector g) {
 }
 
 Mprgp::Step Mprgp::step() {
-  if (halt_ == Halt::none && (projected_gradient_norm() == 0 || (offset_ > 0 && !proportional()))) refresh();
+  if (halt_ == Halt::none && projected_gradient_norm() == 0) refresh();
   if (halt_ != Halt::none) return Step::none;
   if (projected_gradient_norm() == 0) return stop(Halt::solved);
   const Step made = proportional() ? conjugate_step() : proportioning_step();
@@ -118,7 +123,7 @@ void Mprgp::minimise(const std::function<bool(const Mprgp&)>& until) {
 
 /// Keeps g true, and notices where there is nothing more to win.
 void Mprgp::watch() {
-  if (recurrences_ >= kRefresh || (recurrences_ > 0 && at_rounding()))
+  if (recurrences_ >= kRefresh || (recurrences_ > 0 && at_rounding()) || (offset_ > 0 && !proportional()))
     refresh();
   else if (recurrences_ == 0)
     count_noise();
@@ -134,12 +139,14 @@ void Mprgp::count_noise() {
   if (noisy_ >= kAgain && halt_ == Halt::none) halt_ = Halt::rounding;
 }
 
+/// S M S φ in the face, M the preconditioner, and S² = 1/(1 + curvature/‖A‖) what the circles ask for.
 Vector Mprgp::preconditioned() const {
   const Vector& phi = gradients_.free;
-  if (!settings_.preconditioner) return phi;
-  Vector z = settings_.preconditioner(phi);
-  z = set_.tangential(x_, gradients_, std::move(z));
-  return z.allFinite() && z.dot(phi) > 0 ? z : phi;
+  if (!settings_.preconditioner && !gradients_.slides) return phi;
+  const Vector S = gradients_.slides && norm_ > 0 ? Vector((1 + gradients_.curvature.array() / norm_).rsqrt()) : Vector(Vector::Ones(phi.size()));
+  const Vector scaled = S.cwiseProduct(phi), z = settings_.preconditioner ? settings_.preconditioner(scaled) : scaled;
+  const Vector along = set_.tangential(x_, gradients_, S.cwiseProduct(z));
+  return along.allFinite() && along.dot(phi) > 0 ? along : phi;
 }
 
 void Mprgp::advance(double alpha, const Vector& p, const Vector& Ap) {
@@ -159,7 +166,7 @@ Mprgp::Step Mprgp::conjugate_step() {
   const bool curved = curvature > kNoCurvature * norm_ * direction_.squaredNorm();
   if (!curved && at_rounding()) return stop(Halt::rounding);
   const double alpha_cg = curved ? slope / curvature : kInfinity, alpha_free = set_.longest_step(x_, direction_);
-  if (!std::isfinite(std::min(alpha_cg, alpha_free))) return stop(Halt::unbounded);
+  if (!std::isfinite(std::min(alpha_cg, alpha_free))) return unbounded(-direction_);
   const std::vector<SeparableSet::Place> face = gradients_.face;
   const Step made = gradients_.slides        ? curved_step(alpha_cg, alpha_free, Ap)
                     : alpha_cg <= alpha_free ? advance(alpha_cg, direction_, Hp), Step::conjugate
@@ -245,7 +252,7 @@ bool Mprgp::lowers(const Vector& target, double to_beat) {
   x_ = target;
   q_ += change;
   recurrences_ = 0;
-  offset_ = 0;
+  offset_ = noise_ = 0;
   set_gradient(std::move(g));
   return true;
 }
@@ -271,7 +278,7 @@ Mprgp::Step Mprgp::proportioning_step() {
   const bool curved = curvature > kNoCurvature * norm_ * slope;
   if (!curved && at_rounding()) return stop(Halt::rounding);
   const double alpha = std::min(curved ? slope / curvature : kInfinity, set_.longest_step(x_, beta));
-  if (!std::isfinite(alpha)) return direction_ = beta, stop(Halt::unbounded);
+  if (!std::isfinite(alpha)) return unbounded(-beta);
   advance(alpha, beta, Ab);
   return Step::proportioning;
 }

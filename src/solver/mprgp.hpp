@@ -96,6 +96,7 @@ class Mprgp {
   void raise_norm(double quotient);
   void set_gradient(algebra::Vector g);
   Step stop(Halt why);
+  Step unbounded(algebra::Vector direction);
   bool at_rounding() const;
   void watch();
   void count_noise();

@@ -108,7 +108,9 @@ class Run {
     Vector change = rho_ * Qx_;
     if (settings_.update == Smalbe::Update::precision) {
       const double L = inner_.q(), growth = 0.5 * rho_ * equality_ * equality_;
-      if (outer_ > 1 && L + kRounding * std::abs(L) < lagrangian_ + growth) M_ /= settings_.beta;
+      const bool compared = outer_ > 1 && last_M_ == M_;  // L can be told to grow by the precision of the last step
+      last_M_ = M_;
+      if (compared && L + kRounding * std::abs(L) < lagrangian_ + growth) M_ /= settings_.beta;
       lagrangian_ = L;
       nu_ += change;
     } else if (equality_ <= eta_) {
@@ -132,7 +134,7 @@ class Run {
   double rho_, M_, eta_ = 0;
   Vector nu_, Qx_;
   Mprgp inner_;
-  double gradient_ = 0, equality_ = 0, lagrangian_ = 0, best_ = 0;
+  double gradient_ = 0, equality_ = 0, lagrangian_ = 0, last_M_ = 0, best_ = 0;
   int outer_ = 0, idle_ = 0;
 };
 

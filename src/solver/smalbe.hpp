@@ -21,8 +21,8 @@ struct EqualityProgram {
 struct Smalbe {
   enum class Update {
     /// ρ is fixed. The inner minimisation ends at ‖g^P‖ ≤ min(M‖Qx‖, η‖b‖); M ← M/β after an outer step where L did
-    /// not grow by ½ρ‖Qx‖². While M ≤ √(λ_min ρ), λ_min(H) > 0, it always grows so: no M falls below √(λ_min ρ)/β
-    /// (SMALBE-M; Dostál 2009, ch. 7).
+    /// not grow by ½ρ‖Qx‖² though the step before had the same M. While M ≤ √(λ_min ρ), λ_min(H) > 0, it always
+    /// grows so: M never falls to √(λ_min ρ)/β (SMALBE-M; Dostál 2009, ch. 7).
     precision,
     /// M is fixed. ν is updated, and η ← αη, where ‖Qx‖ ≤ η; else ρ ← βρ. (Dostál, Gomes and Santos, ODAM 2001,
     /// algorithm 4.1.)

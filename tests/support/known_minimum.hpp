@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "random.hpp"
-#include "solver/separable_set.hpp"
+#include "solver/mprgp.hpp"
 
 namespace dotyk::test {
 
@@ -29,6 +29,10 @@ inline DenseMatrix random_matrix(Random& random, int n, double least, int kernel
   Vector values = Vector::Zero(n);
   for (int i = kernel; i < n; ++i) values[i] = std::pow(least, double(n - 1 - i) / double(std::max(1, n - 1 - kernel)));
   return V * values.asDiagonal() * V.transpose();
+}
+
+inline solver::LinearMap map(const DenseMatrix& A) {
+  return [&A](const Vector& v) -> Vector { return A * v; };
 }
 
 enum class Shape { none, low, box, discs, mixed };
