@@ -14,4 +14,14 @@ class BlasThreads {
   BlasThreads& operator=(const BlasThreads&) = delete;
 };
 
+/// While it lives BLAS uses one thread whatever BlasThreads asks for: for work that is itself shared out to threads.
+/// Made and ended outside that work.
+class OneBlasThread {
+ public:
+  OneBlasThread();
+  ~OneBlasThread();
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+};
+
 }  // namespace dotyk::algebra

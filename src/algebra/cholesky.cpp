@@ -1,12 +1,23 @@
 #include "algebra/cholesky.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "algebra/blas_threads.hpp"
 #include "algebra/cholmod_handle.hpp"
 #include "base/memory.hpp"
 
 namespace dotyk::algebra {
+namespace {
+
+/// CHOLMOD notes status and memory in its cholmod_common even where it only reads a factor: each thread that sweeps
+/// has one of its own.
+CholmodCommon& common_of_this_thread() {
+  thread_local CholmodCommon common;
+  return common;
+}
+
+}  // namespace
 
 struct Cholesky::Implementation {
   CholmodCommon common;
@@ -17,8 +28,9 @@ struct Cholesky::Implementation {
   std::string method;
   ~Implementation() { cholmod_free_factor(&factor, common.get()); }
 
-  DenseMatrix sweep(int system, const DenseMatrix& b) {
-    if (!factor) return b;
+  DenseMatrix sweep(int system, const DenseMatrix& b) const {
+    if (!factor || b.cols() == 0) return b;
+    CholmodCommon& own = common_of_this_thread();
     cholmod_dense in{};
     in.nrow = in.d = b.rows();
     in.ncol = b.cols();
@@ -26,10 +38,10 @@ struct Cholesky::Implementation {
     in.x = const_cast<double*>(b.data());
     in.xtype = CHOLMOD_REAL;
     in.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* out = cholmod_solve(system, factor, &in, common.get());
-    common.check("back substitution");
+    cholmod_dense* out = cholmod_solve(system, factor, &in, own.get());
+    own.check("back substitution");
     DenseMatrix x = Eigen::Map<DenseMatrix>(static_cast<double*>(out->x), b.rows(), b.cols());
-    cholmod_free_dense(&out, common.get());
+    cholmod_free_dense(&out, own.get());
     return x;
   }
 };
@@ -81,6 +93,21 @@ bool Cholesky::factor(const SparseMatrix& lower) {
 int Cholesky::failed_unknown() const {
   if (!it_->factor || it_->factor->minor >= it_->factor->n) return -1;
   return static_cast<int*>(it_->factor->Perm)[it_->factor->minor];
+}
+
+Vector Cholesky::pivots() const {
+  if (!it_->factor) return {};
+  const cholmod_factor& f = *it_->factor;
+  if (!f.is_super) throw std::runtime_error("pivots: the factor is not supernodal");
+  const int *super = static_cast<int*>(f.super), *pi = static_cast<int*>(f.pi), *px = static_cast<int*>(f.px);
+  const double* x = static_cast<double*>(f.x);
+  Vector result(f.n);
+  for (std::size_t s = 0; s < f.nsuper; ++s)
+    for (int column = super[s]; column < super[s + 1]; ++column) {
+      const std::ptrdiff_t k = column - super[s], height = pi[s + 1] - pi[s];
+      result[static_cast<int*>(f.Perm)[column]] = std::pow(x[px[s] + k * (height + 1)], 2);
+    }
+  return result;
 }
 
 DenseMatrix Cholesky::solve(const DenseMatrix& b) const { return it_->sweep(CHOLMOD_A, b); }

@@ -29,7 +29,10 @@ class Cholesky {
   /// The unknown whose pivot was not positive, or -1.
   int failed_unknown() const;
 
-  /// A⁻¹ b for every column of b.
+  /// The squares of L's diagonal, one an unknown: what was left of A's diagonal when the unknown's turn came.
+  Vector pivots() const;
+
+  /// A⁻¹ b for every column of b. Like the sweeps below it may be called by several threads at once.
   DenseMatrix solve(const DenseMatrix& b) const;
 
   /// Γ: unknown of each row of the condensed quantities below, in the factor's order.

@@ -35,20 +35,6 @@ double least_singular_value(const DenseMatrix& square) {
   return Eigen::JacobiSVD<DenseMatrix>(square).singularValues().minCoeff();
 }
 
-/// K with the rows and columns of F emptied but for the diagonal: F then neither moves nor acts.
-SparseMatrix without(SparseMatrix lower, const std::vector<int>& fixed) {
-  std::vector<char> is_fixed(lower.rows(), 0);
-  for (int unknown : fixed) is_fixed[unknown] = 1;
-  double largest = 0;
-  for (int j = 0; j < lower.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
-      if (it.row() == j) largest = std::max(largest, it.value());
-  for (int j = 0; j < lower.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
-      if (is_fixed[it.row()] || is_fixed[j]) it.valueRef() = it.row() != j ? 0 : largest > 0 ? largest : 1;
-  return lower;
-}
-
 }  // namespace
 
 std::vector<int> fixing_unknowns(const DenseMatrix& kernel) {
@@ -77,6 +63,19 @@ Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R) {
   return result;
 }
 
+SparseMatrix hold(SparseMatrix lower, const std::vector<int>& unknowns) {
+  std::vector<char> is_fixed(lower.rows(), 0);
+  for (int unknown : unknowns) is_fixed[unknown] = 1;
+  double largest = 0;
+  for (int j = 0; j < lower.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
+      if (it.row() == j) largest = std::max(largest, it.value());
+  for (int j = 0; j < lower.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
+      if (is_fixed[it.row()] || is_fixed[j]) it.valueRef() = it.row() != j ? 0 : largest > 0 ? largest : 1;
+  return lower;
+}
+
 GeneralisedInverse::GeneralisedInverse(const SparseMatrix& lower, const std::vector<int>& node,
                                        const DenseMatrix& kernel, std::vector<int> fixed, Ordering ordering)
     : fixed_(std::move(fixed)), basis_(orthonormal(kernel)), factor_(lower, node, {}, ordering) {
@@ -92,7 +91,7 @@ GeneralisedInverse::GeneralisedInverse(const SparseMatrix& lower, const std::vec
     : GeneralisedInverse(lower, node, kernel, fixing_unknowns(kernel), ordering) {}
 
 bool GeneralisedInverse::factor(const SparseMatrix& lower) {
-  return factor_.factor(fixed_.empty() ? lower : without(lower, fixed_));
+  return factor_.factor(fixed_.empty() ? lower : hold(lower, fixed_));
 }
 
 DenseMatrix GeneralisedInverse::apply(const DenseMatrix& f) const {

@@ -20,6 +20,10 @@ std::vector<int> fixing_unknowns(const DenseMatrix& kernel);
 /// 1e-16 for rigid modes; one product with K a column. `lower`: K's lower triangle.
 Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R);
 
+/// K with the rows and columns of the unknowns emptied but for their diagonal entries, which become K's greatest (1 where
+/// that is zero): these unknowns then neither move nor act. The pattern stays.
+SparseMatrix hold(SparseMatrix lower, const std::vector<int>& unknowns);
+
 /// A generalised inverse K⁺ of a symmetric positive semidefinite K with known kernel R (P2): with as
 /// many unknowns F fixed as R has columns, R_F regular, the rest K_JJ is positive definite, and
 ///   K⁺ = [K_JJ⁻¹ on J, 0 on F],     K K⁺ K = K,   K K⁺ f = f for every f ⟂ R.
@@ -41,7 +45,7 @@ class GeneralisedInverse {
   bool factor(const SparseMatrix& lower);
   int failed_unknown() const { return factor_.failed_unknown(); }
 
-  /// K⁺ f for every column of f; zero on F.
+  /// K⁺ f for every column of f; zero on F. Several threads may call it at once.
   DenseMatrix apply(const DenseMatrix& f) const;
   /// P u: every column less its part in the kernel.
   DenseMatrix project(const DenseMatrix& u) const;
@@ -49,6 +53,9 @@ class GeneralisedInverse {
   const std::vector<int>& fixed() const { return fixed_; }
   /// Least singular value of R̂_F, R̂ an orthonormal basis of R: 1 at best, 0 where F does not hold R.
   double regularity() const { return regularity_; }
+  /// R̂, an orthonormal basis of R.
+  const DenseMatrix& basis() const { return basis_; }
+  const Cholesky& cholesky() const { return factor_; }
 
  private:
   std::vector<int> fixed_;

@@ -1,0 +1,160 @@
+#include "solver/dual_problem.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+#include "algebra/blas_threads.hpp"
+#include "base/memory.hpp"
+#include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+#include "solver/equal_pieces.hpp"
+
+namespace dotyk::solver {
+
+using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using algebra::Vector;
+
+namespace {
+
+[[noreturn]] void refuse(const Piece& piece, int unknown) {
+  throw InputError(text(
+      "the stiffness of ", piece.name, " is singular",
+      unknown >= 0 ? text(" (node ", (*piece.node)[unknown] + 1, " is not held)") : "",
+      piece.kernel->cols() > 0 ? text(" beyond its ", piece.kernel->cols(), " rigid motions") : "",
+      ": a material, spring or mesh value is out of range, or cells hang together at single nodes only"));
+}
+
+/// Entries of all copies that rows touch.
+Vector touched(const TornProblem& torn, const Vector& v) {
+  Vector result(torn.B.cols());
+  for (const Piece& p : torn.pieces)
+    for (std::size_t i = 0; i < p.touched.size(); ++i) result[p.first_touched + i] = v[p.first + p.touched[i]];
+  return result;
+}
+
+/// The other way round: zero where no row touches.
+Vector spread(const TornProblem& torn, const Vector& t) {
+  Vector result = Vector::Zero(torn.copies());
+  for (const Piece& p : torn.pieces)
+    for (std::size_t i = 0; i < p.touched.size(); ++i) result[p.first + p.touched[i]] = t[p.first_touched + i];
+  return result;
+}
+
+}  // namespace
+
+DualProblem::DualProblem(const problem::Problem& problem, algebra::Ordering ordering, problem::Clock& clock,
+                         Monitor& monitor) {
+  Stopwatch watch;
+  monitor.phase("tearing the problem into pieces");
+  torn_ = tear(problem);
+  kinds_ = equal_pieces(torn_.pieces);
+  batches_ = batches(kinds_, torn_.pieces);
+  clock.assembly += watch.lap();
+  analyse(ordering, monitor);
+  clock.ordering += watch.lap();
+  factor(monitor);
+  clock.factor += watch.lap();
+  add_modes();
+  d_ = torn_.B * touched(torn_, inverse(load_)) - torn_.c;
+  clock.assembly += watch.lap();
+}
+
+void DualProblem::analyse(algebra::Ordering ordering, Monitor& monitor) {
+  monitor.phase(text("ordering ", kinds_.size(), kinds_.size() == 1 ? " kind" : " kinds", " of ", torn_.pieces.size(),
+                     " pieces"));
+  for (const auto& kind : kinds_) {  // one after another: METIS draws its random numbers from the C library
+    monitor.check();
+    const Piece& first = torn_.pieces[kind.front()];
+    inverses_.emplace_back(*first.K, *first.node, *first.kernel, ordering);
+  }
+  require_memory(factor_bytes(), text("the factors of ", kinds_.size(), " pieces"));
+}
+
+void DualProblem::factor(Monitor& monitor) {
+  std::vector<int> order;  // the greatest first
+  for (std::size_t k = 0; k < kinds_.size(); ++k) order.push_back(static_cast<int>(k));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return inverses_[a].cholesky().flops() > inverses_[b].cholesky().flops();
+  });
+  std::mutex watched;
+  int begun = 0;
+  const auto one = [&](int k) {
+    {
+      const std::lock_guard lock(watched);
+      monitor.check();
+      monitor.phase(text("factoring piece ", ++begun, " of ", kinds_.size()));
+    }
+    const Piece& first = torn_.pieces[kinds_[order[k]].front()];
+    algebra::GeneralisedInverse& inverse = inverses_[order[k]];
+    if (!inverse.factor(*first.K)) refuse(first, inverse.failed_unknown());
+  };
+  if (order.size() == 1) return one(0);  // with all threads for its products
+  const algebra::OneBlasThread single;
+  parallel_for(static_cast<int>(order.size()), one);
+}
+
+void DualProblem::add_modes() {
+  std::vector<int> kind_of(torn_.pieces.size());
+  for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
+    for (int p : kinds_[kind]) kind_of[p] = static_cast<int>(kind);
+  std::vector<Eigen::Triplet<double>> entries, touched_entries;
+  load_.resize(torn_.copies());
+  int mode = 0;
+  for (std::size_t k = 0; k < torn_.pieces.size(); ++k) {
+    const Piece& p = torn_.pieces[k];
+    const DenseMatrix& R = basis(kind_of[k]);
+    load_.segment(p.first, p.size()) = *p.f;
+    for (Eigen::Index j = 0; j < R.cols(); ++j, ++mode) {
+      for (int i = 0; i < p.size(); ++i) entries.emplace_back(p.first + i, mode, R(i, j));
+      for (std::size_t i = 0; i < p.touched.size(); ++i)
+        touched_entries.emplace_back(p.first_touched + static_cast<int>(i), mode, R(p.touched[i], j));
+    }
+  }
+  modes_.resize(torn_.copies(), mode);
+  modes_.setFromTriplets(entries.begin(), entries.end());
+  SparseMatrix on_touched(torn_.B.cols(), mode);
+  on_touched.setFromTriplets(touched_entries.begin(), touched_entries.end());
+  G_ = SparseMatrix(on_touched.transpose()) * SparseMatrix(torn_.Bt);
+  e_ = modes_.transpose() * load_;
+}
+
+Vector DualProblem::apply(const Vector& lambda) const {
+  return through_pieces(torn_, batches_, lambda, [this](const Batch& batch, DenseMatrix& columns) {
+    columns = inverses_[batch.kind].apply(columns);
+  });
+}
+
+Vector DualProblem::lumped(const Vector& lambda) const {
+  return through_pieces(torn_, batches_, lambda, [this](const Batch& batch, DenseMatrix& columns) {
+    const SparseMatrix& K = *torn_.pieces[kinds_[batch.kind].front()].K;
+    columns = DenseMatrix(K.selfadjointView<Eigen::Lower>() * columns);
+  });
+}
+
+Vector DualProblem::inverse(const Vector& f) const {
+  return on_pieces(torn_, batches_, f, [this](const Batch& batch, DenseMatrix& columns) {
+    columns = inverses_[batch.kind].apply(columns);
+  });
+}
+
+Vector DualProblem::recover(const Vector& lambda, const Vector& alpha) const {
+  return inverse(load_ - spread(torn_, torn_.Bt * lambda)) + modes_ * alpha;
+}
+
+double DualProblem::factor_bytes() const {
+  double bytes = 0;
+  for (const auto& inverse : inverses_) bytes += inverse.cholesky().bytes();
+  return bytes;
+}
+
+const std::string& DualProblem::ordering() const {
+  static const std::string none;
+  if (inverses_.empty()) return none;
+  return std::max_element(inverses_.begin(), inverses_.end(), [](const auto& a, const auto& b) {
+           return a.cholesky().flops() < b.cholesky().flops();
+         })->cholesky().method();
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,69 @@
+#include "solver/piece_batches.hpp"
+
+#include <algorithm>
+
+#include "algebra/blas_threads.hpp"
+#include "base/parallel.hpp"
+
+namespace dotyk::solver {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+namespace {
+
+constexpr int kColumns = 8;
+
+}  // namespace
+
+std::vector<Batch> batches(const std::vector<std::vector<int>>& kinds, const std::vector<Piece>& pieces) {
+  std::vector<Batch> result;
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    const std::size_t members = kinds[kind].size(), parts = (members + kColumns - 1) / kColumns;
+    for (std::size_t k = 0; k < parts; ++k)
+      result.push_back({static_cast<int>(kind),
+                        {kinds[kind].begin() + k * members / parts, kinds[kind].begin() + (k + 1) * members / parts}});
+  }
+  const auto work = [&](const Batch& b) { return static_cast<double>(b.pieces.size()) * pieces[b.pieces[0]].size(); };
+  std::stable_sort(result.begin(), result.end(), [&](const Batch& a, const Batch& b) { return work(a) > work(b); });
+  return result;
+}
+
+Vector through_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& lambda,
+                      const OnColumns& A) {
+  const Vector before = torn.Bt * lambda;
+  Vector after(before.size());
+  const algebra::OneBlasThread one;
+  parallel_for(static_cast<int>(batches.size()), [&](int b) {
+    const Batch& batch = batches[b];
+    DenseMatrix columns = DenseMatrix::Zero(torn.pieces[batch.pieces[0]].size(), batch.pieces.size());
+    for (std::size_t k = 0; k < batch.pieces.size(); ++k) {
+      const Piece& p = torn.pieces[batch.pieces[k]];
+      for (std::size_t i = 0; i < p.touched.size(); ++i) columns(p.touched[i], k) = before[p.first_touched + i];
+    }
+    A(batch, columns);
+    for (std::size_t k = 0; k < batch.pieces.size(); ++k) {
+      const Piece& p = torn.pieces[batch.pieces[k]];
+      for (std::size_t i = 0; i < p.touched.size(); ++i) after[p.first_touched + i] = columns(p.touched[i], k);
+    }
+  });
+  return torn.B * after;
+}
+
+Vector on_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& f, const OnColumns& A) {
+  Vector result(f.size());
+  const algebra::OneBlasThread one;
+  parallel_for(static_cast<int>(batches.size()), [&](int b) {
+    const Batch& batch = batches[b];
+    const int size = torn.pieces[batch.pieces[0]].size();
+    DenseMatrix columns(size, batch.pieces.size());
+    for (std::size_t k = 0; k < batch.pieces.size(); ++k)
+      columns.col(k) = f.segment(torn.pieces[batch.pieces[k]].first, size);
+    A(batch, columns);
+    for (std::size_t k = 0; k < batch.pieces.size(); ++k)
+      result.segment(torn.pieces[batch.pieces[k]].first, size) = columns.col(k);
+  });
+  return result;
+}
+
+}  // namespace dotyk::solver

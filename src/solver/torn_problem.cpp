@@ -1,0 +1,161 @@
+#include "solver/torn_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "base/text.hpp"
+
+namespace dotyk::solver {
+
+using algebra::SparseRows;
+using algebra::Vector;
+using problem::Problem;
+
+namespace {
+
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+/// The copies of every unknown, ascending: those of unknown j are copy[first[j]], …, copy[first[j + 1] − 1].
+struct Copies {
+  std::vector<int> first, copy;
+  int count(int unknown) const { return first[unknown + 1] - first[unknown]; }
+};
+
+Copies copies_of(const TornProblem& torn) {
+  Copies copies;
+  copies.first.assign(torn.unknowns + 1, 0);
+  for (int j : torn.unknown)
+    if (j >= 0) ++copies.first[j + 1];
+  std::partial_sum(copies.first.begin(), copies.first.end(), copies.first.begin());
+  copies.copy.resize(copies.first.back());
+  std::vector<int> next(copies.first.begin(), copies.first.end() - 1);
+  for (int v = 0; v < torn.copies(); ++v)
+    if (torn.unknown[v] >= 0) copies.copy[next[torn.unknown[v]]++] = v;
+  return copies;
+}
+
+void add_blocks(const Problem& problem, TornProblem& torn) {
+  for (const problem::Block& b : problem.blocks)
+    torn.pieces.push_back({"'" + b.name + "'", &b.K, &b.f, &b.node, &b.kernel, b.first, {}, 0});
+  torn.unknown.resize(torn.unknowns);
+  std::iota(torn.unknown.begin(), torn.unknown.end(), 0);
+  torn.value = Vector::Zero(torn.unknowns);
+}
+
+void add_subdomains(const Problem& problem, TornProblem& torn) {
+  int number = 0;
+  for (std::size_t k = 0; k < problem.subdomains.size(); ++k) {
+    const problem::Subdomain& s = problem.subdomains[k];
+    number = k > 0 && problem.subdomains[k - 1].block == s.block ? number + 1 : 1;
+    torn.pieces.push_back({text("piece ", number, " of '", problem.blocks[s.block].name, "'"), &s.K, &s.f, &s.node,
+                           &s.kernel, torn.copies(), {}, 0});
+    torn.unknown.insert(torn.unknown.end(), s.unknown.begin(), s.unknown.end());
+  }
+  torn.value.resize(torn.copies());
+  for (std::size_t k = 0; k < problem.subdomains.size(); ++k)
+    torn.value.segment(torn.pieces[k].first, torn.pieces[k].size()) = problem.subdomains[k].value;
+}
+
+/// Rows of the problem on all copies, not yet scaled.
+SparseRows spread(const Problem& problem, const TornProblem& torn, const Copies& copies) {
+  Entries entries;
+  for (int r = 0; r < problem.rows(); ++r)
+    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
+      const int m = copies.count(static_cast<int>(it.col()));
+      if (m == 0) throw std::logic_error(text("unknown ", it.col(), " belongs to no piece"));
+      for (int k = 0; k < m; ++k) entries.emplace_back(r, copies.copy[copies.first[it.col()] + k], it.value() / m);
+    }
+  SparseRows rows(problem.rows(), torn.copies());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
+}
+
+/// One over each row's norm, or over the greater one of a friction point's rows; 1 for rows without entries.
+Vector scale_of(const Problem& problem, const SparseRows& rows) {
+  Vector norm(rows.rows());
+  for (int r = 0; r < rows.rows(); ++r) norm[r] = rows.row(r).norm();
+  for (const problem::FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k) {
+      auto point = norm.segment(group.row(k), group.components);
+      point.setConstant(point.maxCoeff());
+    }
+  return norm.unaryExpr([](double n) { return n > 0 ? 1 / n : 1.0; });
+}
+
+void add_gluing(const Copies& copies, int& row, Entries& entries) {
+  for (std::size_t j = 0; j + 1 < copies.first.size(); ++j)
+    for (int k = 1; k < copies.count(static_cast<int>(j)); ++k, ++row) {
+      const double share = 1 / std::sqrt(k * (k + 1.0));
+      const int* copy = copies.copy.data() + copies.first[j];
+      for (int i = 0; i < k; ++i) entries.emplace_back(row, copy[i], share);
+      entries.emplace_back(row, copy[k], -k * share);
+    }
+}
+
+/// Numbers the copies that rows touch; gives each entry its touched copy's number.
+void number_touched(TornProblem& torn, Entries& entries) {
+  std::vector<int> place(torn.copies(), -1);
+  for (const auto& e : entries) place[e.col()] = 0;
+  int next = 0;
+  for (Piece& piece : torn.pieces) {
+    piece.first_touched = next;
+    for (int i = 0; i < piece.size(); ++i)
+      if (place[piece.first + i] == 0) {
+        piece.touched.push_back(i);
+        place[piece.first + i] = next++;
+      }
+  }
+  for (auto& e : entries) e = {e.row(), place[e.col()], e.value()};
+  torn.B.resize(torn.rows(), next);
+  torn.B.setFromTriplets(entries.begin(), entries.end());
+  torn.Bt = torn.B.transpose();
+}
+
+}  // namespace
+
+TornProblem tear(const Problem& problem) {
+  TornProblem torn;
+  torn.unknowns = problem.unknowns();
+  problem.subdomains.empty() ? add_blocks(problem, torn) : add_subdomains(problem, torn);
+  const Copies copies = copies_of(torn);
+
+  const SparseRows rows = spread(problem, torn, copies);
+  torn.scale = scale_of(problem, rows);
+  Entries entries;
+  for (int r = 0; r < rows.rows(); ++r)
+    for (SparseRows::InnerIterator it(rows, r); it; ++it)
+      if (it.value() != 0) entries.emplace_back(r, static_cast<int>(it.col()), torn.scale[r] * it.value());
+  int row = problem.rows();
+  add_gluing(copies, row, entries);
+  torn.gluing_rows = row - problem.rows();
+  const int first_support = row;
+  for (int v = 0; v < torn.copies(); ++v)
+    if (torn.unknown[v] < 0) entries.emplace_back(row++, v, 1.0);
+  torn.support_rows = row - first_support;
+
+  torn.c = Vector::Zero(row);
+  torn.c.head(problem.rows()) = torn.scale.cwiseProduct(problem.c);
+  for (int v = 0, r = first_support; v < torn.copies(); ++v)
+    if (torn.unknown[v] < 0) torn.c[r++] = torn.value[v];
+  number_touched(torn, entries);
+  return torn;
+}
+
+Vector average(const TornProblem& torn, const Vector& v) {
+  Vector sum = Vector::Zero(torn.unknowns), count = Vector::Zero(torn.unknowns);
+  for (int k = 0; k < torn.copies(); ++k)
+    if (torn.unknown[k] >= 0) sum[torn.unknown[k]] += v[k], ++count[torn.unknown[k]];
+  return sum.cwiseQuotient(count);
+}
+
+double disagreement(const TornProblem& torn, const Vector& v) {
+  const Vector mean = average(torn, v);
+  double most = 0;
+  for (int k = 0; k < torn.copies(); ++k)
+    most = std::max(most, std::abs(v[k] - (torn.unknown[k] >= 0 ? mean[torn.unknown[k]] : torn.value[k])));
+  return most;
+}
+
+}  // namespace dotyk::solver

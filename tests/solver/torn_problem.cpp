@@ -1,0 +1,107 @@
+#include "solver/torn_problem.hpp"
+
+#include <doctest/doctest.h>
+
+#include "../support/pieces.hpp"
+
+using namespace dotyk;
+using algebra::DenseMatrix;
+using algebra::Vector;
+using mesh::Point;
+using test::CutBody;
+
+namespace {
+
+/// A held box under load, pressed against rows on its right face.
+problem::Problem cut_box(bool support_rows, int n) {
+  problem::Problem p;
+  CutBody body{test::box(test::Family::q1, 2 * n, n, n, {0, 0, 0}, {2, 1, 1})};
+  body.held = [](const Point& x, int i) { return x[0] == 0 && (i != 2 || x[1] < 0.6); };
+  body.value = [](const Point& x) { return Point{0.01 * x[1], -0.02, 0.03 * x[2]}; };
+  body.load = [](const Point& x) { return Point{1 + x[0], x[1], -1}; };
+  body.piece = test::boxes({2, 2, 2}, {2, 1, 1});
+  body.support_rows = support_rows;
+  const auto numbering = test::add(p, body);
+  test::add_rows(p, body, numbering, 0, 3.0, [](const Point& x) { return x[0] == 2; }, 0.1);
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("rows of a torn problem: norm one; gluing ones orthonormal and orthogonal to the problem's") {
+  for (const bool support_rows : {true, false}) {
+    const auto p = cut_box(support_rows, 2);
+    const auto torn = solver::tear(p);
+    CHECK((torn.support_rows > 0) == support_rows);
+    REQUIRE(torn.rows() == torn.problem_rows() + torn.gluing_rows + torn.support_rows);
+    const DenseMatrix B = torn.B, gram = B * B.transpose();
+    CHECK((gram - DenseMatrix::Identity(B.rows(), B.rows())).cwiseAbs().maxCoeff() < 1e-14);
+    // Each unknown of m copies has m − 1 gluing rows.
+    CHECK(torn.copies() - torn.support_rows - torn.gluing_rows == p.unknowns());
+    CHECK(torn.Bt.rows() == torn.B.cols());
+    CHECK(test::relative(DenseMatrix(torn.Bt), B.transpose()) == 0);
+  }
+}
+
+TEST_CASE("copies of one displacement satisfy the gluing and support rows and jump as it does; their energies add up") {
+  test::Random random(501);
+  for (const bool support_rows : {true, false}) {
+    const auto p = cut_box(support_rows, 2);
+    const auto torn = solver::tear(p);
+    const Vector u = random.vector(p.unknowns());
+    Vector v(torn.copies()), t(torn.B.cols());
+    for (int k = 0; k < torn.copies(); ++k) v[k] = torn.unknown[k] < 0 ? torn.value[k] : u[torn.unknown[k]];
+    double energy = 0;
+    for (const auto& piece : torn.pieces) {
+      const Vector own = v.segment(piece.first, piece.size());
+      energy += 0.5 * own.dot(piece.K->selfadjointView<Eigen::Lower>() * own) - piece.f->dot(own);
+      for (std::size_t i = 0; i < piece.touched.size(); ++i) t[piece.first_touched + i] = own[piece.touched[i]];
+    }
+    const Vector x = torn.B * t - torn.c;
+    CHECK(test::relative(x.head(p.rows()), torn.scale.cwiseProduct(p.B * u - p.c)) < 1e-14);
+    CHECK(x.tail(torn.rows() - p.rows()).cwiseAbs().maxCoeff() < 1e-14);
+    CHECK(test::relative(solver::average(torn, v), u) < 1e-14);
+    CHECK(solver::disagreement(torn, v) < 1e-14);
+    const auto& b = p.blocks[0];
+    const double whole = 0.5 * u.dot(b.K.selfadjointView<Eigen::Lower>() * u) - b.f.dot(u);
+    const double missing = support_rows ? b.offset : 0;  // pieces whose supports stay in K leave their offset out as well
+    CHECK(energy == doctest::Approx(whole + missing).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("one gap between the copies shows in their disagreement") {
+  const auto p = cut_box(true, 2);
+  const auto torn = solver::tear(p);
+  Vector v = Vector::Zero(torn.copies());
+  for (int k = 0; k < torn.copies(); ++k) v[k] = torn.value[k];
+  int shared = 0;  // the first copy of an unknown that has further ones
+  std::vector<int> count(p.unknowns(), 0);
+  for (int j : torn.unknown)
+    if (j >= 0) ++count[j];
+  while (torn.unknown[shared] < 0 || count[torn.unknown[shared]] < 2) ++shared;
+  v[shared] = 1;
+  CHECK(solver::disagreement(torn, v) == doctest::Approx(1 - 1.0 / count[torn.unknown[shared]]));
+}
+
+TEST_CASE("without subdomains each block is a piece; the rows of a friction point share their factor") {
+  test::Random random(502);
+  problem::Problem p;
+  for (const char* name : {"a", "b"})
+    problem::add(p, test::block(name, test::spring_grid(random, 3, 2, 3, 0.2), random.vector(18), 3, false));
+  DenseMatrix B = DenseMatrix::Zero(4, 36);
+  B(0, 0) = 3, B(0, 20) = -4;                       // normal row
+  B(1, 1) = 6, B(1, 21) = 8, B(2, 2) = 1, B(2, 22) = 1;  // tangential rows of it
+  p.B = test::rows(B);                              // row 3 is empty
+  p.c = Vector{{1, 2, 3, 4}};
+  p.groups = {test::group(problem::unilateral(), 0, 1), test::group(problem::unilateral(), 3, 1)};
+  p.friction = {{"friction", problem::tresca({1.0}), 1, 2, {0}}};
+  const auto torn = solver::tear(p);
+  CHECK(torn.pieces.size() == 2);
+  CHECK(torn.pieces[1].name == "'b'");
+  CHECK(torn.pieces[1].K == &p.blocks[1].K);
+  CHECK(torn.gluing_rows + torn.support_rows == 0);
+  CHECK(test::relative(torn.scale, Vector{{0.2, 0.1, 0.1, 1}}) < 1e-15);
+  CHECK(test::relative(torn.c, Vector{{0.2, 0.2, 0.3, 4}}) < 1e-15);
+  CHECK(torn.pieces[0].touched == std::vector<int>{0, 1, 2});
+  CHECK(torn.pieces[1].touched == std::vector<int>{2, 3, 4});
+}
