@@ -3,8 +3,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "base/text.hpp"
-
 namespace dotyk::elasticity {
 
 using algebra::DenseMatrix;
@@ -54,33 +52,34 @@ double rounded(double v, double scale, double noise) {
   return std::round(v / step) * step;
 }
 
-std::string direction_text(const Vector& d, double noise) {
-  static const char* axis[] = {"x", "y", "z"};
+/// Unit, without noise; (0, 0, 1), not (0, 0, -1), where `sense` is of no matter.
+std::vector<double> unit(const Vector& d, double noise, bool sense) {
   Eigen::Index largest;
   d.cwiseAbs().maxCoeff(&largest);
-  Vector rest = d;
+  Vector rest = d, only = Vector::Zero(d.size());
   rest[largest] = 0;
-  if (rest.norm() < noise * d.norm()) return axis[largest];
-  std::string out = "(";
-  for (int i = 0; i < d.size(); ++i) out += (i ? ", " : "") + text(rounded(d[i] / d.norm(), 1, noise));
-  return out + ")";
+  only[largest] = sense && d[largest] < 0 ? -1 : 1;
+  if (rest.norm() < noise * d.norm()) return {only.begin(), only.end()};
+  std::vector<double> out;
+  for (const double v : d) out.push_back(rounded(v / d.norm(), 1, noise));
+  return out;
 }
 
 }  // namespace
 
-std::string RigidFrame::name(const Vector& c, double noise) const {
+Motion RigidFrame::motion(const Vector& c, double noise) const {
   const Vector t = c.head(dimension), omega = c.tail(c.size() - dimension) / size;
-  if (omega.norm() * size < noise * std::max(1.0, t.norm())) return "translation along " + direction_text(t, noise);
+  if (omega.norm() * size < noise * std::max(1.0, t.norm()))
+    return {Motion::Kind::translation, unit(t, noise, true)};
   if (dimension == 2)  // the point that stays: t + ω e_z × (x − centre) = 0
-    return text("rotation about (", rounded(centre[0] - t[1] / omega[0], size, noise), ", ",
-                rounded(centre[1] + t[0] / omega[0], size, noise), ")");
+    return {Motion::Kind::rotation, {},
+            {rounded(centre[0] - t[1] / omega[0], size, noise), rounded(centre[1] + t[0] / omega[0], size, noise)}};
   const Eigen::Vector3d w = omega, v = t;
   const Eigen::Vector3d foot = w.cross(v) / w.squaredNorm();
-  std::string out = text("rotation about the axis along ", direction_text(w, noise), " through (");
-  for (int i = 0; i < 3; ++i) out += (i ? ", " : "") + text(rounded(centre[i] + foot[i], size, noise));
-  out += ")";
-  if (std::abs(w.dot(v)) > noise * w.norm() * std::max(1.0, v.norm())) out += " with a slide along it";
-  return out;
+  Motion motion{Motion::Kind::rotation, unit(w, noise, false), {}};
+  for (int i = 0; i < 3; ++i) motion.centre.push_back(rounded(centre[i] + foot[i], size, noise));
+  motion.slides = std::abs(w.dot(v)) > noise * w.norm() * std::max(1.0, v.norm());
+  return motion;
 }
 
 }  // namespace dotyk::elasticity

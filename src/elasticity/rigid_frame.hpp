@@ -2,9 +2,8 @@
 
 // Rigid motions by coefficients. Used inside this room only.
 
-#include <string>
-
 #include "algebra/types.hpp"
+#include "base/motion.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::elasticity {
@@ -19,9 +18,9 @@ struct RigidFrame {
   int count() const { return dimension == 2 ? 3 : 6; }
   /// Component i of every motion at x.
   Eigen::RowVectorXd row(const double* x, int i) const;
-  /// "translation along x", "rotation about (0.5, 0.5)", …; coefficients below `noise` of the motion, and
-  /// places below `noise` of the size, are taken as nothing.
-  std::string name(const algebra::Vector& coefficients, double noise = 1e-9) const;
+  /// What motion that is; coefficients below `noise` of the motion, and places below `noise` of the size, are
+  /// taken as nothing.
+  Motion motion(const algebra::Vector& coefficients, double noise = 1e-9) const;
 };
 
 /// The same span in column echelon form with pivoting: each vector as pure as can be.

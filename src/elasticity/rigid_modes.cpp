@@ -48,7 +48,7 @@ RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering,
 
   RigidModes result;
   result.modes.resize(numbering.count(), basis.cols());
-  for (int m = 0; m < basis.cols(); ++m) result.names.push_back(frame.name(basis.col(m)));
+  for (int m = 0; m < basis.cols(); ++m) result.motions.push_back(frame.motion(basis.col(m)));
   if (basis.cols() == 0) return result;
   for (std::size_t k = 0; k < numbering.unknown.size(); ++k)
     if (numbering.unknown[k] >= 0)

@@ -1,17 +1,17 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "algebra/types.hpp"
+#include "base/motion.hpp"
 #include "elasticity/assembly.hpp"
 
 namespace dotyk::elasticity {
 
 /// The rigid motions that a body's supports leave free.
 struct RigidModes {
-  algebra::DenseMatrix modes;      ///< unknowns × count; greatest nodal component of each is 1
-  std::vector<std::string> names;  ///< "translation along x", "rotation about (0.5, 0.5)", …
+  algebra::DenseMatrix modes;   ///< unknowns × count; greatest nodal component of each is 1
+  std::vector<Motion> motions;  ///< what they are
 };
 
 /// From geometry and supports alone, exactly: the motions that vanish on every prescribed

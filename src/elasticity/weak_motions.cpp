@@ -91,10 +91,10 @@ struct Motions {
         .solve(w.cwiseSqrt().asDiagonal() * motion);
   }
 
-  std::vector<std::string> names(const DenseMatrix& motion) const {
-    std::vector<std::string> result;
+  std::vector<Motion> named(const DenseMatrix& motion) const {
+    std::vector<Motion> result;
     const DenseMatrix c = pure(coefficients(motion));
-    for (Eigen::Index k = 0; k < c.cols(); ++k) result.push_back(frame.name(c.col(k), kNoise));
+    for (Eigen::Index k = 0; k < c.cols(); ++k) result.push_back(frame.motion(c.col(k), kNoise));
     return result;
   }
 };
@@ -134,7 +134,7 @@ WeakMotions by_response(const Motions& motions, const Numbering& numbering, cons
     if (1 / soft.eigenvalues()[k] < kNearlyFree * own) weak.push_back(k);
   if (weak.empty()) return result;
   result.stiffness = 1 / (soft.eigenvalues()[weak.back()] * own);
-  result.names = motions.names(motions.Q * soft.eigenvectors()(Eigen::all, weak));
+  result.motions = motions.named(motions.Q * soft.eigenvectors()(Eigen::all, weak));
   return result;
 }
 
@@ -171,7 +171,7 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, con
   const double own = motions.dilatation.dot(Kd) / motions.dilatation.cwiseAbs2().dot(motions.w);
   if (!std::isfinite(own) || !(trial.eigenvalues()[0] < kSuspicious * own)) return {};
   const DenseMatrix lost = lost_in_rounding(motions, mesh, numbering, lower, motions.Q * trial.eigenvectors());
-  if (lost.cols() > 0) return {0, motions.names(lost)};
+  if (lost.cols() > 0) return {0, motions.named(lost)};
   return by_response(motions, numbering, lower, kernel);
 }
 

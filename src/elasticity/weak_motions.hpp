@@ -1,9 +1,9 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "algebra/types.hpp"
+#include "base/motion.hpp"
 #include "elasticity/numbering.hpp"
 #include "mesh/mesh.hpp"
 
@@ -14,7 +14,7 @@ struct WeakMotions {
   /// Of the softest, relative to the body's own: see weak_motions(). 0 where the stiffness matrix
   /// cannot be told from that of the free body.
   double stiffness = 1;
-  std::vector<std::string> names;  ///< "rotation about (0.5, 0)", …; empty: all is well held
+  std::vector<Motion> motions;  ///< empty: all is well held
 };
 
 /// A body is nearly free in a motion where its supports are far softer than the body itself. With Q an

@@ -50,20 +50,20 @@ constexpr double kResists = 1e-12;
 }  // namespace
 
 void require_kernel(const SparseMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
-                    const std::vector<std::string>& modes) {
+                    const std::vector<Motion>& motions) {
   if (kernel.cols() == 0) return;
   Eigen::Index worst;
   const double most = algebra::kernel_residual(K, kernel).maxCoeff(&worst);
   if (most <= kResists) return;
   throw InputError(text(name, ": the stiffness resists ",
-                        worst < static_cast<Eigen::Index>(modes.size()) ? modes[worst] : text("mode ", worst + 1),
+                        worst < static_cast<Eigen::Index>(motions.size()) ? motions[worst].text() : text("mode ", worst + 1),
                         ", which its supports leave free, by ", most,
                         " of its rows; rounding leaves 1e-16. The body is held by nodes or springs less than a "
                         "billionth of its size apart: hold it on more than that, or let it free"));
 }
 
 void add(Problem& problem, Block block) {
-  require_kernel(block.K, block.kernel, "'" + block.name + "'", block.kernel_names);
+  require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
   block.first = problem.unknowns();
   problem.blocks.push_back(std::move(block));
 }

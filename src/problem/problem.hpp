@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algebra/types.hpp"
+#include "base/motion.hpp"
 #include "problem/friction.hpp"
 #include "problem/law.hpp"
 #include "problem/subdomain.hpp"
@@ -20,7 +21,7 @@ struct Block {
   double offset = 0;
   std::vector<int> node;        ///< node of each unknown, ascending: what orderings keep together
   algebra::DenseMatrix kernel;  ///< ker K: unknowns × modes, linearly independent columns
-  std::vector<std::string> kernel_names;  ///< "translation along x", … one a mode
+  std::vector<Motion> motions;  ///< what the modes are; may be empty
   int first = 0;                ///< index of its first unknown among all blocks'
   int size() const { return static_cast<int>(f.size()); }
 };
@@ -57,9 +58,9 @@ struct Problem {
 };
 
 /// Throws InputError where K (lower triangle) resists one of the modes said to be its kernel:
-/// algebra::kernel_residual() above 1e-12. `name`: whose K, in quotes; `modes`: names of the modes.
+/// algebra::kernel_residual() above 1e-12. `name`: whose K, in quotes; `motions`: what the modes are.
 void require_kernel(const algebra::SparseMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
-                    const std::vector<std::string>& modes);
+                    const std::vector<Motion>& motions);
 
 /// Adds a block, setting its `first`. Throws as require_kernel().
 void add(Problem& problem, Block block);

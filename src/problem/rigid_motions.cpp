@@ -43,7 +43,7 @@ RigidMotions rigid_motions(const Problem& problem) {
     if (count == 0) continue;
     rigid.N.middleCols(k, count) = problem.rows_of(block) * block.kernel;
     rigid.e.segment(k, count) = block.kernel.transpose() * block.f;
-    for (const std::string& name : block.kernel_names) rigid.names.push_back("'" + block.name + "': " + name);
+    for (const Motion& motion : block.motions) rigid.motions.push_back({block.name, motion});
     k += count;
   }
   split(rigid);
@@ -58,14 +58,13 @@ std::string describe(const RigidMotions& rigid, const Vector& motion) {
   for (int k = 0; k < motion.size(); ++k)
     if (std::abs(motion[k]) > 1e-6 * largest) terms.push_back(k);
   if (terms.size() == 1 && motion[terms[0]] < 0) {
-    std::string name = rigid.names[terms[0]];
-    const std::string along = "translation along ";
-    const auto place = name.find(along);
-    return place == std::string::npos ? name + " (backwards)" : name.insert(place + along.size(), "-");
+    const auto& [body, motion] = rigid.motions[terms[0]];
+    if (motion.kind == Motion::Kind::rotation) return rigid.motions[terms[0]].text() + " (backwards)";
+    return BodyMotion{body, opposite(motion)}.text();
   }
   std::string out;
   for (int k : terms) {
-    out += (out.empty() ? "" : ", ") + rigid.names[k];
+    out += (out.empty() ? "" : ", ") + rigid.motions[k].text();
     if (terms.size() > 1) out += text(" by ", std::round(1e4 * motion[k] / largest) / 1e4);
   }
   return out;

@@ -7,6 +7,14 @@
 
 namespace dotyk::problem {
 
+/// A motion of one block.
+struct BodyMotion {
+  std::string body;
+  Motion motion;
+  /// "'lid': translation along x".
+  std::string text() const { return "'" + body + "': " + motion.text(); }
+};
+
 /// The rigid motions of all blocks against the rows: with α the amounts of the kernel's modes,
 /// N α is the jump that a motion makes on the rows, and eᵀα the work of the load on it.
 struct RigidMotions {
@@ -16,7 +24,7 @@ struct RigidMotions {
   algebra::DenseMatrix noticed, unnoticed;  ///< modes × count
   algebra::DenseMatrix noticed_N;  ///< N on the noticed motions, rows × their count
   algebra::Vector noticed_e;       ///< e on them
-  std::vector<std::string> names;  ///< "'lid': translation along x", one a mode
+  std::vector<BodyMotion> motions;  ///< what the modes are
   int count() const { return static_cast<int>(e.size()); }
 };
 RigidMotions rigid_motions(const Problem& problem);

@@ -112,7 +112,7 @@ DenseMatrix compliance(Model& model, const std::vector<int>& picked, double leng
     problem::Block& block = model.problem.blocks[b];
     block.K = elasticity::h1_gram(*model.bodies[b].mesh, model.numbering[b], length);
     block.kernel.resize(block.size(), 0);
-    block.kernel_names.clear();
+    block.motions.clear();
   }
   problem::Clock clock;
   Monitor quiet;

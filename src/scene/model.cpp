@@ -35,9 +35,9 @@ std::string supports_of(const Body& body) {
 /// The entry of Model::nearly_free.
 std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block) {
   const auto weak = elasticity::weak_motions(*body.mesh, numbering, block.K, block.kernel);
-  if (weak.names.empty()) return "";
+  if (weak.motions.empty()) return "";
   std::string motions;
-  for (const std::string& name : weak.names) motions += (motions.empty() ? "" : ", ") + name;
+  for (const Motion& motion : weak.motions) motions += (motions.empty() ? "" : ", ") + motion.text();
   if (weak.stiffness == 0)
     throw InputError(text("'", body.name, "' is as good as free: ", motions, " is held only by ", supports_of(body),
                           ", whose stiffness is lost in rounding beside the body's; leave that away, or make it stiffer"));
@@ -59,7 +59,7 @@ void add_body(const Body& body, Model& model) {
   block.offset = system.offset;
   block.node = numbering.node;
   block.kernel = std::move(rigid.modes);
-  block.kernel_names = std::move(rigid.names);
+  block.motions = std::move(rigid.motions);
   model.nearly_free.push_back(nearly_free(body, numbering, block));
   problem::add(model.problem, std::move(block));
 }

@@ -63,11 +63,11 @@ std::string plan(const Scene& scene) {
     const auto numbering = number(*body);
     const auto rigid = elasticity::rigid_modes(*body->mesh, numbering, body->facet_springs());
     unknowns += numbering.count();
-    free += static_cast<int>(rigid.names.size());
+    free += static_cast<int>(rigid.motions.size());
     rows += static_cast<int>(body->slides.size());
     out += "\n" + describe_body(*body) + text(", ", numbering.count(), " unknowns");
-    out += rigid.names.empty() ? "; held by its supports" : "; free to move but for contact: ";
-    for (std::size_t k = 0; k < rigid.names.size(); ++k) out += (k ? ", " : "") + rigid.names[k];
+    out += rigid.motions.empty() ? "; held by its supports" : "; free to move but for contact: ";
+    for (std::size_t k = 0; k < rigid.motions.size(); ++k) out += (k ? ", " : "") + rigid.motions[k].text();
   }
   for (const auto& contact : scene.contacts) {
     rows += static_cast<int>(contact->kind == Contact::Kind::glue ? contact->glued.size() * scene.dimension()

@@ -34,7 +34,7 @@ void assemble(const Piece& piece, const std::string& body, Subdomain& s) {
   const mesh::Mesh& mesh = piece.part.mesh;
   s.K = elasticity::assemble(mesh, piece.material, piece.springs, {}, piece.numbering).K;
   auto rigid = elasticity::rigid_modes(mesh, piece.numbering, piece.springs);
-  problem::require_kernel(s.K, rigid.modes, "a subdomain of '" + body + "'", rigid.names);
+  problem::require_kernel(s.K, rigid.modes, "a subdomain of '" + body + "'", rigid.motions);
   s.kernel = std::move(rigid.modes);
 }
 

@@ -20,7 +20,7 @@ void require_held(const problem::Problem& problem, const problem::Block& block) 
   if (block.kernel.cols() == 0 || problem.rows_of(block).nonZeros() > 0) return;
   const double load = block.f.lpNorm<1>();
   if (load > 0 && (block.kernel.transpose() * block.f).lpNorm<Eigen::Infinity>() < 1e-10 * load) return;
-  throw InputError(text("'", block.name, "' is not held: nothing stops its ", all(block.kernel_names),
+  throw InputError(text("'", block.name, "' is not held: nothing stops its ", all(texts(block.motions)),
                         "; fix a part of it or put it in contact"));
 }
 
@@ -28,26 +28,25 @@ void require_held(const problem::Problem& problem, const problem::Block& block) 
 std::string unnoticed_motions(const problem::RigidMotions& rigid, const algebra::Vector& first) {
   std::vector<std::string> names;
   for (Eigen::Index mode = 0; mode < rigid.unnoticed.rows(); ++mode)
-    if (rigid.unnoticed.row(mode).norm() > 1 - 1e-9) names.push_back(rigid.names[mode]);
+    if (rigid.unnoticed.row(mode).norm() > 1 - 1e-9) names.push_back(rigid.motions[mode].text());
   const auto count = static_cast<std::size_t>(rigid.unnoticed.cols());
   if (count < 2) return describe(rigid, first);
   return names.size() == count ? all(names) : text(count, " motions, one of them ", describe(rigid, first));
 }
 
 /// What would stop a motion: for a single mode the support that holds it, by body and direction.
-std::string what_would_hold(const problem::RigidMotions& rigid, const algebra::Vector& motion) {
+std::string what_would_hold(const problem::RigidMotions& rigid, const algebra::Vector& amounts) {
   Eigen::Index mode;
-  const double greatest = motion.cwiseAbs().maxCoeff(&mode);
-  const std::string& name = rigid.names[mode];  // "'lid': translation along x"
-  const std::string body = name.substr(0, name.find(": ")), along = "translation along ";
-  if (motion.cwiseAbs().sum() > (1 + 1e-6) * greatest)
+  const double greatest = amounts.cwiseAbs().maxCoeff(&mode);
+  if (amounts.cwiseAbs().sum() > (1 + 1e-6) * greatest)
     return "Fix, slide or spring a part, add a contact in its way, or turn the load";
-  const auto place = name.find(along);
-  if (place == std::string::npos)
-    return "Fix or spring a part of " + body + " away from the axis, add a contact in its way, or turn the load";
-  const std::string axis = name.substr(place + along.size());
-  return text("Hold ", body, " along ", axis, " (", axis.size() == 1 ? "fix \"" + axis + "\"" : "a slide", " or a spring on a part of it), add a contact in its way on the side of ",
-              motion[mode] > 0 ? "greater " : "lesser ", axis, ", or turn the load");
+  const auto& [body, motion] = rigid.motions[mode];
+  if (motion.kind == Motion::Kind::rotation)
+    return "Fix or spring a part of '" + body + "' away from the axis, add a contact in its way, or turn the load";
+  const std::string axis = motion.direction_text();
+  return text("Hold '", body, "' along ", axis, " (", along_axis(motion.direction) ? "fix \"" + axis + "\"" : "a slide",
+              " or a spring on a part of it), add a contact in its way on the side of ",
+              amounts[mode] > 0 ? "greater " : "lesser ", axis, ", or turn the load");
 }
 
 }  // namespace

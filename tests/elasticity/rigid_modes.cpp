@@ -15,7 +15,7 @@ elasticity::RigidModes checked(const mesh::Mesh& m, const test::Numbering& numbe
                                const std::vector<elasticity::FacetSpring>& springs = {}) {
   const auto modes = elasticity::rigid_modes(m, numbering, springs);
   const DenseMatrix K = test::full(elasticity::assemble(m, test::steel(m.dimension()), springs, {}, numbering).K);
-  CHECK(modes.modes.cols() == static_cast<int>(modes.names.size()));
+  CHECK(modes.modes.cols() == static_cast<int>(modes.motions.size()));
   if (modes.modes.cols() > 0) {
     CHECK((K * modes.modes).norm() <= 1e-12 * K.norm());
     for (int k = 0; k < modes.modes.cols(); ++k)
@@ -84,7 +84,7 @@ TEST_CASE("solid bodies: random components held at random nodes") {
         const double low[3] = {3, -1, 0};
         return x[i] == low[i] && (faces >> i & 1);
       });
-      const int count = static_cast<int>(modes.names.size());
+      const int count = static_cast<int>(modes.motions.size());
       CHECK(count == std::vector<int>{6, 3, 3, 1, 3, 1, 1, 0}[faces]);
     }
   }
@@ -93,15 +93,15 @@ TEST_CASE("solid bodies: random components held at random nodes") {
 TEST_CASE("names of the motions") {
   const auto m = test::rectangle(mesh::Family::p1, 2, 2, 0, 0, 2, 1);
   using Names = std::vector<std::string>;
-  CHECK(supported(m, [](const Point&, int) { return false; }).names ==
+  CHECK(texts(supported(m, [](const Point&, int) { return false; }).motions) ==
         Names{"translation along x", "translation along y", "rotation about (1, 0.5)"});
-  CHECK(supported(m, [](const Point& x, int i) { return i == 0 && x[0] == 0; }).names == Names{"translation along y"});
-  CHECK(supported(m, [](const Point& x, int) { return x[0] == 2 && x[1] == 1; }).names ==
+  CHECK(texts(supported(m, [](const Point& x, int i) { return i == 0 && x[0] == 0; }).motions) == Names{"translation along y"});
+  CHECK(texts(supported(m, [](const Point& x, int) { return x[0] == 2 && x[1] == 1; }).motions) ==
         Names{"rotation about (2, 1)"});
   const auto box = test::box(mesh::Family::q1, 2, 2, 2, {0, 0, 0}, {2, 2, 2});
-  CHECK(supported(box, [](const Point& x, int i) { return i == 2 && x[2] == 0; }).names ==
+  CHECK(texts(supported(box, [](const Point& x, int i) { return i == 2 && x[2] == 0; }).motions) ==
         Names{"translation along x", "translation along y", "rotation about the axis along z through (1, 1, 1)"});
-  CHECK(supported(box, [](const Point& x, int) { return x[0] == 0 && x[1] == 0; }).names ==
+  CHECK(texts(supported(box, [](const Point& x, int) { return x[0] == 0 && x[1] == 0; }).motions) ==
         Names{"rotation about the axis along z through (0, 0, 1)"});
 }
 
@@ -109,22 +109,22 @@ TEST_CASE("springs hold what they act on") {
   for (const auto family : test::kFamilies) {
     const auto m = test::rectangle(family, 3, 3);
     const auto free = test::all_free(m);
-    CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{1, 0, 0}; })).names.size() == 2);
+    CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{1, 0, 0}; })).motions.size() == 2);
     CHECK(checked(m, free,
                   springs(m, "bottom",
                           [](const Point&) {
                             return Point{0, 1, 0};
                           }))
-              .names == std::vector<std::string>{"translation along x"});
-    CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{1, 2, 0}; })).names.empty());
-    CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{0, 0, 0}; })).names.size() == 3);
+              .motions[0].text() == "translation along x");
+    CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{1, 2, 0}; })).motions.empty());
+    CHECK(checked(m, free, springs(m, "bottom", [](const Point&) { return Point{0, 0, 0}; })).motions.size() == 3);
     const auto box = test::box(family, 2, 2, 2);
     CHECK(checked(box, test::all_free(box),
                   springs(box, "bottom",
                           [](const Point&) {
                             return Point{0, 0, 1};
                           }))
-              .names.size() == 3);
+              .motions.size() == 3);
   }
 }
 
@@ -135,8 +135,8 @@ TEST_CASE("a spring at a single quadrature point leaves the rotation about it fr
       return x[0] < 0.5 ? Point{1, 1, 0} : Point{0, 0, 0};
     });
     const auto modes = checked(m, test::all_free(m), at_one);
-    REQUIRE(modes.names.size() == 1);
-    CHECK(modes.names[0] == "rotation about (0.211325, 0)");
+    REQUIRE(modes.motions.size() == 1);
+    CHECK(modes.motions[0].text() == "rotation about (0.211325, 0)");
   }
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("modes do not depend on the place and the unit of length") {
                                       [](const Point&) {
                                         return Point{0, 0, 0};
                                       }));
-    CHECK(modes.names == std::vector<std::string>{"translation along x"});
+    CHECK(texts(modes.motions) == std::vector<std::string>{"translation along x"});
   }
 }
 
@@ -159,5 +159,5 @@ TEST_CASE("prescribed values do not matter for what is held") {
       [](const Point& x) {
         return Point{x[1], 0, 0};
       });
-  CHECK(elasticity::rigid_modes(m, numbering, {}).names == std::vector<std::string>{"translation along y"});
+  CHECK(texts(elasticity::rigid_modes(m, numbering, {}).motions) == std::vector<std::string>{"translation along y"});
 }

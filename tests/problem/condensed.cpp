@@ -61,8 +61,8 @@ TEST_CASE("condensed with a kernel: any balanced multipliers and any rigid motio
   Monitor quiet;
   const CondensedProblem condensed(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet);
   REQUIRE(condensed.kernel_size() == 4);
-  CHECK(problem::rigid_motions(p).names[0] == "'free': translation along x");
-  CHECK(problem::rigid_motions(p).names[3] == "'loose': translation along y");
+  CHECK(problem::rigid_motions(p).motions[0].text() == "'free': translation along x");
+  CHECK(problem::rigid_motions(p).motions[3].text() == "'loose': translation along y");
   const DenseMatrix B = p.B;
   DenseMatrix R = DenseMatrix::Zero(p.unknowns(), 4);
   R.block(p.blocks[1].first, 0, 30, 2) = p.blocks[1].kernel;

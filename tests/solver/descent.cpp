@@ -51,7 +51,7 @@ TEST_CASE("with free bodies the augmented energy never increases between updates
     auto p =
         test::program(P * random.positive_definite(n, 0.2) * P, f, DenseMatrix::Identity(n, n), random.vector(n) * 0.2);
     p.blocks[0].kernel = DenseMatrix::Ones(n, 1);
-    p.blocks[0].kernel_names = {"translation"};
+    p.blocks[0].motions = {{.direction = {1}}};
     p.groups = {test::group(problem::unilateral(), 0, n)};
     problem::Clock clock;
     const problem::CondensedProblem condensed(p, problem::rigid_motions(p), algebra::Ordering::automatic, clock, quiet);

@@ -16,8 +16,11 @@ inline problem::Block block(const std::string& name, const SpringGrid& grid, con
   const int n = static_cast<int>(grid.node.size());
   b.kernel = algebra::DenseMatrix::Zero(n, free ? per_node : 0);
   for (int u = 0; free && u < n; ++u) b.kernel(u, u % per_node) = 1;
-  static const char* axis[] = {"x", "y", "z"};
-  for (int i = 0; free && i < per_node; ++i) b.kernel_names.push_back(std::string("translation along ") + axis[i]);
+  for (int i = 0; free && i < per_node; ++i) {
+    std::vector<double> direction(per_node, 0.0);
+    direction[i] = 1;
+    b.motions.push_back({.direction = direction});
+  }
   return b;
 }
 

@@ -68,7 +68,7 @@ inline Numbering add(problem::Problem& p, const CutBody& body) {
   block.offset = whole.system.offset;
   block.node = whole.numbering.node;
   block.kernel = whole.rigid.modes;
-  block.kernel_names = whole.rigid.names;
+  block.motions = whole.rigid.motions;
   problem::add(p, block);
   int pieces = 0;
   for (int c = 0; c < body.mesh.cell_count(); ++c)
