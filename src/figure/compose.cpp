@@ -109,7 +109,10 @@ ContactPicture contact_picture(const Contact& contact, const scene::ContactResul
   return picture;
 }
 
-/// The obstacle as the contact nodes see it: each node's place on it, the gap magnified by `factor`.
+constexpr double kBeyond = 0.06;  // of the scene's size
+
+/// The obstacle as the contact nodes see it: each node's place on it, the gap magnified by `factor`. In the
+/// plane a half-space, which ends nowhere, is drawn a little beyond the contact.
 RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult& result, double factor,
                               double size) {
   RigidPicture picture;
@@ -150,6 +153,13 @@ RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult
   }
   std::sort(ordered.begin(), ordered.end());
   picture.points.clear();
+  if (const auto* plane = std::get_if<contact::RigidPlane>(&contact.shape); plane && !ordered.empty()) {
+    const Vec3 along{plane->normal[1], -plane->normal[0], 0};  // the way of the order, as `outward` is −normal
+    const auto beyond = [&](const Vec3& end, double by) { return Vec3{end[0] + by * along[0], end[1] + by * along[1], 0}; };
+    const Vec3 first = beyond(ordered.front().second, -kBeyond * size), last = beyond(ordered.back().second, kBeyond * size);
+    ordered.insert(ordered.begin(), {0, first});
+    ordered.emplace_back(0, last);
+  }
   for (const auto& [t, x] : ordered) picture.points.insert(picture.points.end(), x.begin(), x.end());
   return picture;
 }

@@ -142,13 +142,36 @@ std::array<Point, 2> load_arrow(const Stage& stage, const LoadArrow& load, doubl
   return {at, Point{at.x + along.x, at.y + along.y}};
 }
 
+namespace {
+
+double distance(const std::array<Point, 2>& segment, Point p) {
+  const Point along{segment[1].x - segment[0].x, segment[1].y - segment[0].y};
+  const double square = along.x * along.x + along.y * along.y;
+  const double share = square > 0 ? ((p.x - segment[0].x) * along.x + (p.y - segment[0].y) * along.y) / square : 0;
+  const double s = std::clamp(share, 0.0, 1.0);
+  return std::hypot(p.x - segment[0].x - s * along.x, p.y - segment[0].y - s * along.y);
+}
+
+// Between arrows that do not cross.
+double distance(const std::array<Point, 2>& a, const std::array<Point, 2>& b) {
+  return std::min({distance(a, b[0]), distance(a, b[1]), distance(b, a[0]), distance(b, a[1])});
+}
+
+}  // namespace
+
 void draw_loads(Stage& stage) {
   const double greatest = greatest_load(stage.picture);
   std::vector<Point> at;
   for (const LoadArrow& load : stage.picture.loads) at.push_back(stage.view.flat(stage.deformed(load.position, load.displacement)));
+  std::vector<std::array<Point, 2>> drawn;
   for (const std::size_t i : stage.spaced(at, 0.95 * stage.em)) {
-    const auto [tail, head] = load_arrow(stage, stage.picture.loads[i], greatest);
+    const auto arrow = load_arrow(stage, stage.picture.loads[i], greatest);
+    const auto& [tail, head] = arrow;
     if (std::hypot(head.x - tail.x, head.y - tail.y) < 0.1 * stage.em) continue;
+    // Along a boundary that is loaded along itself arrows would lie on each other.
+    const auto on = [&](const auto& other) { return distance(arrow, other) < 0.6 * stage.em; };
+    if (std::any_of(drawn.begin(), drawn.end(), on)) continue;
+    drawn.push_back(arrow);
     stage.over.arrow(tail, head, std::max(1.5, stage.em / 11), 0.6 * stage.em, load_colour);
   }
 }
