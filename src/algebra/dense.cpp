@@ -1,7 +1,9 @@
 #include "algebra/dense.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "algebra/blas_threads.hpp"
@@ -66,25 +68,30 @@ void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) {
 DenseMatrix gram(const DenseMatrix& x) { return rank_update(x, "T"); }
 DenseMatrix square(const DenseMatrix& l) { return rank_update(l, "N"); }
 
-double smallest_singular_value(DenseMatrix a) {
-  if (a.rows() != a.cols()) throw std::logic_error("smallest singular value: the matrix is not square");
-  const int n = static_cast<int>(a.rows()), one = 1;
-  if (n == 0) return std::numeric_limits<double>::infinity();
-  if (!a.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  const BlasThreads threads(8.0 / 3 * n * n * n);
-  Vector s(n);
-  std::vector<int> integers(8 * static_cast<std::size_t>(n));
+Vector singular_values(DenseMatrix a) {
+  const int m = static_cast<int>(a.rows()), n = static_cast<int>(a.cols()), count = std::min(m, n), one = 1;
+  if (count == 0) return Vector();
+  if (!a.allFinite()) return Vector::Constant(count, std::numeric_limits<double>::quiet_NaN());
+  const BlasThreads threads(8.0 / 3 * count * count * std::max(m, n));
+  Vector s(count);
+  std::vector<int> integers(8 * static_cast<std::size_t>(count));
   double unused = 0, best_length = 0;
   int info = 0, length = -1;
   const auto factor = [&](double* work) {
-    dgesdd_("N", &n, &n, a.data(), &n, s.data(), &unused, &one, &unused, &one, work, &length, integers.data(), &info);
+    dgesdd_("N", &m, &n, a.data(), &m, s.data(), &unused, &one, &unused, &one, work, &length, integers.data(), &info);
   };
   factor(&best_length);  // asks for the length of the work space
   length = static_cast<int>(best_length);
   Vector work(length);
   factor(work.data());
   if (info != 0) throw std::runtime_error("the singular values did not converge");
-  return s[n - 1];
+  return s;
+}
+
+double smallest_singular_value(DenseMatrix a) {
+  if (a.rows() != a.cols()) throw std::logic_error("smallest singular value: the matrix is not square");
+  if (a.size() == 0) return std::numeric_limits<double>::infinity();
+  return singular_values(std::move(a)).tail(1)[0];
 }
 
 }  // namespace dotyk::algebra

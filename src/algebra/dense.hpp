@@ -22,6 +22,9 @@ DenseMatrix gram(const DenseMatrix& x);
 /// L Lᵀ of a lower-triangular L, both triangles.
 DenseMatrix square(const DenseMatrix& l);
 
+/// The singular values, greatest first; NaN where an entry is not finite.
+Vector singular_values(DenseMatrix a);
+
 /// The least singular value of a square matrix, by all of them; +∞ for an empty one, NaN where an entry is
 /// not finite.
 double smallest_singular_value(DenseMatrix a);

@@ -1,10 +1,10 @@
 #include "fclib/contact_problem.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <numeric>
 
 #include "algebra/cholesky.hpp"
+#include "algebra/dense.hpp"
 #include "algebra/sparse_lu.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
@@ -101,7 +101,7 @@ double unsymmetry(const ContactProblem& p) {
 
 int rank_of_W(const ContactProblem& p) {
   if (p.W.size() == 0) return 0;
-  const Vector values = Eigen::BDCSVD<DenseMatrix>(p.W).singularValues();
+  const Vector values = algebra::singular_values(p.W);
   return static_cast<int>((values.array() > 1e-10 * values[0]).count());
 }
 

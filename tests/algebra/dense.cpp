@@ -2,6 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "../support/random.hpp"
 
 using namespace dotyk;
@@ -63,4 +68,28 @@ TEST_CASE("the least singular value of a matrix made of known ones") {
   CHECK(smallest_singular_value(DenseMatrix(0, 0)) == std::numeric_limits<double>::infinity());
   CHECK(std::isnan(smallest_singular_value(DenseMatrix::Constant(2, 2, std::nan("")))));
   CHECK_THROWS_AS(smallest_singular_value(DenseMatrix::Zero(2, 3)), std::logic_error);
+}
+
+namespace {
+
+DenseMatrix orthonormal(const DenseMatrix& a) {
+  return Eigen::HouseholderQR<DenseMatrix>(a).householderQ() * DenseMatrix::Identity(a.rows(), a.cols());
+}
+
+}  // namespace
+
+TEST_CASE("singular values of U diag(s) Vᵀ are s, whatever the shape") {
+  test::Random random(22);
+  for (const auto& [m, n] : {std::pair{1, 1}, {7, 3}, {3, 7}, {40, 40}}) {
+    const int count = std::min(m, n);
+    const DenseMatrix U = orthonormal(random.matrix(m, count)), V = orthonormal(random.matrix(n, count));
+    const Vector s = Vector::LinSpaced(count, 3, 1);
+    CHECK((singular_values(U * s.asDiagonal() * V.transpose()) - s).lpNorm<Eigen::Infinity>() < 1e-13);
+  }
+  const DenseMatrix deficient = random.matrix(9, 4) * random.matrix(4, 6);
+  const Vector s = singular_values(deficient);
+  CHECK(s.size() == 6);
+  CHECK((s.array() > 1e-12 * s[0]).count() == 4);
+  CHECK(singular_values(DenseMatrix(0, 5)).size() == 0);
+  CHECK(std::isnan(singular_values(DenseMatrix::Constant(2, 3, NAN))[1]));
 }
