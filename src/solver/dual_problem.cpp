@@ -1,14 +1,12 @@
 #include "solver/dual_problem.hpp"
 
 #include <algorithm>
-#include <mutex>
 
-#include "algebra/blas_threads.hpp"
 #include "base/memory.hpp"
-#include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "solver/equal_pieces.hpp"
+#include "solver/factor_pieces.hpp"
 
 namespace dotyk::solver {
 
@@ -17,14 +15,6 @@ using algebra::SparseMatrix;
 using algebra::Vector;
 
 namespace {
-
-[[noreturn]] void refuse(const Piece& piece, int unknown) {
-  throw InputError(text(
-      "the stiffness of ", piece.name, " is singular",
-      unknown >= 0 ? text(" (node ", (*piece.node)[unknown] + 1, " is not held)") : "",
-      piece.kernel->cols() > 0 ? text(" beyond its ", piece.kernel->cols(), " rigid motions") : "",
-      ": a material, spring or mesh value is out of range, or cells hang together at single nodes only"));
-}
 
 /// Entries of all copies that rows touch.
 Vector touched(const TornProblem& torn, const Vector& v) {
@@ -73,26 +63,12 @@ void DualProblem::analyse(algebra::Ordering ordering, Monitor& monitor) {
 }
 
 void DualProblem::factor(Monitor& monitor) {
-  std::vector<int> order;  // the greatest first
-  for (std::size_t k = 0; k < kinds_.size(); ++k) order.push_back(static_cast<int>(k));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return inverses_[a].cholesky().flops() > inverses_[b].cholesky().flops();
+  std::vector<double> flops;
+  for (const auto& inverse : inverses_) flops.push_back(inverse.cholesky().flops());
+  factor_in_threads(flops, "factoring piece", monitor, [&](int kind) {
+    const Piece& first = torn_.pieces[kinds_[kind].front()];
+    if (!inverses_[kind].factor(*first.K)) refuse_singular(first, inverses_[kind].failed_unknown());
   });
-  std::mutex watched;
-  int begun = 0;
-  const auto one = [&](int k) {
-    {
-      const std::lock_guard lock(watched);
-      monitor.check();
-      monitor.phase(text("factoring piece ", ++begun, " of ", kinds_.size()));
-    }
-    const Piece& first = torn_.pieces[kinds_[order[k]].front()];
-    algebra::GeneralisedInverse& inverse = inverses_[order[k]];
-    if (!inverse.factor(*first.K)) refuse(first, inverse.failed_unknown());
-  };
-  if (order.size() == 1) return one(0);  // with all threads for its products
-  const algebra::OneBlasThread single;
-  parallel_for(static_cast<int>(order.size()), one);
 }
 
 void DualProblem::add_modes() {

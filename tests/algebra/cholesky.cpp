@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "../support/spring_grid.hpp"
+#include "base/parallel.hpp"
 
 using namespace dotyk;
 using namespace dotyk::algebra;
@@ -179,4 +180,25 @@ TEST_CASE("nodes of the last set that carry no unknowns are passed over") {
   Cholesky cholesky(grid.K, grid.node, {0, 3, 200}, Ordering::automatic);
   REQUIRE(cholesky.factor(grid.K));
   CHECK(cholesky.boundary().size() == 2);
+}
+
+TEST_CASE("a factor is swept by several threads at once") {
+  Random random(61);
+  const auto grid = test::spring_grid(random, 20, 20, 2, 0.3);
+  Cholesky cholesky(grid.K, grid.node, {});
+  REQUIRE(cholesky.factor(grid.K));
+  std::vector<DenseMatrix> b, x(40);
+  for (int k = 0; k < 40; ++k) b.push_back(random.matrix(800, 1 + k % 9));
+  parallel_for(40, [&](int k) { x[k] = cholesky.solve(b[k]); });
+  for (int k = 0; k < 40; ++k) CHECK(x[k] == cholesky.solve(b[k]));
+}
+
+TEST_CASE("the pivots multiply to the determinant; that of an unknown eliminated last is its Schur complement") {
+  Random random(62);
+  const auto grid = test::spring_grid(random, 5, 4, 1, 0.3);
+  Cholesky cholesky(grid.K, grid.node, {7});
+  REQUIRE(cholesky.factor(grid.K));
+  const Vector pivots = cholesky.pivots();
+  CHECK(pivots.prod() == doctest::Approx(test::full(grid.K).determinant()).epsilon(1e-10));
+  CHECK(pivots[7] == doctest::Approx(schur(test::full(grid.K), {7})(0, 0)).epsilon(1e-10));
 }

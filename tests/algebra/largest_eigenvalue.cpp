@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../support/random.hpp"
+#include "algebra/lanczos.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -48,4 +49,22 @@ TEST_CASE("nothing, zero, and the identity") {
   CHECK(algebra::largest_eigenvalue(DenseMatrix(0, 0)) == 0);
   CHECK(algebra::largest_eigenvalue(DenseMatrix::Zero(4, 4)) == 0);
   CHECK(algebra::largest_eigenvalue(DenseMatrix::Identity(4, 4)) == doctest::Approx(1));
+}
+
+TEST_CASE("both ends of a spectrum; parts of it that the start has no part in are not seen") {
+  const Vector eigenvalues{{0, 1, 2, 5, 9, 100}};
+  const auto A = [&](const Vector& v) -> Vector { return eigenvalues.cwiseProduct(v); };
+  const auto all = algebra::lanczos(A, Vector::Ones(6), 60, algebra::Ends::both);
+  CHECK(all.steps == 6);
+  CHECK(std::abs(all.least) < 1e-13);
+  CHECK(all.greatest == doctest::Approx(100).epsilon(1e-13));
+  const auto some = algebra::lanczos(A, Vector{{0, 1, 0, 2, 3, 0}}, 60, algebra::Ends::both);
+  CHECK(some.steps == 3);
+  CHECK(some.least == doctest::Approx(1).epsilon(1e-12));
+  CHECK(some.greatest == doctest::Approx(9).epsilon(1e-12));
+  CHECK(some.greatest_residual < 1e-12);
+  const auto few = algebra::lanczos(A, Vector::Ones(6), 2, algebra::Ends::both);
+  CHECK(few.greatest < 100);
+  CHECK(few.bound() >= 100);
+  CHECK(algebra::lanczos(A, Vector::Zero(6), 60, algebra::Ends::both).steps == 0);
 }

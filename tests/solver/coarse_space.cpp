@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "../support/random.hpp"
+#include "../support/dual.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -20,16 +20,10 @@ DenseMatrix chain_of_modes(test::Random& random, int modes, int rows) {
   return G;
 }
 
-DenseMatrix as_matrix(int n, const std::function<Vector(const Vector&)>& A) {
-  DenseMatrix M(n, n);
-  for (int j = 0; j < n; ++j) M.col(j) = A(Vector::Unit(n, j));
-  return M;
-}
-
 void check_projectors(const solver::CoarseSpace& coarse, const DenseMatrix& G) {
   const int n = static_cast<int>(G.cols());
-  const DenseMatrix Q = as_matrix(n, [&](const Vector& v) { return coarse.Q(v); });
-  const DenseMatrix P = as_matrix(n, [&](const Vector& v) { return coarse.P(v); });
+  const DenseMatrix Q = test::as_matrix(n, [&](const Vector& v) { return coarse.Q(v); });
+  const DenseMatrix P = test::as_matrix(n, [&](const Vector& v) { return coarse.P(v); });
   CHECK((Q * Q - Q).norm() < 1e-12 * std::sqrt(n));
   CHECK((P * P - P).norm() < 1e-12 * std::sqrt(n));
   CHECK((P * Q).norm() < 1e-12 * std::sqrt(n));

@@ -2,10 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include "../support/pieces.hpp"
+#include "../support/dual.hpp"
 #include "../support/programs.hpp"
 #include "base/error.hpp"
-#include "solver/coarse_space.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -16,43 +15,6 @@ using test::CutBody;
 
 namespace {
 
-/// A held box under load, pressed against rows on its right face, cut into 2 × 2 × 2 equal boxes.
-problem::Problem cut_box(bool support_rows, int n, double stretch = 1) {
-  problem::Problem p;
-  CutBody body{test::box(test::Family::q1, 2 * n, n, n, {0, 0, 0}, {2, 1, stretch})};
-  body.held = [](const Point& x, int i) { return x[0] == 0 && (i != 2 || x[1] < 0.6); };
-  body.value = [](const Point& x) { return Point{0.01 * x[1], -0.02, 0.03 * x[2]}; };
-  body.load = [](const Point& x) { return Point{4 + x[0], x[1], -1}; };
-  body.piece = test::boxes({2, 2, 2}, {2, 1, stretch});
-  body.support_rows = support_rows;
-  const auto numbering = test::add(p, body);
-  test::add_rows(p, body, numbering, 0, 3.0, [](const Point& x) { return x[0] == 2; }, 0.02);
-  return p;
-}
-
-DualProblem dual_of(const problem::Problem& p) {
-  Monitor quiet;
-  problem::Clock clock;
-  return DualProblem(p, algebra::Ordering::automatic, clock, quiet);
-}
-
-DenseMatrix as_matrix(int n, const std::function<Vector(const Vector&)>& A) {
-  DenseMatrix M(n, n);
-  for (int j = 0; j < n; ++j) M.col(j) = A(Vector::Unit(n, j));
-  return M;
-}
-
-/// B̂ diag(A(piece)) B̂ᵀ, each A of the own unknowns of a piece.
-DenseMatrix dense(const solver::TornProblem& torn, const std::function<DenseMatrix(const solver::Piece&)>& A) {
-  DenseMatrix sum = DenseMatrix::Zero(torn.rows(), torn.rows());
-  const DenseMatrix B = torn.B;
-  for (const auto& piece : torn.pieces) {
-    const DenseMatrix own = B.middleCols(piece.first_touched, piece.touched.size());
-    sum += own * A(piece)(piece.touched, piece.touched) * own.transpose();
-  }
-  return sum;
-}
-
 /// K†.
 DenseMatrix pseudo_inverse(const solver::Piece& piece) {
   const Eigen::SelfAdjointEigenSolver<DenseMatrix> e(test::full(*piece.K));
@@ -61,38 +23,34 @@ DenseMatrix pseudo_inverse(const solver::Piece& piece) {
          e.eigenvectors().rightCols(n).transpose();
 }
 
-DenseMatrix projector(const solver::CoarseSpace& coarse, int n) {
-  return as_matrix(n, [&](const Vector& v) { return coarse.P(v); });
-}
-
 }  // namespace
 
 TEST_CASE("F is symmetric, positive semidefinite, and B K† Bᵀ where rigid motions are balanced; lumped B K Bᵀ") {
   for (const bool support_rows : {true, false}) {
-    const auto p = cut_box(support_rows, 2);
-    const auto dual = dual_of(p);
+    const auto p = test::cut_box(support_rows, 2, 3);  // 12 pieces: two batches where they are equal
+    const auto dual = test::dual_of(p);
     const int n = dual.rows();
-    const DenseMatrix F = as_matrix(n, [&](const Vector& v) { return dual.apply(v); });
+    const DenseMatrix F = test::as_matrix(n, [&](const Vector& v) { return dual.apply(v); });
     CHECK((F - F.transpose()).norm() < 1e-13 * F.norm());
     const Vector eigenvalues = Eigen::SelfAdjointEigenSolver<DenseMatrix>(F).eigenvalues();
     CHECK(eigenvalues.minCoeff() > -1e-13 * eigenvalues.maxCoeff());
-    const DenseMatrix exact = dense(dual.torn(), pseudo_inverse);
-    const DenseMatrix P = projector({dual.G(), dual.e()}, n);
+    const DenseMatrix exact = test::dense(dual.torn(), pseudo_inverse);
+    const DenseMatrix P = test::projector({dual.G(), dual.e()}, n);
     CHECK(test::relative(P * F * P, P * exact * P) < 1e-12);
-    if (!support_rows) CHECK(dual.e().size() == 4 * 6);  // the left pieces are held by what stays in their K
-    const DenseMatrix lumped = as_matrix(n, [&](const Vector& v) { return dual.lumped(v); });
-    CHECK(test::relative(lumped, dense(dual.torn(), [](const auto& piece) { return test::full(*piece.K); })) < 1e-13);
+    if (!support_rows) CHECK(dual.e().size() == 8 * 6);  // the left pieces are held by what stays in their K
+    const DenseMatrix lumped = test::as_matrix(n, [&](const Vector& v) { return dual.lumped(v); });
+    CHECK(test::relative(lumped, test::dense(dual.torn(), [](const auto& piece) { return test::full(*piece.K); })) < 1e-13);
   }
 }
 
 TEST_CASE("the direct solution's multipliers balance, are optimal, and give its displacements back") {
   Monitor quiet;
   for (const bool support_rows : {true, false}) {
-    const auto p = cut_box(support_rows, 4);
+    const auto p = test::cut_box(support_rows, 4);
     const auto direct = solver::solve(p, test::pdas(true), quiet);
     REQUIRE(direct.converged);
     REQUIRE(direct.state.lambda.maxCoeff() > 0);
-    const auto dual = dual_of(p);
+    const auto dual = test::dual_of(p);
     const solver::CoarseSpace coarse(dual.G(), dual.e());
     // All rows' multipliers: those of the problem known, the others by least squares of the copies' equilibrium.
     const auto& torn = dual.torn();
@@ -128,13 +86,13 @@ TEST_CASE("the direct solution's multipliers balance, are optimal, and give its 
 }
 
 TEST_CASE("equal pieces share a factor") {
-  CHECK(dual_of(cut_box(true, 4)).kinds().size() == 1);
+  CHECK(test::dual_of(test::cut_box(true, 4)).kinds().size() == 1);
   // Supports in the matrices: two kinds of held pieces (below and above y = 0.6), and the right ones.
-  CHECK(dual_of(cut_box(false, 4)).kinds().size() == 3);
-  auto p = cut_box(true, 4);
-  const double bytes = dual_of(p).factor_bytes();
+  CHECK(test::dual_of(test::cut_box(false, 4)).kinds().size() == 3);
+  auto p = test::cut_box(true, 4);
+  const double bytes = test::dual_of(p).factor_bytes();
   p.subdomains[3].K.coeffRef(0, 0) *= 1 + 1e-11;
-  const auto dual = dual_of(p);
+  const auto dual = test::dual_of(p);
   CHECK(dual.kinds() == std::vector<std::vector<int>>{{0, 1, 2, 4, 5, 6, 7}, {3}});
   CHECK(dual.factor_bytes() == doctest::Approx(2 * bytes));
 }
@@ -148,10 +106,10 @@ TEST_CASE("without a kernel K⁺ is the inverse; without subdomains each block i
   p.B = test::rows(B);
   p.c = random.vector(5);
   p.groups = {test::group(problem::unilateral(), 0, 5)};
-  const auto dual = dual_of(p);
+  const auto dual = test::dual_of(p);
   CHECK(dual.e().size() == 0);
   const DenseMatrix K = test::stiffness(p), scaled = dual.scale().asDiagonal() * B;
-  const DenseMatrix F = as_matrix(5, [&](const Vector& v) { return dual.apply(v); });
+  const DenseMatrix F = test::as_matrix(5, [&](const Vector& v) { return dual.apply(v); });
   CHECK(test::relative(F, scaled * K.ldlt().solve(scaled.transpose())) < 1e-12);
   CHECK(test::relative(dual.d(), scaled * K.ldlt().solve(test::load(p)) - dual.scale().cwiseProduct(p.c)) < 1e-12);
   const Vector lambda = random.vector(5);
@@ -166,21 +124,21 @@ TEST_CASE("a floating body whose rows leave motions unnoticed still has its proj
   body.piece = test::boxes({2, 1, 1}, {2, 1, 1});
   const auto numbering = test::add(p, body);
   test::add_rows(p, body, numbering, 2, -1.0, [](const Point& x) { return x[2] == 0; }, 0);
-  const auto dual = dual_of(p);
+  const auto dual = test::dual_of(p);
   const solver::CoarseSpace coarse(dual.G(), dual.e());
   CHECK(coarse.modes() == 12);
   CHECK(coarse.held().size() == 3);
   CHECK(coarse.imbalance() < 1e-12);
-  const DenseMatrix P = projector(coarse, dual.rows());
+  const DenseMatrix P = test::projector(coarse, dual.rows());
   CHECK((P * P - P).norm() < 1e-12 * P.norm());
   CHECK(P.trace() == doctest::Approx(dual.rows() - 9));
   CHECK((dual.G() * P).norm() < 1e-12 * P.norm());
 }
 
 TEST_CASE("a piece whose kernel is larger than said is refused, naming it and where") {
-  auto p = cut_box(true, 4);
+  auto p = test::cut_box(true, 4);
   p.subdomains[5].kernel = DenseMatrix(p.subdomains[5].size(), 0);
-  CHECK_THROWS_WITH_AS(dual_of(p), doctest::Contains("the stiffness of piece 6 of 'body 1' is singular (node "), InputError);
+  CHECK_THROWS_WITH_AS(test::dual_of(p), doctest::Contains("the stiffness of piece 6 of 'body 1' is singular (node "), InputError);
 }
 
 TEST_CASE("a request to stop is seen between the pieces") {
@@ -188,6 +146,6 @@ TEST_CASE("a request to stop is seen between the pieces") {
     bool stop() override { return true; }
   } stops;
   problem::Clock clock;
-  const auto p = cut_box(true, 2);
+  const auto p = test::cut_box(true, 2);
   CHECK_THROWS_AS(DualProblem(p, algebra::Ordering::automatic, clock, stops), Interrupted);
 }

@@ -2,35 +2,15 @@
 
 #include <doctest/doctest.h>
 
-#include "../support/pieces.hpp"
+#include "../support/dual.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
 using algebra::Vector;
-using mesh::Point;
-using test::CutBody;
-
-namespace {
-
-/// A held box under load, pressed against rows on its right face.
-problem::Problem cut_box(bool support_rows, int n) {
-  problem::Problem p;
-  CutBody body{test::box(test::Family::q1, 2 * n, n, n, {0, 0, 0}, {2, 1, 1})};
-  body.held = [](const Point& x, int i) { return x[0] == 0 && (i != 2 || x[1] < 0.6); };
-  body.value = [](const Point& x) { return Point{0.01 * x[1], -0.02, 0.03 * x[2]}; };
-  body.load = [](const Point& x) { return Point{1 + x[0], x[1], -1}; };
-  body.piece = test::boxes({2, 2, 2}, {2, 1, 1});
-  body.support_rows = support_rows;
-  const auto numbering = test::add(p, body);
-  test::add_rows(p, body, numbering, 0, 3.0, [](const Point& x) { return x[0] == 2; }, 0.1);
-  return p;
-}
-
-}  // namespace
 
 TEST_CASE("rows of a torn problem: norm one; gluing ones orthonormal and orthogonal to the problem's") {
   for (const bool support_rows : {true, false}) {
-    const auto p = cut_box(support_rows, 2);
+    const auto p = test::cut_box(support_rows, 2);
     const auto torn = solver::tear(p);
     CHECK((torn.support_rows > 0) == support_rows);
     REQUIRE(torn.rows() == torn.problem_rows() + torn.gluing_rows + torn.support_rows);
@@ -46,7 +26,7 @@ TEST_CASE("rows of a torn problem: norm one; gluing ones orthonormal and orthogo
 TEST_CASE("copies of one displacement satisfy the gluing and support rows and jump as it does; their energies add up") {
   test::Random random(501);
   for (const bool support_rows : {true, false}) {
-    const auto p = cut_box(support_rows, 2);
+    const auto p = test::cut_box(support_rows, 2);
     const auto torn = solver::tear(p);
     const Vector u = random.vector(p.unknowns());
     Vector v(torn.copies()), t(torn.B.cols());
@@ -70,7 +50,7 @@ TEST_CASE("copies of one displacement satisfy the gluing and support rows and ju
 }
 
 TEST_CASE("one gap between the copies shows in their disagreement") {
-  const auto p = cut_box(true, 2);
+  const auto p = test::cut_box(true, 2);
   const auto torn = solver::tear(p);
   Vector v = Vector::Zero(torn.copies());
   for (int k = 0; k < torn.copies(); ++k) v[k] = torn.value[k];
