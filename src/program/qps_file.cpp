@@ -160,8 +160,9 @@ class Reader {
     return found->second;
   }
   double number(const std::string& field) const {
+    static const locale_t points = newlocale(LC_ALL_MASK, "C", nullptr);  // a script may have asked for commas
     char* end = nullptr;
-    const double value = std::strtod(field.c_str(), &end);
+    const double value = strtod_l(field.c_str(), &end, points);
     if (end == field.c_str() || *end || std::isnan(value)) fail("'" + field + "' is not a number");
     return std::abs(value) >= 1e20 ? std::copysign(INFINITY, value) : value;
   }
