@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <limits>
 
 #include "base/error.hpp"
@@ -93,6 +94,21 @@ figure::SeriesPicture series_of(const Arguments& given) {
   return series;
 }
 
+/// What logarithmic axes cannot show, in words: "2 of 5 points of 'error'"; empty where they show all.
+std::string not_shown(const figure::ChartPicture& picture) {
+  std::string out;
+  for (std::size_t k = 0; k < picture.series.size(); ++k) {
+    const figure::SeriesPicture& series = picture.series[k];
+    std::size_t lost = 0;
+    for (std::size_t i = 0; i < series.x.size(); ++i)
+      lost += (picture.log_x && series.x[i] <= 0) || (picture.log_y && series.y[i] <= 0);
+    if (lost == 0) continue;
+    out += text(out.empty() ? "" : ", ", lost, " of ", series.x.size(), " points of ");
+    out += series.name.empty() ? text("series ", k + 1) : "'" + series.name + "'";
+  }
+  return out;
+}
+
 int chart(Call& call) {
   figure::ChartPicture picture;
   picture.file = call.text("file");
@@ -107,6 +123,9 @@ int chart(Call& call) {
   if (call.has("slopes"))
     for (const double slope : call.vector("slopes")) picture.slopes.push_back({slope, ""});
   figure::draw(picture);
+  if (const std::string lost = not_shown(picture); !lost.empty())
+    std::fprintf(stderr, "dotyk: %s: zero and negative values have no place on a logarithmic axis; left out: %s\n",
+                 picture.file.c_str(), lost.c_str());
   return call.give(picture.file);
 }
 
@@ -132,7 +151,8 @@ void bind_figure(Library& library) {
                     .arguments = {key::table({key::string("file", "where to; ends in .png, its folder must exist").required(),
                                               key::string("title", "above the chart").otherwise("none"),
                                               key::string("x", "label of the x axis"), key::string("y", "label of the y axis"),
-                                              key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic").fallback(""),
+                                              key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
+                                                          "are left out, and counted on standard error").fallback(""),
                                               series_key(),
                                               key::vector("slopes", "guides of these slopes").otherwise("none"),
                                               size_key("{1000, 750}")})},

@@ -54,6 +54,11 @@ expect "a broken Lua folder" 1 '' "dotyk: the Lua files of dotyk, in /nowhere, c
 
 "$dotyk" --version | grep -qx 'dotyk [0-9.]*' || { echo "FAILED: --version"; failures=$((failures + 1)); }
 "$dotyk" --help | grep -q 'Exit status' || { echo "FAILED: --help"; failures=$((failures + 1)); }
+# What a logarithmic axis leaves out is said, once a chart.
+expect "a logarithmic axis" 0 'a.png' "dotyk: a.png: zero and negative values have no place on a logarithmic axis; left out: 2 of 3 points of 'error', 1 of 2 points of series 3" \
+  "$dotyk" -e 'print(dotyk.chart{ file = "a.png", log = "y", series = { { name = "error", x = {1,2,3}, y = {1,0,-1} }, { x = {0,1}, y = {1,2} }, { x = {0,1}, y = {0,2} } } })'
+expect "a linear axis" 0 '' '' "$dotyk" -e 'dotyk.chart{ file = "a.png", series = { { x = {1,2}, y = {0,-1} } } }'
+
 "$dotyk" --traceback wrong.lua 2>&1 >/dev/null | grep -q 'stack traceback' || { echo "FAILED: --traceback"; failures=$((failures + 1)); }
 [[ $(ldd "$dotyk" | grep -c 'liblua') == 1 ]] || { echo "FAILED: linked with other than one Lua library"; failures=$((failures + 1)); }
 if ldd "$dotyk" | grep -q vtk; then echo "FAILED: linked with VTK"; failures=$((failures + 1)); fi
