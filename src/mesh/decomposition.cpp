@@ -90,6 +90,10 @@ std::vector<std::vector<int>> Pieces::cells() const {
   return result;
 }
 
+Pieces pieces_of(const Mesh& mesh) {
+  return connected(facet_neighbours(mesh), std::vector<std::int64_t>(mesh.cell_count(), 0));
+}
+
 Pieces decompose(const Mesh& mesh, int count) {
   const std::vector<int> neighbour = facet_neighbours(mesh);
   const std::size_t facets = mesh.topology().facets;

@@ -16,6 +16,9 @@ struct Pieces {
   std::vector<std::vector<int>> cells() const;
 };
 
+/// The pieces that the mesh is in as it stands: one, where it is the mesh of one body.
+Pieces pieces_of(const Mesh& mesh);
+
 /// About `count` ≥ 1 pieces of like numbers of cells with few facets between them: METIS's k-way partition
 /// (Karypis, Kumar 1998) of the graph of cells that share a facet, with a seed of its own, so that one mesh
 /// always gives one result. A mesh in several parts is cut part by part, into one piece each at least; never more

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "mesh/decomposition.hpp"
 
 namespace dotyk::scene {
 
@@ -11,12 +12,36 @@ std::vector<elasticity::FacetSpring> Body::facet_springs() const {
   return result;
 }
 
+namespace {
+
+/// Pieces hinged at nodes, or apart, have more rigid motions than a body has.
+void require_one_piece(const mesh::Mesh& mesh, const std::string& name) {
+  const mesh::Pieces pieces = mesh::pieces_of(mesh);
+  if (pieces.count == 1) return;
+  std::string list;
+  const auto cells = pieces.cells();
+  for (std::size_t k = 0; k < cells.size() && k < 4; ++k) {
+    mesh::Point middle{0, 0, 0};
+    for (const int c : cells[k])
+      for (int i = 0; i < 3; ++i) middle[i] += mesh.cell_centre(c)[i] / static_cast<double>(cells[k].size());
+    list += text(k ? ", " : "", cells[k].size(), cells[k].size() == 1 ? " cell" : " cells", " around ",
+                 point_text(middle.data(), mesh.dimension()));
+  }
+  if (cells.size() > 4) list += text(" and ", cells.size() - 4, " more");
+  throw InputError(text("the mesh of '", name, "' is in ", cells.size(), " pieces that share no ",
+                        mesh.dimension() == 2 ? "edge" : "face", ": ", list,
+                        "; make each a body of its own (mesh:keep takes cells by their centres), in contact or glued"));
+}
+
+}  // namespace
+
 std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh,
                                 elasticity::MaterialField material,
                                 const elasticity::VectorField& force) {
   auto body = std::make_shared<Body>();
   mesh::check(*mesh, "body '" + name + "'");
   if (mesh->cell_count() == 0) throw InputError("the mesh of '" + name + "' has no cells");
+  require_one_piece(*mesh, name);
   if (material.at(0).dimension != mesh->dimension())
     throw InputError(text("the material of '", name, "' is for ", material.at(0).dimension,
                           "-D, its mesh is ", mesh->dimension(), "-D"));

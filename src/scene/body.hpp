@@ -87,7 +87,8 @@ struct Part {
   PartMark mark() const;
 };
 
-/// A body of this mesh and material; the mesh is checked (see mesh::check). `force` per volume, may be empty.
+/// A body of this mesh and material; the mesh is checked (see mesh::check) and must be in one piece, connected
+/// through facets. `force` per volume, may be empty.
 std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh,
                                 elasticity::MaterialField material,
                                 const elasticity::VectorField& force);

@@ -101,6 +101,9 @@ TEST_CASE("few cells in many pieces") {
 TEST_CASE("a mesh in two parts is cut part by part, by their cells") {
   auto far = test::rectangle(mesh::Family::q1, 4, 4, 3, 0, 4, 1);
   const auto m = both(test::rectangle(mesh::Family::q1, 8, 12), far);
+  check_pieces(m, mesh::pieces_of(m));
+  CHECK(mesh::pieces_of(m).count == 2);
+  CHECK(mesh::pieces_of(far).count == 1);
   for (const int count : {1, 2, 7, 14}) {
     const auto pieces = mesh::decompose(m, count);
     check_pieces(m, pieces);
@@ -156,8 +159,10 @@ TEST_CASE("boxes of a mesh that fills them unevenly: pieces fall into their conn
 TEST_CASE("cells that touch at a node or along an edge alone are not connected") {
   const auto square = test::rectangle(mesh::Family::q1, 2, 2);
   CHECK(mesh::decompose(mesh::submesh(square, {0, 3}).mesh, 1).count == 2);
+  CHECK(mesh::pieces_of(mesh::submesh(square, {0, 3}).mesh).count == 2);
   const auto cube = test::box(mesh::Family::q1, 2, 2, 1);
   CHECK(mesh::decompose(mesh::submesh(cube, {0, 3}).mesh, {1, 1, 1}).count == 2);
+  CHECK(mesh::pieces_of(mesh::submesh(cube, {0, 3}).mesh).count == 2);
   CHECK(mesh::decompose(mesh::submesh(cube, {0, 1, 3}).mesh, 1).count == 1);
 }
 

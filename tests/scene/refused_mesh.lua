@@ -51,6 +51,19 @@ refused(function() dotyk.mesh.rectangle(graded(function(s) return 0/0 end)) end,
 refused(function() dotyk.mesh.rectangle(graded(function(s) error "mine" end)) end, "mine (in 'x' of rectangle at")
 refused(function() dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2}, grading = { z = math.abs } } end, "unknown key 'z'")
 
+-- Pieces that are apart, or hinged at a node (in space: at an edge), are bodies of their own.
+local function body(mesh) return function() dotyk.body{ name = "frame", mesh = mesh, material = dotyk.material{ E = 1, nu = 0 } } end end
+local strip <const> = dotyk.mesh.rectangle{ from = {0,0}, to = {3,1}, cells = {12,4}, element = "Q1" }
+refused(body(strip:keep(function(x) return math.abs(x - 1.5) > 0.5 end)), "the mesh of 'frame' is in 2 pieces that share no edge: "
+  .. "16 cells around (0.5, 0.5), 16 cells around (2.5, 0.5); make each a body of its own")
+refused(body(strip:keep(function(x, y) return (x < 1.5) == (y < 0.5) end)), "2 pieces", "12 cells around (0.75, 0.25), 12 cells around (2.25, 0.75)")
+refused(body(strip:keep(function(x, y) return math.floor(4 * x) % 2 == 0 and y < 0.25 end)), "is in 6 pieces", "1 cell around (0.125, 0.125), ", " and 2 more; ")
+local beam <const> = dotyk.mesh.box{ from = {0,0,0}, to = {2,2,1}, cells = {2,2,1} }
+refused(body(beam:keep(function(x, y) return (x < 1) == (y < 1) end)), "2 pieces that share no face: 6 cells around (0.5, 0.5, 0.5), 6 cells around (1.5, 1.5, 0.5)")
+-- What is left of a body with a hole is one; and so is each piece alone.
+body(strip:keep(function(x, y) return math.abs(x - 1.5) > 0.5 or math.abs(y - 0.5) > 0.25 end))()
+body(beam:keep(function(x, y) return x < 1 and y < 1 end))()
+
 -- A map that inverts, flattens or loses a cell leaves the mesh as it was.
 local m <const> = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {4,4} }
 local function area()  -- by a body that carries its own weight
