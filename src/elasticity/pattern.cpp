@@ -6,13 +6,23 @@
 #include "elasticity/adjacency.hpp"
 
 namespace dotyk::elasticity {
+
 Pattern::Pattern(const mesh::Mesh& mesh, const Numbering& numbering) {
+  std::vector<int> unknowns_of(mesh.node_count(), 0);
+  for (int n : numbering.node) ++unknowns_of[n];
+  const std::size_t entries = find_neighbours(mesh, unknowns_of);
+  if (entries > 2'000'000'000)
+    throw InputError("the stiffness matrix would have more than 2e9 entries; use a coarser mesh");
+  matrix_.resize(numbering.count(), numbering.count());
+  matrix_.resizeNonZeros(static_cast<Eigen::Index>(entries));
+  std::fill_n(matrix_.valuePtr(), entries, 0.0);
+  number_entries(numbering, unknowns_of);
+}
+
+std::size_t Pattern::find_neighbours(const mesh::Mesh& mesh, const std::vector<int>& unknowns_of) {
   const int nodes = mesh.node_count(), dim = mesh.dimension(), per_cell = mesh.topology().nodes;
   const NodeCells around = cells_of_nodes(mesh);
-
-  std::vector<int> unknowns_of(nodes, 0), mark(nodes, -1);
-  for (int n : numbering.node) ++unknowns_of[n];
-
+  std::vector<int> mark(nodes, -1);
   start_.assign(nodes + 1, 0);
   neighbour_.reserve(static_cast<std::size_t>(nodes) * (dim == 2 ? 4 : 14));
   std::size_t entries = 0;
@@ -36,18 +46,16 @@ Pattern::Pattern(const mesh::Mesh& mesh, const Numbering& numbering) {
     entries += static_cast<std::size_t>(rows) * m - m * (m - 1) / 2;
   }
   start_[nodes] = static_cast<int>(neighbour_.size());
-  if (entries > 2'000'000'000)
-    throw InputError("the stiffness matrix would have more than 2e9 entries; use a coarser mesh");
+  return entries;
+}
 
+void Pattern::number_entries(const Numbering& numbering, const std::vector<int>& unknowns_of) {
+  const int nodes = static_cast<int>(unknowns_of.size());
   offset_.resize(neighbour_.size());
   std::vector<int> first_unknown(nodes, 0);
   for (int u = numbering.count() - 1; u >= 0; --u) first_unknown[numbering.node[u]] = u;
-
-  matrix_.resize(numbering.count(), numbering.count());
-  matrix_.resizeNonZeros(static_cast<Eigen::Index>(entries));
   int* outer = matrix_.outerIndexPtr();
   int* inner = matrix_.innerIndexPtr();
-  std::fill_n(matrix_.valuePtr(), entries, 0.0);
   int at = 0;
   for (int b = 0; b < nodes; ++b) {
     int offset = 0;

@@ -30,6 +30,11 @@ class Pattern {
   }
 
  private:
+  /// Fills start_ and neighbour_; the number of entries.
+  std::size_t find_neighbours(const mesh::Mesh& mesh, const std::vector<int>& unknowns_of);
+  /// Fills offset_ and the indices of matrix_.
+  void number_entries(const Numbering& numbering, const std::vector<int>& unknowns_of);
+
   std::vector<int> start_, neighbour_;  ///< node → its neighbours ≥ itself, ascending, itself first
   std::vector<int> offset_;             ///< unknowns of the neighbours before, in b's first column
   algebra::SparseMatrix matrix_;

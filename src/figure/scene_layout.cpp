@@ -144,63 +144,97 @@ void draw_rim(Stage& stage) {
   stage.over.polyline(corners, std::max(1.0, stage.em / 20), ink, {}, true);
 }
 
-void lay_out(Stage& stage) {
+namespace {
+
+// What stands around the scene.
+struct Surroundings {
+  double bar = 0, inset = 0, column = 0;  // widths; the wider of the two
+  double caption = 0;                     // height
+  Legend legend;
+  Box room;  // for the scene
+};
+
+// The room that all else leaves, with the widths of labels as the scene stands now.
+Box room_left(const Stage& stage, const Surroundings& around, bool placed) {
   const ScenePicture& p = stage.picture;
-  const double em = stage.em, w = p.width, h = p.height;
-  if (!stage.plane) aim(stage);
-  const Bounds scaled = scaled_bounds(stage);
-  const double caption = p.caption.empty() ? 0 : 1.5 * em;
-  const double inset = inset_width(stage);
-  double bar = 0, column = 0;
-  Legend legend({}, em);
+  const double em = stage.em;
   Box room;
-  stage.frame = {0, 0, w, h};
+  room.top = p.height - 0.7 * em - (p.title.empty() ? 0 : 1.7 * em);
+  room.bottom = 0.4 * em + around.caption + around.legend.height();
+  room.left = 0.8 * em;
+  room.right = p.width - 0.8 * em - (around.column > 0 ? around.column + 1.0 * em : 0);
+  if (!p.axes || !stage.plane) return room;
+  double widest = em;
+  if (placed)
+    for (const Tick& t : frame_ticks(stage).y.ticks) widest = std::max(widest, text_extent(t.label, legend_size * em).x);
+  room.left += widest + 0.5 * em + axis_gap(stage);
+  room.bottom += 1.5 * em + axis_gap(stage);
+  room.top -= (stage.window ? 1.4 : 1.1) * em;
+  room.right -= 1.0 * em;
+  return room;
+}
+
+// Places the scene: what stands around it depends on the place, and the place on that.
+Surroundings place_scene(Stage& stage) {
+  const ScenePicture& p = stage.picture;
+  const double em = stage.em;
+  const Bounds scaled = scaled_bounds(stage);
+  Surroundings around{0, inset_width(stage), 0, p.caption.empty() ? 0 : 1.5 * em, Legend({}, em), {}};
+  stage.frame = {0, 0, static_cast<double>(p.width), static_cast<double>(p.height)};
   for (int round = 0; round < 3; ++round) {
     stage.deformation_shows = round > 0 && displacement_shows(stage);
-    bar = colour_bar_width(stage.scale, p, em);
-    column = std::max(bar, inset);
-    legend = Legend(legend_entries(stage), legend_size * em, w - 2 * em);
-    room.top = h - 0.7 * em - (p.title.empty() ? 0 : 1.7 * em);
-    room.bottom = 0.4 * em + caption + legend.height();
-    room.left = 0.8 * em;
-    room.right = w - 0.8 * em - (column > 0 ? column + 1.0 * em : 0);
-    if (p.axes && stage.plane) {
-      double widest = em;
-      if (round > 0)
-        for (const Tick& t : frame_ticks(stage).y.ticks) widest = std::max(widest, text_extent(t.label, legend_size * em).x);
-      room.left += widest + 0.5 * em + axis_gap(stage);
-      room.bottom += 1.5 * em + axis_gap(stage);
-      room.top -= (stage.window ? 1.4 : 1.1) * em;
-      room.right -= 1.0 * em;
-    }
-    stage.window ? fit_window(stage, room) : fit(stage, scaled, room);
+    around.bar = colour_bar_width(stage.scale, p, em);
+    around.column = std::max(around.bar, around.inset);
+    around.legend = Legend(legend_entries(stage), legend_size * em, p.width - 2 * em);
+    around.room = room_left(stage, around, round > 0);
+    stage.window ? fit_window(stage, around.room) : fit(stage, scaled, around.room);
   }
+  return around;
+}
 
+void draw_titles(Stage& stage) {
+  const ScenePicture& p = stage.picture;
+  const double em = stage.em, w = p.width;
   TextStyle style;
   style.across = Align::middle;
   style.up = Align::high;
   style.size = fitting_size(p.title, 1.1 * em, w - em, true);
   style.bold = true;
-  stage.over.text({w / 2, h - 0.6 * em}, p.title, style);
+  stage.over.text({w / 2, p.height - 0.6 * em}, p.title, style);
   style.up = Align::low;
   style.size = fitting_size(p.caption, legend_size * em, w - em);
   style.bold = false;
   stage.over.text({w / 2, 0.5 * em}, p.caption, style);
-  legend.draw(stage.over, {(w - legend.width()) / 2, 0.3 * em + caption}, false);
+}
 
-  // The bar as high as the scene, within reason, and not too far from it.
-  const double spare = room.width() - stage.frame.width();
-  const double right = w - 0.6 * em - 0.3 * spare;
+// The bar as high as the scene, within reason, and not too far from it.
+void draw_column(Stage& stage, const Surroundings& around) {
+  const ScenePicture& p = stage.picture;
+  const double em = stage.em, bar = around.bar, inset = around.inset;
+  const Box& room = around.room;
+  const double right = p.width - 0.6 * em - 0.3 * (room.width() - stage.frame.width());
   if (inset > 0) {
     const double split = bar > 0 ? room.bottom + std::min(inset + 2.4 * em, 0.52 * room.height()) : room.top - 0.15 * room.height();
-    draw_colour_bar(stage.over, stage.scale, p, em, right - column + 0.9 * em, split + 0.6 * em, room.top);
-    draw_inset(stage, {right - column, std::max(room.bottom, split - inset - 2.4 * em), right - column + inset, split});
-  } else {
-    const double height = std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height());
-    const double middle = (stage.frame.bottom + stage.frame.top) / 2;
-    draw_colour_bar(stage.over, stage.scale, p, em, right - bar, middle - height / 2, middle + height / 2);
+    draw_colour_bar(stage.over, stage.scale, p, em, right - around.column + 0.9 * em, split + 0.6 * em, room.top);
+    draw_inset(stage, {right - around.column, std::max(room.bottom, split - inset - 2.4 * em), right - around.column + inset, split});
+    return;
   }
-  if (p.axes) {
+  const double height = std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height());
+  const double middle = (stage.frame.bottom + stage.frame.top) / 2;
+  draw_colour_bar(stage.over, stage.scale, p, em, right - bar, middle - height / 2, middle + height / 2);
+}
+
+}  // namespace
+
+void lay_out(Stage& stage) {
+  const double em = stage.em;
+  if (!stage.plane) aim(stage);
+  const Surroundings around = place_scene(stage);
+  const Box& room = around.room;
+  draw_titles(stage);
+  around.legend.draw(stage.over, {(stage.picture.width - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
+  draw_column(stage, around);
+  if (stage.picture.axes) {
     if (stage.plane)
       draw_axes(stage);
     else

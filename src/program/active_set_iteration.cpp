@@ -14,6 +14,7 @@ constexpr double kHeaviest = 100;    ///< on its first value, before violations 
 constexpr double kFar = 1e9;         ///< a step this much longer than x runs along the kernel
 constexpr double kCurved = 1e-12;    ///< curvature along a direction, relative to its rounding terms
 constexpr double kSmall = 1e-6;      ///< greatest correction of a solution, relative to x
+constexpr double kStill = 1e-11;     ///< a step this much shorter than x is none
 constexpr int kLeaves = 10;          ///< times a row may leave among many before rows change one by one
 
 double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
@@ -124,7 +125,7 @@ void ActiveSetIteration::iterate() {
   auto s = solve_kkt(g, activity);
   if (peak(s.p) > kFar * (1 + peak(x_))) s.consistent = false;
   double fall = -g.dot(s.p), curvature = objective_ ? s.p.dot(times(p_.P, s.p)) : 0;
-  const double still = 1e-11 * (1 + peak(x_));
+  const double still = kStill * (1 + peak(x_));
   double whole = s.consistent && (objective_ || restoring_) ? 1 : INFINITY;
   // −Pp is what is left of the gradient; the violations' one has size 1.
   const bool flat = objective_ ? std::abs(fall) <= 1e-14 * (1 + std::abs(objective(p_, x_)))
@@ -148,6 +149,11 @@ void ActiveSetIteration::iterate() {
     }
     if (curvature > kCurved * s.p.cwiseAbs().dot(times(sizes_, s.p.cwiseAbs()))) whole = fall / curvature;
   }
+  advance(s, whole, elastic, activity);
+}
+
+void ActiveSetIteration::advance(const WorkingKkt::Solution& s, double whole, bool elastic, const Vector& activity) {
+  const double still = kStill * (1 + peak(x_));
   const Vector speed = p_.A * s.p;
   const auto meeting = rows_.meeting(activity, speed, p_.A.cwiseAbs() * s.p.cwiseAbs(), cautious_, many());
   // Curvature along a kernel direction may be rounding; the proof does not look at it.

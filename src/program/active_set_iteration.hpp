@@ -35,6 +35,9 @@ class ActiveSetIteration {
   /// The first point: rows at work hold there as well as they can; the rest is looked at.
   void settle();
   void iterate();
+  /// Goes along s.p to the end of its step (`whole`, infinite where it has none) or to the first rows met,
+  /// which go to work.
+  void advance(const WorkingKkt::Solution& s, double whole, bool elastic, const Vector& activity);
   bool many() const;
   /// How wrong the multiplier of a row at work is, 0 where it is right; negative multipliers beyond the
   /// weight of an elastic row are wrong as well.
