@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "solver/dual_problem.hpp"
@@ -18,20 +19,20 @@ class Dirichlet {
 
   algebra::Vector apply(const algebra::Vector& lambda) const;
   double factor_bytes() const;
-  int factors() const { return static_cast<int>(insides_.size()); }  ///< distinct ones
+  int factors() const { return static_cast<int>(parts_.size()); }  ///< distinct ones
 
  private:
-  struct Inside {
-    std::vector<int> unknowns;  ///< own ones that no row touches, ascending
-    const algebra::SparseMatrix* K;
-    algebra::GeneralisedInverse inverse;
+  struct Part {
+    algebra::SparseMatrix stiffness;     ///< K_bb, lower triangle
+    algebra::SparseMatrix coupling;      ///< K_ib
+    algebra::GeneralisedInverse inside;  ///< K_ii⁺
   };
-  Inside inside(int kind, const Piece& piece, algebra::Ordering ordering) const;
+  void add(const Piece& piece, const algebra::DenseMatrix& basis, algebra::Ordering ordering);
+  void factor(Monitor& monitor, const std::function<const Piece&(int)>& piece_of);
 
   const DualProblem& dual_;
-  std::vector<std::vector<int>> alike_;  ///< equal pieces that rows touch alike
-  std::vector<Batch> batches_;           ///< of them
-  std::vector<Inside> insides_;          ///< one for each
+  std::vector<Batch> batches_;  ///< of equal pieces that rows touch alike
+  std::vector<Part> parts_;     ///< one for each kind of them
 };
 
 }  // namespace dotyk::solver

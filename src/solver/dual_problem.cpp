@@ -102,13 +102,6 @@ Vector DualProblem::apply(const Vector& lambda) const {
   });
 }
 
-Vector DualProblem::lumped(const Vector& lambda) const {
-  return through_pieces(torn_, batches_, lambda, [this](const Batch& batch, DenseMatrix& columns) {
-    const SparseMatrix& K = *torn_.pieces[kinds_[batch.kind].front()].K;
-    columns = DenseMatrix(K.selfadjointView<Eigen::Lower>() * columns);
-  });
-}
-
 Vector DualProblem::inverse(const Vector& f) const {
   return on_pieces(torn_, batches_, f, [this](const Batch& batch, DenseMatrix& columns) {
     columns = inverses_[batch.kind].apply(columns);

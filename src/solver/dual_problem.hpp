@@ -35,8 +35,6 @@ class DualProblem {
   const algebra::Vector& d() const { return d_; }                    ///< d̃, a length a row
   const algebra::SparseMatrix& G() const { return G_; }              ///< G̃: modes × rows
   const algebra::Vector& e() const { return e_; }                    ///< ẽ, one a mode
-  /// B̂ K B̂ᵀ λ: the lumped preconditioner.
-  algebra::Vector lumped(const algebra::Vector& lambda) const;
   /// All copies, v = K⁺(f − B̂ᵀλ) + R̂α; α: modes.
   algebra::Vector recover(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <unordered_map>
 
 namespace dotyk::solver {
@@ -81,6 +82,16 @@ std::vector<std::vector<int>> equal_pieces(const std::vector<Piece>& pieces) {
     }
   }
   return kinds;
+}
+
+std::vector<std::vector<int>> alike_pieces(const std::vector<std::vector<int>>& kinds, const std::vector<Piece>& pieces) {
+  std::vector<std::vector<int>> alike;
+  for (const auto& kind : kinds) {
+    std::map<std::vector<int>, std::vector<int>> by_touched;
+    for (int p : kind) by_touched[pieces[p].touched].push_back(p);
+    for (auto& [touched, members] : by_touched) alike.push_back(std::move(members));
+  }
+  return alike;
 }
 
 }  // namespace dotyk::solver

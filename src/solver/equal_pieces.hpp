@@ -11,4 +11,7 @@ namespace dotyk::solver {
 /// entry of their row and column (a shift of a mesh leaves less), and kernels of the same span.
 std::vector<std::vector<int>> equal_pieces(const std::vector<Piece>& pieces);
 
+/// The kinds divided further: equal pieces that rows touch alike.
+std::vector<std::vector<int>> alike_pieces(const std::vector<std::vector<int>>& kinds, const std::vector<Piece>& pieces);
+
 }  // namespace dotyk::solver

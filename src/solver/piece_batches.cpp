@@ -29,13 +29,20 @@ std::vector<Batch> batches(const std::vector<std::vector<int>>& kinds, const std
   return result;
 }
 
+namespace {
+
+void for_batches(const std::vector<Batch>& batches, const std::function<void(const Batch&)>& work) {
+  const algebra::OneBlasThread one;
+  parallel_for(static_cast<int>(batches.size()), [&](int b) { work(batches[b]); });
+}
+
+}  // namespace
+
 Vector through_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& lambda,
                       const OnColumns& A) {
   const Vector before = torn.Bt * lambda;
   Vector after(before.size());
-  const algebra::OneBlasThread one;
-  parallel_for(static_cast<int>(batches.size()), [&](int b) {
-    const Batch& batch = batches[b];
+  for_batches(batches, [&](const Batch& batch) {
     DenseMatrix columns = DenseMatrix::Zero(torn.pieces[batch.pieces[0]].size(), batch.pieces.size());
     for (std::size_t k = 0; k < batch.pieces.size(); ++k) {
       const Piece& p = torn.pieces[batch.pieces[k]];
@@ -50,20 +57,33 @@ Vector through_pieces(const TornProblem& torn, const std::vector<Batch>& batches
   return torn.B * after;
 }
 
-Vector on_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& f, const OnColumns& A) {
+namespace {
+
+/// A on columns that are segments of a vector: `size` long, piece p's from first(p) on.
+Vector on_segments(const std::vector<Batch>& batches, const Vector& f, const std::function<int(int)>& first,
+                   const std::function<std::size_t(int)>& size, const OnColumns& A) {
   Vector result(f.size());
-  const algebra::OneBlasThread one;
-  parallel_for(static_cast<int>(batches.size()), [&](int b) {
-    const Batch& batch = batches[b];
-    const int size = torn.pieces[batch.pieces[0]].size();
-    DenseMatrix columns(size, batch.pieces.size());
-    for (std::size_t k = 0; k < batch.pieces.size(); ++k)
-      columns.col(k) = f.segment(torn.pieces[batch.pieces[k]].first, size);
+  for_batches(batches, [&](const Batch& batch) {
+    const auto rows = static_cast<Eigen::Index>(size(batch.pieces[0]));
+    DenseMatrix columns(rows, batch.pieces.size());
+    for (std::size_t k = 0; k < batch.pieces.size(); ++k) columns.col(k) = f.segment(first(batch.pieces[k]), rows);
     A(batch, columns);
-    for (std::size_t k = 0; k < batch.pieces.size(); ++k)
-      result.segment(torn.pieces[batch.pieces[k]].first, size) = columns.col(k);
+    for (std::size_t k = 0; k < batch.pieces.size(); ++k) result.segment(first(batch.pieces[k]), rows) = columns.col(k);
   });
   return result;
+}
+
+}  // namespace
+
+Vector through_touched(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& lambda,
+                       const OnColumns& A) {
+  return torn.B * on_segments(batches, torn.Bt * lambda, [&](int p) { return torn.pieces[p].first_touched; },
+                              [&](int p) { return torn.pieces[p].touched.size(); }, A);
+}
+
+Vector on_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& f, const OnColumns& A) {
+  return on_segments(batches, f, [&](int p) { return torn.pieces[p].first; },
+                     [&](int p) { return torn.pieces[p].f->size(); }, A);
 }
 
 }  // namespace dotyk::solver

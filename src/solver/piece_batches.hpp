@@ -17,13 +17,17 @@ struct Batch {
 /// are, so that no result does.
 std::vector<Batch> batches(const std::vector<std::vector<int>>& kinds, const std::vector<Piece>& pieces);
 
-/// What a block of A (one a kind) makes of columns that are zero but on the touched copies; only the result's entries
-/// on these are looked at. Called by several threads at once.
+/// What a block of A (one a kind) makes of columns, in their place. Called by several threads at once.
 using OnColumns = std::function<void(const Batch&, algebra::DenseMatrix& columns)>;
 
-/// B̂ A B̂ᵀ λ for A block diagonal.
+/// B̂ A B̂ᵀ λ for A block diagonal. Columns: a piece's own unknowns, zero but on the touched ones, and only the result's
+/// entries on these are looked at.
 algebra::Vector through_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const algebra::Vector& lambda,
                                const OnColumns& A);
+
+/// The same where rows touch all pieces of a batch alike. Columns: the touched unknowns alone.
+algebra::Vector through_touched(const TornProblem& torn, const std::vector<Batch>& batches,
+                                const algebra::Vector& lambda, const OnColumns& A);
 
 /// A f for all of f: copies → copies.
 algebra::Vector on_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const algebra::Vector& f,

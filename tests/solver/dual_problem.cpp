@@ -5,6 +5,8 @@
 #include "../support/dual.hpp"
 #include "../support/programs.hpp"
 #include "base/error.hpp"
+#include "solver/dirichlet.hpp"
+#include "solver/lumped.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -38,7 +40,8 @@ TEST_CASE("F is symmetric, positive semidefinite, and B K† Bᵀ where rigid mo
     const DenseMatrix P = test::projector({dual.G(), dual.e()}, n);
     CHECK(test::relative(P * F * P, P * exact * P) < 1e-12);
     if (!support_rows) CHECK(dual.e().size() == 8 * 6);  // the left pieces are held by what stays in their K
-    const DenseMatrix lumped = test::as_matrix(n, [&](const Vector& v) { return dual.lumped(v); });
+    const solver::Lumped preconditioner(dual);
+    const DenseMatrix lumped = test::as_matrix(n, [&](const Vector& v) { return preconditioner.apply(v); });
     CHECK(test::relative(lumped, test::dense(dual.torn(), [](const auto& piece) { return test::full(*piece.K); })) < 1e-13);
   }
 }
@@ -133,6 +136,28 @@ TEST_CASE("a floating body whose rows leave motions unnoticed still has its proj
   CHECK((P * P - P).norm() < 1e-12 * P.norm());
   CHECK(P.trace() == doctest::Approx(dual.rows() - 9));
   CHECK((dual.G() * P).norm() < 1e-12 * P.norm());
+}
+
+TEST_CASE("blocks that no row touches, held, free or without unknowns") {
+  test::Random random(522);
+  problem::Problem p;
+  problem::add(p, test::block("held", test::spring_grid(random, 3, 3, 2, 0.2), random.vector(18), 2, false));
+  problem::add(p, test::block("empty", {test::lower(DenseMatrix(0, 0)), {}, 0}, Vector(0), 2, false));
+  Vector f = random.vector(18);
+  for (int i = 0; i < 2; ++i)
+    for (int k = i; k < 16; k += 2) f[16 + i] = k == i ? -f[k] : f[16 + i] - f[k];  // balanced
+  problem::add(p, test::block("free", test::spring_grid(random, 3, 3, 2, 0), f, 2, true));
+  p.B.resize(0, p.unknowns());
+  p.c.resize(0);
+  const auto dual = test::dual_of(p);
+  const solver::CoarseSpace coarse(dual.G(), dual.e());
+  CHECK(coarse.held().size() == 2);
+  const Vector u = solver::average(dual.torn(), dual.recover(Vector(0), Vector::Zero(2)));
+  CHECK((problem::stiffness_times(p, u) - test::load(p)).norm() < 1e-12 * test::load(p).norm());
+  Monitor quiet;
+  CHECK(dual.apply(Vector(0)).size() == 0);
+  CHECK(solver::Lumped(dual).apply(Vector(0)).size() == 0);
+  CHECK(solver::Dirichlet(dual, algebra::Ordering::automatic, quiet).apply(Vector(0)).size() == 0);
 }
 
 TEST_CASE("a piece whose kernel is larger than said is refused, naming it and where") {

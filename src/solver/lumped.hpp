@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/dual_problem.hpp"
+
+namespace dotyk::solver {
+
+/// The lumped preconditioner of FETI, B̂ K B̂ᵀ (P2): of each K only the part on the unknowns that rows touch counts. The
+/// rows of B̂ being orthonormal no weights are needed.
+class Lumped {
+ public:
+  /// `dual` must outlive the object.
+  explicit Lumped(const DualProblem& dual);
+  algebra::Vector apply(const algebra::Vector& lambda) const;
+
+ private:
+  const DualProblem& dual_;
+  std::vector<Batch> batches_;                    ///< of equal pieces that rows touch alike
+  std::vector<algebra::SparseMatrix> stiffness_;  ///< of each kind of them: K_bb, lower triangle
+};
+
+}  // namespace dotyk::solver
