@@ -2,10 +2,10 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/dense.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -32,7 +32,7 @@ void exchange(const DenseMatrix& kernel, std::vector<int>& unknowns) {
 
 double least_singular_value(const DenseMatrix& square) {
   if (square.size() == 0) return 1;
-  return Eigen::JacobiSVD<DenseMatrix>(square).singularValues().minCoeff();
+  return smallest_singular_value(square);
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "algebra/bounded_least_squares.hpp"
+#include "algebra/dense.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -29,7 +29,7 @@ DenseMatrix pick(const DenseMatrix& N, const std::vector<int>& rows) {
 
 double regularity_of(const DenseMatrix& N) {
   if (N.rows() < N.cols() || N.cols() == 0) return N.cols() == 0 ? 1 : 0;
-  const Vector s = Eigen::JacobiSVD<DenseMatrix>(N).singularValues();
+  const Vector s = algebra::singular_values(N);
   return s[0] > 0 ? s[s.size() - 1] / s[0] : 0;
 }
 
@@ -86,14 +86,14 @@ void Screws::complete() {
     if (static_cast<Eigen::Index>(rows_.size()) == N_.cols()) return;
     std::vector<int> more = rows_;
     more.push_back(r);
-    const Vector s = Eigen::JacobiSVD<DenseMatrix>(pick(N_, more)).singularValues();
+    const Vector s = algebra::singular_values(pick(N_, more));
     if (s[static_cast<Eigen::Index>(more.size()) - 1] > 1e-3 * s[0]) rows_ = more;
   }
   for (int r : order) {  // badly conditioned contacts: whatever is regular at all
     if (static_cast<Eigen::Index>(rows_.size()) == N_.cols()) return;
     std::vector<int> more = rows_;
     more.push_back(r);
-    const Vector s = Eigen::JacobiSVD<DenseMatrix>(pick(N_, more)).singularValues();
+    const Vector s = algebra::singular_values(pick(N_, more));
     if (s[static_cast<Eigen::Index>(more.size()) - 1] > kRegular * s[0]) rows_ = more;
   }
 }
