@@ -12,7 +12,7 @@ using LinearMap = std::function<algebra::Vector(const algebra::Vector&)>;
 struct MprgpSettings {
   /// What follows a conjugate gradient step that would leave Ω.
   enum class Expansion {
-    /// The part of the step up to the boundary, then x ← P(x − ᾱφ): MPRGP (Dostál 2009, ch. 5).
+    /// The part of the step up to the boundary, then a fixed step: MPRGP (Dostál 2009, ch. 5).
     fixed_step,
     /// x ← P(x − α_cg p) where that lowers q, else as above: proportioning with projections (Dostál 1997,
     /// SIAM J. Optim. 7).
@@ -25,20 +25,19 @@ struct MprgpSettings {
 /// Minimises q(x) = ½xᵀAx − bᵀx over Ω, A symmetric positive semidefinite, one step at a time. A step is one of
 ///   conjugate gradients in the face of x, while x is proportional, ‖β(x)‖² ≤ Γ² φ̃(x)ᵀφ(x): one product with A;
 ///   a second one where pairs slide along circles, whose curvature the step takes into account, so far that
-///   their bending matters;
+///   their bends matter: while they add less than a twentieth to g^P and to the decrease of q, they are left out;
 ///   proportioning, x ← x − αβ with α the minimiser or the longest feasible step: one product;
 ///   expansion, where the conjugate gradient step would leave Ω: see Expansion. Two products; three where
 ///   the projected step is refused, or one along circles, for which then x ← P(x − ᾱg) is made (the step of
 ///   MPGP; Dostál and Kozubek 2012).
-/// Every one lowers q and keeps x in Ω. A fixed step P(x − ᾱv), v = φ or g, lowers q by at least
-/// ᾱ(1 − ½ᾱ‖A‖)‖ṽ‖², ṽ = (x − P(x − ᾱv))/ᾱ, since vᵀṽ ≥ ‖ṽ‖² for every convex Ω: so for all ᾱ < 2/‖A‖. The
-/// R-linear bound of the decrease of q holds for these, too: 1 − α̂λ_min/(ϑ + ϑΓ̂²), α̂ = min(ᾱ, 2/‖A‖ − ᾱ),
-/// ϑ = 2 max(ᾱ‖A‖, 1), Γ̂ = max(Γ, 1/Γ) (Dostál 2009, theorem 5.14). Here ᾱ = 1.9/‖A‖ for intervals, whose faces
-/// long steps find faster, 1/‖A‖ where there are discs, along whose circles it is the step that counts. A step that
-/// shows a greater norm than given raises it.
+/// Every one lowers q and keeps x in Ω. A fixed step P(x − ᾱv), v = g on the face and 0 off it, or g, lowers q by at
+/// least ᾱ(1 − ½ᾱ‖A‖)‖ṽ‖², ṽ = (x − P(x − ᾱv))/ᾱ, since vᵀṽ ≥ ‖ṽ‖² for every convex Ω: so for all ᾱ < 2/‖A‖. For
+/// intervals q − q* falls in a step to at most 1 − α̂λ_min/(ϑ + ϑΓ̂²) of itself, α̂ = min(ᾱ, 2/‖A‖ − ᾱ), ϑ = 2 max(ᾱ‖A‖, 1),
+/// Γ̂ = max(Γ, 1/Γ) (Dostál 2009, ch. 5). Here ᾱ = 1.9/‖A‖ for intervals, whose faces long steps find sooner, 1/‖A‖
+/// where there are discs. A step that shows a greater ‖A‖ than given raises it.
 ///
-/// The gradient follows from recurrences, is computed anew at each fixed or projected step and else after
-/// kRefresh products; a difference beyond the gradient itself, time and again, is rounding: the end.
+/// The gradient follows from recurrences, is computed anew at each fixed or projected step and else after a
+/// hundred products; where it then is of the size of the difference, time and again, it is rounding: the end.
 class Mprgp {
  public:
   enum class Step { none, conjugate, proportioning, expansion, projection };
@@ -55,11 +54,13 @@ class Mprgp {
 
   /// Makes one step; `none` where halt() says why there is none.
   Step step();
-  /// Steps until until(*this), which is confirmed with g computed anew, or a halt. Never ends by itself
-  /// where rounding is far below what until asks; until may count steps().
+  /// Steps until until(*this), confirmed with g computed anew, or a halt. Nothing else ends it: until may count
+  /// steps() as well.
   void minimise(const std::function<bool(const Mprgp&)>& until);
   /// Computes g = Ax − b anew, unless it is.
   void refresh();
+  /// The same where the bends of circles are left out of g and q so far (see above).
+  void refresh_offset();
   /// Goes on from x with another b, ‖A‖ and gradient at x: A and b have changed so that Ax − b = g.
   void restart(algebra::Vector b, double norm, algebra::Vector g);
 
@@ -86,7 +87,6 @@ class Mprgp {
   Step proportioning_step();
   Step curved_step(double alpha_cg, double alpha_free, const algebra::Vector& Ap);
   bool straight_enough(double alpha, const algebra::Vector& Ap);
-  void refresh_offset();
   algebra::Vector gradient_on_face() const;
   Step expand(double alpha_cg, double alpha_free, const algebra::Vector& Ap);
   bool projected_cg_step(double alpha_cg, double to_beat);

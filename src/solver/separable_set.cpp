@@ -149,6 +149,23 @@ double SeparableSet::longest_step(const Vector& x, const Vector& p) const {
   return step;
 }
 
+double SeparableSet::infimum(const Vector& w) const {
+  const double nothing = 1e-10 * w.norm();
+  double sum = 0;
+  for (const Disc& disc : discs_) {
+    const Eigen::Vector2d own(w[disc.first], w[disc.second]);
+    sum += own.dot(disc.centre) - own.norm() * disc.radius;
+  }
+  std::vector<char> in_disc(size(), 0);
+  for (const Disc& disc : discs_) in_disc[disc.first] = in_disc[disc.second] = 1;
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    const double end = w[i] > 0 ? low_[i] : high_[i];
+    if (in_disc[i] || w[i] == 0 || (std::isinf(end) && std::abs(w[i]) <= nothing)) continue;
+    sum += w[i] * end;
+  }
+  return sum;
+}
+
 double SeparableSet::rounding(const Vector& g) const {
   double sum = 0;
   for (std::size_t k = 0; k < discs_.size(); ++k)

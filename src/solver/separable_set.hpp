@@ -61,6 +61,8 @@ class SeparableSet {
   /// x − αp for 0 ≤ α ≤ α_f, sliding pairs put back onto their circles; a component that reaches an end up to
   /// rounding is put there, so that the step of length α_f leaves the face.
   algebra::Vector along(const algebra::Vector& x, const algebra::Vector& p, double alpha) const;
+  /// inf wᵀy over y ∈ Ω; −∞ where |w_i| > 1e-10 ‖w‖ leads along a component without end.
+  double infimum(const algebra::Vector& w) const;
   /// By how much gᵀx may differ between two points that are the same but for rounding on the circles.
   double rounding(const algebra::Vector& g) const;
 

@@ -17,6 +17,8 @@ using Halt = Mprgp::Halt;
 constexpr double kRounding = 1e-13;
 /// Outer steps in succession that end in rounding, no norm halved.
 constexpr int kAgain = 3;
+/// ρ/‖H‖ beyond which Qx is not known any more.
+constexpr double kGreatest = 1e10;
 
 class Run {
  public:
@@ -82,7 +84,11 @@ class Run {
   std::optional<End> minimise_inner() {
     for (;;) {
       if (done()) return End::done;
-      if (precise()) return std::nullopt;
+      if (precise()) {
+        inner_.refresh_offset();
+        gradient_ = inner_.projected_gradient_norm();
+        if (precise()) return std::nullopt;
+      }
       const bool made = inner_.step() != Mprgp::Step::none;
       measure();
       if (made && caller_.inner && !caller_.inner(state())) return End::stopped;
@@ -100,7 +106,9 @@ class Run {
     idle_ = halted && outer_ > 1 && both > 0.5 * best_ ? idle_ + 1 : 0;
     best_ = outer_ > 1 ? std::min(best_, both) : both;
     if (halted && (equality_ == 0 || idle_ >= kAgain)) return End::rounding;
-    if (outer_ >= settings_.max_outer) return End::limit;
+    // (Qx)ᵀy = 0 for every y with Qy = 0; the nearest points of Ω to them would give ‖Qx‖² at least.
+    if (program_.set->infimum(Qx_) > 0.5 * equality_ * equality_) return End::infeasible;
+    if (outer_ >= settings_.max_outer || rho_ > kGreatest * program_.norm) return End::limit;
     return std::nullopt;
   }
 

@@ -55,7 +55,15 @@ struct SmalbeCaller {
 };
 
 struct SmalbeResult {
-  enum class End { done, stopped, limit, rounding, unbounded, not_finite } end = End::limit;
+  enum class End {
+    done,
+    stopped,     ///< by the caller
+    limit,       ///< on outer or inner steps, or on ρ
+    rounding,
+    infeasible,  ///< Qx proves that no y ∈ Ω has Qy = 0: (Qx)ᵀy > 0 for all of them
+    unbounded,   ///< L is, on Ω
+    not_finite   ///< H or Q gave a number that is not finite
+  } end = End::limit;
   algebra::Vector x;   ///< n, in Ω
   algebra::Vector nu;  ///< n; g^P of Hx − b + ν on Ω is `gradient` long
   double gradient = 0, equality = 0;  ///< ‖g^P‖, ‖Qx‖
