@@ -19,6 +19,8 @@ constexpr int kRefresh = 100;
 constexpr double kNoCurvature = 1e-14;
 /// g is never known better than this part of ‖A‖‖x‖ + ‖b‖.
 constexpr double kRounding = 1e-15;
+/// Where g^P is no greater than this times the noise of g, it is noise.
+constexpr double kNoisy = 10;
 /// Noticed so often in succession, rounding is all that is left.
 constexpr int kAgain = 3;
 /// So many steps without a lesser ‖g^P‖, already below kSmall (‖A‖‖x‖ + ‖b‖), are steps in rounding, too.
@@ -30,7 +32,8 @@ constexpr double kHardly = 0.05;
 }  // namespace
 
 Mprgp::Mprgp(LinearMap A, double norm, Vector b, const SeparableSet& set, Vector x, MprgpSettings settings)
-    : A_(std::move(A)), norm_(norm), b_(std::move(b)), set_(set), settings_(std::move(settings)), x_(set.project(std::move(x))) {
+    : A_(std::move(A)), norm_(norm), b_(std::move(b)), set_(set), settings_(std::move(settings)),
+      x_(set.project(std::move(x))) {
   set_gradient(x_.isZero(0) ? Vector(-b_) : Vector(times(x_) - b_));
   q_ = 0.5 * x_.dot(g_ - b_);
   least_ = projected_gradient_norm();
@@ -73,19 +76,27 @@ Mprgp::Step Mprgp::unbounded(Vector direction) {
 }
 
 bool Mprgp::at_rounding() const {
-  return projected_gradient_norm() <= std::max(kRounding * (norm_ * x_.norm() + b_.norm()), 10 * noise_);
+  return projected_gradient_norm() <= std::max(kRounding * (norm_ * x_.norm() + b_.norm()), kNoisy * noise_);
 }
 
 void Mprgp::refresh() {
   if (recurrences_ == 0 || halt_ == Halt::not_finite) return;
   Vector g = times(x_) - b_;
   if (!g.allFinite()) return void(stop(Halt::not_finite));
-  noise_ = std::max(0.0, (g - g_).norm() - norm_ * offset_);
+  const double difference = (g - g_).norm(), bends = norm_ * offset_;
   offset_ = 0;
   recurrences_ = 0;
   set_gradient(std::move(g));
   q_ = 0.5 * x_.dot(g_ - b_);
+  if (difference >= 2 * bends) measure_noise(difference);
   count_noise();
+}
+
+/// The difference is noise of products with the x of now where g^P is not much greater; far from the
+/// solution it may be that of longer steps.
+void Mprgp::measure_noise(double difference) {
+  noise_ = noise_known_ ? std::max(difference, 0.5 * noise_) : difference;
+  noise_known_ = projected_gradient_norm() <= 10 * kNoisy * noise_;
 }
 
 void Mprgp::restart(Vector b, double norm, Vector g) {
@@ -134,8 +145,10 @@ void Mprgp::watch() {
   if (halt_ == Halt::none && (failed_ >= kAgain || idle)) halt_ = Halt::rounding;
 }
 
+/// For a g that is computed anew.
 void Mprgp::count_noise() {
-  noisy_ = at_rounding() ? noisy_ + 1 : 0;
+  const double known = noise_known_ ? kNoisy * noise_ : 0;
+  noisy_ = projected_gradient_norm() <= std::max(kRounding * (norm_ * x_.norm() + b_.norm()), known) ? noisy_ + 1 : 0;
   if (noisy_ >= kAgain && halt_ == Halt::none) halt_ = Halt::rounding;
 }
 
@@ -143,7 +156,8 @@ void Mprgp::count_noise() {
 Vector Mprgp::preconditioned() const {
   const Vector& phi = gradients_.free;
   if (!settings_.preconditioner && !gradients_.slides) return phi;
-  const Vector S = gradients_.slides && norm_ > 0 ? Vector((1 + gradients_.curvature.array() / norm_).rsqrt()) : Vector(Vector::Ones(phi.size()));
+  Vector S = Vector::Ones(phi.size());
+  if (gradients_.slides && norm_ > 0) S = (1 + gradients_.curvature.array() / norm_).rsqrt();
   const Vector scaled = S.cwiseProduct(phi), z = settings_.preconditioner ? settings_.preconditioner(scaled) : scaled;
   const Vector along = set_.tangential(x_, gradients_, S.cwiseProduct(z));
   return along.allFinite() && along.dot(phi) > 0 ? along : phi;
@@ -183,12 +197,13 @@ Mprgp::Step Mprgp::conjugate_step() {
 /// A conjugate gradient step whose sliding pairs go along their circles; or, where that does not lower q, a
 /// fixed step of the whole gradient.
 Mprgp::Step Mprgp::curved_step(double alpha_cg, double alpha_free, const Vector& Ap) {
-  const bool within = alpha_cg <= alpha_free;
+  const bool within = alpha_cg <= alpha_free, projects = !within && projects_steps() && std::isfinite(alpha_cg);
   if (within && straight_enough(alpha_cg, Ap)) return Step::conjugate;
   refresh_offset();
   if (halt_ != Halt::none) return Step::none;
-  const bool projects = !within && settings_.expansion == MprgpSettings::Expansion::projected_cg_step && std::isfinite(alpha_cg);
-  if (lowers(projects ? set_.project(x_ - alpha_cg * direction_) : set_.along(x_, direction_, std::min(alpha_cg, alpha_free)), 0)) {
+  const Vector target = projects ? set_.project(x_ - alpha_cg * direction_)
+                                 : set_.along(x_, direction_, std::min(alpha_cg, alpha_free));
+  if (lowers(target, 0)) {
     if (projects || within) return within ? Step::conjugate : Step::projection;
     fixed_step(gradient_on_face());
   } else if (halt_ == Halt::none) {
@@ -226,17 +241,12 @@ Vector Mprgp::gradient_on_face() const {
 
 Mprgp::Step Mprgp::expand(double alpha_cg, double alpha_free, const Vector& Ap) {
   const double half = alpha_free * (0.5 * alpha_free * direction_.dot(Ap) - direction_.dot(g_));
-  if (settings_.expansion == MprgpSettings::Expansion::projected_cg_step && std::isfinite(alpha_cg) &&
-      projected_cg_step(alpha_cg, half))
+  if (projects_steps() && std::isfinite(alpha_cg) && lowers(set_.project(x_ - alpha_cg * direction_), half))
     return Step::projection;
   if (halt_ != Halt::none) return Step::none;
   advance(alpha_free, direction_, Ap);
   fixed_step(gradient_on_face());
   return halt_ == Halt::none ? Step::expansion : Step::none;
-}
-
-bool Mprgp::projected_cg_step(double alpha_cg, double to_beat) {
-  return lowers(set_.project(x_ - alpha_cg * direction_), to_beat);
 }
 
 /// Moves to the target, if q changes by less than to_beat ≤ 0 there, as far as it is known; g is computed anew.
@@ -252,7 +262,7 @@ bool Mprgp::lowers(const Vector& target, double to_beat) {
   x_ = target;
   q_ += change;
   recurrences_ = 0;
-  offset_ = noise_ = 0;
+  offset_ = 0;
   set_gradient(std::move(g));
   return true;
 }

@@ -14,12 +14,14 @@ struct MprgpSettings {
   enum class Expansion {
     /// The part of the step up to the boundary, then a fixed step: MPRGP (Dostál 2009, ch. 5).
     fixed_step,
-    /// x ← P(x − α_cg p) where that lowers q, else as above: proportioning with projections (Dostál 1997,
-    /// SIAM J. Optim. 7).
+    /// x ← P(x − α_cg p) where that lowers q more than the part up to the boundary, else as above: proportioning
+    /// with projections (Dostál 1997, SIAM J. Optim. 7).
     projected_cg_step
   } expansion = Expansion::projected_cg_step;
-  double gamma = 1;          ///< Γ: conjugate gradients go on while ‖β‖² ≤ Γ² φ̃ᵀφ
-  LinearMap preconditioner = {};  ///< ≈ A⁻¹, symmetric positive definite, for conjugate gradients in a face; or none
+  double gamma = 1;  ///< Γ: conjugate gradients go on while ‖β‖² ≤ Γ² φ̃ᵀφ
+  /// ≈ A⁻¹, symmetric positive definite, for conjugate gradients: applied to φ, its result made tangential to the
+  /// face. Empty: none.
+  LinearMap preconditioner = {};
 };
 
 /// Minimises q(x) = ½xᵀAx − bᵀx over Ω, A symmetric positive semidefinite, one step at a time. A step is one of
@@ -50,7 +52,8 @@ class Mprgp {
   };
 
   /// Starts at the projection of x. `norm` ≥ ‖A‖, b: n. The set must outlive this.
-  Mprgp(LinearMap A, double norm, algebra::Vector b, const SeparableSet& set, algebra::Vector x, MprgpSettings settings = {});
+  Mprgp(LinearMap A, double norm, algebra::Vector b, const SeparableSet& set, algebra::Vector x,
+        MprgpSettings settings = {});
 
   /// Makes one step; `none` where halt() says why there is none.
   Step step();
@@ -89,7 +92,7 @@ class Mprgp {
   bool straight_enough(double alpha, const algebra::Vector& Ap);
   algebra::Vector gradient_on_face() const;
   Step expand(double alpha_cg, double alpha_free, const algebra::Vector& Ap);
-  bool projected_cg_step(double alpha_cg, double to_beat);
+  bool projects_steps() const { return settings_.expansion == MprgpSettings::Expansion::projected_cg_step; }
   bool fixed_step(const algebra::Vector& v);
   bool lowers(const algebra::Vector& target, double to_beat);
   void advance(double alpha, const algebra::Vector& p, const algebra::Vector& Ap);
@@ -99,6 +102,7 @@ class Mprgp {
   Step unbounded(algebra::Vector direction);
   bool at_rounding() const;
   void watch();
+  void measure_noise(double difference);
   void count_noise();
 
   LinearMap A_;
@@ -108,7 +112,9 @@ class Mprgp {
   MprgpSettings settings_;
   algebra::Vector x_, g_, direction_;  ///< direction_ p: empty where conjugate gradients start anew
   SeparableSet::Gradients gradients_;
-  double q_ = 0, noise_ = 0;  ///< noise_: ‖·‖ of what the last refresh changed g by
+  double q_ = 0;
+  double noise_ = 0;           ///< ‖·‖ of what a refresh changed g by
+  bool noise_known_ = false;   ///< and it was near the solution
   double offset_ = 0;         ///< g = A(x + e) − b, ‖e‖ ≤ offset_: bends of circles not multiplied with A yet
   double least_ = 0;          ///< the least ‖g^P‖ so far
   int steps_ = 0, products_ = 0, recurrences_ = 0, noisy_ = 0, failed_ = 0, since_least_ = 0;

@@ -127,7 +127,8 @@ Vector SeparableSet::reduced_free(const Vector& x, const Vector& free, double al
   // (x − low)/α rather than a difference of points: exact far from the ends.
   Vector reduced = free.cwiseMin((x - low_) / alpha).cwiseMax((x - high_) / alpha);
   for (const Disc& disc : discs_) {
-    const Eigen::Vector2d own(x[disc.first], x[disc.second]), moved = own - alpha * Eigen::Vector2d(free[disc.first], free[disc.second]);
+    const Eigen::Vector2d own(x[disc.first], x[disc.second]);
+    const Eigen::Vector2d moved = own - alpha * Eigen::Vector2d(free[disc.first], free[disc.second]);
     const Eigen::Vector2d point = nearest(disc, moved);
     if (point == moved) continue;
     reduced[disc.first] = (own[0] - point[0]) / alpha;

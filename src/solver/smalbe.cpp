@@ -24,7 +24,8 @@ class Run {
  public:
   Run(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x, Vector nu)
       : program_(program), settings_(settings), caller_(caller), rho_(settings.rho * program.norm),
-        M_(settings.M * program.norm), nu_(std::move(nu)), inner_(map(), norm(), program.b - nu_, *program.set, std::move(x), inner_settings()) {
+        M_(settings.M * program.norm), nu_(std::move(nu)),
+        inner_(map(), norm(), program.b - nu_, *program.set, std::move(x), inner_settings()) {
     eta_ = settings.eta * std::max(program.b.norm(), inner_.g().norm());
     if (settings.update == Smalbe::Update::penalty) eta_ /= program.norm;
     measure();
@@ -148,7 +149,8 @@ class Run {
 
 }  // namespace
 
-SmalbeResult minimise(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x, Vector nu) {
+SmalbeResult minimise(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x,
+                      Vector nu) {
   return Run(program, settings, caller, std::move(x), std::move(nu))();
 }
 

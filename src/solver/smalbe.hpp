@@ -30,7 +30,9 @@ struct Smalbe {
   } update = Update::precision;
   double rho = 1;  ///< ρ₀/‖H‖
   double M = 1;    ///< M₀/‖H‖
-  double eta = 0.1;  ///< η₀, of ‖b‖ (of ‖b‖/‖H‖ for `penalty`); of that of the gradient at the start, where that is greater
+  /// η₀ in units of the greater of ‖b‖ and the gradient's norm at the start (of that over ‖H‖ for `penalty`, which
+  /// compares it with ‖Qx‖). The paper's η₀ has the unit of x.
+  double eta = 0.1;
   double alpha = 0.1;
   double beta = 10;
   int max_outer = 1000;

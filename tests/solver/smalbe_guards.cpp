@@ -58,6 +58,33 @@ TEST_CASE("asked for more than rounding leaves it ends, near the best there is")
         }
 }
 
+TEST_CASE("products known but to some digits: tolerances above are met, those below end soon") {
+  for (const Shape shape : {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed})
+    for (const Update update : kUpdates) {
+      CAPTURE(int(shape));
+      CAPTURE(int(update));
+      const Known known(4, 100, 8, shape, 0.02, true, 0.3);
+      const Vector zero = Vector::Zero(100);
+      test::Random random(3);
+      const auto noisy = [&](double noise) {
+        auto program = known.program(true);
+        program.H = [&, noise](const Vector& v) -> Vector {
+          const Vector y = known.H * v + 0.1 * noise * v.norm() * random.vector(100);
+          return y - known.Q * y;
+        };
+        return program;
+      };
+      const double size = known.b.norm();
+      const SmalbeResult precise = minimise(noisy(1e-12), by(update), until(1e-11 * size), zero, zero);
+      CHECK(precise.end == End::done);
+      const SmalbeResult coarse = minimise(noisy(1e-9), by(update), until(1e-11 * size), zero, zero);
+      CHECK(coarse.end == End::rounding);
+      CHECK(coarse.gradient <= 1e-8 * size);
+      CHECK(coarse.equality <= 1e-8 * size);
+      CHECK(coarse.products <= 1000);  // 95 to 576
+    }
+}
+
 TEST_CASE("who watches sees every step, and may stop it") {
   const Known known(5, 60, 5, Shape::mixed, 0.05, true);
   const Vector zero = Vector::Zero(60);
