@@ -17,6 +17,7 @@ namespace {
 
 /// A direct method ends with rounding. Where rounding is most of what it returns, that is no solution.
 void refuse_noise(const problem::Residual& r, solver::Result& result) {
+  if (result.feti) return;  // as precise as was asked for; it tells rounding itself
   const double worst =
       result.penalty ? r.equilibrium : std::max({r.equilibrium, r.penetration, r.complementarity});
   if (!result.converged || worst <= 1e-6) return;

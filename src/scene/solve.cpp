@@ -99,7 +99,7 @@ class History {
   }
 
   solver::Result iterate(Monitor& monitor) const {
-    if (model_.problem.rows() == 0) return solver::solve_linear(model_.problem, method_.ordering(), monitor);
+    if (model_.problem.rows() == 0 && !method_.decomposition()) return solver::solve_linear(model_.problem, method_.ordering(), monitor);
     const solver::Method method = method_                         ? method_
                                   : model_.problem.friction.empty() ? solver::Method(solver::Pdas{})
                                                                     : solver::Method(solver::Newton{});

@@ -69,6 +69,7 @@ void bind_methods(Library& library) {
        .returns = "solver",
        .run = make_newton});
   bind_friction_methods(library);
+  bind_feti(library);
 }
 
 }  // namespace dotyk::script

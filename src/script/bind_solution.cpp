@@ -42,6 +42,17 @@ std::optional<Record> penalty_record(const Solution& s) {
   return Record{"penalty", {{"factor", p->factor}, {"penetration", p->penetration}, {"energy", p->energy}}};
 }
 
+std::optional<Record> feti_record(const Solution& s) {
+  const auto& f = s.result().feti;
+  if (!f) return std::nullopt;
+  const auto number = [](int value) { return static_cast<long long>(value); };
+  Record r{"feti", {{"subdomains", number(f->subdomains)}, {"factors", number(f->factors)}, {"rows", number(f->rows)},
+                    {"kernel", number(f->kernel)}, {"inner", number(f->inner)}, {"products", number(f->products)},
+                    {"loops", number(f->loops)}, {"norm", f->norm}}};
+  if (f->condition > 0) r.entries.push_back({"condition", f->condition});
+  return r;
+}
+
 std::vector<Record> history(const Solution& s) {
   std::vector<Record> rows;
   for (const IterationInfo& info : s.result().history) rows.push_back(iteration_record(info));
@@ -156,6 +167,9 @@ void bind_solution(Library& library) {
       .field("residual", "relative: equilibrium penetration complementarity friction law", residual_record)
       .field("working_set", "of active_set, else nil: added dropped singular survived factorisations repeats", working_set_record)
       .field("penalty", "of penalty, else nil: factor, penetration (length), energy (force·length, too low by)", penalty_record)
+      .field("feti", "of feti, else nil: subdomains, factors (distinct ones), rows of the dual problem, kernel (size of the coarse "
+                     "space), inner (steps), products (with F), loops (updates of Coulomb's bounds), norm (bound of |PFP|), "
+                     "condition (of PFP, with spectrum = true)", feti_record)
       .field("history", "one entry an iteration: active stick slip changed residual time, and of newton singular_value: the least one "
                          "of the scaled derivative of that step; of coulomb_loop contraction", history)
       .field("ordering", "elimination order used", [](const Solution& s) { return s.result().ordering; })

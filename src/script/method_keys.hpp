@@ -26,6 +26,7 @@ int give_method(Call& call, solver::Method method, std::string text);
 
 void bind_methods(Library& library);
 void bind_friction_methods(Library& library);
+void bind_feti(Library& library);
 void bind_program_methods(Library& library);
 
 }  // namespace dotyk::script

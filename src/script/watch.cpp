@@ -19,6 +19,7 @@ Record iteration_record(const IterationInfo& info) {
            {"changed", static_cast<long long>(info.changed)},
            {"residual", info.residual},
            {"time", info.seconds}}};
+  if (info.inner > 0) record.entries.push_back({"inner", static_cast<long long>(info.inner)});
   if (info.step > 0) record.entries.push_back({"step", static_cast<long long>(info.step)});
   if (!std::isnan(info.singular_value)) record.entries.push_back({"singular_value", info.singular_value});
   if (info.contraction > 0) record.entries.push_back({"contraction", info.contraction});
@@ -35,7 +36,7 @@ void Watch::phase(const std::string& what) { show_progress(work_ + ": " + what +
 void Watch::iteration(const IterationInfo& info) {
   const auto line =
       text(work_, info.step > 0 ? text(": step ", info.step, ", iteration ") : ": iteration ", info.iteration, ", ", info.active, " active, ", info.changed, " changed, ",
-           info.stick, " stick, ", info.slip, " slip, residual ", info.residual, ", ", info.seconds, " s");
+           info.stick, " stick, ", info.slip, " slip, ", info.inner > 0 ? text(info.inner, " inner, ") : "", "residual ", info.residual, ", ", info.seconds, " s");
   if (verbose_) {
     clear_progress();
     std::fprintf(stderr, "%s\n", line.c_str());

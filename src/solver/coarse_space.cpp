@@ -87,7 +87,7 @@ CoarseSpace::CoarseSpace(const SparseMatrix& G, Vector e) : G_(G), scale_(Vector
     for (SparseMatrix::InnerIterator it(G, r); it; ++it) scale_[it.row()] += it.value() * it.value();
   scale_ = scale_.unaryExpr([](double s) { return s > 0 ? 1 / std::sqrt(s) : 1.0; });
   G_ = scale_.asDiagonal() * G_;
-  SparseMatrix C = SparseMatrix(G_ * SparseMatrix(G_.transpose())).triangularView<Eigen::Lower>();
+  SparseMatrix& C = C_ = SparseMatrix(G_ * SparseMatrix(G_.transpose())).triangularView<Eigen::Lower>();
   for (int j = 0; j < modes(); ++j) C.coeffRef(j, j) += 0;  // an entry for modes that no row notices
   C.makeCompressed();
 

@@ -27,6 +27,9 @@ class CoarseSpace {
   algebra::Vector amounts(const algebra::Vector& v) const;
   /// ‖ẽ − G̃λ̄‖ / ‖ẽ‖: rounding, but where the load drives a motion that no row notices.
   double imbalance() const { return imbalance_; }
+  /// G̃ with rows scaled to norm one and C of it, lower triangle.
+  const algebra::SparseMatrix& scaled_G() const { return G_; }
+  const algebra::SparseMatrix& C() const { return C_; }
   /// The modes that are held, ascending: as many as there are motions that no row notices.
   const std::vector<int>& held() const { return held_; }
 
@@ -34,6 +37,7 @@ class CoarseSpace {
   algebra::Vector inverse(const algebra::Vector& scaled) const;
 
   algebra::SparseMatrix G_;  ///< rows scaled to norm one, but those that are zero
+  algebra::SparseMatrix C_;
   algebra::Vector scale_, e_, particular_;
   double imbalance_ = 0;
   std::vector<int> held_;

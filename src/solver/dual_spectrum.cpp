@@ -14,13 +14,16 @@ constexpr double kNoPart = 1e-10;
 
 algebra::SpectrumEnds dual_spectrum(const DualProblem& dual, const CoarseSpace& coarse, algebra::Ends ends,
                                     Monitor& monitor) {
-  const Vector start = coarse.P(algebra::lanczos_start(dual.rows()));
+  const Vector start = coarse.P(coarse.P(algebra::lanczos_start(dual.rows())));
   if (!(start.norm() > kNoPart)) return {};
-  const auto PF = [&](const Vector& v) {
+  // What rounding brings in of im Q shall have an eigenvalue amid the others, not 0.
+  const double middle = start.dot(dual.apply(start)) / start.squaredNorm();
+  const auto PFP = [&](const Vector& v) -> Vector {
     monitor.check();
-    return coarse.P(dual.apply(v));
+    const Vector Pv = coarse.P(v);
+    return coarse.P(dual.apply(Pv)) + middle * (v - Pv);
   };
-  return algebra::lanczos(PF, coarse.P(start), kSteps, ends);
+  return algebra::lanczos(PFP, start, kSteps, ends);
 }
 
 }  // namespace dotyk::solver

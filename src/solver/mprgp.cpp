@@ -158,7 +158,7 @@ Vector Mprgp::preconditioned() const {
   if (!settings_.preconditioner && !gradients_.slides) return phi;
   Vector S = Vector::Ones(phi.size());
   if (gradients_.slides && norm_ > 0) S = (1 + gradients_.curvature.array() / norm_).rsqrt();
-  const Vector scaled = S.cwiseProduct(phi), z = settings_.preconditioner ? settings_.preconditioner(scaled) : scaled;
+  const Vector scaled = S.cwiseProduct(phi), z = settings_.preconditioner ? settings_.preconditioner(scaled, x_, gradients_) : scaled;
   const Vector along = set_.tangential(x_, gradients_, S.cwiseProduct(z));
   return along.allFinite() && along.dot(phi) > 0 ? along : phi;
 }

@@ -9,6 +9,9 @@ namespace dotyk::solver {
 /// A linear map of Rⁿ.
 using LinearMap = std::function<algebra::Vector(const algebra::Vector&)>;
 
+/// What a linear map makes of v in the face of x.
+using FaceMap = std::function<algebra::Vector(const algebra::Vector& v, const algebra::Vector& x, const SeparableSet::Gradients& at)>;
+
 struct MprgpSettings {
   /// What follows a conjugate gradient step that would leave Ω.
   enum class Expansion {
@@ -19,9 +22,9 @@ struct MprgpSettings {
     projected_cg_step
   } expansion = Expansion::projected_cg_step;
   double gamma = 1;  ///< Γ: conjugate gradients go on while ‖β‖² ≤ Γ² φ̃ᵀφ
-  /// ≈ A⁻¹, symmetric positive definite, for conjugate gradients: applied to φ, its result made tangential to the
+  /// ≈ A⁻¹ on the face, symmetric positive definite, for conjugate gradients: applied to φ, its result made tangential to the
   /// face. Empty: none.
-  LinearMap preconditioner = {};
+  FaceMap preconditioner = {};
 };
 
 /// Minimises q(x) = ½xᵀAx − bᵀx over Ω, A symmetric positive semidefinite, one step at a time. A step is one of

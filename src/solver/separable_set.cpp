@@ -123,6 +123,22 @@ Vector SeparableSet::tangential(const Vector& x, const Gradients& gradients, Vec
   return v;
 }
 
+algebra::SparseMatrix SeparableSet::directions(const Vector& x, const Gradients& at) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  int count = 0;
+  for (int i = 0; i < static_cast<int>(x.size()); ++i)
+    if (at.face[i] == Place::free) entries.emplace_back(i, count++, 1.0);
+  for (const Disc& disc : discs_) {
+    if (at.face[disc.first] != Place::sliding) continue;
+    const Eigen::Vector2d n = offset(disc, x).normalized();
+    entries.emplace_back(disc.first, count, -n[1]);
+    entries.emplace_back(disc.second, count++, n[0]);
+  }
+  algebra::SparseMatrix T(x.size(), count);
+  T.setFromTriplets(entries.begin(), entries.end());
+  return T;
+}
+
 Vector SeparableSet::reduced_free(const Vector& x, const Vector& free, double alpha) const {
   // (x − low)/α rather than a difference of points: exact far from the ends.
   Vector reduced = free.cwiseMin((x - low_) / alpha).cwiseMax((x - high_) / alpha);

@@ -53,6 +53,9 @@ class SeparableSet {
   Gradients gradients(const algebra::Vector& x, const algebra::Vector& g) const;
   /// v made a direction in the face of x: zero off it, without normal part at sliding pairs.
   algebra::Vector tangential(const algebra::Vector& x, const Gradients& gradients, algebra::Vector v) const;
+  /// An orthonormal basis of the directions in the face of x: a unit vector for each free component, the circle's
+  /// tangent for each sliding pair. n × their number.
+  algebra::SparseMatrix directions(const algebra::Vector& x, const Gradients& gradients) const;
   /// φ̃ = (x − P(x − αφ))/α, the reduced free gradient for a step length α > 0.
   algebra::Vector reduced_free(const algebra::Vector& x, const algebra::Vector& free, double alpha) const;
   /// The longest step α_f ≥ 0 with x − α_f p ∈ Ω, where −p leads into Ω or along the face; infinite where nothing

@@ -15,10 +15,14 @@ using Halt = Mprgp::Halt;
 
 /// L is known up to this part of itself.
 constexpr double kRounding = 1e-13;
-/// Outer steps in succession that end in rounding, no norm halved.
+/// Outer steps in succession that end in rounding, no norm much less.
 constexpr int kAgain = 3;
 /// ρ/‖H‖ beyond which Qx is not known any more.
 constexpr double kGreatest = 1e10;
+/// An outer step that leaves so much of ‖Qx‖ was too imprecise: ν must follow the solution for it, not the path to it.
+constexpr double kCrawl = 0.5;
+/// M/‖H‖ of an outer step so precise that it is ρ's fault.
+constexpr double kPrecise = 0.2;
 
 class Run {
  public:
@@ -51,9 +55,9 @@ class Run {
 
   MprgpSettings inner_settings() {
     MprgpSettings out = settings_.inner;
-    if (out.preconditioner)
-      out.preconditioner = [this](const Vector& v) -> Vector {
-        return settings_.inner.preconditioner(v) + program_.Q(v) / rho_;
+    if (settings_.preconditioner)
+      out.preconditioner = [this](const Vector& v, const Vector& x, const SeparableSet::Gradients& at) {
+        return settings_.preconditioner(v, x, at, rho_);
       };
     return out;
   }
@@ -78,7 +82,7 @@ class Run {
 
   bool precise() const {
     const double bound = M_ * equality_;
-    return gradient_ <= (settings_.update == Smalbe::Update::precision ? std::min(bound, eta_) : bound);
+    return gradient_ <= (settings_.update == Smalbe::Update::penalty ? bound : std::min(bound, eta_));
   }
 
   /// Until the outer step's precision, or rounding; or else the end of all.
@@ -104,7 +108,7 @@ class Run {
   std::optional<End> settled() {
     const bool halted = inner_.halt() != Halt::none;
     const double both = std::max(gradient_, M_ * equality_);
-    idle_ = halted && outer_ > 1 && both > 0.5 * best_ ? idle_ + 1 : 0;
+    idle_ = halted && outer_ > 1 && both > kCrawl * best_ ? idle_ + 1 : 0;
     best_ = outer_ > 1 ? std::min(best_, both) : both;
     if (halted && (equality_ == 0 || idle_ >= kAgain)) return End::rounding;
     // (Qx)ᵀy = 0 for every y with Qy = 0; the nearest points of Ω to them would give ‖Qx‖² at least.
@@ -115,13 +119,22 @@ class Run {
 
   void update() {
     Vector change = rho_ * Qx_;
-    if (settings_.update == Smalbe::Update::precision) {
+    if (settings_.update != Smalbe::Update::penalty) {
       const double L = inner_.q(), growth = 0.5 * rho_ * equality_ * equality_;
       const bool compared = outer_ > 1 && last_M_ == M_;  // L can be told to grow by the precision of the last step
       last_M_ = M_;
-      if (compared && L + kRounding * std::abs(L) < lagrangian_ + growth) M_ /= settings_.beta;
-      lagrangian_ = L;
+      const bool too_little = L + kRounding * std::abs(L) < lagrangian_ + growth, crawls = settings_.update == Smalbe::Update::both && equality_ > kCrawl * last_equality_;
+      const bool precise = M_ <= kPrecise * program_.norm;
       nu_ += change;
+      if (compared && (too_little || (crawls && !precise))) {
+        M_ /= settings_.beta;
+      } else if (compared && crawls) {
+        change += (settings_.beta - 1) * rho_ * Qx_;
+        rho_ *= settings_.beta;
+        last_M_ = 0;  // L of another ρ is not to be compared with
+      }
+      last_equality_ = equality_;
+      lagrangian_ = L;
     } else if (equality_ <= eta_) {
       nu_ += change;
       eta_ *= settings_.alpha;
@@ -143,7 +156,7 @@ class Run {
   double rho_, M_, eta_ = 0;
   Vector nu_, Qx_;
   Mprgp inner_;
-  double gradient_ = 0, equality_ = 0, lagrangian_ = 0, last_M_ = 0, best_ = 0;
+  double gradient_ = 0, equality_ = 0, lagrangian_ = 0, last_M_ = 0, best_ = 0, last_equality_ = 0;
   int outer_ = 0, idle_ = 0;
 };
 

@@ -26,7 +26,10 @@ struct Smalbe {
     precision,
     /// M is fixed. ν is updated, and η ← αη, where ‖Qx‖ ≤ η; else ρ ← βρ. (Dostál, Gomes and Santos, ODAM 2001,
     /// algorithm 4.1.)
-    penalty
+    penalty,
+    /// As `precision`, and where an outer step left more than half of ‖Qx‖: M ← M/β too, as long as M is above a
+    /// fifth of ‖H‖ (steps so imprecise crawl), else ρ ← βρ (bounds may let the multiplier of Gx = 0 follow slowly).
+    both
   } update = Update::precision;
   double rho = 1;  ///< ρ₀/‖H‖
   double M = 1;    ///< M₀/‖H‖
@@ -37,7 +40,10 @@ struct Smalbe {
   double beta = 10;
   int max_outer = 1000;
   int max_inner = 100000;  ///< inner steps, all outer ones together
-  /// Of the inner minimisation. Its preconditioner is one of H alone; Q/ρ is added here.
+  /// ≈ (H + ρQ)⁻¹ on a face, as MprgpSettings::preconditioner; or none.
+  std::function<algebra::Vector(const algebra::Vector& v, const algebra::Vector& x, const SeparableSet::Gradients& at, double rho)>
+      preconditioner = {};
+  /// Of the inner minimisation; without the preconditioner.
   MprgpSettings inner;
 };
 

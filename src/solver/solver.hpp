@@ -36,6 +36,19 @@ struct ScrewPlacement {
   double determinant = 1;
 };
 
+/// What domain decomposition worked on.
+struct FetiCounts {
+  int subdomains = 0;
+  int factors = 0;     ///< distinct ones: equal subdomains share one
+  int rows = 0;        ///< of the dual problem: interface conditions, gluing, supports
+  int kernel = 0;      ///< rigid motions of all subdomains: the coarse space
+  int inner = 0;       ///< steps of the inner method
+  int products = 0;    ///< with F
+  int loops = 0;       ///< updates of Coulomb's bounds
+  double norm = 0;     ///< upper bound of ‖PFP‖, a displacement per force
+  double condition = 0;  ///< of PFP on im P, where asked for; else 0
+};
+
 /// How a method ended.
 struct Result {
   problem::State state;
@@ -50,6 +63,7 @@ struct Result {
   std::vector<char> slipping;  ///< rows of friction points that slip at the end; empty without friction
   std::optional<WorkingSetCounts> working_set;
   std::optional<PenaltyError> penalty;
+  std::optional<FetiCounts> feti;
   int screw_moves = 0;  ///< magnetic screws moved after their multiplier came out negative
   std::vector<ScrewPlacement> screws;  ///< first and after each move; empty without screws
   problem::Clock clock;

@@ -145,7 +145,7 @@ TEST_CASE("a preconditioner is applied in the face") {
     const KnownMinimum known = test::known_minimum(random, n, shape);
     // Slight pushes against circles: their curvature is not in M.
     const Vector b = A * known.x - (known.set.has_discs() ? 1e-5 : 1) * known.g;
-    const auto M = [&](const Vector& v) -> Vector { return weight.cwiseProduct(v); };
+    const auto M = [&](const Vector& v, const Vector&, const SeparableSet::Gradients&) -> Vector { return weight.cwiseProduct(v); };
     Mprgp plain(map(A), 1, b, known.set, Vector::Zero(n)), better(map(A), 1, b, known.set, Vector::Zero(n), {.preconditioner = M});
     plain.minimise(below(1e-9 * b.norm()));
     better.minimise(below(1e-9 * b.norm()));

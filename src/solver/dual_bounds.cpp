@@ -1,0 +1,53 @@
+#include "solver/dual_bounds.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+using problem::FrictionGroup;
+using problem::Problem;
+using problem::RowGroup;
+
+SeparableSet admissible(const Problem& problem, const Vector& scale, const Vector& bounds, const Vector& shift) {
+  Vector low = Vector::Constant(shift.size(), -INFINITY), high = Vector::Constant(shift.size(), INFINITY);
+  std::vector<SeparableSet::Disc> discs;
+  const auto interval = [&](int r, double least, double greatest) {
+    low[r] = least / scale[r] - shift[r];
+    high[r] = greatest / scale[r] - shift[r];
+  };
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r) {
+      const problem::Interval m = group.law->multipliers(r - group.first);
+      interval(r, m.low, m.high);
+    }
+  Eigen::Index point = 0;
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k, ++point) {
+      const int r = group.row(k);
+      const double bound = bounds[point];
+      if (!std::isfinite(bound)) continue;
+      if (group.components == 1)
+        interval(r, -bound, bound);
+      else
+        discs.push_back({r, r + 1, {-shift[r], -shift[r + 1]}, bound / scale[r]});
+    }
+  return SeparableSet(std::move(low), std::move(high), std::move(discs));
+}
+
+Vector row_compliance(const Problem& problem, const Vector& scale, Eigen::Index size, const std::string& method) {
+  Vector compliance = Vector::Zero(size);
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r) {
+      if (group.law->unilateral()) continue;
+      const auto k = group.law->linear_stiffness(r - group.first);
+      if (!k) throw InputError(text(method, " cannot treat the ", group.law->name(), " law of the ", group.name, "; pdas can"));
+      if (*k > 0) compliance[r] = scale[r] * scale[r] / *k;
+    }
+  return compliance;
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "problem/problem.hpp"
+#include "solver/separable_set.hpp"
+
+namespace dotyk::solver {
+
+/// What the laws let the multipliers be, as a set for the scaled and shifted ones x = λ/D − λ̄ of a dual problem:
+/// its first rows are those of `problem`, the others (gluing, supports) are free. `scale`: D, one a row of
+/// `problem`; `bounds`: of every friction point (friction_bounds); an infinite one does not bound.
+SeparableSet admissible(const problem::Problem& problem, const algebra::Vector& scale, const algebra::Vector& bounds,
+                        const algebra::Vector& shift);
+
+/// The compliance 1/k of elastic rows, scaled: what ½λ²/k adds to the dual problem's matrix, one entry a row of
+/// the dual problem (`size`). Throws InputError for a law that is neither unilateral nor linear.
+algebra::Vector row_compliance(const problem::Problem& problem, const algebra::Vector& scale, Eigen::Index size,
+                               const std::string& method);
+
+}  // namespace dotyk::solver

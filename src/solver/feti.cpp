@@ -1,0 +1,273 @@
+#include "solver/feti.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+#include "problem/rigid_motions.hpp"
+#include "solver/coarse_space.hpp"
+#include "solver/dual_bounds.hpp"
+#include "solver/dirichlet.hpp"
+#include "solver/dual_problem.hpp"
+#include "solver/dual_spectrum.hpp"
+#include "solver/face_coarse.hpp"
+#include "solver/lumped.hpp"
+#include "solver/projection.hpp"
+#include "solver/require_solvable.hpp"
+
+namespace dotyk::solver {
+namespace {
+
+using algebra::Vector;
+using problem::FrictionGroup;
+using problem::Problem;
+using problem::RowGroup;
+using End = SmalbeResult::End;
+using Place = SeparableSet::Place;
+
+/// Coulomb's loop solves with given friction to this part of the bounds' last change.
+constexpr double kAhead = 0.1;
+/// First precision there.
+constexpr double kFirst = 0.01;
+/// Steps of the loop in which the bounds' change must fall by a tenth.
+constexpr int kPatience = 30;
+
+class Run {
+ public:
+  Run(const Problem& problem, const Feti& method, Monitor& monitor)
+      : problem_(problem), method_(method), monitor_(monitor),
+        dual_(problem, method.ordering, result_.clock, monitor), coarse_(dual_.G(), dual_.e()), face_(coarse_),
+        compliance_(row_compliance(problem, dual_.scale(), dual_.rows(), "feti")) {
+    if (method.preconditioner == Feti::Preconditioner::lumped) lumped_.emplace(dual_);
+    if (method.preconditioner == Feti::Preconditioner::dirichlet) dirichlet_.emplace(dual_, method.ordering, monitor);
+    for (const problem::Block& block : problem.blocks) force_ = std::hypot(force_, block.f.norm());
+  }
+
+  Result operator()() {
+    Stopwatch watch;
+    homogenise();
+    iterate();
+    result_.clock.iterate += watch.lap();
+    recover();
+    result_.clock.recover += watch.lap();
+    report();
+    return std::move(result_);
+  }
+
+ private:
+  /// (F + compliance) v.
+  Vector apply(const Vector& v) const { return dual_.apply(v) + compliance_.cwiseProduct(v); }
+  Vector PFP(const Vector& v) const { return coarse_.P(apply(coarse_.P(v))); }
+
+  void homogenise() {
+    shift_ = coarse_.particular();
+    program_.H = [this](const Vector& v) { return PFP(v); };
+    program_.Q = [this](const Vector& v) { return coarse_.Q(v); };
+    program_.complementary = true;
+    program_.b = coarse_.P(dual_.d() - apply(shift_));
+    const auto ends = dual_spectrum(dual_, coarse_, method_.spectrum ? algebra::Ends::both : algebra::Ends::greatest, monitor_);
+    const double stiffest = compliance_.size() ? compliance_.maxCoeff() : 0;
+    counts_.norm = program_.norm = ends.bound() + stiffest > 0 ? ends.bound() + stiffest : 1;
+    if (method_.spectrum && ends.least > 0) counts_.condition = ends.greatest / ends.least;
+    x_ = nu_ = Vector::Zero(dual_.rows());
+    displacement_ = dual_.d().norm();
+    if (displacement_ == 0) displacement_ = apply(shift_).norm();
+  }
+
+  /// λ of the problem's rows, in the user's units.
+  Vector multipliers(const Vector& x) const {
+    const Eigen::Index m = problem_.rows();
+    return (x + shift_).head(m).cwiseProduct(dual_.scale());
+  }
+
+  double relative(double gradient, double equality) const {
+    const double force = force_ > 0 ? force_ : (x_ + shift_).norm();
+    const double g = displacement_ > 0 ? gradient / displacement_ : gradient, e = force > 0 ? equality / force : equality;
+    return std::max(g, e);
+  }
+
+  void iterate() {
+    const bool coulomb = bounds_depend_on_normal(problem_);
+    bounds_ = friction_bounds(problem_, Vector::Zero(problem_.rows()));
+    if (!coulomb) {
+      solve_given(method_.tol);
+      return;
+    }
+    begin_unbounded();
+    double change = 1, best = std::numeric_limits<double>::infinity();
+    for (int since_best = 0;;) {
+      precision_ = std::max(method_.tol, std::min(kFirst, kAhead * change));
+      if (!solve_given(precision_)) return;
+      ++counts_.loops;
+      const Vector next = friction_bounds(problem_, multipliers(x_));
+      const double size = next.norm();
+      change = bounds_.allFinite() ? (next - bounds_).norm() / (size > 0 ? size : 1) : 1;
+      bounds_ = next;
+      since_best = change < 0.9 * best ? 0 : since_best + 1;
+      best = std::min(best, change);
+      if (change <= method_.tol && precision_ <= method_.tol) return;
+      if (since_best > kPatience) {
+        result_.converged = false;
+        result_.reason = text("the bounds of Coulomb's friction have not settled: they still change by ", change, " a step");
+        return;
+      }
+    }
+  }
+
+  /// Coulomb's points do not slip at first.
+  void begin_unbounded() {
+    Eigen::Index point = 0;
+    for (const FrictionGroup& group : problem_.friction)
+      for (int k = 0; k < group.points(); ++k, ++point)
+        if (group.law->bound_slope(k) > 0) bounds_[point] = INFINITY;
+  }
+
+  /// With the bounds as they are, from the last solution on. False where it is not solved.
+  bool solve_given(double precision) {
+    const SeparableSet set = admissible(problem_, dual_.scale(), bounds_, shift_);
+    program_.set = &set;
+    Smalbe settings = method_.outer;
+    settings.inner.expansion = method_.expansion;
+    if (method_.face_coarse)
+      settings.preconditioner = [&](const Vector& v, const Vector& x, const SeparableSet::Gradients& at, double rho) {
+        return precondition(set, v, x, at, rho);
+      };
+    else if (method_.preconditioner != Feti::Preconditioner::none)
+      settings.preconditioner = [&](const Vector& v, const Vector&, const SeparableSet::Gradients&, double rho) -> Vector {
+        const Vector Qv = coarse_.Q(v);
+        return coarse_.P(stiffness(v - Qv)) + Qv / rho;
+      };
+    if (counts_.loops > 0) settings.M = M_;
+    settings.max_inner = method_.max_inner - counts_.inner;
+    settings.max_outer = method_.max_iterations - result_.iterations;
+    const SmalbeCaller caller{.done = [&](double gradient, double equality) { return relative(gradient, equality) <= precision; },
+                              .inner = [&](const SmalbeState& state) { return watch_inner(state); },
+                              .outer = [&](const SmalbeState& state) { record(state); }};
+    SmalbeResult solved = minimise(program_, settings, caller, x_, nu_);
+    x_ = std::move(solved.x);
+    nu_ = std::move(solved.nu);
+    M_ = solved.M / program_.norm;
+    finish(solved);
+    branches(set.gradients(x_, Vector::Zero(x_.size())).face);
+    return result_.converged;
+  }
+
+  /// What the preconditioner takes for F⁻¹ on im P.
+  Vector stiffness(const Vector& v) const { return dirichlet_ ? dirichlet_->apply(v) : lumped_->apply(v); }
+
+  /// On the face: W/θ, and with M the lumped or Dirichlet preconditioner WMW + (W − W²)/θ, whose second term is what
+  /// the penalty leaves to W.
+  Vector precondition(const SeparableSet& set, const Vector& v, const Vector& x, const SeparableSet::Gradients& at, double rho) {
+    face_.move_to(set, x, at, program_.norm / rho);
+    const Vector Wv = face_.W(v);
+    if (method_.preconditioner == Feti::Preconditioner::none) return Wv / program_.norm;
+    const Vector left = (v - Wv) / program_.norm;
+    return face_.W(face_.E(stiffness(Wv)) + left);
+  }
+
+  bool watch_inner(const SmalbeState& state) {
+    monitor_.phase(text("inner step ", counts_.inner + state.inner.steps(), ", residual ", relative(state.gradient, state.equality)));
+    return !monitor_.stop();
+  }
+
+  void record(const SmalbeState& state) {
+    IterationInfo info = branches(state.inner.face());
+    info.iteration = result_.iterations + state.outer;
+    info.inner = counts_.inner + state.inner.steps();
+    info.residual = relative(state.gradient, state.equality);
+    info.seconds = watch_.seconds();
+    result_.history.push_back(info);
+    monitor_.iteration(info);
+  }
+
+  /// Takes the rows' branches into the result, and counts them. `face`: which multipliers are free.
+  IterationInfo branches(const std::vector<Place>& face) {
+    IterationInfo info;
+    std::vector<char> active(problem_.rows(), 0), slipping(problem_.rows(), 0);
+    for (const RowGroup& group : problem_.groups)
+      for (int r = group.first; r < group.first + group.count; ++r)
+        info.active += active[r] = !group.law->unilateral() || face[r] == Place::free;
+    Eigen::Index point = 0;
+    for (const FrictionGroup& group : problem_.friction)
+      for (int k = 0; k < group.points(); ++k, ++point) {
+        if (face[group.normal[k]] != Place::free || bounds_[point] == 0) continue;
+        const bool slips = face[group.row(k)] != Place::free;
+        for (int i = 0; i < group.components; ++i) slipping[group.row(k) + i] = slips;
+        ++(slips ? info.slip : info.stick);
+      }
+    if (!active_.empty())
+      for (int r = 0; r < problem_.rows(); ++r)
+        info.changed += active[r] != active_[r] || slipping[r] != result_.slipping[r];
+    active_ = std::move(active);
+    result_.slipping = std::move(slipping);
+    if (result_.active_sets.empty() || result_.active_sets.back() != active_) result_.active_sets.push_back(active_);
+    return info;
+  }
+
+  void finish(const SmalbeResult& solved) {
+    result_.iterations += std::max(1, solved.outer);
+    counts_.inner += solved.inner;
+    counts_.products += solved.products;
+    residual_ = relative(solved.gradient, solved.equality);
+    result_.converged = solved.end == End::done;
+    switch (solved.end) {
+      case End::done: result_.reason = "the residual fell below tol"; break;
+      case End::stopped: result_.reason = "interrupted; this is the state so far"; break;
+      case End::limit: result_.reason = text("no convergence within ", result_.iterations, " outer and ", counts_.inner, " inner steps"); break;
+      case End::rounding: result_.reason = text("rounding keeps the residual at ", residual_, ", above tol"); break;
+      case End::infeasible: result_.reason = "no multipliers that the laws allow balance the load"; break;
+      case End::unbounded: result_.reason = "the dual energy falls for ever: the supports and gaps contradict each other"; break;
+      case End::not_finite: result_.reason = "the iteration met numbers that are not finite"; break;
+    }
+  }
+
+  void recover() {
+    const Vector lambda = x_ + shift_;
+    const Vector alpha = coarse_.amounts(apply(lambda) - dual_.d() - nu_);
+    result_.state.u = average(dual_.torn(), dual_.recover(lambda, alpha));
+    result_.state.lambda = multipliers(x_);
+  }
+
+  void report() {
+    result_.method = "feti";
+    result_.ordering = dual_.ordering();
+    result_.factor_bytes = dual_.factor_bytes() + (dirichlet_ ? dirichlet_->factor_bytes() : 0);
+    counts_.subdomains = static_cast<int>(dual_.torn().pieces.size());
+    counts_.factors = static_cast<int>(dual_.kinds().size());
+    counts_.rows = dual_.rows();
+    counts_.kernel = coarse_.modes();
+    result_.feti = counts_;
+    result_.reason += text("; ", counts_.inner, " inner steps", counts_.loops ? text(", bounds updated ", counts_.loops, " times") : "");
+  }
+
+  const Problem& problem_;
+  const Feti& method_;
+  Monitor& monitor_;
+  Result result_;
+  DualProblem dual_;
+  CoarseSpace coarse_;
+  FaceCoarse face_;
+  std::optional<Lumped> lumped_;
+  std::optional<Dirichlet> dirichlet_;
+  Vector compliance_;
+  EqualityProgram program_;
+  double force_ = 0, displacement_ = 0, precision_ = 0, residual_ = 0, M_ = 0;
+  Vector shift_, x_, nu_, bounds_;
+  std::vector<char> active_;
+  FetiCounts counts_;
+  Stopwatch watch_;
+};
+
+}  // namespace
+
+Result solve(const Problem& problem, const Feti& method, Monitor& monitor) {
+  const std::string note = require_solvable(problem, problem::rigid_motions(problem));
+  Result result = Run(problem, method, monitor)();
+  if (!note.empty()) result.reason += "; " + note;
+  return result;
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,139 @@
+// FETI against the direct methods: one problem, cut in many ways, has one solution.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "../support/scenes.hpp"
+#include "base/error.hpp"
+#include "solver/feti.hpp"
+
+using namespace dotyk;
+using mesh::Point;
+
+namespace {
+
+using Preconditioner = solver::Feti::Preconditioner;
+
+std::shared_ptr<scene::Solution> solve(const std::shared_ptr<scene::Scene>& s, const solver::Method& method) {
+  Monitor quiet;
+  return scene::solve(s, method, {}, quiet);
+}
+
+solver::Feti feti(int count, bool support_rows = true, Preconditioner preconditioner = Preconditioner::none) {
+  solver::Feti method;
+  method.tol = 1e-11;
+  method.max_iterations = 500;
+  method.decomposition.count = count;
+  method.decomposition.support_rows = support_rows;
+  method.preconditioner = preconditioner;
+  return method;
+}
+
+/// ‖u − v‖ / ‖v‖ and the same of the multipliers.
+void check_same(const scene::Solution& s, const scene::Solution& exact, double tolerance) {
+  REQUIRE_MESSAGE(s.result().converged, s.result().reason);
+  const auto &mine = s.result().state, &right = exact.result().state;
+  CHECK((mine.u - right.u).norm() <= tolerance * right.u.norm());
+  CHECK((mine.lambda - right.lambda).norm() <= tolerance * right.lambda.norm());
+}
+
+/// A block on another, pressed down and drawn sideways; held at its left side, or by contact alone.
+std::shared_ptr<scene::Scene> two_blocks(int dimension, mesh::Family family, const scene::Friction& friction, bool held,
+                                         int n = 4) {
+  const auto lower = test::block("lower", dimension, family, n), upper = test::block("upper", dimension, family, n, 1.0, 100);
+  const char *top = "top", *bottom = "bottom";
+  test::fix(lower, bottom);
+  if (held) test::fix(upper, "left");
+  test::pull(upper, top, [=](const Point& x) {
+    return dimension == 2 ? Point{1, -10 + 4 * x[0], 0} : Point{0.8, 0.5, -10 + 4 * x[0]};
+  });
+  auto s = scene::make_scene({lower, upper});
+  scene::add_contact(*s, test::part(upper, bottom), test::part(lower, top), {}, friction);
+  return s;
+}
+
+scene::Friction friction(scene::Friction::Kind kind, double value) {
+  return {kind, [=](const Point&) { return value; }};
+}
+
+}  // namespace
+
+TEST_CASE("frictionless contact: every decomposition, preconditioner and update gives the direct method's solution") {
+  for (const int dimension : {2, 3})
+    for (const auto family : test::kFamilies) {
+      const auto s = two_blocks(dimension, family, {}, true);
+      const auto exact = solve(s, solver::Pdas{});
+      for (const bool rows : {true, false})
+        for (const int count : {2, 7})
+          check_same(*solve(s, feti(count, rows)), *exact, 1e-9);
+      for (const auto preconditioner : {Preconditioner::lumped, Preconditioner::dirichlet})
+        check_same(*solve(s, feti(6, true, preconditioner)), *exact, 1e-9);
+      auto printed = feti(6);
+      printed.outer.update = solver::Smalbe::Update::penalty;
+      printed.expansion = solver::MprgpSettings::Expansion::projected_cg_step;
+      check_same(*solve(s, printed), *exact, 1e-9);
+    }
+}
+
+TEST_CASE("without contact a body cut into pieces has the linear solution, prescribed values and springs included") {
+  for (const int dimension : {2, 3}) {
+    const auto b = test::block("b", dimension, mesh::Family::q1, 4);
+    auto left = test::part(b, "left"), right = test::part(b, "right");
+    scene::displace(left, {[](const Point& x) { return 0.01 * x[1]; }, [](const Point&) { return 0.0; }, {}});
+    test::springs(b, "right", {5, 3, 2});
+    test::pull(b, "top", [](const Point&) { return Point{1, -2, 0.5}; });
+    const auto s = scene::make_scene({b});
+    const auto exact = solve(s, {});
+    for (const bool rows : {true, false}) {
+      const auto cut = solve(s, feti(5, rows));
+      REQUIRE_MESSAGE(cut->result().converged, cut->result().reason);
+      CHECK((cut->result().state.u - exact->result().state.u).norm() <= 1e-9 * exact->result().state.u.norm());
+      CHECK(cut->residual().equilibrium <= 1e-9);
+    }
+  }
+}
+
+TEST_CASE("given and Coulomb friction: FETI finds what Newton's method finds") {
+  using Kind = scene::Friction::Kind;
+  for (const int dimension : {2, 3})
+    for (const auto& law : {friction(Kind::tresca, 0.7), friction(Kind::coulomb, 0.12)}) {
+      const auto s = two_blocks(dimension, mesh::Family::q1, law, true);
+      const auto exact = solve(s, solver::Newton{});
+      REQUIRE(exact->result().converged);
+      const auto cut = solve(s, feti(6));
+      check_same(*cut, *exact, 1e-8);
+      const auto mine = cut->contact(*s->contacts[0]), right = exact->contact(*s->contacts[0]);
+      CHECK(mine.stick == right.stick);
+      CHECK(mine.slip == right.slip);
+      CHECK(mine.slip > 0);
+    }
+}
+
+TEST_CASE("free bodies are in equilibrium, and touching without force does no harm") {
+  // Three blocks stacked on a rigid floor, pressed in the middle: the wide rest of the joints touches or opens.
+  const auto scene_of = [](std::vector<std::shared_ptr<scene::Body>>& bodies) {
+    bodies.clear();
+    for (int k = 0; k < 3; ++k) bodies.push_back(test::block("b" + std::to_string(k), 2, mesh::Family::q1, 6, k));
+    auto s = scene::make_scene({bodies});
+    contact::RigidShape floor = contact::RigidPlane{{0, 0, 0}, {0, 1, 0}};
+    scene::add_contact(*s, test::part(bodies[0], "bottom"), floor, {}, false);
+    for (int k = 1; k < 3; ++k) scene::add_contact(*s, test::part(bodies[k], "bottom"), test::part(bodies[k - 1], "top"), {});
+    test::pull(bodies[2], "top", [](const Point& x) { return Point{0, std::abs(x[0] - 0.5) < 0.26 ? -3.0 : 0.0, 0}; });
+    return s;
+  };
+  std::vector<std::shared_ptr<scene::Body>> bodies;
+  const auto s = scene_of(bodies);
+  const auto cut = solve(s, feti(12));
+  REQUIRE_MESSAGE(cut->result().converged, cut->result().reason);
+  const auto exact = solve(s, solver::Pdas{});
+  // The stack may slide sideways: stresses and forces are unique, not the displacement.
+  CHECK((cut->result().state.lambda - exact->result().state.lambda).norm() <= 1e-9 * exact->result().state.lambda.norm());
+  const double pressed = test::resultant(*bodies[2])[1];
+  for (const auto& contact : s->contacts) {
+    CHECK(cut->contact(*contact).force[1] == doctest::Approx(-pressed).epsilon(1e-10));
+    double moment = 0;
+    for (const auto& node : cut->contact(*contact).nodes) moment += node.force * (node.x[0] - 0.5);
+    CHECK(std::abs(moment) <= 1e-10 * std::abs(pressed));
+  }
+  CHECK(cut->residual().equilibrium <= 1e-10);
+}
