@@ -42,14 +42,11 @@ DenseMatrix kernel_inside(const DenseMatrix& basis, const std::vector<int>& touc
 Dirichlet::Dirichlet(const DualProblem& dual, algebra::Ordering ordering, Monitor& monitor) : dual_(dual) {
   const std::vector<Piece>& pieces = dual.torn().pieces;
   monitor.phase("ordering the insides of pieces");
-  std::vector<int> kind_of(pieces.size());
-  for (std::size_t kind = 0; kind < dual.kinds().size(); ++kind)
-    for (int p : dual.kinds()[kind]) kind_of[p] = static_cast<int>(kind);
   const auto alike = alike_pieces(dual.kinds(), pieces);
   batches_ = batches(alike, pieces);
   for (const auto& same : alike) {
     monitor.check();
-    add(pieces[same.front()], dual.basis(kind_of[same.front()]), ordering);
+    add(pieces[same.front()], dual.basis(same.front()), ordering);
   }
   factor(monitor, [&](int k) -> const Piece& { return pieces[alike[k].front()]; });
 }

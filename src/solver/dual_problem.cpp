@@ -40,6 +40,9 @@ DualProblem::DualProblem(const problem::Problem& problem, algebra::Ordering orde
   monitor.phase("tearing the problem into pieces");
   torn_ = tear(problem);
   kinds_ = equal_pieces(torn_.pieces);
+  kind_of_.resize(torn_.pieces.size());
+  for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
+    for (int p : kinds_[kind]) kind_of_[p] = static_cast<int>(kind);
   batches_ = batches(kinds_, torn_.pieces);
   clock.assembly += watch.lap();
   analyse(ordering, monitor);
@@ -72,28 +75,26 @@ void DualProblem::factor(Monitor& monitor) {
 }
 
 void DualProblem::add_modes() {
-  std::vector<int> kind_of(torn_.pieces.size());
-  for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
-    for (int p : kinds_[kind]) kind_of[p] = static_cast<int>(kind);
-  std::vector<Eigen::Triplet<double>> entries, touched_entries;
   load_.resize(torn_.copies());
-  int mode = 0;
-  for (std::size_t k = 0; k < torn_.pieces.size(); ++k) {
-    const Piece& p = torn_.pieces[k];
-    const DenseMatrix& R = basis(kind_of[k]);
-    load_.segment(p.first, p.size()) = *p.f;
-    for (Eigen::Index j = 0; j < R.cols(); ++j, ++mode) {
-      for (int i = 0; i < p.size(); ++i) entries.emplace_back(p.first + i, mode, R(i, j));
-      for (std::size_t i = 0; i < p.touched.size(); ++i)
-        touched_entries.emplace_back(p.first_touched + static_cast<int>(i), mode, R(p.touched[i], j));
-    }
+  int modes = 0;
+  for (std::size_t p = 0; p < torn_.pieces.size(); ++p) {
+    load_.segment(torn_.pieces[p].first, torn_.pieces[p].size()) = *torn_.pieces[p].f;
+    first_mode_.push_back(modes);
+    modes += static_cast<int>(basis(p).cols());
   }
-  modes_.resize(torn_.copies(), mode);
-  modes_.setFromTriplets(entries.begin(), entries.end());
-  SparseMatrix on_touched(torn_.B.cols(), mode);
-  on_touched.setFromTriplets(touched_entries.begin(), touched_entries.end());
-  G_ = SparseMatrix(on_touched.transpose()) * SparseMatrix(torn_.Bt);
-  e_ = modes_.transpose() * load_;
+  e_.resize(modes);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t p = 0; p < torn_.pieces.size(); ++p) {
+    const Piece& piece = torn_.pieces[p];
+    const DenseMatrix& R = basis(p);
+    e_.segment(first_mode_[p], R.cols()) = R.transpose() * *piece.f;
+    for (Eigen::Index j = 0; j < R.cols(); ++j)
+      for (std::size_t i = 0; i < piece.touched.size(); ++i)
+        entries.emplace_back(first_mode_[p] + j, piece.first_touched + i, R(piece.touched[i], j));
+  }
+  SparseMatrix on_touched(modes, torn_.B.cols());
+  on_touched.setFromTriplets(entries.begin(), entries.end());
+  G_ = on_touched * SparseMatrix(torn_.Bt);
 }
 
 Vector DualProblem::apply(const Vector& lambda) const {
@@ -109,7 +110,11 @@ Vector DualProblem::inverse(const Vector& f) const {
 }
 
 Vector DualProblem::recover(const Vector& lambda, const Vector& alpha) const {
-  return inverse(load_ - spread(torn_, torn_.Bt * lambda)) + modes_ * alpha;
+  Vector v = inverse(load_ - spread(torn_, torn_.Bt * lambda));
+  for (std::size_t p = 0; p < torn_.pieces.size(); ++p)
+    v.segment(torn_.pieces[p].first, torn_.pieces[p].size()) +=
+        basis(p) * alpha.segment(first_mode_[p], basis(p).cols());
+  return v;
 }
 
 double DualProblem::factor_bytes() const {

@@ -40,8 +40,8 @@ class DualProblem {
 
   /// The pieces by kind; a kind's first stands for all of it.
   const std::vector<std::vector<int>>& kinds() const { return kinds_; }
-  /// R̂ of a kind: own unknowns × modes.
-  const algebra::DenseMatrix& basis(int kind) const { return inverses_[kind].basis(); }
+  /// R̂ of a piece: own unknowns × modes.
+  const algebra::DenseMatrix& basis(int piece) const { return inverses_[kind_of_[piece]].basis(); }
   double factor_bytes() const;          ///< of all kinds' factors
   const std::string& ordering() const;  ///< that of the greatest piece; empty without pieces
 
@@ -55,7 +55,7 @@ class DualProblem {
   std::vector<std::vector<int>> kinds_;
   std::vector<Batch> batches_;
   std::vector<algebra::GeneralisedInverse> inverses_;  ///< one a kind
-  algebra::SparseMatrix modes_;                        ///< R̂ of all pieces: copies × modes
+  std::vector<int> kind_of_, first_mode_;              ///< of each piece
   algebra::SparseMatrix G_;
   algebra::Vector d_, e_, load_;
 };
