@@ -21,7 +21,7 @@ SpectrumEnds ends_of(const Vector& diagonal, const Vector& below, Eigen::Index s
 
 }  // namespace
 
-SpectrumEnds lanczos(const Operator& A, Vector v, int most, Ends ends) {
+SpectrumEnds lanczos(const LinearMap& A, Vector v, int most, Ends ends) {
   SpectrumEnds result;
   const Eigen::Index steps = std::min<Eigen::Index>(v.size(), most);
   if (v.size() == 0 || !(v.norm() > 0)) return result;

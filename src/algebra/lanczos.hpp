@@ -1,15 +1,10 @@
 #pragma once
 
-#include <functional>
-
-#include "algebra/types.hpp"
+#include "algebra/linear_map.hpp"
 
 namespace dotyk::algebra {
 
-/// A linear operator, known by what it makes of a vector.
-using Operator = std::function<Vector(const Vector&)>;
-
-/// The least and the greatest Ritz value of a symmetric operator, each with the norm of its residual: an
+/// The least and the greatest Ritz value of a symmetric linear map, each with the norm of its residual: an
 /// eigenvalue lies within that of it.
 struct SpectrumEnds {
   double least = 0, greatest = 0;
@@ -25,7 +20,7 @@ enum class Ends { greatest, both };
 /// (Lanczos): all of A's spectrum that v has a part in. Ends where the residuals of the ends asked for are at most
 /// a thousandth of their values, where the span is exhausted, and after `most` steps, one application of A each.
 /// `v`: where to start; without components outside the subspace that is looked at. Zeros where v is zero or empty.
-SpectrumEnds lanczos(const Operator& A, Vector v, int most, Ends ends);
+SpectrumEnds lanczos(const LinearMap& A, Vector v, int most, Ends ends);
 
 /// A unit vector that no symmetry of a mesh leaves in an invariant subspace: where to start from.
 Vector lanczos_start(Eigen::Index n);

@@ -2,12 +2,12 @@
 
 #include <functional>
 
+#include "algebra/linear_map.hpp"
 #include "solver/separable_set.hpp"
 
 namespace dotyk::solver {
 
-/// A linear map of Rⁿ.
-using LinearMap = std::function<algebra::Vector(const algebra::Vector&)>;
+using algebra::LinearMap;
 
 /// What a linear map makes of v in the face of x.
 using FaceMap = std::function<algebra::Vector(const algebra::Vector& v, const algebra::Vector& x, const SeparableSet::Gradients& at)>;
