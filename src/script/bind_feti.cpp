@@ -56,7 +56,7 @@ void bind_feti(Library& library) {
        .help = "Domain decomposition for many bodies and for bodies beyond a direct method: every body is cut into "
                "subdomains, glued by multipliers, and the dual problem is solved by augmented Lagrangians with projectors to "
                "the natural coarse space of the subdomains' rigid motions. Frictionless contact, given friction, and "
-               "Coulomb's by an outer loop. tol: on |projected gradient| / |d| and on |G lambda - e| / |f|, rows scaled to "
+               "Coulomb's by an outer loop. tol: on |projected gradient| / |P d| and on |G lambda - e| / |f|, rows scaled to "
                "norm one. An iteration is an outer step; s.history[k].inner counts the steps of the inner method so far, "
                "s.feti tells what the decomposition was like.",
        .example = "local s = dotyk.solver.feti{ subdomains = 64, tol = 1e-8 }:solve(scene)\n"

@@ -32,8 +32,13 @@ using Place = SeparableSet::Place;
 constexpr double kAhead = 0.1;
 /// First precision there.
 constexpr double kFirst = 0.01;
-/// Steps of the loop in which the bounds' change must fall by a tenth.
-constexpr int kPatience = 30;
+/// Steps of the loop in which the bounds' change must fall by a tenth; else the bounds go half as far as they would,
+/// down to the least step.
+constexpr int kPatience = 8;
+constexpr double kLeastStep = 1.0 / 32;
+/// With more rigid motions than that the existence of a solution is left to the iteration itself, which proves that
+/// there is none where it meets that: the linear program that would tell takes longer.
+constexpr int kManyMotions = 200;
 
 class Run {
  public:
@@ -73,8 +78,7 @@ class Run {
     counts_.norm = program_.norm = ends.bound() + stiffest > 0 ? ends.bound() + stiffest : 1;
     if (method_.spectrum && ends.least > 0) counts_.condition = ends.greatest / ends.least;
     x_ = nu_ = Vector::Zero(dual_.rows());
-    displacement_ = dual_.d().norm();
-    if (displacement_ == 0) displacement_ = apply(shift_).norm();
+    displacement_ = program_.b.norm();
   }
 
   /// λ of the problem's rows, in the user's units.
@@ -97,24 +101,29 @@ class Run {
       return;
     }
     begin_unbounded();
-    double change = 1, best = std::numeric_limits<double>::infinity();
+    double change = 1, best = std::numeric_limits<double>::infinity(), step = 1;
     for (int since_best = 0;;) {
       precision_ = std::max(method_.tol, std::min(kFirst, kAhead * change));
       if (!solve_given(precision_)) return;
       ++counts_.loops;
       const Vector next = friction_bounds(problem_, multipliers(x_));
       const double size = next.norm();
-      change = bounds_.allFinite() ? (next - bounds_).norm() / (size > 0 ? size : 1) : 1;
-      bounds_ = next;
+      const bool bounded = bounds_.allFinite();
+      change = bounded ? (next - bounds_).norm() / (size > 0 ? size : 1) : 1;
+      bounds_ = bounded ? Vector(bounds_ + step * (next - bounds_)) : next;
       since_best = change < 0.9 * best ? 0 : since_best + 1;
       best = std::min(best, change);
       if (change <= method_.tol && precision_ <= method_.tol) return;
-      if (since_best > kPatience) {
-        result_.converged = false;
-        result_.reason = text("the bounds of Coulomb's friction have not settled: they still change by ", change, " a step");
-        return;
+      if (since_best > 0 && since_best % kPatience == 0) {
+        if (step <= kLeastStep) return unsettled(change);
+        step /= 2;
       }
     }
+  }
+
+  void unsettled(double change) {
+    result_.converged = false;
+    result_.reason = text("the bounds of Coulomb's friction have not settled: they still change by ", change, " a step");
   }
 
   /// Coulomb's points do not slip at first.
@@ -264,7 +273,9 @@ class Run {
 }  // namespace
 
 Result solve(const Problem& problem, const Feti& method, Monitor& monitor) {
-  const std::string note = require_solvable(problem, problem::rigid_motions(problem));
+  int motions = 0;
+  for (const problem::Block& block : problem.blocks) motions += static_cast<int>(block.kernel.cols());
+  const std::string note = motions > kManyMotions ? "" : require_solvable(problem, problem::rigid_motions(problem));
   Result result = Run(problem, method, monitor)();
   if (!note.empty()) result.reason += "; " + note;
   return result;
