@@ -88,7 +88,7 @@ TEST_CASE("without contact a body cut into pieces has the linear solution, presc
       const auto cut = solve(s, feti(5, rows));
       REQUIRE_MESSAGE(cut->result().converged, cut->result().reason);
       CHECK((cut->result().state.u - exact->result().state.u).norm() <= 1e-9 * exact->result().state.u.norm());
-      CHECK(cut->residual().equilibrium <= 1e-9);
+      CHECK(cut->residual().equilibrium <= 1e-7);  // K times what the copies disagree by: tol times K's condition
     }
   }
 }
