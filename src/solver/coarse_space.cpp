@@ -26,6 +26,8 @@ constexpr double kSmallPivot = 1e-6;
 /// The jump G̃ᵀz of a motion z that rows do not notice, relative to its parts: 1e-15 by rounding. The square of that of
 /// noticed ones is an eigenvalue of C.
 constexpr double kUnnoticed = 1e-9;
+/// The jump of one mode, of norm one as the rows are, that is rounding: no row notices it.
+constexpr double kNoJump = 1e-13;
 
 Cholesky analysed(const SparseMatrix& C) {
   std::vector<int> node(C.rows());
@@ -85,7 +87,7 @@ CoarseSpace::CoarseSpace(const SparseMatrix& G, Vector e) : G_(G), scale_(Vector
   if (modes() == 0) return;
   for (int r = 0; r < G.cols(); ++r)
     for (SparseMatrix::InnerIterator it(G, r); it; ++it) scale_[it.row()] += it.value() * it.value();
-  scale_ = scale_.unaryExpr([](double s) { return s > 0 ? 1 / std::sqrt(s) : 1.0; });
+  scale_ = scale_.unaryExpr([](double s) { return s > kNoJump * kNoJump ? 1 / std::sqrt(s) : 0.0; });
   G_ = scale_.asDiagonal() * G_;
   SparseMatrix& C = C_ = SparseMatrix(G_ * SparseMatrix(G_.transpose())).triangularView<Eigen::Lower>();
   for (int j = 0; j < modes(); ++j) C.coeffRef(j, j) += 0;  // an entry for modes that no row notices

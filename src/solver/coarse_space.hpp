@@ -36,7 +36,7 @@ class CoarseSpace {
  private:
   algebra::Vector inverse(const algebra::Vector& scaled) const;
 
-  algebra::SparseMatrix G_;  ///< rows scaled to norm one, but those that are zero
+  algebra::SparseMatrix G_;  ///< rows scaled to norm one; zero those that are rounding
   algebra::SparseMatrix C_;
   algebra::Vector scale_, e_, particular_;
   double imbalance_ = 0;

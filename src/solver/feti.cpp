@@ -5,8 +5,10 @@
 #include <limits>
 #include <optional>
 
+#include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "problem/residual.hpp"
 #include "problem/rigid_motions.hpp"
 #include "solver/coarse_space.hpp"
 #include "solver/dual_bounds.hpp"
@@ -39,6 +41,11 @@ constexpr double kLeastStep = 1.0 / 32;
 /// With more rigid motions than that the existence of a solution is left to the iteration itself, which proves that
 /// there is none where it meets that: the linear program that would tell takes longer.
 constexpr int kManyMotions = 200;
+/// Resultants that no multipliers balance, relative to all: above rounding in long sums.
+constexpr double kImbalance = 1e-9;
+/// The equilibrium of the displacements recovered may be worse than tol by what stiffnesses and sizes make of the copies'
+/// disagreement; beyond this it is no solution.
+constexpr double kSpoilt = 1e4, kNoise = 1e-6;
 
 class Run {
  public:
@@ -46,6 +53,9 @@ class Run {
       : problem_(problem), method_(method), monitor_(monitor),
         dual_(problem, method.ordering, result_.clock, monitor), coarse_(dual_.G(), dual_.e()), face_(coarse_),
         compliance_(row_compliance(problem, dual_.scale(), dual_.rows(), "feti")) {
+    if (coarse_.imbalance() > kImbalance)
+      throw InputError(text("the load does work on a rigid motion that nothing holds: no contact forces balance it, ", coarse_.imbalance(),
+                            " of its resultants is left; scene:balance() and scene:plan() tell which body moves and how"));
     if (method.preconditioner == Feti::Preconditioner::lumped) lumped_.emplace(dual_);
     if (method.preconditioner == Feti::Preconditioner::dirichlet) dirichlet_.emplace(dual_, method.ordering, monitor);
     for (const problem::Block& block : problem.blocks) force_ = std::hypot(force_, block.f.norm());
@@ -160,7 +170,8 @@ class Run {
     nu_ = std::move(solved.nu);
     M_ = solved.M / program_.norm;
     finish(solved);
-    branches(set.gradients(x_, Vector::Zero(x_.size())).face);
+    if (solved.end == End::done) record_last(set);
+    else branches(set.gradients(x_, Vector::Zero(x_.size())).face);
     return result_.converged;
   }
 
@@ -216,8 +227,19 @@ class Run {
     return info;
   }
 
+  /// The outer step that ended in the solution.
+  void record_last(const SeparableSet& set) {
+    IterationInfo info = branches(set.gradients(x_, Vector::Zero(x_.size())).face);
+    info.iteration = result_.iterations;
+    info.inner = counts_.inner;
+    info.residual = residual_;
+    info.seconds = watch_.seconds();
+    result_.history.push_back(info);
+    monitor_.iteration(info);
+  }
+
   void finish(const SmalbeResult& solved) {
-    result_.iterations += std::max(1, solved.outer);
+    result_.iterations += solved.outer + (solved.end == End::done);
     counts_.inner += solved.inner;
     counts_.products += solved.products;
     residual_ = relative(solved.gradient, solved.equality);
@@ -238,6 +260,12 @@ class Run {
     const Vector alpha = coarse_.amounts(apply(lambda) - dual_.d() - nu_);
     result_.state.u = average(dual_.torn(), dual_.recover(lambda, alpha));
     result_.state.lambda = multipliers(x_);
+    const double equilibrium = problem::residual(problem_, result_.state).equilibrium;
+    if (result_.converged && !(equilibrium <= std::max(kNoise, kSpoilt * method_.tol))) {
+      result_.converged = false;
+      result_.reason = text("rounding leaves the displacements out of equilibrium by ", equilibrium,
+                            ": stiffnesses, supports or sizes are too far apart for this decomposition");
+    }
   }
 
   void report() {

@@ -99,7 +99,10 @@ class Run {
       if (made && caller_.inner && !caller_.inner(state())) return End::stopped;
       if (inner_.halt() == Halt::unbounded) return End::unbounded;
       if (inner_.halt() == Halt::not_finite) return End::not_finite;
-      if (inner_.halt() != Halt::none) return done() ? std::optional(End::done) : std::nullopt;
+      if (inner_.halt() != Halt::none) {
+        if (done()) return End::done;
+        return std::nullopt;
+      }
       if (inner_.steps() >= settings_.max_inner) return End::limit;
     }
   }

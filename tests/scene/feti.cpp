@@ -137,3 +137,32 @@ TEST_CASE("free bodies are in equilibrium, and touching without force does no ha
   }
   CHECK(cut->residual().equilibrium <= 1e-10);
 }
+
+TEST_CASE("a free body in space on a plane: motions that no row notices stay zero, loads on them are refused") {
+  for (const auto family : test::kFamilies)
+    for (const int count : {1, 4}) {
+      const auto b = test::block("b", 3, family, 3);
+      const auto s = scene::make_scene({b});
+      contact::RigidShape floor = contact::RigidPlane{{0, 0, 0}, {0, 0, 1}};
+      scene::add_contact(*s, test::part(b, "bottom"), floor, {}, false);
+      test::pull(b, "top", [](const Point& x) { return Point{0, 0, -2 - x[0]}; });
+      const auto cut = solve(s, feti(count));
+      const auto exact = solve(s, solver::Pdas{});
+      REQUIRE_MESSAGE(cut->result().converged, cut->result().reason);
+      CHECK(cut->residual().equilibrium <= 1e-8);
+      CHECK((cut->result().state.lambda - exact->result().state.lambda).norm() <= 1e-8 * exact->result().state.lambda.norm());
+      CHECK(cut->result().history.size() >= 1);
+    }
+}
+
+TEST_CASE("a load that no contact balances is refused, of however many bodies") {
+  std::vector<std::shared_ptr<scene::Body>> bodies;
+  for (int k = 0; k < 70; ++k) bodies.push_back(test::block("b" + std::to_string(k), 2, mesh::Family::q1, 1));
+  auto s = scene::make_scene({bodies});
+  contact::RigidShape floor = contact::RigidPlane{{0, 0, 0}, {0, 1, 0}};
+  for (const auto& b : bodies) scene::add_contact(*s, test::part(b, "bottom"), floor, {}, false);
+  for (const auto& b : bodies) test::pull(b, "top", [](const Point&) { return Point{0, -1, 0}; });
+  CHECK(solve(s, feti(0))->result().converged);
+  test::pull(bodies[41], "left", [](const Point&) { return Point{1, 0, 0}; });
+  CHECK_THROWS_WITH_AS(solve(s, feti(0)), doctest::Contains("a rigid motion that nothing holds"), InputError);
+}
