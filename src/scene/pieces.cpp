@@ -1,6 +1,5 @@
 #include "scene/pieces.hpp"
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "mesh/decomposition.hpp"
 
@@ -10,8 +9,6 @@ namespace {
 std::vector<mesh::Pieces> decompose(const std::vector<Body>& bodies, const problem::Decomposition& decomposition) {
   std::vector<mesh::Pieces> result;
   if (decomposition.count == 0) {
-    if (!bodies.empty() && bodies.front().dimension() == 2 && decomposition.boxes[2] != 1)
-      throw InputError("subdomains names boxes along three axes; the scene is 2-D and takes two");
     for (const Body& body : bodies) result.push_back(mesh::decompose(*body.mesh, decomposition.boxes));
     return result;
   }
