@@ -88,19 +88,6 @@ void check_sums(const problem::Problem& p) {
   CHECK((sum.f - all.f).cwiseAbs().maxCoeff() <= 1e-12 * all.f.cwiseAbs().maxCoeff());
 }
 
-/// Holds some nodes of a body and no others.
-void hold(scene::Body& body, const std::function<bool(const Point&)>& at) {
-  scene::Support support{scene::SupportKind::fix, {"nodes", 0}, {}, {}, {}, {}};
-  for (int n = 0; n < body.mesh->node_count(); ++n)
-    if (at(body.mesh->point(n))) {
-      support.nodes.push_back(n);
-      support.components.push_back({true, true, true});
-      support.values.push_back({0, 0, 0});
-      support.normals.push_back({0, 0, 1});
-    }
-  body.supports.push_back(support);
-}
-
 }  // namespace
 
 TEST_CASE("the subdomains' energies sum up to the blocks'") {
@@ -165,7 +152,7 @@ TEST_CASE("supports in the matrices: what they leave of a subdomain's rigid moti
   for (const auto family : test::kFamilies) {
     // Fixed along the edge x = z = 0: subdomains at it turn about it, the others float.
     auto block = test::block("block", 3, family, 4);
-    hold(*block, [](const Point& x) { return x[0] == 0 && x[2] == 0; });
+    test::hold(*block, [](const Point& x) { return x[0] == 0 && x[2] == 0; });
     const auto model = test::cut(*scene::make_scene({block}), test::by_boxes({2, 2, 2}, false));
     REQUIRE(model.problem.subdomains.size() == 8);
     check_sums(model.problem);
@@ -180,7 +167,7 @@ TEST_CASE("supports in the matrices: what they leave of a subdomain's rigid moti
   }
   // Fixed at a corner; the subdomain there turns about it in three ways.
   auto block = test::block("block", 3, mesh::Family::q1, 4);
-  hold(*block, [](const Point& x) { return x[0] + x[1] + x[2] == 0; });
+  test::hold(*block, [](const Point& x) { return x[0] + x[1] + x[2] == 0; });
   const auto corner = test::cut(*scene::make_scene({block}), test::by_boxes({2, 2, 2}, false));
   int turning = 0;
   for (const Subdomain& s : corner.problem.subdomains) {
@@ -227,8 +214,8 @@ TEST_CASE("a body of one piece: empty with supports in the matrices, cut off its
 
 TEST_CASE("bodies and pieces without an unknown") {
   auto slab = test::block("slab", 2, mesh::Family::q1, 2), block = test::block("block", 2, mesh::Family::q1, 2, 1);
-  hold(*slab, [](const Point&) { return true; });
-  hold(*block, [](const Point& x) { return x[0] < 0.6; });
+  test::hold(*slab, [](const Point&) { return true; });
+  test::hold(*block, [](const Point& x) { return x[0] < 0.6; });
   const auto scene = scene::make_scene({slab, block});
   const auto held = test::cut(*scene, test::by_boxes({2, 1, 1}, false));
   REQUIRE(held.problem.subdomains.size() == 1);  // the right half of the block

@@ -31,6 +31,19 @@ inline void fix(const std::shared_ptr<scene::Body>& b, const std::string& name,
   scene::fix(p, components);
 }
 
+/// Holds some nodes of a body and no others.
+inline void hold(scene::Body& body, const std::function<bool(const Point&)>& at) {
+  scene::Support support{scene::SupportKind::fix, {"nodes", 0}, {}, {}, {}, {}};
+  for (int n = 0; n < body.mesh->node_count(); ++n)
+    if (at(body.mesh->point(n))) {
+      support.nodes.push_back(n);
+      support.components.push_back({true, true, true});
+      support.values.push_back({0, 0, 0});
+      support.normals.push_back({0, 0, 1});
+    }
+  body.supports.push_back(support);
+}
+
 inline void slide(const std::shared_ptr<scene::Body>& b, const std::string& name) {
   auto p = part(b, name);
   scene::slide(p);
