@@ -50,7 +50,7 @@ DualProblem::DualProblem(const problem::Problem& problem, algebra::Ordering orde
   factor(monitor);
   clock.factor += watch.lap();
   add_modes();
-  d_ = torn_.B * touched(torn_, inverse(load_)) - torn_.c;
+  d_ = jump(inverse(load_));
   clock.assembly += watch.lap();
 }
 
@@ -109,13 +109,23 @@ Vector DualProblem::inverse(const Vector& f) const {
   });
 }
 
-Vector DualProblem::recover(const Vector& lambda, const Vector& alpha) const {
-  Vector v = inverse(load_ - spread(torn_, torn_.Bt * lambda));
+Vector DualProblem::elastic(const Vector& lambda) const {
+  Vector force = load_ - spread(torn_, torn_.Bt * lambda);
+  for (std::size_t p = 0; p < torn_.pieces.size(); ++p) {
+    auto own = force.segment(torn_.pieces[p].first, torn_.pieces[p].size());
+    own -= basis(p) * (basis(p).transpose() * own);
+  }
+  return inverse(force);
+}
+
+Vector DualProblem::moved(Vector v, const Vector& alpha) const {
   for (std::size_t p = 0; p < torn_.pieces.size(); ++p)
     v.segment(torn_.pieces[p].first, torn_.pieces[p].size()) +=
         basis(p) * alpha.segment(first_mode_[p], basis(p).cols());
   return v;
 }
+
+Vector DualProblem::jump(const Vector& v) const { return torn_.B * touched(torn_, v) - torn_.c; }
 
 double DualProblem::factor_bytes() const {
   double bytes = 0;

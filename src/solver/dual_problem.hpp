@@ -35,8 +35,13 @@ class DualProblem {
   const algebra::Vector& d() const { return d_; }                    ///< d̃, a length a row
   const algebra::SparseMatrix& G() const { return G_; }              ///< G̃: modes × rows
   const algebra::Vector& e() const { return e_; }                    ///< ẽ, one a mode
-  /// All copies, v = K⁺(f − B̂ᵀλ) + R̂α; α: modes.
-  algebra::Vector recover(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
+  /// All copies but for their rigid motions, v = K⁺(I − R̂R̂ᵀ)(f − B̂ᵀλ): what λ leaves unbalanced is spread over the
+  /// piece and not left to the unknowns that K⁺ fixes.
+  algebra::Vector elastic(const algebra::Vector& lambda) const;
+  /// v + R̂α; α: modes.
+  algebra::Vector moved(algebra::Vector v, const algebra::Vector& alpha) const;
+  /// B̂v − ĉ of all copies.
+  algebra::Vector jump(const algebra::Vector& v) const;
 
   /// The pieces by kind; a kind's first stands for all of it.
   const std::vector<std::vector<int>>& kinds() const { return kinds_; }

@@ -75,7 +75,8 @@ class Run {
  private:
   /// (F + compliance) v.
   Vector apply(const Vector& v) const { return dual_.apply(v) + compliance_.cwiseProduct(v); }
-  Vector PFP(const Vector& v) const { return coarse_.P(apply(coarse_.P(v))); }
+  /// PFPv of v with Qv = 0.
+  Vector PFP(const Vector& v) const { return coarse_.P(apply(v)); }
 
   void homogenise() {
     shift_ = coarse_.particular();
@@ -256,9 +257,9 @@ class Run {
   }
 
   void recover() {
-    const Vector lambda = x_ + shift_;
-    const Vector alpha = coarse_.amounts(apply(lambda) - dual_.d() - nu_);
-    result_.state.u = average(dual_.torn(), dual_.recover(lambda, alpha));
+    const Vector lambda = x_ + shift_, v = dual_.elastic(lambda);
+    const Vector alpha = coarse_.amounts(compliance_.cwiseProduct(lambda) - dual_.jump(v) - nu_);
+    result_.state.u = average(dual_.torn(), dual_.moved(v, alpha));
     result_.state.lambda = multipliers(x_);
     const double equilibrium = problem::residual(problem_, result_.state).equilibrium;
     if (result_.converged && !(equilibrium <= std::max(kNoise, kSpoilt * method_.tol))) {

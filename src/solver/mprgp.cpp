@@ -26,6 +26,8 @@ constexpr int kAgain = 3;
 /// So many steps without a lesser ‖g^P‖, already below kSmall (‖A‖‖x‖ + ‖b‖), are steps in rounding, too.
 constexpr int kIdle = 2000;
 constexpr double kSmall = 1e-11;
+/// Projected steps tried, each half of the last. Under a great penalty the whole one seldom lowers q.
+constexpr int kTries = 4;
 /// A part that does not matter.
 constexpr double kHardly = 0.05;
 
@@ -241,10 +243,16 @@ Vector Mprgp::gradient_on_face() const {
 
 Mprgp::Step Mprgp::expand(double alpha_cg, double alpha_free, const Vector& Ap) {
   const double half = alpha_free * (0.5 * alpha_free * direction_.dot(Ap) - direction_.dot(g_));
-  if (projects_steps() && std::isfinite(alpha_cg) && lowers(set_.project(x_ - alpha_cg * direction_), half))
-    return Step::projection;
-  if (halt_ != Halt::none) return Step::none;
+  if (projects_steps() && std::isfinite(alpha_cg)) {
+    double alpha = alpha_cg;
+    for (int tried = 0; tried < kTries && alpha > alpha_free; ++tried, alpha /= 2) {
+      if (lowers(set_.project(x_ - alpha * direction_), half)) return Step::projection;
+      if (halt_ != Halt::none) return Step::none;
+    }
+  }
   advance(alpha_free, direction_, Ap);
+  if (projects_steps()) refresh();  // refused so often, g may be noise
+  if (halt_ != Halt::none) return Step::none;
   fixed_step(gradient_on_face());
   return halt_ == Halt::none ? Step::expansion : Step::none;
 }

@@ -17,8 +17,8 @@ struct MprgpSettings {
   enum class Expansion {
     /// The part of the step up to the boundary, then a fixed step: MPRGP (Dostál 2009, ch. 5).
     fixed_step,
-    /// x ← P(x − α_cg p) where that lowers q more than the part up to the boundary, else as above: proportioning
-    /// with projections (Dostál 1997, SIAM J. Optim. 7).
+    /// x ← P(x − αp) where that lowers q more than the part up to the boundary, α = α_cg, halved up to three times;
+    /// else as above: proportioning with projections (Dostál 1997, SIAM J. Optim. 7) with halvings.
     projected_cg_step
   } expansion = Expansion::projected_cg_step;
   double gamma = 1;  ///< Γ: conjugate gradients go on while ‖β‖² ≤ Γ² φ̃ᵀφ
@@ -32,8 +32,8 @@ struct MprgpSettings {
 ///   a second one where pairs slide along circles, whose curvature the step takes into account, so far that
 ///   their bends matter: while they add less than a twentieth to g^P and to the decrease of q, they are left out;
 ///   proportioning, x ← x − αβ with α the minimiser or the longest feasible step: one product;
-///   expansion, where the conjugate gradient step would leave Ω: see Expansion. Two products; three where
-///   the projected step is refused, or one along circles, for which then x ← P(x − ᾱg) is made (the step of
+///   expansion, where the conjugate gradient step would leave Ω: see Expansion. Two products, one more for each
+///   projected step refused, or one along circles, for which then x ← P(x − ᾱg) is made (the step of
 ///   MPGP; Dostál and Kozubek 2012).
 /// Every one lowers q and keeps x in Ω. A fixed step P(x − ᾱv), v = g on the face and 0 off it, or g, lowers q by at
 /// least ᾱ(1 − ½ᾱ‖A‖)‖ṽ‖², ṽ = (x − P(x − ᾱv))/ᾱ, since vᵀṽ ≥ ‖ṽ‖² for every convex Ω: so for all ᾱ < 2/‖A‖. For

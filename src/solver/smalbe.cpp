@@ -31,7 +31,7 @@ class Run {
         M_(settings.M * program.norm), nu_(std::move(nu)),
         inner_(map(), norm(), program.b - nu_, *program.set, std::move(x), inner_settings()) {
     eta_ = settings.eta * std::max(program.b.norm(), inner_.g().norm());
-    if (settings.update == Smalbe::Update::penalty) eta_ /= program.norm;
+    if (penalty()) eta_ /= program.norm;
     measure();
   }
 
@@ -50,7 +50,10 @@ class Run {
 
  private:
   LinearMap map() {
-    return [this](const Vector& v) -> Vector { return program_.H(v) + rho_ * program_.Q(v); };
+    return [this](const Vector& v) -> Vector {
+      const Vector Qv = program_.Q(v);
+      return program_.H(program_.complementary ? Vector(v - Qv) : v) + rho_ * Qv;
+    };
   }
 
   MprgpSettings inner_settings() {
@@ -70,19 +73,28 @@ class Run {
     gradient_ = inner_.projected_gradient_norm();
   }
 
+  bool penalty() const { return settings_.update == Smalbe::Update::penalty; }
+
+  /// What `done` is asked about: algorithm 4.1's rule takes ν as it is, the others ν + ρQx, which is the next one.
+  double final_gradient() const {
+    if (!penalty()) return gradient_;
+    const SeparableSet::Gradients at = program_.set->gradients(inner_.x(), inner_.g() - rho_ * Qx_);
+    return std::hypot(at.free.norm(), at.chopped.norm());
+  }
+
   SmalbeState state() const { return {inner_, gradient_, equality_, inner_.q(), rho_, M_, outer_}; }
 
   /// With g computed anew.
   bool done() {
-    if (!caller_.done(gradient_, equality_)) return false;
+    if (!caller_.done(final_gradient(), equality_)) return false;
     inner_.refresh();
     measure();
-    return caller_.done(gradient_, equality_);
+    return caller_.done(final_gradient(), equality_);
   }
 
   bool precise() const {
     const double bound = M_ * equality_;
-    return gradient_ <= (settings_.update == Smalbe::Update::penalty ? bound : std::min(bound, eta_));
+    return gradient_ <= (penalty() ? bound : std::min(bound, eta_));
   }
 
   /// Until the outer step's precision, or rounding; or else the end of all.
@@ -121,36 +133,44 @@ class Run {
   }
 
   void update() {
-    Vector change = rho_ * Qx_;
-    if (settings_.update != Smalbe::Update::penalty) {
-      const double L = inner_.q(), growth = 0.5 * rho_ * equality_ * equality_;
-      const bool compared = outer_ > 1 && last_M_ == M_;  // L can be told to grow by the precision of the last step
-      last_M_ = M_;
-      const bool too_little = L + kRounding * std::abs(L) < lagrangian_ + growth, crawls = settings_.update == Smalbe::Update::both && equality_ > kCrawl * last_equality_;
-      const bool precise = M_ <= kPrecise * program_.norm;
+    Vector change = rho_ * Qx_;  // of g
+    if (!penalty()) {
       nu_ += change;
-      if (compared && (too_little || (crawls && !precise))) {
-        M_ /= settings_.beta;
-      } else if (compared && crawls) {
-        change += (settings_.beta - 1) * rho_ * Qx_;
-        rho_ *= settings_.beta;
-        last_M_ = 0;  // L of another ρ is not to be compared with
-      }
-      last_equality_ = equality_;
-      lagrangian_ = L;
+      const double old = rho_;
+      sharpen();
+      change += (rho_ - old) * Qx_;
     } else if (equality_ <= eta_) {
       nu_ += change;
       eta_ *= settings_.alpha;
     } else {
-      change *= settings_.beta - 1;
       rho_ *= settings_.beta;
+      change *= settings_.beta - 1;
     }
     inner_.restart(program_.b - nu_, std::max(norm(), inner_.norm()), inner_.g() + change);
     gradient_ = inner_.projected_gradient_norm();
   }
 
+  /// M smaller, or ρ greater, where the outer step that ended asks for it (Update).
+  void sharpen() {
+    const bool compared = outer_ > 1 && last_M_ == M_;  // L can be told to grow by the precision of the last step
+    const double L = inner_.q(), growth = 0.5 * rho_ * equality_ * equality_;
+    const bool too_little = L + kRounding * std::abs(L) < lagrangian_ + growth;
+    const bool crawls = settings_.update == Smalbe::Update::both && equality_ > kCrawl * last_equality_;
+    const bool precise = M_ <= kPrecise * program_.norm;
+    last_M_ = M_;
+    last_equality_ = equality_;
+    lagrangian_ = L;
+    if (compared && (too_little || (crawls && !precise))) {
+      M_ /= settings_.beta;
+    } else if (compared && crawls) {
+      rho_ *= settings_.beta;
+      last_M_ = 0;  // L of another ρ is not to be compared with
+    }
+  }
+
   SmalbeResult result(End end) {
-    return {end, inner_.x(), nu_ + rho_ * Qx_, gradient_, equality_, rho_, M_, outer_, inner_.steps(), inner_.products()};
+    return {end, inner_.x(), penalty() ? nu_ : Vector(nu_ + rho_ * Qx_), final_gradient(), equality_, rho_, M_, outer_,
+            inner_.steps(), inner_.products()};
   }
 
   const EqualityProgram& program_;

@@ -6,7 +6,7 @@ namespace dotyk::solver {
 
 /// minimise ½xᵀHx − bᵀx over x ∈ Ω with Qx = 0, H symmetric positive semidefinite, Q an orthogonal projector.
 struct EqualityProgram {
-  LinearMap H;
+  LinearMap H;              ///< where `complementary`, only of v with Qv = 0
   double norm = 1;  ///< ≥ ‖H‖
   LinearMap Q;
   bool complementary = false;  ///< HQ = 0 is known, so that ‖H + ρQ‖ is max(‖H‖, ρ), not ‖H‖ + ρ
@@ -25,7 +25,7 @@ struct Smalbe {
     /// grows so: M never falls to √(λ_min ρ)/β (SMALBE-M; Dostál 2009, ch. 7).
     precision,
     /// M is fixed. ν is updated, and η ← αη, where ‖Qx‖ ≤ η; else ρ ← βρ. (Dostál, Gomes and Santos, ODAM 2001,
-    /// algorithm 4.1.)
+    /// algorithm 4.1.) `done` is asked about the gradient with ρ = 0, as in §5 there, and so about ν, not ν + ρQx.
     penalty,
     /// As `precision`, and where an outer step left more than half of ‖Qx‖: M ← M/β too, as long as M is above a
     /// fifth of ‖H‖ (steps so imprecise crawl), else ρ ← βρ (bounds may let the multiplier of Gx = 0 follow slowly).

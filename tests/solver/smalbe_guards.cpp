@@ -53,7 +53,7 @@ TEST_CASE("asked for more than rounding leaves it ends, near the best there is")
           CHECK((r.end == End::rounding || r.end == End::done));
           CHECK(r.gradient <= 1e-12 * known.b.norm());
           CHECK(r.equality <= 1e-12 * known.b.norm());
-          CHECK(r.products <= 3 * near.products + 60);
+          CHECK(r.products <= 4 * near.products + 40);  // three times over to be sure that it is rounding
           CHECK((r.x - known.x).norm() <= 1e-9);
         }
 }
