@@ -59,8 +59,8 @@ struct FetiProgram {
   }
   /// Of the problem's unknowns.
   algebra::Vector displacement(const algebra::Vector& x, const algebra::Vector& nu) const {
-    const algebra::Vector lambda = x + shift;
-    return solver::average(dual.torn(), dual.recover(lambda, coarse.amounts(dual.apply(lambda) - dual.d() - nu)));
+    const algebra::Vector v = dual.elastic(x + shift);
+    return solver::average(dual.torn(), dual.moved(v, coarse.amounts(-dual.jump(v) - nu)));
   }
 
   Monitor quiet;
