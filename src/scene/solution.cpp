@@ -15,16 +15,16 @@ using mesh::Point;
 
 namespace {
 
-/// A direct method ends with rounding. Where rounding is most of what it returns, that is no solution.
+/// Where rounding is most of what a method returns, that is no solution.
 void refuse_noise(const problem::Residual& r, solver::Result& result) {
-  if (result.feti) return;  // as precise as was asked for; it tells rounding itself
-  const double worst =
-      result.penalty ? r.equilibrium : std::max({r.equilibrium, r.penetration, r.complementarity});
-  if (!result.converged || worst <= 1e-6) return;
+  const bool equilibrium_alone = result.penalty || result.feti;  // the rest is what was asked for
+  const double worst = equilibrium_alone ? r.equilibrium : std::max({r.equilibrium, r.penetration, r.complementarity});
+  if (!result.converged || worst <= result.noise) return;
   result.converged = false;
-  result.reason = text("rounding leaves a residual of ", worst,
-                       ": stiffnesses, supports or sizes are too far apart (a material nearly incompressible, a "
-                       "spring nearly absent, cells nearly flat)");
+  result.reason = text("rounding leaves ", equilibrium_alone ? "the displacements out of equilibrium by " : "a residual of ",
+                       worst, ": stiffnesses, supports or sizes are too far apart ",
+                       result.feti ? "for this decomposition"
+                                   : "(a material nearly incompressible, a spring nearly absent, cells nearly flat)");
 }
 
 }  // namespace

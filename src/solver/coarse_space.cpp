@@ -3,14 +3,10 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
-
-#include "algebra/generalised_inverse.hpp"
 
 namespace dotyk::solver {
 
-using algebra::Cholesky;
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::Vector;
@@ -29,15 +25,9 @@ constexpr double kUnnoticed = 1e-9;
 /// The jump of one mode, of norm one as the rows are, that is rounding: no row notices it.
 constexpr double kNoJump = 1e-13;
 
-Cholesky analysed(const SparseMatrix& C) {
-  std::vector<int> node(C.rows());
-  std::iota(node.begin(), node.end(), 0);
-  return {C, node, {}};
-}
-
 /// Factors C with modes held, and with further ones where it is singular still.
-void factor_held(Cholesky& factor, const SparseMatrix& C, std::vector<int>& held) {
-  while (!factor.factor(algebra::hold(C, held))) {
+void factor_held(HeldFactor& factor, const SparseMatrix& C, std::vector<int>& held) {
+  while (!factor.factor(C, held)) {
     const int mode = factor.failed_unknown();
     if (mode < 0 || std::find(held.begin(), held.end(), mode) != held.end())
       throw std::runtime_error("the coarse space: its matrix has no factor");
@@ -46,7 +36,7 @@ void factor_held(Cholesky& factor, const SparseMatrix& C, std::vector<int>& held
 }
 
 /// Modes that hold every motion z with Cz = 0, and perhaps some more.
-std::vector<int> candidates(Cholesky& factor, const SparseMatrix& C) {
+std::vector<int> candidates(HeldFactor& factor, const SparseMatrix& C) {
   SparseMatrix shifted = C;
   for (int j = 0; j < C.cols(); ++j) shifted.coeffRef(j, j) += kShift;
   std::vector<int> modes;
@@ -59,12 +49,11 @@ std::vector<int> candidates(Cholesky& factor, const SparseMatrix& C) {
 
 /// The motions in which one of the modes has the amount 1, the other ones 0 and the rest follow so that they jump as
 /// little as they can: modes × modes.size(), columns of norm one. `factor`: of C with the modes held.
-DenseMatrix least_jumps(const Cholesky& factor, const SparseMatrix& C, const std::vector<int>& modes) {
+DenseMatrix least_jumps(const HeldFactor& factor, const SparseMatrix& C, const std::vector<int>& modes) {
   DenseMatrix force(C.rows(), modes.size());
   for (std::size_t k = 0; k < modes.size(); ++k)
     force.col(k) = -(C.selfadjointView<Eigen::Lower>() * Vector::Unit(C.rows(), modes[k]));
-  force(modes, Eigen::all).setZero();
-  DenseMatrix z = factor.solve(force);
+  DenseMatrix z = factor.solve(std::move(force));
   for (std::size_t k = 0; k < modes.size(); ++k) z(modes[k], k) = 1;
   return z.colwise().normalized();
 }
@@ -93,7 +82,7 @@ CoarseSpace::CoarseSpace(const SparseMatrix& G, Vector e) : G_(G), scale_(Vector
   for (int j = 0; j < modes(); ++j) C.coeffRef(j, j) += 0;  // an entry for modes that no row notices
   C.makeCompressed();
 
-  factor_ = analysed(C);
+  factor_.emplace(C);
   held_ = candidates(*factor_, C);
   factor_held(*factor_, C, held_);
   if (!held_.empty()) {
@@ -103,27 +92,21 @@ CoarseSpace::CoarseSpace(const SparseMatrix& G, Vector e) : G_(G), scale_(Vector
   }
   std::sort(held_.begin(), held_.end());
 
-  particular_ = G_.transpose() * inverse(scale_.cwiseProduct(e_));
+  particular_ = G_.transpose() * factor_->solve(scale_.cwiseProduct(e_));
   const double size = e_.norm();
   if (size > 0) imbalance_ = (e_ - G * particular_).norm() / size;
 }
 
-Vector CoarseSpace::inverse(const Vector& scaled) const {
-  Vector right = scaled;
-  right(held_).setZero();
-  return factor_->solve(right);
-}
-
 Vector CoarseSpace::Q(const Vector& v) const {
   if (modes() == 0) return Vector::Zero(v.size());
-  return G_.transpose() * inverse(G_ * v);
+  return G_.transpose() * factor_->solve(G_ * v);
 }
 
 Vector CoarseSpace::P(const Vector& v) const { return v - Q(v); }
 
 Vector CoarseSpace::amounts(const Vector& v) const {
   if (modes() == 0) return {};
-  return scale_.cwiseProduct(inverse(G_ * v));
+  return scale_.cwiseProduct(factor_->solve(G_ * v).col(0));
 }
 
 }  // namespace dotyk::solver

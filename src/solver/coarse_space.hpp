@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "algebra/cholesky.hpp"
+#include "solver/held_factor.hpp"
 
 namespace dotyk::solver {
 
@@ -34,14 +34,12 @@ class CoarseSpace {
   const std::vector<int>& held() const { return held_; }
 
  private:
-  algebra::Vector inverse(const algebra::Vector& scaled) const;
-
   algebra::SparseMatrix G_;  ///< rows scaled to norm one; zero those that are rounding
   algebra::SparseMatrix C_;
   algebra::Vector scale_, e_, particular_;
   double imbalance_ = 0;
   std::vector<int> held_;
-  std::optional<algebra::Cholesky> factor_;  ///< of C
+  std::optional<HeldFactor> factor_;  ///< of C
 };
 
 }  // namespace dotyk::solver

@@ -1,9 +1,6 @@
 #include "solver/face_coarse.hpp"
 
-#include <numeric>
 #include <stdexcept>
-
-#include "algebra/generalised_inverse.hpp"
 
 namespace dotyk::solver {
 
@@ -19,20 +16,14 @@ void FaceCoarse::move_to(const SeparableSet& set, const Vector& x, const Separab
   const SparseMatrix GT = coarse_.scaled_G() * T_;
   SparseMatrix S = ratio * coarse_.C();
   S += SparseMatrix(SparseMatrix(GT * SparseMatrix(GT.transpose())).triangularView<Eigen::Lower>());
-  if (!factor_) {
-    std::vector<int> node(S.rows());
-    std::iota(node.begin(), node.end(), 0);
-    factor_.emplace(coarse_.C(), node, std::vector<int>{});
-  }
-  if (!factor_->factor(algebra::hold(S, coarse_.held())))
+  if (!factor_) factor_.emplace(coarse_.C());
+  if (!factor_->factor(S, coarse_.held()))
     throw std::runtime_error("the coarse space of a face: its matrix has no factor");
 }
 
 Vector FaceCoarse::W(const Vector& v) const {
   if (coarse_.modes() == 0) return v;
-  Vector right = coarse_.scaled_G() * v;
-  right(coarse_.held()).setZero();
-  return v - E(coarse_.scaled_G().transpose() * factor_->solve(right).col(0));
+  return v - E(coarse_.scaled_G().transpose() * factor_->solve(coarse_.scaled_G() * v).col(0));
 }
 
 }  // namespace dotyk::solver

@@ -28,7 +28,7 @@ class FaceCoarse {
   std::vector<SeparableSet::Place> place_;
   double ratio_ = 0;
   algebra::SparseMatrix T_;
-  std::optional<algebra::Cholesky> factor_;
+  std::optional<HeldFactor> factor_;
 };
 
 }  // namespace dotyk::solver

@@ -68,6 +68,9 @@ struct Result {
   std::vector<ScrewPlacement> screws;  ///< first and after each move; empty without screws
   problem::Clock clock;
   double factor_bytes = 0;
+  /// A relative residual beyond this is rounding, not a solution: of equilibrium, penetration and complementarity for
+  /// methods that end exactly, of equilibrium for penalty and for those as precise as was asked for (feti).
+  double noise = 1e-6;
   std::string ordering;  ///< the ordering used, "AMD", "METIS", …
 };
 
