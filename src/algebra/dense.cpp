@@ -1,5 +1,6 @@
 #include "algebra/dense.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -67,6 +68,11 @@ void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) {
 
 DenseMatrix gram(const DenseMatrix& x) { return rank_update(x, "T"); }
 DenseMatrix square(const DenseMatrix& l) { return rank_update(l, "N"); }
+
+DenseMatrix orthonormal(const DenseMatrix& x) {
+  if (x.size() == 0) return x;
+  return Eigen::HouseholderQR<DenseMatrix>(x).householderQ() * DenseMatrix::Identity(x.rows(), x.cols());
+}
 
 Vector singular_values(DenseMatrix a) {
   const int m = static_cast<int>(a.rows()), n = static_cast<int>(a.cols()), count = std::min(m, n), one = 1;

@@ -22,6 +22,9 @@ DenseMatrix gram(const DenseMatrix& x);
 /// L Lᵀ of a lower-triangular L, both triangles.
 DenseMatrix square(const DenseMatrix& l);
 
+/// An orthonormal basis of the span of independent columns, by reflections: of X's size.
+DenseMatrix orthonormal(const DenseMatrix& x);
+
 /// The singular values, greatest first; NaN where an entry is not finite.
 Vector singular_values(DenseMatrix a);
 

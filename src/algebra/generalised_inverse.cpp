@@ -13,11 +13,6 @@ namespace dotyk::algebra {
 
 namespace {
 
-DenseMatrix orthonormal(const DenseMatrix& R) {
-  if (R.cols() == 0 || R.rows() == 0) return R;
-  return Eigen::HouseholderQR<DenseMatrix>(R).householderQ() * DenseMatrix::Identity(R.rows(), R.cols());
-}
-
 /// Exchanges one unknown for another while that makes |det R_F| grow, by at least a tenth each time.
 void exchange(const DenseMatrix& kernel, std::vector<int>& unknowns) {
   for (int round = 0; round < 100; ++round) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "algebra/types.hpp"
@@ -18,27 +19,25 @@ struct Decomposition {
   bool support_rows = true;
 };
 
+/// ½vᵀKv: shared by pieces that are translates of each other.
+struct Stiffness {
+  algebra::SparseMatrix K;      ///< lower triangle; positive semidefinite
+  algebra::DenseMatrix kernel;  ///< ker K: unknowns × modes
+};
+
 /// A piece of a block: the energy ½vᵀKv − fᵀv of some of its cells, on copies of its own of the block's
 /// unknowns. Where all copies of an unknown agree and the held ones have their values, the pieces' energies
 /// sum up to the block's (but for its offset).
 struct Subdomain {
   int block = 0;
-  algebra::SparseMatrix K;      ///< lower triangle, own numbering; positive semidefinite
+  std::shared_ptr<const Stiffness> stiffness;  ///< on the own unknowns
   algebra::Vector f;            ///< a load on a node that several pieces share is split among them
   std::vector<int> node;        ///< of the block's mesh, for each own unknown, ascending
-  algebra::DenseMatrix kernel;  ///< ker K: own unknowns × modes
   std::vector<int> unknown;     ///< which of all blocks' unknowns each own unknown is a copy of; -1: one held by a support
   algebra::Vector value;        ///< the displacement that the support prescribes where `unknown` is -1; else 0
   int size() const { return static_cast<int>(f.size()); }
+  const algebra::SparseMatrix& K() const { return stiffness->K; }
+  const algebra::DenseMatrix& kernel() const { return stiffness->kernel; }
 };
-
-/// Sizes to report of subdomains.
-struct SubdomainCounts {
-  int subdomains = 0;
-  int least = 0, greatest = 0;  ///< own unknowns of one
-  int gluing = 0;               ///< equations between copies: one less than an unknown has, summed
-  int held = 0;                 ///< own unknowns with `unknown` -1: equations of supports
-};
-SubdomainCounts counts(const std::vector<Subdomain>& subdomains);
 
 }  // namespace dotyk::problem

@@ -30,12 +30,13 @@ Subdomain numbered(const Piece& piece, const Model& model) {
   return s;
 }
 
-void assemble(const Piece& piece, const std::string& body, Subdomain& s) {
+problem::Stiffness assemble(const Piece& piece, const std::string& body) {
   const mesh::Mesh& mesh = piece.part.mesh;
-  s.K = elasticity::assemble(mesh, piece.material, piece.springs, {}, piece.numbering).K;
+  problem::Stiffness s{elasticity::assemble(mesh, piece.material, piece.springs, {}, piece.numbering).K, {}};
   auto rigid = elasticity::rigid_modes(mesh, piece.numbering, piece.springs);
   problem::require_kernel(s.K, rigid.modes, "a subdomain of '" + body + "'", rigid.motions);
   s.kernel = std::move(rigid.modes);
+  return s;
 }
 
 }  // namespace
@@ -47,7 +48,8 @@ void cut(const problem::Decomposition& decomposition, Model& model, Monitor& mon
   const int count = static_cast<int>(all.size());
   const std::vector<int> first = congruent(all);
   double bytes = 0;
-  for (const Piece& piece : all) bytes += elasticity::matrix_bytes(piece.part.mesh);
+  for (int k = 0; k < count; ++k)
+    if (first[k] == k) bytes += elasticity::matrix_bytes(all[k].part.mesh);
   require_memory(bytes, text("the stiffness of ", count, " subdomains"));
   monitor.check();
   monitor.phase(text("assembling ", count, " subdomains"));
@@ -55,13 +57,10 @@ void cut(const problem::Decomposition& decomposition, Model& model, Monitor& mon
   subdomains.resize(count);
   parallel_for(count, [&](int k) {
     subdomains[k] = numbered(all[k], model);
-    if (first[k] == k) assemble(all[k], model.bodies[all[k].body].name, subdomains[k]);
+    if (first[k] == k)
+      subdomains[k].stiffness = std::make_shared<const problem::Stiffness>(assemble(all[k], model.bodies[all[k].body].name));
   });
-  parallel_for(count, [&](int k) {
-    if (first[k] == k) return;
-    subdomains[k].K = subdomains[first[k]].K;
-    subdomains[k].kernel = subdomains[first[k]].kernel;
-  });
+  for (int k = 0; k < count; ++k) subdomains[k].stiffness = subdomains[first[k]].stiffness;
   load_subdomains(model);
 }
 

@@ -10,7 +10,7 @@ namespace dotyk::scene {
 /// empty where each body is one piece with its supports in the matrix. Assembled on all cores.
 ///
 /// A nodal load is split evenly among the copies of its unknown; where supports stay in the matrices, so is what
-/// prescribed displacements pull. Pieces that are translates of each other have bitwise the same K and kernel: see
+/// prescribed displacements pull. Pieces that are translates of each other share one stiffness: see
 /// congruent(). Throws InputError where there is no memory for the matrices, and as problem::require_kernel.
 void cut(const problem::Decomposition& decomposition, Model& model, Monitor& monitor);
 

@@ -1,11 +1,12 @@
 #include "solver/equal_pieces.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <unordered_map>
+
+#include "algebra/dense.hpp"
 
 namespace dotyk::solver {
 
@@ -42,6 +43,7 @@ bool same_pattern(const Piece& a, const Piece& b) {
 }
 
 bool same_values(const SparseMatrix& A, const SparseMatrix& B) {
+  if (&A == &B) return true;
   const auto diagonal = [&](Eigen::Index j) {  // the first entry of a lower column
     return std::abs(A.valuePtr()[A.outerIndexPtr()[j]]);
   };
@@ -54,9 +56,8 @@ bool same_values(const SparseMatrix& A, const SparseMatrix& B) {
 }
 
 bool same_span(const DenseMatrix& a, const DenseMatrix& b) {
-  if (a.size() == 0) return true;
-  const DenseMatrix basis =
-      Eigen::HouseholderQR<DenseMatrix>(a).householderQ() * DenseMatrix::Identity(a.rows(), a.cols());
+  if (a.size() == 0 || &a == &b) return true;
+  const DenseMatrix basis = algebra::orthonormal(a);
   for (Eigen::Index k = 0; k < b.cols(); ++k)
     if ((b.col(k) - basis * (basis.transpose() * b.col(k))).norm() > kSameSpan * b.col(k).norm()) return false;
   return true;

@@ -49,8 +49,8 @@ void add_subdomains(const Problem& problem, TornProblem& torn) {
   for (std::size_t k = 0; k < problem.subdomains.size(); ++k) {
     const problem::Subdomain& s = problem.subdomains[k];
     number = k > 0 && problem.subdomains[k - 1].block == s.block ? number + 1 : 1;
-    torn.pieces.push_back({text("piece ", number, " of '", problem.blocks[s.block].name, "'"), &s.K, &s.f, &s.node,
-                           &s.kernel, torn.copies(), {}, 0});
+    torn.pieces.push_back({text("piece ", number, " of '", problem.blocks[s.block].name, "'"), &s.K(), &s.f, &s.node,
+                           &s.kernel(), torn.copies(), {}, 0});
     torn.unknown.insert(torn.unknown.end(), s.unknown.begin(), s.unknown.end());
   }
   torn.value.resize(torn.copies());
@@ -148,14 +148,6 @@ Vector average(const TornProblem& torn, const Vector& v) {
   for (int k = 0; k < torn.copies(); ++k)
     if (torn.unknown[k] >= 0) sum[torn.unknown[k]] += v[k], ++count[torn.unknown[k]];
   return sum.cwiseQuotient(count);
-}
-
-double disagreement(const TornProblem& torn, const Vector& v) {
-  const Vector mean = average(torn, v);
-  double most = 0;
-  for (int k = 0; k < torn.copies(); ++k)
-    most = std::max(most, std::abs(v[k] - (torn.unknown[k] >= 0 ? mean[torn.unknown[k]] : torn.value[k])));
-  return most;
 }
 
 }  // namespace dotyk::solver

@@ -54,7 +54,4 @@ TornProblem tear(const problem::Problem& problem);
 /// The mean of the copies of each unknown; v: copies, result: unknowns.
 algebra::Vector average(const TornProblem& torn, const algebra::Vector& v);
 
-/// The greatest distance of a copy from the mean of its unknown's copies, of a held one from its value: a length.
-double disagreement(const TornProblem& torn, const algebra::Vector& v);
-
 }  // namespace dotyk::solver

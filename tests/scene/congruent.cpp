@@ -9,8 +9,8 @@ using problem::Subdomain;
 namespace {
 
 bool same(const Subdomain& a, const Subdomain& b) {
-  return a.K.nonZeros() == b.K.nonZeros() && a.kernel.cols() == b.kernel.cols() && test::full(a.K) == test::full(b.K) &&
-         a.kernel == b.kernel;
+  return a.K().nonZeros() == b.K().nonZeros() && a.kernel().cols() == b.kernel().cols() && test::full(a.K()) == test::full(b.K()) &&
+         a.kernel() == b.kernel();
 }
 
 /// Matrices that differ from each other.

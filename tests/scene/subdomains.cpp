@@ -44,12 +44,12 @@ int nullity(const algebra::DenseMatrix& K) {
 
 /// The kernel is one of K, independent, and all of it.
 void check_kernel(const Subdomain& s) {
-  REQUIRE(s.kernel.rows() == s.size());
-  const algebra::DenseMatrix K = test::full(s.K);
-  CHECK(nullity(K) == s.kernel.cols());
-  if (s.kernel.cols() == 0) return;
-  CHECK((K * s.kernel).cwiseAbs().maxCoeff() < 1e-13 * K.cwiseAbs().maxCoeff() * s.kernel.cwiseAbs().maxCoeff() * s.size());
-  const algebra::Vector singular = Eigen::JacobiSVD<algebra::DenseMatrix>(s.kernel).singularValues();
+  REQUIRE(s.kernel().rows() == s.size());
+  const algebra::DenseMatrix K = test::full(s.K());
+  CHECK(nullity(K) == s.kernel().cols());
+  if (s.kernel().cols() == 0) return;
+  CHECK((K * s.kernel()).cwiseAbs().maxCoeff() < 1e-13 * K.cwiseAbs().maxCoeff() * s.kernel().cwiseAbs().maxCoeff() * s.size());
+  const algebra::Vector singular = Eigen::JacobiSVD<algebra::DenseMatrix>(s.kernel()).singularValues();
   CHECK(singular[singular.size() - 1] > 1e-3 * singular[0]);
 }
 
@@ -61,7 +61,7 @@ void check_numbering(const problem::Problem& p, bool support_rows) {
     CHECK(s.block >= block);
     block = s.block;
     const problem::Block& b = p.blocks[s.block];
-    REQUIRE(s.K.rows() == s.size());
+    REQUIRE(s.K().rows() == s.size());
     REQUIRE(s.value.size() == s.size());
     REQUIRE(static_cast<int>(s.node.size()) == s.size());
     REQUIRE(static_cast<int>(s.unknown.size()) == s.size());
@@ -118,14 +118,14 @@ TEST_CASE("supports as rows: the kernel of every subdomain without springs is al
       int rigid = 0, held = 0;
       for (const Subdomain& s : model.problem.subdomains) {
         check_kernel(s);
-        rigid += s.kernel.cols() == (dim == 2 ? 3 : 6);
+        rigid += s.kernel().cols() == (dim == 2 ? 3 : 6);
         for (int i = 0; i < s.size(); ++i) held += s.unknown[i] < 0;
       }
       CHECK(rigid > 0);
       CHECK(rigid < static_cast<int>(model.problem.subdomains.size()));  // some have springs
       CHECK(held > 0);
-      const auto sizes = problem::counts(model.problem.subdomains);
-      CHECK(sizes.subdomains == 11);
+      const auto sizes = test::counts(model.problem.subdomains);
+      CHECK(model.problem.subdomains.size() == 11);
       CHECK(sizes.held == held);
       int all = 0;
       for (const Subdomain& s : model.problem.subdomains) all += s.size();
@@ -159,8 +159,8 @@ TEST_CASE("supports in the matrices: what they leave of a subdomain's rigid moti
     int turning = 0, floating = 0;
     for (const Subdomain& s : model.problem.subdomains) {
       check_kernel(s);
-      turning += s.kernel.cols() == 1;
-      floating += s.kernel.cols() == 6;
+      turning += s.kernel().cols() == 1;
+      floating += s.kernel().cols() == 6;
     }
     CHECK(turning == 2);
     CHECK(floating == 6);
@@ -172,7 +172,7 @@ TEST_CASE("supports in the matrices: what they leave of a subdomain's rigid moti
   int turning = 0;
   for (const Subdomain& s : corner.problem.subdomains) {
     check_kernel(s);
-    turning += s.kernel.cols() == 3;
+    turning += s.kernel().cols() == 3;
   }
   CHECK(turning == 1);
   // In the plane, sliding and held by springs of one direction.
@@ -183,7 +183,7 @@ TEST_CASE("supports in the matrices: what they leave of a subdomain's rigid moti
   std::array<int, 4> of_dimension{};
   for (const Subdomain& s : sliding.problem.subdomains) {
     check_kernel(s);
-    ++of_dimension[s.kernel.cols()];
+    ++of_dimension[s.kernel().cols()];
   }
   // On the left u_x = 0: one translation is left; at the top u_y = 0: another; in their corner none.
   CHECK(of_dimension == std::array<int, 4>{1, 4, 0, 4});
@@ -245,8 +245,8 @@ TEST_CASE("another loading: f and values as when cut with it, K left as it is") 
       const Subdomain &s = model.problem.subdomains[k], &other = fresh.problem.subdomains[k];
       CHECK((s.f - other.f).norm() <= 1e-13 * other.f.norm());
       CHECK(s.value == other.value);
-      CHECK((test::full(s.K) - test::full(before[k].K)).norm() == 0);
-      CHECK((test::full(s.K) - test::full(other.K)).norm() == 0);
+      CHECK((test::full(s.K()) - test::full(before[k].K())).norm() == 0);
+      CHECK((test::full(s.K()) - test::full(other.K())).norm() == 0);
     }
   }
 }

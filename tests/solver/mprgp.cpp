@@ -15,7 +15,9 @@ using algebra::Vector;
 using solver::Mprgp;
 using solver::MprgpSettings;
 using solver::SeparableSet;
+using test::below;
 using test::KnownMinimum;
+using test::kShapes;
 using test::map;
 using test::Random;
 using test::Shape;
@@ -27,12 +29,6 @@ using Halt = Mprgp::Halt;
 using Step = Mprgp::Step;
 
 constexpr Expansion kExpansions[] = {Expansion::fixed_step, Expansion::projected_cg_step};
-constexpr Shape kShapes[] = {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed};
-
-std::function<bool(const Mprgp&)> below(double tol, int most = 100000) {
-  return [=](const Mprgp& method) { return method.projected_gradient_norm() <= tol || method.steps() >= most; };
-}
-
 struct Counts {
   int steps = 0, faces = 0;
 };

@@ -11,7 +11,9 @@ using algebra::DenseMatrix;
 using algebra::Vector;
 using solver::Mprgp;
 using solver::SeparableSet;
+using test::below;
 using test::KnownMinimum;
+using test::kShapes;
 using test::map;
 using test::Random;
 using test::Shape;
@@ -20,16 +22,12 @@ namespace {
 
 using Halt = Mprgp::Halt;
 
-std::function<bool(const Mprgp&)> below(double tol, int most = 10000) {
-  return [=](const Mprgp& method) { return method.projected_gradient_norm() <= tol || method.steps() >= most; };
-}
-
 SeparableSet everything(int n) { return SeparableSet(Vector::Constant(n, -test::kNoEnd), Vector::Constant(n, test::kNoEnd)); }
 
 }  // namespace
 
 TEST_CASE("A with a kernel: a minimum is found, where bounds hold the kernel's part of b as where there is none") {
-  for (const Shape shape : {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed})
+  for (const Shape shape : kShapes)
     for (const int kernel : {1, 20, 60}) {
       CAPTURE(int(shape));
       CAPTURE(kernel);
@@ -65,7 +63,7 @@ TEST_CASE("zero curvature and nothing in the way: unbounded, along a direction t
 }
 
 TEST_CASE("rounding ends what asks for more than there is, soon and at its level") {
-  for (const Shape shape : {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed})
+  for (const Shape shape : kShapes)
     for (const double least : {0.1, 1e-3}) {
       CAPTURE(int(shape));
       CAPTURE(least);
@@ -116,7 +114,7 @@ TEST_CASE("numbers that are not finite end it at the last good x") {
 }
 
 TEST_CASE("a norm that is too small is noticed and raised") {
-  for (const Shape shape : {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed})
+  for (const Shape shape : kShapes)
     for (const auto expansion : {solver::MprgpSettings::Expansion::fixed_step, solver::MprgpSettings::Expansion::projected_cg_step}) {
       CAPTURE(int(shape));
       Random random(10);

@@ -14,23 +14,18 @@ using algebra::Vector;
 using solver::Smalbe;
 using solver::SmalbeResult;
 using Known = test::KnownEquality;
+using test::kShapes;
 using test::Shape;
+using test::until;
 
 namespace {
 
 using End = SmalbeResult::End;
 
-/// Ends where both norms are below.
-solver::SmalbeCaller until(double small) {
-  return {[small](double g, double e) { return g <= small && e <= small; }, {}, {}};
-}
-
 SmalbeResult solve(const Known& known, bool complementary, const Smalbe& method, const solver::SmalbeCaller& caller) {
   const Vector zero = Vector::Zero(known.x.size());
   return minimise(known.program(complementary), method, caller, zero, zero);
 }
-
-constexpr Shape kShapes[] = {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed};
 
 }  // namespace
 

@@ -15,7 +15,9 @@ using solver::SmalbeCaller;
 using solver::SmalbeResult;
 using solver::SmalbeState;
 using Known = test::KnownEquality;
+using test::kShapes;
 using test::Shape;
+using test::until;
 
 namespace {
 
@@ -23,10 +25,6 @@ using End = SmalbeResult::End;
 using Update = Smalbe::Update;
 
 constexpr Update kUpdates[] = {Update::precision, Update::penalty};
-
-SmalbeCaller until(double small) {
-  return {[small](double g, double e) { return g <= small && e <= small; }, {}, {}};
-}
 
 Smalbe by(Update update) {
   Smalbe method;
@@ -38,7 +36,7 @@ Smalbe by(Update update) {
 
 TEST_CASE("asked for more than rounding leaves it ends, near the best there is") {
   for (const bool complementary : {false, true})
-    for (const Shape shape : {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed})
+    for (const Shape shape : kShapes)
       for (const Update update : kUpdates)
         for (const double degenerate : {0.0, 0.5}) {
           CAPTURE(complementary);
@@ -59,7 +57,7 @@ TEST_CASE("asked for more than rounding leaves it ends, near the best there is")
 }
 
 TEST_CASE("products known but to some digits: tolerances above are met, those below end soon") {
-  for (const Shape shape : {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed})
+  for (const Shape shape : kShapes)
     for (const Update update : kUpdates) {
       CAPTURE(int(shape));
       CAPTURE(int(update));

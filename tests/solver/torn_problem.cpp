@@ -41,7 +41,7 @@ TEST_CASE("copies of one displacement satisfy the gluing and support rows and ju
     CHECK(test::relative(x.head(p.rows()), torn.scale.cwiseProduct(p.B * u - p.c)) < 1e-14);
     CHECK(x.tail(torn.rows() - p.rows()).cwiseAbs().maxCoeff() < 1e-14);
     CHECK(test::relative(solver::average(torn, v), u) < 1e-14);
-    CHECK(solver::disagreement(torn, v) < 1e-14);
+    CHECK(test::disagreement(torn, v) < 1e-14);
     const auto& b = p.blocks[0];
     const double whole = 0.5 * u.dot(b.K.selfadjointView<Eigen::Lower>() * u) - b.f.dot(u);
     const double missing = support_rows ? b.offset : 0;  // pieces whose supports stay in K leave their offset out as well
@@ -60,7 +60,7 @@ TEST_CASE("one gap between the copies shows in their disagreement") {
     if (j >= 0) ++count[j];
   while (torn.unknown[shared] < 0 || count[torn.unknown[shared]] < 2) ++shared;
   v[shared] = 1;
-  CHECK(solver::disagreement(torn, v) == doctest::Approx(1 - 1.0 / count[torn.unknown[shared]]));
+  CHECK(test::disagreement(torn, v) == doctest::Approx(1 - 1.0 / count[torn.unknown[shared]]));
 }
 
 TEST_CASE("without subdomains each block is a piece; the rows of a friction point share their factor") {

@@ -27,6 +27,15 @@ inline solver::DualProblem dual_of(const problem::Problem& p) {
   return {p, algebra::Ordering::automatic, clock, quiet};
 }
 
+/// The greatest distance of a copy from the mean of its unknown's copies, of a held one from its value: a length.
+inline double disagreement(const solver::TornProblem& torn, const algebra::Vector& v) {
+  const algebra::Vector mean = solver::average(torn, v);
+  double most = 0;
+  for (int k = 0; k < torn.copies(); ++k)
+    most = std::max(most, std::abs(v[k] - (torn.unknown[k] >= 0 ? mean[torn.unknown[k]] : torn.value[k])));
+  return most;
+}
+
 inline algebra::DenseMatrix as_matrix(int n, const std::function<algebra::Vector(const algebra::Vector&)>& A) {
   algebra::DenseMatrix M(n, n);
   for (int j = 0; j < n; ++j) M.col(j) = A(algebra::Vector::Unit(n, j));

@@ -2,12 +2,13 @@
 
 // Quadratic programs over separable sets whose solution is known, since it is chosen first: x, the face it
 // lies on and the gradient g there; then b = Ax − g.
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
+#include "algebra/dense.hpp"
 #include "random.hpp"
 #include "solver/mprgp.hpp"
 
@@ -20,7 +21,7 @@ inline constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
 /// Columns that are orthonormal, n × k.
 inline DenseMatrix orthonormal(Random& random, int n, int k) {
-  return DenseMatrix(Eigen::HouseholderQR<DenseMatrix>(random.matrix(n, k)).householderQ() * DenseMatrix::Identity(n, k));
+  return algebra::orthonormal(random.matrix(n, k));
 }
 
 /// Eigenvalues from `least` to 1, evenly in their logarithm, in random directions; `kernel` zeros besides.
@@ -36,6 +37,12 @@ inline solver::LinearMap map(const DenseMatrix& A) {
 }
 
 enum class Shape { none, low, box, discs, mixed };
+inline constexpr Shape kShapes[] = {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed};
+
+/// Ends Mprgp::minimise where ‖g^P‖ ≤ tol, or after `most` steps.
+inline std::function<bool(const solver::Mprgp&)> below(double tol, int most = 10000) {
+  return [=](const solver::Mprgp& method) { return method.projected_gradient_norm() <= tol || method.steps() >= most; };
+}
 
 struct KnownMinimum {
   solver::SeparableSet set;

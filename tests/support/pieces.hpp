@@ -79,9 +79,8 @@ inline Numbering add(problem::Problem& p, const CutBody& body) {
     const Assembled part = assembled(m, body, !body.support_rows);
     problem::Subdomain s;
     s.block = index;
-    s.K = part.system.K;
+    s.stiffness = std::make_shared<const problem::Stiffness>(problem::Stiffness{part.system.K, part.rigid.modes});
     s.f = part.system.f;
-    s.kernel = part.rigid.modes;
     s.value = algebra::Vector::Zero(s.size());
     for (int n = 0; n < m.node_count(); ++n)
       for (int i = 0; i < dim; ++i) {

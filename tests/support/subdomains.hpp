@@ -16,6 +16,31 @@ inline scene::Model cut(const scene::Scene& scene, const problem::Decomposition&
   return scene::build(scene, clock, quiet, loading, decomposition);
 }
 
+struct SubdomainCounts {
+  int least = 0, greatest = 0;  ///< own unknowns of one
+  int gluing = 0;               ///< equations between copies: one less than an unknown has, summed
+  int held = 0;                 ///< own unknowns with `unknown` -1: equations of supports
+};
+
+inline SubdomainCounts counts(const std::vector<problem::Subdomain>& subdomains) {
+  SubdomainCounts result{.least = subdomains.front().size()};
+  std::vector<char> seen;
+  for (const problem::Subdomain& s : subdomains) {
+    result.least = std::min(result.least, s.size());
+    result.greatest = std::max(result.greatest, s.size());
+    for (const int u : s.unknown) {
+      if (u < 0) {
+        ++result.held;
+        continue;
+      }
+      if (u >= static_cast<int>(seen.size())) seen.resize(u + 1, 0);
+      result.gluing += seen[u];
+      seen[u] = 1;
+    }
+  }
+  return result;
+}
+
 /// What all subdomains make of the blocks' K and f when copies are one and held components have their values.
 struct Glued {
   algebra::DenseMatrix K;
@@ -25,7 +50,7 @@ struct Glued {
 inline Glued glued(const problem::Problem& p) {
   Glued sum{algebra::DenseMatrix::Zero(p.unknowns(), p.unknowns()), algebra::Vector::Zero(p.unknowns())};
   for (const problem::Subdomain& s : p.subdomains) {
-    const algebra::DenseMatrix K = full(s.K);
+    const algebra::DenseMatrix K = full(s.K());
     const algebra::Vector f = s.f - K * s.value;
     for (int i = 0; i < s.size(); ++i) {
       if (s.unknown[i] < 0) continue;
