@@ -97,8 +97,7 @@ Vector CondensedProblem::recover(const Vector& lambda, const Vector& alpha) cons
     if (modes) boundary += part.condensation.boundary_kernel() * motion.segment(part.first_mode, modes);
     u.segment(part.first_unknown, part.size) = part.condensation.recover(boundary);
   }
-  if (unnoticed_.cols() > 0) u -= unnoticed_ * (unnoticed_.transpose() * u);
-  return u;
+  return least(unnoticed_, std::move(u));
 }
 
 double CondensedProblem::factor_bytes() const {

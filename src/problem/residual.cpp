@@ -73,8 +73,8 @@ Residual residual(const Problem& problem, const State& state) {
   const Vector contact = problem.B.transpose() * state.lambda;
   Vector load(problem.unknowns());
   for (const Block& block : problem.blocks) load.segment(block.first, block.size()) = block.f;
-  const double scale = internal.norm() + contact.norm() + load.norm();
-  if (scale > 0) result.equilibrium = (internal + contact - load).norm() / scale;
+  const double scale = internal.stableNorm() + contact.stableNorm() + load.stableNorm();
+  if (scale > 0) result.equilibrium = (internal + contact - load).stableNorm() / scale;
   if (problem.rows() == 0) return result;
 
   const Vector jump = problem.B * state.u, x = jump - problem.c;

@@ -1,9 +1,9 @@
 #include "problem/rigid_motions.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "algebra/dense.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::problem {
@@ -43,29 +43,36 @@ RigidMotions rigid_motions(const Problem& problem) {
     if (count == 0) continue;
     rigid.N.middleCols(k, count) = problem.rows_of(block) * block.kernel;
     rigid.e.segment(k, count) = block.kernel.transpose() * block.f;
-    for (const Motion& motion : block.motions) rigid.motions.push_back({block.name, motion});
     k += count;
   }
+  rigid.motions = body_motions(problem);
   split(rigid);
   rigid.noticed_N = rigid.N * rigid.noticed;
   rigid.noticed_e = rigid.noticed.transpose() * rigid.e;
   return rigid;
 }
 
-std::string describe(const RigidMotions& rigid, const Vector& motion) {
-  const double largest = motion.lpNorm<Eigen::Infinity>();
+std::vector<BodyMotion> body_motions(const Problem& problem) {
+  std::vector<BodyMotion> motions;
+  for (const Block& block : problem.blocks)
+    for (const Motion& motion : block.motions) motions.push_back({block.name, motion});
+  return motions;
+}
+
+std::string describe(const std::vector<BodyMotion>& motions, const Vector& amounts) {
+  const double largest = amounts.lpNorm<Eigen::Infinity>();
   std::vector<int> terms;
-  for (int k = 0; k < motion.size(); ++k)
-    if (std::abs(motion[k]) > 1e-6 * largest) terms.push_back(k);
-  if (terms.size() == 1 && motion[terms[0]] < 0) {
-    const auto& [body, motion] = rigid.motions[terms[0]];
-    if (motion.kind == Motion::Kind::rotation) return rigid.motions[terms[0]].text() + " (backwards)";
+  for (int k = 0; k < amounts.size(); ++k)
+    if (std::abs(amounts[k]) > 1e-6 * largest) terms.push_back(k);
+  if (terms.size() == 1 && amounts[terms[0]] < 0) {
+    const auto& [body, motion] = motions[terms[0]];
+    if (motion.kind == Motion::Kind::rotation) return motions[terms[0]].text() + " (backwards)";
     return BodyMotion{body, opposite(motion)}.text();
   }
   std::string out;
   for (int k : terms) {
-    out += (out.empty() ? "" : ", ") + rigid.motions[k].text();
-    if (terms.size() > 1) out += text(" by ", std::round(1e4 * motion[k] / largest) / 1e4);
+    out += (out.empty() ? "" : ", ") + motions[k].text();
+    if (terms.size() > 1) out += text(" by ", std::round(1e4 * amounts[k] / largest) / 1e4);
   }
   return out;
 }
@@ -81,10 +88,12 @@ DenseMatrix displacement(const Problem& problem, const DenseMatrix& motions) {
 }
 
 DenseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid) {
-  const DenseMatrix motions = displacement(problem, rigid.unnoticed);
-  if (motions.cols() == 0) return motions;
-  return Eigen::HouseholderQR<DenseMatrix>(motions).householderQ() *
-         DenseMatrix::Identity(motions.rows(), motions.cols());
+  return algebra::orthonormal(displacement(problem, rigid.unnoticed));
+}
+
+Vector least(const DenseMatrix& unnoticed, Vector u) {
+  if (unnoticed.cols() > 0) u -= unnoticed * (unnoticed.transpose() * u);
+  return u;
 }
 
 }  // namespace dotyk::problem

@@ -29,13 +29,19 @@ struct RigidMotions {
 };
 RigidMotions rigid_motions(const Problem& problem);
 
-/// "'lid': translation along x", or a combination with its amounts.
-std::string describe(const RigidMotions& rigid, const algebra::Vector& motion);
+/// What the modes of all blocks' kernels are, block after block.
+std::vector<BodyMotion> body_motions(const Problem& problem);
+
+/// "'lid': translation along x", or a combination with its amounts: one for each of the motions.
+std::string describe(const std::vector<BodyMotion>& motions, const algebra::Vector& amounts);
 
 /// R α, the displacement of all unknowns under motions α (modes × any number of columns).
 algebra::DenseMatrix displacement(const Problem& problem, const algebra::DenseMatrix& motions);
 
 /// The motions that no row notices as displacements, orthonormal: unknowns × count.
 algebra::DenseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid);
+
+/// u less its part in them: the least of all displacements that differ by such motions.
+algebra::Vector least(const algebra::DenseMatrix& unnoticed, algebra::Vector u);
 
 }  // namespace dotyk::problem

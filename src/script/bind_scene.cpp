@@ -97,7 +97,7 @@ int balance(Call& call) {
                           {{"verdict", std::string(verdicts[static_cast<int>(s.verdict)])},
                            {"solvable", s.verdict != problem::Solvability::Verdict::unsolvable},
                            {"limit", s.limit},
-                           {"motion", s.motion.size() ? describe(rigid, s.motion) : std::string()},
+                           {"motion", s.motion.size() ? describe(rigid.motions, s.motion) : std::string()},
                            {"work", s.work}}});
 }
 

@@ -93,8 +93,16 @@ CoarseSpace::CoarseSpace(const SparseMatrix& G, Vector e) : G_(G), scale_(Vector
   std::sort(held_.begin(), held_.end());
 
   particular_ = G_.transpose() * factor_->solve(scale_.cwiseProduct(e_));
-  const double size = e_.norm();
-  if (size > 0) imbalance_ = (e_ - G * particular_).norm() / size;
+}
+
+Vector CoarseSpace::unbalanced(const Vector& lambda) const {
+  if (modes() == 0) return {};
+  return e_ - Vector(G_ * lambda).cwiseQuotient(scale_.unaryExpr([](double s) { return s > 0 ? s : 1.0; }));
+}
+
+double CoarseSpace::imbalance() const {
+  const double size = e_.stableNorm();
+  return size > 0 ? unbalanced(particular_).stableNorm() / size : 0;
 }
 
 Vector CoarseSpace::Q(const Vector& v) const {

@@ -25,8 +25,10 @@ class CoarseSpace {
   const algebra::Vector& particular() const { return particular_; }
   /// C⁻¹G̃v, the amounts of the modes whose jump G̃ᵀα is nearest to v; zero for modes that are held.
   algebra::Vector amounts(const algebra::Vector& v) const;
+  /// ẽ − G̃λ, what λ leaves of the load's resultants.
+  algebra::Vector unbalanced(const algebra::Vector& lambda) const;
   /// ‖ẽ − G̃λ̄‖ / ‖ẽ‖: rounding, but where the load drives a motion that no row notices.
-  double imbalance() const { return imbalance_; }
+  double imbalance() const;
   /// G̃ with rows scaled to norm one and C of it, lower triangle.
   const algebra::SparseMatrix& scaled_G() const { return G_; }
   const algebra::SparseMatrix& C() const { return C_; }
@@ -37,7 +39,6 @@ class CoarseSpace {
   algebra::SparseMatrix G_;  ///< rows scaled to norm one; zero those that are rounding
   algebra::SparseMatrix C_;
   algebra::Vector scale_, e_, particular_;
-  double imbalance_ = 0;
   std::vector<int> held_;
   std::optional<HeldFactor> factor_;  ///< of C
 };

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "solver/projection.hpp"
 
 namespace dotyk::solver {
 
@@ -36,6 +37,15 @@ SeparableSet admissible(const Problem& problem, const Vector& scale, const Vecto
         discs.push_back({r, r + 1, {-shift[r], -shift[r + 1]}, bound / scale[r]});
     }
   return SeparableSet(std::move(low), std::move(high), std::move(discs));
+}
+
+Vector first_bounds(const Problem& problem) {
+  Vector bounds = friction_bounds(problem, Vector::Zero(problem.rows()));
+  Eigen::Index point = 0;
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k, ++point)
+      if (group.law->bound_slope(k) > 0) bounds[point] = INFINITY;
+  return bounds;
 }
 
 Vector row_compliance(const Problem& problem, const Vector& scale, Eigen::Index size, const std::string& method) {

@@ -11,6 +11,10 @@ namespace dotyk::solver {
 SeparableSet admissible(const problem::Problem& problem, const algebra::Vector& scale, const algebra::Vector& bounds,
                         const algebra::Vector& shift);
 
+/// Bounds of the friction points, as friction_bounds, while normal multipliers are not known: infinite where they depend on
+/// these (Coulomb), so that such points do not slip.
+algebra::Vector first_bounds(const problem::Problem& problem);
+
 /// The compliance 1/k of elastic rows, scaled: what ½λ²/k adds to the dual problem's matrix, one entry a row of
 /// the dual problem (`size`). Throws InputError for a law that is neither unilateral nor linear.
 algebra::Vector row_compliance(const problem::Problem& problem, const algebra::Vector& scale, Eigen::Index size,

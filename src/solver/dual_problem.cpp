@@ -127,6 +127,18 @@ Vector DualProblem::moved(Vector v, const Vector& alpha) const {
 
 Vector DualProblem::jump(const Vector& v) const { return torn_.B * touched(torn_, v) - torn_.c; }
 
+Vector DualProblem::on_blocks(const problem::Problem& problem, const Vector& resultants) const {
+  const Vector force = moved(Vector::Zero(torn_.copies()), resultants);  // has these resultants, R̂ being orthonormal
+  Vector sum = Vector::Zero(torn_.unknowns);
+  for (int k = 0; k < torn_.copies(); ++k)
+    if (torn_.unknown[k] >= 0) sum[torn_.unknown[k]] += force[k];
+  std::vector<double> result;
+  for (const problem::Block& block : problem.blocks)
+    for (Eigen::Index mode = 0; mode < block.kernel.cols(); ++mode)
+      result.push_back(block.kernel.col(mode).dot(sum.segment(block.first, block.size())));
+  return Eigen::Map<const Vector>(result.data(), static_cast<Eigen::Index>(result.size()));
+}
+
 double DualProblem::factor_bytes() const {
   double bytes = 0;
   for (const auto& inverse : inverses_) bytes += inverse.cholesky().bytes();

@@ -43,6 +43,9 @@ class DualProblem {
   /// B̂v − ĉ of all copies.
   algebra::Vector jump(const algebra::Vector& v) const;
 
+  /// What loads on the pieces' modes are on those of the problem's blocks, the columns of their kernels block after block.
+  algebra::Vector on_blocks(const problem::Problem& problem, const algebra::Vector& resultants) const;
+
   /// The pieces by kind; a kind's first stands for all of it.
   const std::vector<std::vector<int>>& kinds() const { return kinds_; }
   /// R̂ of a piece: own unknowns × modes.

@@ -16,7 +16,8 @@ namespace dotyk::solver {
 class FaceCoarse {
  public:
   explicit FaceCoarse(const CoarseSpace& coarse) : coarse_(coarse) {}
-  /// Takes the face of x, unless it has it already. `ratio`: θ/ρ.
+  /// Takes the face of x, unless it has it already, with tangents of sliding pairs that have turned since by an angle of
+  /// at most √(0.1 θ/ρ): E is then of these tangents, a preconditioner as before. `ratio`: θ/ρ.
   void move_to(const SeparableSet& set, const algebra::Vector& x, const SeparableSet::Gradients& at, double ratio);
   /// W v, E v = v.
   algebra::Vector W(const algebra::Vector& v) const;

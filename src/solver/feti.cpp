@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
@@ -15,10 +14,12 @@
 #include "solver/feti_preconditioner.hpp"
 #include "solver/projection.hpp"
 #include "solver/require_solvable.hpp"
+#include "solver/settling_bounds.hpp"
 
 namespace dotyk::solver {
 namespace {
 
+using algebra::DenseMatrix;
 using algebra::Vector;
 using problem::FrictionGroup;
 using problem::Problem;
@@ -30,10 +31,6 @@ using Place = SeparableSet::Place;
 constexpr double kAhead = 0.1;
 /// First precision there.
 constexpr double kFirst = 0.01;
-/// Steps of the loop in which the bounds' change must fall by a tenth; else the bounds go half as far as they would,
-/// down to the least step.
-constexpr int kPatience = 8;
-constexpr double kLeastStep = 1.0 / 32;
 /// With more rigid motions than that the existence of a solution is left to the iteration itself, which proves that
 /// there is none where it meets that: the linear program that would tell takes longer.
 constexpr int kManyMotions = 200;
@@ -45,15 +42,15 @@ constexpr double kSpoilt = 1e4;
 
 class Run {
  public:
-  Run(const Problem& problem, const Feti& method, Monitor& monitor)
-      : problem_(problem), method_(method), monitor_(monitor),
+  /// `unnoticed`: the displacements that no row notices, as far as they are known; the solution's part in them is zero.
+  Run(const Problem& problem, const Feti& method, DenseMatrix unnoticed, Monitor& monitor)
+      : problem_(problem), method_(method), unnoticed_(std::move(unnoticed)), monitor_(monitor),
         dual_(problem, method.ordering, result_.clock, monitor), coarse_(dual_.G(), dual_.e()),
         preconditioner_(dual_, coarse_, method, monitor),
         compliance_(row_compliance(problem, dual_.scale(), dual_.rows(), "feti")) {
     if (coarse_.imbalance() > kImbalance)
-      throw InputError(text("the load does work on a rigid motion that nothing holds: no contact forces balance it, ", coarse_.imbalance(),
-                            " of its resultants is left; scene:balance() and scene:plan() tell which body moves and how"));
-    for (const problem::Block& block : problem.blocks) force_ = std::hypot(force_, block.f.norm());
+      throw InputError(text("the load does work on a rigid motion that nothing holds: no contact forces balance ",
+                            coarse_.imbalance(), " of its resultants", unbalanced(coarse_.particular())));
   }
 
   Result operator()() {
@@ -73,25 +70,42 @@ class Run {
   /// PFPv of v with Qv = 0.
   Vector PFP(const Vector& v) const { return coarse_.P(apply(v)); }
 
+  /// Which body's motion multipliers leave the most of the load to.
+  std::string unbalanced(const Vector& lambda) const {
+    return unbalanced_motion(problem_, dual_.on_blocks(problem_, coarse_.unbalanced(lambda)));
+  }
+
   void homogenise() {
-    shift_ = coarse_.particular();
     program_.H = [this](const Vector& v) { return PFP(v); };
     program_.Q = [this](const Vector& v) { return coarse_.Q(v); };
     program_.complementary = true;
-    program_.b = coarse_.P(dual_.d() - apply(shift_));
     const auto ends = dual_spectrum(dual_, coarse_, method_.spectrum ? algebra::Ends::both : algebra::Ends::greatest, monitor_);
     const double stiffest = compliance_.size() ? compliance_.maxCoeff() : 0;
     counts_.norm = program_.norm = ends.bound() + stiffest > 0 ? ends.bound() + stiffest : 1;
     if (method_.spectrum && ends.least > 0) counts_.condition = ends.greatest / ends.least;
+    choose_unit();
+    shift_ = coarse_.particular() / unit_;
+    program_.b = coarse_.P(dual_.d() / unit_ - apply(shift_));
     x_ = nu_ = Vector::Zero(dual_.rows());
     displacement_ = program_.b.norm();
   }
 
-  /// λ of the problem's rows, in the user's units.
-  Vector multipliers(const Vector& x) const {
-    const Eigen::Index m = problem_.rows();
-    return (x + shift_).head(m).cwiseProduct(dual_.scale());
+  /// Forces are counted in a power of two of the size of the load, or where that is zero of what gaps and prescribed
+  /// displacements take, so that squares of them neither vanish nor overflow; all that the dual problem has is linear in it.
+  void choose_unit() {
+    double size = 0;
+    for (const problem::Block& block : problem_.blocks)
+      if (block.size() > 0) size = std::max(size, block.f.lpNorm<Eigen::Infinity>());
+    if (size == 0 && dual_.rows() > 0) size = dual_.d().lpNorm<Eigen::Infinity>() / program_.norm;
+    if (size > 0 && std::isfinite(size)) unit_ = std::exp2(std::ilogb(size));
+    for (const problem::Block& block : problem_.blocks) force_ = std::hypot(force_, (block.f / unit_).norm());
+    scale_ = dual_.scale() * unit_;
   }
+
+  /// λ of all rows, in the user's units but for the rows' scale.
+  Vector lambda() const { return (x_ + shift_) * unit_; }
+  /// Of the problem's rows, in the user's units.
+  Vector multipliers() const { return (x_ + shift_).head(problem_.rows()).cwiseProduct(scale_); }
 
   double relative(double gradient, double equality) const {
     const double force = force_ > 0 ? force_ : (x_ + shift_).norm();
@@ -100,49 +114,25 @@ class Run {
   }
 
   void iterate() {
-    const bool coulomb = bounds_depend_on_normal(problem_);
-    bounds_ = friction_bounds(problem_, Vector::Zero(problem_.rows()));
-    if (!coulomb) {
+    bounds_ = SettlingBounds(first_bounds(problem_));
+    if (!bounds_depend_on_normal(problem_)) {
       solve_given(method_.tol);
       return;
     }
-    begin_unbounded();
-    double change = 1, best = std::numeric_limits<double>::infinity(), step = 1;
-    for (int since_best = 0;;) {
-      const double precision = std::max(method_.tol, std::min(kFirst, kAhead * change));
+    for (bool moves = true; moves;) {
+      const double precision = std::max(method_.tol, std::min(kFirst, kAhead * bounds_.change()));
       if (!solve_given(precision)) return;
       ++counts_.loops;
-      const Vector next = friction_bounds(problem_, multipliers(x_));
-      const double size = next.norm();
-      const bool bounded = bounds_.allFinite();
-      change = bounded ? (next - bounds_).norm() / (size > 0 ? size : 1) : 1;
-      bounds_ = bounded ? Vector(bounds_ + step * (next - bounds_)) : next;
-      since_best = change < 0.9 * best ? 0 : since_best + 1;
-      best = std::min(best, change);
-      if (change <= method_.tol && precision <= method_.tol) return;
-      if (since_best > 0 && since_best % kPatience == 0) {
-        if (step <= kLeastStep) return unsettled(change);
-        step /= 2;
-      }
+      moves = bounds_.follow(friction_bounds(problem_, multipliers()));
+      if (bounds_.change() <= method_.tol && precision <= method_.tol) return;
     }
-  }
-
-  void unsettled(double change) {
     result_.converged = false;
-    result_.reason = text("the bounds of Coulomb's friction have not settled: they still change by ", change, " a step");
-  }
-
-  /// Coulomb's points do not slip at first.
-  void begin_unbounded() {
-    Eigen::Index point = 0;
-    for (const FrictionGroup& group : problem_.friction)
-      for (int k = 0; k < group.points(); ++k, ++point)
-        if (group.law->bound_slope(k) > 0) bounds_[point] = INFINITY;
+    result_.reason = text("the bounds of Coulomb's friction have not settled: they still change by ", bounds_.change(), " a step");
   }
 
   /// With the bounds as they are, from the last solution on. False where it is not solved.
   bool solve_given(double precision) {
-    const SeparableSet set = admissible(problem_, dual_.scale(), bounds_, shift_);
+    const SeparableSet set = admissible(problem_, scale_, bounds_.now(), shift_);
     program_.set = &set;
     const SmalbeCaller caller{
         .done = [&](double gradient, double equality) { return relative(gradient, equality) <= precision; },
@@ -197,7 +187,7 @@ class Run {
     Eigen::Index point = 0;
     for (const FrictionGroup& group : problem_.friction)
       for (int k = 0; k < group.points(); ++k, ++point) {
-        if (face[group.normal[k]] != Place::free || bounds_[point] == 0) continue;
+        if (face[group.normal[k]] != Place::free || bounds_.now()[point] == 0) continue;
         const bool slips = face[group.row(k)] != Place::free;
         for (int i = 0; i < group.components; ++i) slipping[group.row(k) + i] = slips;
         ++(slips ? info.slip : info.stick);
@@ -222,17 +212,19 @@ class Run {
       case End::stopped: result_.reason = "interrupted; this is the state so far"; break;
       case End::limit: result_.reason = text("no convergence within ", result_.iterations, " outer and ", counts_.inner, " inner steps"); break;
       case End::rounding: result_.reason = text("rounding keeps the residual at ", residual_, ", above tol"); break;
-      case End::infeasible: result_.reason = "no multipliers that the laws allow balance the load"; break;
+      case End::infeasible:
+        result_.reason = text("no multipliers that the laws allow balance the load", unbalanced(lambda()));
+        break;
       case End::unbounded: result_.reason = "the dual energy falls for ever: the supports and gaps contradict each other"; break;
       case End::not_finite: result_.reason = "the iteration met numbers that are not finite"; break;
     }
   }
 
   void recover() {
-    const Vector lambda = x_ + shift_, v = dual_.elastic(lambda);
-    const Vector alpha = coarse_.amounts(compliance_.cwiseProduct(lambda) - dual_.jump(v) - nu_);
-    result_.state.u = average(dual_.torn(), dual_.moved(v, alpha));
-    result_.state.lambda = multipliers(x_);
+    const Vector v = dual_.elastic(lambda());
+    const Vector alpha = coarse_.amounts(compliance_.cwiseProduct(lambda()) - dual_.jump(v) - nu_ * unit_);
+    result_.state.u = problem::least(unnoticed_, average(dual_.torn(), dual_.moved(v, alpha)));
+    result_.state.lambda = multipliers();
   }
 
   void report() {
@@ -250,6 +242,7 @@ class Run {
 
   const Problem& problem_;
   const Feti& method_;
+  const DenseMatrix unnoticed_;
   Monitor& monitor_;
   Result result_;
   DualProblem dual_;
@@ -257,8 +250,10 @@ class Run {
   FetiPreconditioner preconditioner_;
   Vector compliance_;
   EqualityProgram program_;
-  double force_ = 0, displacement_ = 0, residual_ = 0, M_ = 0;
-  Vector shift_, x_, nu_, bounds_;
+  double unit_ = 1, force_ = 0, displacement_ = 0, residual_ = 0, M_ = 0;
+  Vector scale_;  ///< D in that unit
+  Vector shift_, x_, nu_;
+  SettlingBounds bounds_;
   std::vector<char> active_;
   FetiCounts counts_;
   Stopwatch watch_;
@@ -269,8 +264,10 @@ class Run {
 Result solve(const Problem& problem, const Feti& method, Monitor& monitor) {
   int motions = 0;
   for (const problem::Block& block : problem.blocks) motions += static_cast<int>(block.kernel.cols());
-  const std::string note = motions > kManyMotions ? "" : require_solvable(problem, problem::rigid_motions(problem));
-  Result result = Run(problem, method, monitor)();
+  if (motions > kManyMotions) return Run(problem, method, {}, monitor)();
+  const problem::RigidMotions rigid = problem::rigid_motions(problem);
+  const std::string note = require_solvable(problem, rigid);
+  Result result = Run(problem, method, problem::unnoticed_displacements(problem, rigid), monitor)();
   if (!note.empty()) result.reason += "; " + note;
   return result;
 }

@@ -65,7 +65,7 @@ int Holder::hold(std::vector<char>& active, const Vector& x) const {
     const Vector approach = N_ * motion;
     const double first = distance(approach, active, x);
     if (!std::isfinite(first))
-      throw InputError(text("not held: nothing stops ", problem::describe(rigid_, rigid_.noticed * motion),
+      throw InputError(text("not held: nothing stops ", problem::describe(rigid_.motions, rigid_.noticed * motion),
                             "; fix, slide or spring a part, or add a contact in its way"));
     for (int r = 0; r < problem_.rows(); ++r)
       if (!active[r] && unilateral_[r] && approach[r] > kApproaches &&

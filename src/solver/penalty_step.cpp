@@ -41,7 +41,7 @@ class PenaltyStep final : public Step {
       if (l.active[r]) pull[r] = k_[r] * problem_.c[r];
     u_ = cholesky_.solve(f_ + problem_.B.transpose() * pull);
     if (!u_.allFinite()) return false;
-    if (unnoticed_.cols() > 0) u_ -= unnoticed_ * (unnoticed_.transpose() * u_);
+    u_ = problem::least(unnoticed_, std::move(u_));
     x = problem_.B * u_ - problem_.c;
     lambda = lambda_ = Vector::Zero(problem_.rows());
     for (int r = 0; r < problem_.rows(); ++r) {

@@ -129,7 +129,7 @@ problem::State PrimalProgram::state(const Vector& x, const Vector& y) const {
     if (condensed_.empty()) u = unit_ * x.segment(first_[b], block.size());
     else u = condensed_[b].condensation.recover(unit_ * x.segment(first_[b], condensed_[b].load.size()));
   }
-  if (unnoticed_.cols() > 0) state.u -= unnoticed_ * (unnoticed_.transpose() * state.u);
+  state.u = problem::least(unnoticed_, std::move(state.u));
   for (std::size_t r = 0; r < rows_.size(); ++r) state.lambda[rows_[r]] = unit_ * y[static_cast<Eigen::Index>(r)];
   const Vector jump = problem_.B * state.u - problem_.c;
   for (const problem::RowGroup& group : problem_.groups)

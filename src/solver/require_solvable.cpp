@@ -30,17 +30,17 @@ std::string unnoticed_motions(const problem::RigidMotions& rigid, const algebra:
   for (Eigen::Index mode = 0; mode < rigid.unnoticed.rows(); ++mode)
     if (rigid.unnoticed.row(mode).norm() > 1 - 1e-9) names.push_back(rigid.motions[mode].text());
   const auto count = static_cast<std::size_t>(rigid.unnoticed.cols());
-  if (count < 2) return describe(rigid, first);
-  return names.size() == count ? all(names) : text(count, " motions, one of them ", describe(rigid, first));
+  if (count < 2) return describe(rigid.motions, first);
+  return names.size() == count ? all(names) : text(count, " motions, one of them ", describe(rigid.motions, first));
 }
 
 /// What would stop a motion: for a single mode the support that holds it, by body and direction.
-std::string what_would_hold(const problem::RigidMotions& rigid, const algebra::Vector& amounts) {
+std::string what_would_hold(const std::vector<problem::BodyMotion>& motions, const algebra::Vector& amounts) {
   Eigen::Index mode;
   const double greatest = amounts.cwiseAbs().maxCoeff(&mode);
   if (amounts.cwiseAbs().sum() > (1 + 1e-6) * greatest)
     return "Fix, slide or spring a part, add a contact in its way, or turn the load";
-  const auto& [body, motion] = rigid.motions[mode];
+  const auto& [body, motion] = motions[mode];
   if (motion.kind == Motion::Kind::rotation)
     return "Fix or spring a part of '" + body + "' away from the axis, add a contact in its way, or turn the load";
   const std::string axis = motion.direction_text();
@@ -51,14 +51,23 @@ std::string what_would_hold(const problem::RigidMotions& rigid, const algebra::V
 
 }  // namespace
 
+std::string unbalanced_motion(const problem::Problem& problem, const algebra::Vector& resultants) {
+  const auto motions = problem::body_motions(problem);
+  Eigen::Index mode = 0;
+  if (resultants.size() == 0 || static_cast<Eigen::Index>(motions.size()) != resultants.size()) return "";
+  const double greatest = resultants.cwiseAbs().maxCoeff(&mode);
+  const algebra::Vector one = algebra::Vector::Unit(resultants.size(), mode) * (resultants[mode] < 0 ? -1 : 1);
+  return text(", most of all ", describe(motions, one), ", with ", greatest, ". ", what_would_hold(motions, one));
+}
+
 std::string require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid) {
   for (const problem::Block& block : problem.blocks) require_held(problem, block);
   using Verdict = problem::Solvability::Verdict;
   const problem::Solvability s = problem::solvability(rigid, problem);
   if (s.verdict == Verdict::unsolvable)
-    throw InputError(text("not held: nothing stops ", describe(rigid, s.motion), "; the load does work ", s.work,
+    throw InputError(text("not held: nothing stops ", describe(rigid.motions, s.motion), "; the load does work ", s.work,
                           " on a unit of this motion", s.limit ? " (a limit case: turned by 1e-6 the load has a solution)" : "",
-                          ". ", what_would_hold(rigid, s.motion)));
+                          ". ", what_would_hold(rigid.motions, s.motion)));
   std::string note;
   if (s.verdict == Verdict::up_to_motion)
     note = text("unique up to ", unnoticed_motions(rigid, s.motion), rigid.unnoticed.cols() > 0

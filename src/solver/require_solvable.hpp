@@ -11,4 +11,8 @@ namespace dotyk::solver {
 /// which motion it is unique, or that the load is a limit case; empty where it is unique.
 std::string require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid);
 
+/// Of the resultants of loads that nothing balances, one for each mode of the blocks' kernels, which is the greatest and
+/// what would hold it: ", most of all 'lid': translation along x, with 3.5. Hold …"; empty where modes have no names.
+std::string unbalanced_motion(const problem::Problem& problem, const algebra::Vector& resultants);
+
 }  // namespace dotyk::solver
