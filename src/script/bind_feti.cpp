@@ -74,7 +74,7 @@ void bind_feti(Library& library) {
             key::choice("update", {"precision", "penalty", "both"}, "of the augmented Lagrangian: of the inner precision M with rho "
                         "fixed (SMALBE-M), of rho with M fixed (the paper's algorithm 4.1), or whichever holds it up").fallback("both"),
             key::positive("M", "inner precision: |projected gradient| <= M |G lambda - e|, gradients scaled by |PFP|").fallback(1.0),
-            key::positive("rho", "penalty of G lambda = e, as a part of |PFP|").fallback(10.0),
+            key::positive("rho", "penalty of G lambda = e, as a part of |PFP|").below(1e10).fallback(10.0),
             key::choice("expansion", {"fixed_step", "projected_cg"}, "how the inner method lets multipliers reach their bounds: "
                         "fixed projected steps (MPRGP), or projected conjugate gradient steps (proportioning with "
                         "projections)").fallback("projected_cg"),

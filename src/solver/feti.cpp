@@ -144,6 +144,7 @@ class Run {
     x_ = std::move(solved.x);
     nu_ = std::move(solved.nu);
     M_ = solved.M / program_.norm;
+    rho_ = solved.rho / program_.norm;
     finish(solved);
     const auto face = set.gradients(x_, Vector::Zero(x_.size())).face;
     if (solved.end == End::done) record(face, 0, 0, residual_);
@@ -154,7 +155,10 @@ class Run {
   Smalbe settings(const SeparableSet& set) {
     Smalbe settings = method_.outer;
     settings.inner.expansion = method_.expansion;
-    if (counts_.loops > 0) settings.M = M_;
+    if (counts_.loops > 0) {  // what the bounds before asked for; learnt anew at each of them it takes twice the steps
+      settings.M = M_;
+      settings.rho = rho_;
+    }
     settings.max_inner = method_.max_inner - counts_.inner;
     settings.max_outer = method_.max_iterations - result_.iterations;
     settings.preconditioner = preconditioner_.on(set, program_.norm);
@@ -250,7 +254,7 @@ class Run {
   FetiPreconditioner preconditioner_;
   Vector compliance_;
   EqualityProgram program_;
-  double unit_ = 1, force_ = 0, displacement_ = 0, residual_ = 0, M_ = 0;
+  double unit_ = 1, force_ = 0, displacement_ = 0, residual_ = 0, M_ = 0, rho_ = 0;
   Vector scale_;  ///< D in that unit
   Vector shift_, x_, nu_;
   SettlingBounds bounds_;
