@@ -20,7 +20,7 @@ problem::Decomposition read_decomposition(const Call& call) {
   } else if (call.has("subdomains")) {
     const auto boxes = call.integers("subdomains");
     if (boxes.size() != 2 && boxes.size() != 3)
-      throw InputError(text("subdomains has ", boxes.size(), " entries; give a number, or two (in space three) numbers of boxes"));
+      throw InputError(text("subdomains has ", boxes.size(), boxes.size() == 1 ? " entry" : " entries", "; give a number, or two (in space three) numbers of boxes"));
     for (std::size_t k = 0; k < boxes.size(); ++k) cut.boxes[k] = static_cast<int>(boxes[k]);
   }
   return cut;
@@ -56,25 +56,26 @@ void bind_feti(Library& library) {
        .help = "Domain decomposition for many bodies and for bodies beyond a direct method: every body is cut into "
                "subdomains, glued by multipliers, and the dual problem is solved by augmented Lagrangians with projectors to "
                "the natural coarse space of the subdomains' rigid motions. Frictionless contact, given friction, and "
-               "Coulomb's by an outer loop. tol: on |projected gradient| / |P d| and on |G lambda - e| / |f|, rows scaled to "
-               "norm one. An iteration is an outer step; s.history[k].inner counts the steps of the inner method so far, "
+               "Coulomb's by an outer loop. tol: on |projected gradient| / |P d| and on |G lambda - e| / |f|, rows "
+               "scaled by the stiffness of what they join, and on what a subdomain's forces leave unbalanced. An iteration is an outer step; s.history[k].inner counts the steps of the inner method so far, "
                "s.feti tells what the decomposition was like.",
        .example = "local s = dotyk.solver.feti{ subdomains = 64, tol = 1e-8 }:solve(scene)\n"
                   "local t = dotyk.solver.feti{ subdomains = {4, 4, 4}, preconditioner = \"lumped\" }:solve(scene)",
        .arguments = {key::table(method_keys(
            {key::either("subdomains",
                         {key::integer("", "how many in all, shared out by cells and cut by METIS").within(1, kMost),
-                         key::list("", key::integer("", "").within(1, 1000), "boxes along each axis of every body's bounding box")},
+                         key::list("", key::integer("", "").within(1, 1000), "boxes along each axis of every body's bounding box; a third number counts in space only")},
                         "into what bodies are cut: a number in all, or boxes along the axes").otherwise("a subdomain a body"),
             key::choice("supports", {"rows", "stiffness"}, "supports as rows of the dual problem (total FETI: subdomains of "
                         "equal shape share a factor), or in the subdomains' stiffness").fallback("rows"),
-            key::choice("preconditioner", {"none", "lumped", "dirichlet"}, "of the inner conjugate gradients").fallback("none"),
+            key::choice("preconditioner", {"none", "lumped", "dirichlet"}, "of the inner conjugate gradients; lumped is the paper's with "
+                        "coarse = \"whole\" alone").fallback("none"),
             key::choice("coarse", {"face", "whole"}, "the coarse space in conjugate gradients: that of the multipliers free to "
                         "change, or only in the projectors (as the paper)").fallback("face"),
             key::choice("update", {"precision", "penalty", "both"}, "of the augmented Lagrangian: of the inner precision M with rho "
                         "fixed (SMALBE-M), of rho with M fixed (the paper's algorithm 4.1), or whichever holds it up").fallback("both"),
-            key::positive("M", "inner precision: |projected gradient| <= M |G lambda - e|, gradients scaled by |PFP|").fallback(1.0),
-            key::positive("rho", "penalty of G lambda = e, as a part of |PFP|").below(1e10).fallback(10.0),
+            key::positive("M", "an inner minimisation ends at |projected gradient| <= M |G lambda - e|; in units of |PFP|").fallback(1.0),
+            key::positive("rho", "penalty of G lambda = e, at first; in units of |PFP|").below(1e10).fallback(10.0),
             key::choice("expansion", {"fixed_step", "projected_cg"}, "how the inner method lets multipliers reach their bounds: "
                         "fixed projected steps (MPRGP), or projected conjugate gradient steps (proportioning with "
                         "projections)").fallback("projected_cg"),

@@ -22,6 +22,8 @@ constexpr double kSmallPivot = 1e-6;
 /// The jump G̃ᵀz of a motion z that rows do not notice, relative to its parts: 1e-15 by rounding. The square of that of
 /// noticed ones is an eigenvalue of C.
 constexpr double kUnnoticed = 1e-9;
+/// G̃w − r relative to r that is rounding, and the part of the last one that another correction must leave.
+constexpr double kBalanced = 1e-14, kWorthwhile = 0.1;
 /// The jump of one mode, of norm one as the rows are, that is rounding: no row notices it.
 constexpr double kNoJump = 1e-13;
 
@@ -92,7 +94,7 @@ CoarseSpace::CoarseSpace(const SparseMatrix& G, Vector e) : G_(G), scale_(Vector
   }
   std::sort(held_.begin(), held_.end());
 
-  particular_ = G_.transpose() * factor_->solve(scale_.cwiseProduct(e_));
+  particular_ = balancing(scale_.cwiseProduct(e_));
 }
 
 Vector CoarseSpace::unbalanced(const Vector& lambda) const {
@@ -105,9 +107,22 @@ double CoarseSpace::imbalance() const {
   return size > 0 ? unbalanced(particular_).stableNorm() / size : 0;
 }
 
+Vector CoarseSpace::balancing(const Vector& scaled) const {
+  Vector w = G_.transpose() * factor_->solve(scaled);
+  double last = scaled.norm();
+  for (;;) {
+    Vector left = scaled - G_ * w;
+    left(held_).setZero();
+    const double size = left.norm();
+    if (!(size > kBalanced * scaled.norm() && size < kWorthwhile * last)) return w;
+    w += G_.transpose() * factor_->solve(left);
+    last = size;
+  }
+}
+
 Vector CoarseSpace::Q(const Vector& v) const {
   if (modes() == 0) return Vector::Zero(v.size());
-  return G_.transpose() * factor_->solve(G_ * v);
+  return balancing(G_ * v);
 }
 
 Vector CoarseSpace::P(const Vector& v) const { return v - Q(v); }

@@ -36,6 +36,10 @@ class CoarseSpace {
   const std::vector<int>& held() const { return held_; }
 
  private:
+  /// The least w with G̃w = `scaled` (rows scaled), corrected by what it leaves: where stiff pieces are held by
+  /// soft ones, C is as ill conditioned as these are unlike.
+  algebra::Vector balancing(const algebra::Vector& scaled) const;
+
   algebra::SparseMatrix G_;  ///< rows scaled to norm one; zero those that are rounding
   algebra::SparseMatrix C_;
   algebra::Vector scale_, e_, particular_;

@@ -7,11 +7,11 @@
 
 namespace dotyk::solver {
 
-/// The Dirichlet preconditioner of FETI, B̂ [0 0; 0 S] B̂ᵀ (Farhat, Mandel and Roux 1994): with b the unknowns of a piece
-/// that rows touch and i the others,
+/// The Dirichlet preconditioner of FETI, B̂W [0 0; 0 S] WB̂ᵀ (Farhat, Mandel and Roux 1994; W as in through_touched): with b
+/// the unknowns of a piece that rows touch and i the others,
 ///   S = K_bb − K_bi K_ii⁺ K_ib,
-/// the stiffness of the piece felt on b. The rows of B̂ being orthonormal no weights are needed: B̂ᵀB̂ v takes the mean of
-/// its copies from each unknown, which is what weights of one over the number of copies are for. On im P the
+/// the stiffness of the piece felt on b. B̂ᵀB̂W takes the mean of its copies, weighted by their stiffness, from each unknown, which
+/// is what the ρ-scaling is for (Klawonn and Widlund 2001). On im P the
 /// eigenvalues of what it makes of F go from 1 to C(1 + log H/h)²: 3.0, 4.05, 4.9 for cubes with H/h = 4, 6, 8, where F
 /// itself has κ = 33, 43, 52. Equal pieces that rows touch alike share the factor of K_ii.
 class Dirichlet {

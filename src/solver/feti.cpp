@@ -12,6 +12,7 @@
 #include "solver/dual_problem.hpp"
 #include "solver/dual_spectrum.hpp"
 #include "solver/feti_preconditioner.hpp"
+#include "solver/load_size.hpp"
 #include "solver/projection.hpp"
 #include "solver/require_solvable.hpp"
 #include "solver/settling_bounds.hpp"
@@ -85,6 +86,8 @@ class Run {
     if (method_.spectrum && ends.least > 0) counts_.condition = ends.greatest / ends.least;
     choose_unit();
     shift_ = coarse_.particular() / unit_;
+    force_ *= force_unit(dual_, coarse_.particular());
+    gross_ = gross_load(dual_, coarse_.particular()) / unit_;
     program_.b = coarse_.P(dual_.d() / unit_ - apply(shift_));
     x_ = nu_ = Vector::Zero(dual_.rows());
     displacement_ = program_.b.norm();
@@ -107,10 +110,10 @@ class Run {
   /// Of the problem's rows, in the user's units.
   Vector multipliers() const { return (x_ + shift_).head(problem_.rows()).cwiseProduct(scale_); }
 
-  double relative(double gradient, double equality) const {
+  double relative(double gradient, double equality, const Vector& x) const {
     const double force = force_ > 0 ? force_ : (x_ + shift_).norm();
     const double g = displacement_ > 0 ? gradient / displacement_ : gradient, e = force > 0 ? equality / force : equality;
-    return std::max(g, e);
+    return std::max({g, e, gross_ > 0 ? (dual_.G() * x).cwiseAbs().maxCoeff() / gross_ : 0});
   }
 
   void iterate() {
@@ -135,12 +138,13 @@ class Run {
     const SeparableSet set = admissible(problem_, scale_, bounds_.now(), shift_);
     program_.set = &set;
     const SmalbeCaller caller{
-        .done = [&](double gradient, double equality) { return relative(gradient, equality) <= precision; },
+        .done = [&](double gradient, double equality) { return relative(gradient, equality, at_ ? at_->x() : x_) <= precision; },
         .inner = [&](const SmalbeState& state) { return watch_inner(state); },
         .outer = [&](const SmalbeState& state) {
-          record(state.inner.face(), state.outer, state.inner.steps(), relative(state.gradient, state.equality));
+          record(state.inner.face(), state.outer, state.inner.steps(), relative(state.gradient, state.equality, state.inner.x()));
         }};
     SmalbeResult solved = minimise(program_, settings(set), caller, x_, nu_);
+    at_ = nullptr;
     x_ = std::move(solved.x);
     nu_ = std::move(solved.nu);
     M_ = solved.M / program_.norm;
@@ -166,7 +170,8 @@ class Run {
   }
 
   bool watch_inner(const SmalbeState& state) {
-    monitor_.phase(text("inner step ", counts_.inner + state.inner.steps(), ", residual ", relative(state.gradient, state.equality)));
+    at_ = &state.inner;
+    monitor_.phase(text("inner step ", counts_.inner + state.inner.steps(), ", residual ", relative(state.gradient, state.equality, state.inner.x())));
     return !monitor_.stop();
   }
 
@@ -209,7 +214,7 @@ class Run {
     result_.iterations += solved.outer + (solved.end == End::done);
     counts_.inner += solved.inner;
     counts_.products += solved.products;
-    residual_ = relative(solved.gradient, solved.equality);
+    residual_ = relative(solved.gradient, solved.equality, x_);
     result_.converged = solved.end == End::done;
     switch (solved.end) {
       case End::done: result_.reason = "the residual fell below tol"; break;
@@ -254,10 +259,11 @@ class Run {
   FetiPreconditioner preconditioner_;
   Vector compliance_;
   EqualityProgram program_;
-  double unit_ = 1, force_ = 0, displacement_ = 0, residual_ = 0, M_ = 0, rho_ = 0;
+  double unit_ = 1, force_ = 0, gross_ = 0, displacement_ = 0, residual_ = 0, M_ = 0, rho_ = 0;
   Vector scale_;  ///< D in that unit
   Vector shift_, x_, nu_;
   SettlingBounds bounds_;
+  const Mprgp* at_ = nullptr;  ///< where the minimisation under way is
   std::vector<char> active_;
   FetiCounts counts_;
   Stopwatch watch_;

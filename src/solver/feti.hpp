@@ -15,7 +15,9 @@ namespace dotyk::solver {
 /// the gradients divided by an upper bound of ‖PFP‖ it is solved by augmented Lagrangians (Smalbe) with Mprgp within.
 /// It stops where
 ///   ‖g^P‖ ≤ tol ‖Pd‖,  d = d̃ − Fλ̄,  and  ‖Gλ − e‖ = ‖Qx‖ ≤ tol ‖f‖        (‖λ‖ in place of ‖f‖ where there is no load)
-/// (P2, §5, but for ‖d̃‖ there, which depends on what the generalised inverse fixes), rows scaled to norm one. Coulomb
+/// (P2, §5, but for ‖d̃‖ there, which depends on what the generalised inverse fixes), rows scaled by the stiffness of what they
+/// join (TornProblem) and ‖f‖ by force_unit(), 1 where all is as stiff as each other; and where no resultant on a piece is above tol
+/// times the greatest gross_load(). Coulomb
 /// friction is an outer loop over given friction, b := μλ_n, ended where the bounds change by less than tol.
 struct Feti : Settings {
   Feti() { outer.rho = 10, outer.update = Smalbe::Update::both; }

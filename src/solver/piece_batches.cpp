@@ -77,8 +77,10 @@ Vector on_segments(const std::vector<Batch>& batches, const Vector& f, const std
 
 Vector through_touched(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& lambda,
                        const OnColumns& A) {
-  return torn.B * on_segments(batches, torn.Bt * lambda, [&](int p) { return torn.pieces[p].first_touched; },
-                              [&](int p) { return torn.pieces[p].touched.size(); }, A);
+  const Vector& W = torn.touched_weight;
+  const Vector moved = W.cwiseProduct(torn.Bt * lambda);
+  return torn.B * W.cwiseProduct(on_segments(batches, moved, [&](int p) { return torn.pieces[p].first_touched; },
+                                             [&](int p) { return torn.pieces[p].touched.size(); }, A));
 }
 
 Vector on_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& f, const OnColumns& A) {

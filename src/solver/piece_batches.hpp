@@ -25,7 +25,8 @@ using OnColumns = std::function<void(const Batch&, algebra::DenseMatrix& columns
 algebra::Vector through_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const algebra::Vector& lambda,
                                const OnColumns& A);
 
-/// The same where rows touch all pieces of a batch alike. Columns: the touched unknowns alone.
+/// B̂WAWB̂ᵀλ, W = k⁻¹ (TornProblem): with A a stiffness a preconditioner of F, as B̂WB̂ᵀ = I but for rows of the problem
+/// that share an unknown. Rows touch all pieces of a batch alike. Columns: the touched unknowns alone.
 algebra::Vector through_touched(const TornProblem& torn, const std::vector<Batch>& batches,
                                 const algebra::Vector& lambda, const OnColumns& A);
 

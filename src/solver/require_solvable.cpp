@@ -7,6 +7,9 @@ namespace dotyk::solver {
 
 namespace {
 
+/// Motions that a message names; of more it tells how many.
+constexpr std::size_t kNamed = 4;
+
 /// "translation along x, translation along y and rotation about (0, 0)".
 std::string all(const std::vector<std::string>& names) {
   std::string out;
@@ -31,6 +34,11 @@ std::string unnoticed_motions(const problem::RigidMotions& rigid, const algebra:
     if (rigid.unnoticed.row(mode).norm() > 1 - 1e-9) names.push_back(rigid.motions[mode].text());
   const auto count = static_cast<std::size_t>(rigid.unnoticed.cols());
   if (count < 2) return describe(rigid.motions, first);
+  if (names.size() == count && count > kNamed) {
+    names.resize(kNamed);
+    names.push_back(text(count - kNamed, " more"));
+    return all(names);
+  }
   return names.size() == count ? all(names) : text(count, " motions, one of them ", describe(rigid.motions, first));
 }
 

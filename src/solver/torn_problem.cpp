@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 
 #include "base/text.hpp"
@@ -15,12 +16,17 @@ using problem::Problem;
 
 namespace {
 
+/// A diagonal entry below this part of the piece's greatest is none.
+constexpr double kNoStiffness = 1e-14;
+
 using Entries = std::vector<Eigen::Triplet<double>>;
 
 /// The copies of every unknown, ascending: those of unknown j are copy[first[j]], …, copy[first[j + 1] − 1].
 struct Copies {
   std::vector<int> first, copy;
-  int count(int unknown) const { return first[unknown + 1] - first[unknown]; }
+  std::span<const int> of(int unknown) const {
+    return std::span(copy).subspan(first[unknown], first[unknown + 1] - first[unknown]);
+  }
 };
 
 Copies copies_of(const TornProblem& torn) {
@@ -58,24 +64,41 @@ void add_subdomains(const Problem& problem, TornProblem& torn) {
     torn.value.segment(torn.pieces[k].first, torn.pieces[k].size()) = problem.subdomains[k].value;
 }
 
+/// k. An unknown without stiffness of its own counts for the stiffest of its piece.
+Vector relative_stiffness(const TornProblem& torn) {
+  Vector k(torn.copies());
+  for (const Piece& piece : torn.pieces) {
+    if (piece.size() == 0) continue;
+    const Vector diagonal = piece.K->diagonal();
+    const double most = diagonal.maxCoeff();
+    k.segment(piece.first, piece.size()) = (diagonal.array() > kNoStiffness * most).select(diagonal, most);
+  }
+  const double greatest = k.size() > 0 ? k.maxCoeff() : 0;
+  return k.unaryExpr([=](double x) { return x > 0 ? x / greatest : 1.0; });
+}
+
 /// Rows of the problem on all copies, not yet scaled.
 SparseRows spread(const Problem& problem, const TornProblem& torn, const Copies& copies) {
   Entries entries;
   for (int r = 0; r < problem.rows(); ++r)
     for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
-      const int m = copies.count(static_cast<int>(it.col()));
-      if (m == 0) throw std::logic_error(text("unknown ", it.col(), " belongs to no piece"));
-      for (int k = 0; k < m; ++k) entries.emplace_back(r, copies.copy[copies.first[it.col()] + k], it.value() / m);
+      const auto all = copies.of(static_cast<int>(it.col()));
+      if (all.empty()) throw std::logic_error(text("unknown ", it.col(), " belongs to no piece"));
+      double sum = 0;
+      for (int v : all) sum += torn.stiffness[v];
+      for (int v : all) entries.emplace_back(r, v, it.value() * (torn.stiffness[v] / sum));
     }
   SparseRows rows(problem.rows(), torn.copies());
   rows.setFromTriplets(entries.begin(), entries.end());
   return rows;
 }
 
-/// One over each row's norm, or over the greater one of a friction point's rows; 1 for rows without entries.
-Vector scale_of(const Problem& problem, const SparseRows& rows) {
-  Vector norm(rows.rows());
-  for (int r = 0; r < rows.rows(); ++r) norm[r] = rows.row(r).norm();
+/// One over each row's norm in k⁻¹, or over the greater one of a friction point's rows; 1 for rows without entries.
+Vector scale_of(const Problem& problem, const TornProblem& torn, const SparseRows& rows) {
+  Vector norm = Vector::Zero(rows.rows());
+  for (int r = 0; r < rows.rows(); ++r)
+    for (SparseRows::InnerIterator it(rows, r); it; ++it)
+      norm[r] = std::hypot(norm[r], it.value() / std::sqrt(torn.stiffness[it.col()]));
   for (const problem::FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k) {
       auto point = norm.segment(group.row(k), group.components);
@@ -84,14 +107,17 @@ Vector scale_of(const Problem& problem, const SparseRows& rows) {
   return norm.unaryExpr([](double n) { return n > 0 ? 1 / n : 1.0; });
 }
 
-void add_gluing(const Copies& copies, int& row, Entries& entries) {
-  for (std::size_t j = 0; j + 1 < copies.first.size(); ++j)
-    for (int k = 1; k < copies.count(static_cast<int>(j)); ++k, ++row) {
-      const double share = 1 / std::sqrt(k * (k + 1.0));
-      const int* copy = copies.copy.data() + copies.first[j];
-      for (int i = 0; i < k; ++i) entries.emplace_back(row, copy[i], share);
-      entries.emplace_back(row, copy[k], -k * share);
+void add_gluing(const TornProblem& torn, const Copies& copies, int& row, Entries& entries) {
+  for (int j = 0; j < torn.unknowns; ++j) {
+    const auto all = copies.of(j);
+    double before = all.empty() ? 0 : torn.stiffness[all[0]];
+    for (std::size_t next = 1; next < all.size(); ++next, ++row) {
+      const double k = torn.stiffness[all[next]], s = std::sqrt(before / (before + k) * k);
+      for (int v : all.first(next)) entries.emplace_back(row, v, s * (torn.stiffness[v] / before));
+      entries.emplace_back(row, all[next], -s);
+      before += k;
     }
+  }
 }
 
 /// Numbers the copies that rows touch; gives each entry its touched copy's number.
@@ -107,6 +133,9 @@ void number_touched(TornProblem& torn, Entries& entries) {
         place[piece.first + i] = next++;
       }
   }
+  torn.touched_weight.resize(next);
+  for (int v = 0; v < torn.copies(); ++v)
+    if (place[v] >= 0) torn.touched_weight[place[v]] = 1 / torn.stiffness[v];
   for (auto& e : entries) e = {e.row(), place[e.col()], e.value()};
   torn.B.resize(torn.rows(), next);
   torn.B.setFromTriplets(entries.begin(), entries.end());
@@ -121,33 +150,37 @@ TornProblem tear(const Problem& problem) {
   problem.subdomains.empty() ? add_blocks(problem, torn) : add_subdomains(problem, torn);
   const Copies copies = copies_of(torn);
 
+  torn.stiffness = relative_stiffness(torn);
   const SparseRows rows = spread(problem, torn, copies);
-  torn.scale = scale_of(problem, rows);
+  torn.scale = scale_of(problem, torn, rows);
   Entries entries;
   for (int r = 0; r < rows.rows(); ++r)
     for (SparseRows::InnerIterator it(rows, r); it; ++it)
       if (it.value() != 0) entries.emplace_back(r, static_cast<int>(it.col()), torn.scale[r] * it.value());
   int row = problem.rows();
-  add_gluing(copies, row, entries);
+  add_gluing(torn, copies, row, entries);
   torn.gluing_rows = row - problem.rows();
   const int first_support = row;
   for (int v = 0; v < torn.copies(); ++v)
-    if (torn.unknown[v] < 0) entries.emplace_back(row++, v, 1.0);
+    if (torn.unknown[v] < 0) entries.emplace_back(row++, v, std::sqrt(torn.stiffness[v]));
   torn.support_rows = row - first_support;
 
   torn.c = Vector::Zero(row);
   torn.c.head(problem.rows()) = torn.scale.cwiseProduct(problem.c);
   for (int v = 0, r = first_support; v < torn.copies(); ++v)
-    if (torn.unknown[v] < 0) torn.c[r++] = torn.value[v];
+    if (torn.unknown[v] < 0) torn.c[r++] = std::sqrt(torn.stiffness[v]) * torn.value[v];
   number_touched(torn, entries);
   return torn;
 }
 
 Vector average(const TornProblem& torn, const Vector& v) {
-  Vector sum = Vector::Zero(torn.unknowns), count = Vector::Zero(torn.unknowns);
-  for (int k = 0; k < torn.copies(); ++k)
-    if (torn.unknown[k] >= 0) sum[torn.unknown[k]] += v[k], ++count[torn.unknown[k]];
-  return sum.cwiseQuotient(count);
+  Vector sum = Vector::Zero(torn.unknowns), weight = Vector::Zero(torn.unknowns);
+  for (int k = 0; k < torn.copies(); ++k) {
+    if (torn.unknown[k] < 0) continue;
+    sum[torn.unknown[k]] += torn.stiffness[k] * v[k];
+    weight[torn.unknown[k]] += torn.stiffness[k];
+  }
+  return sum.cwiseQuotient(weight);
 }
 
 }  // namespace dotyk::solver

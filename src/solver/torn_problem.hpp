@@ -24,20 +24,30 @@ struct Piece {
 /// A problem torn into pieces and joined again by rows (total FETI). Each piece moves on copies v of its own of the
 /// unknowns; with as many pieces as there are,
 ///   minimise Σ ½vᵀKv − fᵀv + Σ_r φ_r((B̂v − ĉ)_r)
-/// has the problem's solution. The rows of B̂, in this order, each of norm one:
-///  1. those of the problem, an entry at an unknown with m copies spread evenly over them (1/m each) and then the
-///     row scaled, λ = Dλ', with the same factor for both rows of a friction point (the greater norm becomes one; a
+/// has the problem's solution.
+///
+/// Copies differ in stiffness: k > 0, K's diagonal there as a part of the greatest one. The force of a row moves a copy by
+/// about 1/k of itself, so rows share themselves out among the copies as these are stiff, which moves all of them alike,
+/// and are scaled to norm one in k⁻¹: B̂k⁻¹B̂ᵀ is what F = B̂K⁺B̂ᵀ is about, and has a unit diagonal whatever the pieces'
+/// stiffnesses are (the stiffness scaling of Rixen and Farhat 1999, the ρ-scaling of Klawonn and Widlund 2001). The
+/// least of the changes of multipliers that balance a piece, which projectors look for, is the softest in this measure.
+/// The rows, in this order:
+///  1. those of the problem, an entry at an unknown shared by its copies as k over their sum, and then the row
+///     scaled, λ = Dλ', with the same factor for both rows of a friction point (the greater norm becomes one; a
 ///     row without entries stays as it is);
-///  2. for an unknown with m copies m − 1 orthonormal rows, orthogonal to (1, …, 1) and so to those of the problem:
-///     row k has 1/√(k(k+1)) on the first k copies and −k/√(k(k+1)) on the next (Helmert's matrix);
-///  3. for every copy of an unknown that a support holds, v = its value.
+///  2. for an unknown with m copies m − 1 rows that are orthonormal in k⁻¹, and orthogonal to (k, …, k) and so to
+///     those of the problem: row j is s k/S_j on the first j copies and −s on the next one, S_j the sum of k over the
+///     first j, s² = S_j k_{j+1}/S_{j+1} (Helmert's matrix where all are as stiff as each other);
+///  3. for every copy of an unknown that a support holds, √k v = √k times its value.
 /// Only copies that rows touch have a column: "touched copies", piece after piece.
 struct TornProblem {
   std::vector<Piece> pieces;
   algebra::SparseRows B;     ///< B̂: rows × touched copies
   algebra::SparseRows Bt;    ///< B̂ᵀ
-  algebra::Vector c;         ///< ĉ = (Dc, 0, values)
+  algebra::Vector c;         ///< ĉ = (Dc, 0, √k values)
   algebra::Vector scale;     ///< D, one a row of the problem
+  algebra::Vector stiffness;       ///< k, one a copy
+  algebra::Vector touched_weight;  ///< 1/k, one a touched copy
   int gluing_rows = 0, support_rows = 0;
   std::vector<int> unknown;  ///< of which unknown of the problem every copy is one; −1: of one held by a support
   algebra::Vector value;     ///< where the support holds it; 0 elsewhere
@@ -51,7 +61,7 @@ struct TornProblem {
 /// Tears a problem into its subdomains, or into its blocks where it has none. `problem` must outlive the result.
 TornProblem tear(const problem::Problem& problem);
 
-/// The mean of the copies of each unknown; v: copies, result: unknowns.
+/// The mean of the copies of each unknown, weighted by their stiffness; v: copies, result: unknowns.
 algebra::Vector average(const TornProblem& torn, const algebra::Vector& v);
 
 }  // namespace dotyk::solver

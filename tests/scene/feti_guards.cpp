@@ -65,14 +65,14 @@ TEST_CASE("of many bodies the one that nothing holds is named, with its motion a
 }
 
 TEST_CASE("displacements out of equilibrium are not called a solution") {
-  const auto soft = test::block("soft", 2, mesh::Family::q1, 8, 0, 1), hard = test::block("hard", 2, mesh::Family::q1, 8, 1, 1e9);
+  const auto soft = test::block("soft", 2, mesh::Family::q1, 8, 0, 1), hard = test::block("hard", 2, mesh::Family::q1, 8, 1, 1e13);
   test::fix(soft, "bottom");
   test::fix(hard, "left", {true, false, false});
   test::pull(hard, "top", [](const Point&) { return Point{0.1, -1, 0}; });
   auto s = scene::make_scene({soft, hard});
   scene::add_contact(*s, test::part(hard, "bottom"), test::part(soft, "top"), {});
   const auto cut = solve_by(s, feti(8, 1e-8));
-  CHECK(cut->residual().equilibrium > 1e-2);
+  CHECK(cut->residual().equilibrium > 1e-3);
   CHECK(!cut->result().converged);
   CHECK_MESSAGE(cut->result().reason.find("out of equilibrium") != std::string::npos, cut->result().reason);
 }

@@ -118,7 +118,7 @@ TEST_CASE("dual degenerate scenes: rows that touch without force do not swing be
             degenerate += std::abs(gap[k]) <= 1e-12 && std::abs(lambda[k]) <= 1e-6 * lambda.maxCoeff();
           CHECK(3 * degenerate >= gap.size());
           // A degenerate component may change sides as long as x moves; but every time L falls.
-          CHECK(solved.inner <= 1.4 * apart_solved.inner);
+          CHECK(solved.inner <= 2.5 * apart_solved.inner);
           CHECK(follower.faces <= solved.inner / 2);
           CHECK(follower.most_flips <= 12);
         }

@@ -8,13 +8,13 @@ using namespace dotyk;
 using algebra::DenseMatrix;
 using algebra::Vector;
 
-TEST_CASE("rows of a torn problem: norm one; gluing ones orthonormal and orthogonal to the problem's") {
+TEST_CASE("rows of a torn problem, in the measure of 1/k: norm one; gluing ones orthonormal and orthogonal to the problem's") {
   for (const bool support_rows : {true, false}) {
     const auto p = test::cut_box(support_rows, 2);
     const auto torn = solver::tear(p);
     CHECK((torn.support_rows > 0) == support_rows);
     REQUIRE(torn.rows() == torn.problem_rows() + torn.gluing_rows + torn.support_rows);
-    const DenseMatrix B = torn.B, gram = B * B.transpose();
+    const DenseMatrix B = torn.B, gram = B * torn.touched_weight.asDiagonal() * B.transpose();
     CHECK((gram - DenseMatrix::Identity(B.rows(), B.rows())).cwiseAbs().maxCoeff() < 1e-14);
     // Each unknown of m copies has m − 1 gluing rows.
     CHECK(torn.copies() - torn.support_rows - torn.gluing_rows == p.unknowns());
@@ -63,6 +63,61 @@ TEST_CASE("one gap between the copies shows in their disagreement") {
   CHECK(test::disagreement(torn, v) == doctest::Approx(1 - 1.0 / count[torn.unknown[shared]]));
 }
 
+TEST_CASE("rows of pieces of unlike stiffness: k is K's diagonal, soft copies carry little of a row and are averaged out") {
+  test::Random random(503);
+  for (const double contrast : {1e-6, 1e12}) {
+    auto p = test::cut_box(true, 2);
+    auto other = *p.subdomains[1].stiffness;
+    other.K *= contrast;
+    p.subdomains[1].stiffness = std::make_shared<const problem::Stiffness>(other);
+    const auto torn = solver::tear(p);
+    const DenseMatrix B = torn.B, gram = B * torn.touched_weight.asDiagonal() * B.transpose();
+    CHECK((gram - DenseMatrix::Identity(B.rows(), B.rows())).cwiseAbs().maxCoeff() < 1e-14);
+    double greatest = 0;
+    for (const auto& piece : torn.pieces) greatest = std::max(greatest, Vector(piece.K->diagonal()).maxCoeff());
+    for (const auto& piece : torn.pieces)
+      CHECK(test::relative(torn.stiffness.segment(piece.first, piece.size()), Vector(piece.K->diagonal()) / greatest) < 1e-15);
+    // Copies of one displacement are its own mean and do not jump; a soft one moved hardly moves the mean.
+    const Vector u = random.vector(p.unknowns());
+    Vector v(torn.copies()), t(torn.B.cols());
+    for (int k = 0; k < torn.copies(); ++k) v[k] = torn.unknown[k] < 0 ? torn.value[k] : u[torn.unknown[k]];
+    for (const auto& piece : torn.pieces)
+      for (std::size_t i = 0; i < piece.touched.size(); ++i) t[piece.first_touched + i] = v[piece.first + piece.touched[i]];
+    const Vector x = torn.B * t - torn.c;
+    CHECK(x.segment(p.rows(), torn.gluing_rows).cwiseAbs().maxCoeff() < 1e-14);
+    CHECK(test::relative(solver::average(torn, v), u) < 1e-14);
+    for (int k = 0; k < torn.copies(); ++k) v[k] += torn.stiffness[k] < 1e-3 * torn.stiffness.maxCoeff();
+    int shared = 0;
+    const Vector mean = solver::average(torn, v);
+    for (const auto& piece : torn.pieces)
+      for (int i = 0; i < piece.size(); ++i) {
+        const int k = piece.first + i, j = torn.unknown[k];
+        if (j < 0 || torn.stiffness[k] < 1e-3 * torn.stiffness.maxCoeff()) continue;
+        shared += v[k] == u[j];
+        CHECK(std::abs(mean[j] - u[j]) < 1e-4);
+      }
+    CHECK(shared > 0);
+  }
+}
+
+TEST_CASE("an unknown without stiffness of its own counts for the stiffest of its piece") {
+  problem::Problem p;
+  for (const double entry : {0.0, 4.0}) {
+    DenseMatrix K = DenseMatrix::Zero(2, 2);
+    K(0, 0) = entry;
+    problem::Block block;
+    block.name = "b";
+    block.K = test::lower(K);
+    block.f = Vector::Zero(2);
+    block.node = {0, 1};
+    block.kernel = DenseMatrix::Identity(2, 2).rightCols(entry > 0 ? 1 : 2);
+    problem::add(p, block);
+  }
+  p.B.resize(0, 4);
+  p.c.resize(0);
+  CHECK(solver::tear(p).stiffness == Vector{{1, 1, 1, 1}});
+}
+
 TEST_CASE("without subdomains each block is a piece; the rows of a friction point share their factor") {
   test::Random random(502);
   problem::Problem p;
@@ -80,8 +135,11 @@ TEST_CASE("without subdomains each block is a piece; the rows of a friction poin
   CHECK(torn.pieces[1].name == "'b'");
   CHECK(torn.pieces[1].K == &p.blocks[1].K);
   CHECK(torn.gluing_rows + torn.support_rows == 0);
-  CHECK(test::relative(torn.scale, Vector{{0.2, 0.1, 0.1, 1}}) < 1e-15);
-  CHECK(test::relative(torn.c, Vector{{0.2, 0.2, 0.3, 4}}) < 1e-15);
+  const auto softness = [&](int k) { return 1 / torn.stiffness[k]; };
+  const double normal = 1 / std::sqrt(9 * softness(0) + 16 * softness(20)),
+               tangential = 1 / std::sqrt(std::max(36 * softness(1) + 64 * softness(21), softness(2) + softness(22)));
+  CHECK(test::relative(torn.scale, Vector{{normal, tangential, tangential, 1}}) < 1e-15);
+  CHECK(test::relative(torn.c, Vector{{normal, 2 * tangential, 3 * tangential, 4}}) < 1e-15);
   CHECK(torn.pieces[0].touched == std::vector<int>{0, 1, 2});
   CHECK(torn.pieces[1].touched == std::vector<int>{2, 3, 4});
 }

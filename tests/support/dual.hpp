@@ -54,6 +54,15 @@ inline algebra::DenseMatrix dense(const solver::TornProblem& torn,
   return sum;
 }
 
+/// B̂W diag(A(piece)) WB̂ᵀ, W = k⁻¹.
+inline algebra::DenseMatrix dense_weighted(const solver::TornProblem& torn,
+                                           const std::function<algebra::DenseMatrix(const solver::Piece&)>& A) {
+  return dense(torn, [&](const solver::Piece& piece) -> algebra::DenseMatrix {
+    const auto W = torn.stiffness.segment(piece.first, piece.size()).cwiseInverse().eval();
+    return W.asDiagonal() * A(piece) * W.asDiagonal();
+  });
+}
+
 inline algebra::DenseMatrix projector(const solver::CoarseSpace& coarse, int n) {
   return as_matrix(n, [&](const algebra::Vector& v) { return coarse.P(v); });
 }
