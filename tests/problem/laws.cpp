@@ -1,9 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "problem/law.hpp"
+#include "problem/limited.hpp"
 
 using namespace dotyk;
 using namespace dotyk::problem;
@@ -120,4 +122,67 @@ TEST_CASE("the elastic law refuses stiffness that is negative or no number") {
   CHECK_THROWS_AS(elastic({NAN}), InputError);
   CHECK_THROWS_AS(elastic({INFINITY}), InputError);
   CHECK_NOTHROW(elastic({0}));
+}
+
+namespace {
+
+constexpr double kInf = Law::kUnbounded;
+/// One-sided elastic, rigid friction, one-sided rigid friction, capped elastic, and the limits of each.
+const std::vector<Limits> kLimits{{2, 0, kInf},  {kInf, -2.5, 2.5}, {kInf, 0, 2.5},  {40, -10, 10}, {40, -1, 7},
+                                  {kInf, 0, 0},  {0, -1, 1},        {kInf, 0, kInf}, {40, 0, 0},    {kInf, -kInf, kInf}};
+
+/// λ ∈ ∂φ(x).
+bool member(const Limits& l, double x, double lambda) {
+  if (l.stiffness == 0) return lambda == 0;
+  if (std::isfinite(l.stiffness)) return std::abs(lambda - std::clamp(l.stiffness * x, l.low, l.high)) <= 1e-14 * std::abs(lambda);
+  if (lambda < l.low || lambda > l.high) return false;
+  return x == 0 || (x > 0 ? lambda == l.high : lambda == l.low);
+}
+
+}  // namespace
+
+TEST_CASE("limited: λ = P(λ + ρx) says that λ is the spring's force, cut off") {
+  const auto law = limited("limited", kLimits);
+  for (int row = 0; row < static_cast<int>(kLimits.size()); ++row) {
+    const Limits& l = kLimits[row];
+    CAPTURE(row);
+    for (double rho : rhos())
+      for (double x : grid()) {
+        for (double lambda : grid())
+          if (member(l, x, lambda)) CHECK(satisfied(*law, row, x, lambda, rho));
+        // And of every y, P(y) and x = (y − P(y))/ρ are such a pair.
+        const double lambda = law->project(row, x, rho).lambda, jump = (x - lambda) / rho;
+        if (std::isfinite(l.stiffness)) CHECK(std::abs(lambda - (l.stiffness > 0 ? std::clamp(l.stiffness * jump, l.low, l.high) : 0)) <= 1e-10 * (std::abs(lambda) + l.stiffness * std::abs(x) / rho));
+        else CHECK(member(l, std::abs(jump) < 1e-14 * std::abs(x) / rho ? 0 : jump, lambda));
+      }
+    for (double y : grid()) {
+      const double slope = law->project(row, y, 1).slope;
+      CHECK(slope >= 0);
+      CHECK(slope <= 1);
+    }
+  }
+}
+
+TEST_CASE("limited: Fenchel and Young") {
+  const auto law = limited("limited", kLimits);
+  for (int row = 0; row < static_cast<int>(kLimits.size()); ++row)
+    for (double x : grid())
+      for (double lambda : grid()) {
+        const Interval range = law->multipliers(row);
+        if (lambda < range.low || lambda > range.high) continue;
+        const bool indicator = !std::isfinite(kLimits[row].stiffness) &&
+                               ((x > 0 && kLimits[row].high == kInf) || (x < 0 && kLimits[row].low == -kInf));
+        if (indicator) continue;  // φ is infinite there
+        const double both = law->energy(row, x) + law->conjugate(row, lambda);
+        CHECK(both - lambda * x >= -1e-13 * both);
+        if (member(kLimits[row], x, lambda)) CHECK(std::abs(both - lambda * x) <= 1e-13 * std::abs(both));
+      }
+}
+
+TEST_CASE("limited refuses what is no spring") {
+  CHECK_THROWS_WITH_AS(limited("capped elastic", {{-1, -1, 1}}), "capped elastic law: stiffness is -1; it must be zero or positive", InputError);
+  CHECK_THROWS_AS(limited("a", {{1, 1, 2}}), InputError);
+  CHECK_THROWS_AS(limited("a", {{1, -2, -1}}), InputError);
+  CHECK_THROWS_AS(limited("a", {{NAN, -2, 1}}), InputError);
+  CHECK_THROWS_AS(limited("a", {{1, NAN, 1}}), InputError);
 }

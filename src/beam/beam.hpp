@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "problem/support_law.hpp"
+
+namespace dotyk::beam {
+
+/// A support at a point: what it does about the deflection and the rotation there. One-sided laws keep the deflection
+/// up (u ≥ 0) and the slope down (u' ≤ 0), as P4 does.
+struct Support {
+  std::string name;  ///< "left", "right", "x = 0.5": for messages and reactions
+  double x = 0;
+  problem::SupportLaw deflection, rotation;
+};
+
+/// At a point; it may lie within a cell.
+struct PointLoad {
+  double x = 0;
+  double force = 0;   ///< upwards
+  double moment = 0;  ///< anticlockwise
+};
+
+/// A straight beam on 0 ≤ x ≤ length under Bernoulli's hypothesis:
+///   minimise ∫ ½ EJ u''² − qu − Σ forces and moments + the supports' energies over u ∈ H²(0, length).
+/// Deflection u positive upwards, rotation u'. Bending moment and shear force as in P4: M = −EJ u'', T = DM.
+struct Beam {
+  double length = 1;
+  int cells = 32;                          ///< cubic Hermite elements, at least; a support is always a node
+  double EJ = 1;                           ///< force·length²; where there is no function
+  std::function<double(double)> EJ_of;     ///< of x; empty: constant
+  double q = 0;                            ///< load per length, upwards; where there is no function
+  std::function<double(double)> q_of;      ///< of x; empty: constant
+  std::vector<PointLoad> loads;
+  std::vector<Support> supports;           ///< ascending in x
+};
+
+/// Throws InputError where the length or a stiffness is not positive, a point lies off the beam, two supports are at
+/// one point, there are no cells, or a law is not valid (problem::require_valid).
+void require_valid(const Beam& beam);
+
+/// The nodes, ascending: cells of equal length, and the supports' points where they are not (nearly) among them.
+std::vector<double> nodes(const Beam& beam);
+
+/// The node next to x.
+int nearest(const std::vector<double>& nodes, double x);
+
+}  // namespace dotyk::beam

@@ -1,0 +1,148 @@
+#include "beam/model.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "beam/element.hpp"
+
+namespace dotyk::beam {
+
+using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using algebra::Vector;
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+namespace {
+
+/// f, refusing values that are not finite, or not positive.
+std::function<double(double)> checked(const std::function<double(double)>& f, const char* what, bool positive) {
+  return [&f, what, positive](double x) {
+    const double value = f(x);
+    if (!std::isfinite(value) || (positive && !(value > 0)))
+      throw InputError(text("beam: ", what, " is ", value, " at x = ", x, positive ? "; it must be positive" : "; it must be finite"));
+    return value;
+  };
+}
+
+class Builder {
+ public:
+  Builder(const Beam& beam, const std::vector<Broken>& broken) : beam_(beam), broken_(broken) {
+    require_valid(beam);
+    model_.nodes = nodes(beam);
+    model_.unit = beam.length;
+    scale_ = Four(1, 1 / model_.unit, 1, 1 / model_.unit);
+  }
+
+  Model operator()() {
+    const int n = 2 * static_cast<int>(model_.nodes.size());
+    f_ = Vector::Zero(n);
+    for (std::size_t cell = 0; cell + 1 < model_.nodes.size(); ++cell) add_cell(static_cast<int>(cell));
+    for (const PointLoad& load : beam_.loads) add_load(load);
+    for (const Support& support : beam_.supports) add_support(support);
+    problem::add(model_.problem, block(n));
+    finish_rows(n);
+    return std::move(model_);
+  }
+
+ private:
+  void add_cell(int cell) {
+    const double x0 = model_.nodes[cell], h = model_.nodes[cell + 1] - x0;
+    const Eigen::Matrix4d K = beam_.EJ_of ? stiffness(checked(beam_.EJ_of, "EJ", true), x0, h) : stiffness(beam_.EJ, h);
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j <= i; ++j) K_.emplace_back(2 * cell + i, 2 * cell + j, scale_[i] * K(i, j) * scale_[j]);
+    const Four f = beam_.q_of ? load(checked(beam_.q_of, "the load", false), x0, h) : load(beam_.q, h);
+    f_.segment<4>(2 * cell) += scale_.cwiseProduct(f);
+  }
+
+  void add_load(const PointLoad& load) {
+    const auto last = model_.nodes.size() - 2;
+    std::size_t cell = 0;
+    while (cell < last && load.x > model_.nodes[cell + 1]) ++cell;
+    const double h = model_.nodes[cell + 1] - model_.nodes[cell];
+    const Hermite at((load.x - model_.nodes[cell]) / h, h);
+    f_.segment<4>(2 * cell) += scale_.cwiseProduct(Four(load.force * at.value + load.moment * at.slope));
+  }
+
+  void add_support(const Support& support) {
+    SupportRows rows;
+    rows.node = nearest(model_.nodes, support.x);
+    rows.turn = problem::one_sided(support.rotation.kind) ? -1 : 1;
+    rows.deflection = add_row(support.deflection, support.name + " deflection", 2 * rows.node, 1, 1);
+    rows.rotation = add_row(support.rotation, support.name + " rotation", 2 * rows.node + 1, model_.unit, rows.turn);
+    model_.supports.push_back(rows);
+  }
+
+  /// The row of a law about turn·w, w an unknown; −1 where it has none.
+  int add_row(const SupportLaw& law, const std::string& name, int unknown, double unit, double turn) {
+    if (law.kind == Kind::load) f_[unknown] += law.value / unit;
+    if (law.kind == Kind::breaking && is_broken()) {
+      if (law.value > 0) offset_ += 0.5 * law.limit * law.limit / law.value;  // what breaking took
+      return -1;
+    }
+    const auto row_law = problem::row_law(law, unit);
+    if (!row_law) return -1;
+    const int row = static_cast<int>(c_.size());
+    B_.emplace_back(row, unknown, -turn);
+    c_.push_back(law.kind == Kind::prescribed ? -law.value * unit : 0);
+    model_.problem.groups.push_back({name, row_law, row, 1});
+    return row;
+  }
+
+  /// The next support that may break.
+  bool is_broken() {
+    const std::size_t k = next_breaking_++;
+    return k < broken_.size() && broken_[k] == Broken::yes;
+  }
+
+  problem::Block block(int n) {
+    problem::Block block;
+    block.name = "beam";
+    block.K = SparseMatrix(n, n);
+    block.K.setFromTriplets(K_.begin(), K_.end());
+    block.f = f_;
+    block.offset = offset_;
+    block.kernel = DenseMatrix(n, 2);
+    const double middle = beam_.length / 2;
+    for (int i = 0; i < n / 2; ++i) {
+      block.node.insert(block.node.end(), {i, i});
+      block.kernel.block<2, 2>(2 * i, 0) << 1, model_.nodes[i] - middle, 0, model_.unit;
+    }
+    block.motions = {{Motion::Kind::translation, {0, 1}}, {Motion::Kind::rotation, {}, {middle, 0}}};
+    return block;
+  }
+
+  void finish_rows(int n) {
+    const int rows = static_cast<int>(c_.size());
+    model_.problem.B = algebra::SparseRows(rows, n);
+    model_.problem.B.setFromTriplets(B_.begin(), B_.end());
+    model_.problem.c = Eigen::Map<const Vector>(c_.data(), rows);
+    model_.problem.row_name = [groups = model_.problem.groups](int row) { return groups[row].name; };
+  }
+
+  const Beam& beam_;
+  const std::vector<Broken>& broken_;
+  std::size_t next_breaking_ = 0;
+  Model model_;
+  Four scale_;
+  std::vector<Eigen::Triplet<double>> K_, B_;
+  std::vector<double> c_;
+  Vector f_;
+  double offset_ = 0;
+};
+
+}  // namespace
+
+Model build(const Beam& beam, const std::vector<Broken>& broken) { return Builder(beam, broken)(); }
+
+std::vector<Breaking> breaking(const Beam& beam) {
+  std::vector<Breaking> out;
+  for (std::size_t i = 0; i < beam.supports.size(); ++i) {
+    if (beam.supports[i].deflection.kind == Kind::breaking) out.push_back({static_cast<int>(i), false});
+    if (beam.supports[i].rotation.kind == Kind::breaking) out.push_back({static_cast<int>(i), true});
+  }
+  return out;
+}
+
+}  // namespace dotyk::beam

@@ -1,0 +1,95 @@
+#include "beam/solution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "beam/element.hpp"
+
+namespace dotyk::beam {
+
+Solution::Solution(Beam beam, Model model, solver::Result result)
+    : beam_(std::move(beam)), model_(std::move(model)), result_(std::move(result)),
+      residual_(problem::residual(model_.problem, result_.state)), energy_(problem::energy(model_.problem, result_.state)) {
+  if (!result_.state.u.allFinite() || !result_.state.lambda.allFinite() || !std::isfinite(energy_))
+    throw std::runtime_error("the solution has values beyond the range of numbers; choose units in which loads and stiffnesses are moderate");
+  sum_loads();
+}
+
+void Solution::sum_loads() {
+  forces_ = beam_.loads;
+  for (std::size_t i = 0; i < beam_.supports.size(); ++i) {
+    const Reaction r = reaction(static_cast<int>(i));
+    forces_.push_back({model_.nodes[model_.supports[i].node], r.force, r.moment});
+  }
+  sum_q_ = sum_moment_ = {0};
+  for (std::size_t i = 0; i + 1 < model_.nodes.size(); ++i) {
+    const double a = model_.nodes[i], b = model_.nodes[i + 1];
+    sum_moment_.push_back(sum_moment_[i] + (b - a) * sum_q_[i] + load_between(a, b, 1));
+    sum_q_.push_back(sum_q_[i] + load_between(a, b, 0));
+  }
+}
+
+/// ∫ (to − s)^arm q(s) ds, arm 0 or 1.
+double Solution::load_between(double from, double to, double arm) const {
+  const double h = to - from;
+  if (!beam_.q_of) return beam_.q * (arm == 0 ? h : h * h / 2);
+  return integral([&](double s) { return beam_.q_of(s) * (arm == 0 ? 1 : to - s); }, from, to);
+}
+
+Solution::Place Solution::place(double x) const {
+  if (!(x >= 0 && x <= beam_.length)) throw InputError(text("x = ", x, " is not on the beam, which goes from 0 to ", beam_.length));
+  const auto& nodes = model_.nodes;
+  const auto above = std::upper_bound(nodes.begin(), nodes.end(), x);
+  const int cell = std::clamp(static_cast<int>(above - nodes.begin()) - 1, 0, static_cast<int>(nodes.size()) - 2);
+  return {cell, (x - nodes[cell]) / (nodes[cell + 1] - nodes[cell])};
+}
+
+Eigen::Vector4d Solution::values(int cell) const {
+  const Eigen::Vector4d w = result_.state.u.segment<4>(2 * cell);
+  return {w[0], w[1] / model_.unit, w[2], w[3] / model_.unit};
+}
+
+double Solution::deflection(double x) const {
+  const auto [cell, s] = place(x);
+  return Hermite(s, model_.nodes[cell + 1] - model_.nodes[cell]).value.dot(values(cell));
+}
+
+double Solution::rotation(double x) const {
+  const auto [cell, s] = place(x);
+  return Hermite(s, model_.nodes[cell + 1] - model_.nodes[cell]).slope.dot(values(cell));
+}
+
+double Solution::shear(double x) const {
+  const int cell = place(x).cell;
+  double sum = sum_q_[cell] + load_between(model_.nodes[cell], x, 0);
+  for (const PointLoad& f : forces_)
+    if (f.x <= x && (f.x < beam_.length)) sum += f.force;
+  return -sum;
+}
+
+double Solution::moment(double x) const {
+  const int cell = place(x).cell;
+  double sum = sum_moment_[cell] + (x - model_.nodes[cell]) * sum_q_[cell] + load_between(model_.nodes[cell], x, 1);
+  for (const PointLoad& f : forces_)
+    if (f.x <= x && f.x < beam_.length) sum += f.force * (x - f.x) - f.moment;
+  return -sum;
+}
+
+Reaction Solution::reaction(int support) const {
+  const SupportRows& rows = model_.supports[support];
+  const Support& laws = beam_.supports[support];
+  const auto& [u, lambda] = result_.state;
+  Reaction r;
+  if (rows.deflection >= 0) r.force = lambda[rows.deflection];
+  if (rows.rotation >= 0) r.moment = rows.turn * lambda[rows.rotation] * model_.unit;
+  if (laws.deflection.kind == problem::SupportLaw::Kind::load) r.force = laws.deflection.value;
+  if (laws.rotation.kind == problem::SupportLaw::Kind::load) r.moment = laws.rotation.value;
+  r.deflection = u[2 * rows.node];
+  r.rotation = u[2 * rows.node + 1] / model_.unit;
+  return r;
+}
+
+}  // namespace dotyk::beam

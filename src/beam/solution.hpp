@@ -1,0 +1,54 @@
+#pragma once
+
+#include "beam/model.hpp"
+#include "problem/residual.hpp"
+#include "solver/solver.hpp"
+
+namespace dotyk::beam {
+
+/// The state of a support.
+struct Reaction {
+  double force = 0, moment = 0;         ///< on the beam, up and anticlockwise; loads given as laws included
+  double deflection = 0, rotation = 0;  ///< u and u' there
+};
+
+/// A solved beam. All of x must lie on the beam, else InputError.
+class Solution {
+ public:
+  Solution(Beam beam, Model model, solver::Result result);
+
+  const Beam& beam() const { return beam_; }
+  const Model& model() const { return model_; }
+  const solver::Result& result() const { return result_; }
+  const problem::Residual& residual() const { return residual_; }
+  double energy() const { return energy_; }  ///< with the supports', force·length
+
+  double deflection(double x) const;  ///< of the cubic elements; with constant EJ exact at nodes
+  double rotation(double x) const;
+  /// M = −EJ u'' and T = DM of the exact solution of a beam under these loads and the reactions: by equilibrium, from
+  /// the left. At a point where they jump: their values to the right of it; at the right end to the left.
+  double moment(double x) const;
+  double shear(double x) const;
+  /// Of a support of the beam, by its place in Beam::supports.
+  Reaction reaction(int support) const;
+
+ private:
+  struct Place {
+    int cell;
+    double s;  ///< 0 ≤ s ≤ 1
+  };
+  Place place(double x) const;
+  Eigen::Vector4d values(int cell) const;  ///< u, u', u, u' at its ends
+  void sum_loads();
+  double load_between(double from, double to, double arm) const;
+
+  Beam beam_;
+  Model model_;
+  solver::Result result_;
+  problem::Residual residual_;
+  double energy_ = 0;
+  std::vector<PointLoad> forces_;            ///< point loads and reactions
+  std::vector<double> sum_q_, sum_moment_;   ///< ∫ q and ∫ (x_i − s) q(s) ds from 0 to each node
+};
+
+}  // namespace dotyk::beam

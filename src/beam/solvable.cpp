@@ -1,0 +1,61 @@
+#include "beam/solvable.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "problem/solvability.hpp"
+
+namespace dotyk::beam {
+
+namespace {
+
+using Kind = problem::SupportLaw::Kind;
+
+/// u at both ends of the motion with these amounts of the kernel's modes, the greater 1.
+std::string ends(const Beam& beam, const algebra::Vector& amounts) {
+  Eigen::Vector2d u(amounts[0] - amounts[1] * beam.length / 2, amounts[0] + amounts[1] * beam.length / 2);
+  u /= u.cwiseAbs().maxCoeff();
+  for (double& end : u)
+    if (std::abs(end) < 1e-9) end = 0;
+  return text("u = ", u[0], " at the left end and ", u[1], " at the right one");
+}
+
+/// The theorem that is about these supports; empty where there is none.
+std::string theorem(const Beam& beam) {
+  bool one_sided = false, elastic = false, sliding = false, turning = false;
+  for (const Support& s : beam.supports) {
+    one_sided |= s.deflection.kind == Kind::signorini;
+    elastic |= s.deflection.kind == Kind::one_sided_elastic || s.deflection.kind == Kind::breaking;
+    sliding |= s.deflection.kind == Kind::friction || s.deflection.kind == Kind::one_sided_friction || s.deflection.kind == Kind::capped_elastic;
+    turning |= s.rotation.kind == Kind::friction || s.rotation.kind == Kind::one_sided_friction || s.rotation.kind == Kind::capped_elastic;
+  }
+  std::string out;
+  if (elastic) out = "one-sided elastic supports: the load must press on both (theorem 2)";
+  if (one_sided) out = "Signorini's supports: the load must press on both (theorem 3)";
+  if (turning) out += (out.empty() ? "" : "; ") + std::string("friction against rotation: its bound must be above the load's moment (theorem 4)");
+  if (sliding) out += (out.empty() ? "" : "; ") + std::string("friction against deflection: its bounds must be above the resultants (theorem 5)");
+  return out;
+}
+
+}  // namespace
+
+std::string require_solvable(const Beam& beam, const Model& model) {
+  using Verdict = problem::Solvability::Verdict;
+  const auto rigid = problem::rigid_motions(model.problem);
+  const auto s = problem::solvability(rigid, model.problem);
+  if (s.verdict == Verdict::unique && !s.limit) return "";
+  const double at_left = rigid.e[0] / 2 - rigid.e[1] / beam.length, at_right = rigid.e[0] / 2 + rigid.e[1] / beam.length;
+  const std::string resultants = text("the resultants are ", at_left, " at the left end and ", at_right, " at the right one");
+  if (s.verdict == Verdict::unsolvable) {
+    const std::string why = theorem(beam);
+    throw InputError(text("beam: no solution: nothing stops the motion ", ends(beam, s.motion), ", on which the load does work; ", resultants,
+                          why.empty() ? "" : "; ", why, s.limit ? "; a limit case: a load less by a millionth has a solution" : ""));
+  }
+  std::string note = s.verdict == Verdict::up_to_motion ? text("unique up to the motion ", ends(beam, s.motion)) : "";
+  if (s.limit) note += text(note.empty() ? "" : "; ", "a limit case: ", resultants);
+  return note;
+}
+
+}  // namespace dotyk::beam

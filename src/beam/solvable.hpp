@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "beam/model.hpp"
+
+namespace dotyk::beam {
+
+/// Are there reactions that the supports can give and that balance the load? Throws InputError where there are none: with
+/// the motion of the ends that nothing stops, the work of the load on it, and the resultants ⟨q, 1 − x/L⟩ and ⟨q, x/L⟩ that
+/// the conditions of P4 are about (theorem 2: one-sided elastic, 3: Signorini, 4 and 5: friction). Otherwise
+/// what is to be known: that the solution is unique up to a motion, or a limit case; empty where it is unique.
+std::string require_solvable(const Beam& beam, const Model& model);
+
+}  // namespace dotyk::beam

@@ -1,0 +1,64 @@
+#include "beam/solve.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "beam/solvable.hpp"
+#include "solver/pdas.hpp"
+
+namespace dotyk::beam {
+
+namespace {
+
+constexpr int kMostBreaking = 12;
+
+/// Where the choice of broken supports is what the displacements say.
+bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std::vector<Broken>& broken, const Solution& s) {
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const Support& support = beam.supports[which[k].support];
+    const Reaction r = s.reaction(which[k].support);
+    const auto& law = which[k].rotation ? support.rotation : support.deflection;
+    const double against = which[k].rotation ? r.rotation : -r.deflection;  // one-sided: deflections down, rotations up
+    const bool beyond = law.value * against > law.limit;
+    if (beyond != (broken[k] == Broken::yes)) return false;
+  }
+  return true;
+}
+
+solver::Result run(const Beam& beam, const Model& model, const solver::Method& method, Monitor& monitor) {
+  const std::string note = require_solvable(beam, model);
+  const solver::Method chosen = method ? method : solver::Method(solver::Pdas{});
+  solver::Result result = chosen.run(model.problem, {}, monitor);
+  if (!note.empty() && result.reason.find("unique up to") == std::string::npos) result.reason += "; " + note;
+  return result;
+}
+
+}  // namespace
+
+std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monitor& monitor) {
+  const std::vector<Breaking> which = breaking(beam);
+  if (which.size() > kMostBreaking)
+    throw InputError(text("beam: ", which.size(), " supports may break; every choice of broken ones is solved, which is possible with ", kMostBreaking, " at most"));
+  std::vector<Branch> minima;
+  std::optional<InputError> refused;
+  for (unsigned choice = 0; choice < 1u << which.size(); ++choice) {
+    std::vector<Broken> broken;
+    for (std::size_t k = 0; k < which.size(); ++k) broken.push_back(choice >> k & 1 ? Broken::yes : Broken::no);
+    try {
+      Model model = build(beam, broken);
+      solver::Result result = run(beam, model, method, monitor);
+      auto solution = std::make_shared<const Solution>(beam, std::move(model), std::move(result));
+      if (consistent(beam, which, broken, *solution)) minima.push_back({broken, solution});
+    } catch (const InputError& error) {
+      if (which.empty()) throw;
+      if (!refused) refused = error;
+    }
+  }
+  if (minima.empty()) throw refused ? *refused : InputError("beam: no solution: every support that may break would break, and without them nothing holds the beam");
+  std::sort(minima.begin(), minima.end(), [](const Branch& a, const Branch& b) { return a.solution->energy() < b.solution->energy(); });
+  return minima;
+}
+
+}  // namespace dotyk::beam

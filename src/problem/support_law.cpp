@@ -1,0 +1,62 @@
+#include "problem/support_law.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "problem/limited.hpp"
+
+namespace dotyk::problem {
+
+using Kind = SupportLaw::Kind;
+
+const char* support_name(Kind kind) {
+  switch (kind) {
+    case Kind::free: return "free";
+    case Kind::prescribed: return "prescribed";
+    case Kind::load: return "load";
+    case Kind::elastic: return "elastic";
+    case Kind::one_sided_elastic: return "one-sided elastic";
+    case Kind::signorini: return "Signorini";
+    case Kind::friction: return "friction";
+    case Kind::one_sided_friction: return "one-sided friction";
+    case Kind::capped_elastic: return "capped elastic";
+    case Kind::breaking: return "breaking";
+  }
+  return "";
+}
+
+bool one_sided(Kind kind) {
+  return kind == Kind::one_sided_elastic || kind == Kind::signorini || kind == Kind::one_sided_friction || kind == Kind::breaking;
+}
+
+void require_valid(const SupportLaw& law) {
+  const bool any_sign = law.kind == Kind::prescribed || law.kind == Kind::load;
+  if (!std::isfinite(law.value) || (!any_sign && law.value < 0))
+    throw InputError(text(support_name(law.kind), " law: the number is ", law.value, "; it must be ", any_sign ? "finite" : "zero or positive, and finite"));
+  if (!(law.limit >= 0) || !std::isfinite(law.limit))
+    throw InputError(text(support_name(law.kind), " law: the greatest force is ", law.limit, "; it must be zero or positive, and finite"));
+}
+
+std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit) {
+  const double k = law.value / (unit * unit), bound = law.value / unit, limit = law.limit / unit;
+  constexpr double rigid = Law::kUnbounded;
+  const auto cut_off = [&](double stiffness, double low, double high) {
+    return limited(support_name(law.kind), {Limits{stiffness, low, high}});
+  };
+  switch (law.kind) {
+    case Kind::free:
+    case Kind::load: return nullptr;
+    case Kind::prescribed: return bilateral();
+    case Kind::elastic: return elastic({k});
+    case Kind::signorini: return unilateral();
+    case Kind::breaking:
+    case Kind::one_sided_elastic: return cut_off(k, 0, rigid);
+    case Kind::friction: return cut_off(rigid, -bound, bound);
+    case Kind::one_sided_friction: return cut_off(rigid, 0, bound);
+    case Kind::capped_elastic: return cut_off(k, -limit, limit);
+  }
+  return nullptr;
+}
+
+}  // namespace dotyk::problem

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "problem/law.hpp"
+
+namespace dotyk::problem {
+
+/// What a support does about one displacement v (of a beam's end, its rotation, a node along a direction), with its
+/// reaction r on the body (P4, figures 1 to 17). "One-sided" supports push towards v > 0 alone: r ≥ 0.
+struct SupportLaw {
+  enum class Kind {
+    free,                ///< r = 0
+    prescribed,          ///< v = value
+    load,                ///< r = value
+    elastic,             ///< r = −value v
+    one_sided_elastic,   ///< r = value v⁻
+    signorini,           ///< v ≥ 0, r ≥ 0, rv = 0
+    friction,            ///< rigid friction: |r| ≤ value; where v ≠ 0 it is value, against v
+    one_sided_friction,  ///< the same for v < 0, nothing for v > 0: 0 ≤ r ≤ value
+    capped_elastic,      ///< r = −value v, cut off at ±limit
+    breaking             ///< one-sided elastic up to r = limit; beyond it is broken and r = 0: not monotone
+  };
+  Kind kind = Kind::free;
+  double value = 0;  ///< displacement, force, stiffness or bound; of stiffness and bound ≥ 0
+  double limit = 0;  ///< force, ≥ 0; of the last two kinds
+};
+
+/// "one-sided elastic".
+const char* support_name(SupportLaw::Kind kind);
+
+/// Pushes it towards v > 0 alone?
+bool one_sided(SupportLaw::Kind kind);
+
+/// Throws InputError where a number is not finite, or negative where it must not be.
+void require_valid(const SupportLaw& law);
+
+/// The law of its row x = −w (`prescribed`: x = value·unit − w), w = v·unit, whose multiplier is λ = r/unit: with a
+/// length for unit, rotations and moments are told as displacements and forces. A breaking support is one that has
+/// not broken yet: one-sided elastic. Null for `free` and `load`, which have no row.
+std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit = 1);
+
+}  // namespace dotyk::problem

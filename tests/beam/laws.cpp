@@ -1,0 +1,133 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "../support/exact_beam.hpp"
+#include "base/error.hpp"
+#include "solver/newton.hpp"
+#include "solver/proximal.hpp"
+#include "solver/psor.hpp"
+#include "solver/uzawa.hpp"
+
+using namespace dotyk;
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+using test::EndCondition;
+
+namespace {
+
+constexpr double kLength = 2, kEJ = 3;
+
+const std::vector<SupportLaw> kLaws{{Kind::free, 0, 0},          {Kind::prescribed, 0.05, 0},     {Kind::load, -0.3, 0},
+                                    {Kind::elastic, 4, 0},       {Kind::one_sided_elastic, 4, 0}, {Kind::signorini, 0, 0},
+                                    {Kind::friction, 0.7, 0},    {Kind::one_sided_friction, 0.7, 0},
+                                    {Kind::capped_elastic, 4, 0.5}};
+
+/// The branch that a law is on at displacement v and reaction r, both in the law's own direction; checks that the pair is
+/// one of the law's.
+EndCondition branch(const SupportLaw& law, double v, double r) {
+  constexpr double tight = 1e-8;
+  const double g = law.value;
+  switch (law.kind) {
+    case Kind::free: CHECK(std::abs(r) < tight); return {};
+    case Kind::prescribed: CHECK(std::abs(v - g) < tight); return {true, g, 0, 0};
+    case Kind::load: CHECK(std::abs(r - g) < tight); return {false, 0, g, 0};
+    case Kind::elastic: CHECK(std::abs(r + g * v) < tight); return {false, 0, 0, g};
+    case Kind::one_sided_elastic:
+    case Kind::breaking:
+      CHECK(std::abs(r - g * std::max(-v, 0.0)) < tight);
+      return v < 0 ? EndCondition{false, 0, 0, g} : EndCondition{};
+    case Kind::signorini:
+      CHECK(v > -tight);
+      CHECK(r > -tight);
+      CHECK(std::abs(r * v) < tight);
+      return r > tight ? EndCondition{true, 0, 0, 0} : EndCondition{};
+    case Kind::friction:
+      CHECK(std::abs(r) < g + tight);
+      if (std::abs(v) < tight) return {true, 0, 0, 0};
+      CHECK(r == doctest::Approx(v > 0 ? -g : g));
+      return {false, 0, v > 0 ? -g : g, 0};
+    case Kind::one_sided_friction:
+      CHECK(r > -tight);
+      CHECK(r < g + tight);
+      if (std::abs(v) < tight) return {true, 0, 0, 0};
+      CHECK(std::abs(r - (v > 0 ? 0 : g)) < tight);
+      return {false, 0, v > 0 ? 0 : g, 0};
+    case Kind::capped_elastic:
+      CHECK(std::abs(r - std::clamp(-g * v, -law.limit, law.limit)) < tight);
+      if (std::abs(g * v) < law.limit) return {false, 0, 0, g};
+      return {false, 0, v > 0 ? -law.limit : law.limit, 0};
+  }
+  return {};
+}
+
+/// The branch of a rotation: of one-sided laws about −u'.
+EndCondition turning_branch(const SupportLaw& law, double rotation, double moment) {
+  if (!problem::one_sided(law.kind)) return branch(law, rotation, moment);
+  EndCondition c = branch(law, -rotation, -moment);
+  c.value = -c.value;
+  c.force = -c.force;
+  return c;
+}
+
+/// Solves; nothing where there is no solution.
+std::shared_ptr<const beam::Solution> solve(const beam::Beam& b, const solver::Method& method) {
+  try {
+    return test::only(b, method);
+  } catch (const InputError& error) {
+    if (std::string(error.what()).find("no solution") == std::string::npos) MESSAGE(std::string(error.what()));
+    return nullptr;
+  }
+}
+
+bool near(const beam::Solution& a, const beam::Solution& b) {
+  const auto& u = a.result().state.u;
+  const auto& v = b.result().state.u;
+  return (u - v).norm() <= 1e-8 * (1e-3 + u.norm());
+}
+
+}  // namespace
+
+TEST_CASE("every pair of laws at two ends: in closed form, by several methods, or refused") {
+  int solved = 0, refused = 0, not_unique = 0;
+  for (const SupportLaw& ld : kLaws)
+    for (const SupportLaw& lr : kLaws)
+      for (const SupportLaw& rd : kLaws)
+        for (const SupportLaw& rr : kLaws)
+          for (const double q : {-1.0, 0.3}) {
+            const auto b = test::beam_between(kLength, kEJ, q, ld, lr, rd, rr);
+            CAPTURE(std::string(problem::support_name(ld.kind)));
+            CAPTURE(std::string(problem::support_name(lr.kind)));
+            CAPTURE(std::string(problem::support_name(rd.kind)));
+            CAPTURE(std::string(problem::support_name(rr.kind)));
+            CAPTURE(q);
+            const auto s = solve(b, {});
+            const auto t = solve(b, solver::Newton{});
+            REQUIRE((s == nullptr) == (t == nullptr));
+            if (!s) {
+              ++refused;
+              continue;
+            }
+            ++solved;
+            CHECK(s->result().converged);
+            CHECK(t->result().converged);
+            const beam::Reaction left = s->reaction(0), right = s->reaction(1);
+            const std::array<EndCondition, 4> conditions{
+                branch(ld, left.deflection, left.force), turning_branch(lr, left.rotation, left.moment),
+                branch(rd, right.deflection, right.force), turning_branch(rr, right.rotation, right.moment)};
+            if (s->result().reason.find("unique up to") != std::string::npos) {
+              ++not_unique;
+              continue;
+            }
+            CHECK(near(*s, *t));
+            const test::ExactBeam exact(kLength, kEJ, q, conditions);
+            for (const double x : {0.0, kLength / 4, kLength / 2, kLength}) {
+              CHECK(std::abs(s->deflection(x) - exact.u(x)) < 1e-9);
+              CHECK(std::abs(s->rotation(x) - exact.u(x, 1)) < 1e-9);
+              CHECK(std::abs(s->moment(x) - exact.moment(x)) < 1e-8);
+              CHECK(std::abs(s->shear(x) - exact.shear(x)) < 1e-8);
+            }
+          }
+  MESSAGE(solved << " solved, " << not_unique << " of them up to a motion, " << refused << " refused");
+  CHECK(solved + refused == 2 * 9 * 9 * 9 * 9);
+}
