@@ -19,7 +19,7 @@ struct Projection {
   double slope;  ///< in [0, 1]; one element of the generalised derivative at a kink
 };
 
-/// The multipliers that a law can give: the domain of φ*. Ends may be infinite.
+/// Of multipliers that a law can give, the domain of φ*, or of displacements. Ends may be infinite.
 struct Interval {
   double low, high;
 };
@@ -45,6 +45,8 @@ class Law {
   virtual Interval multipliers(int row) const = 0;
   /// λ ≥ 0 pushes, and only where x reaches 0: penetration and complementarity are defined.
   virtual bool unilateral() const { return false; }
+  /// Where λ follows x (or x is held and λ free): at lesser x λ is the least multiplier, at greater x the greatest.
+  virtual Interval following(int /*row*/) const { return {-kUnbounded, kUnbounded}; }
   /// k where φ(x) = ½kx² for every x (infinite: x = 0); nothing where the law has branches.
   virtual std::optional<double> linear_stiffness(int /*row*/) const { return std::nullopt; }
 };

@@ -44,6 +44,11 @@ class Limited final : public Law {
     return l.stiffness > 0 ? Interval{l.low, l.high} : Interval{0, 0};
   }
 
+  Interval following(int row) const override {
+    const auto [k, low, high] = limits_[row];
+    return {std::isfinite(low) ? low / k : -kUnbounded, std::isfinite(high) ? high / k : kUnbounded};
+  }
+
  private:
   std::string name_;
   std::vector<Limits> limits_;

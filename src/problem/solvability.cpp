@@ -85,23 +85,33 @@ Vector unbalanced(const RigidMotions& rigid, const Problem& problem, const Vecto
   return rigid.noticed * residual + rigid.unnoticed * (rigid.unnoticed.transpose() * e);
 }
 
-/// The middle of what unilateral rows can carry, unit length; zero where there are none.
-Vector middle_load(const RigidMotions& rigid, const Problem& problem) {
-  Vector sum = Vector::Zero(rigid.count());
+/// From the load towards the middle of what rows with limits can carry, unit length; zero where there are none.
+Vector inwards(const RigidMotions& rigid, const Problem& problem, double load) {
+  Vector middle = Vector::Zero(rigid.count()), rays = middle;
+  bool limits = false;
   for (const RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r)
-      if (group.law->unilateral()) sum += rigid.N.row(r).transpose();
-  return sum.norm() > 0 ? Vector(sum / sum.norm()) : sum;
+    for (int r = group.first; r < group.first + group.count; ++r) {
+      const auto [low, high] = group.law->multipliers(r - group.first);
+      const bool below = std::isfinite(low), above = std::isfinite(high);
+      limits = limits || below || above;
+      const double base = below && above ? (low + high) / 2 : below ? low : above ? high : 0;
+      middle += base * rigid.N.row(r).transpose();
+      if (below != above) rays += (below ? 1 : -1) * rigid.N.row(r).transpose();
+    }
+  if (!limits) return Vector::Zero(rigid.count());
+  Vector in = middle - rigid.e;
+  if (rays.norm() > 0) in += load * rays / rays.norm();
+  return in.norm() > 0 ? Vector(in / in.norm()) : in;
 }
 
 /// What is left unbalanced of a load turned by kLimit towards the nearest edge of what can be carried; zero where that
-/// is balanced. Taking ten times as much of the middle load away shows the motion that this edge is the end of; the
+/// is balanced. Ten times as much away from the middle shows the motion that this edge is the end of; the
 /// shortest way to the edge is along that motion.
 Vector beyond_edge(const RigidMotions& rigid, const Problem& problem, double load) {
-  const Vector middle = middle_load(rigid, problem), none = Vector::Zero(rigid.count());
-  if (middle.norm() == 0) return none;
+  const Vector in = inwards(rigid, problem, load), none = Vector::Zero(rigid.count());
+  if (in.norm() == 0) return none;
   const double least = 1e-3 * kLimit * load;
-  const Vector motion = unbalanced(rigid, problem, rigid.e - 10 * kLimit * load * middle);
+  const Vector motion = unbalanced(rigid, problem, rigid.e - 10 * kLimit * load * in);
   if (motion.norm() <= least) return none;
   const Vector left = unbalanced(rigid, problem, rigid.e + kLimit * load * motion / motion.norm());
   return left.norm() > least ? left : none;

@@ -36,40 +36,51 @@ constexpr double kApproaches = 1e-9;  // of a unit motion; less is sliding along
 
 Holder::Holder(const Problem& problem, const problem::RigidMotions& rigid)
     : problem_(problem), rigid_(rigid), N_(rigid.noticed_N), e_(rigid.noticed_e) {
-  unilateral_.assign(problem.rows(), 0);
+  following_.assign(problem.rows(), {-INFINITY, INFINITY});  // friction points: held as long as they stick
+  multipliers_ = following_;
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
-      unilateral_[r] = group.law->unilateral();
+      following_[r] = group.law->following(r - group.first), multipliers_[r] = group.law->multipliers(r - group.first);
 }
 
-double Holder::distance(const Vector& approach, const std::vector<char>& active, const Vector& x) const {
+double Holder::distance(int row, double approach, const Rows& at) const {
+  const auto [low, high] = following_[row];
+  const bool above = at.lambda[row] >= multipliers_[row].high;
+  const double end = above ? high : low;
+  if (at.active[row] || !std::isfinite(end) || multipliers_[row].low == multipliers_[row].high || !((above ? -approach : approach) > kApproaches)) return INFINITY;
+  return (end - at.x[row]) / approach;
+}
+
+double Holder::distance(const Vector& approach, const Rows& at) const {
   double first = INFINITY;
-  for (int r = 0; r < problem_.rows(); ++r)
-    if (!active[r] && unilateral_[r] && approach[r] > kApproaches) first = std::min(first, -x[r] / approach[r]);
+  for (int r = 0; r < problem_.rows(); ++r) first = std::min(first, distance(r, approach[r], at));
   return first;
 }
 
-int Holder::hold(std::vector<char>& active, const Vector& x) const {
+int Holder::hold(std::vector<char>& active, const Vector& x, const Vector& lambda) const {
   if (e_.size() == 0) return 0;
+  const Rows at{active, x, lambda};
   int added = 0;
   for (;;) {
     const DenseMatrix free = free_motions(N_, active);
     if (free.cols() == 0) return added;
-    Vector motion = free * (free.transpose() * e_);
+    Vector driving = e_;
+    for (int r = 0; r < problem_.rows(); ++r)
+      if (!active[r] && lambda[r] != 0) driving -= lambda[r] * N_.row(r).transpose();
+    Vector motion = free * (free.transpose() * driving);
     if (!(motion.norm() > 1e-10 * rigid_.e.norm())) {
       // No load drives it: towards the nearer side, for a state that multipliers can belong to.
       motion = free.col(0);
-      if (distance(-(N_ * motion), active, x) < distance(N_ * motion, active, x)) motion = -motion;
+      if (distance(-(N_ * motion), at) < distance(N_ * motion, at)) motion = -motion;
     }
     motion /= motion.lpNorm<Eigen::Infinity>();
     const Vector approach = N_ * motion;
-    const double first = distance(approach, active, x);
+    const double first = distance(approach, at);
     if (!std::isfinite(first))
       throw InputError(text("not held: nothing stops ", problem::describe(rigid_.motions, rigid_.noticed * motion),
                             "; fix, slide or spring a part, or add a contact in its way"));
     for (int r = 0; r < problem_.rows(); ++r)
-      if (!active[r] && unilateral_[r] && approach[r] > kApproaches &&
-          -x[r] / approach[r] <= first + 1e-9 * std::abs(first)) {
+      if (distance(r, approach[r], at) <= first + 1e-9 * std::abs(first)) {
         active[r] = 1;
         ++added;
       }

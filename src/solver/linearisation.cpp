@@ -1,5 +1,6 @@
 #include "solver/linearisation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -21,6 +22,14 @@ void set(Linearisation& l, int row, double y, Projection p) {
   l.value[row] = p.lambda;
   l.slope[row] = p.slope;
   l.active[row] = p.slope > 0;
+}
+
+/// Is a row whose λ followed x at the end of that, up to rounding, or one whose λ did not at its beginning?
+bool at_kink(const problem::Law& law, int row, double lambda, double x, double force, double gap, const Linearisation& previous, int r) {
+  const auto [low, high] = law.multipliers(row);
+  if (previous.active[r]) return std::min(std::abs(lambda - low), std::abs(lambda - high)) <= force;
+  const auto [from, to] = law.following(row);
+  return std::abs(x - (previous.value[r] >= high ? to : from)) <= gap;
 }
 
 constexpr Projection kOpen{0, 0};
@@ -51,7 +60,10 @@ Linearisation linearise(const Problem& problem, const Vector& lambda, const Vect
           continue;
         }
       }
-      set(l, r, y, group.law->project(r - group.first, y, rho[r]));
+      if (previous && !group.law->unilateral() && at_kink(*group.law, r - group.first, lambda[r], x[r], noise.force[r], noise.gap[r], *previous, r))
+        set(l, r, y, {previous->active[r] ? previous->slope[r] * y : previous->value[r], previous->slope[r]});
+      else
+        set(l, r, y, group.law->project(r - group.first, y, rho[r]));
     }
   return l;
 }

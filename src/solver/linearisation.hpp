@@ -33,7 +33,7 @@ struct Noise {
 
 /// Linearises at (λ, x). With `previous`, (λ, x) solves it: of a unilateral row one of λ and x is zero but
 /// for rounding, which ρ must not blow up, so the other one alone decides; below its noise the row keeps its
-/// branch, for touching without force it would flip with rounding.
+/// branch, for touching without force it would flip with rounding. So does a row of any other law at a kink.
 Linearisation linearise(const problem::Problem& problem, const algebra::Vector& lambda,
                         const algebra::Vector& x, const algebra::Vector& rho, const Noise& noise,
                         const Linearisation* previous);

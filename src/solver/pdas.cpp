@@ -128,7 +128,7 @@ class Iteration {
     std::vector<char> active = l.active;
     if (screws_)
       for (int r : screws_->rows()) active[r] = 1;
-    holder_.hold(active, x);
+    holder_.hold(active, x, l.value);
     return active == l.active ? l : from_flags_keeping(l, active);
   }
 
@@ -139,6 +139,7 @@ class Iteration {
         changed.y[r] = l.y[r];
         changed.value[r] = l.value[r];
         changed.slope[r] = l.slope[r];
+        changed.active[r] = l.active[r];
       }
     return changed;
   }

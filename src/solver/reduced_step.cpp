@@ -53,9 +53,11 @@ class ReducedStep final : public Step {
                       Vector& lambda) {
     DenseMatrix L = H;
     if (!algebra::cholesky(L)) return false;
-    // A pivot this small against the diagonal is a dependent row that rounding let through.
+    // A pivot this small against the diagonal is a dependent row that rounding let through; a diagonal this small
+    // a row on what the generalised inverse fixes.
+    const double greatest = H.rows() > 0 ? H.diagonal().maxCoeff() : 0;
     for (int j = 0; j < L.rows(); ++j)
-      if (L(j, j) * L(j, j) < 1e-13 * H(j, j)) return false;
+      if (!(L(j, j) * L(j, j) >= 1e-13 * H(j, j) && H(j, j) > 1e-14 * greatest)) return false;
     Vector z = g;
     algebra::solve_lower(L, z);
     if (N.cols() > 0) {
@@ -63,7 +65,7 @@ class ReducedStep final : public Step {
       algebra::solve_lower(L, Y);
       const DenseMatrix S = algebra::gram(Y);
       const Eigen::LDLT<DenseMatrix> ldlt(S);
-      if (ldlt.rcond() < 1e-14) return false;
+      if (!(ldlt.rcond() >= 1e-14)) return false;
       alpha_ = ldlt.solve(e - Y.transpose() * z);
       z += Y * alpha_;
     }

@@ -5,9 +5,6 @@
 #include "../support/exact_beam.hpp"
 #include "base/error.hpp"
 #include "solver/newton.hpp"
-#include "solver/proximal.hpp"
-#include "solver/psor.hpp"
-#include "solver/uzawa.hpp"
 
 using namespace dotyk;
 using problem::SupportLaw;
@@ -75,7 +72,7 @@ std::shared_ptr<const beam::Solution> solve(const beam::Beam& b, const solver::M
   try {
     return test::only(b, method);
   } catch (const InputError& error) {
-    if (std::string(error.what()).find("no solution") == std::string::npos) MESSAGE(std::string(error.what()));
+    CHECK(std::string(error.what()).find("no solution") != std::string::npos);
     return nullptr;
   }
 }
@@ -110,7 +107,6 @@ TEST_CASE("every pair of laws at two ends: in closed form, by several methods, o
             }
             ++solved;
             CHECK(s->result().converged);
-            CHECK(t->result().converged);
             const beam::Reaction left = s->reaction(0), right = s->reaction(1);
             const std::array<EndCondition, 4> conditions{
                 branch(ld, left.deflection, left.force), turning_branch(lr, left.rotation, left.moment),
@@ -119,6 +115,7 @@ TEST_CASE("every pair of laws at two ends: in closed form, by several methods, o
               ++not_unique;
               continue;
             }
+            CHECK(t->result().converged);
             CHECK(near(*s, *t));
             const test::ExactBeam exact(kLength, kEJ, q, conditions);
             for (const double x : {0.0, kLength / 4, kLength / 2, kLength}) {
@@ -128,6 +125,7 @@ TEST_CASE("every pair of laws at two ends: in closed form, by several methods, o
               CHECK(std::abs(s->shear(x) - exact.shear(x)) < 1e-8);
             }
           }
-  MESSAGE(solved << " solved, " << not_unique << " of them up to a motion, " << refused << " refused");
-  CHECK(solved + refused == 2 * 9 * 9 * 9 * 9);
+  CHECK(solved == 6696);
+  CHECK(refused == 6426);
+  CHECK(not_unique == 180);  // the load -0.3 at one end balances 0.3 about the other
 }
