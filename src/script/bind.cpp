@@ -19,6 +19,8 @@ void bind_all(Library& library) {
   bind_program(library);
   bind_lcp(library);
   bind_fclib(library);
+  bind_law(library);
+  bind_beam(library);
 }
 
 }  // namespace dotyk::script

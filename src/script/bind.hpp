@@ -19,5 +19,7 @@ void bind_write(Library& library);
 void bind_program(Library& library);
 void bind_lcp(Library& library);
 void bind_fclib(Library& library);
+void bind_law(Library& library);
+void bind_beam(Library& library);
 
 }  // namespace dotyk::script

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "script/bind.hpp"
+#include "script/bind_beam.hpp"
 #include "script/bind_fclib.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
@@ -56,27 +57,41 @@ int run(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& m
   return call.give(solution);
 }
 
+void require_no_options(const Call& call) {
+  if (call.has("options")) throw InputError("options are for scenes; other problems take none");
+}
+
 int solve_with(Call& call) {
   const auto solver = call.self<Solver>();
   if (call.holds<fclib::ContactProblem>("scene")) {
-    if (call.has("options")) throw InputError("options are for scenes; a contact_problem takes none");
+    require_no_options(call);
     return solve_contact_problem(call, call.object<fclib::ContactProblem>("scene"), *solver,
                                  call.kept_function(1, "on_iteration"));
+  }
+  if (call.holds<beam::Beam>("scene")) {
+    require_no_options(call);
+    return solve_beam(call, *call.object<beam::Beam>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
   }
   return run(call, call.object<Scene>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
 }
 
-int solve(Call& call) { return run(call, call.object<Scene>("scene"), {}, {}, false); }
+int solve(Call& call) {
+  if (!call.holds<beam::Beam>("scene")) return run(call, call.object<Scene>("scene"), {}, {}, false);
+  require_no_options(call);
+  return solve_beam(call, *call.object<beam::Beam>("scene"), {}, {}, false);
+}
 
 constexpr const char* kSteps =
     "With steps, quasi-statically one load after the other: friction opposes the slip since the last step, and all "
     "steps share one factorisation. The result is the last step; all of them are in s.steps.";
 
-Key scene_key() { return key::object<Scene>("scene", "what to solve").required(); }
+Key scene_or_beam_key() {
+  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam")}, "what to solve: a scene or a beam").required();
+}
 
 Key scene_or_problem_key() {
-  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<fclib::ContactProblem>("", "a problem from a file")},
-                     "what to solve: a scene, or a problem that dotyk.fclib read").required();
+  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam"), key::object<fclib::ContactProblem>("", "a problem from a file")},
+                     "what to solve: a scene, a beam, or a problem that dotyk.fclib read").required();
 }
 
 std::vector<Key> solve_keys(Key what) {
@@ -96,10 +111,10 @@ void bind_solver(Library& library) {
   bind_methods(library);
   bind_program_methods(library);
   library.function({.name = "dotyk.solve",
-                    .help = std::string("Solves a scene by the method its plan names; without contact that is one linear solve. ") + kSteps,
+                    .help = std::string("Solves a scene by the method its plan names, without contact by one linear solve, or a beam. ") + kSteps,
                     .example = "local s = dotyk.solve(scene)\nlocal finer = dotyk.solve(fine_scene, { start = s })\n"
                                "local h = dotyk.solve(scene, { steps = { { load = { shear = 0 } }, { load = { shear = 1 } } } })",
-                    .arguments = solve_keys(scene_key()),
+                    .arguments = solve_keys(scene_or_beam_key()),
                     .returns = "solution",
                     .run = solve});
   library.type<Solver>("A method with its options.")

@@ -1,0 +1,182 @@
+#include "script/bind_beam.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "beam/sampled.hpp"
+#include "script/bind.hpp"
+#include "script/library.hpp"
+#include "script/watch.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using beam::Beam;
+using beam::Broken;
+using problem::SupportLaw;
+
+Key law_key(const char* name, const char* help) { return key::object<SupportLaw>(name, help).otherwise("free"); }
+
+std::vector<Key> laws() {
+  return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")};
+}
+
+SupportLaw law(const Arguments& from, const char* name) { return from.has(name) ? *from.object<SupportLaw>(name) : SupportLaw{}; }
+
+beam::Support support(const Arguments& from, std::string name, double x) {
+  return {std::move(name), x, law(from, "deflection"), law(from, "rotation")};
+}
+
+void add_end(Call& call, const char* name, double x, Beam& beam) {
+  if (call.has(name)) beam.supports.push_back(support(call.table(name), name, x));
+  else beam.supports.push_back({name, x, {}, {}});
+}
+
+/// A constant, or a function taken at points of every cell.
+void take(Call& call, const char* name, const Beam& beam, double& constant, std::function<double(double)>& function) {
+  if (!call.has(name)) return;
+  const Field field = call.field(name);
+  if (field.constant()) constant = field({})[0];
+  else function = beam::sampled([&](double x) { return field(std::vector<double>{x})[0]; }, beam::nodes(beam));
+}
+
+int make_beam(Call& call) {
+  auto beam = std::make_shared<Beam>();
+  beam->length = call.number("length");
+  beam->cells = static_cast<int>(call.integer("cells"));
+  add_end(call, "left", 0, *beam);
+  if (call.has("supports"))
+    for (const Arguments& s : call.tables("supports")) beam->supports.push_back(support(s, text("x = ", s.number("x")), s.number("x")));
+  add_end(call, "right", beam->length, *beam);
+  std::stable_sort(beam->supports.begin(), beam->supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  if (call.has("loads"))
+    for (const Arguments& load : call.tables("loads")) beam->loads.push_back({load.number("x"), load.number("force"), load.number("moment")});
+  require_valid(*beam);
+  take(call, "EJ", *beam, beam->EJ, beam->EJ_of);
+  take(call, "load", *beam, beam->q, beam->q_of);
+  beam::build(*beam);  // refuses at once what cannot be solved
+  return call.give(beam);
+}
+
+std::string show(const Beam& b) {
+  return text("beam: length ", b.length, ", ", b.cells, " cells, EJ ", b.EJ_of ? "a function" : text(b.EJ), ", load ",
+              b.q_of ? "a function" : text(b.q), ", ", b.supports.size(), " supports, ", b.loads.size(), " point loads");
+}
+
+std::vector<Key> x_key() { return {key::number("x", "from the left end").unit("length").required()}; }
+
+template <double (beam::Solution::*value)(double) const>
+int at(Call& call) {
+  return call.give((call.self<BeamResult>()->solution().*value)(call.number("x")));
+}
+
+int reaction(Call& call) {
+  const beam::Solution& s = call.self<BeamResult>()->solution();
+  const auto& supports = s.beam().supports;
+  const std::string name = call.has("at") && !call.is("at", LUA_TNUMBER) ? call.text("at") : "";
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    const bool found = name.empty() ? std::abs(supports[i].x - call.number("at")) <= 1e-9 * s.beam().length : supports[i].name == name;
+    if (!found) continue;
+    const beam::Reaction r = s.reaction(static_cast<int>(i));
+    return call.give(Record{"reaction", {{"force", r.force}, {"moment", r.moment}, {"deflection", r.deflection}, {"rotation", r.rotation}}});
+  }
+  std::string known;
+  for (const auto& support : supports) known += (known.empty() ? "" : ", ") + support.name;
+  throw InputError(text("no support there; the supports are ", known));
+}
+
+std::vector<std::shared_ptr<BeamResult>> branches(const BeamResult& r) {
+  std::vector<std::shared_ptr<BeamResult>> out;
+  for (std::size_t k = 0; k < r.branches.size(); ++k) {
+    out.push_back(std::make_shared<BeamResult>(r));
+    out.back()->shown = k;
+  }
+  return out;
+}
+
+/// Names of the supports that are broken, "left rotation".
+std::vector<std::string> broken(const BeamResult& r) {
+  std::vector<std::string> out;
+  const auto which = beam::breaking(r.solution().beam());
+  const auto& choice = r.branches[r.shown].broken;
+  for (std::size_t k = 0; k < which.size(); ++k)
+    if (choice[k] == Broken::yes)
+      out.push_back(r.solution().beam().supports[which[k].support].name + (which[k].rotation ? " rotation" : " deflection"));
+  return out;
+}
+
+std::string show_result(const BeamResult& r) {
+  const beam::Solution& s = r.solution();
+  const solver::Result& result = s.result();
+  std::string out = text("beam solution: ", result.converged ? "converged" : "NOT CONVERGED", " (", result.method, ", ", result.iterations,
+                         result.iterations == 1 ? " iteration" : " iterations", "; ", result.reason, ")\n  energy ", s.energy());
+  if (r.branches.size() > 1) out += text(", the ", r.shown + 1, ". of ", r.branches.size(), " local minima");
+  for (std::size_t i = 0; i < s.beam().supports.size(); ++i) {
+    const beam::Reaction at = s.reaction(static_cast<int>(i));
+    out += text("\n  ", s.beam().supports[i].name, ": force ", at.force, ", moment ", at.moment, ", deflection ", at.deflection, ", rotation ", at.rotation);
+  }
+  return out;
+}
+
+void bind_beam_solution(Library& library) {
+  library.type<BeamResult>("A solved beam: what it does, how it ended, and its other branches.")
+      .field("converged", "did the method end as it should", [](const BeamResult& r) { return r.solution().result().converged; })
+      .field("method", "which method", [](const BeamResult& r) { return r.solution().result().method; })
+      .field("iterations", "how many", [](const BeamResult& r) { return r.solution().result().iterations; })
+      .field("reason", "why it ended", [](const BeamResult& r) { return r.solution().result().reason; })
+      .field("energy", "with the supports'", [](const BeamResult& r) { return r.solution().energy(); }, "force·length")
+      .field("branches", "all local minima of the energy, the least first: more than one only with breaking supports", branches)
+      .field("broken", "names of the breaking supports that are broken here", broken)
+      .method({.name = "beam_solution:deflection", .help = "The deflection, positive upwards; at nodes exact where EJ is constant.", .example = "print(s:deflection(0.5))",
+               .arguments = x_key(), .run = at<&beam::Solution::deflection>})
+      .method({.name = "beam_solution:rotation", .help = "The slope of the deflection.", .example = "print(s:rotation(0))", .arguments = x_key(), .run = at<&beam::Solution::rotation>})
+      .method({.name = "beam_solution:moment", .help = "The bending moment -EJ u'', by equilibrium.", .example = "print(s:moment(0.5))", .arguments = x_key(),
+               .run = at<&beam::Solution::moment>})
+      .method({.name = "beam_solution:shear", .help = "The shear force, the derivative of the moment, by equilibrium; where it jumps, to the right.",
+               .example = "print(s:shear(0))", .arguments = x_key(), .run = at<&beam::Solution::shear>})
+      .method({.name = "beam_solution:reaction",
+               .help = "What a support does to the beam: force (up) and moment (anticlockwise), and the deflection and rotation there.",
+               .example = "print(s:reaction(\"left\").force, s:reaction(0.5).force)",
+               .arguments = {key::either("at", {key::choice("", {"left", "right"}, ""), key::number("", "the x of a support")}, "an end, or the x of a support").required()},
+               .run = reaction})
+      .text(show_result);
+}
+
+}  // namespace
+
+int solve_beam(Call& call, const Beam& beam, const solver::Method& method, std::vector<Function> on_iteration, bool verbose) {
+  Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
+  auto result = std::make_shared<BeamResult>();
+  result->branches = beam::solve(beam, method, watch);
+  watch.answer();
+  return call.give(result);
+}
+
+void bind_beam(Library& library) {
+  library.function(
+      {.name = "dotyk.beam",
+       .help = "A straight beam (Bernoulli's hypothesis, cubic elements) with supports at its ends and within, each with a law for the deflection and "
+               "one for the rotation. Solved by dotyk.solve or a solver. Functions are taken at eight points of every cell, when the beam is made.",
+       .example = "local b = dotyk.beam{ length = 1, EJ = 1, load = -1,\n"
+                  "  left = { deflection = dotyk.law.signorini() }, right = { deflection = dotyk.law.signorini() } }\n"
+                  "print(dotyk.solve(b):deflection(0.5))",
+       .arguments = {key::table(
+           {key::positive("length", "of the beam, from x = 0").unit("length").fallback(1.0),
+            key::field("EJ", "bending stiffness, positive").unit("force·length²").otherwise("1"),
+            key::integer("cells", "elements, of equal length; a support within one divides it").within(1, 100000).fallback(32.0),
+            key::field("load", "per length, upwards: a number or a function of x").unit("force/length").otherwise("0"),
+            key::table("left", laws(), "the support at x = 0"), key::table("right", laws(), "the support at x = length"),
+            [] {
+              Key item = key::table("", laws(), "");
+              item.keys.insert(item.keys.begin(), key::number("x", "where").unit("length").required());
+              return key::list("supports", item, "supports within the beam");
+            }(),
+            key::list("loads", key::table("", {key::number("x", "where").unit("length").required(), key::number("force", "upwards").unit("force").fallback(0.0),
+                                               key::number("moment", "anticlockwise").unit("force·length").fallback(0.0)}, ""), "at points")})},
+       .returns = "beam",
+       .run = make_beam});
+  library.type<Beam>("A beam with its supports and loads.").field("length", "of the beam", [](const Beam& b) { return b.length; }, "length").text(show);
+  bind_beam_solution(library);
+}
+
+}  // namespace dotyk::script

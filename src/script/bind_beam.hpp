@@ -1,0 +1,32 @@
+#pragma once
+// Beams for scripts, and for the calls that solve them.
+#include "beam/solve.hpp"
+#include "script/call.hpp"
+#include "script/wrapped.hpp"
+
+namespace dotyk::script {
+
+// What solving a beam gives: its solution of least energy, and all local minima.
+struct BeamResult {
+  std::vector<beam::Branch> branches;  // least energy first
+  std::size_t shown = 0;               // which of them this is
+  const beam::Solution& solution() const { return *branches[shown].solution; }
+};
+
+template <>
+struct Wrapped<problem::SupportLaw> {
+  static constexpr const char* name = "law";
+};
+template <>
+struct Wrapped<beam::Beam> {
+  static constexpr const char* name = "beam";
+};
+template <>
+struct Wrapped<BeamResult> {
+  static constexpr const char* name = "beam_solution";
+};
+
+// Solves; gives a beam_solution.
+int solve_beam(Call& call, const beam::Beam& beam, const solver::Method& method, std::vector<Function> on_iteration, bool verbose);
+
+}  // namespace dotyk::script

@@ -1,0 +1,68 @@
+#include "base/text.hpp"
+#include "script/bind.hpp"
+#include "script/bind_beam.hpp"
+#include "script/library.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+struct Maker {
+  const char* name;
+  Kind kind;
+  const char* help;
+  std::vector<Key> numbers;  // value, limit
+};
+
+Key stiffness() { return key::number("k", "stiffness, not negative").unit("force/length, or moment of a rotation").at_least(0).required(); }
+Key bound() { return key::number("g", "greatest force, not negative").unit("force, or moment of a rotation").at_least(0).required(); }
+
+std::vector<Maker> makers() {
+  return {{"free", Kind::free, "A support that does nothing.", {}},
+          {"prescribed", Kind::prescribed, "Prescribes the displacement.",
+           {key::number("v", "the deflection or rotation").unit("length, or rad").fallback(0.0)}},
+          {"load", Kind::load, "Loads the place with a force, or a moment on its rotation.",
+           {key::number("f", "up, a moment anticlockwise").unit("force, or moment").required()}},
+          {"elastic", Kind::elastic, "A spring: the reaction is -k v.", {stiffness()}},
+          {"one_sided_elastic", Kind::one_sided_elastic,
+           "A spring that only pushes: up against deflections below zero, down against slopes above zero.", {stiffness()}},
+          {"signorini", Kind::signorini, "A rigid stop: the deflection stays at or above zero, a slope at or below zero.", {}},
+          {"friction", Kind::friction, "Rigid friction: holds up to a reaction of g, and slips against it.", {bound()}},
+          {"one_sided_friction", Kind::one_sided_friction, "Rigid friction on one side: holds up to g where a rigid stop would push, and else not at all.", {bound()}},
+          {"capped_elastic", Kind::capped_elastic, "A spring whose reaction is at most g, either way.", {stiffness(), bound()}},
+          {"breaking", Kind::breaking,
+           "A spring that only pushes and breaks where its reaction would exceed g. Not monotone: a solution may have several branches (s.branches).",
+           {stiffness(), bound()}}};
+}
+
+std::string show(const SupportLaw& law) {
+  std::string out = text("law: ", problem::support_name(law.kind));
+  const bool number = law.kind != Kind::free && law.kind != Kind::signorini;
+  if (number) out += text(" ", law.value);
+  if (law.kind == Kind::capped_elastic || law.kind == Kind::breaking) out += text(", at most ", law.limit);
+  return out;
+}
+
+}  // namespace
+
+void bind_law(Library& library) {
+  library.module("dotyk.law", "What a support does about one displacement, of a beam's deflection or rotation.");
+  for (const Maker& e : makers()) {
+    const std::string name = std::string("dotyk.law.") + e.name;
+    std::string example;
+    for (const Key& number : e.numbers) example += (example.empty() ? "" : ", ") + std::string(number.name == "k" ? "100" : number.name == "g" ? "2" : "-1");
+    const auto make = [kind = e.kind, numbers = e.numbers](Call& call) {
+      auto law = std::make_shared<SupportLaw>();
+      law->kind = kind;
+      if (!numbers.empty()) law->value = call.number(numbers[0].name);
+      if (numbers.size() > 1) law->limit = call.number(numbers[1].name);
+      return call.give(law);
+    };
+    library.function({.name = name, .help = e.help, .example = "local law = " + name + "(" + example + ")", .arguments = e.numbers, .returns = "law", .run = make});
+  }
+  library.type<SupportLaw>("What a support does about one displacement.").text(show);
+}
+
+}  // namespace dotyk::script
