@@ -12,8 +12,8 @@ namespace dotyk::solver {
 ///   S = K_bb − K_bi K_ii⁺ K_ib,
 /// the stiffness of the piece felt on b. B̂ᵀB̂W takes the mean of its copies, weighted by their stiffness, from each unknown, which
 /// is what the ρ-scaling is for (Klawonn and Widlund 2001). On im P the
-/// eigenvalues of what it makes of F go from 1 to C(1 + log H/h)²: 3.0, 4.05, 4.9 for cubes with H/h = 4, 6, 8, where F
-/// itself has κ = 33, 43, 52. Equal pieces that rows touch alike share the factor of K_ii.
+/// eigenvalues of what it makes of F go from 1 to C(1 + log H/h)²: 2.9, 4.0, 4.9 for cubes with H/h = 4, 6, 8, where F
+/// itself has κ = 19, 28, 38. Equal pieces that rows touch alike share the factor of K_ii.
 class Dirichlet {
  public:
   /// Orders and factors the insides. `dual` must outlive the object. Throws as DualProblem does.

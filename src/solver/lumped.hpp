@@ -7,7 +7,7 @@
 namespace dotyk::solver {
 
 /// The lumped preconditioner of FETI, B̂WKWB̂ᵀ (P2; W as in through_touched): of each K only the part on the unknowns that
-/// rows touch counts. The condition on im P grows as H/h, as that of F: 5.1, 7.1, 9.3
+/// rows touch counts. The condition on im P grows as H/h, as that of F: 4.2, 6.3, 8.5
 /// for cubes with H/h = 4, 6, 8.
 class Lumped {
  public:
