@@ -15,6 +15,13 @@ int unknown_field(lua_State* L) {
     lua_pushnil(L);
     return 1;
   }
+  if (luaL_getmetafield(L, 1, "__absent") != LUA_TNIL) {
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, -2) != LUA_TNIL) {
+      lua_pushnil(L);
+      return 1;
+    }
+  }
   const auto known = string_keys(L, 1);
   raise(L, name, unknown_name("field", lua_tostring(L, 2), known));
 }
@@ -64,7 +71,17 @@ void push(lua_State* L, const Record& record) {
     std::visit([L](const auto& value) { push(L, value); }, entry.value);
     lua_setfield(L, -2, entry.name.c_str());
   }
-  if (!record.name.empty()) make_strict(L, record.name);
+  if (record.name.empty()) return;
+  make_strict(L, record.name);
+  if (record.absent.empty()) return;
+  lua_getmetatable(L, -1);
+  lua_createtable(L, 0, static_cast<int>(record.absent.size()));
+  for (const auto& name : record.absent) {
+    push(L, true);
+    lua_setfield(L, -2, name.c_str());
+  }
+  lua_setfield(L, -2, "__absent");
+  lua_pop(L, 1);
 }
 
 }  // namespace dotyk::script

@@ -25,6 +25,7 @@ struct Entry;
 struct Record {
   std::string name;
   std::vector<Entry> entries;
+  std::vector<std::string> absent = {};  // names of its kind that have no value here: nil, and no error
 };
 
 using Value =

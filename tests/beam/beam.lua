@@ -1,0 +1,58 @@
+-- dotyk.beam as a script sees it: values, errors where they are made, every method, branches.
+local check <const> = require "check"
+local refused <const> = require "refused"
+local law <const> = dotyk.law
+
+local function beam(keys)
+  keys.left = keys.left or { deflection = law.signorini() }
+  keys.right = keys.right or { deflection = law.signorini() }
+  return dotyk.beam(keys)
+end
+
+-- A beam on two supports: 5qL⁴/384EJ, qL²/8.
+local s <const> = dotyk.solve(beam{ length = 2, EJ = 3, load = -4 })
+check.near(s:deflection(1), -5 * 4 * 2^4 / (384 * 3), 1e-12)
+check.near(s:moment(1), -4 * 2^2 / 8, 1e-12)
+check.near(s:reaction("left").force, 4, 1e-12)
+check.near(s:reaction(2).force, 4, 1e-12)
+check.equal(s.converged, true)
+check.equal(#s.branches, 1)
+
+-- Functions of x are taken when the beam is made; the same as a constant.
+local f <const> = dotyk.solve(beam{ length = 2, EJ = function() return 3 end, load = function() return -4 end })
+for x = 0, 2, 0.25 do
+  check.near(f:deflection(x), s:deflection(x), 1e-12)
+  check.near(f:shear(x), s:shear(x), 1e-11)
+end
+
+-- Methods that treat laws with two limits, and one that does not.
+local rubbing <const> = beam{ load = -1, right = { deflection = law.friction(2) } }
+for _, name in ipairs{ "pdas", "newton", "uzawa", "psor", "proximal" } do
+  check.near(dotyk.solver[name]{}:solve(rubbing):deflection(0.5), -5 / 384, 1e-9, name)
+end
+refused(function() dotyk.solver.interior_point{}:solve(rubbing) end, "cannot treat the friction law of the right deflection; pdas can")
+
+-- Refusals, at the line that makes or solves it.
+refused(function() dotyk.beam{ length = -1 } end, "'length'")
+refused(function() dotyk.beam{ lenght = 1 } end, "unknown key 'lenght'")
+refused(function() dotyk.beam{ left = { deflection = 3 } } end, "expected a law, got the number 3")
+refused(function() dotyk.beam{ EJ = function(x) return 0.5 - x end } end, "EJ is")
+refused(function() dotyk.beam{ load = function() return "much" end } end, "'load'")
+refused(function() dotyk.beam{ supports = { { x = 2, deflection = law.signorini() } } } end, "the beam goes from 0 to 1")
+refused(function() dotyk.beam{ supports = { { x = 0, deflection = law.signorini() } } } end, "are at one point")
+refused(function() law.elastic(-1) end, "'k' must be a number of at least 0")
+refused(function() law.capped_elastic(1) end, "'g'")
+refused(function() dotyk.solve(beam{ load = 1 }) end, "theorem 3")
+refused(function() dotyk.solve(dotyk.beam{ load = 1 }) end, "no solution")
+refused(function() dotyk.solve(beam{ load = -1 }, { start = { 1 } }) end, "options are for scenes")
+refused(function() return s:deflection(3) end, "x = 3 is not on the beam")
+refused(function() return s:reaction(0.3) end, "the supports are left, right")
+
+-- A breaking support, whole and broken.
+local b <const> = dotyk.solve(dotyk.beam{ left = { deflection = law.prescribed(), rotation = law.prescribed() },
+  right = { deflection = law.breaking(3, 0.2) }, loads = { { x = 1, force = -0.3 } } })
+check.equal(#b.branches, 2)
+check.equal(b.branches[1].energy <= b.branches[2].energy, true)
+local broken <const> = #b.branches[1].broken == 1 and b.branches[1] or b.branches[2]
+check.equal(broken.broken, { "right deflection" })
+check.near(broken:deflection(1), -0.1, 1e-12)
