@@ -33,7 +33,7 @@ local function boxes(dimension, count)
 end
 
 local function feti(dimension, count, options)
-  local given = { subdomains = boxes(dimension, count), tol = 1e-6, rho = 30 }
+  local given = { subdomains = boxes(dimension, count), tol = 1e-6 }
   for key, value in pairs(options or {}) do given[key] = value end
   return solvers.feti(given)
 end

@@ -64,20 +64,20 @@ print(("tight: forces differ by %.1e, displacements by %.1e from the direct meth
 assert(displaced(tight, direct) < 1e-9 and difference(tight, direct) < 1e-9)
 
 -- 3. The paper's table: algorithm 4.1 with proportioning and projections, |g^P| <= 1e-4 |d|, |G lambda - e| <= 1e-4 |f|.
--- The paper does not tell the units of rho and M. Here rho = 1 is |PFP|, the end of the spectrum, which the penalty's
--- one eigenvalue then does not widen ((3.5)); M = 1 is |PFP|/100: here an inner minimisation ends at the step that
--- meets M, not at the end of a face, and a greater M makes more outer steps of it.
+-- The paper does not tell the units of rho and M. Here rho = 1 is 1.2 |PFP|, just above the spectrum of PFP, beside which the
+-- penalty's one eigenvalue costs no more than itself ((3.5)); M = 1 is |PFP|/100: here an inner minimisation ends at the
+-- step that meets M, not at the end of a face, and a greater M makes more outer steps of it.
 print "\n            no preconditioner             lumped                        off by"
 print "M     rho   outer inner  seconds   outer inner  seconds   forces   displacements"
 local rules <const> = { M = { 0.01, 0.1, 1 }, rho = { 0.1, 1, 10, 100, 1000 }, preconditioner = { "none", "lumped" } }
 local runs, worst = {}, 0
 local function run(M, rho, preconditioner)
   local s <const> = dotyk.solver.feti{ supports = "stiffness", tol = 1e-4, update = "penalty", coarse = "whole",
-    expansion = "projected_cg", M = M / 100, rho = rho, preconditioner = preconditioner }:solve(scene)
+    expansion = "projected_cg", M = M / 100, rho = 1.2 * rho, preconditioner = preconditioner }:solve(scene)
   assert(s.converged, s.reason)
   local forces <const>, displacements <const> = difference(s, direct), displaced(s, direct)
   assert(s.iterations >= 2 and s.iterations <= 4)
-  assert(math.max(forces, displacements) < 2e-4)
+  assert(math.max(forces, displacements) < 1.5e-4)
   return { outer = s.iterations, inner = s.feti.inner, seconds = s.time.iterate, forces = forces, displacements = displacements }
 end
 for _, M in ipairs(rules.M) do
@@ -111,7 +111,7 @@ for _, preconditioner in ipairs(rules.preconditioner) do
 end
 print(("off by %.1e at most; inner steps at rho = 1: %.2f times the fewest; at 1000: %.2f times those; from M = 1 to 0.01: %.2f times"):format(
   worst, above, growth, apart))
-assert(growth < 3 and above < 1.4 and apart < 1.6)
+assert(growth < 3 and above < 1.3 and apart < 1.6)
 
 -- 4. Contact forces and status above the excavation.
 tight:render{ file = "images/three_blocks.png", field = "uz", deform = "auto", contact = true, size = { 1400, 1000 } }

@@ -82,6 +82,7 @@ end
 -- 3. The solution, and what the wall does.
 local solver <const> = dotyk.solver.feti{ tol = 1e-5, max_iterations = 2000 }
 local s <const> = solver:solve(scene)
+assert(s.converged, s.reason)
 print(s)
 local counts = { open = 0, stick = 0, slip = 0 }
 for _, joint in ipairs(joints) do

@@ -75,12 +75,12 @@ void bind_feti(Library& library) {
             key::choice("update", {"precision", "penalty", "both"}, "of the augmented Lagrangian: of the inner precision M with rho "
                         "fixed (SMALBE-M), of rho with M fixed (the paper's algorithm 4.1), or whichever holds it up").fallback("both"),
             key::positive("M", "an inner minimisation ends at |projected gradient| <= M |G lambda - e|; in units of |PFP|").fallback(1.0),
-            key::positive("rho", "penalty of G lambda = e, at first; in units of |PFP|").below(1e10).fallback(10.0),
+            key::positive("rho", "penalty of G lambda = e, at first; in units of |PFP|").below(1e10).fallback(30.0),
             key::choice("expansion", {"fixed_step", "projected_cg"}, "how the inner method lets multipliers reach their bounds: "
                         "fixed projected steps (MPRGP), or projected conjugate gradient steps (proportioning with "
                         "projections)").fallback("projected_cg"),
             key::integer("max_inner", "give up after so many inner steps").at_least(1).fallback(100000.0),
-            key::boolean("spectrum", "estimate the condition of PFP on im P, in s.feti.condition").fallback(false)}))},
+            key::boolean("spectrum", "estimate the condition of PFP on im P, in s.feti.condition").fallback(false)}, 1000))},
        .returns = "solver",
        .run = make_feti});
 }

@@ -38,8 +38,8 @@ constexpr int kManyMotions = 200;
 /// Resultants that no multipliers balance, relative to all: above rounding in long sums.
 constexpr double kImbalance = 1e-9;
 /// The equilibrium of the displacements recovered may be worse than tol by what stiffnesses and sizes make of the copies'
-/// disagreement; beyond this it is no solution.
-constexpr double kSpoilt = 1e4;
+/// disagreement; beyond this, or a hundredth of the forces, it is no solution.
+constexpr double kSpoilt = 1e4, kMostNoise = 1e-2;
 
 class Run {
  public:
@@ -123,6 +123,7 @@ class Run {
       return;
     }
     for (bool moves = true; moves;) {
+      if (result_.iterations >= method_.max_iterations || counts_.inner >= method_.max_inner) return give_up();
       const double precision = std::max(method_.tol, std::min(kFirst, kAhead * bounds_.change()));
       if (!solve_given(precision)) return;
       ++counts_.loops;
@@ -131,6 +132,11 @@ class Run {
     }
     result_.converged = false;
     result_.reason = text("the bounds of Coulomb's friction have not settled: they still change by ", bounds_.change(), " a step");
+  }
+
+  void give_up() {
+    result_.converged = false;
+    result_.reason = text("no convergence within ", result_.iterations, " outer and ", counts_.inner, " inner steps");
   }
 
   /// With the bounds as they are, from the last solution on. False where it is not solved.
@@ -219,7 +225,7 @@ class Run {
     switch (solved.end) {
       case End::done: result_.reason = "the residual fell below tol"; break;
       case End::stopped: result_.reason = "interrupted; this is the state so far"; break;
-      case End::limit: result_.reason = text("no convergence within ", result_.iterations, " outer and ", counts_.inner, " inner steps"); break;
+      case End::limit: give_up(); break;
       case End::rounding: result_.reason = text("rounding keeps the residual at ", residual_, ", above tol"); break;
       case End::infeasible:
         result_.reason = text("no multipliers that the laws allow balance the load", unbalanced(lambda()));
@@ -238,7 +244,7 @@ class Run {
 
   void report() {
     result_.method = "feti";
-    result_.noise = std::max(result_.noise, kSpoilt * method_.tol);
+    result_.noise = std::max(result_.noise, std::min(kSpoilt * method_.tol, kMostNoise));
     result_.ordering = dual_.ordering();
     result_.factor_bytes = dual_.factor_bytes() + preconditioner_.factor_bytes();
     counts_.subdomains = static_cast<int>(dual_.torn().pieces.size());

@@ -20,7 +20,7 @@ namespace dotyk::solver {
 /// times the greatest gross_load(). Coulomb
 /// friction is an outer loop over given friction, b := μλ_n, ended where the bounds change by less than tol.
 struct Feti : Settings {
-  Feti() { outer.rho = 10, outer.update = Smalbe::Update::both; }
+  Feti() { outer.rho = 30, outer.update = Smalbe::Update::both; }
   enum class Preconditioner {
     none,
     lumped,    ///< P B K Bᵀ P + Q/ρ

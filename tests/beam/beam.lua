@@ -11,7 +11,7 @@ end
 
 -- A beam on two supports: 5qL⁴/384EJ, qL²/8.
 local s <const> = dotyk.solve(beam{ length = 2, EJ = 3, load = -4 })
-check.near(s:deflection(1), -5 * 4 * 2^4 / (384 * 3), 1e-12)
+check.near(s:deflection(1), -5 * 4 * 2^4 / (384 * 3), 1e-11)  -- 32⁴ roundings
 check.near(s:moment(1), -4 * 2^2 / 8, 1e-12)
 check.near(s:reaction("left").force, 4, 1e-12)
 check.near(s:reaction(2).force, 4, 1e-12)
@@ -21,7 +21,7 @@ check.equal(#s.branches, 1)
 -- Functions of x are taken when the beam is made; the same as a constant.
 local f <const> = dotyk.solve(beam{ length = 2, EJ = function() return 3 end, load = function() return -4 end })
 for x = 0, 2, 0.25 do
-  check.near(f:deflection(x), s:deflection(x), 1e-12)
+  check.near(f:deflection(x), s:deflection(x), 1e-11)
   check.near(f:shear(x), s:shear(x), 1e-11)
 end
 
@@ -55,4 +55,4 @@ check.equal(#b.branches, 2)
 check.equal(b.branches[1].energy <= b.branches[2].energy, true)
 local broken <const> = #b.branches[1].broken == 1 and b.branches[1] or b.branches[2]
 check.equal(broken.broken, { "right deflection" })
-check.near(broken:deflection(1), -0.1, 1e-12)
+check.near(broken:deflection(1), -0.1, 1e-11)
