@@ -23,7 +23,7 @@ void refuse_noise(const problem::Residual& r, solver::Result& result) {
   result.converged = false;
   result.reason = text("rounding leaves ", equilibrium_alone ? "the displacements out of equilibrium by " : "a residual of ",
                        worst, ": stiffnesses, supports or sizes are too far apart ",
-                       result.feti ? "for this decomposition"
+                       result.feti ? "for this decomposition, or tol is too great"
                                    : "(a material nearly incompressible, a spring nearly absent, cells nearly flat)");
 }
 
