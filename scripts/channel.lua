@@ -63,7 +63,7 @@ for i = 0, 5 do
 end
 local x, y = profile(function(s) return electric:stationary(s) end)
 profiles[#profiles + 1] = { name = "stationary", x = x, y = y, reference = true }
-dotyk.chart{ file = "images/channel.png", x = "y / y0", y = "velocity [m/s]", series = profiles,
+dotyk.chart{ file = "images/channel.png", x = "y / y₀", y = "velocity [m/s]", series = profiles,
   title = ("Mercury, M = %.1f, electric field of 1 Hz"):format(electric.hartmann) }
 
 -- 3. On the axis, from the start.
@@ -110,10 +110,10 @@ for _, liquid in ipairs{ { name = "salt water", make = salt_water },
   assert(math.abs(slope + 1) < 1e-6 and math.abs(make(omega):amplitude() * a * omega - 1) < 1e-6)
   local claim, limit = inverse(slow, 1, 10), inverse(1 / a, 100, 10)
   series[#series + 1] = { name = liquid.name, x = curve.x, y = curve.y, style = "line" }
-  series[#series + 1] = { name = liquid.name .. ": A(0)/omega", x = claim.x, y = claim.y, style = "line", twin = true }
+  series[#series + 1] = { name = liquid.name .. ": A(0)/ω", x = claim.x, y = claim.y, style = "line", twin = true }
   for i = 1, #limit.x do table.insert(limits.x, limit.x[i]) table.insert(limits.y, limit.y[i]) end
 end
-series[#series + 1] = { name = "1/(a omega)", x = limits.x, y = limits.y, style = "points" }
-dotyk.chart{ file = "images/channel_amplitude.png", x = "omega [1/s]", y = "amplitude on the axis [m/s]", log = "xy",
+series[#series + 1] = { name = "1/(aω)", x = limits.x, y = limits.y, style = "points" }
+dotyk.chart{ file = "images/channel_amplitude.png", x = "ω [1/s]", y = "amplitude on the axis [m/s]", log = "xy",
   slopes = { -1 }, series = series }
 print "images/channel.png  images/channel_axis.png  images/channel_amplitude.png"

@@ -59,10 +59,28 @@ void draw_arrows(Stage& stage, const ContactPicture& contact) {
   }
 }
 
+// Too short for markers: a joint of one brick among hundreds.
+bool is_short(const Stage& stage, const std::vector<Point>& at) {
+  Point low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
+  for (const Point& p : at) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return !at.empty() && std::hypot(high.x - low.x, high.y - low.y) < 4 * stage.em;
+}
+
+constexpr double wide = 0.26, thin = 0.15;  // lines with markers and without, in em
+
+bool all_short(const Stage& stage) {
+  const auto& contacts = stage.picture.contacts;
+  return std::all_of(contacts.begin(), contacts.end(), [&](const ContactPicture& c) { return is_short(stage, places(stage, c)); });
+}
+
 // Each half of a facet in the colour of its node.
 void draw_line(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = places(stage, contact);
-  const double width = 0.26 * stage.em;
+  const bool markers = !is_short(stage, at);
+  const double width = (markers ? wide : thin) * stage.em;
   for (int pass = 0; pass < 2; ++pass)
     for (std::size_t f = 0; f + 1 < contact.facets.size(); f += 2) {
       const auto a = static_cast<std::size_t>(contact.facets[f]), b = static_cast<std::size_t>(contact.facets[f + 1]);
@@ -74,6 +92,7 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
         stage.over.disc(at[i], w / 2, colour);
       }
     }
+  if (!markers) return;
   for (const std::size_t i : stage.spaced(at, 0.95 * stage.em, 0.36 * stage.em)) {
     const Status status = contact.nodes[i].status;
     stage.over.marker(status_marker(status), at[i], 0.55 * stage.em, status_colour(status));
@@ -91,9 +110,10 @@ std::vector<LegendEntry> contact_legend(const Stage& stage) {
   }
   std::vector<LegendEntry> out;
   const double em = stage.em;
+  const bool markers = !stage.plane || !all_short(stage);
   for (const Status status : statuses) {
     if (!present[static_cast<std::size_t>(status)]) continue;
-    out.push_back({status_name(status), [status, em, plane = stage.plane](Canvas& c, const Box& b) {
+    out.push_back({status_name(status), [status, em, markers, plane = stage.plane](Canvas& c, const Box& b) {
                      const double middle = (b.bottom + b.top) / 2;
                      if (!plane) {
                        const Box sample{b.left + 0.4 * em, middle - 0.35 * em, b.right - 0.4 * em, middle + 0.35 * em};
@@ -101,8 +121,8 @@ std::vector<LegendEntry> contact_legend(const Stage& stage) {
                        return c.polyline(std::array<Point, 4>{{{sample.left, sample.bottom}, {sample.right, sample.bottom}, {sample.right, sample.top}, {sample.left, sample.top}}},
                                          0.16 * em, status_colour(status), {}, true);
                      }
-                     c.line({b.left, middle}, {b.right, middle}, 0.26 * em, status_colour(status));
-                     c.marker(status_marker(status), {(b.left + b.right) / 2, middle}, 0.55 * em, status_colour(status));
+                     c.line({b.left, middle}, {b.right, middle}, (markers ? wide : thin) * em, status_colour(status));
+                     if (markers) c.marker(status_marker(status), {(b.left + b.right) / 2, middle}, 0.55 * em, status_colour(status));
                    }});
   }
   if (stage.greatest_pressure > 0 && stage.strips())
