@@ -12,6 +12,7 @@ namespace {
 
 /// Nodes nearer to each other than this part of a cell are one.
 constexpr double kSame = 1e-6;
+constexpr int kMostCells = 1000;
 
 void require_on_beam(const Beam& beam, double x, const std::string& what) {
   if (!(x >= 0 && x <= beam.length))
@@ -23,6 +24,8 @@ void require_on_beam(const Beam& beam, double x, const std::string& what) {
 void require_valid(const Beam& beam) {
   if (!(beam.length > 0) || !std::isfinite(beam.length)) throw InputError(text("beam: its length is ", beam.length, "; it must be positive"));
   if (beam.cells < 1) throw InputError(text("beam: it has ", beam.cells, " cells; at least one is needed"));
+  if (beam.cells > kMostCells)
+    throw InputError(text("beam: it has ", beam.cells, " cells; rounding grows as the fourth power of their number, and ", kMostCells, " leave it 1e-6"));
   if (!beam.EJ_of && (!(beam.EJ > 0) || !std::isfinite(beam.EJ))) throw InputError(text("beam: EJ is ", beam.EJ, "; it must be positive"));
   if (!beam.q_of && !std::isfinite(beam.q)) throw InputError(text("beam: its load is ", beam.q));
   for (const PointLoad& load : beam.loads) {

@@ -28,7 +28,9 @@ struct PointLoad {
 /// Deflection u positive upwards, rotation u'. Bending moment and shear force as in P4: M = −EJ u'', T = DM.
 struct Beam {
   double length = 1;
-  int cells = 32;                          ///< cubic Hermite elements, at least; a support is always a node
+  /// Cubic Hermite elements, at least; a support is always a node. At most 1000: K's condition, and so what rounding leaves,
+  /// grows as their fourth power: 1e-12 of the deflection with 32, 1e-10 with 100, 1e-6 with 1000.
+  int cells = 32;
   double EJ = 1;                           ///< force·length²; where there is no function
   std::function<double(double)> EJ_of;     ///< of x; empty: constant
   double q = 0;                            ///< load per length, upwards; where there is no function

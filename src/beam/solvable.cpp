@@ -46,6 +46,7 @@ std::string require_solvable(const Beam& beam, const Model& model) {
   const auto rigid = problem::rigid_motions(model.problem);
   const auto s = problem::solvability(rigid, model.problem);
   if (s.verdict == Verdict::unique && !s.limit) return "";
+  if (model.problem.rows() == 0 && model.problem.blocks.front().f.isZero(0)) throw InputError("beam: nothing holds it, and nothing loads it");
   const double at_left = rigid.e[0] / 2 - rigid.e[1] / beam.length, at_right = rigid.e[0] / 2 + rigid.e[1] / beam.length;
   const std::string resultants = text("the resultants are ", at_left, " at the left end and ", at_right, " at the right one");
   if (s.verdict == Verdict::unsolvable) {

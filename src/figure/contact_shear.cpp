@@ -9,7 +9,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr double longest = 1.5, least_share = 0.03;  // of an arrow: em, and of the greatest shear
+constexpr double longest = 1.5, least_share = 0.1;  // of an arrow: em, and of the greatest shear
 
 double size(const Vec3& v) { return std::sqrt(dot(v, v)); }
 

@@ -70,14 +70,6 @@ TEST_CASE("the least singular value of a matrix made of known ones") {
   CHECK_THROWS_AS(smallest_singular_value(DenseMatrix::Zero(2, 3)), std::logic_error);
 }
 
-namespace {
-
-DenseMatrix orthonormal(const DenseMatrix& a) {
-  return Eigen::HouseholderQR<DenseMatrix>(a).householderQ() * DenseMatrix::Identity(a.rows(), a.cols());
-}
-
-}  // namespace
-
 TEST_CASE("singular values of U diag(s) Vᵀ are s, whatever the shape") {
   test::Random random(22);
   for (const auto& [m, n] : {std::pair{1, 1}, {7, 3}, {3, 7}, {40, 40}}) {

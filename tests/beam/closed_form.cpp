@@ -135,6 +135,15 @@ TEST_CASE("order 4 in deflection, 3 in rotation, for a general load") {
   }
 }
 
+TEST_CASE("rounding grows as the fourth power of the number of cells, to 1e-6 at the most allowed") {
+  for (const int cells : {10, 100, 1000}) {
+    Beam b = test::beam_between(1, 1, -1, kHeld, kFree, kHeld, kFree);
+    b.cells = cells;
+    const double error = std::abs(test::only(b)->deflection(0.5) * 384 / -5 - 1);
+    CHECK(error < 1e-5 * std::pow(cells / 1000.0, 4) + 1e-12);
+  }
+}
+
 TEST_CASE("beams that are none are refused") {
   const Beam good = test::beam_between(1, 1, -1, kHeld, kFree, kHeld, kFree);
   const auto refused = [&](const std::function<void(Beam&)>& change, const char* message) {
@@ -150,4 +159,6 @@ TEST_CASE("beams that are none are refused") {
   refused([](Beam& b) { b.supports[1].x = 0; }, "beam: the supports left and right are at one point");
   refused([](Beam& b) { b.supports[1].deflection = {Kind::elastic, -3, 0}; }, "elastic law: the number is -3; it must be zero or positive, and finite");
   refused([](Beam& b) { b.q = NAN; }, "beam: its load is nan");
+  refused([](Beam& b) { b.cells = 1001; }, "beam: it has 1001 cells; rounding grows as the fourth power of their number, and 1000 leave it 1e-6");
+  refused([](Beam& b) { b.q = 0, b.supports.clear(); }, "beam: nothing holds it, and nothing loads it");
 }
