@@ -47,17 +47,23 @@ Point times(const Eigen::Matrix3d& R, const Point& x) {
   return {y[0], y[1], y[2]};
 }
 
+/// Rᵀx.
+Point back(const Eigen::Matrix3d& R, const Point& x) {
+  const Eigen::Vector3d y = R.transpose() * Eigen::Vector3d(x[0], x[1], x[2]);
+  return {y[0], y[1], y[2]};
+}
+
 std::shared_ptr<scene::Body> hinged(const Shape& shape, const Eigen::Matrix3d& R) {
   mesh::Mesh m = shape.mesh;
   mesh::transform(m, [&](const Point& x) { return times(R, x); });
   const auto b = test::body(shape.name, std::move(m));
   test::hold(*b, [&](const Point& x) {
-    const Point at = times(R.transpose(), x);
+    const Point at = back(R, x);
     return std::hypot(at[0] - shape.x, at[2] - shape.z) < 1e-9;
   });
   auto all = scene::chosen_part(b, "all", [](const Point&, const Point&) { return true; });
   scene::load(all, [&](const Point& x) {
-    const Point at = times(R.transpose(), x);
+    const Point at = back(R, x);
     return times(R, {0.2 * at[2], 0.3, -1 - 0.5 * at[1]});
   });
   return b;
@@ -66,8 +72,8 @@ std::shared_ptr<scene::Body> hinged(const Shape& shape, const Eigen::Matrix3d& R
 /// The facets that look down, but for those that the axis touches.
 scene::Part underside(const std::shared_ptr<scene::Body>& b, const Shape& shape, const Eigen::Matrix3d& R) {
   return scene::chosen_part(b, "underside", [&](const Point& x, const Point& n) {
-    const Point at = times(R.transpose(), x);
-    return times(R.transpose(), n)[2] < -0.5 && at[2] < 0.4 && std::hypot(at[0] - shape.x, at[2] - shape.z) > 0.3;
+    const Point at = back(R, x);
+    return back(R, n)[2] < -0.5 && at[2] < 0.4 && std::hypot(at[0] - shape.x, at[2] - shape.z) > 0.3;
   });
 }
 
@@ -119,7 +125,7 @@ TEST_CASE("two hinged bodies, one on the other and that on a plane") {
     const auto R = turn(turned);
     const auto above = hinged(upper, R), below = hinged(lower, R);
     const auto top = scene::chosen_part(below, "top", [&](const Point& x, const Point& n) {
-      return times(R.transpose(), n)[2] > 0.5 && times(R.transpose(), x)[0] > 0.3;
+      return back(R, n)[2] > 0.5 && back(R, x)[0] > 0.3;
     });
     const auto s = scene::make_scene({above, below});
     scene::add_contact(*s, underside(above, upper, R), top, {});
