@@ -1,26 +1,15 @@
 #include "beam/element.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "algebra/quadrature.hpp"
 
 namespace dotyk::beam {
 
 namespace {
 
-constexpr int kPoints = 8;
-
-struct Rule {
-  Eigen::VectorXd at, weight;  ///< on 0 ≤ s ≤ 1
-};
-
-/// Gauss–Legendre by the eigenvalues of Jacobi's matrix (Golub and Welsch 1969).
-const Rule& gauss() {
-  static const Rule rule = [] {
-    Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(kPoints, kPoints);
-    for (int i = 1; i < kPoints; ++i) jacobi(i, i - 1) = jacobi(i - 1, i) = i / std::sqrt(4.0 * i * i - 1);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
-    return Rule{(eigen.eigenvalues().array() + 1) / 2, eigen.eigenvectors().row(0).array().square()};
-  }();
-  return rule;
+/// On 0 ≤ s ≤ 1.
+const algebra::Quadrature& rule() {
+  static const algebra::Quadrature eight = algebra::gauss(8);
+  return eight;
 }
 
 }  // namespace
@@ -41,10 +30,10 @@ Eigen::Matrix4d stiffness(double EJ, double h) {
 
 Eigen::Matrix4d stiffness(const std::function<double(double)>& EJ, double x0, double h) {
   Eigen::Matrix4d K = Eigen::Matrix4d::Zero();
-  for (int i = 0; i < kPoints; ++i) {
-    const double s = gauss().at[i];
+  for (int i = 0; i < rule().points.size(); ++i) {
+    const double s = rule().points[i];
     const Four N = Hermite(s, h).curvature;
-    K += h * gauss().weight[i] * EJ(x0 + s * h) * N * N.transpose();
+    K += h * rule().weights[i] * EJ(x0 + s * h) * N * N.transpose();
   }
   return K;
 }
@@ -53,16 +42,16 @@ Four load(double q, double h) { return q * h / 12 * Four(6, h, 6, -h); }
 
 Four load(const std::function<double(double)>& q, double x0, double h) {
   Four f = Four::Zero();
-  for (int i = 0; i < kPoints; ++i) {
-    const double s = gauss().at[i];
-    f += h * gauss().weight[i] * q(x0 + s * h) * Hermite(s, h).value;
+  for (int i = 0; i < rule().points.size(); ++i) {
+    const double s = rule().points[i];
+    f += h * rule().weights[i] * q(x0 + s * h) * Hermite(s, h).value;
   }
   return f;
 }
 
 double integral(const std::function<double(double)>& f, double from, double to) {
   double sum = 0;
-  for (int i = 0; i < kPoints; ++i) sum += (to - from) * gauss().weight[i] * f(from + gauss().at[i] * (to - from));
+  for (int i = 0; i < rule().points.size(); ++i) sum += (to - from) * rule().weights[i] * f(from + rule().points[i] * (to - from));
   return sum;
 }
 

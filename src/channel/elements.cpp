@@ -4,9 +4,9 @@
 #include <numbers>
 #include <vector>
 
+#include "algebra/quadrature.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "channel/quadrature.hpp"
 
 namespace dotyk::channel {
 
@@ -46,7 +46,7 @@ Vector Elements::derivatives(double s) const {
 }
 
 void Elements::assemble() {
-  const Quadrature rule = gauss(degree_ + 1);  // exact for the products
+  const algebra::Quadrature rule = algebra::gauss(degree_ + 1);  // exact for the products
   DenseMatrix mass = DenseMatrix::Zero(degree_ + 1, degree_ + 1), stiffness = mass;
   Vector load = Vector::Zero(degree_ + 1);
   for (int q = 0; q < rule.points.size(); ++q) {
@@ -78,11 +78,11 @@ void Elements::assemble() {
 }
 
 Vector Elements::power_load(double power) const {
-  const Quadrature first = gauss(degree_ + 24, power), others = gauss(degree_ + 24);
+  const algebra::Quadrature first = algebra::gauss(degree_ + 24, power), others = algebra::gauss(degree_ + 24);
   Vector load = Vector::Zero(size());
   for (int cell = 0; cell < cells_; ++cell) {
     const double start = cell_end(cell), length = cell_end(cell + 1) - start;
-    const Quadrature& rule = cell == 0 ? first : others;
+    const algebra::Quadrature& rule = cell == 0 ? first : others;
     for (int q = 0; q < rule.points.size(); ++q) {
       const double y = start + length * rule.points(q);
       const double factor = std::pow((cell == 0 ? length : y) / half_width_, power);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "channel/quadrature.hpp"
+#include "algebra/quadrature.hpp"
 
 namespace dotyk::channel {
 namespace {
@@ -39,7 +39,7 @@ double asymptotic_limit(double p) { return std::max(40.0, 2 * p); }
 Eigen::ArrayXd initial_coefficients(double p, int count) {
   const Eigen::ArrayXd alpha = wave_numbers(count);
   const double limit = asymptotic_limit(p);
-  const Quadrature rule = gauss(40 + static_cast<int>(limit), p);
+  const algebra::Quadrature rule = algebra::gauss(40 + static_cast<int>(limit), p);
   Eigen::ArrayXd coefficients(count);
   for (int k = 0; k < count; ++k) {
     double J;

@@ -144,13 +144,12 @@ class Run {
     const SeparableSet set = admissible(problem_, scale_, bounds_.now(), shift_);
     program_.set = &set;
     const SmalbeCaller caller{
-        .done = [&](double gradient, double equality) { return relative(gradient, equality, at_ ? at_->x() : x_) <= precision; },
+        .done = [&](double gradient, double equality, const Vector& x) { return (residual_ = relative(gradient, equality, x)) <= precision; },
         .inner = [&](const SmalbeState& state) { return watch_inner(state); },
         .outer = [&](const SmalbeState& state) {
           record(state.inner.face(), state.outer, state.inner.steps(), relative(state.gradient, state.equality, state.inner.x()));
         }};
     SmalbeResult solved = minimise(program_, settings(set), caller, x_, nu_);
-    at_ = nullptr;
     x_ = std::move(solved.x);
     nu_ = std::move(solved.nu);
     M_ = solved.M / program_.norm;
@@ -176,8 +175,7 @@ class Run {
   }
 
   bool watch_inner(const SmalbeState& state) {
-    at_ = &state.inner;
-    monitor_.phase(text("inner step ", counts_.inner + state.inner.steps(), ", residual ", relative(state.gradient, state.equality, state.inner.x())));
+    monitor_.phase(text("inner step ", counts_.inner + state.inner.steps(), ", residual ", residual_));
     return !monitor_.stop();
   }
 
@@ -269,7 +267,6 @@ class Run {
   Vector scale_;  ///< D in that unit
   Vector shift_, x_, nu_;
   SettlingBounds bounds_;
-  const Mprgp* at_ = nullptr;  ///< where the minimisation under way is
   std::vector<char> active_;
   FetiCounts counts_;
   Stopwatch watch_;

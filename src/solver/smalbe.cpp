@@ -86,10 +86,10 @@ class Run {
 
   /// With g computed anew.
   bool done() {
-    if (!caller_.done(final_gradient(), equality_)) return false;
+    if (!caller_.done(final_gradient(), equality_, inner_.x())) return false;
     inner_.refresh();
     measure();
-    return caller_.done(final_gradient(), equality_);
+    return caller_.done(final_gradient(), equality_, inner_.x());
   }
 
   bool precise() const {

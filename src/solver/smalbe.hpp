@@ -57,7 +57,7 @@ struct SmalbeState {
 
 /// Asked and told while it goes on. Each may be empty but `done`.
 struct SmalbeCaller {
-  std::function<bool(double gradient, double equality)> done;
+  std::function<bool(double gradient, double equality, const algebra::Vector& x)> done;
   std::function<bool(const SmalbeState&)> inner;  ///< after each inner step; false asks to stop
   std::function<void(const SmalbeState&)> outer;  ///< at the end of each outer step, before its update
 };
@@ -79,7 +79,7 @@ struct SmalbeResult {
   int outer = 0, inner = 0, products = 0;  ///< outer steps, inner steps, products with H
 };
 
-/// Starts at the projection of x on Ω and ν, both n. Where done(‖g^P‖, ‖Qx‖) holds after an inner step, with g
+/// Starts at the projection of x on Ω and ν, both n. Where done(‖g^P‖, ‖Qx‖, x) holds after an inner step, with g
 /// computed anew, all ends: so where Ω = Rⁿ and HQ = 0 this is the method of conjugate gradients from any x
 /// with Qx = 0. Ends with `rounding` where rounding keeps both norms from falling further.
 SmalbeResult minimise(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller,

@@ -8,10 +8,11 @@ using namespace dotyk;
 using beam::Beam;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
+using test::kFree;
+using test::kHeld;
 
 namespace {
 
-constexpr SupportLaw kFree{}, kHeld{Kind::prescribed, 0, 0};
 constexpr double kLength = 2, kEJ = 3, kSpring = 10, kLimit = 0.2;
 
 /// A cantilever whose tip rests on a support that breaks.

@@ -8,12 +8,8 @@ using namespace dotyk;
 using beam::Beam;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
-
-namespace {
-
-constexpr SupportLaw kFree{}, kHeld{Kind::prescribed, 0, 0};
-
-}  // namespace
+using test::kFree;
+using test::kHeld;
 
 TEST_CASE("textbook beams") {
   const double L = 3, EJ = 7, q = -2;

@@ -9,10 +9,10 @@ using namespace dotyk;
 using beam::Beam;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
+using test::kFree;
+using test::kHeld;
 
 namespace {
-
-constexpr SupportLaw kFree{}, kHeld{Kind::prescribed, 0, 0};
 
 bool solvable(const Beam& b) {
   try {

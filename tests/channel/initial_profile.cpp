@@ -4,17 +4,10 @@
 
 #include <cmath>
 
-#include "channel/quadrature.hpp"
+#include "algebra/quadrature.hpp"
 
+using namespace dotyk;
 using namespace dotyk::channel;
-
-TEST_CASE("Gauss-Jacobi: moments of s^power") {
-  for (const double power : {0.0, 0.3, 2.7, 9.0}) {
-    const Quadrature rule = gauss(12, power);
-    for (int n = 0; n < 24; ++n)
-      CHECK((rule.weights.array() * rule.points.array().pow(n)).sum() == doctest::Approx(1 / (n + power + 1)).epsilon(1e-13));
-  }
-}
 
 TEST_CASE("coefficients of the initial profile: closed for p = 1, 2, 4") {
   const int count = 400;
@@ -34,7 +27,7 @@ TEST_CASE("coefficients of the initial profile: both ways agree where they meet,
   for (const double p : {0.05, 0.6, 1.7, 2.996, 5.3, 12.0, 30.5}) {
     CAPTURE(p);
     const Eigen::ArrayXd c = initial_coefficients(p, count);
-    const Quadrature rule = gauss(400, p);
+    const algebra::Quadrature rule = algebra::gauss(400, p);
     const CoefficientBound bound = coefficient_bound(p);
     for (int k = 0; k < count; ++k) {
       if (alpha(k) < 200) {

@@ -3,31 +3,16 @@
 
 #include <cmath>
 
-#include "../support/scenes.hpp"
+#include "../support/feti.hpp"
 #include "base/error.hpp"
-#include "solver/feti.hpp"
 
 using namespace dotyk;
 using mesh::Point;
+using test::feti;
 
 namespace {
 
 using Preconditioner = solver::Feti::Preconditioner;
-
-std::shared_ptr<scene::Solution> solve(const std::shared_ptr<scene::Scene>& s, const solver::Method& method) {
-  Monitor quiet;
-  return scene::solve(s, method, {}, quiet);
-}
-
-solver::Feti feti(int count, bool support_rows = true, Preconditioner preconditioner = Preconditioner::none) {
-  solver::Feti method;
-  method.tol = 1e-11;
-  method.max_iterations = 500;
-  method.decomposition.count = count;
-  method.decomposition.support_rows = support_rows;
-  method.preconditioner = preconditioner;
-  return method;
-}
 
 /// ‖u − v‖ / ‖v‖ and the same of the multipliers.
 void check_same(const scene::Solution& s, const scene::Solution& exact, double tolerance) {
@@ -62,16 +47,16 @@ TEST_CASE("frictionless contact: every decomposition, preconditioner and update 
   for (const int dimension : {2, 3})
     for (const auto family : test::kFamilies) {
       const auto s = two_blocks(dimension, family, {}, true);
-      const auto exact = solve(s, solver::Pdas{});
+      const auto exact = test::solve_by(s, solver::Pdas{});
       for (const bool rows : {true, false})
         for (const int count : {2, 7})
-          check_same(*solve(s, feti(count, rows)), *exact, 1e-9);
+          check_same(*test::solve_by(s, feti(count, rows)), *exact, 1e-9);
       for (const auto preconditioner : {Preconditioner::lumped, Preconditioner::dirichlet})
-        check_same(*solve(s, feti(6, true, preconditioner)), *exact, 1e-9);
+        check_same(*test::solve_by(s, feti(6, true, preconditioner)), *exact, 1e-9);
       auto printed = feti(6);
       printed.outer.update = solver::Smalbe::Update::penalty;
       printed.expansion = solver::MprgpSettings::Expansion::projected_cg_step;
-      check_same(*solve(s, printed), *exact, 1e-9);
+      check_same(*test::solve_by(s, printed), *exact, 1e-9);
     }
 }
 
@@ -83,9 +68,9 @@ TEST_CASE("without contact a body cut into pieces has the linear solution, presc
     test::springs(b, "right", {5, 3, 2});
     test::pull(b, "top", [](const Point&) { return Point{1, -2, 0.5}; });
     const auto s = scene::make_scene({b});
-    const auto exact = solve(s, {});
+    const auto exact = test::solve_by(s, {});
     for (const bool rows : {true, false}) {
-      const auto cut = solve(s, feti(5, rows));
+      const auto cut = test::solve_by(s, feti(5, rows));
       REQUIRE_MESSAGE(cut->result().converged, cut->result().reason);
       CHECK((cut->result().state.u - exact->result().state.u).norm() <= 1e-9 * exact->result().state.u.norm());
       CHECK(cut->residual().equilibrium <= 1e-7);  // K times what the copies disagree by: tol times K's condition
@@ -98,9 +83,9 @@ TEST_CASE("given and Coulomb friction: FETI finds what Newton's method finds") {
   for (const int dimension : {2, 3})
     for (const auto& law : {friction(Kind::tresca, 0.7), friction(Kind::coulomb, 0.12)}) {
       const auto s = two_blocks(dimension, mesh::Family::q1, law, true);
-      const auto exact = solve(s, solver::Newton{});
+      const auto exact = test::solve_by(s, solver::Newton{});
       REQUIRE(exact->result().converged);
-      const auto cut = solve(s, feti(6));
+      const auto cut = test::solve_by(s, feti(6));
       check_same(*cut, *exact, 1e-8);
       const auto mine = cut->contact(*s->contacts[0]), right = exact->contact(*s->contacts[0]);
       CHECK(mine.stick == right.stick);
@@ -123,9 +108,9 @@ TEST_CASE("free bodies are in equilibrium, and touching without force does no ha
   };
   std::vector<std::shared_ptr<scene::Body>> bodies;
   const auto s = scene_of(bodies);
-  const auto cut = solve(s, feti(12));
+  const auto cut = test::solve_by(s, feti(12));
   REQUIRE_MESSAGE(cut->result().converged, cut->result().reason);
-  const auto exact = solve(s, solver::Pdas{});
+  const auto exact = test::solve_by(s, solver::Pdas{});
   // The stack may slide sideways: stresses and forces are unique, not the displacement.
   CHECK((cut->result().state.lambda - exact->result().state.lambda).norm() <= 1e-9 * exact->result().state.lambda.norm());
   const double pressed = test::resultant(*bodies[2])[1];
@@ -146,8 +131,8 @@ TEST_CASE("a free body in space on a plane: motions that no row notices stay zer
       contact::RigidShape floor = contact::RigidPlane{{0, 0, 0}, {0, 0, 1}};
       scene::add_contact(*s, test::part(b, "bottom"), floor, {}, false);
       test::pull(b, "top", [](const Point& x) { return Point{0, 0, -2 - x[0]}; });
-      const auto cut = solve(s, feti(count));
-      const auto exact = solve(s, solver::Pdas{});
+      const auto cut = test::solve_by(s, feti(count));
+      const auto exact = test::solve_by(s, solver::Pdas{});
       REQUIRE_MESSAGE(cut->result().converged, cut->result().reason);
       CHECK(cut->residual().equilibrium <= 1e-8);
       CHECK((cut->result().state.lambda - exact->result().state.lambda).norm() <= 1e-8 * exact->result().state.lambda.norm());
@@ -162,7 +147,7 @@ TEST_CASE("a load that no contact balances is refused, of however many bodies") 
   contact::RigidShape floor = contact::RigidPlane{{0, 0, 0}, {0, 1, 0}};
   for (const auto& b : bodies) scene::add_contact(*s, test::part(b, "bottom"), floor, {}, false);
   for (const auto& b : bodies) test::pull(b, "top", [](const Point&) { return Point{0, -1, 0}; });
-  CHECK(solve(s, feti(0))->result().converged);
+  CHECK(test::solve_by(s, feti(0))->result().converged);
   test::pull(bodies[41], "left", [](const Point&) { return Point{1, 0, 0}; });
-  CHECK_THROWS_WITH_AS(solve(s, feti(0)), doctest::Contains("a rigid motion that nothing holds"), InputError);
+  CHECK_THROWS_WITH_AS(test::solve_by(s, feti(0)), doctest::Contains("a rigid motion that nothing holds"), InputError);
 }

@@ -9,6 +9,8 @@
 
 namespace dotyk::test {
 
+inline constexpr problem::SupportLaw kFree{}, kHeld{problem::SupportLaw::Kind::prescribed, 0, 0};
+
 /// One condition of an end: r = force − stiffness·v, or v = value (rigid).
 struct EndCondition {
   bool rigid = false;

@@ -97,7 +97,7 @@ class Follower {
     nu_ = algebra::Vector::Zero(x_.size());
     penalty_ = settings.update == solver::Smalbe::Update::penalty;
     flips_of_.assign(x_.size(), 0);
-    const solver::SmalbeCaller caller{.done = [=](double g, double e) { return g <= small && e <= equality; },
+    const solver::SmalbeCaller caller{.done = [=](double g, double e, const algebra::Vector&) { return g <= small && e <= equality; },
                                       .inner = [this](const solver::SmalbeState& s) { return inner(s), true; },
                                       .outer = [this](const solver::SmalbeState& s) { ended(s); }};
     return minimise(feti_.program, settings, caller, x_, nu_);

@@ -10,7 +10,7 @@ namespace dotyk::test {
 
 /// Ends Smalbe where both norms are below.
 inline solver::SmalbeCaller until(double small) {
-  return {[small](double g, double e) { return g <= small && e <= small; }, {}, {}};
+  return {[small](double g, double e, const Vector&) { return g <= small && e <= small; }, {}, {}};
 }
 
 /// minimise ½xᵀHx − bᵀx over Ω with Qx = 0 and its solution: H = PFP with spectrum [least, 1] on the kernel of Q =
