@@ -3,7 +3,8 @@
 --   ./dotyk scripts/beam.lua [cells]
 --
 -- Shown: a continuous beam on five supports under a load on one span, held both ways, resting, and resting on springs:
--- where it lifts off, deflection and bending moment (images/beam.png, images/beam_moment.png); a table of all pairs of laws
+-- where it lifts off (images/beam.png: resting, with deflection, bending moment and shear force; images/beam_deflection.png,
+-- images/beam_moment.png: all three); a table of all pairs of laws
 -- for the deflections of two ends, each solved by several methods or refused with its reason; how springs tend to a rigid stop.
 
 local law <const> = dotyk.law
@@ -37,8 +38,9 @@ for _, case in ipairs(cases) do
   print(("%-27s reactions %s, lifted off at %s"):format(case[1], table.concat(reactions, " "), #off > 0 and table.concat(off, ", ") or "none"))
   assert(math.abs(sum - 10.6) < 1e-9)
 end
+continuous(law.signorini()):render{ file = "images/beam.png", title = "A beam resting on five supports, loaded on one span" }
 table.insert(deflections, { name = "supports", x = { 0, 1, 2, 3, 4 }, y = { 0, 0, 0, 0, 0 }, style = "points" })
-dotyk.chart{ file = "images/beam.png", title = "A beam on five supports, loaded on one span", x = "x", y = "deflection", series = deflections }
+dotyk.chart{ file = "images/beam_deflection.png", title = "A beam on five supports, held and resting", x = "x", y = "deflection", series = deflections }
 dotyk.chart{ file = "images/beam_moment.png", title = "Its bending moment, −EJ u″", x = "x", y = "M", series = moments }
 
 -- 2. All pairs of laws for the deflections of two ends; loads down, and half as much up at the right end.
@@ -92,4 +94,4 @@ for power = 1, 6 do
   if power > 2 then assert(math.abs(order - 1) < 0.02) end
   last = off
 end
-print "images/beam.png, images/beam_moment.png"
+print "images/beam.png, images/beam_deflection.png, images/beam_moment.png"

@@ -7,7 +7,8 @@
 -- c = 3 EJ/L^3 the cantilever's own stiffness, as long as the spring bears less than g; broken, by F/c, as long as that
 -- is more than what broke it. Between the two forces both are local minima of the energy. Shown: every branch under
 -- every force against the closed form; the loop that loading and unloading runs through where a state is kept as long as
--- it is a minimum; the energies. images/breaking.png, images/breaking_energy.png.
+-- it is a minimum; the energies; both states under one force, and where they lie on the law. images/breaking.png,
+-- images/breaking_energy.png, images/breaking_states.png.
 
 local L <const>, EJ <const>, k <const>, g <const> = 2, 3, 3, 0.2
 local c <const> = 3 * EJ / L^3
@@ -81,4 +82,10 @@ dotyk.chart{ file = "images/breaking.png", title = "A cantilever's tip on a spri
 dotyk.chart{ file = "images/breaking_energy.png", title = "Energies of both states", x = "force", y = "energy",
   series = { { name = "whole", x = curves.whole.y, y = curves.whole.energy, style = "line" },
              { name = "broken", x = curves.broken.y, y = curves.broken.energy, style = "line" } } }
-print "images/breaking.png, images/breaking_energy.png"
+
+local between <const> = {} -- both states under a force between the two
+for k, s in ipairs(branches(0.5 * (breaks + heals))) do
+  between[k] = { solution = s, support = "right", title = #s.broken > 0 and "Broken" or "Whole" }
+end
+dotyk.support_gallery{ file = "images/breaking_states.png", title = "Both states under one force", rows = between }
+print "images/breaking.png, images/breaking_energy.png, images/breaking_states.png"

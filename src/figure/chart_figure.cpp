@@ -10,6 +10,7 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
+#include "axes.hpp"
 #include "canvas.hpp"
 #include "chart_layout.hpp"
 #include "figures.hpp"
@@ -21,7 +22,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour ink{30, 30, 30}, grid{228, 228, 228}, reference_grey{90, 90, 90};
+constexpr Colour reference_grey{90, 90, 90};
 constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
                              Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
 
@@ -49,7 +50,7 @@ public:
     for (std::size_t k = 0; k < picture.series.size(); ++k) draw_line(static_cast<int>(k));
     canvas_.no_clip();
     for (std::size_t k = 0; k < picture.series.size(); ++k) draw_markers(static_cast<int>(k));
-    draw_frame();
+    draw_frame(canvas_, axes());
     if (corner && !legend.empty()) {
       const bool inside = corner->y < room_.top - 1;
       legend.draw(canvas_, *corner, inside);
@@ -165,49 +166,12 @@ private:
   }
 
   void draw_axes() {
-    const double hair = std::max(1.0, em_ / 24), tick = 0.32 * em_;
-    canvas_.box(room_, {255, 255, 255});
-    for (const bool vertical : {false, true}) {
-      const Axis& axis = vertical ? y_ : x_;
-      for (const Tick& t : (vertical ? y_ticks_ : x_ticks_).ticks) {
-        const double p = axis.pixel(t.value);
-        const bool major = !t.label.empty();
-        if (major) {
-          if (vertical)
-            canvas_.line({room_.left, p}, {room_.right, p}, hair, grid);
-          else
-            canvas_.line({p, room_.bottom}, {p, room_.top}, hair, grid);
-        }
-      }
-    }
-    for (const bool vertical : {false, true}) {
-      const Axis& axis = vertical ? y_ : x_;
-      double busy_until = -1e9;
-      for (const Tick& t : (vertical ? y_ticks_ : x_ticks_).ticks) {
-        const double p = axis.pixel(t.value), length = t.label.empty() ? 0.55 * tick : tick;
-        if (vertical)
-          canvas_.line({room_.left, p}, {room_.left + length, p}, 1.3 * hair, ink);
-        else
-          canvas_.line({p, room_.bottom}, {p, room_.bottom + length}, 1.3 * hair, ink);
-        if (t.label.empty()) continue;
-        const Point size = text_extent(t.label, em_);
-        const double half = (vertical ? 0.9 * em_ : size.x + 0.5 * em_) / 2;
-        if (p - half < busy_until) continue;  // never one label into another
-        busy_until = p + half;
-        TextStyle style;
-        style.size = em_;
-        style.across = vertical ? Align::high : Align::middle;
-        style.up = vertical ? Align::middle : Align::high;
-        canvas_.text(vertical ? Point{room_.left - 0.4 * em_, p} : Point{p, room_.bottom - 0.35 * em_}, t.label, style);
-      }
-    }
+    draw_grid(canvas_, axes());
+    draw_ticks(canvas_, axes());
     TextStyle style;
     style.size = em_;
     style.across = Align::middle;
-    const auto named = [](const std::string& label, const Ticks& ticks) {
-      return ticks.exponent ? label + "  (× " + power_of_ten(ticks.exponent) + ")" : label;
-    };
-    const std::string x_name = named(picture_.x_label, x_ticks_), y_name = named(picture_.y_label, y_ticks_);
+    const std::string x_name = axis_name(picture_.x_label, x_ticks_), y_name = axis_name(picture_.y_label, y_ticks_);
     style.size = fitting_size(x_name, em_, picture_.width - em_);
     canvas_.text({(room_.left + room_.right) / 2, 0.4 * em_}, x_name, style);
     style.size = fitting_size(y_name, em_, room_.height());
@@ -225,10 +189,7 @@ private:
     canvas_.text({std::clamp(centre, half, std::max(half, picture_.width - half)), picture_.height - 0.6 * em_}, picture_.title, title);
   }
 
-  void draw_frame() {
-    const std::array<Point, 4> frame{{{room_.left, room_.bottom}, {room_.right, room_.bottom}, {room_.right, room_.top}, {room_.left, room_.top}}};
-    canvas_.polyline(frame, std::max(1.2, em_ / 18), ink, {}, true);
-  }
+  Axes axes() const { return {room_, x_, y_, x_ticks_, y_ticks_, em_}; }
 
   // A triangle whose slanted side has the slope, near the curves and clear of
   // them; smaller where there is little room.

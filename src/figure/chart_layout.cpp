@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace dotyk::figure {
 
@@ -129,6 +130,20 @@ std::optional<Point> near_place(const Occupied& occupied, const Box& room, doubl
       if (!place || cost < best) best = cost, place = p;
     }
   return place;
+}
+
+std::optional<Point> place_beside(const Occupied& occupied, const Box& room, Point at, double width, double height, double margin) {
+  constexpr int rings = 80, angles = 32;
+  for (int ring = 0; ring <= rings; ++ring)
+    for (int k = 0; k < (ring == 0 ? 1 : angles); ++k) {
+      // From above in both senses.
+      const double angle = 0.5 * std::numbers::pi + (k % 2 ? 1 : -1) * std::numbers::pi * ((k + 1) / 2) / (0.5 * angles);
+      const Point middle{at.x + 0.3 * ring * height * std::cos(angle), at.y + 0.3 * ring * height * std::sin(angle)};
+      const Box box{middle.x - width / 2, middle.y - height / 2, middle.x + width / 2, middle.y + height / 2};
+      const bool inside = box.left >= room.left + margin && box.right <= room.right - margin && box.bottom >= room.bottom + margin && box.top <= room.top - margin;
+      if (inside && occupied.distance(box) >= margin) return middle;
+    }
+  return std::nullopt;
 }
 
 }  // namespace dotyk::figure

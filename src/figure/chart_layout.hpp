@@ -45,4 +45,7 @@ std::optional<Point> free_place(const Occupied& occupied, const Box& room, doubl
 // below than above, but keeps `margin` clear of them.
 std::optional<Point> near_place(const Occupied& occupied, const Box& room, double width, double height, double margin);
 
+// The same nearest to a point: where the middle of the block stands.
+std::optional<Point> place_beside(const Occupied& occupied, const Box& room, Point at, double width, double height, double margin);
+
 }  // namespace dotyk::figure

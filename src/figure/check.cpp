@@ -153,6 +153,38 @@ void check(const ChartPicture& p) {
               std::string("the range of the ") + name + " axis must be {least, greatest}" + (log ? ", both positive" : ""));
 }
 
+void check_drawing(const BeamDrawing& b) {
+  require(b.length > 0 && std::isfinite(b.length), "the length of a beam is not positive");
+  require(b.x.size() >= 2 && b.x.size() == b.deflection.size() && (b.load.empty() || b.load.size() == b.x.size()),
+          "a beam needs as many deflections and loads as points, two at least");
+  require(finite(b.x) && finite(b.deflection) && finite(b.load), "a beam has a value that is not finite");
+  for (const BeamSupport& s : b.supports)
+    require(std::isfinite(s.x) && std::isfinite(s.deflection) && std::isfinite(s.rotation) && std::isfinite(s.below.slip) && std::isfinite(s.arc.slip),
+            "a support of a beam has a value that is not finite");
+  for (const BeamLoad& l : b.loads)
+    require(std::isfinite(l.x) && std::isfinite(l.force) && std::isfinite(l.moment), "a load of a beam has a value that is not finite");
+}
+
+void check_drawing(const CurveDrawing& c) {
+  require(!c.curves.empty(), "a cell without a curve");
+  for (const PageCurve& curve : c.curves)
+    require(!curve.x.empty() && curve.x.size() == curve.y.size() && finite(curve.x) && finite(curve.y), "a curve needs as many finite y as x, one at least");
+  for (const auto& range : {c.x_range, c.y_range})
+    require(!range || ((*range)[0] < (*range)[1] && std::isfinite((*range)[1] - (*range)[0])), "the range of an axis must be {least, greatest}");
+}
+
+void check(const PagePicture& p) {
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
+  require(!p.rows.empty() && p.rows.size() == p.row_weights.size(), "a page needs rows, and a weight of each");
+  for (const auto& row : p.rows) {
+    require(!row.empty() && row.size() == p.column_weights.size(), "the rows of a page have one cell a column");
+    for (const PageCell& cell : row) std::visit([](const auto& drawing) { check_drawing(drawing); }, cell.drawing);
+  }
+  for (const auto& weights : {p.column_weights, p.row_weights})
+    for (const double w : weights) require(w > 0 && std::isfinite(w), "the weights of a page are positive");
+}
+
 void check(const GridFile& g) {
   check_file(g.file, ".vtu");
   require(g.points.size() % 3 == 0, g.file + ": points come three coordinates each");

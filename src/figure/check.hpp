@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grid_file.hpp"
+#include "page_picture.hpp"
 #include "picture.hpp"
 
 namespace dotyk::figure {
@@ -10,6 +11,7 @@ namespace dotyk::figure {
 // node numbers, the file's ending and folder.
 void check(const ScenePicture& picture);
 void check(const ChartPicture& picture);
+void check(const PagePicture& picture);
 void check(const GridFile& grid);
 
 }  // namespace dotyk::figure

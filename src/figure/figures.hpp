@@ -3,12 +3,14 @@
 #pragma once
 
 #include "grid_file.hpp"
+#include "page_picture.hpp"
 #include "picture.hpp"
 
 namespace dotyk::figure {
 
 void draw_scene(const ScenePicture& picture);
 void draw_chart(const ChartPicture& picture);
+void draw_page(const PagePicture& picture);
 void write_grid(const GridFile& grid);
 
 }  // namespace dotyk::figure

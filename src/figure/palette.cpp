@@ -1,6 +1,6 @@
 #include <array>
 
-#include "picture.hpp"
+#include "page_picture.hpp"
 
 namespace dotyk::figure {
 
@@ -21,6 +21,31 @@ Colour status_colour(Status status) {
     case Status::closed: return {213, 94, 0};     // vermilion
     case Status::stick: return {204, 121, 167};   // reddish purple
     case Status::slip: return {230, 159, 0};      // orange
+  }
+  return {};
+}
+
+const char* state_name(SupportState state) {
+  switch (state) {
+    case SupportState::acting: return "acting";
+    case SupportState::open: return "open";
+    case SupportState::pushing: return "pushing";
+    case SupportState::stick: return "sticking";
+    case SupportState::slip: return "slipping, at its limit";
+    case SupportState::broken: return "broken";
+  }
+  return "";
+}
+
+// Those of contacts that mean the same have their colours.
+Colour state_colour(SupportState state) {
+  switch (state) {
+    case SupportState::acting: return {100, 100, 100};
+    case SupportState::open: return status_colour(Status::open);
+    case SupportState::pushing: return status_colour(Status::closed);
+    case SupportState::stick: return status_colour(Status::stick);
+    case SupportState::slip: return status_colour(Status::slip);
+    case SupportState::broken: return {0, 0, 0};
   }
   return {};
 }

@@ -21,6 +21,7 @@ void bind_lcp(Library& library);
 void bind_fclib(Library& library);
 void bind_law(Library& library);
 void bind_beam(Library& library);
+void bind_beam_figure(Library& library);
 void bind_channel(Library& library);
 
 }  // namespace dotyk::script

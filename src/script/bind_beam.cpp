@@ -72,17 +72,8 @@ int at(Call& call) {
 
 int reaction(Call& call) {
   const beam::Solution& s = call.self<BeamResult>()->solution();
-  const auto& supports = s.beam().supports;
-  const std::string name = call.has("at") && !call.is("at", LUA_TNUMBER) ? call.text("at") : "";
-  for (std::size_t i = 0; i < supports.size(); ++i) {
-    const bool found = name.empty() ? std::abs(supports[i].x - call.number("at")) <= 1e-9 * s.beam().length : supports[i].name == name;
-    if (!found) continue;
-    const beam::Reaction r = s.reaction(static_cast<int>(i));
-    return call.give(Record{"reaction", {{"force", r.force}, {"moment", r.moment}, {"deflection", r.deflection}, {"rotation", r.rotation}}});
-  }
-  std::string known;
-  for (const auto& support : supports) known += (known.empty() ? "" : ", ") + support.name;
-  throw InputError(text("no support there; the supports are ", known));
+  const beam::Reaction r = s.reaction(find_support(s, call, "at"));
+  return call.give(Record{"reaction", {{"force", r.force}, {"moment", r.moment}, {"deflection", r.deflection}, {"rotation", r.rotation}}});
 }
 
 std::vector<std::shared_ptr<BeamResult>> branches(const BeamResult& r) {
@@ -137,12 +128,28 @@ void bind_beam_solution(Library& library) {
       .method({.name = "beam_solution:reaction",
                .help = "What a support does to the beam: force (up) and moment (anticlockwise), and the deflection and rotation there.",
                .example = "print(s:reaction(\"left\").force, s:reaction(0.5).force)",
-               .arguments = {key::either("at", {key::choice("", {"left", "right"}, ""), key::number("", "the x of a support")}, "an end, or the x of a support").required()},
+               .arguments = {support_key("at").required()},
                .run = reaction})
       .text(show_result);
 }
 
 }  // namespace
+
+Key support_key(std::string name) {
+  return key::either(std::move(name), {key::choice("", {"left", "right"}, ""), key::number("", "the x of a support")}, "an end, or the x of a support");
+}
+
+int find_support(const beam::Solution& s, const Arguments& from, const std::string& name) {
+  const auto& supports = s.beam().supports;
+  const bool at_x = from.is(name, LUA_TNUMBER);
+  std::string known;
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    const bool found = at_x ? std::abs(supports[i].x - from.number(name)) <= 1e-9 * s.beam().length : supports[i].name == from.text(name);
+    if (found) return static_cast<int>(i);
+    known += (known.empty() ? "" : ", ") + supports[i].name;
+  }
+  throw InputError(text("no support there; the supports are ", known));
+}
 
 int solve_beam(Call& call, const Beam& beam, const solver::Method& method, std::vector<Function> on_iteration, bool verbose) {
   Watch watch(call.state(), "solving", std::move(on_iteration), verbose);

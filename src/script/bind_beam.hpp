@@ -29,4 +29,8 @@ struct Wrapped<BeamResult> {
 // Solves; gives a beam_solution.
 int solve_beam(Call& call, const beam::Beam& beam, const solver::Method& method, std::vector<Function> on_iteration, bool verbose);
 
+// A support told by "left", "right" or its x, and its place in Beam::supports; throws InputError where there is none.
+Key support_key(std::string name);
+int find_support(const beam::Solution& solution, const Arguments& from, const std::string& name);
+
 }  // namespace dotyk::script

@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "figure/compose.hpp"
 #include "script/bind.hpp"
+#include "script/figure_size.hpp"
 #include "script/library.hpp"
 #include "script/wrapped.hpp"
 
@@ -12,22 +13,6 @@ namespace dotyk::script {
 namespace {
 
 using scene::Solution;
-
-/// Both pixels counts of 'size'.
-template <class Picture>
-void read_size(const Arguments& call, Picture& picture) {
-  if (!call.has("size")) return;
-  const auto size = call.integers("size");
-  for (const long long pixels : size)
-    if (pixels < 160 || pixels > 8192)
-      throw InputError(text("size has ", pixels, " pixels; a side must have from 160 to 8192"));
-  picture.width = static_cast<int>(size[0]);
-  picture.height = static_cast<int>(size[1]);
-}
-
-Key size_key(const char* otherwise) {
-  return key::list("size", key::integer("", ""), "width and height").count(2).unit("pixels").otherwise(otherwise);
-}
 
 const std::vector<std::string> kFields = {"none", "displacement", "ux", "uy", "uz", "von_mises",
                                           "xx", "yy", "zz", "yz", "xz", "xy"};
@@ -53,7 +38,7 @@ int render(Call& call) {
   const auto s = call.self<Solution>();
   figure::ScenePicture picture = figure::compose(*s, scene_options(call, s->scene().dimension()));
   picture.file = call.text("file");
-  read_size(call, picture);
+  read_size(call, picture.width, picture.height);
   picture.title = call.has("title") ? call.text("title") : "";
   picture.field_unit = call.has("unit") ? call.text("unit") : "";
   picture.pressure_unit = picture.field_unit;
@@ -112,7 +97,7 @@ std::string not_shown(const figure::ChartPicture& picture) {
 int chart(Call& call) {
   figure::ChartPicture picture;
   picture.file = call.text("file");
-  read_size(call, picture);
+  read_size(call, picture.width, picture.height);
   picture.title = call.has("title") ? call.text("title") : "";
   picture.x_label = call.has("x") ? call.text("x") : "";
   picture.y_label = call.has("y") ? call.text("y") : "";

@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "figure/compose_parts.hpp"
+
+namespace dotyk::figure {
+
+using beam::Solution;
+using problem::GraphWindow;
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+namespace {
+
+/// How far a graph reaches: a little beyond all that happens on it. `least`, `most`: also where r would be without end.
+GraphWindow window(const SupportLaw& law, const std::optional<WorkingPoint>& at, const Scales& scale) {
+  const double yield = problem::yield_displacement(law);
+  double v = at ? std::abs(at->displacement) : 0, r = at ? std::abs(at->reaction) : 0;
+  if (std::isfinite(yield)) v = std::max(v, yield);
+  if (law.kind == Kind::prescribed) v = std::max(v, std::abs(law.value));
+  if (!(v > kRounding * scale.displacement)) v = scale.displacement;
+  const bool spring = law.kind == Kind::elastic || law.kind == Kind::one_sided_elastic;
+  const bool bounded = law.kind == Kind::friction || law.kind == Kind::one_sided_friction || law.kind == Kind::load;
+  r = std::max({r, spring ? law.value * v : 0, bounded ? std::abs(law.value) : 0, law.limit});
+  if (!(r > kRounding * scale.force)) r = bounded || spring || law.limit > 0 ? std::max(r, std::numeric_limits<double>::min()) : scale.force;
+  if (spring) r *= 1.35;
+  const bool up = problem::one_sided(law.kind);
+  return {-1.6 * v, 1.6 * v, (up ? -0.3 : -1.4) * r, 1.4 * r};
+}
+
+CurveDrawing turn(CurveDrawing c, double x, double y) {
+  const auto flip = [](std::array<double, 2> range, double by) {
+    return by < 0 ? std::array<double, 2>{-range[1], -range[0]} : range;
+  };
+  for (PageCurve& curve : c.curves) {
+    for (double& v : curve.x) v *= x;
+    for (double& v : curve.y) v *= y;
+  }
+  for (auto& range : c.forbidden) range = flip(range, x);
+  c.x_range = flip(*c.x_range, x), c.y_range = flip(*c.y_range, y);
+  return c;
+}
+
+CurveDrawing reaction_drawing(const problem::SupportGraph& graph, const GraphWindow& w) {
+  CurveDrawing out;
+  for (const problem::Curve& piece : graph.reaction) out.curves.push_back({piece.x, piece.y, false});
+  for (const problem::Curve& jump : graph.jumps) out.curves.push_back({jump.x, jump.y, true});
+  out.x_range = {w.low, w.high}, out.y_range = {w.least, w.most};
+  if (graph.low > w.low) out.forbidden.push_back({w.low, graph.low});
+  if (graph.high < w.high) out.forbidden.push_back({graph.high, w.high});
+  return out;
+}
+
+CurveDrawing energy_drawing(const problem::SupportGraph& graph, const GraphWindow& w) {
+  CurveDrawing out = reaction_drawing(graph, w);
+  const auto [least, most] = std::minmax_element(graph.energy.y.begin(), graph.energy.y.end());
+  const double size = std::max(*most, -*least) > 0 ? std::max(*most, -*least) : std::max(w.high, -w.low) * w.most;
+  const double bottom = *least < 0 ? -1.2 * size : -0.15 * size, top = 1.2 * size;
+  PageCurve curve{graph.energy.x, graph.energy.y, false};
+  // Up to infinity where the law ends.
+  if (graph.low > w.low) curve.x.insert(curve.x.begin(), graph.low), curve.y.insert(curve.y.begin(), top);
+  if (graph.high < w.high) curve.x.push_back(graph.high), curve.y.push_back(top);
+  out.curves = {curve};
+  out.colour = 2;
+  out.no_scale = *most == 0 && *least == 0;
+  out.y_range = {bottom, top};
+  return out;
+}
+
+std::string unit_text(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
+
+/// Graph and superpotential.
+std::vector<PageCell> law_cells(const SupportLaw& law, LawSide of, const std::optional<WorkingPoint>& at, const Scales& scale, const Units& units) {
+  const double sign = turned(law, of) ? -1 : 1;
+  const GraphWindow w = window(law, at, scale);
+  const problem::SupportGraph graph = problem::graph(law, w);
+  const bool rotation = of == LawSide::rotation;
+  const std::string moment = units.force.empty() || units.length.empty() ? units.force + units.length : units.force + "·" + units.length;
+  const std::string x = rotation ? "rotation u′" + unit_text(units.length.empty() ? "" : "rad") : "deflection u" + unit_text(units.length);
+  std::vector<PageCell> cells(2);
+  CurveDrawing reaction = turn(reaction_drawing(graph, w), sign, sign), energy = turn(energy_drawing(graph, w), sign, 1);
+  if (at) {
+    reaction.point = {at->displacement, at->reaction};
+    const double v = sign * at->displacement;
+    energy.point = {at->displacement, problem::energy(law, std::clamp(v, graph.low, graph.high))};
+  }
+  cells[0].y_label = rotation ? "reaction moment" + unit_text(moment) : "reaction" + unit_text(units.force);
+  cells[1].y_label = "superpotential" + unit_text(moment);
+  cells[0].x_label = cells[1].x_label = x;
+  cells[0].drawing = std::move(reaction), cells[1].drawing = std::move(energy);
+  return cells;
+}
+
+}  // namespace
+
+const SupportLaw& law_of(const Solution& s, int support, LawSide of) {
+  const beam::Support& laws = s.beam().supports[static_cast<std::size_t>(support)];
+  return of == LawSide::deflection ? laws.deflection : laws.rotation;
+}
+
+WorkingPoint working_point(const Solution& s, int support, LawSide of) {
+  const beam::Reaction r = s.reaction(support);
+  const Scales scale = scales(s, of);
+  const auto clean = [](double value, double size) { return std::abs(value) > kRounding * size ? value : 0; };
+  if (of == LawSide::deflection) return {clean(r.deflection, scale.displacement), clean(r.force, scale.force)};
+  return {clean(r.rotation, scale.displacement), clean(r.moment, scale.force)};
+}
+
+bool turned(const SupportLaw& law, LawSide of) { return of == LawSide::rotation && problem::one_sided(law.kind); }
+
+Scales scales(const Solution& s, LawSide of) {
+  const beam::Beam& b = s.beam();
+  double u = 0, force = 0, load = 0;
+  for (const double x : s.model().nodes) {
+    u = std::max(u, std::abs(s.deflection(x)));
+    load = std::max(load, std::abs(b.q_of ? b.q_of(x) : b.q));
+  }
+  for (const beam::PointLoad& p : b.loads) force += std::abs(p.force) + std::abs(p.moment) / b.length;
+  for (std::size_t i = 0; i < b.supports.size(); ++i) {
+    const beam::Reaction r = s.reaction(static_cast<int>(i));
+    force = std::max({force, std::abs(r.force), std::abs(r.moment) / b.length});
+  }
+  const double EJ = b.EJ_of ? b.EJ_of(b.length / 2) : b.EJ;
+  force = std::max({force, load * b.length, EJ * u / (b.length * b.length * b.length)});
+  if (!(u > 0)) u = b.length;
+  if (!(force > 0)) force = 1;
+  return of == LawSide::deflection ? Scales{u, force} : Scales{u / b.length, force * b.length};
+}
+
+PagePicture compose(const SupportLaw& law, LawSide of, const Units& units) {
+  PagePicture page;
+  page.width = 1100, page.height = 480;
+  page.column_weights = {1, 1}, page.row_weights = {1};
+  page.rows = {law_cells(law, of, std::nullopt, {}, units)};
+  return page;
+}
+
+PagePicture compose(const Solution& s, int support, LawSide of, const Units& units) {
+  PagePicture page = compose(law_of(s, support, of), of, units);
+  page.rows = {law_cells(law_of(s, support, of), of, working_point(s, support, of), scales(s, of), units)};
+  return page;
+}
+
+PagePicture compose(const std::vector<GalleryRow>& rows) {
+  PagePicture page;
+  page.width = 1600, page.height = 60 + 380 * static_cast<int>(rows.size());
+  page.column_weights = {1.55, 1, 1};
+  for (const GalleryRow& row : rows) {
+    PageCell beam;
+    beam.title = row.title;
+    beam.x_label = "x", beam.y_label = "deflection u";
+    beam.drawing = beam_drawing(*row.solution);
+    std::vector<PageCell> cells = law_cells(law_of(*row.solution, row.support, row.of), row.of,
+                                            working_point(*row.solution, row.support, row.of), scales(*row.solution, row.of), {});
+    cells.insert(cells.begin(), std::move(beam));
+    page.rows.push_back(std::move(cells));
+    page.row_weights.push_back(1);
+  }
+  return page;
+}
+
+}  // namespace dotyk::figure

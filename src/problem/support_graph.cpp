@@ -1,0 +1,117 @@
+#include "problem/support_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dotyk::problem {
+
+using Kind = SupportLaw::Kind;
+
+namespace {
+
+constexpr double kInfinite = Law::kUnbounded;
+constexpr int kParabola = 48;  // points of φ between two kinks
+
+enum class Side { left, right };
+
+/// The limit of r at v from one side; within the displacements that the law admits.
+double limit_of_reaction(const SupportLaw& law, double v, Side side) {
+  const double k = law.value, yield = yield_displacement(law);
+  const auto below = [&](double kink) { return v < kink || (v == kink && side == Side::left); };
+  switch (law.kind) {
+    case Kind::free:
+    case Kind::prescribed:
+    case Kind::signorini: return 0;
+    case Kind::load: return law.value;
+    case Kind::elastic: return -k * v;
+    case Kind::one_sided_elastic: return below(0) ? -k * v : 0;
+    case Kind::friction: return below(0) ? law.value : -law.value;
+    case Kind::one_sided_friction: return below(0) ? law.value : 0;
+    case Kind::capped_elastic: return below(-yield) ? law.limit : below(yield) ? -k * v : -law.limit;
+    case Kind::breaking: return below(-yield) || !below(0) ? 0 : -k * v;
+  }
+  return 0;
+}
+
+/// Displacements where r has a kink or many values, ascending.
+std::vector<double> kinks(const SupportLaw& law) {
+  const double yield = yield_displacement(law);
+  switch (law.kind) {
+    case Kind::one_sided_elastic:
+    case Kind::friction:
+    case Kind::one_sided_friction: return {0};
+    case Kind::capped_elastic: return {-yield, yield};
+    case Kind::breaking: return {-yield, 0};
+    default: return {};
+  }
+}
+
+void add(Curve& curve, double x, double y) { curve.x.push_back(x), curve.y.push_back(y); }
+
+void add_reaction(SupportGraph& g, const SupportLaw& law, const GraphWindow& w) {
+  Curve piece;
+  if (law.kind == Kind::prescribed) {
+    g.reaction.push_back({{law.value, law.value}, {w.most, w.least}});
+    return;
+  }
+  const double from = std::max(w.low, g.low);
+  if (law.kind == Kind::signorini) add(piece, 0, w.most);
+  add(piece, from, limit_of_reaction(law, from, Side::right));
+  for (const double v : kinks(law)) {
+    if (!(v > from && v < w.high)) continue;
+    const double left = limit_of_reaction(law, v, Side::left), right = limit_of_reaction(law, v, Side::right);
+    add(piece, v, left);
+    if (law.kind == Kind::breaking && left != right) {
+      g.jumps.push_back({{v, v}, {left, right}});
+      g.reaction.push_back(std::exchange(piece, {}));
+    }
+    if (left != right) add(piece, v, right);
+  }
+  add(piece, w.high, limit_of_reaction(law, w.high, Side::left));
+  g.reaction.push_back(std::move(piece));
+}
+
+void add_energy(SupportGraph& g, const SupportLaw& law, const GraphWindow& w) {
+  const double from = std::max(w.low, g.low), to = std::min(w.high, g.high);
+  std::vector<double> ends{from};
+  for (const double v : kinks(law))
+    if (v > from && v < to) ends.push_back(v);
+  if (to > from) ends.push_back(to);
+  add(g.energy, from, energy(law, from));
+  for (std::size_t i = 1; i < ends.size(); ++i)
+    for (int k = 1; k <= kParabola; ++k) {
+      const double v = k == kParabola ? ends[i] : ends[i - 1] + (ends[i] - ends[i - 1]) * k / kParabola;
+      add(g.energy, v, energy(law, v));
+    }
+}
+
+}  // namespace
+
+double yield_displacement(const SupportLaw& law) {
+  const bool yields = law.kind == Kind::capped_elastic || law.kind == Kind::breaking;
+  return yields && law.value > 0 ? law.limit / law.value : kInfinite;
+}
+
+double energy(const SupportLaw& law, double v) {
+  const auto row = row_law(law);
+  switch (law.kind) {
+    case Kind::free: return 0;
+    case Kind::load: return -law.value * v;
+    case Kind::prescribed: return v == law.value ? 0 : kInfinite;
+    case Kind::signorini: return v >= 0 ? 0 : kInfinite;
+    case Kind::breaking: return row->energy(0, std::min(-v, yield_displacement(law)));
+    default: return row->energy(0, -v);
+  }
+}
+
+SupportGraph graph(const SupportLaw& law, const GraphWindow& window) {
+  SupportGraph g{{}, {}, {}, -kInfinite, kInfinite};
+  if (law.kind == Kind::prescribed) g.low = g.high = law.value;
+  if (law.kind == Kind::signorini) g.low = 0;
+  add_reaction(g, law, window);
+  add_energy(g, law, window);
+  return g;
+}
+
+}  // namespace dotyk::problem
