@@ -38,15 +38,21 @@ struct DiscProjection {
 DiscProjection project_disc(const Eigen::Ref<const Eigen::VectorXd>& y, double bound);
 
 /// Points of one friction law. Point k has rows first + k components … of B, and the normal row of
-/// the same node.
+/// the same node; none (-1) is needed where the bound is given.
 struct FrictionGroup {
   std::string name;
   std::shared_ptr<const Friction> law;
   int first = 0;
   int components = 1;
-  std::vector<int> normal;  ///< normal row of each point
+  std::vector<int> normal;  ///< normal row of each point, or -1
   int points() const { return static_cast<int>(normal.size()); }
   int row(int point) const { return first + point * components; }
+  /// The row that lends the point its ρ: its normal row, else the first of its own.
+  int scale_row(int point) const { return normal[point] < 0 ? row(point) : normal[point]; }
+  /// b at these multipliers of all rows.
+  double bound(int point, const algebra::Vector& lambda) const {
+    return law->bound(point, normal[point] < 0 ? 0 : lambda[normal[point]]);
+  }
 };
 
 }  // namespace dotyk::problem

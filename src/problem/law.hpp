@@ -47,6 +47,8 @@ class Law {
   virtual bool unilateral() const { return false; }
   /// Where λ follows x (or x is held and λ free): at lesser x λ is the least multiplier, at greater x the greatest.
   virtual Interval following(int /*row*/) const { return {-kUnbounded, kUnbounded}; }
+  /// k of φ*(λ) = λ²/2k on multipliers(); infinite: φ* = 0.
+  virtual double spring(int /*row*/) const { return kUnbounded; }
   /// k where φ(x) = ½kx² for every x (infinite: x = 0); nothing where the law has branches.
   virtual std::optional<double> linear_stiffness(int /*row*/) const { return std::nullopt; }
 };

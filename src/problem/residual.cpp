@@ -18,10 +18,10 @@ double natural_residual(const Problem& problem, const Vector& x, const Vector& l
     }
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k) {
-      const int r = group.row(k), n = group.normal[k];
+      const int r = group.row(k);
       const auto own = lambda.segment(r, group.components);
-      const Vector y = own + rho[n] * x.segment(r, group.components);
-      const double bound = group.law->bound(k, lambda[n]);
+      const Vector y = own + rho[group.scale_row(k)] * x.segment(r, group.components);
+      const double bound = group.bound(k, lambda);
       sum += (own - project_disc(y, bound).value).squaredNorm();
     }
   const double scale = lambda.norm();
@@ -47,7 +47,7 @@ double friction_energy(const Problem& problem, const State& state) {
   double e = 0;
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k)
-      e += group.law->bound(k, state.lambda[group.normal[k]]) * x.segment(group.row(k), group.components).norm();
+      e += group.bound(k, state.lambda) * x.segment(group.row(k), group.components).norm();
   return e;
 }
 
@@ -58,7 +58,7 @@ double friction_violation(const Problem& problem, const State& state) {
   double excess = 0, largest = 0;
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k) {
-      const double bound = group.law->bound(k, state.lambda[group.normal[k]]);
+      const double bound = group.bound(k, state.lambda);
       excess = std::max(excess, state.lambda.segment(group.row(k), group.components).norm() - bound);
       largest = std::max(largest, bound);
     }

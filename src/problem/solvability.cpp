@@ -43,6 +43,9 @@ Carried carried_by_rows(const DenseMatrix& N, const Problem& problem) {
   return all;
 }
 
+/// Given friction in space: a disc, which columns with bounds cannot tell.
+bool is_disc(const FrictionGroup& group, int point) { return group.components > 1 && group.law->bound_slope(point) == 0; }
+
 /// Adds what a friction point can carry in the tangential direction d: an amount up to the bound
 /// (given friction), or with the normal force, along the edge of the cone (Coulomb).
 void add_direction(const DenseMatrix& N, const FrictionGroup& group, int point, const Vector& d, Carried& all) {
@@ -54,37 +57,127 @@ void add_direction(const DenseMatrix& N, const FrictionGroup& group, int point, 
     all.add(tangential, 0, group.law->bound(point, 0));
 }
 
-/// What of the load e no admissible multipliers balance: the admissible motion it drives most (TR965
-/// (1.70), with friction (3.30)). Friction in space carries forces in every tangential direction:
-/// directions are added where the motion found still rubs.
-Vector unbalanced(const RigidMotions& rigid, const Problem& problem, const Vector& e) {
-  // What no row notices, no row balances; rounding in N must not seem to.
-  const DenseMatrix& N = rigid.noticed_N;
-  Carried all = carried_by_rows(N, problem);
+/// Calls visit(group, point) for every friction point, those that are discs or the others.
+template <class Visit>
+void for_each_point(const Problem& problem, bool discs, Visit&& visit) {
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k)
-      for (int i = 0; i < group.components; ++i)
-        for (double sign : {1.0, -1.0}) add_direction(N, group, k, sign * Vector::Unit(group.components, i), all);
-  Vector residual;
-  for (int round = 0; round < 30; ++round) {
-    const auto count = static_cast<Eigen::Index>(all.columns.size());
-    DenseMatrix A(N.cols(), count);
-    for (Eigen::Index j = 0; j < count; ++j) A.col(j) = all.columns[j];
-    residual = algebra::bounded_least_squares(A, rigid.noticed.transpose() * e,
-                                              Eigen::Map<const Vector>(all.low.data(), count),
-                                              Eigen::Map<const Vector>(all.high.data(), count)).residual;
-    if (residual.norm() <= kRounding * e.norm()) break;
-    const std::size_t before = all.columns.size();
-    for (const FrictionGroup& group : problem.friction) {
-      if (group.components == 1) continue;  // both directions are there
-      for (int k = 0; k < group.points(); ++k) {
-        const Vector rub = N.middleRows(group.row(k), group.components) * residual;
-        const double along_axes = rub.lpNorm<Eigen::Infinity>();
-        if (rub.norm() > (1 + 1e-9) * along_axes) add_direction(N, group, k, rub / rub.norm(), all);
-      }
-    }
-    if (all.columns.size() == before || all.columns.size() > 20000) break;
+      if (is_disc(group, k) == discs) visit(group, k);
+}
+
+/// The loads that all discs together carry, a convex set: its convex combinations of the extreme loads found so far.
+class Discs {
+ public:
+  Discs(const DenseMatrix& N, const Problem& problem) : N_(N), problem_(problem) {
+    for_each_point(problem, true, [&](auto&, int) { any_ = true; });
+    if (any_) extremes_.push_back(Vector::Zero(N.cols()));
   }
+  bool any() const { return any_; }
+
+  /// The load with the greatest work on a motion.
+  Vector extreme(const Vector& motion) const {
+    Vector sum = Vector::Zero(N_.cols());
+    for_each_point(problem_, true, [&](const FrictionGroup& group, int k) {
+      const auto rows = N_.middleRows(group.row(k), group.components);
+      const Vector rub = rows * motion;
+      const double length = rub.norm();
+      if (length > 0) sum += rows.transpose() * (group.law->bound(k, 0) / length * rub);
+    });
+    return sum;
+  }
+  void add(Vector extreme) { extremes_.push_back(std::move(extreme)); }
+
+  /// Columns whose amounts are not negative, below them a row that wants their sum to be 1: its weight (great beside the
+  /// load) makes it miss by less than the residual, and by nothing where that vanishes.
+  DenseMatrix columns(double weight) const {
+    DenseMatrix A(N_.cols() + 1, static_cast<Eigen::Index>(extremes_.size()));
+    for (Eigen::Index j = 0; j < A.cols(); ++j) A.col(j) << extremes_[j], weight;
+    return A;
+  }
+
+ private:
+  const DenseMatrix& N_;
+  const Problem& problem_;
+  bool any_ = false;
+  std::vector<Vector> extremes_;
+};
+
+/// The load that no admissible multipliers balance, found by columns as they are needed.
+class Balance {
+ public:
+  Balance(const DenseMatrix& N, const Problem& problem, Vector e)
+      : N_(N), problem_(problem), e_(std::move(e)), all_(carried_by_rows(N, problem)), discs_(N, problem) {
+    for_each_point(problem, false, [&](const FrictionGroup& group, int k) {
+      for (int i = 0; i < group.components; ++i)
+        for (double sign : {1.0, -1.0}) add_direction(N, group, k, sign * Vector::Unit(group.components, i), all_);
+    });
+  }
+
+  Vector unbalanced() {
+    constexpr int kRounds = 60;
+    for (int round = 0; round < kRounds; ++round) {
+      fit();
+      if (residual_.norm() <= kRounding * e_.norm() || all_.columns.size() > 20000) break;
+      const bool rubs = add_rubbing(), further = discs_.any() && add_extreme();
+      if (!rubs && !further) break;
+    }
+    // The motion proves that there is no balance where the load does more work on it than all that resists.
+    const bool proved = !discs_.any() || residual_.squaredNorm() > gap_;
+    return proved ? residual_ : Vector::Zero(e_.size());
+  }
+
+ private:
+  void fit() {
+    const auto rows = N_.cols(), count = static_cast<Eigen::Index>(all_.columns.size());
+    const double weight = 1e3 * std::max(e_.norm(), size_);
+    const DenseMatrix D = discs_.any() ? discs_.columns(weight) : DenseMatrix(rows, 0);
+    DenseMatrix A = DenseMatrix::Zero(D.rows(), count + D.cols());
+    for (Eigen::Index j = 0; j < count; ++j) A.col(j).head(rows) = all_.columns[j];
+    A.rightCols(D.cols()) = D;
+    Vector b = Vector::Constant(D.rows(), weight), low = Vector::Zero(A.cols()), high = Vector::Constant(A.cols(), Law::kUnbounded);
+    b.head(rows) = e_;
+    low.head(count) = Eigen::Map<const Vector>(all_.low.data(), count);
+    high.head(count) = Eigen::Map<const Vector>(all_.high.data(), count);
+    const auto fitted = algebra::bounded_least_squares(A, b, low, high);
+    residual_ = fitted.residual.head(rows);
+    carried_ = D.topRows(rows) * fitted.x.tail(D.cols());
+  }
+
+  /// Coulomb's points: directions where the motion found still rubs, off those that are there.
+  bool add_rubbing() {
+    const std::size_t before = all_.columns.size();
+    for_each_point(problem_, false, [&](const FrictionGroup& group, int k) {
+      if (group.components == 1) return;  // both directions are there
+      const Vector rub = N_.middleRows(group.row(k), group.components) * residual_;
+      if (rub.norm() > (1 + 1e-9) * rub.lpNorm<Eigen::Infinity>()) add_direction(N_, group, k, rub / rub.norm(), all_);
+    });
+    return all_.columns.size() > before;
+  }
+
+  bool add_extreme() {
+    Vector extreme = discs_.extreme(residual_);
+    gap_ = residual_.dot(extreme - carried_);
+    if (gap_ <= 1e-6 * residual_.squaredNorm()) return false;
+    size_ = std::max(size_, extreme.norm());
+    discs_.add(std::move(extreme));
+    return true;
+  }
+
+  const DenseMatrix& N_;
+  const Problem& problem_;
+  const Vector e_;
+  Carried all_;
+  Discs discs_;
+  Vector residual_, carried_;
+  double gap_ = 0, size_ = 0;  ///< of the discs: work that they could do beyond what they do; the greatest load of theirs
+};
+
+/// What of the load e no admissible multipliers balance: the admissible motion it drives most (TR965
+/// (1.70), with friction (3.30)). Friction in space carries forces in every tangential direction:
+/// directions are added where the motion found still rubs, given friction's by its discs' extreme points (Frank and Wolfe).
+Vector unbalanced(const RigidMotions& rigid, const Problem& problem, const Vector& e) {
+  // What no row notices, no row balances; rounding in N must not seem to.
+  const Vector residual = Balance(rigid.noticed_N, problem, rigid.noticed.transpose() * e).unbalanced();
   return rigid.noticed * residual + rigid.unnoticed * (rigid.unnoticed.transpose() * e);
 }
 

@@ -26,6 +26,13 @@ const char* support_name(Kind kind) {
   return "";
 }
 
+std::string describe(const SupportLaw& law) {
+  std::string out = support_name(law.kind);
+  if (law.kind != Kind::free && law.kind != Kind::signorini) out += text(" ", law.value);
+  if (law.kind == Kind::capped_elastic || law.kind == Kind::breaking) out += text(", at most ", law.limit);
+  return out;
+}
+
 bool one_sided(Kind kind) {
   return kind == Kind::one_sided_elastic || kind == Kind::signorini || kind == Kind::one_sided_friction || kind == Kind::breaking;
 }
@@ -38,23 +45,30 @@ void require_valid(const SupportLaw& law) {
     throw InputError(text(support_name(law.kind), " law: the greatest force is ", law.limit, "; it must be zero or positive, and finite"));
 }
 
-std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit) {
+std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit, const std::vector<double>& shares) {
   const double k = law.value / (unit * unit), bound = law.value / unit, limit = law.limit / unit;
   constexpr double rigid = Law::kUnbounded;
   const auto cut_off = [&](double stiffness, double low, double high) {
-    return limited(support_name(law.kind), {Limits{stiffness, low, high}});
+    std::vector<Limits> rows;
+    const auto of = [](double number, double share) { return std::isfinite(number) ? number * share : number; };
+    for (const double share : shares) rows.push_back({of(stiffness, share), of(low, share), of(high, share)});
+    return limited(support_name(law.kind), std::move(rows));
   };
   switch (law.kind) {
     case Kind::free:
     case Kind::load: return nullptr;
     case Kind::prescribed: return bilateral();
-    case Kind::elastic: return elastic({k});
     case Kind::signorini: return unilateral();
     case Kind::breaking:
     case Kind::one_sided_elastic: return cut_off(k, 0, rigid);
     case Kind::friction: return cut_off(rigid, -bound, bound);
     case Kind::one_sided_friction: return cut_off(rigid, 0, bound);
     case Kind::capped_elastic: return cut_off(k, -limit, limit);
+    case Kind::elastic: {
+      std::vector<double> stiffness;
+      for (const double share : shares) stiffness.push_back(k * share);
+      return elastic(std::move(stiffness));
+    }
   }
   return nullptr;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "problem/law.hpp"
 
@@ -8,6 +9,7 @@ namespace dotyk::problem {
 
 /// What a support does about one displacement v (of a beam's end, its rotation, a node along a direction), with its
 /// reaction r on the body (P4, figures 1 to 17). "One-sided" supports push towards v > 0 alone: r ≥ 0.
+/// Of a part of a solid's boundary v and r are those of its points, r, stiffness, bound and limit per length or area.
 struct SupportLaw {
   enum class Kind {
     free,                ///< r = 0
@@ -29,15 +31,21 @@ struct SupportLaw {
 /// "one-sided elastic".
 const char* support_name(SupportLaw::Kind kind);
 
+/// "elastic 100", "capped elastic 100, at most 2".
+std::string describe(const SupportLaw& law);
+
 /// Pushes it towards v > 0 alone?
 bool one_sided(SupportLaw::Kind kind);
 
 /// Throws InputError where a number is not finite, or negative where it must not be.
 void require_valid(const SupportLaw& law);
 
-/// The law of its row x = −w (`prescribed`: x = value·unit − w), w = v·unit, whose multiplier is λ = r/unit: with a
+/// The law of rows x = −w (`prescribed`: x = value·unit − w), w = v·unit, whose multipliers are λ = r/unit: with a
 /// length for unit, rotations and moments are told as displacements and forces. A breaking support is one that has
 /// not broken yet: one-sided elastic. Null for `free` and `load`, which have no row.
-std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit = 1);
+///
+/// One row for each of `shares`, the length or area that it stands for where the law's numbers are per length or area:
+/// stiffness, bound and limit are multiplied by it. A share of 0 bears nothing, but where the law is rigid.
+std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit = 1, const std::vector<double>& shares = {1});
 
 }  // namespace dotyk::problem

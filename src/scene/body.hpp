@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "contact/sides.hpp"
 #include "elasticity/assembly.hpp"
 #include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/mesh.hpp"
+#include "problem/support_law.hpp"
 
 namespace dotyk::scene {
 
@@ -60,6 +62,22 @@ struct SpringPatch {
   elasticity::FacetSpring spring;
 };
 
+/// What laws do along the normal and the tangents of a part, at each of its nodes (one entry a node and adjoining
+/// side) for that node's share of the boundary, ∫φ: forces are summed by the trapezoidal rule, as those of contact.
+///
+/// Normal: v = −u·n, n outward: positive away from the support, into the body; the reaction pushes towards v > 0.
+/// Tangential, in the plane: v = u·t, t the normal turned by 90° anticlockwise (along x at the bottom of a block), and
+/// the reaction along t. In space the vector of both tangents: elastic and rigid friction (‖r‖ ≤ g) are isotropic.
+/// Loads and prescribed displacements are of no load case.
+struct LawSupport {
+  PartMark part;
+  std::vector<mesh::Facet> facets;
+  std::vector<contact::NodeSide> nodes;
+  problem::SupportLaw normal, tangential;
+  std::vector<char> broken = {};  ///< of a breaking normal law: the nodes where it is; empty: none
+  bool breaks(std::size_t node) const { return node < broken.size() && broken[node]; }
+};
+
 /// An elastic body with its supports and loads. All fields are evaluated as they are given:
 /// a body holds numbers only.
 struct Body {
@@ -69,6 +87,7 @@ struct Body {
   std::vector<Support> supports;
   std::vector<SlideRow> slides;
   std::vector<SpringPatch> springs;
+  std::vector<LawSupport> laws;
   std::vector<double> force;  ///< nodal loads of no case, node × dimension
   std::vector<LoadCase> cases;
   std::vector<LoadArrow> arrows;
@@ -115,6 +134,20 @@ void load(Part& part, const elasticity::VectorField& traction, const std::string
 void pressure(Part& part, const elasticity::ScalarField& value, const std::string& load_case = {});
 /// Elastic support per length or area; a component left empty has none. Throws InputError where negative.
 void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness);
+
+/// Support laws on a part, numbers per length (2-D) or area (3-D); those of kind `free` are not given. A
+/// second call on the same part may give the law that the first left free. Throws InputError, leaving the body as it
+/// was, where a number is negative or not finite, a tangential law has no meaning (one-sided; in space also a load, a
+/// displacement other than 0 and capped elastic), a facet of the part has a law in that direction already, or
+/// other supports hold that direction at all nodes of the part.
+void support(Part& part, const problem::SupportLaw& normal, const problem::SupportLaw& tangential);
+/// Throws InputError where supports hold a direction, normal or tangential, that a law of the body is about, at all
+/// nodes of its part.
+void require_laws_free(const Body& body, const elasticity::Numbering& numbering);
+/// "normal elastic 100; tangential friction 2".
+std::string describe(const LawSupport& support);
+/// Does a displacement component along this direction move at the node? Not along what a slide on no axis holds.
+bool moves(const Body& body, const elasticity::Numbering& numbering, int node, const mesh::Point& direction);
 
 /// Numbers the body's free components. Throws InputError where supports contradict each other at a
 /// node, naming both parts.

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "scene/support_rows.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -62,6 +63,10 @@ Body Loading::applied_to(const Body& body) const {
   for (Support& support : scaled.supports)
     for (mesh::Point& value : support.values)
       for (double& v : value) v *= of(support.load_case);
+  for (LawSupport& support : scaled.laws)
+    for (problem::SupportLaw* law : {&support.normal, &support.tangential})
+      if (law->kind == problem::SupportLaw::Kind::prescribed || law->kind == problem::SupportLaw::Kind::load) law->value *= rest;
+  add_law_loads(scaled);
   for (LoadArrow& arrow : scaled.arrows)
     for (double& v : arrow.value) v *= of(arrow.load_case);
   return scaled;

@@ -10,6 +10,7 @@
 #include "elasticity/weak_motions.hpp"
 #include "scene/contact_rows.hpp"
 #include "scene/subdomains.hpp"
+#include "scene/support_rows.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -56,7 +57,7 @@ void add_body(const Body& body, Model& model) {
   block.name = body.name;
   block.K = std::move(system.K);
   block.f = std::move(system.f);
-  block.offset = system.offset;
+  block.offset = system.offset + broken_energy(body);
   block.node = numbering.node;
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
@@ -97,7 +98,7 @@ namespace {
 /// The load of a body's block for its prescribed components as they are now: f and offset as elasticity::assemble.
 void set_load(const Body& body, const Numbering& numbering, problem::Block& block) {
   const auto held = elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), numbering.prescribed);
-  block.offset = 0;
+  block.offset = broken_energy(body);
   for (std::size_t k = 0; k < held.size(); ++k)
     if (numbering.unknown[k] >= 0)
       block.f[numbering.unknown[k]] = body.force[k] - held[k];
@@ -114,6 +115,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   model.friction.clear();
   model.glue_row.clear();
   model.slide_row.clear();
+  model.support_row.clear();
   model.move.clear();
   RowBuilder builder(scene, model);
   for (const auto& contact : scene.contacts) {
@@ -133,6 +135,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   builder.set_move({0, 0, 0});
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     model.slide_row.emplace_back();
+    add_support_rows(static_cast<int>(b), builder, model);
     const Body& body = model.bodies[b];
     if (body.slides.empty()) continue;
     builder.open_group("slide of '" + body.name + "'", problem::bilateral());

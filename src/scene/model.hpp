@@ -21,6 +21,18 @@ struct FrictionRows {
   mesh::Point at(int i, const contact::ContactRow& row, int dimension) const;
 };
 
+/// The rows of B of a support's laws at one node of its part, -1 or fewer where other supports hold a direction.
+struct SupportRows {
+  int normal = -1;
+  int count = 0;  ///< tangential ones
+  int row[2] = {-1, -1};
+  mesh::Point direction[2] = {};
+  void add(int r, const mesh::Point& tangent) {
+    row[count] = r;
+    direction[count++] = tangent;
+  }
+};
+
 /// A scene as a problem, and the way back.
 struct Model {
   problem::Problem problem;
@@ -33,6 +45,7 @@ struct Model {
   /// Glue: contact → first row of B of each pair's component (dimension a pair), -1 likewise.
   std::vector<std::vector<int>> glue_row;
   std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1
+  std::vector<std::vector<std::vector<SupportRows>>> support_row;  ///< body → its LawSupport → its nodes
   std::vector<mesh::Point> move;                 ///< contact → displacement of its rigid shape
   std::optional<problem::Decomposition> decomposition;  ///< by which problem.subdomains were cut; none: they were not
 

@@ -65,9 +65,15 @@ std::string plan(const Scene& scene) {
     unknowns += numbering.count();
     free += static_cast<int>(rigid.motions.size());
     rows += static_cast<int>(body->slides.size());
+    for (const LawSupport& on : body->laws) {
+      rows += static_cast<int>(on.nodes.size());
+      rubs = rubs || on.tangential.kind == problem::SupportLaw::Kind::friction;
+    }
     out += "\n" + describe_body(*body) + text(", ", numbering.count(), " unknowns");
-    out += rigid.motions.empty() ? "; held by its supports" : "; free to move but for contact: ";
+    out += rigid.motions.empty() ? "; held by its supports" : body->laws.empty() ? "; free to move but for contact: "
+                                   : "; free to move but for contact and laws of supports: ";
     for (std::size_t k = 0; k < rigid.motions.size(); ++k) out += (k ? ", " : "") + rigid.motions[k].text();
+    for (const LawSupport& on : body->laws) out += text("\n    on ", on.part.name, " (", on.nodes.size(), " nodes): ", describe(on));
   }
   for (const auto& contact : scene.contacts) {
     rows += static_cast<int>(contact->kind == Contact::Kind::glue ? contact->glued.size() * scene.dimension()

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "scene/solution.hpp"
+#include "scene/support_rows.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -36,11 +37,31 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
       if (second == body) push(pair.second, direction, lambda[r]);
     }
   }
+  for (std::size_t s = 0; s < model.support_row[body].size(); ++s)
+    for (std::size_t k = 0; k < model.support_row[body][s].size(); ++k) {
+      const LawSupport& support = model.bodies[body].laws[s];
+      push(support.nodes[k].node, law_force(support.nodes[k], model.support_row[body][s][k], lambda), 1);
+    }
   for (std::size_t k = 0; k < model.slide_row[body].size(); ++k) {
     const int r = model.slide_row[body][k];
     const SlideRow& slide = model.bodies[body].slides[k];
     if (r >= 0) push(slide.node, slide.normal, -lambda[r]);
   }
+}
+
+/// What all supports by laws on the part exert, loads included.
+Point law_reaction(const Model& model, const algebra::Vector& lambda, int body, const PartMark& mark) {
+  const Body& b = model.bodies[body];
+  Point sum{0, 0, 0};
+  for (std::size_t s = 0; s < b.laws.size(); ++s) {
+    if (b.laws[s].part != mark) continue;
+    for (std::size_t k = 0; k < b.laws[s].nodes.size(); ++k) {
+      const Point force = law_force(b.laws[s].nodes[k], model.support_row[body][s][k], lambda);
+      const Point load = law_load(b.laws[s], b.laws[s].nodes[k], b.dimension());
+      for (int i = 0; i < 3; ++i) sum[i] += force[i] + load[i];
+    }
+  }
+  return sum;
 }
 
 }  // namespace
@@ -56,7 +77,7 @@ Point Solution::reaction(const Part& part) const {
       elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), displacement_[index]);
   std::vector<double> other = body.force;
   add_interface_force(*scene_, model_, result_.state.lambda, index, other);
-  Point sum{0, 0, 0};
+  Point sum = law_reaction(model_, result_.state.lambda, index, mark);
   std::set<std::size_t> counted;
   for (const Support& support : body.supports)
     for (std::size_t k = 0; k < support.nodes.size(); ++k)

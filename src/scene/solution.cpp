@@ -60,6 +60,12 @@ void Solution::add_step(const problem::Problem& problem) {
         slip_[rows.row[i]] += x[rows.row[i]];
         dissipated_[c] += result_.state.lambda[rows.row[i]] * x[rows.row[i]];
       }
+  for (std::size_t b = 0; b < model_.support_row.size(); ++b)
+    for (std::size_t s = 0; s < model_.support_row[b].size(); ++s) {
+      if (model_.bodies[b].laws[s].tangential.kind != problem::SupportLaw::Kind::friction) continue;
+      for (const SupportRows& rows : model_.support_row[b][s])
+        for (int i = 0; i < rows.count; ++i) slip_[rows.row[i]] += x[rows.row[i]];
+    }
 }
 
 std::vector<std::shared_ptr<const Solution>> Solution::steps() const {
@@ -150,6 +156,15 @@ std::string describe(const Solution& s) {
                 c.closed > 0 || c.stick + c.slip == 0 ? text(c.closed, " closed, ") : "", c.open, " open, greatest pressure ",
                 c.max_pressure, c.dissipated > 0 ? text(", dissipated ", c.dissipated) : "", "\n");
   }
+  for (std::size_t b = 0; b < s.scene().bodies.size(); ++b)
+    for (const LawSupport& on : s.body(static_cast<int>(b)).laws) {
+      const SupportResult r = s.support({s.scene().bodies[b], on.part.name, on.facets});
+      out += text("  support of '", s.scene().bodies[b]->name, "' ", on.part.name, " (", describe(on), "): force ",
+                  point_text(r.force.data(), s.scene().dimension()), ", ", r.stick + r.slip > 0 ? text(r.stick, " stick, ", r.slip, " slip, ") : "",
+                  r.closed > 0 || r.stick + r.slip == 0 ? text(r.closed, " closed, ") : "", r.open, " open, ",
+                  r.tangential_stick + r.tangential_slip > 0 ? text("tangents ", r.tangential_stick, " stick, ", r.tangential_slip, " slip, ") : "",
+                  r.broken > 0 ? text(r.broken, " broken, ") : "", "greatest pressure ", r.max_pressure, "\n");
+    }
   const problem::Clock& t = s.clock();
   out += text("  seconds: total ", t.total, " (assembly ", t.assembly, ", ordering ", t.ordering, ", factor ",
               t.factor, ", iterate ", t.iterate, ", recover ", t.recover, ")");

@@ -39,6 +39,32 @@ struct ContactResult {
   std::vector<ContactNode> nodes;
 };
 
+/// One node of a support by laws after the solve; at a corner there is one for each adjoining side. Signs as in LawSupport.
+struct SupportNode {
+  int node = 0;                ///< of the body's mesh
+  mesh::Point x{};             ///< at rest
+  mesh::Point normal{};        ///< unit, outward
+  double weight = 0;           ///< length or area of the node
+  double away = 0;             ///< v along the normal, positive away from the support
+  double pressure = 0;         ///< r along the normal per length or area, positive where it pushes
+  mesh::Point slip{};          ///< tangential displacement
+  mesh::Point shear{};         ///< tangential reaction on the body per length or area
+  /// Along the normal: open where it bears nothing, closed where it holds or springs back, slip where it
+  /// bears what its law gives at most; a rigid or capped one that does not sticks.
+  problem::Status status = problem::Status::open;
+  problem::Status tangential = problem::Status::open;  ///< the same of its tangents
+  bool broken = false;
+};
+
+struct SupportResult {
+  mesh::Point force{};  ///< on the body
+  double area = 0;      ///< of nodes that are not open along the normal
+  double max_pressure = 0;
+  int open = 0, closed = 0, stick = 0, slip = 0, broken = 0;  ///< nodes, by their status along the normal
+  int tangential_stick = 0, tangential_slip = 0;
+  std::vector<SupportNode> nodes;
+};
+
 class Locator;
 class Solution;
 
@@ -93,7 +119,9 @@ class Solution : public std::enable_shared_from_this<Solution> {
 
   /// Throws InputError for a contact that is not of the scene as it was solved.
   ContactResult contact(const Contact& contact) const;
-  /// Force that the supports (fix, slide, displace, spring) of the part exert on the body. A node
+  /// A part's support by laws, per node. Throws InputError where it has none, naming the parts that have.
+  SupportResult support(const Part& part) const;
+  /// Force that the supports (fix, slide, displace, spring, laws) of the part exert on the body. A node
   /// component held by several parts counts for the one that held it first.
   mesh::Point reaction(const Part& part) const;
   /// Recovery estimate of the relative error in the energy norm.
@@ -104,6 +132,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   bool active(int row) const;
 
  private:
+  SupportNode support_node(const LawSupport& support, std::size_t node, const SupportRows& rows, int body) const;
   void add_step(const problem::Problem& problem);
   const Locator& locator(int body) const;
 

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "scene/breaking.hpp"
 #include "scene/solution.hpp"
 #include "solver/newton.hpp"
 #include "solver/pdas.hpp"
@@ -37,6 +38,12 @@ void require_same_rows(const Model& model, const Model& before) {
     for (std::size_t k = 0; same && k < model.friction[c].size(); ++k)
       for (int i = 0; i < 2; ++i) same = same && model.friction[c][k].row[i] == before.friction[c][k].row[i];
   }
+  for (std::size_t b = 0; same && b < model.support_row.size(); ++b) {
+    same = b < before.support_row.size() && model.support_row[b].size() == before.support_row[b].size();
+    for (std::size_t s = 0; same && s < model.support_row[b].size(); ++s)
+      same = model.bodies[b].laws[s].part == before.bodies[b].laws[s].part &&
+             model.bodies[b].laws[s].tangential.kind == before.bodies[b].laws[s].tangential.kind;
+  }
   if (!same)
     throw InputError("the solution given as 'after' has other contact rows than the scene; it must be of the same "
                      "meshes, contacts and friction, only supports' values and loads may differ");
@@ -50,11 +57,13 @@ class History {
         method_(method), start_(start), monitor_(monitor), last_(start.after) {
     if (last_) loading_ = last_->loading();
     for (const auto& body : scene_->bodies) bodies_.push_back(*body);
+    if (last_) take_broken(last_->model().bodies, bodies_);
+    breaks_ = may_break(bodies_);
   }
 
   std::shared_ptr<Solution> run(const std::vector<Step>& steps) {
     if (steps.empty()) return advance({}, monitor_, true);
-    if (steps.size() > 1) condenser_ = std::make_shared<problem::Condenser>();
+    if (steps.size() > 1 || breaks_) condenser_ = std::make_shared<problem::Condenser>();
     for (std::size_t k = 0;; ++k) try {
         StepMonitor monitor(monitor_, static_cast<int>(k) + 1, steps.size());
         const auto solution = advance(steps[k], monitor, k + 1 == steps.size());
@@ -70,7 +79,7 @@ class History {
  private:
   std::shared_ptr<Solution> advance(const Step& step, Monitor& monitor, bool is_last) {
     load(step, monitor);
-    solver::Result result = iterate(monitor);
+    solver::Result result = breaks_ ? cascade(monitor) : iterate(monitor);
     add_times(result.clock);
     Past past{loading_, last_ ? last_->slip() : algebra::Vector(), last_ ? last_->dissipated() : std::vector<double>(),
               steps_};
@@ -85,17 +94,42 @@ class History {
 
   void load(const Step& step, Monitor& monitor) {
     loading_.take(step, *scene_);
-    if (built_)
-      reload(*scene_, bodies_, loading_, model_, clock_);
-    else
-      model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition());
+    if (!built_) model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition());
+    if (built_ || (last_ && breaks_)) reload(*scene_, bodies_, loading_, model_, clock_);
     built_ = true;
+    if (last_ && last_ == start_.after) require_same_rows(model_, last_->model());
+    add_slip();
+  }
+
+  /// Friction opposes the increment of slip.
+  void add_slip() {
     if (!last_) return;
-    if (last_ == start_.after) require_same_rows(model_, last_->model());
     for (const problem::FrictionGroup& group : model_.problem.friction) {
       const int count = group.points() * group.components;
       model_.problem.c.segment(group.first, count) += last_->slip().segment(group.first, count);
     }
+  }
+
+  /// Breaks supports until none bears too much: see breaking.hpp.
+  solver::Result cascade(Monitor& monitor) {
+    solver::Result result = iterate(monitor);
+    int rounds = 0, broken = 0;
+    while (result.converged && !monitor.stop()) {
+      const int more = break_worst(model_, result.state.lambda, bodies_);
+      if (more == 0) break;
+      ++rounds, broken += more;
+      monitor.phase(text(broken, " nodes of supports are broken"));
+      add_times(result.clock);
+      reload(*scene_, bodies_, loading_, model_, clock_);
+      add_slip();
+      try {
+        result = iterate(monitor);
+      } catch (const InputError& error) {
+        throw InputError(text("after ", broken, broken == 1 ? " node" : " nodes", " of breaking supports broke: ", error.what()));
+      }
+    }
+    result.reason += cascade_note(model_, result.state.u, rounds);
+    return result;
   }
 
   solver::Result iterate(Monitor& monitor) const {
@@ -144,6 +178,7 @@ class History {
   Loading loading_;
   Model model_;
   bool built_ = false;
+  bool breaks_ = false;
   problem::Clock clock_;
   std::shared_ptr<problem::Condenser> condenser_;
   std::shared_ptr<const Solution> last_;

@@ -25,7 +25,7 @@ Support on_nodes(const Part& part, SupportKind kind) {
 void hold(Body& body, Support support) {
   body.supports.push_back(std::move(support));
   try {
-    number(body);
+    require_laws_free(body, number(body));
   } catch (...) {
     body.supports.pop_back();
     throw;
@@ -62,7 +62,14 @@ void slide(Part& part) {
     }
   }
   if (!support.nodes.empty()) hold(body, std::move(support));
+  const std::size_t before = body.slides.size();
   body.slides.insert(body.slides.end(), oblique.begin(), oblique.end());
+  try {
+    require_laws_free(body, number(body));
+  } catch (...) {
+    body.slides.resize(before);
+    throw;
+  }
 }
 
 void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components, const std::string& load_case) {

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "script/bind.hpp"
+#include "script/bind_beam.hpp"
 #include "script/wrapped.hpp"
 #include "script/library.hpp"
 #include "script/nearest.hpp"
@@ -100,6 +101,13 @@ int slide(Call& call) {
   return call.give_self();
 }
 
+int support(Call& call) {
+  const auto law = [&](const char* name) { return call.has(name) ? *call.object<problem::SupportLaw>(name) : problem::SupportLaw{}; };
+  if (!call.has("normal") && !call.has("tangential")) throw InputError("name at least one law: normal or tangential");
+  scene::support(*call.self<Part>(), law("normal"), law("tangential"));
+  return call.give_self();
+}
+
 /// The fields given under x, y, z; `kept` owns them during the call.
 std::array<elasticity::ScalarField, 3> components(const Call& call, const Part& part, std::vector<Field>& kept) {
   std::array<elasticity::ScalarField, 3> result;
@@ -145,7 +153,7 @@ int pressure(Call& call) {
 
 std::string show_body(const Body& b) {
   return text("body '", b.name, "': ", b.mesh->topology().name, " ", b.mesh->topology().shapes, ", ",
-              b.mesh->node_count(), " nodes, ", b.supports.size() + (b.slides.empty() ? 0 : 1), " supports");
+              b.mesh->node_count(), " nodes, ", b.supports.size() + b.laws.size() + (b.slides.empty() ? 0 : 1), " supports");
 }
 
 Key component(const char* name) { return key::choice(name, {"x", "y", "z"}, "a component"); }
@@ -207,6 +215,23 @@ void bind_part(Library& library) {
                .arguments = {components_table("stiffness per length (2-D) or area (3-D), zero or positive", "stress/length")},
                .returns = "part",
                .run = spring})
+      .method({.name = "part:support",
+               .help = "A support by laws of dotyk.law along the normal and along the tangents, at each node for its share of "
+                       "the boundary: stiffnesses, bounds and loads are per length (2-D) or area (3-D), a prescribed value is a "
+                       "displacement. Normal: any law; the displacement v is positive away from the support, into "
+                       "the body, so that one-sided laws push the body off it, like a foundation without tension "
+                       "(one_sided_elastic) or a rigid base without a gap (signorini); load is a pressure. Tangential in 2-D: "
+                       "free, prescribed, load, elastic, friction or capped_elastic, v positive along the outward normal turned by "
+                       "90 degrees anticlockwise (along x at a bottom, along -x at a top). Tangential in 3-D: free, "
+                       "prescribed(0), elastic or friction, alike in all directions. Friction is given (Tresca), whatever "
+                       "the pressure, and in a history opposes the increment of slip. breaking: the nodes that "
+                       "exceed their limit most break first, until none does; s.reason tells what became of it. Results: solution:support, "
+                       "solution:reaction.",
+               .example = "block:part\"bottom\":support{ normal = dotyk.law.one_sided_elastic(1e3), tangential = dotyk.law.friction(2) }",
+               .arguments = {key::table({key::object<problem::SupportLaw>("normal", "the law along the normal").otherwise("free"),
+                                         key::object<problem::SupportLaw>("tangential", "the law along the tangents").otherwise("free")})},
+               .returns = "part",
+               .run = support})
       .text([](const Part& p) { return text("part ", p.label(), ": ", p.facets.size(), " facets"); });
 }
 

@@ -16,39 +16,33 @@ struct Maker {
   std::vector<Key> numbers;  // value, limit
 };
 
-Key stiffness() { return key::number("k", "stiffness, not negative").unit("force/length, or moment of a rotation").at_least(0).required(); }
-Key bound() { return key::number("g", "greatest force, not negative").unit("force, or moment of a rotation").at_least(0).required(); }
+Key stiffness() { return key::number("k", "stiffness, not negative").unit("force/length, or moment of a rotation; on a part per length or area as well").at_least(0).required(); }
+Key bound() { return key::number("g", "greatest force, not negative").unit("force, or moment of a rotation; on a part per length or area").at_least(0).required(); }
 
 std::vector<Maker> makers() {
   return {{"free", Kind::free, "A support that does nothing.", {}},
           {"prescribed", Kind::prescribed, "Prescribes the displacement.",
-           {key::number("v", "the deflection or rotation").unit("length, or rad").fallback(0.0)}},
-          {"load", Kind::load, "Loads the place with a force, or a moment on its rotation.",
-           {key::number("f", "up, a moment anticlockwise").unit("force, or moment").required()}},
+           {key::number("v", "the deflection, rotation or displacement").unit("length, or rad").fallback(0.0)}},
+          {"load", Kind::load, "Loads the place with a force, a moment on its rotation, or a pressure on a part.",
+           {key::number("f", "up, a moment anticlockwise; of a part into the body, a pressure").unit("force, or moment; on a part per length or area").required()}},
           {"elastic", Kind::elastic, "A spring: the reaction is -k v.", {stiffness()}},
           {"one_sided_elastic", Kind::one_sided_elastic,
-           "A spring that only pushes: up against deflections below zero, down against slopes above zero.", {stiffness()}},
-          {"signorini", Kind::signorini, "A rigid stop: the deflection stays at or above zero, a slope at or below zero.", {}},
+           "A spring that only pushes: up against deflections below zero, down against slopes above zero, off the support on a part.", {stiffness()}},
+          {"signorini", Kind::signorini, "A rigid stop: the deflection stays at or above zero, a slope at or below zero, a part does not enter the support.", {}},
           {"friction", Kind::friction, "Rigid friction: holds up to a reaction of g, and slips against it.", {bound()}},
           {"one_sided_friction", Kind::one_sided_friction, "Rigid friction on one side: holds up to g where a rigid stop would push, and else not at all.", {bound()}},
           {"capped_elastic", Kind::capped_elastic, "A spring whose reaction is at most g, either way.", {stiffness(), bound()}},
           {"breaking", Kind::breaking,
-           "A spring that only pushes and breaks where its reaction would exceed g. Not monotone: a solution may have several branches (s.branches).",
+           "A spring that only pushes and breaks where its reaction would exceed g. Not monotone: a beam may have several solutions (s.branches), of a part one path is followed.",
            {stiffness(), bound()}}};
 }
 
-std::string show(const SupportLaw& law) {
-  std::string out = text("law: ", problem::support_name(law.kind));
-  const bool number = law.kind != Kind::free && law.kind != Kind::signorini;
-  if (number) out += text(" ", law.value);
-  if (law.kind == Kind::capped_elastic || law.kind == Kind::breaking) out += text(", at most ", law.limit);
-  return out;
-}
+std::string show(const SupportLaw& law) { return "law: " + problem::describe(law); }
 
 }  // namespace
 
 void bind_law(Library& library) {
-  library.module("dotyk.law", "What a support does about one displacement, of a beam's deflection or rotation.");
+  library.module("dotyk.law", "What a support does about one displacement: a beam's deflection or rotation, or along the normal or tangents of a part (part:support).");
   for (const Maker& e : makers()) {
     const std::string name = std::string("dotyk.law.") + e.name;
     std::string example;

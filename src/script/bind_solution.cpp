@@ -142,6 +142,34 @@ int contact(Call& call) {
                            {"slip", static_cast<long long>(c.slip)}, {"nodes", nodes}}});
 }
 
+Record node_record(const scene::SupportNode& n, int dimension) {
+  Record r{"support node", {{"x", n.x[0]}, {"y", n.x[1]}}};
+  if (dimension == 3) r.entries.push_back({"z", n.x[2]});
+  r.entries.push_back({"away", n.away});
+  r.entries.push_back({"pressure", n.pressure});
+  r.entries.push_back({"slip", components(n.slip, dimension)});
+  r.entries.push_back({"shear", components(n.shear, dimension)});
+  r.entries.push_back({"status", std::string(problem::status_name(n.status))});
+  r.entries.push_back({"tangential", std::string(problem::status_name(n.tangential))});
+  r.entries.push_back({"broken", n.broken});
+  r.entries.push_back({"weight", n.weight});
+  r.entries.push_back({"normal", components(n.normal, dimension)});
+  return r;
+}
+
+int support(Call& call) {
+  const auto s = call.self<Solution>();
+  const auto r = s->support(*call.object<scene::Part>("part"));
+  const auto number = [](int value) { return static_cast<long long>(value); };
+  std::vector<Record> nodes;
+  for (const auto& n : r.nodes) nodes.push_back(node_record(n, s->scene().dimension()));
+  return call.give(Record{"support result",
+                          {{"force", components(r.force, s->scene().dimension())}, {"area", r.area}, {"max_pressure", r.max_pressure},
+                           {"open", number(r.open)}, {"closed", number(r.closed)}, {"stick", number(r.stick)}, {"slip", number(r.slip)},
+                           {"tangential_stick", number(r.tangential_stick)}, {"tangential_slip", number(r.tangential_slip)},
+                           {"broken", number(r.broken)}, {"nodes", nodes}}});
+}
+
 int reaction(Call& call) {
   const auto s = call.self<Solution>();
   return call.give_all(components(s->reaction(*call.object<scene::Part>("part")), s->scene().dimension()));
@@ -194,6 +222,16 @@ void bind_solution(Library& library) {
                .example = "local c = s:contact(contact)\nprint(c.max_pressure, c.nodes[1].status)",
                .arguments = {key::object<Contact>("contact", "what scene:contact returned").required()},
                .run = contact})
+      .method({.name = "solution:support",
+               .help = "A part's support by laws (part:support): its force on the body, area (of nodes that are not open), "
+                       "max_pressure, counts of open, closed, stick, slip (along the normal), tangential_stick, tangential_slip and broken nodes, and nodes[i] with x y z, away (displacement "
+                       "along the normal, positive away from the support), pressure, slip and shear (components of "
+                       "the tangential displacement, and of the reaction on the body per length or area), status (along the normal: "
+                       "open where it bears nothing, closed; stick or slip where the law has a greatest force), tangential (the "
+                       "same of the tangents), broken, weight, normal.",
+               .example = "local r = s:support(block:part \"bottom\")\nprint(r.max_pressure, r.nodes[1].status)",
+               .arguments = {key::object<scene::Part>("part", "a part with part:support").required()},
+               .run = support})
       .method({.name = "solution:reaction",
                .help = "Components of the force that the supports of a part exert on its body.",
                .example = "local fx, fy = s:reaction(block:part \"bottom\")",

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "solver/projection.hpp"
 
 namespace dotyk::solver {
@@ -48,15 +46,11 @@ Vector first_bounds(const Problem& problem) {
   return bounds;
 }
 
-Vector row_compliance(const Problem& problem, const Vector& scale, Eigen::Index size, const std::string& method) {
+Vector row_compliance(const Problem& problem, const Vector& scale, Eigen::Index size) {
   Vector compliance = Vector::Zero(size);
   for (const RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r) {
-      if (group.law->unilateral()) continue;
-      const auto k = group.law->linear_stiffness(r - group.first);
-      if (!k) throw InputError(text(method, " cannot treat the ", group.law->name(), " law of the ", group.name, "; pdas can"));
-      if (*k > 0) compliance[r] = scale[r] * scale[r] / *k;
-    }
+    for (int r = group.first; r < group.first + group.count; ++r)
+      if (const double k = group.law->spring(r - group.first); k > 0) compliance[r] = scale[r] * scale[r] / k;
   return compliance;
 }
 

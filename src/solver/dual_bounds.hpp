@@ -15,9 +15,8 @@ SeparableSet admissible(const problem::Problem& problem, const algebra::Vector& 
 /// these (Coulomb), so that such points do not slip.
 algebra::Vector first_bounds(const problem::Problem& problem);
 
-/// The compliance 1/k of elastic rows, scaled: what ½λ²/k adds to the dual problem's matrix, one entry a row of
-/// the dual problem (`size`). Throws InputError for a law that is neither unilateral nor linear.
-algebra::Vector row_compliance(const problem::Problem& problem, const algebra::Vector& scale, Eigen::Index size,
-                               const std::string& method);
+/// The compliance 1/k of rows with springs, scaled: what ½λ²/k adds to the dual problem's matrix, one entry a row of
+/// the dual problem (`size`); 0 where k is 0, for such a row carries nothing.
+algebra::Vector row_compliance(const problem::Problem& problem, const algebra::Vector& scale, Eigen::Index size);
 
 }  // namespace dotyk::solver

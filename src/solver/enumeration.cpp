@@ -58,6 +58,9 @@ std::vector<Choice> choices_of(const Problem& problem) {
       choice_of[r] = static_cast<int>(choices.size());
       choices.push_back({.row = r});
     }
+  for (const RowGroup& group : problem.groups)
+    if (group.count > 0 && !group.law->unilateral() && !group.law->linear_stiffness(0))
+      throw InputError(text("enumeration cannot treat the ", group.law->name(), " law of the ", group.name, "; pdas can"));
   for (const FrictionGroup& group : problem.friction) add_friction(group, choices, choice_of);
   double combinations = 1;
   for (const Choice& choice : choices) combinations *= choice.pieces;

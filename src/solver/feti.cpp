@@ -48,7 +48,7 @@ class Run {
       : problem_(problem), method_(method), unnoticed_(std::move(unnoticed)), monitor_(monitor),
         dual_(problem, method.ordering, result_.clock, monitor), coarse_(dual_.G(), dual_.e()),
         preconditioner_(dual_, coarse_, method, monitor),
-        compliance_(row_compliance(problem, dual_.scale(), dual_.rows(), "feti")) {
+        compliance_(row_compliance(problem, dual_.scale(), dual_.rows())) {
     if (coarse_.imbalance() > kImbalance)
       throw InputError(text("the load does work on a rigid motion that nothing holds: no contact forces balance ",
                             coarse_.imbalance(), " of its resultants", unbalanced(coarse_.particular())));
@@ -196,11 +196,11 @@ class Run {
     std::vector<char> active(problem_.rows(), 0), slipping(problem_.rows(), 0);
     for (const RowGroup& group : problem_.groups)
       for (int r = group.first; r < group.first + group.count; ++r)
-        info.active += active[r] = !group.law->unilateral() || face[r] == Place::free;
+        info.active += active[r] = face[r] == Place::free;
     Eigen::Index point = 0;
     for (const FrictionGroup& group : problem_.friction)
       for (int k = 0; k < group.points(); ++k, ++point) {
-        if (face[group.normal[k]] != Place::free || bounds_.now()[point] == 0) continue;
+        if ((group.normal[k] >= 0 && face[group.normal[k]] != Place::free) || bounds_.now()[point] == 0) continue;
         const bool slips = face[group.row(k)] != Place::free;
         for (int i = 0; i < group.components; ++i) slipping[group.row(k) + i] = slips;
         ++(slips ? info.slip : info.stick);

@@ -36,8 +36,7 @@ struct Feti : Settings {
   bool spectrum = false;   ///< estimate both ends of PFP's spectrum on im P
 };
 
-/// Throws InputError where there is no solution, for a law that is neither unilateral nor linear, and where a
-/// piece has motions that need no energy beside its kernel.
+/// Throws InputError where there is no solution, and where a piece has motions that need no energy beside its kernel.
 Result solve(const problem::Problem& problem, const Feti& method, Monitor& monitor);
 
 }  // namespace dotyk::solver

@@ -29,7 +29,7 @@ NaturalMap::NaturalMap(const Problem& problem, const problem::CondensedProblem& 
     : problem_(problem), condensed_(condensed), rho_(rho) {
   for (const FrictionGroup& group : problem.friction)  // the projection onto a disc needs one ρ
     for (int k = 0; k < group.points(); ++k)
-      rho_.segment(group.row(k), group.components).setConstant(rho[group.normal[k]]);
+      rho_.segment(group.row(k), group.components).setConstant(rho[group.scale_row(k)]);
   root_ = rho_.cwiseSqrt();
   const DenseMatrix N = root_.asDiagonal() * condensed.N();
   if (N.size() == 0) return;
@@ -89,14 +89,14 @@ NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) cons
   for (const FrictionGroup& group : problem_.friction)
     for (int k = 0; k < group.points(); ++k) {
       const int first = group.row(k), n = group.normal[k], d = group.components;
-      const double bound = group.law->bound(k, v.projected[n]);
+      const double bound = group.bound(k, v.projected);
       if (bound == 0) continue;  // open, or without friction here
       const problem::DiscProjection p = problem::project_disc(v.y.segment(first, d), bound);
       v.projected.segment(first, d) = p.value;
       for (int i = 0; i < d; ++i) {
         for (int j = 0; j < d; ++j)
           if (p.slope(i, j) != 0) v.slope.emplace_back(first + i, first + j, p.slope(i, j));
-        const double by_normal = p.by_bound[i] * group.law->bound_slope(k) * slope[n];
+        const double by_normal = n < 0 ? 0 : p.by_bound[i] * group.law->bound_slope(k) * slope[n];
         if (by_normal != 0) v.slope.emplace_back(first + i, n, by_normal);
         v.piece[first + i] = p.stick ? 1 : 2;
         v.slipping[first + i] = !p.stick;
@@ -120,7 +120,7 @@ NaturalMap::Value NaturalMap::sticking(const std::vector<char>& start) const {
       closed[r] = group.law->unilateral() ? (start.empty() ? problem_.c[r] <= touching : start[r]) : 1;
   for (const FrictionGroup& group : problem_.friction)
     for (int k = 0; k < group.points(); ++k)
-      for (int i = 0; i < group.components; ++i) closed[group.row(k) + i] = closed[group.normal[k]];
+      for (int i = 0; i < group.components; ++i) closed[group.row(k) + i] = group.normal[k] < 0 || closed[group.normal[k]];
   std::vector<char> scalar(m, 0);
   for (const RowGroup& group : problem_.groups)
     for (int r = group.first; r < group.first + group.count; ++r) scalar[r] = !group.law->unilateral();

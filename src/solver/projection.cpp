@@ -21,7 +21,7 @@ Vector friction_bounds(const Problem& problem, const Vector& lambda) {
   Vector bounds(friction_points(problem));
   Eigen::Index point = 0;
   for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k) bounds[point++] = group.law->bound(k, lambda[group.normal[k]]);
+    for (int k = 0; k < group.points(); ++k) bounds[point++] = group.bound(k, lambda);
   return bounds;
 }
 
@@ -34,7 +34,7 @@ Vector project(const Problem& problem, const Vector& y, const Vector& rho, const
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k, ++point) {
       const auto own = y.segment(group.row(k), group.components);
-      const double bound = bounds ? (*bounds)[point] : group.law->bound(k, lambda[group.normal[k]]);
+      const double bound = bounds ? (*bounds)[point] : group.bound(k, lambda);
       const double length = own.norm();
       lambda.segment(group.row(k), group.components) = length <= bound ? Vector(own) : Vector(bound / length * own);
     }

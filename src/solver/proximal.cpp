@@ -28,10 +28,11 @@ Vector compliance_of_rows(const RowIteration& on) {
   for (const problem::FrictionGroup& group : on.problem.friction)
     for (int k = 0; k < group.points(); ++k) {
       const int n = group.normal[k];
-      double sum = compliance[n];
+      double sum = n < 0 ? 0 : compliance[n];
       for (int i = 0; i < group.components; ++i) sum += on.condensed.W()(group.row(k) + i, group.row(k) + i);
-      compliance[n] = sum / (1 + group.components);
-      compliance.segment(group.row(k), group.components).setConstant(compliance[n]);
+      const double mean = sum / ((n >= 0) + group.components);
+      if (n >= 0) compliance[n] = mean;
+      compliance.segment(group.row(k), group.components).setConstant(mean);
     }
   return compliance;
 }

@@ -14,8 +14,10 @@ Relaxation::Relaxation(const Problem& problem, const DenseMatrix& W) : W_(W) {
   const double noticed = W.size() ? 1e-14 * W.diagonal().maxCoeff() : 0;
   std::vector<std::vector<Site>> of_normal(problem.rows());
   for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k)
-      of_normal[group.normal[k]].push_back({nullptr, &group, k, compliance(group.row(k), group.components)});
+    for (int k = 0; k < group.points(); ++k) {
+      auto& place = group.normal[k] < 0 ? sites_ : of_normal[group.normal[k]];
+      place.push_back({nullptr, &group, k, compliance(group.row(k), group.components)});
+    }
   for (const RowGroup& group : problem.groups)
     for (int k = 0; k < group.count; ++k) {
       sites_.push_back({&group, nullptr, k, W(group.first + k, group.first + k)});
@@ -43,7 +45,7 @@ void Relaxation::sweep(double omega, Vector& lambda, Vector& x) const {
       continue;
     }
     const int first = site.friction->row(site.index), d = site.friction->components;
-    const double bound = site.friction->law->bound(site.index, lambda[site.friction->normal[site.index]]);
+    const double bound = site.friction->bound(site.index, lambda);
     Vector moved = lambda.segment(first, d) + rho * x.segment(first, d);
     const double length = moved.norm();
     if (length > bound) moved *= bound / length;

@@ -96,7 +96,7 @@ class Alternation {
     for (const FrictionGroup& group : it_.problem.friction)
       for (int k = 0; k < group.points(); ++k) {
         const int first = group.row(k);
-        if (!(v.y.segment(first, group.components).norm() < group.law->bound(k, v.projected[group.normal[k]]))) continue;
+        if (!(v.y.segment(first, group.components).norm() < group.bound(k, v.projected))) continue;
         for (int i = 0; i < group.components; ++i) v.slope.emplace_back(first + i, first + i, 1.0);
       }
     return v;

@@ -1,0 +1,23 @@
+#include "contact/tangents.hpp"
+
+#include <cmath>
+
+namespace dotyk::contact {
+
+using mesh::Point;
+
+std::vector<Point> tangents(const Point& n, int dimension) {
+  if (dimension == 2) return {{-n[1], n[0], 0}};
+  // Along the axis that the normal is least along, made perpendicular; axes stay axes where they can.
+  int least = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(n[i]) < std::abs(n[least]) - 1e-12) least = i;
+  Point t{0, 0, 0};
+  t[least] = 1;
+  for (int i = 0; i < 3; ++i) t[i] -= n[least] * n[i];
+  const double length = std::hypot(t[0], t[1], t[2]);
+  for (double& v : t) v = std::abs(v) < 1e-15 ? 0 : v / length;
+  return {t, {n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]}};
+}
+
+}  // namespace dotyk::contact
