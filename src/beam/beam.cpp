@@ -54,6 +54,11 @@ std::vector<double> nodes(const Beam& beam) {
   return x;
 }
 
+int cell_of(const std::vector<double>& nodes, double x) {
+  const auto above = std::upper_bound(nodes.begin(), nodes.end(), x);
+  return std::clamp(static_cast<int>(above - nodes.begin()) - 1, 0, static_cast<int>(nodes.size()) - 2);
+}
+
 int nearest(const std::vector<double>& nodes, double x) {
   const auto above = std::lower_bound(nodes.begin(), nodes.end(), x);
   if (above == nodes.begin()) return 0;

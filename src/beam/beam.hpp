@@ -46,6 +46,9 @@ void require_valid(const Beam& beam);
 /// The nodes, ascending: cells of equal length, and the supports' points where they are not (nearly) among them.
 std::vector<double> nodes(const Beam& beam);
 
+/// The cell that x lies in, of a node the one to its right where there is one.
+int cell_of(const std::vector<double>& nodes, double x);
+
 /// The node next to x.
 int nearest(const std::vector<double>& nodes, double x);
 

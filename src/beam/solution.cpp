@@ -42,8 +42,7 @@ double Solution::load_between(double from, double to, double arm) const {
 Solution::Place Solution::place(double x) const {
   if (!(x >= 0 && x <= beam_.length)) throw InputError(text("x = ", x, " is not on the beam, which goes from 0 to ", beam_.length));
   const auto& nodes = model_.nodes;
-  const auto above = std::upper_bound(nodes.begin(), nodes.end(), x);
-  const int cell = std::clamp(static_cast<int>(above - nodes.begin()) - 1, 0, static_cast<int>(nodes.size()) - 2);
+  const int cell = cell_of(nodes, x);
   return {cell, (x - nodes[cell]) / (nodes[cell + 1] - nodes[cell])};
 }
 

@@ -22,7 +22,8 @@ std::string ends(const Beam& beam, const algebra::Vector& amounts) {
   return text("u = ", u[0], " at the left end and ", u[1], " at the right one");
 }
 
-/// The theorem that is about these supports; empty where there is none.
+}  // namespace
+
 std::string theorem(const Beam& beam) {
   bool one_sided = false, elastic = false, sliding = false, turning = false;
   for (const Support& s : beam.supports) {
@@ -38,8 +39,6 @@ std::string theorem(const Beam& beam) {
   if (sliding) out += (out.empty() ? "" : "; ") + std::string("friction against deflection: its bounds must be above the resultants (theorem 5)");
   return out;
 }
-
-}  // namespace
 
 std::string require_solvable(const Beam& beam, const Model& model) {
   using Verdict = problem::Solvability::Verdict;

@@ -12,4 +12,7 @@ namespace dotyk::beam {
 /// what is to be known: that the solution is unique up to a motion, or a limit case; empty where it is unique.
 std::string require_solvable(const Beam& beam, const Model& model);
 
+/// The theorems of P4 that are about these supports; empty where none is.
+std::string theorem(const Beam& beam);
+
 }  // namespace dotyk::beam

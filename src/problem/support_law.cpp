@@ -73,4 +73,21 @@ std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit, const std
   return nullptr;
 }
 
+std::optional<double> sole_displacement(const SupportLaw& law, double r) {
+  const auto within = [&](bool inside, double v) { return inside ? std::optional<double>(v) : std::nullopt; };
+  switch (law.kind) {
+    case Kind::free:
+    case Kind::load: return std::nullopt;
+    case Kind::prescribed: return law.value;
+    case Kind::elastic: return within(law.value > 0, -r / law.value);
+    case Kind::one_sided_elastic: return within(law.value > 0 && r > 0, -r / law.value);
+    case Kind::signorini: return within(r > 0, 0);
+    case Kind::friction: return within(std::abs(r) < law.value, 0);
+    case Kind::one_sided_friction: return within(r > 0 && r < law.value, 0);
+    case Kind::capped_elastic: return within(law.value > 0 && std::abs(r) < law.limit, -r / law.value);
+    case Kind::breaking: return within(law.value > 0 && r > 0 && r < law.limit, -r / law.value);
+  }
+  return std::nullopt;
+}
+
 }  // namespace dotyk::problem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,5 +48,8 @@ void require_valid(const SupportLaw& law);
 /// One row for each of `shares`, the length or area that it stands for where the law's numbers are per length or area:
 /// stiffness, bound and limit are multiplied by it. A share of 0 bears nothing, but where the law is rigid.
 std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit = 1, const std::vector<double>& shares = {1});
+
+/// The displacement at which the law gives this reaction, where there is one only; nothing at its limits and beyond them.
+std::optional<double> sole_displacement(const SupportLaw& law, double reaction);
 
 }  // namespace dotyk::problem

@@ -23,6 +23,7 @@ void bind_all(Library& library) {
   bind_beam(library);
   bind_beam_figure(library);
   bind_channel(library);
+  bind_thermoelastic(library);
 }
 
 }  // namespace dotyk::script

@@ -23,5 +23,6 @@ void bind_law(Library& library);
 void bind_beam(Library& library);
 void bind_beam_figure(Library& library);
 void bind_channel(Library& library);
+void bind_thermoelastic(Library& library);
 
 }  // namespace dotyk::script

@@ -9,19 +9,20 @@
 #include "script/watch.hpp"
 
 namespace dotyk::script {
-namespace {
-
-using beam::Beam;
-using beam::Broken;
 using problem::SupportLaw;
 
 Key law_key(const char* name, const char* help) { return key::object<SupportLaw>(name, help).otherwise("free"); }
 
+SupportLaw law(const Arguments& from, const char* name) { return from.has(name) ? *from.object<SupportLaw>(name) : SupportLaw{}; }
+
+namespace {
+
+using beam::Beam;
+using beam::Broken;
+
 std::vector<Key> laws() {
   return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")};
 }
-
-SupportLaw law(const Arguments& from, const char* name) { return from.has(name) ? *from.object<SupportLaw>(name) : SupportLaw{}; }
 
 beam::Support support(const Arguments& from, std::string name, double x) {
   return {std::move(name), x, law(from, "deflection"), law(from, "rotation")};

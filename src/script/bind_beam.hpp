@@ -26,6 +26,10 @@ struct Wrapped<BeamResult> {
   static constexpr const char* name = "beam_solution";
 };
 
+// A key for a law of dotyk.law; the law given, else free.
+Key law_key(const char* name, const char* help);
+problem::SupportLaw law(const Arguments& from, const char* name);
+
 // Solves; gives a beam_solution.
 int solve_beam(Call& call, const beam::Beam& beam, const solver::Method& method, std::vector<Function> on_iteration, bool verbose);
 

@@ -99,6 +99,11 @@ int Call::give_self() const {
 }
 
 void Call::keep(int object_index, std::initializer_list<const char*> names) const {
+  for (const char* name : names)
+    if (has(name)) keep(object_index, name, slot(name));
+}
+
+void Call::keep(int object_index, const std::string& name, int slot) const {
   object_index = lua_absindex(L_, object_index);
   luaL_checkstack(L_, 4, nullptr);
   if (lua_getiuservalue(L_, object_index, 1) != LUA_TTABLE) {
@@ -107,11 +112,8 @@ void Call::keep(int object_index, std::initializer_list<const char*> names) cons
     lua_pushvalue(L_, -1);
     lua_setiuservalue(L_, object_index, 1);
   }
-  for (const char* name : names) {
-    if (!has(name)) continue;
-    lua_pushvalue(L_, slot(name));
-    lua_setfield(L_, -2, name);
-  }
+  lua_pushvalue(L_, slot);
+  lua_setfield(L_, -2, name.c_str());
   lua_pop(L_, 1);
 }
 

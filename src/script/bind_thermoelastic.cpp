@@ -1,0 +1,324 @@
+#include "script/bind_thermoelastic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "script/bind.hpp"
+#include "script/bind_beam.hpp"
+#include "script/library.hpp"
+#include "script/watch.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using thermoelastic::Data;
+using thermoelastic::History;
+using thermoelastic::Loads;
+using thermoelastic::Source;
+using thermoelastic::Stepping;
+
+const std::array<const char*, 2> kEnds{"left", "right"};
+
+// Where a function is kept: "load", "ambient.above", "left.temperature".
+struct Place {
+  std::string table, name;
+  std::string kept() const { return table.empty() ? name : table + "." + name; }
+};
+
+// Every load, with where a script says it.
+template <class Use>
+void each_load(Loads& loads, Use use) {
+  use(Place{"", "load"}, loads.transverse);
+  use(Place{"", "axial_load"}, loads.axial);
+  use(Place{"", "heat"}, loads.heat);
+  use(Place{"", "heat_gradient"}, loads.heat_gradient);
+  use(Place{"ambient", "above"}, loads.ambient_above);
+  use(Place{"ambient", "below"}, loads.ambient_below);
+  for (int end = 0; end < 2; ++end) {
+    use(Place{kEnds[end], "temperature"}, loads.mean[end]);
+    use(Place{kEnds[end], "gradient"}, loads.gradient[end]);
+  }
+}
+
+void set_function(Source& load, Function function) {
+  load.of = [f = std::move(function)](double x, double t) { return f.number(std::vector<double>{x, t}); };
+}
+void set_function(History& load, Function function) {
+  load.of = [f = std::move(function)](double t) { return f.number(std::vector<double>{t}); };
+}
+
+// The arguments that a place is in; nothing where its table is not given.
+std::optional<Arguments> holder(Call& call, const Place& at) {
+  if (at.table.empty()) return call;
+  if (!call.has(at.table)) return std::nullopt;
+  return call.table(at.table);
+}
+
+// Constants, and the functions as long as the making of the object runs.
+Loads given_loads(Call& call, Loads& constants) {
+  Loads all;
+  each_load(constants, [&](const Place& at, auto& load) {
+    const auto from = holder(call, at);
+    if (from && from->has(at.name) && from->field(at.name).constant()) load.constant = from->field(at.name)({})[0];
+  });
+  all = constants;
+  each_load(all, [&](const Place& at, auto& load) {
+    const auto from = holder(call, at);
+    if (from && from->is(at.name, LUA_TFUNCTION)) set_function(load, from->function(at.name));
+  });
+  return all;
+}
+
+void keep_functions(Call& call, int object, Loads& constants) {
+  each_load(constants, [&](const Place& at, auto&) {
+    const auto from = holder(call, at);
+    if (from && from->is(at.name, LUA_TFUNCTION)) call.keep(object, at.kept(), from->slot(at.name));
+  });
+}
+
+// Constants and kept functions of the object before the colon.
+Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
+  Loads all = beam.constants;
+  each_load(all, [&](const Place& at, auto& load) {
+    for (const Function& f : call.kept_function(1, at.kept())) set_function(load, f);
+  });
+  return all;
+}
+
+Source at_first(const Arguments& from, const char* name) {
+  Source out;
+  if (!from.has(name)) return out;
+  const Field field = from.field(name);
+  if (field.constant()) out.constant = field({})[0];
+  else out.of = [field](double x, double) { return field(std::vector<double>{x})[0]; };
+  return out;
+}
+
+thermoelastic::Support support(const Arguments* from, std::string name, double x) {
+  thermoelastic::Support out{std::move(name), x, {}, {}, {}};
+  if (!from) return out;
+  out.deflection = law(*from, "deflection");
+  out.rotation = law(*from, "rotation");
+  return out;
+}
+
+void add_end(Call& call, int end, Data& data) {
+  const double x = end == 0 ? 0 : data.length;
+  if (!call.has(kEnds[end])) {
+    data.supports.push_back(support(nullptr, kEnds[end], x));
+    return;
+  }
+  const Arguments from = call.table(kEnds[end]);
+  data.supports.push_back(support(&from, kEnds[end], x));
+  data.supports.back().displacement = law(from, "displacement");
+  data.heat_ends[end] = {from.has("temperature"), from.has("gradient")};
+}
+
+Data given_data(Call& call) {
+  Data data;
+  data.length = call.number("length");
+  data.height = call.number("height");
+  data.width = call.number("width");
+  data.E = call.number("E");
+  data.expansion = call.number("expansion");
+  data.conductivity = call.number("conductivity");
+  data.heat_capacity = call.number("heat_capacity");
+  data.reference = call.number("reference_temperature");
+  data.cells = static_cast<int>(call.integer("cells"));
+  if (call.has("exchange")) {
+    const Arguments exchange = call.table("exchange");
+    data.exchange_above = exchange.number("above");
+    data.exchange_below = exchange.number("below");
+  }
+  add_end(call, 0, data);
+  if (call.has("supports"))
+    for (const Arguments& s : call.tables("supports")) data.supports.push_back(support(&s, text("x = ", s.number("x")), s.number("x")));
+  add_end(call, 1, data);
+  std::stable_sort(data.supports.begin(), data.supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  return data;
+}
+
+int make(Call& call) {
+  const Data data = given_data(call);
+  auto beam = std::make_shared<ThermoelasticBeam>();
+  const Loads loads = given_loads(call, beam->constants);
+  thermoelastic::Initial initial;
+  if (call.has("initial")) initial = {at_first(call.table("initial"), "temperature"), at_first(call.table("initial"), "gradient")};
+  thermoelastic::Scheme scheme;
+  scheme.step = call.number("step");
+  scheme.order = call.integer("order") == 1 ? thermoelastic::Order::one : thermoelastic::Order::two;
+  scheme.decompose = call.boolean("decompose");
+  if (call.has("solver")) scheme.method = call.object<Solver>("solver")->method;
+  Watch watch(call.state(), "thermoelastic beam");
+  beam->stepping = std::make_unique<Stepping>(data, initial, scheme, loads, watch);
+  call.give(beam);
+  const int object = lua_gettop(call.state());
+  keep_functions(call, object, beam->constants);
+  lua_settop(call.state(), object);
+  return 1;
+}
+
+int run(Call& call) {
+  const auto beam = call.self<ThermoelasticBeam>();
+  const Loads loads = kept_loads(call, *beam);
+  Watch watch(call.state(), "stepping");
+  beam->stepping->run(call.number("time"), loads, watch);
+  return call.give_self();
+}
+
+int step(Call& call) {
+  const auto beam = call.self<ThermoelasticBeam>();
+  const Loads loads = kept_loads(call, *beam);
+  Watch watch(call.state(), "stepping");
+  beam->stepping->step(loads, watch);
+  return call.give_self();
+}
+
+template <double (Stepping::*value)(double) const>
+int at(Call& call) {
+  return call.give(((*call.self<ThermoelasticBeam>()->stepping).*value)(call.number("x")));
+}
+
+int reaction(Call& call) {
+  const Stepping& s = *call.self<ThermoelasticBeam>()->stepping;
+  const auto& supports = s.data().supports;
+  const std::string name = call.is("at", LUA_TNUMBER) ? "" : call.text("at");
+  std::string known;
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    known += (known.empty() ? "" : ", ") + supports[i].name;
+    const bool found = name.empty() ? std::abs(supports[i].x - call.number("at")) <= 1e-9 * s.data().length : supports[i].name == name;
+    if (!found) continue;
+    const thermoelastic::Reaction r = s.reaction(static_cast<int>(i));
+    return call.give(Record{"reaction", {{"force", r.force}, {"moment", r.moment}, {"axial", r.axial}, {"deflection", r.deflection}, {"rotation", r.rotation}, {"displacement", r.displacement}}});
+  }
+  throw InputError(text("no support there; the supports are ", known));
+}
+
+Record energy(const ThermoelasticBeam& beam) {
+  const thermoelastic::Energy e = beam.stepping->energy();
+  return {"energy", {{"stored", e.stored}, {"put_in", e.put_in}, {"dissipated", e.dissipated}, {"defect", e.defect}}};
+}
+
+std::string show(const ThermoelasticBeam& beam) {
+  const Stepping& s = *beam.stepping;
+  const auto decomposed = s.decomposed();
+  std::string out = text("thermoelastic_beam: time ", s.time(), " after ", s.steps(), " steps; ",
+                         s.data().exchange_above == s.data().exchange_below ? "stretching and bending apart" : "stretching and bending coupled by the heat exchange", "; ");
+  if (decomposed.empty()) out += "nothing decomposed";
+  for (std::size_t i = 0; i < decomposed.size(); ++i) out += (i == 0 ? "" : " and ") + decomposed[i];
+  if (!decomposed.empty()) out += " decomposed";
+  for (std::size_t i = 0; i < s.data().supports.size(); ++i) {
+    const thermoelastic::Reaction r = s.reaction(static_cast<int>(i));
+    out += text("\n  ", s.data().supports[i].name, ": force ", r.force, ", moment ", r.moment, ", axial ", r.axial, ", deflection ", r.deflection, ", rotation ", r.rotation,
+                ", displacement ", r.displacement);
+  }
+  return out;
+}
+
+const char* kHelp =
+    "A beam of rectangular section that heat bends and stretches, and whose deformation in turn cools and heats it: linear "
+    "coupled thermoelasticity, quasi-static, stepped in time. At height z over its axis it is warmer than reference_temperature "
+    "by temperature + z gradient. Every step is a contact problem like dotyk.beam's, condensed to the supports. Stretching and "
+    "bending are apart where the heat exchange above and below is equal. Where statics alone gives the reactions (simply "
+    "supported, cantilever, simply supported and guided, rigid or elastic, or forced to that by a condition of solvability) the "
+    "heat is solved without the displacement (decomposed), with the same result. Without a law an end is free; without "
+    "temperature (gradient) no heat passes there. Functions are of x and t, or of t, and called in every step.";
+
+const char* kBeam =
+    "local l = dotyk.law\n"
+    "local b = dotyk.thermoelastic_beam{ length = 1, height = 0.02, E = 2.1e11, expansion = 1.2e-5, conductivity = 50, heat_capacity = 3.8e6,\n"
+    "  exchange = { above = 200, below = 200 }, ambient = { above = function(t) return 80*(1 - math.exp(-t/60)) end },\n"
+    "  left = { deflection = l.signorini(), displacement = l.prescribed(0) }, right = { deflection = l.signorini() },\n"
+    "  load = -100, step = 1 }\n";
+
+std::string example(const char* use) { return std::string(kBeam) + use; }
+
+std::vector<Key> laws() { return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")}; }
+
+Key end_key(const char* name, const char* help) {
+  std::vector<Key> keys = laws();
+  keys.push_back(law_key("displacement", "a law about the displacement along the axis; one-sided ones keep the end within its place"));
+  keys.push_back(key::field("temperature", "prescribed, over the reference: a number or a function of t").unit("temperature").otherwise("no heat passes"));
+  keys.push_back(key::field("gradient", "prescribed: a number or a function of t").unit("temperature/length").otherwise("no heat passes"));
+  return key::table(name, keys, help);
+}
+
+std::vector<Key> keys() {
+  Key inner = key::table("", laws(), "");
+  inner.keys.insert(inner.keys.begin(), key::number("x", "where").unit("length").required());
+  return {key::positive("length", "from x = 0").unit("length").fallback(1.0),
+          key::positive("height", "of the section").unit("length").required(),
+          key::positive("width", "of the section").unit("length").fallback(1.0),
+          key::positive("E", "Young's modulus").unit("stress").required(),
+          key::number("expansion", "coefficient of thermal expansion").at_least(0).unit("1/temperature").required(),
+          key::positive("conductivity", "of heat").unit("power/(length·temperature)").required(),
+          key::positive("heat_capacity", "per volume").unit("energy/(length³·temperature)").required(),
+          key::positive("reference_temperature", "absolute, at which it is free of stress").unit("temperature").fallback(293.15),
+          key::table("exchange", {key::number("above", "").at_least(0).unit("power/(length²·temperature)").fallback(0.0),
+                                  key::number("below", "").at_least(0).unit("power/(length²·temperature)").fallback(0.0)}, "coefficients of heat exchange on the faces"),
+          key::table("ambient", {key::field("above", "a number or a function of t").unit("temperature").otherwise("0"),
+                                 key::field("below", "a number or a function of t").unit("temperature").otherwise("0")}, "temperatures around, over the reference"),
+          key::field("load", "upwards: a number or a function of x and t").unit("force/length").otherwise("0"),
+          key::field("axial_load", "along x: a number or a function of x and t").unit("force/length").otherwise("0"),
+          key::field("heat", "supplied, the same at every height: a number or a function of x and t").unit("power/length³").otherwise("0"),
+          key::field("heat_gradient", "its slope over the height: a number or a function of x and t").unit("power/length⁴").otherwise("0"),
+          end_key("left", "the end x = 0"),
+          end_key("right", "the end x = length"),
+          key::list("supports", inner, "supports within the beam; law.load there is a point load"),
+          key::table("initial", {key::field("temperature", "over the reference: a number or a function of x").unit("temperature").otherwise("0"),
+                                 key::field("gradient", "a number or a function of x").unit("temperature/length").otherwise("0")}, "at t = 0"),
+          key::integer("cells", "elements, of equal length; a support within one divides it").within(1, 1000).fallback(32.0),
+          key::positive("step", "the longest step in time").unit("time").required(),
+          key::integer("order", "in time: 1, the implicit Euler scheme, or 2, a diagonally implicit one of two stages").within(1, 2).fallback(2.0),
+          key::boolean("decompose", "solve the heat without the displacement where statics allows it").fallback(true),
+          key::object<Solver>("solver", "the method of the steps' contact problems").otherwise("pdas")};
+}
+
+std::vector<Key> x_key() { return {key::number("x", "from the left end").unit("length").required()}; }
+
+void add_values(TypeOf<ThermoelasticBeam>& type) {
+  const auto add = [&](const char* name, const char* help, int (*run)(Call&), const char* use) {
+    type.method({.name = std::string("thermoelastic_beam:") + name, .help = help, .example = example(use), .arguments = x_key(), .run = run});
+  };
+  add("deflection", "The deflection now, positive upwards.", at<&Stepping::deflection>, "print(b:run(60):deflection(0.5))");
+  add("rotation", "The slope of the deflection now.", at<&Stepping::rotation>, "print(b:run(60):rotation(0))");
+  add("displacement", "The displacement along the axis now.", at<&Stepping::displacement>, "print(b:run(60):displacement(1))");
+  add("gradient", "The slope of the temperature over the height, now.", at<&Stepping::gradient>, "print(b:run(60):gradient(0.5))");
+  add("moment", "The bending moment -EJ (u'' + expansion gradient) now, by equilibrium.", at<&Stepping::moment>, "print(b:run(60):moment(0.5))");
+  add("shear", "The shear force now, the derivative of the moment.", at<&Stepping::shear>, "print(b:run(60):shear(0))");
+  add("normal", "The normal force now; a pull is positive.", at<&Stepping::normal>, "print(b:run(60):normal(0.5))");
+  type.method({.name = "thermoelastic_beam:temperature", .help = "The temperature now, over the reference, at x and the height z over the axis.",
+               .example = example("print(b:run(60):temperature(0.5), b:temperature(0.5, 0.01))"),
+               .arguments = {x_key()[0], key::number("z", "over the axis").unit("length").fallback(0.0)},
+               .run = [](Call& call) { return call.give(call.self<ThermoelasticBeam>()->stepping->temperature(call.number("x"), call.number("z"))); }});
+  type.method({.name = "thermoelastic_beam:reaction",
+               .help = "What a support does now: force (up), moment (anticlockwise) and axial force on the beam, and the deflection, rotation and displacement there.",
+               .example = example("print(b:run(60):reaction(\"left\").force)"),
+               .arguments = {key::either("at", {key::choice("", {"left", "right"}, ""), key::number("", "the x of a support")}, "an end, or the x of a support").required()},
+               .run = reaction});
+}
+
+}  // namespace
+
+void bind_thermoelastic(Library& library) {
+  library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .example = example("print(b:run(60):deflection(0.5))"), .arguments = {key::table(keys())},
+                    .returns = Wrapped<ThermoelasticBeam>::name, .run = make});
+  auto type = library.type<ThermoelasticBeam>("A thermoelastic beam at a time.");
+  using B = ThermoelasticBeam;
+  type.field("time", "now", [](const B& b) { return b.stepping->time(); }, "time")
+      .field("steps", "steps done", [](const B& b) { return b.stepping->steps(); })
+      .field("decomposed", "effects, \"bending\" or \"stretching\", that were decomposed in every step", [](const B& b) { return b.stepping->decomposed(); })
+      .field("energy", "stored, put_in and dissipated since t = 0, and the defect of their balance, which tends to 0 with the step to the scheme's order", energy, "energy")
+      .field("method", "of the contact problems; empty where all was decomposed", [](const B& b) { return b.stepping->work().method; })
+      .field("problems", "contact problems solved", [](const B& b) { return b.stepping->work().problems; })
+      .field("iterations", "of the method, in all", [](const B& b) { return b.stepping->work().iterations; })
+      .text(show);
+  type.method({.name = "thermoelastic_beam:step", .help = "One step; gives the beam again.", .example = example("print(b:step().time)"), .returns = Wrapped<B>::name, .run = step})
+      .method({.name = "thermoelastic_beam:run", .help = "To a time by equal steps, none longer than the step; gives the beam again.", .example = example("print(b:run(60).steps)"),
+               .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")}, .returns = Wrapped<B>::name, .run = run});
+  add_values(type);
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,115 @@
+#include "thermoelastic/effect.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "algebra/quadrature.hpp"
+#include "beam/element.hpp"
+
+namespace dotyk::thermoelastic {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+namespace {
+
+const algebra::Quadrature& rule() {
+  static const algebra::Quadrature eight = algebra::gauss(8);
+  return eight;
+}
+
+const double kRoot3 = std::sqrt(3.0);
+
+/// The quadratic functions of the left end, the middle and the right end at 0 ≤ s ≤ 1.
+Eigen::Vector3d quadratic(double s) { return {(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)}; }
+
+}  // namespace
+
+Effect::Effect(Kind kind, const std::vector<double>& nodes, double modulus, double beta)
+    : kind_(kind), nodes_(nodes), modulus_(modulus), beta_(beta) {}
+
+CellStrain Effect::strain_matrix(int cell) const {
+  const double length = h(cell), unit = nodes_.back();
+  CellStrain B(2, cell_unknowns());
+  if (kind_ == Kind::stretching)  // Du = (4s − 3) u₀ + (4 − 8s) u_m + (4s − 1) u₁, over h
+    B << -1, 0, 1, 2 / kRoot3, -4 / kRoot3, 2 / kRoot3;
+  else {  // u'' = u' differences over h, and (12 s − 6)/h² etc.
+    const double turn = length / unit;
+    B << 0, -turn, 0, turn, 6 / kRoot3, 3 * turn / kRoot3, -6 / kRoot3, 3 * turn / kRoot3;
+    B /= length;
+  }
+  return B / length;
+}
+
+CellVector Effect::cell_load(int cell, const std::function<double(double)>& f) const {
+  const double x0 = nodes_[cell], length = h(cell);
+  if (kind_ == Kind::bending) {
+    Eigen::Vector4d out = beam::load(f, x0, length);
+    out[1] /= nodes_.back();
+    out[3] /= nodes_.back();
+    return out;
+  }
+  CellVector out = CellVector::Zero(3);
+  for (int i = 0; i < rule().points.size(); ++i) {
+    const double s = rule().points[i];
+    out += length * rule().weights[i] * f(x0 + s * length) * quadratic(s);
+  }
+  return out;
+}
+
+CellVector Effect::cell_load(int cell, double f) const {
+  const double length = h(cell);
+  if (kind_ == Kind::stretching) return f * length / 6 * Eigen::Vector3d(1, 4, 1);
+  Eigen::Vector4d out = beam::load(f, length);
+  out[1] /= nodes_.back();
+  out[3] /= nodes_.back();
+  return out;
+}
+
+DenseMatrix Effect::kernel() const {
+  DenseMatrix R = DenseMatrix::Ones(unknowns(), cell_unknowns() - 2);
+  if (kind_ == Kind::bending)
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      R.block<2, 2>(2 * static_cast<int>(i), 0) << 1, nodes_[i] - nodes_.back() / 2, 0, nodes_.back();
+  return R;
+}
+
+OnCells Effect::stress(const Vector& f) const {
+  const int m = cell_unknowns();
+  OnCells S(2, cells());
+  Vector rest = f;
+  for (int cell = 0; cell < cells(); ++cell) {
+    const CellStrain B = h(cell) * strain_matrix(cell);
+    const Eigen::Matrix2d first = B.leftCols<2>();
+    S.col(cell) = first.transpose().inverse() * rest.segment<2>(2 * cell);
+    rest.segment(2 * cell + 2, m - 2) -= B.rightCols(m - 2).transpose() * S.col(cell);
+  }
+  return S;
+}
+
+Vector Effect::displacement(const OnCells& strain) const {
+  const int m = cell_unknowns();
+  Vector u = Vector::Zero(unknowns());
+  for (int cell = 0; cell < cells(); ++cell) {
+    const CellStrain B = strain_matrix(cell);
+    const Eigen::Matrix2d last = B.rightCols<2>();
+    const Eigen::Vector2d known = strain.col(cell) - B.leftCols(m - 2) * u.segment(2 * cell, m - 2);
+    u.segment<2>(2 * cell + m - 2) = last.inverse() * known;
+  }
+  return u;
+}
+
+OnCells Effect::strain(const Vector& u) const {
+  OnCells out(2, cells());
+  for (int cell = 0; cell < cells(); ++cell) out.col(cell) = strain_matrix(cell) * u.segment(2 * cell, cell_unknowns());
+  return out;
+}
+
+Vector Effect::divergence(const OnCells& stress) const {
+  Vector out = Vector::Zero(unknowns());
+  for (int cell = 0; cell < cells(); ++cell)
+    out.segment(2 * cell, cell_unknowns()) += h(cell) * strain_matrix(cell).transpose() * stress.col(cell);
+  return out;
+}
+
+}  // namespace dotyk::thermoelastic

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "algebra/types.hpp"
+
+namespace dotyk::thermoelastic {
+
+/// ε and its generalised stress on the cells as polynomials of degree 1: coefficients of the orthonormal Legendre
+/// polynomials 1 and √3 (2s − 1), 2 × cells.
+using OnCells = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+/// A cell's unknowns, at most four, and their strain.
+using CellVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
+using CellStrain = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4>;
+
+/// One of the two mechanical effects, with its strain ε(u) and stress S = C (ε − βϑ):
+///   stretching: ε = Du₁, C = EF, β = α, S = N;    bending: ε = D²u₂, C = EJ, β = −α, S = −M.
+/// Quadratic elements for u₁ (per node u, then the middle of the cell), cubic Hermite ones for u₂ (u, ℓu'): in both the
+/// strains of all u are all polynomials of degree 1 on the cells, and a cell's unknowns begin at twice its number.
+class Effect {
+ public:
+  enum class Kind { stretching, bending };
+  Effect(Kind kind, const std::vector<double>& nodes, double modulus, double beta);
+
+  Kind kind() const { return kind_; }
+  double modulus() const { return modulus_; }
+  double beta() const { return beta_; }
+  int cells() const { return static_cast<int>(nodes_.size()) - 1; }
+  int unknowns() const { return 2 * cells() + cell_unknowns() - 2; }
+  int cell_unknowns() const { return kind_ == Kind::bending ? 4 : 3; }
+  double h(int cell) const { return nodes_[cell + 1] - nodes_[cell]; }
+
+  /// ε's coefficients from a cell's unknowns: 2 × cell_unknowns().
+  CellStrain strain_matrix(int cell) const;
+  /// ∫ f v for a cell's shape functions v.
+  CellVector cell_load(int cell, const std::function<double(double)>& f) const;
+  CellVector cell_load(int cell, double f) const;
+  /// The motions without strain: 1, and for bending x − ℓ/2.
+  algebra::DenseMatrix kernel() const;
+
+  /// The stress that balances nodal forces f (their work on the kernel must be zero): from cell to cell by statics.
+  OnCells stress(const algebra::Vector& f) const;
+  /// The displacement with these strains that is zero, with its slope, at the left end.
+  algebra::Vector displacement(const OnCells& strain) const;
+  OnCells strain(const algebra::Vector& u) const;
+  /// ∫ S ε(v) for all v.
+  algebra::Vector divergence(const OnCells& stress) const;
+
+ private:
+  Kind kind_;
+  std::vector<double> nodes_;
+  double modulus_, beta_;
+};
+
+}  // namespace dotyk::thermoelastic

@@ -1,0 +1,46 @@
+#pragma once
+// What Stepping keeps of effects that are coupled; for its own sources.
+#include "thermoelastic/stepping.hpp"
+
+namespace dotyk::thermoelastic {
+
+/// What a stage is known by in the sums over a step.
+struct Rates {
+  algebra::Vector entropy;               ///< its derivative by time
+  double dissipated = 0, supplied = 0;  ///< power
+};
+
+struct Stepping::Group {
+  Group(const Data& data, const std::vector<Effect::Kind>& effects) : model(data, effects) {}
+  Model model;
+  std::vector<char> decomposed;      ///< of each part
+  bool always_decomposed = true;     ///< so far
+  std::optional<System> system, whole;  ///< as `decomposed` says; coupled, where statics did not do
+  Fields now;
+  Forces forces;
+  algebra::Vector entropy;
+  std::optional<Rates> rates;  ///< at the end of the last step
+
+  double stored() const;
+};
+
+/// The end of a step, and what it put in and dissipated.
+struct Stepping::Stage {
+  Fields fields;
+  Forces forces;
+  algebra::Vector entropy;
+  Rates rates;
+  double put_in = 0, dissipated = 0;
+};
+
+struct Stepping::Place {
+  const Group& group;
+  const Part& part;
+  int cell;
+  double s;                      ///< 0 ≤ s ≤ 1
+  CellVector u() const;          ///< the cell's unknowns
+  Eigen::Vector4d theta() const;
+  CellVector end_forces() const; ///< on the cell, for its unknowns: the stress's less the load's
+};
+
+}  // namespace dotyk::thermoelastic

@@ -1,0 +1,105 @@
+#include "thermoelastic/interface.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "beam/solvable.hpp"
+#include "problem/solvability.hpp"
+#include "solver/pdas.hpp"
+
+namespace dotyk::thermoelastic {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+namespace {
+
+/// S without what rounding left of the motions R in it.
+DenseMatrix without(const DenseMatrix& R, const DenseMatrix& S) {
+  const DenseMatrix Q = Eigen::HouseholderQR<DenseMatrix>(R).householderQ() * DenseMatrix::Identity(R.rows(), R.cols());
+  const DenseMatrix once = S - Q * (Q.transpose() * S);
+  const DenseMatrix twice = once - (once * Q) * Q.transpose();
+  return 0.5 * (twice + twice.transpose());
+}
+
+}  // namespace
+
+Interface::Interface(const Model& model, std::vector<int> parts, const std::vector<int>& gamma, const DenseMatrix& S)
+    : model_(model), parts_(std::move(parts)) {
+  const int n = static_cast<int>(gamma.size());
+  problem::Block block;
+  block.name = "thermoelastic beam";
+  block.f = Vector::Zero(n);
+  int motions = 0;
+  for (const int p : parts_) motions += static_cast<int>(model.parts[p].kernel.cols());
+  block.kernel = DenseMatrix::Zero(n, motions);
+  std::vector<Eigen::Triplet<double>> B;
+  std::vector<double> c;
+  int mode = 0;
+  for (const int p : parts_) {
+    const Part& part = model.parts[p];
+    const int last = part.first + part.effect.unknowns(), modes = static_cast<int>(part.kernel.cols());
+    for (int i = 0; i < n; ++i)
+      if (gamma[i] >= part.first && gamma[i] < last) block.kernel.row(i).segment(mode, modes) = part.kernel.row(gamma[i] - part.first);
+    mode += modes;
+    if (part.effect.kind() == Effect::Kind::stretching) block.motions.push_back({Motion::Kind::translation, {1, 0}});
+    else block.motions.insert(block.motions.end(), {{Motion::Kind::translation, {0, 1}}, {Motion::Kind::rotation, {}, {model.data.length / 2, 0}}});
+    for (const Held& held : part.held) {
+      const int row = static_cast<int>(c.size());
+      B.emplace_back(row, static_cast<int>(std::find(gamma.begin(), gamma.end(), held.unknown) - gamma.begin()), -held.turn);
+      c.push_back(held.law.kind == problem::SupportLaw::Kind::prescribed ? -held.law.value * held.unit : 0);
+      problem_.groups.push_back({held.name, problem::row_law(held.law, held.unit), row, 1});
+    }
+  }
+  block.K = algebra::DenseMatrix(without(block.kernel, S).triangularView<Eigen::Lower>()).sparseView();
+  for (int i = 0; i < n; ++i) block.node.push_back(i);
+  problem::add(problem_, std::move(block));
+  problem_.B = algebra::SparseRows(static_cast<int>(c.size()), n);
+  problem_.B.setFromTriplets(B.begin(), B.end());
+  problem_.c = Eigen::Map<const Vector>(c.data(), static_cast<int>(c.size()));
+  problem_.row_name = [groups = problem_.groups](int row) { return groups[row].name; };
+}
+
+void Interface::require_solvable(double t) {
+  const auto rigid = problem::rigid_motions(problem_);
+  if (solvable_.size() == rigid.e.size() && solvable_ == rigid.e) return;
+  const auto s = problem::solvability(rigid, problem_);
+  if (s.verdict == problem::Solvability::Verdict::unsolvable) {
+    bool bends = false;
+    for (std::size_t i = 0; i < rigid.motions.size(); ++i)
+      bends |= s.motion[static_cast<int>(i)] != 0 && (rigid.motions[i].motion.kind == Motion::Kind::rotation || rigid.motions[i].motion.direction[0] == 0);
+    const std::string why = bends ? beam::theorem(plain(model_.data)) : "";
+    throw InputError(text("thermoelastic beam: no solution at t = ", t, ": nothing stops the motion ", problem::describe(rigid.motions, s.motion),
+                          ", on which the load does work", why.empty() ? "" : "; ", why));
+  }
+  solvable_ = rigid.e;
+}
+
+Vector Interface::solve(const Vector& g, double t, const solver::Method& method, std::vector<Vector>& reactions, Work& work, Monitor& monitor) {
+  problem_.blocks.front().f = g;
+  require_solvable(t);
+  if (problem_.rows() == 0) {  // no support at all: the load is balanced, and the least solution as good as any
+    const DenseMatrix S = DenseMatrix(problem_.blocks.front().K).selfadjointView<Eigen::Lower>();
+    return S.completeOrthogonalDecomposition().solve(g);
+  }
+  const solver::Method chosen = method ? method : solver::Method(solver::Pdas{});
+  const solver::Result result = chosen.run(problem_, {{}, condenser_}, monitor);
+  if (!result.converged) {
+    monitor.check();
+    throw InputError(text("thermoelastic beam: ", result.method, " did not converge at t = ", t, ": ", result.reason));
+  }
+  ++work.problems;
+  work.iterations += result.iterations;
+  work.method = result.method;
+  int row = 0;
+  for (const int p : parts_) {
+    const auto& held = model_.parts[p].held;
+    reactions[p].resize(static_cast<int>(held.size()));
+    for (std::size_t i = 0; i < held.size(); ++i, ++row) reactions[p][static_cast<int>(i)] = held[i].turn * result.state.lambda[row];
+  }
+  return result.state.u;
+}
+
+}  // namespace dotyk::thermoelastic

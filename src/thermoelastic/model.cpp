@@ -1,0 +1,163 @@
+#include "thermoelastic/model.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "beam/beam.hpp"
+
+namespace dotyk::thermoelastic {
+
+using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using algebra::Vector;
+using Kind = problem::SupportLaw::Kind;
+
+namespace {
+
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+void add(Entries& to, int row, int column, const DenseMatrix& block) {
+  for (int i = 0; i < block.rows(); ++i)
+    for (int j = 0; j < block.cols(); ++j) to.emplace_back(row + i, column + j, block(i, j));
+}
+
+SparseMatrix sparse(int rows, int columns, const Entries& entries) {
+  SparseMatrix out(rows, columns);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+/// Laws that can give a reaction.
+bool carries(const problem::SupportLaw& law) {
+  if (law.kind == Kind::free || law.kind == Kind::load) return false;
+  if (law.kind == Kind::prescribed || law.kind == Kind::signorini) return true;
+  return law.value > 0 && (law.kind != Kind::capped_elastic || law.limit > 0);
+}
+
+double checked(double value, const char* what, double x, double t) {
+  if (!std::isfinite(value)) throw InputError(text("thermoelastic beam: ", what, " is ", value, " at x = ", x, ", t = ", t));
+  return value;
+}
+
+std::function<double(double)> at_time(const Source& source, const char* what, double t) {
+  return [&source, what, t](double x) { return checked(source.of(x, t), what, x, t); };
+}
+
+std::vector<Held> held(const Data& data, const std::vector<double>& nodes, Effect::Kind kind) {
+  std::vector<Held> out;
+  const auto add = [&](const Support& s, std::size_t i, Held::What what, const char* of, const problem::SupportLaw& law, int unknown, double unit, double turn) {
+    if (carries(law)) out.push_back({static_cast<int>(i), what, s.name + of, unknown, unit, problem::one_sided(law.kind) ? turn : 1, law});
+  };
+  for (std::size_t i = 0; i < data.supports.size(); ++i) {
+    const Support& s = data.supports[i];
+    const int node = beam::nearest(nodes, s.x);
+    if (kind == Effect::Kind::bending) {
+      add(s, i, Held::What::deflection, " deflection", s.deflection, 2 * node, 1, 1);
+      add(s, i, Held::What::rotation, " rotation", s.rotation, 2 * node + 1, data.length, -1);
+    } else if (node == 0 || node + 1 == static_cast<int>(nodes.size())) {
+      add(s, i, Held::What::displacement, " displacement", s.displacement, 2 * node, 1, node == 0 ? 1 : -1);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Model::Model(const Data& given, const std::vector<Effect::Kind>& effects) : data(given), coefficients(given), heat(nodes(given)) {
+  for (const Effect::Kind kind : effects) add_part(kind, heat.nodes());
+  add_matrices();
+  unit_heat_ = heat.load([](double) { return 1.0; });
+}
+
+void Model::add_part(Effect::Kind kind, const std::vector<double>& nodes) {
+  const bool bending = kind == Effect::Kind::bending;
+  Effect effect(kind, nodes, data.E * (bending ? coefficients.J : coefficients.F), bending ? -data.expansion : data.expansion);
+  Part part{effect, 0, static_cast<int>(parts.size()) * heat.unknowns(), bending ? coefficients.weight_gradient : coefficients.weight_mean,
+            held(data, nodes, kind), effect.kernel()};
+  if (!parts.empty()) part.first = parts.back().first + parts.back().effect.unknowns();
+  for (Held& law : part.held) law.unknown += part.first;
+  for (int end = 0; end < 2; ++end)
+    if (bending ? data.heat_ends[end].gradient : data.heat_ends[end].mean)
+      held_heat.push_back({part.first_heat + (end == 0 ? 0 : heat.unknowns() - 2), static_cast<int>(parts.size()), end});
+  DenseMatrix unit(effect.cell_unknowns(), effect.cells());
+  for (int cell = 0; cell < effect.cells(); ++cell) unit.col(cell) = effect.cell_load(cell, 1.0);
+  unit_loads_.push_back(unit);
+  parts.push_back(std::move(part));
+}
+
+void Model::add_matrices() {
+  Entries stiffness, coupling, capacities, conductions;
+  const int size = parts.back().first + parts.back().effect.unknowns(), heats = static_cast<int>(parts.size()) * heat.unknowns();
+  const auto& a = coefficients;
+  for (int cell = 0; cell < heat.cells(); ++cell) {
+    const Eigen::Matrix4d mass = heat.mass(cell), D = heat.conduction(cell);
+    for (const Part& p : parts) {
+      const double C = p.effect.modulus(), h = p.effect.h(cell);
+      const CellStrain B = p.effect.strain_matrix(cell);
+      const int at = p.first + 2 * cell, at_heat = p.first_heat + 2 * cell;
+      add(stiffness, at, at, C * h * B.transpose() * B);
+      add(coupling, at, at_heat, -p.effect.beta() * C * h * B.transpose() * heat.projection(cell));
+      add(capacities, at_heat, at_heat, p.weight * a.a1 * mass);
+      add(conductions, at_heat, at_heat, p.weight * (D + (p.effect.kind() == Effect::Kind::bending ? a.a22 : a.a11) * mass));
+    }
+    if (parts.size() == 2)
+      for (const int first : {0, 1}) add(conductions, parts[first].first_heat + 2 * cell, parts[1 - first].first_heat + 2 * cell, a.weight_mean * a.a12 * mass);
+  }
+  K = sparse(size, size, stiffness);
+  G = sparse(size, heats, coupling);
+  capacity = sparse(heats, heats, capacities);
+  conduction = sparse(heats, heats, conductions);
+}
+
+Source Model::heat_source(const Part& part, const Loads& loads, double t) const {
+  const double above = data.exchange_above * checked(loads.ambient_above(t), "the temperature above", 0, t);
+  const double below = data.exchange_below * checked(loads.ambient_below(t), "the temperature below", 0, t);
+  const double k = data.conductivity, H = data.height;
+  const bool bending = part.effect.kind() == Effect::Kind::bending;
+  const Source& given = bending ? loads.heat_gradient : loads.heat;
+  const double exchanged = bending ? 6 * (above - below) / (k * H * H) : (above + below) / (k * H);
+  if (!given.of) return {exchanged + given.constant / k, {}};
+  return {0, [&given, exchanged, k](double x, double time) { return exchanged + given.of(x, time) / k; }};
+}
+
+Forces Model::forces(const Loads& loads, double t) const {
+  Forces out{Vector::Zero(K.rows()), Vector::Zero(capacity.rows()), Vector(held_heat.size()), {}};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Part& p = parts[i];
+    const bool bending = p.effect.kind() == Effect::Kind::bending;
+    const Source& given = bending ? loads.transverse : loads.axial;
+    DenseMatrix cells = given.constant * unit_loads_[i];
+    if (given.of)
+      for (int c = 0; c < p.effect.cells(); ++c) cells.col(c) = p.effect.cell_load(c, at_time(given, bending ? "the load" : "the axial load", t));
+    for (int c = 0; c < p.effect.cells(); ++c) out.f.segment(p.first + 2 * c, p.effect.cell_unknowns()) += cells.col(c);
+    out.on_cells.push_back(std::move(cells));
+    for (const Support& s : data.supports) {
+      const int at = p.first + 2 * beam::nearest(heat.nodes(), s.x);
+      if (bending && s.deflection.kind == Kind::load) out.f[at] += s.deflection.value;
+      if (bending && s.rotation.kind == Kind::load) out.f[at + 1] += s.rotation.value / data.length;
+      if (!bending && s.displacement.kind == Kind::load) out.f[at] += s.displacement.value;
+    }
+    const Source source = heat_source(p, loads, t);
+    out.r.segment(p.first_heat, heat.unknowns()) = p.weight * (source.of ? heat.load(at_time(source, "the heat", t)) : source.constant * unit_heat_);
+  }
+  for (std::size_t k = 0; k < held_heat.size(); ++k) {
+    const bool bending = parts[held_heat[k].part].effect.kind() == Effect::Kind::bending;
+    const int end = held_heat[k].end;
+    out.held_heat[k] = checked((bending ? loads.gradient : loads.mean)[end](t), "the temperature prescribed", end == 0 ? 0 : data.length, t);
+  }
+  return out;
+}
+
+Vector Model::initial(const Initial& given) const {
+  Vector theta = Vector::Zero(capacity.rows()), b = theta;
+  for (const Part& p : parts) {
+    const Source& source = p.effect.kind() == Effect::Kind::bending ? given.gradient : given.mean;
+    const auto at_start = source.of ? at_time(source, "the temperature at first", 0) : [value = source.constant](double) { return value; };
+    b.segment(p.first_heat, heat.unknowns()) = p.weight * coefficients.a1 * heat.load(at_start);
+  }
+  return Eigen::SimplicialLDLT<SparseMatrix>(capacity).solve(b);
+}
+
+}  // namespace dotyk::thermoelastic

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "thermoelastic/data.hpp"
+#include "thermoelastic/heat.hpp"
+
+namespace dotyk::thermoelastic {
+
+/// A support's law about v = turn·w/unit, w one of the mechanical unknowns (a length); its force r on w is turn·(the
+/// law's reaction)/unit.
+struct Held {
+  int support = 0;
+  enum class What { deflection, rotation, displacement } what = What::deflection;
+  std::string name;
+  int unknown = 0;
+  double unit = 1, turn = 1;
+  problem::SupportLaw law;
+};
+
+/// An effect, its supports, and what its temperature weighs.
+struct Part {
+  Effect effect;
+  int first = 0;       ///< of its unknowns among all u
+  int first_heat = 0;  ///< of its temperature's among all ϑ
+  double weight = 0;   ///< kF/θ₀ or kJ/θ₀
+  std::vector<Held> held;  ///< unknowns among all u; without free and load
+  algebra::DenseMatrix kernel;
+};
+
+/// Unknowns of ϑ whose values are prescribed.
+struct HeldTemperature {
+  int unknown = 0;
+  int part = 0;
+  int end = 0;
+};
+
+/// Loads at a time.
+struct Forces {
+  algebra::Vector f;  ///< on u
+  algebra::Vector r;  ///< on ϑ, weighted
+  algebra::Vector held_heat;  ///< values, in the order of Model::held_heat
+  std::vector<algebra::DenseMatrix> on_cells;  ///< f's distributed part cell by cell, of each part
+};
+
+/// The effects that are coupled with each other, discretised in space. With the weights the coupling is skew:
+///   K u + G ϑ = f + reactions,   d/dt (C ϑ − Gᵀu) + L ϑ = r.
+struct Model {
+  /// Both effects, or one: `effects`.
+  Model(const Data& data, const std::vector<Effect::Kind>& effects);
+  Forces forces(const Loads& loads, double t) const;
+  /// ϑ₁, ϑ₂ at t = 0 by least squares.
+  algebra::Vector initial(const Initial& initial) const;
+  algebra::Vector entropy(const algebra::Vector& u, const algebra::Vector& theta) const { return capacity * theta - G.transpose() * u; }
+
+  Data data;
+  Coefficients coefficients;
+  HeatElements heat;
+  std::vector<Part> parts;
+  std::vector<HeldTemperature> held_heat;
+  algebra::SparseMatrix K, G, capacity, conduction;  ///< symmetric ones in full
+
+ private:
+  void add_part(Effect::Kind kind, const std::vector<double>& nodes);
+  void add_matrices();
+  Source heat_source(const Part& part, const Loads& loads, double t) const;
+  std::vector<algebra::DenseMatrix> unit_loads_;  ///< of a transverse or axial load 1
+  algebra::Vector unit_heat_;                     ///< ∫ η
+};
+
+}  // namespace dotyk::thermoelastic

@@ -1,0 +1,110 @@
+// What a thermoelastic beam does at its present time.
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "beam/element.hpp"
+#include "thermoelastic/group.hpp"
+
+namespace dotyk::thermoelastic {
+
+using beam::Hermite;
+using Kind = problem::SupportLaw::Kind;
+
+CellVector Stepping::Place::u() const { return group.now.u.segment(part.first + 2 * cell, part.effect.cell_unknowns()); }
+
+Eigen::Vector4d Stepping::Place::theta() const { return group.now.theta.segment<4>(part.first_heat + 2 * cell); }
+
+CellVector Stepping::Place::end_forces() const {
+  const CellStrain B = part.effect.strain_matrix(cell);
+  const Eigen::Vector2d stress = part.effect.modulus() * (B * u() - part.effect.beta() * group.model.heat.projection(cell) * theta());
+  const std::size_t index = static_cast<std::size_t>(&part - group.model.parts.data());
+  return part.effect.h(cell) * B.transpose() * stress - group.forces.on_cells[index].col(cell);
+}
+
+Stepping::Place Stepping::place(Effect::Kind kind, double x) const {
+  if (!(x >= 0 && x <= data().length)) throw InputError(text("x = ", x, " is not on the beam, which goes from 0 to ", data().length));
+  for (const auto& group : groups_)
+    for (const Part& part : group->model.parts)
+      if (part.effect.kind() == kind) {
+        const auto& nodes = group->model.heat.nodes();
+        const int cell = beam::cell_of(nodes, x);
+        return {*group, part, cell, (x - nodes[cell]) / (nodes[cell + 1] - nodes[cell])};
+      }
+  throw std::logic_error("thermoelastic beam: no such effect");
+}
+
+namespace {
+
+/// (u, ℓu') at both ends as (u, u').
+Eigen::Vector4d slopes(const Eigen::Vector4d& u, double unit) { return {u[0], u[1] / unit, u[2], u[3] / unit}; }
+
+/// Values and slopes of M at both ends from the forces and moments on them.
+Eigen::Vector4d moments(const CellVector& g, double unit) { return {unit * g[1], -g[0], -unit * g[3], g[2]}; }
+
+}  // namespace
+
+double Stepping::deflection(double x) const {
+  const Place at = place(Effect::Kind::bending, x);
+  return Hermite(at.s, at.part.effect.h(at.cell)).value.dot(slopes(at.u(), data().length));
+}
+
+double Stepping::rotation(double x) const {
+  const Place at = place(Effect::Kind::bending, x);
+  return Hermite(at.s, at.part.effect.h(at.cell)).slope.dot(slopes(at.u(), data().length));
+}
+
+double Stepping::displacement(double x) const {
+  const Place at = place(Effect::Kind::stretching, x);
+  const double s = at.s;
+  return Eigen::Vector3d((1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)).dot(at.u());
+}
+
+double Stepping::gradient(double x) const {
+  const Place at = place(Effect::Kind::bending, x);
+  return Hermite(at.s, at.part.effect.h(at.cell)).value.dot(slopes(at.theta(), data().length));
+}
+
+double Stepping::temperature(double x, double z) const {
+  if (!(std::abs(z) <= data().height / 2)) throw InputError(text("z = ", z, " is not within the beam, whose height is ", data().height));
+  const Place at = place(Effect::Kind::stretching, x);
+  return Hermite(at.s, at.part.effect.h(at.cell)).value.dot(slopes(at.theta(), data().length)) + (z == 0 ? 0 : z * gradient(x));
+}
+
+double Stepping::moment(double x) const {
+  const Place at = place(Effect::Kind::bending, x);
+  return Hermite(at.s, at.part.effect.h(at.cell)).value.dot(moments(at.end_forces(), data().length));
+}
+
+double Stepping::shear(double x) const {
+  const Place at = place(Effect::Kind::bending, x);
+  return Hermite(at.s, at.part.effect.h(at.cell)).slope.dot(moments(at.end_forces(), data().length));
+}
+
+double Stepping::normal(double x) const {
+  const Place at = place(Effect::Kind::stretching, x);
+  const CellVector g = at.end_forces();
+  return -(1 - at.s) * g[0] + at.s * g[2];
+}
+
+Reaction Stepping::reaction(int support) const {
+  const Support& s = data().supports[support];
+  Reaction out;
+  if (s.deflection.kind == Kind::load) out.force = s.deflection.value;
+  if (s.rotation.kind == Kind::load) out.moment = s.rotation.value;
+  if (s.displacement.kind == Kind::load) out.axial = s.displacement.value;
+  for (const auto& group : groups_)
+    for (std::size_t p = 0; p < group->model.parts.size(); ++p) {
+      const Part& part = group->model.parts[p];
+      for (std::size_t i = 0; i < part.held.size(); ++i) {
+        const Held& held = part.held[i];
+        if (held.support != support) continue;
+        double& to = held.what == Held::What::deflection ? out.force : held.what == Held::What::rotation ? out.moment : out.axial;
+        to = group->now.reactions[p][static_cast<int>(i)] * held.unit;
+      }
+    }
+  out.deflection = deflection(s.x);
+  out.rotation = rotation(s.x);
+  out.displacement = displacement(s.x);
+  return out;
+}
+
+}  // namespace dotyk::thermoelastic

@@ -1,0 +1,157 @@
+#include "thermoelastic/stepping.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "thermoelastic/group.hpp"
+
+namespace dotyk::thermoelastic {
+
+using algebra::Vector;
+
+namespace {
+
+/// Diagonally implicit: stage i is at c_i τ. The last stage is the step's end: its row, with the diagonal, weighs the stages.
+struct Tableau {
+  double diagonal;                     ///< of the implicit stages
+  std::vector<std::vector<double>> a;  ///< below the diagonal
+  std::vector<double> c;
+  bool continues = false;              ///< the first stage is the end of the last step
+};
+
+const Tableau& tableau(Order order, bool first_step) {
+  static const double gamma = 1 - std::sqrt(0.5), w = std::sqrt(2.0) / 4;
+  static const Tableau euler{1, {{}}, {1}}, alexander{gamma, {{}, {1 - gamma}}, {gamma, 1}}, tr_bdf2{gamma, {{}, {gamma}, {w, w}}, {0, 2 * gamma, 1}, true};
+  return order == Order::one ? euler : first_step ? alexander : tr_bdf2;
+}
+
+const char* name(Effect::Kind kind) { return kind == Effect::Kind::bending ? "bending" : "stretching"; }
+
+/// Steps whose lengths differ by less share a factor.
+constexpr double kSameStep = 1e-10;
+
+}  // namespace
+
+double Stepping::Group::stored() const {
+  double sum = 0.5 * now.u.dot(model.K * now.u) + 0.5 * now.theta.dot(model.capacity * now.theta);
+  for (const Part& part : model.parts)
+    for (const Held& held : part.held) {
+      const double given = held.law.kind == problem::SupportLaw::Kind::prescribed ? held.law.value * held.unit : 0;
+      sum += problem::row_law(held.law, held.unit)->energy(0, given - held.turn * now.u[held.unknown]);
+    }
+  return sum;
+}
+
+Stepping::~Stepping() = default;
+
+Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor) : scheme_(scheme) {
+  require_valid(data);
+  if (!(scheme.step > 0) || !std::isfinite(scheme.step)) throw InputError(text("thermoelastic beam: its step is ", scheme.step, "; it must be positive"));
+  using Kind = Effect::Kind;
+  const bool split = data.exchange_above == data.exchange_below;
+  const auto kinds = split ? std::vector<std::vector<Kind>>{{Kind::stretching}, {Kind::bending}} : std::vector<std::vector<Kind>>{{Kind::stretching, Kind::bending}};
+  for (const auto& effects : kinds) {
+    auto group = std::make_unique<Group>(data, effects);
+    for (const Part& part : group->model.parts) group->decomposed.push_back(scheme.decompose && determinate(part));
+    group->forces = group->model.forces(loads, 0);
+    group->now = at_rest(group->model, group->forces, group->model.initial(initial), 0, scheme_.method, work_, monitor);
+    group->entropy = group->model.entropy(group->now.u, group->now.theta);
+    at_first_ += group->stored();
+    groups_.push_back(std::move(group));
+  }
+}
+
+void Stepping::run(double t, const Loads& loads, Monitor& monitor) {
+  if (!(t >= time_) || !std::isfinite(t)) throw InputError(text("thermoelastic beam: run to the time ", t, "; it is at ", time_, " now"));
+  const double count = std::ceil((t - time_) / scheme_.step - 1e-9);
+  if (!(count < 1e9)) throw InputError(text("thermoelastic beam: ", count, " steps of ", scheme_.step, " to the time ", t));
+  if (count <= 0) return;
+  const double from = time_, tau = (t - from) / count;
+  for (int i = 1; i <= static_cast<int>(count); ++i) {
+    monitor.check();
+    advance(tau, loads, monitor);
+    time_ = i == static_cast<int>(count) ? t : from + i * tau;
+    monitor.phase(text("step ", i, " of ", static_cast<int>(count), ", t = ", time_));
+  }
+}
+
+void Stepping::advance(double tau, const Loads& loads, Monitor& monitor) {
+  std::vector<Stage> ends;
+  Work work = work_;
+  for (auto& group : groups_) ends.push_back(stepped(*group, tau, loads, work, monitor));
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    groups_[i]->now = std::move(ends[i].fields);
+    groups_[i]->forces = std::move(ends[i].forces);
+    groups_[i]->entropy = std::move(ends[i].entropy);
+    groups_[i]->rates = std::move(ends[i].rates);
+    energy_.put_in += ends[i].put_in;
+    energy_.dissipated += ends[i].dissipated;
+  }
+  work_ = work;
+  time_ += tau;
+  ++steps_;
+}
+
+Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, Work& work, Monitor& monitor) {
+  const Tableau& scheme = tableau(scheme_.order, !group.rates);
+  const Model& model = group.model;
+  const double part = scheme.diagonal * tau;
+  Stage out;
+  std::vector<Rates> stages;
+  if (scheme.continues) stages.push_back(*group.rates);
+  for (std::size_t i = stages.size(); i < scheme.c.size(); ++i) {
+    const double t = time_ + scheme.c[i] * tau;
+    out.forces = model.forces(loads, t);
+    Vector base = group.entropy;
+    for (std::size_t j = 0; j < i; ++j) base += tau * scheme.a[i][j] * stages[j].entropy;
+    out.fields = solve(group, out.forces, base + part * out.forces.r, t, part, work, monitor);
+    out.entropy = model.entropy(out.fields.u, out.fields.theta);
+    Rates rates{(out.entropy - base) / part};
+    const Vector& theta = out.fields.theta;
+    const Vector loss = model.conduction * theta;
+    rates.dissipated = theta.dot(loss);
+    rates.supplied = out.forces.r.dot(theta);
+    for (const HeldTemperature& held : model.held_heat)  // what flows in there keeps the temperature
+      rates.supplied += (rates.entropy + loss - out.forces.r)[held.unknown] * theta[held.unknown];
+    stages.push_back(std::move(rates));
+  }
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const double weight = tau * (i + 1 < stages.size() ? scheme.a.back()[i] : scheme.diagonal);
+    out.dissipated += weight * stages[i].dissipated;
+    out.put_in += weight * stages[i].supplied;
+  }
+  const Vector moved = out.fields.u - group.now.u;
+  out.put_in += scheme_.order == Order::one ? out.forces.f.dot(moved) : 0.5 * (group.forces.f + out.forces.f).dot(moved);
+  out.rates = std::move(stages.back());
+  return out;
+}
+
+Fields Stepping::solve(Group& group, const Forces& forces, const Vector& b, double t, double tau, Work& work, Monitor& monitor) {
+  const auto of = [&](std::optional<System>& system, const std::vector<char>& decomposed) -> System& {
+    if (!system || std::abs(system->tau() - tau) > kSameStep * tau) system.emplace(group.model, decomposed, tau);
+    return *system;
+  };
+  if (auto fields = of(group.system, group.decomposed).solve(forces, b, t, scheme_.method, work, monitor)) return *std::move(fields);
+  group.always_decomposed = false;
+  return *of(group.whole, std::vector<char>(group.decomposed.size(), false)).solve(forces, b, t, scheme_.method, work, monitor);
+}
+
+const Data& Stepping::data() const { return groups_.front()->model.data; }
+
+std::vector<std::string> Stepping::decomposed() const {
+  std::vector<std::string> out;
+  for (const auto& group : groups_)
+    for (std::size_t p = 0; p < group->decomposed.size(); ++p)
+      if (group->decomposed[p] && group->always_decomposed) out.push_back(name(group->model.parts[p].effect.kind()));
+  return out;
+}
+
+Energy Stepping::energy() const {
+  Energy out = energy_;
+  for (const auto& group : groups_) out.stored += group->stored();
+  out.defect = out.stored + out.dissipated - out.put_in - at_first_;
+  return out;
+}
+
+}  // namespace dotyk::thermoelastic

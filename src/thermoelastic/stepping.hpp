@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "thermoelastic/system.hpp"
+
+namespace dotyk::thermoelastic {
+
+/// Of the schemes in time, both L-stable and stiffly accurate: the implicit Euler scheme; or TR-BDF2, half trapezoidal rule and
+/// half backward differences in three stages, the first of them the end of the last step (Hosea and Shampine 1996): of stage
+/// order 2, so that temperatures prescribed in time cost no order. Its first step is Alexander's (1977), of two stages and the
+/// same γ = 1 − 1/√2. Every implicit stage is an Euler step of γτ.
+enum class Order { one = 1, two = 2 };
+
+struct Scheme {
+  double step = 0;  ///< the longest, time
+  Order order = Order::two;
+  bool decompose = true;  ///< where statics does
+  solver::Method method;  ///< of the interface problems; empty: PDAS
+};
+
+/// Energies of P4's equations with the weights kF/θ₀ and kJ/θ₀, since t = 0:
+///   stored: ½∫ EF (Du₁)² + EJ (D²u₂)² + (c/θ₀)(F ϑ₁² + J ϑ₂²) and the supports',
+///   put in: the loads' work, and 1/θ₀ of the heat supplied times the temperature,
+///   dissipated: conduction and exchange. stored + dissipated = put in + what was stored at first, to the scheme's order.
+struct Energy {
+  double stored = 0, put_in = 0, dissipated = 0;
+  double defect = 0;  ///< stored + dissipated − put in − stored at first
+};
+
+/// What a support does now.
+struct Reaction {
+  double force = 0, moment = 0, axial = 0;  ///< on the beam: up, anticlockwise, along x; loads given as laws included
+  double deflection = 0, rotation = 0, displacement = 0;
+};
+
+/// A thermoelastic beam stepped in time. Where α_h = α_d, or nothing else couples them, stretching and bending are stepped on
+/// their own. A call that throws leaves the state as it was.
+class Stepping {
+ public:
+  /// At t = 0, at rest under the loads and temperatures of that time. Throws InputError as require_valid() and Interface::solve().
+  Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor);
+  ~Stepping();
+
+  void step(const Loads& loads, Monitor& monitor) { advance(scheme_.step, loads, monitor); }
+  /// To the time t ≥ time(), by equal steps none longer than the scheme's.
+  void run(double t, const Loads& loads, Monitor& monitor);
+
+  double time() const { return time_; }
+  int steps() const { return steps_; }
+  const Data& data() const;
+  /// What is decomposed in every step so far (in words: "bending"), and what was not.
+  std::vector<std::string> decomposed() const;
+  const Work& work() const { return work_; }
+  Energy energy() const;
+
+  /// At x on the beam, else InputError.
+  double deflection(double x) const;
+  double rotation(double x) const;
+  double displacement(double x) const;   ///< u₁
+  double temperature(double x, double z = 0) const;
+  double gradient(double x) const;
+  double moment(double x) const;  ///< by equilibrium of the cell's ends, between them a cubic: exact for constant q
+  double shear(double x) const;
+  double normal(double x) const;  ///< N, a pull is positive; linear in the cells
+  Reaction reaction(int support) const;
+
+ private:
+  struct Group;
+  struct Stage;
+  struct Place;
+  void advance(double tau, const Loads& loads, Monitor& monitor);
+  Stage stepped(Group& group, double tau, const Loads& loads, Work& work, Monitor& monitor);
+  Fields solve(Group& group, const Forces& forces, const algebra::Vector& b, double t, double tau, Work& work, Monitor& monitor);
+  Place place(Effect::Kind kind, double x) const;
+
+  Scheme scheme_;
+  std::vector<std::unique_ptr<Group>> groups_;
+  double time_ = 0, at_first_ = 0;
+  int steps_ = 0;
+  Work work_;
+  Energy energy_;  ///< put_in and dissipated
+};
+
+}  // namespace dotyk::thermoelastic

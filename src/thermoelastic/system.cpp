@@ -1,0 +1,143 @@
+#include "thermoelastic/system.hpp"
+
+#include <algorithm>
+
+namespace dotyk::thermoelastic {
+
+using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using algebra::Vector;
+
+namespace {
+
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+/// Unknowns of a part at its ends and supports: the ends alone hold it.
+void add_gamma(const Model& model, int p, std::vector<int>& gamma) {
+  const Part& part = model.parts[p];
+  const int last = part.first + part.effect.unknowns() - 1;
+  std::vector<int> own{part.first, last};
+  if (part.effect.kind() == Effect::Kind::bending) own.insert(own.end(), {part.first + 1, last - 1});
+  for (const Held& held : part.held) own.push_back(held.unknown);
+  std::sort(own.begin(), own.end());
+  gamma.insert(gamma.end(), own.begin(), std::unique(own.begin(), own.end()));
+}
+
+SparseMatrix lower(int n, const Entries& entries) {
+  SparseMatrix out(n, n);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+void finish(const Model& model, Fields& fields, const std::vector<int>& parts) {
+  for (const int p : parts) {
+    const Part& part = model.parts[p];
+    remove_unnoticed(part, fields.u.segment(part.first, part.effect.unknowns()));
+  }
+}
+
+}  // namespace
+
+System::System(const Model& model, std::vector<char> decomposed, double tau) : model_(model), decomposed_(std::move(decomposed)), tau_(tau) {
+  number();
+  std::vector<int> all;
+  for (const int unknown : gamma_) all.push_back(place_[unknown]);
+  for (const HeldTemperature& held : model.held_heat) all.push_back(heat_ + held.unknown);
+  condensation_.emplace(matrix(), all);
+  const int own = static_cast<int>(gamma_.size());
+  if (!coupled_.empty()) interface_.emplace(model, coupled_, gamma_, condensation_->schur().topLeftCorner(own, own));
+}
+
+void System::number() {
+  place_.assign(model_.K.rows(), -1);
+  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+    if (decomposed_[p]) continue;
+    const Part& part = model_.parts[p];
+    coupled_.push_back(static_cast<int>(p));
+    for (int i = 0; i < part.effect.unknowns(); ++i) place_[part.first + i] = heat_++;
+    add_gamma(model_, static_cast<int>(p), gamma_);
+  }
+}
+
+SparseMatrix System::matrix() const {
+  Entries entries;
+  const auto put = [&](int i, int j, double value) {
+    if (i >= j) entries.emplace_back(i, j, value);
+  };
+  const auto& [K, G] = std::tie(model_.K, model_.G);
+  for (int j = 0; j < K.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator a(K, j); a; ++a)
+      if (place_[j] >= 0 && place_[a.row()] >= 0) put(place_[a.row()], place_[j], a.value());
+  for (int j = 0; j < G.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator a(G, j); a; ++a)
+      if (place_[a.row()] >= 0) put(heat_ + j, place_[a.row()], a.value());
+  const SparseMatrix heat = model_.capacity + tau_ * model_.conduction;
+  for (int j = 0; j < heat.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator a(heat, j); a; ++a) put(heat_ + a.row(), heat_ + j, -a.value());
+  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+    if (!decomposed_[p]) continue;
+    const Part& part = model_.parts[p];
+    const double factor = part.effect.beta() * part.effect.beta() * part.effect.modulus();
+    for (int cell = 0; cell < part.effect.cells(); ++cell) {
+      const auto P = model_.heat.projection(cell);
+      const Eigen::Matrix4d added = factor * part.effect.h(cell) * P.transpose() * P;
+      const int at = heat_ + part.first_heat + 2 * cell;
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) put(at + i, at + j, -added(i, j));
+    }
+  }
+  return lower(heat_ + static_cast<int>(heat.rows()), entries);
+}
+
+std::optional<Fields> System::solve(const Forces& forces, const Vector& b, double t, const solver::Method& method, Work& work, Monitor& monitor) {
+  const int heats = static_cast<int>(b.size()), own = static_cast<int>(gamma_.size());
+  Vector right(heat_ + heats);
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (place_[i] >= 0) right[place_[i]] = forces.f[static_cast<int>(i)];
+  right.tail(heats) = -b;
+  std::vector<std::optional<Static>> statics(model_.parts.size());
+  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+    if (!decomposed_[p]) continue;
+    const Part& part = model_.parts[p];
+    statics[p] = by_statics(part, forces.f.segment(part.first, part.effect.unknowns()));
+    if (!statics[p]) return std::nullopt;
+    right.segment(heat_ + part.first_heat, model_.heat.unknowns()) += part.effect.beta() * model_.heat.product(statics[p]->stress);
+  }
+  Fields out{Vector(model_.K.rows()), Vector(), std::vector<Vector>(model_.parts.size())};
+  Vector on_gamma(own + forces.held_heat.size());
+  on_gamma.tail(forces.held_heat.size()) = forces.held_heat;
+  if (interface_) {
+    const Vector g = condensation_->condensed(right).head(own) - condensation_->schur().topRightCorner(own, forces.held_heat.size()) * forces.held_heat;
+    on_gamma.head(own) = interface_->solve(g, t, method, out.reactions, work, monitor);
+  }
+  const Vector x = condensation_->recovered(right, on_gamma);
+  out.theta = x.tail(heats);
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (place_[i] >= 0) out.u[static_cast<int>(i)] = x[place_[i]];
+  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+    if (!decomposed_[p]) continue;
+    const Part& part = model_.parts[p];
+    const OnCells strain = statics[p]->stress / part.effect.modulus() + part.effect.beta() * model_.heat.projected(out.theta.segment(part.first_heat, model_.heat.unknowns()));
+    out.u.segment(part.first, part.effect.unknowns()) = displacement(part, strain, statics[p]->w);
+    out.reactions[p] = std::move(statics[p]->reactions);
+  }
+  finish(model_, out, coupled_);
+  return out;
+}
+
+Fields at_rest(const Model& model, const Forces& forces, Vector theta, double t, const solver::Method& method, Work& work, Monitor& monitor) {
+  std::vector<int> gamma, parts;
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    parts.push_back(static_cast<int>(p));
+    add_gamma(model, static_cast<int>(p), gamma);
+  }
+  const Condensation condensation(model.K.triangularView<Eigen::Lower>(), gamma);
+  Interface interface(model, parts, gamma, condensation.schur());
+  const Vector right = forces.f - model.G * theta;
+  Fields out{{}, std::move(theta), std::vector<Vector>(model.parts.size())};
+  out.u = condensation.recovered(right, interface.solve(condensation.condensed(right), t, method, out.reactions, work, monitor));
+  finish(model, out, parts);
+  return out;
+}
+
+}  // namespace dotyk::thermoelastic

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "thermoelastic/condensation.hpp"
+#include "thermoelastic/interface.hpp"
+#include "thermoelastic/statics.hpp"
+
+namespace dotyk::thermoelastic {
+
+/// Displacements, temperatures and reactions of a model at a time.
+struct Fields {
+  algebra::Vector u, theta;
+  std::vector<algebra::Vector> reactions;  ///< part by part as Part::held, on w
+};
+
+/// The linear systems of steps of one length. An implicit stage asks for (C + τL) ϑ − Gᵀu = b together with K u + Gϑ = f +
+/// reactions and the laws: symmetric and quasidefinite,
+///   [K  G; Gᵀ  −(C + τL)] [u; ϑ] = [f + reactions; −b],
+/// and condensed to the supports' unknowns a problem of the same kind as the beam's without heat. The displacement of a part
+/// that is decomposed is left out: with its stress S from statics, ε(u) = Π(S/C) + βΠϑ (Π onto the strains), so that
+/// (C + β²·modulus·Π + τL) ϑ = b − β∫Sη: the same ϑ to rounding, then u by integration.
+class System {
+ public:
+  /// `decomposed`: of each part.
+  System(const Model& model, std::vector<char> decomposed, double tau);
+  double tau() const { return tau_; }
+
+  /// b: C ϑ − Gᵀu of the last stages and τr. Nothing where statics does not do (by_statics); throws as Interface::solve().
+  std::optional<Fields> solve(const Forces& forces, const algebra::Vector& b, double t, const solver::Method& method, Work& work, Monitor& monitor);
+
+ private:
+  void number();
+  algebra::SparseMatrix matrix() const;
+
+  const Model& model_;
+  std::vector<char> decomposed_;
+  double tau_;
+  std::vector<int> coupled_;           ///< parts that are not decomposed
+  std::vector<int> place_;             ///< of every u among the system's unknowns; −1: left out
+  int heat_ = 0;                       ///< of the first ϑ
+  std::vector<int> gamma_;             ///< all u at supports and ends of coupled parts
+  std::optional<Condensation> condensation_;
+  std::optional<Interface> interface_;
+};
+
+/// The displacement under the temperatures theta, without any step: K u = f − Gϑ + reactions.
+Fields at_rest(const Model& model, const Forces& forces, algebra::Vector theta, double t, const solver::Method& method, Work& work, Monitor& monitor);
+
+}  // namespace dotyk::thermoelastic
