@@ -26,9 +26,17 @@ Eigen::Vector3d quadratic(double s) { return {(1 - s) * (1 - 2 * s), 4 * s * (1 
 }  // namespace
 
 Effect::Effect(Kind kind, const std::vector<double>& nodes, double modulus, double beta)
-    : kind_(kind), nodes_(nodes), modulus_(modulus), beta_(beta) {}
+    : kind_(kind), nodes_(nodes), modulus_(modulus), beta_(beta) {
+  for (int cell = 0; cell < cells(); ++cell) {
+    const CellStrain B = cell_strain(cell);
+    const Eigen::Matrix2d first = h(cell) * B.leftCols<2>(), last = B.rightCols<2>();
+    strain_.push_back(B);
+    from_forces_.push_back(first.transpose().inverse());
+    from_strain_.push_back(last.inverse());
+  }
+}
 
-CellStrain Effect::strain_matrix(int cell) const {
+CellStrain Effect::cell_strain(int cell) const {
   const double length = h(cell), unit = nodes_.back();
   CellStrain B(2, cell_unknowns());
   if (kind_ == Kind::stretching)  // Du = (4s − 3) u₀ + (4 − 8s) u_m + (4s − 1) u₁, over h
@@ -79,10 +87,8 @@ OnCells Effect::stress(const Vector& f) const {
   OnCells S(2, cells());
   Vector rest = f;
   for (int cell = 0; cell < cells(); ++cell) {
-    const CellStrain B = h(cell) * strain_matrix(cell);
-    const Eigen::Matrix2d first = B.leftCols<2>();
-    S.col(cell) = first.transpose().inverse() * rest.segment<2>(2 * cell);
-    rest.segment(2 * cell + 2, m - 2) -= B.rightCols(m - 2).transpose() * S.col(cell);
+    S.col(cell) = from_forces_[cell] * rest.segment<2>(2 * cell);
+    for (int i = 2; i < m; ++i) rest[2 * cell + i] -= h(cell) * strain_[cell].col(i).dot(S.col(cell));
   }
   return S;
 }
@@ -91,25 +97,11 @@ Vector Effect::displacement(const OnCells& strain) const {
   const int m = cell_unknowns();
   Vector u = Vector::Zero(unknowns());
   for (int cell = 0; cell < cells(); ++cell) {
-    const CellStrain B = strain_matrix(cell);
-    const Eigen::Matrix2d last = B.rightCols<2>();
-    const Eigen::Vector2d known = strain.col(cell) - B.leftCols(m - 2) * u.segment(2 * cell, m - 2);
-    u.segment<2>(2 * cell + m - 2) = last.inverse() * known;
+    Eigen::Vector2d rest = strain.col(cell);
+    for (int i = 0; i < m - 2; ++i) rest -= u[2 * cell + i] * strain_[cell].col(i);
+    u.segment<2>(2 * cell + m - 2) = from_strain_[cell] * rest;
   }
   return u;
-}
-
-OnCells Effect::strain(const Vector& u) const {
-  OnCells out(2, cells());
-  for (int cell = 0; cell < cells(); ++cell) out.col(cell) = strain_matrix(cell) * u.segment(2 * cell, cell_unknowns());
-  return out;
-}
-
-Vector Effect::divergence(const OnCells& stress) const {
-  Vector out = Vector::Zero(unknowns());
-  for (int cell = 0; cell < cells(); ++cell)
-    out.segment(2 * cell, cell_unknowns()) += h(cell) * strain_matrix(cell).transpose() * stress.col(cell);
-  return out;
 }
 
 }  // namespace dotyk::thermoelastic

@@ -32,7 +32,7 @@ class Effect {
   double h(int cell) const { return nodes_[cell + 1] - nodes_[cell]; }
 
   /// ε's coefficients from a cell's unknowns: 2 × cell_unknowns().
-  CellStrain strain_matrix(int cell) const;
+  const CellStrain& strain_matrix(int cell) const { return strain_[cell]; }
   /// ∫ f v for a cell's shape functions v.
   CellVector cell_load(int cell, const std::function<double(double)>& f) const;
   CellVector cell_load(int cell, double f) const;
@@ -43,14 +43,15 @@ class Effect {
   OnCells stress(const algebra::Vector& f) const;
   /// The displacement with these strains that is zero, with its slope, at the left end.
   algebra::Vector displacement(const OnCells& strain) const;
-  OnCells strain(const algebra::Vector& u) const;
-  /// ∫ S ε(v) for all v.
-  algebra::Vector divergence(const OnCells& stress) const;
 
  private:
+  CellStrain cell_strain(int cell) const;
   Kind kind_;
   std::vector<double> nodes_;
   double modulus_, beta_;
+  std::vector<CellStrain> strain_;
+  std::vector<Eigen::Matrix2d> from_forces_;  ///< a cell's stress from the forces on its first two unknowns
+  std::vector<Eigen::Matrix2d> from_strain_;  ///< its last two unknowns from its strain, the first ones zero
 };
 
 }  // namespace dotyk::thermoelastic

@@ -11,6 +11,16 @@ namespace dotyk::thermoelastic {
 using algebra::Vector;
 using beam::Hermite;
 
+HeatElements::HeatElements(std::vector<double> nodes) : nodes_(std::move(nodes)) {
+  for (int cell = 0; cell < cells(); ++cell) {  // ∫ (2s − 1) of the four functions: ∓1/5 and −h/60
+    const double l = h(cell), root = std::sqrt(3.0);
+    Eigen::Matrix<double, 2, 4> P;
+    P << 0.5, l / 12, 0.5, -l / 12,  //
+        -root / 5, -root * l / 60, root / 5, -root * l / 60;
+    projection_.push_back(P * scale().asDiagonal());
+  }
+}
+
 Eigen::Matrix4d HeatElements::mass(int cell) const {
   const double l = h(cell);
   Eigen::Matrix4d M;
@@ -29,15 +39,6 @@ Eigen::Matrix4d HeatElements::conduction(int cell) const {
       -36, -3 * l, 36, -3 * l,               //
       3 * l, -l * l, -3 * l, 4 * l * l;
   return 1 / (30 * l) * scale().asDiagonal() * A * scale().asDiagonal();
-}
-
-Eigen::Matrix<double, 2, 4> HeatElements::projection(int cell) const {
-  // ∫ (2s − 1) of the four functions: ∓1/5 and −h/60.
-  const double l = h(cell), root = std::sqrt(3.0);
-  Eigen::Matrix<double, 2, 4> P;
-  P << 0.5, l / 12, 0.5, -l / 12,  //
-      -root / 5, -root * l / 60, root / 5, -root * l / 60;
-  return P * scale().asDiagonal();
 }
 
 Vector HeatElements::load(const std::function<double(double)>& r) const {

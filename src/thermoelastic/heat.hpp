@@ -10,7 +10,7 @@ namespace dotyk::thermoelastic {
 /// The elements of ϑ₁ and ϑ₂: cubic Hermite functions, unknowns (ϑ, ℓϑ') node by node. A cell's begin at twice its number.
 class HeatElements {
  public:
-  explicit HeatElements(std::vector<double> nodes) : nodes_(std::move(nodes)) {}
+  explicit HeatElements(std::vector<double> nodes);
   const std::vector<double>& nodes() const { return nodes_; }
   int cells() const { return static_cast<int>(nodes_.size()) - 1; }
   int unknowns() const { return 2 * static_cast<int>(nodes_.size()); }
@@ -20,7 +20,7 @@ class HeatElements {
   Eigen::Matrix4d mass(int cell) const;
   Eigen::Matrix4d conduction(int cell) const;
   /// The part of a cell's functions among the polynomials of degree 1: its coefficients, as OnCells.
-  Eigen::Matrix<double, 2, 4> projection(int cell) const;
+  const Eigen::Matrix<double, 2, 4>& projection(int cell) const { return projection_[cell]; }
 
   /// ∫ r η for all η.
   algebra::Vector load(const std::function<double(double)>& r) const;
@@ -33,6 +33,7 @@ class HeatElements {
  private:
   Eigen::Vector4d scale() const { return {1, 1 / nodes_.back(), 1, 1 / nodes_.back()}; }
   std::vector<double> nodes_;
+  std::vector<Eigen::Matrix<double, 2, 4>> projection_;
 };
 
 }  // namespace dotyk::thermoelastic

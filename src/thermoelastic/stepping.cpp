@@ -105,11 +105,13 @@ Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, 
     out.forces = model.forces(loads, t);
     Vector base = group.entropy;
     for (std::size_t j = 0; j < i; ++j) base += tau * scheme.a[i][j] * stages[j].entropy;
-    out.fields = solve(group, out.forces, base + part * out.forces.r, t, part, work, monitor);
-    out.entropy = model.entropy(out.fields.u, out.fields.theta);
-    Rates rates{(out.entropy - base) / part};
+    const bool last = i + 1 == scheme.c.size();
+    out.fields = solve(group, out.forces, base + part * out.forces.r, t, part, last || !model.held_heat.empty(), work, monitor);
     const Vector& theta = out.fields.theta;
     const Vector loss = model.conduction * theta;
+    Rates rates{out.forces.r - loss};  // by the heat equation, but where a temperature is held
+    if (!model.held_heat.empty()) rates.entropy = (model.entropy(out.fields.u, theta) - base) / part;
+    out.entropy = base + part * rates.entropy;
     rates.dissipated = theta.dot(loss);
     rates.supplied = out.forces.r.dot(theta);
     for (const HeldTemperature& held : model.held_heat)  // what flows in there keeps the temperature
@@ -127,14 +129,14 @@ Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, 
   return out;
 }
 
-Fields Stepping::solve(Group& group, const Forces& forces, const Vector& b, double t, double tau, Work& work, Monitor& monitor) {
+Fields Stepping::solve(Group& group, const Forces& forces, const Vector& b, double t, double tau, bool displaced, Work& work, Monitor& monitor) {
   const auto of = [&](std::optional<System>& system, const std::vector<char>& decomposed) -> System& {
     if (!system || std::abs(system->tau() - tau) > kSameStep * tau) system.emplace(group.model, decomposed, tau);
     return *system;
   };
-  if (auto fields = of(group.system, group.decomposed).solve(forces, b, t, scheme_.method, work, monitor)) return *std::move(fields);
+  if (auto fields = of(group.system, group.decomposed).solve(forces, b, t, displaced, scheme_.method, work, monitor)) return *std::move(fields);
   group.always_decomposed = false;
-  return *of(group.whole, std::vector<char>(group.decomposed.size(), false)).solve(forces, b, t, scheme_.method, work, monitor);
+  return *of(group.whole, std::vector<char>(group.decomposed.size(), false)).solve(forces, b, t, displaced, scheme_.method, work, monitor);
 }
 
 const Data& Stepping::data() const { return groups_.front()->model.data; }

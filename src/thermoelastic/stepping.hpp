@@ -74,7 +74,7 @@ class Stepping {
   struct Place;
   void advance(double tau, const Loads& loads, Monitor& monitor);
   Stage stepped(Group& group, double tau, const Loads& loads, Work& work, Monitor& monitor);
-  Fields solve(Group& group, const Forces& forces, const algebra::Vector& b, double t, double tau, Work& work, Monitor& monitor);
+  Fields solve(Group& group, const Forces& forces, const algebra::Vector& b, double t, double tau, bool displaced, Work& work, Monitor& monitor);
   Place place(Effect::Kind kind, double x) const;
 
   Scheme scheme_;

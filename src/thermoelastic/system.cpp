@@ -89,20 +89,40 @@ SparseMatrix System::matrix() const {
   return lower(heat_ + static_cast<int>(heat.rows()), entries);
 }
 
-std::optional<Fields> System::solve(const Forces& forces, const Vector& b, double t, const solver::Method& method, Work& work, Monitor& monitor) {
+bool System::update_statics(const Vector& f) {
+  if (f_.size() == f.size() && f_ == f) return true;
+  f_.resize(0);
+  statics_.resize(model_.parts.size());
+  heating_ = Vector::Zero(model_.capacity.rows());
+  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+    if (!decomposed_[p]) continue;
+    const Part& part = model_.parts[p];
+    auto found = by_statics(part, f.segment(part.first, part.effect.unknowns()));
+    if (!found) return false;
+    heating_.segment(part.first_heat, model_.heat.unknowns()) = -part.effect.beta() * model_.heat.product(found->stress);
+    statics_[p] = *std::move(found);
+  }
+  f_ = f;
+  return true;
+}
+
+void System::add_decomposed(Fields& fields) const {
+  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+    if (!decomposed_[p]) continue;
+    const Part& part = model_.parts[p];
+    const OnCells strain = statics_[p].stress / part.effect.modulus() + part.effect.beta() * model_.heat.projected(fields.theta.segment(part.first_heat, model_.heat.unknowns()));
+    fields.u.segment(part.first, part.effect.unknowns()) = displacement(part, strain, statics_[p].w);
+    fields.reactions[p] = statics_[p].reactions;
+  }
+}
+
+std::optional<Fields> System::solve(const Forces& forces, const Vector& b, double t, bool displaced, const solver::Method& method, Work& work, Monitor& monitor) {
+  if (!update_statics(forces.f)) return std::nullopt;
   const int heats = static_cast<int>(b.size()), own = static_cast<int>(gamma_.size());
   Vector right(heat_ + heats);
   for (std::size_t i = 0; i < place_.size(); ++i)
     if (place_[i] >= 0) right[place_[i]] = forces.f[static_cast<int>(i)];
-  right.tail(heats) = -b;
-  std::vector<std::optional<Static>> statics(model_.parts.size());
-  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    if (!decomposed_[p]) continue;
-    const Part& part = model_.parts[p];
-    statics[p] = by_statics(part, forces.f.segment(part.first, part.effect.unknowns()));
-    if (!statics[p]) return std::nullopt;
-    right.segment(heat_ + part.first_heat, model_.heat.unknowns()) += part.effect.beta() * model_.heat.product(statics[p]->stress);
-  }
+  right.tail(heats) = -(b + heating_);
   Fields out{Vector(model_.K.rows()), Vector(), std::vector<Vector>(model_.parts.size())};
   Vector on_gamma(own + forces.held_heat.size());
   on_gamma.tail(forces.held_heat.size()) = forces.held_heat;
@@ -114,13 +134,7 @@ std::optional<Fields> System::solve(const Forces& forces, const Vector& b, doubl
   out.theta = x.tail(heats);
   for (std::size_t i = 0; i < place_.size(); ++i)
     if (place_[i] >= 0) out.u[static_cast<int>(i)] = x[place_[i]];
-  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    if (!decomposed_[p]) continue;
-    const Part& part = model_.parts[p];
-    const OnCells strain = statics[p]->stress / part.effect.modulus() + part.effect.beta() * model_.heat.projected(out.theta.segment(part.first_heat, model_.heat.unknowns()));
-    out.u.segment(part.first, part.effect.unknowns()) = displacement(part, strain, statics[p]->w);
-    out.reactions[p] = std::move(statics[p]->reactions);
-  }
+  if (displaced) add_decomposed(out);
   finish(model_, out, coupled_);
   return out;
 }

@@ -27,12 +27,15 @@ class System {
   System(const Model& model, std::vector<char> decomposed, double tau);
   double tau() const { return tau_; }
 
-  /// b: C ϑ − Gᵀu of the last stages and τr. Nothing where statics does not do (by_statics); throws as Interface::solve().
-  std::optional<Fields> solve(const Forces& forces, const algebra::Vector& b, double t, const solver::Method& method, Work& work, Monitor& monitor);
+  /// b: C ϑ − Gᵀu of the last stages and τr. `displaced`: is u of decomposed parts asked for? Nothing where statics does not do (by_statics); throws as Interface::solve().
+  std::optional<Fields> solve(const Forces& forces, const algebra::Vector& b, double t, bool displaced, const solver::Method& method, Work& work,
+                              Monitor& monitor);
 
  private:
   void number();
   algebra::SparseMatrix matrix() const;
+  bool update_statics(const algebra::Vector& f);
+  void add_decomposed(Fields& fields) const;
 
   const Model& model_;
   std::vector<char> decomposed_;
@@ -43,6 +46,9 @@ class System {
   std::vector<int> gamma_;             ///< all u at supports and ends of coupled parts
   std::optional<Condensation> condensation_;
   std::optional<Interface> interface_;
+  algebra::Vector f_;                  ///< that the following belong to
+  std::vector<Static> statics_;        ///< of decomposed parts
+  algebra::Vector heating_;            ///< −β∫Sη, on all ϑ
 };
 
 /// The displacement under the temperatures theta, without any step: K u = f − Gϑ + reactions.
