@@ -98,7 +98,7 @@ Reaction Stepping::reaction(int support) const {
         const Held& held = part.held[i];
         if (held.support != support) continue;
         double& to = held.what == Held::What::deflection ? out.force : held.what == Held::What::rotation ? out.moment : out.axial;
-        to = group->now.reactions[p][static_cast<int>(i)] * held.unit;
+        to = group->now.reactions[p][static_cast<int>(i)] * held.unit + 0.0;  // no −0
       }
     }
   out.deflection = deflection(s.x);

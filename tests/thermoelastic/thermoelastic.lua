@@ -1,0 +1,71 @@
+-- dotyk.thermoelastic_beam: what it gives, what it refuses.
+local check <const> = require "check"
+local refused <const> = require "refused"
+local l <const> = dotyk.law
+
+local function data(keys)
+  local all = { height = 0.5, E = 100, expansion = 0.1, conductivity = 1, heat_capacity = 1, reference_temperature = 3, step = 0.1 }
+  for key, value in pairs(keys or {}) do all[key] = value end
+  return all
+end
+local function beam(keys) return dotyk.thermoelastic_beam(data(keys)) end
+
+-- A state, its fields, steps and chained calls.
+local b <const> = beam{ left = { deflection = l.signorini(), displacement = l.prescribed(0.25), temperature = function(t) return 2 * t end },
+                        right = { deflection = l.signorini() }, load = function(x, t) return -2 - t end, supports = { { x = 0.3, deflection = l.load(-0.5) } },
+                        initial = { gradient = function(x) return x end, temperature = 1 } }
+check.equal(b.time, 0)
+check.equal(b.steps, 0)
+check.near(b:gradient(0.5), 0.5)
+check.near(b:temperature(0.5, 0.2), 1 + 0.2 * 0.5)
+check.equal(b:step().steps, 1)
+check.near(b.time, 0.1)
+check.equal(b:step():run(1).time, 1)
+check.equal(b.steps, 10)
+check.near(b:temperature(0), 2)
+check.near(b:displacement(0), 0.25)
+check.near(b:reaction("left").force + b:reaction("right").force, 3.5, 1e-10)
+check.near(b:reaction(0.3).force, -0.5)
+check.near(b:reaction("right").force, 1.5 + 0.15, 1e-10)
+check.near(b:shear(0.31) - b:shear(0.29), 0.5 + 3 * 0.02, 1e-9)
+check.near(b:reaction("left").displacement, 0.25)
+check.equal(b.decomposed, { "stretching", "bending" })
+check.that(b.energy.dissipated > 0 and math.abs(b.energy.defect) < 0.2 * b.energy.dissipated)
+check.that(tostring(b):find("stretching and bending decomposed", 1, true))
+check.that(math.abs(b:normal(0.5)) < 1e-9)
+
+-- One-sided ends of the axis, a named method.
+local bar <const> = beam{ left = { displacement = l.signorini() }, right = { displacement = l.signorini() }, initial = { temperature = 1 }, solver = dotyk.solver.newton{}, order = 1 }
+check.near(bar:reaction("left").axial, 5)
+check.near(bar:reaction("right").axial, -5)
+bar:run(0.5)
+check.that(bar.problems >= 5 and bar.method:find("ewton"))
+check.equal(beam{ decompose = false }.decomposed, {})
+
+-- Refusals, at the line of the call, the state left alone.
+refused(function() dotyk.thermoelastic_beam(data{ heigth = 1 }) end, "heigth", "height")
+refused(function() dotyk.thermoelastic_beam{ height = 1 } end, "missing key 'E'")
+refused(function() dotyk.thermoelastic_beam(data{ height = 0 }) end, "'height' must be a positive number")
+refused(function() dotyk.thermoelastic_beam(data{ order = 3 }) end, "'order'")
+refused(function() dotyk.thermoelastic_beam(data{ exchange = { above = -1 } }) end, "above")
+refused(function() dotyk.thermoelastic_beam(data{ left = { deflection = l.breaking(1, 1) } }) end, "left may break", "capped_elastic")
+refused(function() dotyk.thermoelastic_beam(data{ load = -1 }) end, "no solution at t = 0", "nothing stops")
+refused(function() dotyk.thermoelastic_beam(data{ axial_load = 1, left = { deflection = l.prescribed(), rotation = l.prescribed() } }) end, "translation along x")
+refused(function() dotyk.thermoelastic_beam(data{ load = function() return 0/0 end }) end, "nan")
+refused(function() dotyk.thermoelastic_beam(data{ load = function() end }) end, "function 'load' returned nothing")
+refused(function() dotyk.thermoelastic_beam(data{ initial = { gradient = function(x) return x / 0 end } }) end, "gradient", "inf")
+refused(function() dotyk.thermoelastic_beam(data{ supports = { { x = 2, deflection = l.prescribed() } } }) end, "x = 2", "from 0 to 1")
+refused(function() b:run(0.5) end, "it is at 1 now")
+refused(function() b:run(math.huge) end, "time")
+refused(function() b:run(1e12) end, "steps of 0.1")
+refused(function() b:deflection(2) end, "not on the beam")
+refused(function() b:reaction(0.4) end, "left, x = 0.3, right")
+refused(function() b:temperature(0.5, 1) end, "not within the beam")
+local lifted <const> = beam{ left = { deflection = l.signorini() }, right = { deflection = l.signorini() }, load = function(_, t) return t < 0.35 and -1 or 1 end }
+refused(function() lifted:run(1) end, "no solution at t = 0.35", "theorem 3")
+check.near(lifted.time, 0.3)
+local broken = false
+local failing <const> = beam{ load = function(_, t) if t > 0.25 then broken = true; error("no load", 0) end return 0 end }
+check.that(not pcall(failing.run, failing, 1))
+check.that(broken)
+check.near(failing.time, 0.2)
