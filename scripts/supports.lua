@@ -9,7 +9,7 @@
 -- images/supports_elastic.png: 5, 6, 13 and 14, springs and one-sided springs. images/supports_capped.png: 10, springs with a
 -- greatest reaction. images/supports_one_sided.png: 7, Signorini's conditions.
 -- images/supports_friction.png: 8, 9, 11 and 12, rigid friction. images/supports_breaking.png: 16 and 17, laws that are not monotone.
--- A table tells every working point and how far it lies off its law. (15, springs of two stiffnesses, has no law here.)
+-- A table tells every working point. (15, springs of two stiffnesses, has no law here.)
 
 local law <const> = dotyk.law
 local clamped <const> = { deflection = law.prescribed(0), rotation = law.prescribed(0) }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.hpp"
 #include "figure/compose_parts.hpp"
 
 namespace dotyk::figure {
@@ -24,9 +25,9 @@ GraphWindow window(const SupportLaw& law, const std::optional<WorkingPoint>& at,
   const bool bounded = law.kind == Kind::friction || law.kind == Kind::one_sided_friction || law.kind == Kind::load;
   r = std::max({r, spring ? law.value * v : 0, bounded ? std::abs(law.value) : 0, law.limit});
   if (!(r > kRounding * scale.force)) r = bounded || spring || law.limit > 0 ? std::max(r, std::numeric_limits<double>::min()) : scale.force;
-  if (spring) r *= 1.35;
+  if (spring) r *= 1.1;
   const bool up = problem::one_sided(law.kind);
-  return {-1.6 * v, 1.6 * v, (up ? -0.3 : -1.4) * r, 1.4 * r};
+  return {-1.6 * v, 1.6 * v, (up ? -0.45 : -1.6) * r, 1.6 * r};
 }
 
 CurveDrawing turn(CurveDrawing c, double x, double y) {
@@ -55,8 +56,10 @@ CurveDrawing reaction_drawing(const problem::SupportGraph& graph, const GraphWin
 CurveDrawing energy_drawing(const problem::SupportGraph& graph, const GraphWindow& w) {
   CurveDrawing out = reaction_drawing(graph, w);
   const auto [least, most] = std::minmax_element(graph.energy.y.begin(), graph.energy.y.end());
-  const double size = std::max(*most, -*least) > 0 ? std::max(*most, -*least) : std::max(w.high, -w.low) * w.most;
-  const double bottom = *least < 0 ? -1.2 * size : -0.15 * size, top = 1.2 * size;
+  if (!std::isfinite(w.high - w.low) || !std::isfinite(w.most - w.least) || !std::isfinite(1.35 * *most) || !std::isfinite(1.35 * *least))
+    throw InputError("the law goes beyond the range of numbers; choose units in which its numbers are moderate");
+  const double size = std::max(*most, -*least) > 0 ? std::max(*most, -*least) : 1;
+  const double bottom = *least < 0 ? -1.35 * size : -0.15 * size, top = 1.35 * size;
   PageCurve curve{graph.energy.x, graph.energy.y, false};
   // Up to infinity where the law ends.
   if (graph.low > w.low) curve.x.insert(curve.x.begin(), graph.low), curve.y.insert(curve.y.begin(), top);

@@ -39,7 +39,7 @@ double deflection_at(const BeamDrawing& beam, double x) {
 }
 
 void fit_y(const BeamDrawing& beam, Axes& axes) {
-  const std::vector<double> heights = load_heights(beam, axes.em);
+  const std::vector<double> heights = load_heights(beam, axes.em, symbol_em(axes));
   const double height = axes.room.height();
   double most = 0;
   for (const double u : beam.deflection) most = std::max(most, std::abs(u));
@@ -71,7 +71,6 @@ void draw_cell(Canvas& canvas, const BeamDrawing& beam, const Axes& axes) {
   const std::array<double, 2> dash{0.5 * em, 0.3 * em};
   canvas.polyline(std::array<Point, 2>{Point{axes.x.pixel(0), zero}, Point{axes.x.pixel(beam.length), zero}}, std::max(1.2, em / 16), {120, 120, 120}, dash);
   draw_distributed_load(canvas, beam, axes);
-  clear_for_arcs(canvas, beam, axes);
   canvas.polyline(line, std::max(3.0, em / 4.5), {30, 30, 30});
   draw_supports(canvas, beam, axes);
   draw_point_loads(canvas, beam, axes);

@@ -63,7 +63,7 @@ public:
       const auto [low, high] = arrow(i);
       const bool ends = i == 0 || i + 1 == beam_.x.size();
       const bool beside_end = !ends && axes_.x.pixel(beam_.x.back()) - low.x < 0.55 * em_;
-      if (high.y == low.y || beside_end || beside_load(beam_.x[i]) || !(ends || low.x - last > 1.1 * em_)) continue;
+      if (high.y == low.y || beside_end || beside_load(beam_.x[i]) || below_arc(beam_, axes_, low.x) || !(ends || low.x - last > 1.1 * em_)) continue;
       canvas_.arrow(beam_.load[i] < 0 ? high : low, beam_.load[i] < 0 ? low : high, width, 0.38 * em_, load_colour);
       last = low.x;
     }
@@ -106,7 +106,7 @@ private:
   void draw_force(const BeamLoad& l, double most) {
     const Point p = on_line(l.x);
     const double length = (0.55 + 0.45 * std::abs(l.force) / most) * force_length * em_;
-    const Point low{p.x, p.y + 0.15 * em_}, high{p.x, low.y + length};
+    const Point low{p.x, p.y + clear_of_bar(beam_, l.x, symbol_em(axes_)) + 0.15 * em_}, high{p.x, low.y + length};
     canvas_.arrow(l.force < 0 ? high : low, l.force < 0 ? low : high, std::max(2.0, em_ / 7), 0.7 * em_, load_colour, 1.5);
     occupied_.add(Box{low.x - 0.3 * em_, low.y, low.x + 0.3 * em_, high.y});
   }
@@ -129,7 +129,7 @@ private:
 
   void label_point(const BeamLoad& l) {
     const Point p = on_line(l.x);
-    if (l.force != 0) label("F = " + number(l.force), {p.x, p.y + (force_length + 0.6) * em_});
+    if (l.force != 0) label("F = " + number(l.force), {p.x, p.y + clear_of_bar(beam_, l.x, symbol_em(axes_)) + (force_length + 0.6) * em_});
     if (l.moment != 0) label("M = " + number(l.moment), {p.x, p.y + (moment_radius + 0.5) * em_});
   }
 
@@ -169,7 +169,7 @@ private:
 
 }  // namespace
 
-std::vector<double> load_heights(const BeamDrawing& beam, double em) {
+std::vector<double> load_heights(const BeamDrawing& beam, double em, double symbol) {
   std::vector<double> out(beam.x.size(), 0);
   const double most = greatest(beam.load), label = 1.4 * em;
   for (std::size_t i = 0; i < beam.load.size(); ++i) {
@@ -179,7 +179,7 @@ std::vector<double> load_heights(const BeamDrawing& beam, double em) {
   for (const BeamLoad& l : beam.loads)
     for (std::size_t i = 0; i < beam.x.size(); ++i)
       if (std::abs(beam.x[i] - l.x) < 1e-9 * beam.length)
-        out[i] = std::max(out[i], l.force != 0 ? (force_length + 0.3) * em + label : moment_radius * em + 0.3 * em + label);
+        out[i] = std::max(out[i], l.force != 0 ? clear_of_bar(beam, l.x, symbol) + (force_length + 0.3) * em + label : moment_radius * em + 0.3 * em + label);
   return out;
 }
 

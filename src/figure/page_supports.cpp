@@ -15,6 +15,7 @@ constexpr Colour ground_ink{70, 70, 70}, beam_ink{30, 30, 30}, white{255, 255, 2
 constexpr double radius = 1.8, swing = 85 * std::numbers::pi / 180;  // of arcs: em, rad
 constexpr double most_lean = 0.45;                                   // rad; steeper slopes are drawn as this
 constexpr double stop_length = 1.1, pin_height = 1.05;               // em
+constexpr double bar_half = 0.95;                                    // em, of an end that slides
 constexpr double settlement_place = 1.3;                             // em beside the support
 
 // From an element's moving end at rest to the ground, em.
@@ -24,6 +25,12 @@ double rest_length(ElementKind kind) {
 }
 
 bool moves(const BeamSupport& s) { return s.below.kind != ElementKind::none && s.below.kind != ElementKind::fixed; }
+
+bool at_left_end(const BeamDrawing& beam, const BeamSupport& s) { return s.x <= 1e-9 * beam.length; }
+bool at_right_end(const BeamDrawing& beam, const BeamSupport& s) { return s.x >= (1 - 1e-9) * beam.length; }
+
+// To the left (1), where slopes above zero turn the arm; at the right end outside, if it resists both senses.
+double arc_sign(const BeamDrawing& beam, const BeamSupport& s) { return at_right_end(beam, s) && !s.one_sided_arc ? -1 : 1; }
 
 class SupportSymbols {
 public:
@@ -45,19 +52,9 @@ public:
       draw_arc();
   }
 
-  void clear_for_arc() {
-    if (support_.arc.kind == ElementKind::none || support_.arc.kind == ElementKind::fixed) return;
-    const double r = (radius + 0.55) * em_;
-    const Track rim = Track::arc(at_, r, arc_sign());
-    std::vector<Point> sector{at_};
-    for (int i = -2; i <= 12; ++i) sector.push_back(rim(swing * r * i / 12, 0));
-    canvas_.polygon(sector, white);
-  }
-
 private:
-  double arc_sign() const { return right() && !support_.one_sided_arc ? -1 : 1; }
-  bool left() const { return support_.x <= 1e-9 * beam_.length; }
-  bool right() const { return support_.x >= (1 - 1e-9) * beam_.length; }
+  bool left() const { return at_left_end(beam_, support_); }
+  bool right() const { return at_right_end(beam_, support_); }
   double width() const { return std::max(1.5, em_ / 9); }
   // Pixels along the beam and across it.
   Point local(double along, double across) const {
@@ -125,7 +122,7 @@ private:
       return;
     }
     const double side = left() ? -1 : 1;
-    canvas_.line(local(0, -0.95 * em_), local(0, 0.95 * em_), 2 * width(), beam_ink);
+    canvas_.line(local(0, -bar_half * em_), local(0, bar_half * em_), 2 * width(), beam_ink);
     for (const double up : {-0.6, 0.6}) {
       canvas_.disc(local(side * 0.32 * em_, up * em_), 0.24 * em_, ground_ink);
       canvas_.disc(local(side * 0.32 * em_, up * em_), 0.24 * em_ - 0.8 * width(), white);
@@ -133,10 +130,9 @@ private:
     wall(side, 0.6 * em_);
   }
 
-  // An arm upright on the beam, its end held along an arc. Slopes above zero turn it to the left, where those that
-  // resist them alone must stand; the others stand outside the span.
+  // An arm upright on the beam, its end held along an arc.
   void draw_arc() {
-    const double sign = arc_sign(), r = radius * em_;
+    const double sign = arc_sign(beam_, support_), r = radius * em_;
     const double slope_scale = support_.rotation != 0 ? lean_ / support_.rotation : 0;
     const double slip = std::clamp(support_.arc.slip * slope_scale, -most_lean, most_lean);
     draw_element(canvas_, support_.arc, {Track::arc(at_, r, sign), sign * lean_ * r, sign * slip * r, swing * r, em_});
@@ -159,7 +155,7 @@ double symbol_em(const Axes& axes) { return std::min({1.4 * axes.em, axes.room.h
 double beyond_ends(const BeamDrawing& beam) {
   double most = 0.9;
   for (const BeamSupport& s : beam.supports) {
-    if (s.x > 1e-9 * beam.length && s.x < (1 - 1e-9) * beam.length) continue;
+    if (!at_left_end(beam, s) && !at_right_end(beam, s)) continue;
     const bool held = s.below.kind == ElementKind::fixed, turned = s.arc.kind == ElementKind::fixed;
     if (held) most = std::max(most, s.deflection != 0 ? settlement_place + 0.5 : 1.0);
     if (turned) most = std::max(most, 1.3);
@@ -179,6 +175,14 @@ double ground_depth(const BeamDrawing& beam, double scale, double em) {
   return rest * em + scale * lowest;
 }
 
+double clear_of_bar(const BeamDrawing& beam, double x, double em) {
+  for (const BeamSupport& s : beam.supports) {
+    const bool end = at_left_end(beam, s) || at_right_end(beam, s), guided = s.arc.kind == ElementKind::fixed && s.below.kind != ElementKind::fixed;
+    if (end && guided && std::abs(s.x - x) <= 1e-9 * beam.length) return (bar_half + 0.15) * em;
+  }
+  return 0;
+}
+
 double height_above(const BeamSupport& s, double em) {
   if (s.arc.kind == ElementKind::none) return 0.4 * em;
   const bool wall = s.arc.kind == ElementKind::fixed;
@@ -194,8 +198,14 @@ double depth_below(const BeamDrawing& beam, const BeamSupport& s, double scale, 
   return depth;
 }
 
-void clear_for_arcs(Canvas& canvas, const BeamDrawing& beam, const Axes& axes) {
-  for (const BeamSupport& support : beam.supports) SupportSymbols(canvas, beam, axes, support).clear_for_arc();
+bool below_arc(const BeamDrawing& beam, const Axes& axes, double pixel) {
+  const double em = symbol_em(axes);
+  return std::any_of(beam.supports.begin(), beam.supports.end(), [&](const BeamSupport& s) {
+    const bool wall = s.arc.kind == ElementKind::fixed && (s.below.kind == ElementKind::fixed || at_left_end(beam, s) || at_right_end(beam, s));
+    if (s.arc.kind == ElementKind::none || wall) return false;
+    const double ahead = arc_sign(beam, s) * (axes.x.pixel(s.x) - pixel);  // on the side of the arc
+    return ahead > -0.9 * em && ahead < (radius + reach) * em;
+  });
 }
 
 void draw_supports(Canvas& canvas, const BeamDrawing& beam, const Axes& axes) {
