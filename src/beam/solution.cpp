@@ -27,16 +27,20 @@ void Solution::sum_loads() {
   sum_q_ = sum_moment_ = {0};
   for (std::size_t i = 0; i + 1 < model_.nodes.size(); ++i) {
     const double a = model_.nodes[i], b = model_.nodes[i + 1];
-    sum_moment_.push_back(sum_moment_[i] + (b - a) * sum_q_[i] + load_between(a, b, 1));
-    sum_q_.push_back(sum_q_[i] + load_between(a, b, 0));
+    sum_moment_.push_back(sum_moment_[i] + (b - a) * sum_q_[i] + moment_between(a, b));
+    sum_q_.push_back(sum_q_[i] + force_between(a, b));
   }
 }
 
-/// ∫ (to − s)^arm q(s) ds, arm 0 or 1.
-double Solution::load_between(double from, double to, double arm) const {
-  const double h = to - from;
-  if (!beam_.q_of) return beam_.q * (arm == 0 ? h : h * h / 2);
-  return integral([&](double s) { return beam_.q_of(s) * (arm == 0 ? 1 : to - s); }, from, to);
+/// ∫ q.
+double Solution::force_between(double from, double to) const {
+  return beam_.q_of ? integral(beam_.q_of, from, to) : beam_.q * (to - from);
+}
+
+/// ∫ (to − s) q(s) ds.
+double Solution::moment_between(double from, double to) const {
+  if (!beam_.q_of) return beam_.q * (to - from) * (to - from) / 2;
+  return integral([&](double s) { return (to - s) * beam_.q_of(s); }, from, to);
 }
 
 Solution::Place Solution::place(double x) const {
@@ -63,7 +67,7 @@ double Solution::rotation(double x) const {
 
 double Solution::shear(double x) const {
   const int cell = place(x).cell;
-  double sum = sum_q_[cell] + load_between(model_.nodes[cell], x, 0);
+  double sum = sum_q_[cell] + force_between(model_.nodes[cell], x);
   for (const PointLoad& f : forces_)
     if (f.x <= x && (f.x < beam_.length)) sum += f.force;
   return -sum;
@@ -71,7 +75,7 @@ double Solution::shear(double x) const {
 
 double Solution::moment(double x) const {
   const int cell = place(x).cell;
-  double sum = sum_moment_[cell] + (x - model_.nodes[cell]) * sum_q_[cell] + load_between(model_.nodes[cell], x, 1);
+  double sum = sum_moment_[cell] + (x - model_.nodes[cell]) * sum_q_[cell] + moment_between(model_.nodes[cell], x);
   for (const PointLoad& f : forces_)
     if (f.x <= x && f.x < beam_.length) sum += f.force * (x - f.x) - f.moment;
   return -sum;

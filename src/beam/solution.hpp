@@ -40,7 +40,8 @@ class Solution {
   Place place(double x) const;
   Eigen::Vector4d values(int cell) const;  ///< u, u', u, u' at its ends
   void sum_loads();
-  double load_between(double from, double to, double arm) const;
+  double force_between(double from, double to) const;
+  double moment_between(double from, double to) const;
 
   Beam beam_;
   Model model_;
