@@ -170,6 +170,22 @@ SupportKind kind_of(scene::SupportKind kind) {
                                              : SupportKind::displace;
 }
 
+/// Laws, by the nearest of the known symbols: rollers for a rigid base, else springs; none where the support bears nothing.
+void add_law_supports(const Solution& s, int index, ScenePicture& picture) {
+  using Kind = problem::SupportLaw::Kind;
+  const Body& body = s.body(index);
+  for (const scene::LawSupport& on : body.laws) {
+    const auto result = s.support({s.scene().bodies[index], on.part.name, on.facets});
+    const Kind normal = on.normal.kind == Kind::free ? on.tangential.kind : on.normal.kind;
+    if (normal == Kind::load) continue;
+    const bool rigid = normal == Kind::signorini || normal == Kind::prescribed;
+    for (const scene::SupportNode& node : result.nodes)
+      if (!node.broken && (node.status != problem::Status::open || on.normal.kind == Kind::free))
+        picture.supports.push_back({node.x, at_node(s.displacement(index), node.node, body.dimension()), node.normal, {true, true, true},
+                                    rigid ? SupportKind::slide : SupportKind::spring});
+  }
+}
+
 void add_supports(const Solution& s, int index, ScenePicture& picture) {
   const Body& body = s.body(index);
   const auto& u = s.displacement(index);
@@ -190,6 +206,7 @@ void add_supports(const Solution& s, int index, ScenePicture& picture) {
     picture.supports.push_back({centre, s.displacement(index, centre), normal,
                                 {k[0] > 0, k[1] > 0, k[2] > 0}, SupportKind::spring});
   }
+  add_law_supports(s, index, picture);
 }
 
 void add_loads(const Solution& s, int index, ScenePicture& picture) {

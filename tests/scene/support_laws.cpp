@@ -5,6 +5,12 @@
 
 #include "../support/laws.hpp"
 #include "base/error.hpp"
+#include "solver/active_set.hpp"
+#include "solver/interior_point.hpp"
+#include "solver/penalty.hpp"
+#include "solver/projected_cg.hpp"
+#include "solver/uzawa.hpp"
+#include "solver/uzawa_pdas.hpp"
 
 using namespace dotyk;
 using mesh::Point;
@@ -70,9 +76,31 @@ TEST_CASE("every method gives the same foundation") {
     CHECK(test::distance(*test::solve_by(scene, solver::Newton{}), *exact) < 1e-9);
     CHECK(test::distance(*test::solve_by(scene, solver::Proximal{}), *exact) < 1e-8);
     CHECK(test::distance(*test::solve_by(scene, test::patient(solver::Psor{})), *exact) < 1e-7);  // stops by the residual of λ
-    CHECK(test::distance(*test::solve_by(scene, test::feti(1)), *exact) < 1e-7);
-    CHECK(test::distance(*test::solve_by(scene, test::feti(5)), *exact) < 1e-7);
+    for (auto method : {test::patient(solver::Uzawa{}), test::patient(solver::UzawaPdas{}), test::patient(solver::ProjectedCg{})})
+      CHECK(test::distance(*test::solve_by(scene, method), *exact) < 1e-7);
+    CHECK(test::distance(*test::solve(scene, false), *exact) < 1e-9);
+    using Preconditioner = solver::Feti::Preconditioner;
+    for (const auto preconditioner : {Preconditioner::none, Preconditioner::lumped, Preconditioner::dirichlet})
+      for (const int count : {1, 5})
+        for (const bool rows : {true, false})
+          CHECK(test::distance(*test::solve_by(scene, test::feti(count, rows, preconditioner)), *exact) < 1e-7);
   }
+}
+
+TEST_CASE("methods for linear and unilateral laws alone give the same rigid base") {
+  const auto block = test::block("block", 2, mesh::Family::p1, 4);
+  test::support(block, "bottom", {LawKind::signorini}, {LawKind::elastic, 30});
+  test::support(block, "left", {LawKind::elastic, 20});
+  test::pull(block, "top", [](const Point& x) { return Point{0.4, 4 - 9 * x[0], 0}; });
+  const auto scene = scene::make_scene({block});
+  const auto exact = test::solve_by(scene, solver::Pdas{});
+  CHECK(exact->support(test::part(block, "bottom")).open > 0);
+  CHECK(test::imbalance(*exact, {"bottom", "left"}) < 1e-11);
+  CHECK(test::distance(*test::solve_by(scene, solver::ActiveSet{}), *exact) < 1e-9);
+  CHECK(test::distance(*test::solve_by(scene, solver::InteriorPoint{}), *exact) < 1e-6);
+  solver::Penalty penalty;
+  penalty.factor = 1e6;
+  CHECK(test::distance(*test::solve_by(scene, penalty), *exact) < 1e-4);  // never exact
 }
 
 TEST_CASE("a foundation without tension under a nearly rigid block: the triangle of pressure has length 3(b/2 - e)") {
