@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -32,7 +33,8 @@ class Iteration {
       const Vector next = b_ - A_ * x_;
       // Releasing a variable that rounding (or a column nearly parallel to a free one) made attractive
       // changes next to nothing: not again before another one has.
-      if (next.norm() < (1 - 1e-9) * residual.norm())
+      const double nothing = std::max(1e-9 * residual.norm(), std::numeric_limits<double>::epsilon() * b_.norm());
+      if (next.norm() < residual.norm() - nothing)
         std::fill(idle_.begin(), idle_.end(), 0);
       else
         idle_[entering] = 1;

@@ -86,9 +86,16 @@ class Discs {
     return sum;
   }
   void add(Vector extreme) { extremes_.push_back(std::move(extreme)); }
+  /// Only extreme loads with an amount are kept: those in use are linearly independent.
+  void keep(const Vector& amounts) {
+    std::size_t kept = 0;
+    for (std::size_t j = 0; j < extremes_.size(); ++j)
+      if (amounts[static_cast<Eigen::Index>(j)] > 0) std::swap(extremes_[kept++], extremes_[j]);
+    extremes_.resize(kept);
+  }
 
-  /// Columns whose amounts are not negative, below them a row that wants their sum to be 1: its weight (great beside the
-  /// load) makes it miss by less than the residual, and by nothing where that vanishes.
+  /// Columns whose amounts are not negative, below them a row that wants their sum to be 1: missed with the load, and
+  /// met where that is balanced. `weight`: above the loads' size.
   DenseMatrix columns(double weight) const {
     DenseMatrix A(N_.cols() + 1, static_cast<Eigen::Index>(extremes_.size()));
     for (Eigen::Index j = 0; j < A.cols(); ++j) A.col(j) << extremes_[j], weight;
@@ -129,7 +136,7 @@ class Balance {
  private:
   void fit() {
     const auto rows = N_.cols(), count = static_cast<Eigen::Index>(all_.columns.size());
-    const double weight = 1e3 * std::max(e_.norm(), size_);
+    const double weight = 10 * std::max(e_.norm(), size_);
     const DenseMatrix D = discs_.any() ? discs_.columns(weight) : DenseMatrix(rows, 0);
     DenseMatrix A = DenseMatrix::Zero(D.rows(), count + D.cols());
     for (Eigen::Index j = 0; j < count; ++j) A.col(j).head(rows) = all_.columns[j];
@@ -141,6 +148,8 @@ class Balance {
     const auto fitted = algebra::bounded_least_squares(A, b, low, high);
     residual_ = fitted.residual.head(rows);
     carried_ = D.topRows(rows) * fitted.x.tail(D.cols());
+    missed_ = discs_.any() ? weight * fitted.residual[rows] : 0;
+    discs_.keep(fitted.x.tail(D.cols()));
   }
 
   /// Coulomb's points: directions where the motion found still rubs, off those that are there.
@@ -157,7 +166,7 @@ class Balance {
   bool add_extreme() {
     Vector extreme = discs_.extreme(residual_);
     gap_ = residual_.dot(extreme - carried_);
-    if (gap_ <= 1e-6 * residual_.squaredNorm()) return false;
+    if (residual_.dot(extreme) + missed_ <= 1e-6 * residual_.squaredNorm()) return false;  // the fit would not use it
     size_ = std::max(size_, extreme.norm());
     discs_.add(std::move(extreme));
     return true;
@@ -169,7 +178,8 @@ class Balance {
   Carried all_;
   Discs discs_;
   Vector residual_, carried_;
-  double gap_ = 0, size_ = 0;  ///< of the discs: work that they could do beyond what they do; the greatest load of theirs
+  // Of the discs: work that they could do beyond what they do; the greatest load; what the sum of amounts pulls an amount by.
+  double gap_ = 0, size_ = 0, missed_ = 0;
 };
 
 /// What of the load e no admissible multipliers balance: the admissible motion it drives most (TR965

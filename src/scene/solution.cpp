@@ -159,11 +159,8 @@ std::string describe(const Solution& s) {
   for (std::size_t b = 0; b < s.scene().bodies.size(); ++b)
     for (const LawSupport& on : s.body(static_cast<int>(b)).laws) {
       const SupportResult r = s.support({s.scene().bodies[b], on.part.name, on.facets});
-      out += text("  support of '", s.scene().bodies[b]->name, "' ", on.part.name, " (", describe(on), "): force ",
-                  point_text(r.force.data(), s.scene().dimension()), ", ", r.stick + r.slip > 0 ? text(r.stick, " stick, ", r.slip, " slip, ") : "",
-                  r.closed > 0 || r.stick + r.slip == 0 ? text(r.closed, " closed, ") : "", r.open, " open, ",
-                  r.tangential_stick + r.tangential_slip > 0 ? text("tangents ", r.tangential_stick, " stick, ", r.tangential_slip, " slip, ") : "",
-                  r.broken > 0 ? text(r.broken, " broken, ") : "", "greatest pressure ", r.max_pressure, "\n");
+      out += text("  support of '", s.scene().bodies[b]->name, "' ", on.part.name, " (", describe(on), "): ",
+                  describe(r, s.scene().dimension()), "\n");
     }
   const problem::Clock& t = s.clock();
   out += text("  seconds: total ", t.total, " (assembly ", t.assembly, ", ordering ", t.ordering, ", factor ",

@@ -176,6 +176,8 @@ std::vector<char> start_flags(const Scene& scene, const Model& model, const Star
 /// whole or not at all. Throws InputError where it cannot be written.
 void write_contact(const Solution& solution, const std::string& file);
 
+/// "force (0, 6), 9 closed, 0 open, tangents 7 stick, 2 slip, greatest pressure 4.6".
+std::string describe(const SupportResult& result, int dimension);
 /// A short report.
 std::string describe(const Solution& solution);
 

@@ -52,19 +52,21 @@ SupportResult Solution::support(const Part& part) const {
   const int index = scene_->index_of(part.body.get());
   if (index < 0) throw InputError("part '" + part.name + "' is not of the scene that was solved");
   const Body& body = this->body(index);
-  const auto found = std::find_if(body.laws.begin(), body.laws.end(), [&, mark = part.mark()](const LawSupport& l) { return l.part == mark; });
+  const PartMark mark = part.mark();
+  const auto found = std::find_if(body.laws.begin(), body.laws.end(), [&](const LawSupport& l) { return l.part == mark; });
   if (found == body.laws.end()) {
     std::string all;
     for (const LawSupport& l : body.laws) all += (all.empty() ? "" : ", ") + l.part.name;
-    throw InputError(text("part ", part.label(), " had no support by laws when it was solved; ", all.empty() ? "none of the body's has" : "those that have: " + all));
+    throw InputError(text("part ", part.label(), " had no support by laws when it was solved; ",
+                          all.empty() ? "none of the body's has" : "those that have: " + all));
   }
   const auto& rows = model_.support_row[index][static_cast<std::size_t>(found - body.laws.begin())];
   SupportResult result;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    result.nodes.push_back(support_node(*found, k, rows[k], index));
-    for (int i = 0; i < 3; ++i)
-      result.force[i] += result.nodes.back().weight * (result.nodes.back().shear[i] - result.nodes.back().pressure * found->nodes[k].normal[i]);
-    count(result.nodes.back(), result);
+    const SupportNode node = support_node(*found, k, rows[k], index);
+    for (int i = 0; i < 3; ++i) result.force[i] += node.weight * (node.shear[i] - node.pressure * node.normal[i]);
+    count(node, result);
+    result.nodes.push_back(node);
   }
   return result;
 }
@@ -90,6 +92,16 @@ SupportNode Solution::support_node(const LawSupport& support, std::size_t k, con
   const auto slips = [&](int r) { return rubs ? !result_.slipping.empty() && result_.slipping[r] : !active(r); };
   node.tangential = status_of(support.tangential.kind, std::none_of(rows.row, rows.row + rows.count, slips), true);
   return node;
+}
+
+std::string describe(const SupportResult& r, int dimension) {
+  std::string out = text("force ", point_text(r.force.data(), dimension), ", ");
+  if (r.stick + r.slip > 0) out += text(r.stick, " stick, ", r.slip, " slip, ");
+  if (r.closed > 0 || r.stick + r.slip == 0) out += text(r.closed, " closed, ");
+  out += text(r.open, " open, ");
+  if (r.tangential_stick + r.tangential_slip > 0) out += text("tangents ", r.tangential_stick, " stick, ", r.tangential_slip, " slip, ");
+  if (r.broken > 0) out += text(r.broken, " broken, ");
+  return out + text("greatest pressure ", r.max_pressure);
 }
 
 }  // namespace dotyk::scene

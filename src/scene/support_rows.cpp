@@ -92,8 +92,8 @@ class Rows {
     if (!builder_.moves(body_, side.node, direction)) builder_.add(body_, side.node, -1, -1, direction, gap);  // no row; gap changes
     const double rounding = 1e-12 * on_.mesh->size();
     if (law.kind == Kind::prescribed ? std::abs(gap) > rounding : law.kind == Kind::signorini && gap < -rounding)
-      throw InputError(text("contradictory supports on '", on_.name, "': at the node ", point_text(on_.mesh->node(side.node), on_.dimension()),
-                            " the ", problem::support_name(law.kind), " law of part '", support_.part.name,
+      throw InputError(text("contradictory supports on '", on_.name, "': at the node ",
+                            point_text(on_.mesh->node(side.node), on_.dimension()), " the ", problem::support_name(law.kind), " law of part '", support_.part.name,
                             "' and the displacement that other supports hold differ by ", std::abs(gap)));
     return -1;
   }

@@ -187,7 +187,7 @@ void bind_solution(Library& library) {
       .field("screws", "magnetic screws, first and after each move: rows, regularity (least over greatest singular value "
                        "of their equilibrium), determinant", screws)
       .field("kernel", "rigid motions that supports leave free, all bodies", kernel_size)
-      .field("energy", "½uᵀKu − fᵀu, springs included", [](const Solution& s) { return s.energy(); }, "force·length")
+      .field("energy", "½uᵀKu − fᵀu, springs and laws of supports included, friction not", [](const Solution& s) { return s.energy(); }, "force·length")
       .field("friction_energy", "the friction term of the energy: what friction dissipates in this step", [](const Solution& s) { return s.friction_energy(); }, "force·length")
       .field("steps", "the solutions of a history's steps, the last is this one", [](const Solution& s) { return s.steps(); })
       .field("unknowns", "displacement unknowns", [](const Solution& s) { return s.unknowns(); })
@@ -224,7 +224,8 @@ void bind_solution(Library& library) {
                .run = contact})
       .method({.name = "solution:support",
                .help = "A part's support by laws (part:support): its force on the body, area (of nodes that are not open), "
-                       "max_pressure, counts of open, closed, stick, slip (along the normal), tangential_stick, tangential_slip and broken nodes, and nodes[i] with x y z, away (displacement "
+                       "max_pressure, counts of nodes: open, closed, stick, slip (along the normal), tangential_stick, "
+                       "tangential_slip and broken, and nodes[i] with x y z, away (displacement "
                        "along the normal, positive away from the support), pressure, slip and shear (components of "
                        "the tangential displacement, and of the reaction on the body per length or area), status (along the normal: "
                        "open where it bears nothing, closed; stick or slip where the law has a greatest force), tangential (the "
@@ -233,7 +234,7 @@ void bind_solution(Library& library) {
                .arguments = {key::object<scene::Part>("part", "a part with part:support").required()},
                .run = support})
       .method({.name = "solution:reaction",
-               .help = "Components of the force that the supports of a part exert on its body.",
+               .help = "Components of the force that the supports of a part, laws included, exert on its body.",
                .example = "local fx, fy = s:reaction(block:part \"bottom\")",
                .arguments = {key::object<scene::Part>("part", "a supported part").required()},
                .run = reaction})

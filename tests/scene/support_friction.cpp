@@ -5,6 +5,7 @@
 
 #include "../support/laws.hpp"
 #include "base/error.hpp"
+#include "problem/solvability.hpp"
 #include "solver/projected_cg.hpp"
 #include "solver/uzawa.hpp"
 #include "solver/uzawa_pdas.hpp"
@@ -28,6 +29,12 @@ std::shared_ptr<scene::Body> pushed(int dimension, const Laws& normal, const Law
 
 std::shared_ptr<scene::Solution> solve(const std::shared_ptr<scene::Body>& body, const solver::Method& method = {}) {
   return test::solve_by(scene::make_scene({body}), method);
+}
+
+scene::Model model_of(const std::shared_ptr<scene::Body>& body) {
+  problem::Clock clock;
+  Monitor quiet;
+  return scene::build(*scene::make_scene({body}), clock, quiet);
 }
 
 }  // namespace
@@ -67,6 +74,37 @@ TEST_CASE("friction carries up to bound times area, alike in all directions") {
       CHECK_THROWS_WITH_AS(solve(pushed(dimension, {LawKind::elastic, 50}, {LawKind::friction, g}, 1.002 * g, angle)),
                            doctest::Contains("nothing stops 'block': translation along"), InputError);
     }
+}
+
+TEST_CASE("friction bears a torque up to bound times the sum of the nodes' distances") {
+  const double g = 1.5;
+  for (const int n : {3, 6}) {
+    const auto twisted = [&](double torque) {
+      const auto block = test::block("block", 3, mesh::Family::q1, n);
+      test::support(block, "bottom", {LawKind::one_sided_elastic, 50}, {LawKind::friction, g});
+      // ∫ 6 r² dA = 1
+      test::pull(block, "top", [=](const Point& x) { return Point{-6 * torque * (x[1] - 0.5), 6 * torque * (x[0] - 0.5), -40}; });
+      const scene::Model model = model_of(block);
+      return problem::solvability(problem::rigid_motions(model.problem), model.problem);
+    };
+    double limit = 0;
+    const auto block = test::block("block", 3, mesh::Family::q1, n);
+    for (const auto& node : contact::nodes(*block->mesh, block->mesh->parts.at("bottom"))) {
+      const Point x = block->mesh->point(node.node);
+      limit += g * node.weight * std::hypot(x[0] - 0.5, x[1] - 0.5);
+    }
+    CHECK(limit == doctest::Approx(0.3826 * g).epsilon(0.3 / n));  // of the square as a whole
+    using Verdict = problem::Solvability::Verdict;
+    for (const double part : {0.5, 0.9, 0.98, 0.999}) CHECK(twisted(part * limit).verdict == Verdict::unique);
+    const auto edge = twisted((1 - 1e-6) * limit);
+    CHECK(edge.verdict != Verdict::unsolvable);
+    CHECK(edge.limit);
+    for (const double part : {1 + 1e-5, 1.001, 1.1, 1.5}) {
+      const auto s = twisted(part * limit);
+      CHECK(s.verdict == Verdict::unsolvable);
+      CHECK(s.work > 0);
+    }
+  }
 }
 
 TEST_CASE("friction on a rigid base is given friction of contact with a rigid half-space") {
