@@ -10,8 +10,8 @@ namespace dotyk::beam {
 
 namespace {
 
-/// Nodes nearer to each other than this part of a cell are one.
-constexpr double kSame = 1e-6;
+/// Supports nearer to each other than this part of the length are refused: what rounding leaves grows as the inverse cube.
+constexpr double kNear = 1e-4;
 constexpr int kMostCells = 1000;
 
 void require_on_beam(const Beam& beam, double x, const std::string& what) {
@@ -22,34 +22,47 @@ void require_on_beam(const Beam& beam, double x, const std::string& what) {
 }  // namespace
 
 void require_valid(const Beam& beam) {
-  if (!(beam.length > 0) || !std::isfinite(beam.length)) throw InputError(text("beam: its length is ", beam.length, "; it must be positive"));
-  if (beam.cells < 1) throw InputError(text("beam: it has ", beam.cells, " cells; at least one is needed"));
+  if (!(beam.length > 0) || !std::isfinite(beam.length)) throw InputError(text("its length is ", beam.length, "; it must be positive"));
+  if (beam.cells < 1) throw InputError(text("it has ", beam.cells, " cells; at least one is needed"));
   if (beam.cells > kMostCells)
-    throw InputError(text("beam: it has ", beam.cells, " cells; rounding grows as the fourth power of their number, and ", kMostCells, " leave it 1e-6"));
-  if (!beam.EJ_of && (!(beam.EJ > 0) || !std::isfinite(beam.EJ))) throw InputError(text("beam: EJ is ", beam.EJ, "; it must be positive"));
-  if (!beam.q_of && !std::isfinite(beam.q)) throw InputError(text("beam: its load is ", beam.q));
+    throw InputError(text("it has ", beam.cells, " cells; rounding grows as the fourth power of their number, and ", kMostCells, " leave it 1e-6"));
+  if (!beam.EJ_of && (!(beam.EJ > 0) || !std::isfinite(beam.EJ))) throw InputError(text("EJ is ", beam.EJ, "; it must be positive"));
+  if (!beam.q_of && !std::isfinite(beam.q)) throw InputError(text("its load is ", beam.q));
   for (const PointLoad& load : beam.loads) {
     require_on_beam(beam, load.x, "a load");
     if (!std::isfinite(load.force) || !std::isfinite(load.moment))
-      throw InputError(text("beam: the load at x = ", load.x, " has the force ", load.force, " and the moment ", load.moment));
+      throw InputError(text("the load at x = ", load.x, " has the force ", load.force, " and the moment ", load.moment));
   }
   for (std::size_t i = 0; i < beam.supports.size(); ++i) {
     const Support& s = beam.supports[i];
     require_on_beam(beam, s.x, "the support " + s.name);
     require_valid(s.deflection);
     require_valid(s.rotation);
-    if (i > 0 && !(s.x - beam.supports[i - 1].x > kSame * beam.length / beam.cells))
-      throw InputError(text("beam: the supports ", beam.supports[i - 1].name, " and ", s.name, " are at one point"));
+    if (i == 0) continue;
+    const Support& before = beam.supports[i - 1];
+    if (s.x == before.x) throw InputError(text("the supports ", before.name, " and ", s.name, " are at one point"));
+    if (!(s.x - before.x > kNear * beam.length))
+      throw InputError(text("the supports ", before.name, " and ", s.name, " are ", s.x - before.x, " apart, too near for rounding to tell: at least ", kNear,
+                            " of the length, or one support with laws for deflection and rotation"));
   }
 }
 
 std::vector<double> nodes(const Beam& beam) {
-  const double h = beam.length / beam.cells;
   std::vector<double> x;
-  for (int i = 0; i <= beam.cells; ++i) x.push_back(i < beam.cells ? i * h : beam.length);
+  for (int i = 0; i <= beam.cells; ++i) x.push_back(i < beam.cells ? i * beam.length / beam.cells : beam.length);
+  std::vector<char> taken(x.size(), 0);
+  taken.front() = taken.back() = 1;
   for (const Support& s : beam.supports) {
-    const bool taken = std::any_of(x.begin(), x.end(), [&](double at) { return std::abs(s.x - at) <= kSame * h; });
-    if (!taken) x.insert(std::upper_bound(x.begin(), x.end(), s.x), s.x);
+    const int i = nearest(x, s.x);
+    if (!taken[i]) x[i] = s.x;
+    else if (x[i] == s.x) continue;
+    else {
+      const auto at = std::upper_bound(x.begin(), x.end(), s.x) - x.begin();
+      x.insert(x.begin() + at, s.x);
+      taken.insert(taken.begin() + at, 1);
+      continue;
+    }
+    taken[i] = 1;
   }
   return x;
 }

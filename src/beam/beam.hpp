@@ -40,10 +40,11 @@ struct Beam {
 };
 
 /// Throws InputError where the length or a stiffness is not positive, a point lies off the beam, two supports are at
-/// one point, there are no cells, or a law is not valid (problem::require_valid).
+/// one point or nearer than 1e-4 of the length, there are no cells, or a law is not valid (problem::require_valid).
 void require_valid(const Beam& beam);
 
-/// The nodes, ascending: cells of equal length, and the supports' points where they are not (nearly) among them.
+/// The nodes, ascending: of cells of equal length, but that each support has moved the nearest one to its point, or has one
+/// more where another support has that.
 std::vector<double> nodes(const Beam& beam);
 
 /// The cell that x lies in, of a node the one to its right where there is one.

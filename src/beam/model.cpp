@@ -21,7 +21,7 @@ std::function<double(double)> checked(const std::function<double(double)>& f, co
   return [&f, what, positive](double x) {
     const double value = f(x);
     if (!std::isfinite(value) || (positive && !(value > 0)))
-      throw InputError(text("beam: ", what, " is ", value, " at x = ", x, positive ? "; it must be positive" : "; it must be finite"));
+      throw InputError(text("", what, " is ", value, " at x = ", x, positive ? "; it must be positive" : "; it must be finite"));
     return value;
   };
 }
@@ -107,7 +107,7 @@ class Builder {
     const double middle = beam_.length / 2;
     for (int i = 0; i < n / 2; ++i) {
       block.node.insert(block.node.end(), {i, i});
-      block.kernel.block<2, 2>(2 * i, 0) << 1, model_.nodes[i] - middle, 0, model_.unit;
+      block.kernel.block<2, 2>(2 * i, 0) << 1, (model_.nodes[i] - middle) / model_.unit, 0, 1;
     }
     block.motions = {{Motion::Kind::translation, {0, 1}}, {Motion::Kind::rotation, {}, {middle, 0}}};
     return block;

@@ -15,7 +15,7 @@ struct SupportRows {
 };
 
 /// A beam as a problem: one block, unknowns (u, ℓu') node by node, so that all are lengths and all multipliers
-/// forces; ℓ = length. No support is in the stiffness: the kernel is u = 1 and u = x − ℓ/2.
+/// forces; ℓ = length. No support is in the stiffness: the kernel is u = 1 and u = x/ℓ − ½.
 struct Model {
   std::vector<double> nodes;
   double unit = 1;  ///< ℓ

@@ -9,20 +9,7 @@
 
 namespace dotyk::beam {
 
-namespace {
-
 using Kind = problem::SupportLaw::Kind;
-
-/// u at both ends of the motion with these amounts of the kernel's modes, the greater 1.
-std::string ends(const Beam& beam, const algebra::Vector& amounts) {
-  Eigen::Vector2d u(amounts[0] - amounts[1] * beam.length / 2, amounts[0] + amounts[1] * beam.length / 2);
-  u /= u.cwiseAbs().maxCoeff();
-  for (double& end : u)
-    if (std::abs(end) < 1e-9) end = 0;
-  return text("u = ", u[0], " at the left end and ", u[1], " at the right one");
-}
-
-}  // namespace
 
 std::string theorem(const Beam& beam) {
   bool one_sided = false, elastic = false, sliding = false, turning = false;
@@ -40,20 +27,28 @@ std::string theorem(const Beam& beam) {
   return out;
 }
 
+std::string ends(double translation, double rotation) {
+  Eigen::Vector2d u(translation - rotation / 2, translation + rotation / 2);
+  u /= u.cwiseAbs().maxCoeff();
+  for (double& end : u)
+    if (std::abs(end) < 1e-9) end = 0;
+  return text("u = ", u[0], " at the left end and ", u[1], " at the right one");
+}
+
 std::string require_solvable(const Beam& beam, const Model& model) {
   using Verdict = problem::Solvability::Verdict;
   const auto rigid = problem::rigid_motions(model.problem);
   const auto s = problem::solvability(rigid, model.problem);
   if (s.verdict == Verdict::unique && !s.limit) return "";
-  if (model.problem.rows() == 0 && model.problem.blocks.front().f.isZero(0)) throw InputError("beam: nothing holds it, and nothing loads it");
-  const double at_left = rigid.e[0] / 2 - rigid.e[1] / beam.length, at_right = rigid.e[0] / 2 + rigid.e[1] / beam.length;
+  if (model.problem.rows() == 0 && model.problem.blocks.front().f.isZero(0)) throw InputError("nothing holds it, and nothing loads it");
+  const double at_left = rigid.e[0] / 2 - rigid.e[1], at_right = rigid.e[0] / 2 + rigid.e[1];
   const std::string resultants = text("the resultants are ", at_left, " at the left end and ", at_right, " at the right one");
   if (s.verdict == Verdict::unsolvable) {
     const std::string why = theorem(beam);
-    throw InputError(text("beam: no solution: nothing stops the motion ", ends(beam, s.motion), ", on which the load does work; ", resultants,
+    throw InputError(text("no solution: nothing stops the motion ", ends(s.motion[0], s.motion[1]), ", on which the load does work; ", resultants,
                           why.empty() ? "" : "; ", why, s.limit ? "; a limit case: a load less by a millionth has a solution" : ""));
   }
-  std::string note = s.verdict == Verdict::up_to_motion ? text("unique up to the motion ", ends(beam, s.motion)) : "";
+  std::string note = s.verdict == Verdict::up_to_motion ? text("unique up to the motion ", ends(s.motion[0], s.motion[1])) : "";
   if (s.limit) note += text(note.empty() ? "" : "; ", "a limit case: ", resultants);
   return note;
 }

@@ -15,4 +15,7 @@ std::string require_solvable(const Beam& beam, const Model& model);
 /// The theorems of P4 that are about these supports; empty where none is.
 std::string theorem(const Beam& beam);
 
+/// The motion u = translation + rotation (x/ℓ − ½) by its deflections at the ends, the greater 1.
+std::string ends(double translation, double rotation);
+
 }  // namespace dotyk::beam

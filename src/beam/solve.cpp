@@ -13,6 +13,7 @@ namespace dotyk::beam {
 namespace {
 
 constexpr int kMostBreaking = 12;
+constexpr double kBalanced = 1e-6;  // of all forces; rounding leaves less with 1000 cells
 
 /// Where the choice of broken supports is what the displacements say.
 bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std::vector<Broken>& broken, const Solution& s) {
@@ -27,10 +28,22 @@ bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std:
   return true;
 }
 
+/// Do the reactions balance the load? Not where a spring that alone holds the beam is too weak to be told from none.
+bool balanced(const problem::Problem& problem, const solver::Result& result) {
+  const problem::Block& beam = problem.blocks.front();
+  const algebra::Vector reactions = problem.B.transpose() * result.state.lambda, forces = beam.f - reactions;
+  const algebra::Vector left = (beam.kernel.transpose() * forces).cwiseAbs();
+  return left.maxCoeff() <= kBalanced * (beam.f.lpNorm<1>() + reactions.lpNorm<1>());
+}
+
 solver::Result run(const Beam& beam, const Model& model, const solver::Method& method, Monitor& monitor) {
   const std::string note = require_solvable(beam, model);
   const solver::Method chosen = method ? method : solver::Method(solver::Pdas{});
   solver::Result result = chosen.run(model.problem, {}, monitor);
+  if (result.converged && !balanced(model.problem, result)) {
+    result.converged = false;
+    result.reason = "the reactions do not balance the load: a spring is too weak beside the beam, or the beam too stiff, for the numbers to tell";
+  }
   if (!note.empty() && result.reason.find("unique up to") == std::string::npos) result.reason += "; " + note;
   return result;
 }
@@ -40,7 +53,7 @@ solver::Result run(const Beam& beam, const Model& model, const solver::Method& m
 std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monitor& monitor) {
   const std::vector<Breaking> which = breaking(beam);
   if (which.size() > kMostBreaking)
-    throw InputError(text("beam: ", which.size(), " supports may break; every choice of broken ones is solved, which is possible with ", kMostBreaking, " at most"));
+    throw InputError(text("", which.size(), " supports may break; every choice of broken ones is solved, which is possible with ", kMostBreaking, " at most"));
   std::vector<Branch> minima;
   std::optional<InputError> refused;
   for (unsigned choice = 0; choice < 1u << which.size(); ++choice) {
@@ -56,7 +69,7 @@ std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monito
       if (!refused) refused = error;
     }
   }
-  if (minima.empty()) throw refused ? *refused : InputError("beam: no solution: every support that may break would break, and without them nothing holds the beam");
+  if (minima.empty()) throw refused ? *refused : InputError("no solution: every support that may break would break, and without them nothing holds the beam");
   std::sort(minima.begin(), minima.end(), [](const Branch& a, const Branch& b) { return a.solution->energy() < b.solution->energy(); });
   return minima;
 }

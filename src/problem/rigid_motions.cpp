@@ -29,6 +29,16 @@ void split(RigidMotions& rigid) {
   rigid.unnoticed = svd.matrixV().rightCols(modes - rank);
 }
 
+/// Loads that cancel to this part of what they are without their signs are balanced: the rest is rounding.
+constexpr double kCancelled = 1e-13;
+
+/// Rᵀf; zero where it is rounding.
+Vector resultants(const Block& block) {
+  const Vector e = block.kernel.transpose() * block.f;
+  const double gross = (block.kernel.cwiseAbs().transpose() * block.f.cwiseAbs()).maxCoeff();
+  return e.lpNorm<Eigen::Infinity>() > kCancelled * gross ? e : Vector::Zero(e.size());
+}
+
 }  // namespace
 
 RigidMotions rigid_motions(const Problem& problem) {
@@ -42,7 +52,7 @@ RigidMotions rigid_motions(const Problem& problem) {
     const int count = static_cast<int>(block.kernel.cols());
     if (count == 0) continue;
     rigid.N.middleCols(k, count) = problem.rows_of(block) * block.kernel;
-    rigid.e.segment(k, count) = block.kernel.transpose() * block.f;
+    rigid.e.segment(k, count) = resultants(block);
     k += count;
   }
   rigid.motions = body_motions(problem);

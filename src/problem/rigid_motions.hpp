@@ -19,7 +19,7 @@ struct BodyMotion {
 /// N α is the jump that a motion makes on the rows, and eᵀα the work of the load on it.
 struct RigidMotions {
   algebra::DenseMatrix N;          ///< B R, rows × modes
-  algebra::Vector e;               ///< Rᵀ f
+  algebra::Vector e;               ///< Rᵀ f; of a block where it is rounding, zero
   /// Orthonormal bases of the motions that some row notices (N α ≠ 0) and that none does.
   algebra::DenseMatrix noticed, unnoticed;  ///< modes × count
   algebra::DenseMatrix noticed_N;  ///< N on the noticed motions, rows × their count

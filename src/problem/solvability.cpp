@@ -15,8 +15,6 @@ namespace {
 
 /// Work below this part of the load's size counts as none: rounding of Rᵀf and of the modes.
 constexpr double kRounding = 1e-10;
-/// Work below this part of what its terms would do without cancelling is none: rounding of Rᵀf over many nodes.
-constexpr double kCancelled = 1e-13;
 /// A load this close (as an angle) to the edge of what can be carried is a limit case.
 constexpr double kLimit = 1e-6;
 
@@ -223,21 +221,12 @@ Vector beyond_edge(const RigidMotions& rigid, const Problem& problem, double loa
   return left.norm() > least ? left : none;
 }
 
-/// The load's size on the rigid motions; zero where that is rounding of sums that cancel.
-double net_load(const RigidMotions& rigid, const Problem& problem) {
-  double gross = 0;
-  for (const Block& block : problem.blocks)
-    if (block.kernel.size() > 0)
-      gross = std::max(gross, (block.kernel.cwiseAbs().transpose() * block.f.cwiseAbs()).maxCoeff());
-  return rigid.e.lpNorm<Eigen::Infinity>() > kCancelled * gross ? rigid.e.norm() : 0;
-}
-
 }  // namespace
 
 Solvability solvability(const RigidMotions& rigid, const Problem& problem) {
   Solvability s;
   if (rigid.count() == 0) return s;
-  const double load = net_load(rigid, problem);
+  const double load = rigid.e.norm();
   const Vector residual = load > 0 ? unbalanced(rigid, problem, rigid.e) : Vector::Zero(rigid.count());
   if (residual.norm() > kRounding * load) {
     s.verdict = Solvability::Verdict::unsolvable;

@@ -73,7 +73,7 @@ int at(Call& call) {
 
 int reaction(Call& call) {
   const beam::Solution& s = call.self<BeamResult>()->solution();
-  const beam::Reaction r = s.reaction(find_support(s, call, "at"));
+  const beam::Reaction r = s.reaction(find_support(s.beam(), call, "at"));
   return call.give(Record{"reaction", {{"force", r.force}, {"moment", r.moment}, {"deflection", r.deflection}, {"rotation", r.rotation}}});
 }
 
@@ -140,12 +140,12 @@ Key support_key(std::string name) {
   return key::either(std::move(name), {key::choice("", {"left", "right"}, ""), key::number("", "the x of a support")}, "an end, or the x of a support");
 }
 
-int find_support(const beam::Solution& s, const Arguments& from, const std::string& name) {
-  const auto& supports = s.beam().supports;
+int find_support(const Beam& beam, const Arguments& from, const std::string& name) {
+  const auto& supports = beam.supports;
   const bool at_x = from.is(name, LUA_TNUMBER);
   std::string known;
   for (std::size_t i = 0; i < supports.size(); ++i) {
-    const bool found = at_x ? std::abs(supports[i].x - from.number(name)) <= 1e-9 * s.beam().length : supports[i].name == from.text(name);
+    const bool found = at_x ? std::abs(supports[i].x - from.number(name)) <= 1e-9 * beam.length : supports[i].name == from.text(name);
     if (found) return static_cast<int>(i);
     known += (known.empty() ? "" : ", ") + supports[i].name;
   }

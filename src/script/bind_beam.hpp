@@ -35,6 +35,6 @@ int solve_beam(Call& call, const beam::Beam& beam, const solver::Method& method,
 
 // A support told by "left", "right" or its x, and its place in Beam::supports; throws InputError where there is none.
 Key support_key(std::string name);
-int find_support(const beam::Solution& solution, const Arguments& from, const std::string& name);
+int find_support(const beam::Beam& beam, const Arguments& from, const std::string& name);
 
 }  // namespace dotyk::script

@@ -59,7 +59,7 @@ LawSide side(const Arguments& from) { return static_cast<LawSide>(from.choice("o
 
 int render_law(Call& call) {
   const beam::Solution& s = call.self<BeamResult>()->solution();
-  return draw(call, figure::compose(s, find_support(s, call, "support"), side(call), units(call)));
+  return draw(call, figure::compose(s, find_support(s.beam(), call, "support"), side(call), units(call)));
 }
 
 int render_support_law(Call& call) { return draw(call, figure::compose(*call.self<SupportLaw>(), side(call), units(call))); }
@@ -70,7 +70,7 @@ int gallery(Call& call) {
   for (const Arguments& row : call.tables("rows")) {
     kept.push_back(row.object<BeamResult>("solution"));
     const beam::Solution& s = kept.back()->solution();
-    rows.push_back({row.has("title") ? row.text("title") : "", &s, find_support(s, row, "support"), side(row)});
+    rows.push_back({row.has("title") ? row.text("title") : "", &s, find_support(s.beam(), row, "support"), side(row)});
   }
   return draw(call, figure::compose(rows));
 }

@@ -61,12 +61,12 @@ Loads given_loads(Call& call, Loads& constants) {
   Loads all;
   each_load(constants, [&](const Place& at, auto& load) {
     const auto from = holder(call, at);
-    if (from && from->has(at.name) && from->field(at.name).constant()) load.constant = from->field(at.name)({})[0];
+    if (from && from->is(at.name, LUA_TNUMBER)) load.constant = from->number(at.name);
   });
   all = constants;
   each_load(all, [&](const Place& at, auto& load) {
     const auto from = holder(call, at);
-    if (from && from->is(at.name, LUA_TFUNCTION)) set_function(load, from->function(at.name));
+    if (from && from->is(at.name, LUA_TFUNCTION)) set_function(load, Function(call.state(), from->slot(at.name), at.kept(), call.descriptor().short_name()));
   });
   return all;
 }
@@ -89,10 +89,8 @@ Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
 
 Source at_first(const Arguments& from, const char* name) {
   Source out;
-  if (!from.has(name)) return out;
-  const Field field = from.field(name);
-  if (field.constant()) out.constant = field({})[0];
-  else out.of = [field](double x, double) { return field(std::vector<double>{x})[0]; };
+  if (from.is(name, LUA_TNUMBER)) out.constant = from.number(name);
+  if (from.is(name, LUA_TFUNCTION)) out.of = [f = from.function(name)](double x, double) { return f.number(std::vector<double>{x}); };
   return out;
 }
 
@@ -160,20 +158,28 @@ int make(Call& call) {
   return 1;
 }
 
-int run(Call& call) {
+// Steps the object before the colon; its own functions are refused that.
+template <class Advance>
+int stepped(Call& call, Advance advance) {
   const auto beam = call.self<ThermoelasticBeam>();
+  if (beam->stepping_now) throw InputError("it is being stepped: a function of its loads cannot step it");
   const Loads loads = kept_loads(call, *beam);
   Watch watch(call.state(), "stepping");
-  beam->stepping->run(call.number("time"), loads, watch);
+  struct Flag {
+    bool& on;
+    explicit Flag(bool& flag) : on(flag) { on = true; }
+    ~Flag() { on = false; }
+  } flag(beam->stepping_now);
+  advance(*beam->stepping, loads, watch);
   return call.give_self();
 }
 
+int run(Call& call) {
+  return stepped(call, [&](Stepping& s, const Loads& loads, Watch& watch) { s.run(call.number("time"), loads, watch); });
+}
+
 int step(Call& call) {
-  const auto beam = call.self<ThermoelasticBeam>();
-  const Loads loads = kept_loads(call, *beam);
-  Watch watch(call.state(), "stepping");
-  beam->stepping->step(loads, watch);
-  return call.give_self();
+  return stepped(call, [](Stepping& s, const Loads& loads, Watch& watch) { s.step(loads, watch); });
 }
 
 template <double (Stepping::*value)(double) const>
@@ -183,17 +189,10 @@ int at(Call& call) {
 
 int reaction(Call& call) {
   const Stepping& s = *call.self<ThermoelasticBeam>()->stepping;
-  const auto& supports = s.data().supports;
-  const std::string name = call.is("at", LUA_TNUMBER) ? "" : call.text("at");
-  std::string known;
-  for (std::size_t i = 0; i < supports.size(); ++i) {
-    known += (known.empty() ? "" : ", ") + supports[i].name;
-    const bool found = name.empty() ? std::abs(supports[i].x - call.number("at")) <= 1e-9 * s.data().length : supports[i].name == name;
-    if (!found) continue;
-    const thermoelastic::Reaction r = s.reaction(static_cast<int>(i));
-    return call.give(Record{"reaction", {{"force", r.force}, {"moment", r.moment}, {"axial", r.axial}, {"deflection", r.deflection}, {"rotation", r.rotation}, {"displacement", r.displacement}}});
-  }
-  throw InputError(text("no support there; the supports are ", known));
+  const thermoelastic::Reaction r = s.reaction(find_support(thermoelastic::plain(s.data()), call, "at"));
+  return call.give(Record{"reaction",
+                          {{"force", r.force}, {"moment", r.moment}, {"axial", r.axial},
+                           {"deflection", r.deflection}, {"rotation", r.rotation}, {"displacement", r.displacement}}});
 }
 
 Record energy(const ThermoelasticBeam& beam) {
@@ -235,13 +234,15 @@ const char* kBeam =
 
 std::string example(const char* use) { return std::string(kBeam) + use; }
 
+Key varying(const char* name, const char* help) { return key::either(name, {key::number("", ""), key::function("", "")}, help); }
+
 std::vector<Key> laws() { return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")}; }
 
 Key end_key(const char* name, const char* help) {
   std::vector<Key> keys = laws();
   keys.push_back(law_key("displacement", "a law about the displacement along the axis; one-sided ones keep the end within its place"));
-  keys.push_back(key::field("temperature", "prescribed, over the reference: a number or a function of t").unit("temperature").otherwise("no heat passes"));
-  keys.push_back(key::field("gradient", "prescribed: a number or a function of t").unit("temperature/length").otherwise("no heat passes"));
+  keys.push_back(varying("temperature", "prescribed, over the reference: a function is of t").unit("temperature").otherwise("no heat passes"));
+  keys.push_back(varying("gradient", "prescribed: a function is of t").unit("temperature/length").otherwise("no heat passes"));
   return key::table(name, keys, help);
 }
 
@@ -256,22 +257,22 @@ std::vector<Key> keys() {
           key::positive("conductivity", "of heat").unit("power/(length·temperature)").required(),
           key::positive("heat_capacity", "per volume").unit("energy/(length³·temperature)").required(),
           key::positive("reference_temperature", "absolute, at which it is free of stress").unit("temperature").fallback(293.15),
-          key::table("exchange", {key::number("above", "").at_least(0).unit("power/(length²·temperature)").fallback(0.0),
-                                  key::number("below", "").at_least(0).unit("power/(length²·temperature)").fallback(0.0)}, "coefficients of heat exchange on the faces"),
-          key::table("ambient", {key::field("above", "a number or a function of t").unit("temperature").otherwise("0"),
-                                 key::field("below", "a number or a function of t").unit("temperature").otherwise("0")}, "temperatures around, over the reference"),
-          key::field("load", "upwards: a number or a function of x and t").unit("force/length").otherwise("0"),
-          key::field("axial_load", "along x: a number or a function of x and t").unit("force/length").otherwise("0"),
-          key::field("heat", "supplied, the same at every height: a number or a function of x and t").unit("power/length³").otherwise("0"),
-          key::field("heat_gradient", "its slope over the height: a number or a function of x and t").unit("power/length⁴").otherwise("0"),
+          key::table("exchange", {key::number("above", "of the face z = height/2").at_least(0).unit("power/(length²·temperature)").fallback(0.0),
+                                  key::number("below", "of the face z = -height/2").at_least(0).unit("power/(length²·temperature)").fallback(0.0)}, "coefficients of heat exchange on the faces"),
+          key::table("ambient", {varying("above", "over the reference; a function is of t").unit("temperature").otherwise("0"),
+                                 varying("below", "over the reference; a function is of t").unit("temperature").otherwise("0")}, "temperatures around, over the reference"),
+          varying("load", "upwards: a function is of x and t").unit("force/length").otherwise("0"),
+          varying("axial_load", "along x: a function is of x and t").unit("force/length").otherwise("0"),
+          varying("heat", "supplied, the same at every height: a function is of x and t").unit("power/length³").otherwise("0"),
+          varying("heat_gradient", "its slope over the height: a function is of x and t").unit("power/length⁴").otherwise("0"),
           end_key("left", "the end x = 0"),
           end_key("right", "the end x = length"),
-          key::list("supports", inner, "supports within the beam; law.load there is a point load"),
-          key::table("initial", {key::field("temperature", "over the reference: a number or a function of x").unit("temperature").otherwise("0"),
-                                 key::field("gradient", "a number or a function of x").unit("temperature/length").otherwise("0")}, "at t = 0"),
+          key::list("supports", inner, "supports within the beam, none along the axis; law.load there is a point load"),
+          key::table("initial", {varying("temperature", "over the reference: a function is of x").unit("temperature").otherwise("0"),
+                                 varying("gradient", "a function is of x").unit("temperature/length").otherwise("0")}, "at t = 0"),
           key::integer("cells", "elements, of equal length; a support within one divides it").within(1, 1000).fallback(32.0),
           key::positive("step", "the longest step in time").unit("time").required(),
-          key::integer("order", "in time: 1, the implicit Euler scheme, or 2, a diagonally implicit one of two stages").within(1, 2).fallback(2.0),
+          key::integer("order", "in time: 1, the implicit Euler scheme, or 2, TR-BDF2: half trapezoidal rule, half backward differences").within(1, 2).fallback(2.0),
           key::boolean("decompose", "solve the heat without the displacement where statics allows it").fallback(true),
           key::object<Solver>("solver", "the method of the steps' contact problems").otherwise("pdas")};
 }
@@ -310,8 +311,9 @@ void bind_thermoelastic(Library& library) {
   type.field("time", "now", [](const B& b) { return b.stepping->time(); }, "time")
       .field("steps", "steps done", [](const B& b) { return b.stepping->steps(); })
       .field("decomposed", "effects, \"bending\" or \"stretching\", that were decomposed in every step", [](const B& b) { return b.stepping->decomposed(); })
-      .field("energy", "stored, put_in and dissipated since t = 0, and the defect of their balance, which tends to 0 with the step to the scheme's order", energy, "energy")
+      .field("energy", "stored, put_in and dissipated since t = 0, and the defect of their balance, which tends to 0 with the step to the scheme's order where prescribed temperatures agree with the first ones", energy, "energy")
       .field("method", "of the contact problems; empty where all was decomposed", [](const B& b) { return b.stepping->work().method; })
+      .field("reason", "how the last of them ended, and up to which motion it is unique", [](const B& b) { return b.stepping->work().reason; })
       .field("problems", "contact problems solved", [](const B& b) { return b.stepping->work().problems; })
       .field("iterations", "of the method, in all", [](const B& b) { return b.stepping->work().iterations; })
       .text(show);

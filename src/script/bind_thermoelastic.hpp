@@ -8,6 +8,7 @@ namespace dotyk::script {
 struct ThermoelasticBeam {
   std::unique_ptr<thermoelastic::Stepping> stepping;
   thermoelastic::Loads constants;
+  bool stepping_now = false;  // its functions may not step it
 };
 template <>
 struct Wrapped<ThermoelasticBeam> {

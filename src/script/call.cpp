@@ -51,7 +51,7 @@ void Call::check_self() const {
                           " (write " + owner + ":" + callee_ + " with a colon, not a dot)");
     }
     if (!holder->pointer) throw ArgumentError("this " + owner + " was released");
-  } else if (lua_istable(L_, 1) && luaL_getmetafield(L_, 1, "__module") != LUA_TNIL) {
+  } else if (descriptor_.name.find('.') != std::string::npos && lua_istable(L_, 1) && luaL_getmetafield(L_, 1, "__module") != LUA_TNIL) {
     throw ArgumentError("write " + descriptor_.name + " with a dot, not a colon");
   }
 }

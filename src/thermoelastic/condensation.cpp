@@ -49,7 +49,7 @@ Condensation::Condensation(const SparseMatrix& lower, std::vector<int> gamma)
       else if (q < 0) across(p, -1 - q) = a.value();
       else if (p < 0) across(q, -1 - p) = a.value();
     }
-  if (!factor_.factor(interior(lower, place))) throw std::runtime_error("thermoelastic beam: its matrix cannot be factored; choose units in which its numbers are moderate");
+  if (!factor_.factor(interior(lower, place))) throw std::runtime_error("its matrix cannot be factored; choose units in which its numbers are moderate");
   W_.resize(across.rows(), count);
   for (int k = 0; k < count; ++k) W_.col(k) = -factor_.solve(across.col(k));
   S_ += across.transpose() * W_;

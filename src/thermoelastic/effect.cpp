@@ -20,10 +20,9 @@ const algebra::Quadrature& rule() {
 
 const double kRoot3 = std::sqrt(3.0);
 
-/// The quadratic functions of the left end, the middle and the right end at 0 ≤ s ≤ 1.
-Eigen::Vector3d quadratic(double s) { return {(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)}; }
-
 }  // namespace
+
+Eigen::Vector3d quadratic(double s) { return {(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)}; }
 
 Effect::Effect(Kind kind, const std::vector<double>& nodes, double modulus, double beta)
     : kind_(kind), nodes_(nodes), modulus_(modulus), beta_(beta) {
@@ -78,7 +77,7 @@ DenseMatrix Effect::kernel() const {
   DenseMatrix R = DenseMatrix::Ones(unknowns(), cell_unknowns() - 2);
   if (kind_ == Kind::bending)
     for (std::size_t i = 0; i < nodes_.size(); ++i)
-      R.block<2, 2>(2 * static_cast<int>(i), 0) << 1, nodes_[i] - nodes_.back() / 2, 0, nodes_.back();
+      R.block<2, 2>(2 * static_cast<int>(i), 0) << 1, nodes_[i] / nodes_.back() - 0.5, 0, 1;
   return R;
 }
 

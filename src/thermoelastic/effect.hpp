@@ -14,6 +14,9 @@ using OnCells = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 using CellVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
 using CellStrain = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4>;
 
+/// The quadratic functions of a cell's left end, middle and right end at 0 ≤ s ≤ 1.
+Eigen::Vector3d quadratic(double s);
+
 /// One of the two mechanical effects, with its strain ε(u) and stress S = C (ε − βϑ):
 ///   stretching: ε = Du₁, C = EF, β = α, S = N;    bending: ε = D²u₂, C = EJ, β = −α, S = −M.
 /// Quadratic elements for u₁ (per node u, then the middle of the cell), cubic Hermite ones for u₂ (u, ℓu'): in both the
@@ -36,7 +39,7 @@ class Effect {
   /// ∫ f v for a cell's shape functions v.
   CellVector cell_load(int cell, const std::function<double(double)>& f) const;
   CellVector cell_load(int cell, double f) const;
-  /// The motions without strain: 1, and for bending x − ℓ/2.
+  /// The motions without strain: 1, and for bending x/ℓ − ½.
   algebra::DenseMatrix kernel() const;
 
   /// The stress that balances nodal forces f (their work on the kernel must be zero): from cell to cell by statics.

@@ -3,13 +3,11 @@
 #include <cmath>
 
 #include "algebra/quadrature.hpp"
-#include "beam/beam.hpp"
 #include "beam/element.hpp"
 
 namespace dotyk::thermoelastic {
 
 using algebra::Vector;
-using beam::Hermite;
 
 HeatElements::HeatElements(std::vector<double> nodes) : nodes_(std::move(nodes)) {
   for (int cell = 0; cell < cells(); ++cell) {  // ∫ (2s − 1) of the four functions: ∓1/5 and −h/60
@@ -57,12 +55,6 @@ OnCells HeatElements::projected(const Vector& theta) const {
   OnCells out(2, cells());
   for (int cell = 0; cell < cells(); ++cell) out.col(cell) = projection(cell) * theta.segment<4>(2 * cell);
   return out;
-}
-
-double HeatElements::value(const Vector& theta, double x) const {
-  const int cell = beam::cell_of(nodes_, x);
-  const double l = h(cell);
-  return Hermite((x - nodes_[cell]) / l, l).value.dot(scale().cwiseProduct(theta.segment<4>(2 * cell)));
 }
 
 }  // namespace dotyk::thermoelastic

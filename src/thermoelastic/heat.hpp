@@ -28,8 +28,6 @@ class HeatElements {
   algebra::Vector product(const OnCells& on_cells) const;
   OnCells projected(const algebra::Vector& theta) const;
 
-  double value(const algebra::Vector& theta, double x) const;
-
  private:
   Eigen::Vector4d scale() const { return {1, 1 / nodes_.back(), 1, 1 / nodes_.back()}; }
   std::vector<double> nodes_;

@@ -1,5 +1,6 @@
 #include "thermoelastic/interface.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 
@@ -16,12 +17,20 @@ using algebra::Vector;
 
 namespace {
 
-/// S without what rounding left of the motions R in it.
-DenseMatrix without(const DenseMatrix& R, const DenseMatrix& S) {
-  const DenseMatrix Q = Eigen::HouseholderQR<DenseMatrix>(R).householderQ() * DenseMatrix::Identity(R.rows(), R.cols());
-  const DenseMatrix once = S - Q * (Q.transpose() * S);
-  const DenseMatrix twice = once - (once * Q) * Q.transpose();
-  return 0.5 * (twice + twice.transpose());
+constexpr double kBalanced = 1e-6;  // of all forces; rounding leaves less with 1000 cells
+
+/// "u = 0 at the left end and 1 at the right one, 0.5 along the axis": amounts of the kernel's modes, part by part.
+std::string motion(const Model& model, const std::vector<int>& parts, const Vector& amounts) {
+  std::string out;
+  int mode = 0;
+  for (const int p : parts) {
+    const bool bending = model.parts[p].effect.kind() == Effect::Kind::bending;
+    const Vector own = amounts.segment(mode, model.parts[p].kernel.cols());
+    mode += static_cast<int>(own.size());
+    if (own.isZero(1e-6 * amounts.lpNorm<Eigen::Infinity>())) continue;
+    out += (out.empty() ? "" : ", ") + (bending ? beam::ends(own[0], own[1]) : text(own[0] < 0 ? "towards the left" : "towards the right", " along the axis"));
+  }
+  return out;
 }
 
 }  // namespace
@@ -53,9 +62,10 @@ Interface::Interface(const Model& model, std::vector<int> parts, const std::vect
       problem_.groups.push_back({held.name, problem::row_law(held.law, held.unit), row, 1});
     }
   }
-  block.K = algebra::DenseMatrix(without(block.kernel, S).triangularView<Eigen::Lower>()).sparseView();
+  block.K = DenseMatrix(S.triangularView<Eigen::Lower>()).sparseView();
   for (int i = 0; i < n; ++i) block.node.push_back(i);
-  problem::add(problem_, std::move(block));
+  kernel_ = block.kernel;
+  problem_.blocks.push_back(std::move(block));  // its kernel is one up to what rounding left of stiff cells in S
   problem_.B = algebra::SparseRows(static_cast<int>(c.size()), n);
   problem_.B.setFromTriplets(B.begin(), B.end());
   problem_.c = Eigen::Map<const Vector>(c.data(), static_cast<int>(c.size()));
@@ -67,17 +77,16 @@ void Interface::require_solvable(double t) {
   if (solvable_.size() == rigid.e.size() && solvable_ == rigid.e) return;
   const auto s = problem::solvability(rigid, problem_);
   if (s.verdict == problem::Solvability::Verdict::unsolvable) {
-    bool bends = false;
-    for (std::size_t i = 0; i < rigid.motions.size(); ++i)
-      bends |= s.motion[static_cast<int>(i)] != 0 && (rigid.motions[i].motion.kind == Motion::Kind::rotation || rigid.motions[i].motion.direction[0] == 0);
-    const std::string why = bends ? beam::theorem(plain(model_.data)) : "";
-    throw InputError(text("thermoelastic beam: no solution at t = ", t, ": nothing stops the motion ", problem::describe(rigid.motions, s.motion),
-                          ", on which the load does work", why.empty() ? "" : "; ", why));
+    const std::string moves = motion(model_, parts_, s.motion);
+    const std::string why = moves.find("u =") == std::string::npos ? "" : beam::theorem(plain(model_.data));
+    throw InputError(text("no solution at t = ", t, ": nothing stops the motion ", moves, ", on which the load does work", why.empty() ? "" : "; ", why));
   }
   solvable_ = rigid.e;
 }
 
-Vector Interface::solve(const Vector& g, double t, const solver::Method& method, std::vector<Vector>& reactions, Work& work, Monitor& monitor) {
+Vector Interface::solve(Vector g, const Vector& resultants, double t, const solver::Method& method, std::vector<Vector>& reactions, Work& work, Monitor& monitor) {
+  // Heat moves nothing rigidly: the resultants are the load's, and not what rounding makes of them.
+  g -= kernel_ * (kernel_.transpose() * kernel_).ldlt().solve(kernel_.transpose() * g - resultants);
   problem_.blocks.front().f = g;
   require_solvable(t);
   if (problem_.rows() == 0) {  // no support at all: the load is balanced, and the least solution as good as any
@@ -88,9 +97,13 @@ Vector Interface::solve(const Vector& g, double t, const solver::Method& method,
   const solver::Result result = chosen.run(problem_, {{}, condenser_}, monitor);
   if (!result.converged) {
     monitor.check();
-    throw InputError(text("thermoelastic beam: ", result.method, " did not converge at t = ", t, ": ", result.reason));
+    throw InputError(text("", result.method, " did not converge at t = ", t, ": ", result.reason));
   }
+  const Vector forces = problem_.B.transpose() * result.state.lambda;
+  if ((resultants - kernel_.transpose() * forces).lpNorm<Eigen::Infinity>() > kBalanced * (g.lpNorm<1>() + forces.lpNorm<1>()))
+    throw InputError(text("at t = ", t, " the reactions do not balance the load: a spring is too weak beside the beam, or the beam too stiff, for the numbers to tell"));
   ++work.problems;
+  work.reason = result.reason;
   work.iterations += result.iterations;
   work.method = result.method;
   int row = 0;

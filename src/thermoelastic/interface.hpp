@@ -11,7 +11,7 @@ namespace dotyk::thermoelastic {
 
 /// What of a method's runs is worth telling.
 struct Work {
-  std::string method;
+  std::string method, reason;  ///< of the last problem
   int problems = 0, iterations = 0;
 };
 
@@ -22,9 +22,9 @@ class Interface {
   /// `parts`: those whose supports it is about; `gamma`: their unknowns w among all u; S: on these.
   Interface(const Model& model, std::vector<int> parts, const std::vector<int>& gamma, const algebra::DenseMatrix& S);
 
-  /// w, and into `reactions` the forces of the supports on it, part by part as Part::held. Throws InputError where
+  /// w, for g and the load's resultants Rᵀf on the motions of the parts one after the other; and into `reactions` the forces of the supports on it, part by part as Part::held. Throws InputError where
   /// there is no solution, naming the motion that nothing stops, or where the method did not converge.
-  algebra::Vector solve(const algebra::Vector& g, double t, const solver::Method& method, std::vector<algebra::Vector>& reactions, Work& work,
+  algebra::Vector solve(algebra::Vector g, const algebra::Vector& resultants, double t, const solver::Method& method, std::vector<algebra::Vector>& reactions, Work& work,
                         Monitor& monitor);
 
  private:
@@ -33,6 +33,7 @@ class Interface {
   const Model& model_;
   std::vector<int> parts_;
   problem::Problem problem_;
+  algebra::DenseMatrix kernel_;
   std::shared_ptr<problem::Condenser> condenser_ = std::make_shared<problem::Condenser>();
   algebra::Vector solvable_;  ///< resultants of the load that was last found to have a solution
 };

@@ -37,7 +37,7 @@ bool carries(const problem::SupportLaw& law) {
 }
 
 double checked(double value, const char* what, double x, double t) {
-  if (!std::isfinite(value)) throw InputError(text("thermoelastic beam: ", what, " is ", value, " at x = ", x, ", t = ", t));
+  if (!std::isfinite(value)) throw InputError(text("", what, " is ", value, " at x = ", x, ", t = ", t));
   return value;
 }
 

@@ -29,7 +29,7 @@ Stepping::Place Stepping::place(Effect::Kind kind, double x) const {
         const int cell = beam::cell_of(nodes, x);
         return {*group, part, cell, (x - nodes[cell]) / (nodes[cell + 1] - nodes[cell])};
       }
-  throw std::logic_error("thermoelastic beam: no such effect");
+  throw std::logic_error("no such effect");
 }
 
 namespace {
@@ -54,8 +54,7 @@ double Stepping::rotation(double x) const {
 
 double Stepping::displacement(double x) const {
   const Place at = place(Effect::Kind::stretching, x);
-  const double s = at.s;
-  return Eigen::Vector3d((1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)).dot(at.u());
+  return quadratic(at.s).dot(at.u());
 }
 
 double Stepping::gradient(double x) const {

@@ -47,7 +47,7 @@ Stepping::~Stepping() = default;
 
 Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor) : scheme_(scheme) {
   require_valid(data);
-  if (!(scheme.step > 0) || !std::isfinite(scheme.step)) throw InputError(text("thermoelastic beam: its step is ", scheme.step, "; it must be positive"));
+  if (!(scheme.step > 0) || !std::isfinite(scheme.step)) throw InputError(text("its step is ", scheme.step, "; it must be positive"));
   using Kind = Effect::Kind;
   const bool split = data.exchange_above == data.exchange_below;
   const auto kinds = split ? std::vector<std::vector<Kind>>{{Kind::stretching}, {Kind::bending}} : std::vector<std::vector<Kind>>{{Kind::stretching, Kind::bending}};
@@ -63,9 +63,9 @@ Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& schem
 }
 
 void Stepping::run(double t, const Loads& loads, Monitor& monitor) {
-  if (!(t >= time_) || !std::isfinite(t)) throw InputError(text("thermoelastic beam: run to the time ", t, "; it is at ", time_, " now"));
+  if (!(t >= time_) || !std::isfinite(t)) throw InputError(text("run to the time ", t, "; it is at ", time_, " now"));
   const double count = std::ceil((t - time_) / scheme_.step - 1e-9);
-  if (!(count < 1e9)) throw InputError(text("thermoelastic beam: ", count, " steps of ", scheme_.step, " to the time ", t));
+  if (!(count < 1e9)) throw InputError(text("", count, " steps of ", scheme_.step, " to the time ", t));
   if (count <= 0) return;
   const double from = time_, tau = (t - from) / count;
   for (int i = 1; i <= static_cast<int>(count); ++i) {
@@ -126,6 +126,8 @@ Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, 
   const Vector moved = out.fields.u - group.now.u;
   out.put_in += scheme_.order == Order::one ? out.forces.f.dot(moved) : 0.5 * (group.forces.f + out.forces.f).dot(moved);
   out.rates = std::move(stages.back());
+  if (!out.fields.u.allFinite() || !out.fields.theta.allFinite() || !std::isfinite(out.put_in) || !std::isfinite(out.dissipated))
+    throw InputError(text("at t = ", time_ + tau, " values are beyond the range of numbers; choose units in which loads, stiffnesses and temperatures are moderate"));
   return out;
 }
 

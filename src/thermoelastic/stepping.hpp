@@ -25,7 +25,8 @@ struct Scheme {
 /// Energies of P4's equations with the weights kF/θ₀ and kJ/θ₀, since t = 0:
 ///   stored: ½∫ EF (Du₁)² + EJ (D²u₂)² + (c/θ₀)(F ϑ₁² + J ϑ₂²) and the supports',
 ///   put in: the loads' work, and 1/θ₀ of the heat supplied times the temperature,
-///   dissipated: conduction and exchange. stored + dissipated = put in + what was stored at first, to the scheme's order.
+///   dissipated: conduction and exchange. stored + dissipated = put in + what was stored at first, to the scheme's order (but where a prescribed temperature jumps
+///   from the one at first).
 struct Energy {
   double stored = 0, put_in = 0, dissipated = 0;
   double defect = 0;  ///< stored + dissipated − put in − stored at first
@@ -37,8 +38,7 @@ struct Reaction {
   double deflection = 0, rotation = 0, displacement = 0;
 };
 
-/// A thermoelastic beam stepped in time. Where α_h = α_d, or nothing else couples them, stretching and bending are stepped on
-/// their own. A call that throws leaves the state as it was.
+/// A thermoelastic beam stepped in time. Where α_h = α_d, stretching and bending are stepped on their own. A call that throws leaves the state as it was.
 class Stepping {
  public:
   /// At t = 0, at rest under the loads and temperatures of that time. Throws InputError as require_valid() and Interface::solve().

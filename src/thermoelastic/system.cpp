@@ -23,6 +23,17 @@ void add_gamma(const Model& model, int p, std::vector<int>& gamma) {
   gamma.insert(gamma.end(), own.begin(), std::unique(own.begin(), own.end()));
 }
 
+/// Rᵀf on the motions of these parts.
+Vector resultants(const Model& model, const std::vector<int>& parts, const Vector& f) {
+  std::vector<double> out;
+  for (const int p : parts) {
+    const Part& part = model.parts[p];
+    const Vector own = part.kernel.transpose() * f.segment(part.first, part.effect.unknowns());
+    out.insert(out.end(), own.begin(), own.end());
+  }
+  return Eigen::Map<const Vector>(out.data(), static_cast<int>(out.size()));
+}
+
 SparseMatrix lower(int n, const Entries& entries) {
   SparseMatrix out(n, n);
   out.setFromTriplets(entries.begin(), entries.end());
@@ -128,7 +139,7 @@ std::optional<Fields> System::solve(const Forces& forces, const Vector& b, doubl
   on_gamma.tail(forces.held_heat.size()) = forces.held_heat;
   if (interface_) {
     const Vector g = condensation_->condensed(right).head(own) - condensation_->schur().topRightCorner(own, forces.held_heat.size()) * forces.held_heat;
-    on_gamma.head(own) = interface_->solve(g, t, method, out.reactions, work, monitor);
+    on_gamma.head(own) = interface_->solve(g, resultants(model_, coupled_, forces.f), t, method, out.reactions, work, monitor);
   }
   const Vector x = condensation_->recovered(right, on_gamma);
   out.theta = x.tail(heats);
@@ -149,7 +160,7 @@ Fields at_rest(const Model& model, const Forces& forces, Vector theta, double t,
   Interface interface(model, parts, gamma, condensation.schur());
   const Vector right = forces.f - model.G * theta;
   Fields out{{}, std::move(theta), std::vector<Vector>(model.parts.size())};
-  out.u = condensation.recovered(right, interface.solve(condensation.condensed(right), t, method, out.reactions, work, monitor));
+  out.u = condensation.recovered(right, interface.solve(condensation.condensed(right), resultants(model, parts, forces.f), t, method, out.reactions, work, monitor));
   finish(model, out, parts);
   return out;
 }

@@ -147,14 +147,14 @@ TEST_CASE("beams that are none are refused") {
     change(b);
     CHECK_THROWS_WITH_AS(test::only(b), message, InputError);
   };
-  refused([](Beam& b) { b.length = 0; }, "beam: its length is 0; it must be positive");
-  refused([](Beam& b) { b.EJ = -1; }, "beam: EJ is -1; it must be positive");
-  refused([](Beam& b) { b.cells = 0; }, "beam: it has 0 cells; at least one is needed");
-  refused([](Beam& b) { b.EJ_of = [](double x) { return x - 0.5; }; }, "beam: EJ is -0.49938 at x = 0.000620471; it must be positive");
+  refused([](Beam& b) { b.length = 0; }, "its length is 0; it must be positive");
+  refused([](Beam& b) { b.EJ = -1; }, "EJ is -1; it must be positive");
+  refused([](Beam& b) { b.cells = 0; }, "it has 0 cells; at least one is needed");
+  refused([](Beam& b) { b.EJ_of = [](double x) { return x - 0.5; }; }, "EJ is -0.49938 at x = 0.000620471; it must be positive");
   refused([](Beam& b) { b.loads = {{2, 1, 0}}; }, "a load is at x = 2; the beam goes from 0 to 1");
-  refused([](Beam& b) { b.supports[1].x = 0; }, "beam: the supports left and right are at one point");
+  refused([](Beam& b) { b.supports[1].x = 0; }, "the supports left and right are at one point");
   refused([](Beam& b) { b.supports[1].deflection = {Kind::elastic, -3, 0}; }, "elastic law: the number is -3; it must be zero or positive, and finite");
-  refused([](Beam& b) { b.q = NAN; }, "beam: its load is nan");
-  refused([](Beam& b) { b.cells = 1001; }, "beam: it has 1001 cells; rounding grows as the fourth power of their number, and 1000 leave it 1e-6");
-  refused([](Beam& b) { b.q = 0, b.supports.clear(); }, "beam: nothing holds it, and nothing loads it");
+  refused([](Beam& b) { b.q = NAN; }, "its load is nan");
+  refused([](Beam& b) { b.cells = 1001; }, "it has 1001 cells; rounding grows as the fourth power of their number, and 1000 leave it 1e-6");
+  refused([](Beam& b) { b.q = 0, b.supports.clear(); }, "nothing holds it, and nothing loads it");
 }

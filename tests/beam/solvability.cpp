@@ -9,6 +9,7 @@ using namespace dotyk;
 using beam::Beam;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
+using test::beam_between;
 using test::kFree;
 using test::kHeld;
 
@@ -85,4 +86,46 @@ TEST_CASE("limits: a stiff one-sided support tends to Signorini's by 1/k, a soft
   const double needed = with(kHeld)->reaction(1).force;
   CHECK(with({Kind::friction, 1.0001 * needed, 0})->deflection(1) == doctest::Approx(with(kHeld)->deflection(1)).epsilon(1e-9));
   CHECK(std::abs(with({Kind::friction, 0.9999 * needed, 0})->deflection(2)) > 1e-6);
+}
+
+namespace {
+
+Monitor monitor;
+
+}  // namespace
+
+TEST_CASE("verdicts do not depend on the unit of length") {
+  for (const double L : {1e-12, 1e-6, 1.0, 1e6, 1e12}) {
+    CAPTURE(L);
+    for (const double part : {1 - 1e-9, 1 + 1e-9}) {  // theorem 4: the bound against the load's moment L²/2
+      const beam::Beam b = beam_between(L, 1, -1, kHeld, {Kind::friction, part * L * L / 2, 0}, kFree, kFree);
+      if (part < 1) CHECK_THROWS_AS(beam::solve(b, {}, monitor), InputError);
+      else CHECK(beam::solve(b, {}, monitor).front().solution->reaction(0).moment == doctest::Approx(L * L / 2));
+    }
+    const beam::Beam pinned = beam_between(L, 1, -1, kHeld, kFree, {Kind::signorini, 0, 0}, kFree);
+    const auto s = beam::solve(pinned, {}, monitor).front().solution;
+    CHECK(s->result().converged);
+    CHECK(s->reaction(1).force == doctest::Approx(L / 2));
+    CHECK(s->deflection(L / 2) == doctest::Approx(-5 * L * L * L * L / 384));
+  }
+}
+
+TEST_CASE("a support anywhere in a cell costs no digits; two too near to each other are refused") {
+  for (const double x : {0.25, 0.250003, 0.2501, 0.26, 0.265625, 0.0311}) {
+    beam::Beam b = beam_between(1, 1, -1, kHeld, kFree, kHeld, kFree);
+    beam::Beam coarse = b;
+    b.supports.insert(b.supports.begin() + 1, {"x", x, kHeld, kFree});
+    coarse.supports = b.supports;
+    coarse.cells = 1;
+    CHECK(beam::solve(b, {}, monitor).front().solution->reaction(1).force ==
+          doctest::Approx(beam::solve(coarse, {}, monitor).front().solution->reaction(1).force).epsilon(1e-10));
+  }
+  beam::Beam b = beam_between(1, 1, -1, kHeld, kFree, kHeld, kFree);
+  b.supports.insert(b.supports.begin() + 1, {"x", 1e-5, kHeld, kFree});
+  CHECK_THROWS_AS(require_valid(b), InputError);
+}
+
+TEST_CASE("a spring too weak for the numbers is not called a solution") {
+  const beam::Beam b = beam_between(1, 1, -1, kHeld, kFree, {Kind::elastic, 1e-300, 0}, kFree);
+  CHECK(!beam::solve(b, {}, monitor).front().solution->result().converged);
 }

@@ -112,7 +112,7 @@ TEST_CASE("what cannot be solved is refused with the time, the motion and the th
   Data d = thermal_beam(4);
   d.supports[0].deflection = d.supports[1].deflection = law(LawKind::signorini);
   Loads loads;
-  loads.transverse = source([](double, double t) { return t - 0.5; });
+  loads.transverse = source([](double, double t) { return t - 0.55; });
   for (const bool decompose : {true, false}) {
     Stepping s(d, {}, {0.1, Order::one, decompose, {}}, loads, monitor);
     s.run(0.4, loads, monitor);
@@ -127,7 +127,7 @@ TEST_CASE("what cannot be solved is refused with the time, the motion and the th
     CHECK(message.find("theorem 3") != std::string::npos);
     CHECK(s.time() == doctest::Approx(0.5));
     CHECK(std::isfinite(s.deflection(0.5)));
-    CHECK(s.deflection(0.5) > before);  // the load is gone at 0.5
+    CHECK(s.deflection(0.5) > before);  // the load is almost gone at 0.5
   }
 }
 

@@ -50,8 +50,9 @@ refused(function() dotyk.thermoelastic_beam(data{ order = 3 }) end, "'order'")
 refused(function() dotyk.thermoelastic_beam(data{ exchange = { above = -1 } }) end, "above")
 refused(function() dotyk.thermoelastic_beam(data{ left = { deflection = l.breaking(1, 1) } }) end, "left may break", "capped_elastic")
 refused(function() dotyk.thermoelastic_beam(data{ load = -1 }) end, "no solution at t = 0", "nothing stops")
-refused(function() dotyk.thermoelastic_beam(data{ axial_load = 1, left = { deflection = l.prescribed(), rotation = l.prescribed() } }) end, "translation along x")
-refused(function() dotyk.thermoelastic_beam(data{ load = function() return 0/0 end }) end, "nan")
+refused(function() dotyk.thermoelastic_beam(data{ axial_load = 1, left = { deflection = l.prescribed(), rotation = l.prescribed() } }) end, "towards the right along the axis")
+refused(function() dotyk.thermoelastic_beam(data{ load = function() return 0/0 end }) end, "function 'load' returned nan")
+refused(function() dotyk.thermoelastic_beam(data{ exchange = { above = 1 }, ambient = { above = function() end } }) end, "function 'ambient.above' returned nothing")
 refused(function() dotyk.thermoelastic_beam(data{ load = function() end }) end, "function 'load' returned nothing")
 refused(function() dotyk.thermoelastic_beam(data{ initial = { gradient = function(x) return x / 0 end } }) end, "gradient", "inf")
 refused(function() dotyk.thermoelastic_beam(data{ supports = { { x = 2, deflection = l.prescribed() } } }) end, "x = 2", "from 0 to 1")
@@ -69,3 +70,27 @@ local failing <const> = beam{ load = function(_, t) if t > 0.25 then broken = tr
 check.that(not pcall(failing.run, failing, 1))
 check.that(broken)
 check.near(failing.time, 0.2)
+
+-- A load that steps its own beam.
+local own
+own = beam{ load = function() if own then own:step() end return 0 end }
+check.that(select(2, pcall(own.step, own)):find("it is being stepped", 1, true))
+check.equal(own.steps, 0)
+
+-- A loose bar with nothing to hold it but a stop: any position, and the reason says so.
+local loose <const> = beam{ left = { deflection = l.prescribed(), rotation = l.prescribed() }, right = { displacement = l.signorini() }, exchange = { above = 1, below = 1 },
+                            ambient = { above = function(t) return math.sin(5 * t) end } }
+loose:run(1)
+check.near(loose:normal(0.5), 0, 1e-12)
+check.that(loose.reason:find("unique up to", 1, true))
+
+-- Units of length: 1e-9 and 1e9 of them.
+local forces = {}
+for i, u in ipairs{ 1, 1e-9, 1e9 } do
+  local s = dotyk.thermoelastic_beam{ length = u, height = 0.02 * u, width = u, E = 2.1e11 / u^2, expansion = 1.2e-5, conductivity = 50, heat_capacity = 3.8e6 / u^2,
+    exchange = { above = 250 / u, below = 10 / u }, ambient = { above = function(t) return -130 * (1 - math.exp(-t / 60)) end }, load = -1540 / u, step = 6,
+    left = { deflection = l.prescribed(), rotation = l.prescribed(), displacement = l.prescribed() }, right = { deflection = l.signorini() } }
+  forces[i] = s:run(30):reaction("right").force
+end
+check.near(forces[2], forces[1], 1e-6 * forces[1])
+check.near(forces[3], forces[1], 1e-6 * forces[1])
