@@ -1,6 +1,9 @@
 #include "solver/row_iteration.hpp"
 
+#include <algorithm>
+
 #include "base/text.hpp"
+#include "problem/residual.hpp"
 #include "solver/require_solvable.hpp"
 
 namespace dotyk::solver {
@@ -12,14 +15,15 @@ using problem::Problem;
 RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
                            Monitor& monitor)
     : problem(on), condensed(rows), map(on, rows, rho * stiffness_of_rows(rows)), settings_(settings),
-      monitor_(monitor) {
+      monitor_(monitor), stiffness_(stiffness_of_rows(rows)), light_(rho < 1) {
   move_to(Vector::Zero(rows.rows()), Vector::Zero(rows.kernel_size()));
   recorded_ = value_;
 }
 
 double RowIteration::residual() const {
   const double size = lambda_.norm();
-  return size > 0 ? value_.norm / size : value_.norm;
+  const double own = size > 0 ? value_.norm / size : value_.norm;
+  return light_ ? std::max(own, problem::natural_residual(problem, value_.x, lambda_, stiffness_)) : own;
 }
 
 void RowIteration::move_to(Vector lambda, Vector alpha) {

@@ -17,7 +17,8 @@ struct IterationDetail {
 };
 
 /// A method at work on a condensed problem: the iterate (λ, α), what the natural map says there, the
-/// history it writes and how it ends. The natural map has ρ_r = 1/W_rr, the stiffness that a row sees.
+/// history it writes and how it ends. The natural map has ρ_r = rho/W_rr, 1/W_rr the stiffness
+/// that a row sees.
 class RowIteration {
  public:
   RowIteration(const problem::Problem& problem, const problem::CondensedProblem& condensed, const Settings& settings,
@@ -32,7 +33,8 @@ class RowIteration {
   const NaturalMap::Value& value() const { return value_; }
   /// x = x₀ − Wλ + Nα of the iterate.
   const algebra::Vector& jump() const { return value_.x; }
-  /// Of the iterate: ‖F‖ / ‖λ‖ (‖F‖ where λ = 0).
+  /// Of the iterate: ‖F‖ / ‖λ‖ (‖F‖ where λ = 0). With a small ρ the force of a slipping point would pass in
+  /// whatever direction: F is then taken with the stiffness that the rows see as well, and the greater one counts.
   double residual() const;
   /// ‖λ − P(λ + ρx)‖ of the iterate: F without what is out of balance.
   double law_residual() const { return (lambda_ - value_.projected).norm(); }
@@ -70,6 +72,8 @@ class RowIteration {
 
   const Settings& settings_;
   Monitor& monitor_;
+  algebra::Vector stiffness_;  ///< 1/W_rr
+  bool light_;                 ///< ρ is below that
   Result result_;
   Best best_;
   bool begun_ = false;
