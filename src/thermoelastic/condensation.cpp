@@ -49,16 +49,15 @@ Condensation::Condensation(const SparseMatrix& lower, std::vector<int> gamma)
       else if (q < 0) across(p, -1 - q) = a.value();
       else if (p < 0) across(q, -1 - p) = a.value();
     }
-  if (!factor_.factor(interior(lower, place))) throw std::runtime_error("its matrix cannot be factored; choose units in which its numbers are moderate");
+  if (!factor_.factor(interior(lower, place)))
+    throw std::runtime_error("its matrix cannot be factored; choose units in which its numbers are moderate");
   W_.resize(across.rows(), count);
   for (int k = 0; k < count; ++k) W_.col(k) = -factor_.solve(across.col(k));
   S_ += across.transpose() * W_;
   S_ = (0.5 * (S_ + S_.transpose())).eval();
 }
 
-Vector Condensation::condensed(const Vector& b) const {
-  return b(gamma_) + W_.transpose() * b(inner_);
-}
+Vector Condensation::condensed(const Vector& b) const { return b(gamma_) + W_.transpose() * b(inner_); }
 
 Vector Condensation::recovered(const Vector& b, const Vector& on_gamma) const {
   Vector x(b.size());

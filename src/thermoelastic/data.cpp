@@ -24,7 +24,8 @@ void require_positive(double value, const char* what) {
 }
 
 void require_not_negative(double value, const char* what) {
-  if (!(value >= 0) || !std::isfinite(value)) throw InputError(text("its ", what, " is ", value, "; it must be zero or positive"));
+  if (!(value >= 0) || !std::isfinite(value))
+    throw InputError(text("its ", what, " is ", value, "; it must be zero or positive"));
 }
 
 }  // namespace
@@ -40,12 +41,15 @@ void require_valid(const Data& data) {
   require_not_negative(data.expansion, "expansion");
   require_not_negative(data.exchange_above, "heat exchange above");
   require_not_negative(data.exchange_below, "heat exchange below");
-  if (data.length < data.height / 1000) throw InputError(text("its length is ", data.length, " and its height ", data.height, ": no beam, whose length is many times its height"));
+  if (data.length < data.height / 1000)
+    throw InputError(
+        text("its length is ", data.length, " and its height ", data.height, ": no beam, whose length is many times its height"));
   for (const Support& s : data.supports) {
     require_valid(s.displacement);
     for (const auto* law : {&s.deflection, &s.rotation, &s.displacement})
       if (law->kind == Kind::breaking)
-        throw InputError(text("the support ", s.name, " may break; its history would have many branches. "
+        throw InputError(text("the support ", s.name,
+                              " may break; its history would have many branches. "
                               "capped_elastic limits its force; dotyk.beam finds all branches"));
   }
 }

@@ -34,13 +34,13 @@ struct HeldHeat {
 /// friction against rotation slip: the other supports bear a part of that moment, and it need not.
 struct Data {
   double length = 1, height = 0.1, width = 1;
-  double E = 1;                ///< Young's modulus, stress
-  double expansion = 0;        ///< α, 1/temperature
-  double conductivity = 1;     ///< k, power/(length·temperature)
-  double heat_capacity = 1;    ///< per volume, energy/(length³·temperature)
-  double reference = 293.15;   ///< θ₀, absolute temperature
-  double exchange_above = 0;   ///< α_h, power/(length²·temperature), on the face z = height/2
-  double exchange_below = 0;   ///< α_d
+  double E = 1;               ///< Young's modulus, stress
+  double expansion = 0;       ///< α, 1/temperature
+  double conductivity = 1;    ///< k, power/(length·temperature)
+  double heat_capacity = 1;   ///< per volume, energy/(length³·temperature)
+  double reference = 293.15;  ///< θ₀, absolute temperature
+  double exchange_above = 0;  ///< α_h, power/(length²·temperature), on the face z = height/2
+  double exchange_below = 0;  ///< α_d
   int cells = 32;
   std::vector<Support> supports;  ///< ascending in x; the first and the last one are the ends
   std::array<HeldHeat, 2> heat_ends;
@@ -56,7 +56,7 @@ beam::Beam plain(const Data& data);
 /// The coefficients of P4, and those of the energy: the equation of ϑ₁ times kF/θ₀, that of ϑ₂ times kJ/θ₀.
 struct Coefficients {
   explicit Coefficients(const Data& data);
-  double F, J;                      ///< area and second moment of the section
+  double F, J;  ///< area and second moment of the section
   double a1, a2, a11, a12, a21, a22;
   double weight_mean, weight_gradient;  ///< kF/θ₀ and kJ/θ₀
 };
@@ -78,12 +78,12 @@ struct History {
 
 /// What drives the beam. Functions are called during the calls that they are given to and not kept.
 struct Loads {
-  Source transverse;       ///< q, upwards, force/length
-  Source axial;            ///< p, along x, force/length
-  Source heat;             ///< power/volume, the same at every height
-  Source heat_gradient;    ///< its slope in z, power/volume/length
-  History ambient_above, ambient_below;  ///< over the reference
-  std::array<History, 2> mean, gradient; ///< ϑ₁ and ϑ₂ at the ends where they are prescribed
+  Source transverse;                      ///< q, upwards, force/length
+  Source axial;                           ///< p, along x, force/length
+  Source heat;                            ///< power/volume, the same at every height
+  Source heat_gradient;                   ///< its slope in z, power/volume/length
+  History ambient_above, ambient_below;   ///< over the reference
+  std::array<History, 2> mean, gradient;  ///< ϑ₁ and ϑ₂ at the ends where they are prescribed
 };
 
 /// ϑ₁ and ϑ₂ at t = 0.

@@ -6,15 +6,15 @@ namespace dotyk::thermoelastic {
 
 /// What a stage is known by in the sums over a step.
 struct Rates {
-  algebra::Vector entropy;               ///< its derivative by time
+  algebra::Vector entropy;              ///< its derivative by time
   double dissipated = 0, supplied = 0;  ///< power
 };
 
 struct Stepping::Group {
   Group(const Data& data, const std::vector<Effect::Kind>& effects) : model(data, effects) {}
   Model model;
-  std::vector<char> decomposed;      ///< of each part
-  bool always_decomposed = true;     ///< so far
+  std::vector<char> decomposed;         ///< of each part
+  bool always_decomposed = true;        ///< so far
   std::optional<System> system, whole;  ///< as `decomposed` says; coupled, where statics did not do
   Fields now;
   Forces forces;
@@ -37,10 +37,10 @@ struct Stepping::Place {
   const Group& group;
   const Part& part;
   int cell;
-  double s;                      ///< 0 ≤ s ≤ 1
-  CellVector u() const;          ///< the cell's unknowns
+  double s;              ///< 0 ≤ s ≤ 1
+  CellVector u() const;  ///< the cell's unknowns
   Eigen::Vector4d theta() const;
-  CellVector end_forces() const; ///< on the cell, for its unknowns: the stress's less the load's
+  CellVector end_forces() const;  ///< on the cell, for its unknowns: the stress's less the load's
 };
 
 }  // namespace dotyk::thermoelastic

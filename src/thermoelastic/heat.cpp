@@ -22,9 +22,9 @@ HeatElements::HeatElements(std::vector<double> nodes) : nodes_(std::move(nodes))
 Eigen::Matrix4d HeatElements::mass(int cell) const {
   const double l = h(cell);
   Eigen::Matrix4d M;
-  M << 156, 22 * l, 54, -13 * l,                 //
-      22 * l, 4 * l * l, 13 * l, -3 * l * l,     //
-      54, 13 * l, 156, -22 * l,                  //
+  M << 156, 22 * l, 54, -13 * l,              //
+      22 * l, 4 * l * l, 13 * l, -3 * l * l,  //
+      54, 13 * l, 156, -22 * l,               //
       -13 * l, -3 * l * l, -22 * l, 4 * l * l;
   return l / 420 * scale().asDiagonal() * M * scale().asDiagonal();
 }
@@ -32,22 +32,24 @@ Eigen::Matrix4d HeatElements::mass(int cell) const {
 Eigen::Matrix4d HeatElements::conduction(int cell) const {
   const double l = h(cell);
   Eigen::Matrix4d A;
-  A << 36, 3 * l, -36, 3 * l,                //
-      3 * l, 4 * l * l, -3 * l, -l * l,      //
-      -36, -3 * l, 36, -3 * l,               //
+  A << 36, 3 * l, -36, 3 * l,            //
+      3 * l, 4 * l * l, -3 * l, -l * l,  //
+      -36, -3 * l, 36, -3 * l,           //
       3 * l, -l * l, -3 * l, 4 * l * l;
   return 1 / (30 * l) * scale().asDiagonal() * A * scale().asDiagonal();
 }
 
 Vector HeatElements::load(const std::function<double(double)>& r) const {
   Vector out = Vector::Zero(unknowns());
-  for (int cell = 0; cell < cells(); ++cell) out.segment<4>(2 * cell) += scale().cwiseProduct(beam::load(r, nodes_[cell], h(cell)));
+  for (int cell = 0; cell < cells(); ++cell)
+    out.segment<4>(2 * cell) += scale().cwiseProduct(beam::load(r, nodes_[cell], h(cell)));
   return out;
 }
 
 Vector HeatElements::product(const OnCells& on_cells) const {
   Vector out = Vector::Zero(unknowns());
-  for (int cell = 0; cell < cells(); ++cell) out.segment<4>(2 * cell) += h(cell) * projection(cell).transpose() * on_cells.col(cell);
+  for (int cell = 0; cell < cells(); ++cell)
+    out.segment<4>(2 * cell) += h(cell) * projection(cell).transpose() * on_cells.col(cell);
   return out;
 }
 

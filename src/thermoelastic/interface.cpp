@@ -28,7 +28,8 @@ std::string motion(const Model& model, const std::vector<int>& parts, const Vect
     const Vector own = amounts.segment(mode, model.parts[p].kernel.cols());
     mode += static_cast<int>(own.size());
     if (own.isZero(1e-6 * amounts.lpNorm<Eigen::Infinity>())) continue;
-    out += (out.empty() ? "" : ", ") + (bending ? beam::ends(own[0], own[1]) : text(own[0] < 0 ? "towards the left" : "towards the right", " along the axis"));
+    out += (out.empty() ? "" : ", ") + (bending ? beam::ends(own[0], own[1])
+                                                : text(own[0] < 0 ? "towards the left" : "towards the right", " along the axis"));
   }
   return out;
 }
@@ -51,10 +52,13 @@ Interface::Interface(const Model& model, std::vector<int> parts, const std::vect
     const Part& part = model.parts[p];
     const int last = part.first + part.effect.unknowns(), modes = static_cast<int>(part.kernel.cols());
     for (int i = 0; i < n; ++i)
-      if (gamma[i] >= part.first && gamma[i] < last) block.kernel.row(i).segment(mode, modes) = part.kernel.row(gamma[i] - part.first);
+      if (gamma[i] >= part.first && gamma[i] < last)
+        block.kernel.row(i).segment(mode, modes) = part.kernel.row(gamma[i] - part.first);
     mode += modes;
     if (part.effect.kind() == Effect::Kind::stretching) block.motions.push_back({Motion::Kind::translation, {1, 0}});
-    else block.motions.insert(block.motions.end(), {{Motion::Kind::translation, {0, 1}}, {Motion::Kind::rotation, {}, {model.data.length / 2, 0}}});
+    else
+      block.motions.insert(block.motions.end(),
+                           {{Motion::Kind::translation, {0, 1}}, {Motion::Kind::rotation, {}, {model.data.length / 2, 0}}});
     for (const Held& held : part.held) {
       const int row = static_cast<int>(c.size());
       B.emplace_back(row, static_cast<int>(std::find(gamma.begin(), gamma.end(), held.unknown) - gamma.begin()), -held.turn);
@@ -79,12 +83,14 @@ void Interface::require_solvable(double t) {
   if (s.verdict == problem::Solvability::Verdict::unsolvable) {
     const std::string moves = motion(model_, parts_, s.motion);
     const std::string why = moves.find("u =") == std::string::npos ? "" : beam::theorem(plain(model_.data));
-    throw InputError(text("no solution at t = ", t, ": nothing stops the motion ", moves, ", on which the load does work", why.empty() ? "" : "; ", why));
+    throw InputError(text("no solution at t = ", t, ": nothing stops the motion ", moves, ", on which the load does work",
+                          why.empty() ? "" : "; ", why));
   }
   solvable_ = rigid.e;
 }
 
-Vector Interface::solve(Vector g, const Vector& resultants, double t, const solver::Method& method, std::vector<Vector>& reactions, Work& work, Monitor& monitor) {
+Vector Interface::solve(Vector g, const Vector& resultants, double t, const solver::Method& method,
+                        std::vector<Vector>& reactions, Work& work, Monitor& monitor) {
   // Heat moves nothing rigidly: the resultants are the load's, and not what rounding makes of them.
   g -= kernel_ * (kernel_.transpose() * kernel_).ldlt().solve(kernel_.transpose() * g - resultants);
   problem_.blocks.front().f = g;
@@ -101,7 +107,9 @@ Vector Interface::solve(Vector g, const Vector& resultants, double t, const solv
   }
   const Vector forces = problem_.B.transpose() * result.state.lambda;
   if ((resultants - kernel_.transpose() * forces).lpNorm<Eigen::Infinity>() > kBalanced * (g.lpNorm<1>() + forces.lpNorm<1>()))
-    throw InputError(text("at t = ", t, " the reactions do not balance the load: a spring is too weak beside the beam, or the beam too stiff, for the numbers to tell"));
+    throw InputError(text("at t = ", t,
+                          " the reactions do not balance the load: a spring is too weak beside the beam, or the beam too stiff, "
+                          "for the numbers to tell"));
   ++work.problems;
   work.reason = result.reason;
   work.iterations += result.iterations;
@@ -110,7 +118,8 @@ Vector Interface::solve(Vector g, const Vector& resultants, double t, const solv
   for (const int p : parts_) {
     const auto& held = model_.parts[p].held;
     reactions[p].resize(static_cast<int>(held.size()));
-    for (std::size_t i = 0; i < held.size(); ++i, ++row) reactions[p][static_cast<int>(i)] = held[i].turn * result.state.lambda[row];
+    for (std::size_t i = 0; i < held.size(); ++i, ++row)
+      reactions[p][static_cast<int>(i)] = held[i].turn * result.state.lambda[row];
   }
   return result.state.u;
 }

@@ -47,8 +47,10 @@ std::function<double(double)> at_time(const Source& source, const char* what, do
 
 std::vector<Held> held(const Data& data, const std::vector<double>& nodes, Effect::Kind kind) {
   std::vector<Held> out;
-  const auto add = [&](const Support& s, std::size_t i, Held::What what, const char* of, const problem::SupportLaw& law, int unknown, double unit, double turn) {
-    if (carries(law)) out.push_back({static_cast<int>(i), what, s.name + of, unknown, unit, problem::one_sided(law.kind) ? turn : 1, law});
+  const auto add = [&](const Support& s, std::size_t i, Held::What what, const char* of, const problem::SupportLaw& law,
+                       int unknown, double unit, double turn) {
+    if (carries(law))
+      out.push_back({static_cast<int>(i), what, s.name + of, unknown, unit, problem::one_sided(law.kind) ? turn : 1, law});
   };
   for (std::size_t i = 0; i < data.supports.size(); ++i) {
     const Support& s = data.supports[i];
@@ -74,8 +76,12 @@ Model::Model(const Data& given, const std::vector<Effect::Kind>& effects) : data
 void Model::add_part(Effect::Kind kind, const std::vector<double>& nodes) {
   const bool bending = kind == Effect::Kind::bending;
   Effect effect(kind, nodes, data.E * (bending ? coefficients.J : coefficients.F), bending ? -data.expansion : data.expansion);
-  Part part{effect, 0, static_cast<int>(parts.size()) * heat.unknowns(), bending ? coefficients.weight_gradient : coefficients.weight_mean,
-            held(data, nodes, kind), effect.kernel()};
+  Part part{effect,
+            0,
+            static_cast<int>(parts.size()) * heat.unknowns(),
+            bending ? coefficients.weight_gradient : coefficients.weight_mean,
+            held(data, nodes, kind),
+            effect.kernel()};
   if (!parts.empty()) part.first = parts.back().first + parts.back().effect.unknowns();
   for (Held& law : part.held) law.unknown += part.first;
   for (int end = 0; end < 2; ++end)
@@ -103,7 +109,9 @@ void Model::add_matrices() {
       add(conductions, at_heat, at_heat, p.weight * (D + (p.effect.kind() == Effect::Kind::bending ? a.a22 : a.a11) * mass));
     }
     if (parts.size() == 2)
-      for (const int first : {0, 1}) add(conductions, parts[first].first_heat + 2 * cell, parts[1 - first].first_heat + 2 * cell, a.weight_mean * a.a12 * mass);
+      for (const int first : {0, 1})
+        add(conductions, parts[first].first_heat + 2 * cell, parts[1 - first].first_heat + 2 * cell,
+            a.weight_mean * a.a12 * mass);
   }
   K = sparse(size, size, stiffness);
   G = sparse(size, heats, coupling);
@@ -130,7 +138,8 @@ Forces Model::forces(const Loads& loads, double t) const {
     const Source& given = bending ? loads.transverse : loads.axial;
     DenseMatrix cells = given.constant * unit_loads_[i];
     if (given.of)
-      for (int c = 0; c < p.effect.cells(); ++c) cells.col(c) = p.effect.cell_load(c, at_time(given, bending ? "the load" : "the axial load", t));
+      for (int c = 0; c < p.effect.cells(); ++c)
+        cells.col(c) = p.effect.cell_load(c, at_time(given, bending ? "the load" : "the axial load", t));
     for (int c = 0; c < p.effect.cells(); ++c) out.f.segment(p.first + 2 * c, p.effect.cell_unknowns()) += cells.col(c);
     out.on_cells.push_back(std::move(cells));
     for (const Support& s : data.supports) {
@@ -140,12 +149,14 @@ Forces Model::forces(const Loads& loads, double t) const {
       if (!bending && s.displacement.kind == Kind::load) out.f[at] += s.displacement.value;
     }
     const Source source = heat_source(p, loads, t);
-    out.r.segment(p.first_heat, heat.unknowns()) = p.weight * (source.of ? heat.load(at_time(source, "the heat", t)) : source.constant * unit_heat_);
+    out.r.segment(p.first_heat, heat.unknowns()) =
+        p.weight * (source.of ? heat.load(at_time(source, "the heat", t)) : source.constant * unit_heat_);
   }
   for (std::size_t k = 0; k < held_heat.size(); ++k) {
     const bool bending = parts[held_heat[k].part].effect.kind() == Effect::Kind::bending;
     const int end = held_heat[k].end;
-    out.held_heat[k] = checked((bending ? loads.gradient : loads.mean)[end](t), "the temperature prescribed", end == 0 ? 0 : data.length, t);
+    out.held_heat[k] =
+        checked((bending ? loads.gradient : loads.mean)[end](t), "the temperature prescribed", end == 0 ? 0 : data.length, t);
   }
   return out;
 }
@@ -154,7 +165,8 @@ Vector Model::initial(const Initial& given) const {
   Vector theta = Vector::Zero(capacity.rows()), b = theta;
   for (const Part& p : parts) {
     const Source& source = p.effect.kind() == Effect::Kind::bending ? given.gradient : given.mean;
-    const auto at_start = source.of ? at_time(source, "the temperature at first", 0) : [value = source.constant](double) { return value; };
+    const auto at_start =
+        source.of ? at_time(source, "the temperature at first", 0) : [value = source.constant](double) { return value; };
     b.segment(p.first_heat, heat.unknowns()) = p.weight * coefficients.a1 * heat.load(at_start);
   }
   return Eigen::SimplicialLDLT<SparseMatrix>(capacity).solve(b);

@@ -22,9 +22,9 @@ struct Held {
 /// An effect, its supports, and what its temperature weighs.
 struct Part {
   Effect effect;
-  int first = 0;       ///< of its unknowns among all u
-  int first_heat = 0;  ///< of its temperature's among all ϑ
-  double weight = 0;   ///< kF/θ₀ or kJ/θ₀
+  int first = 0;           ///< of its unknowns among all u
+  int first_heat = 0;      ///< of its temperature's among all ϑ
+  double weight = 0;       ///< kF/θ₀ or kJ/θ₀
   std::vector<Held> held;  ///< unknowns among all u; without free and load
   algebra::DenseMatrix kernel;
 };
@@ -38,9 +38,9 @@ struct HeldTemperature {
 
 /// Loads at a time.
 struct Forces {
-  algebra::Vector f;  ///< on u
-  algebra::Vector r;  ///< on ϑ, weighted
-  algebra::Vector held_heat;  ///< values, in the order of Model::held_heat
+  algebra::Vector f;                           ///< on u
+  algebra::Vector r;                           ///< on ϑ, weighted
+  algebra::Vector held_heat;                   ///< values, in the order of Model::held_heat
   std::vector<algebra::DenseMatrix> on_cells;  ///< f's distributed part cell by cell, of each part
 };
 
@@ -52,7 +52,9 @@ struct Model {
   Forces forces(const Loads& loads, double t) const;
   /// ϑ₁, ϑ₂ at t = 0 by least squares.
   algebra::Vector initial(const Initial& initial) const;
-  algebra::Vector entropy(const algebra::Vector& u, const algebra::Vector& theta) const { return capacity * theta - G.transpose() * u; }
+  algebra::Vector entropy(const algebra::Vector& u, const algebra::Vector& theta) const {
+    return capacity * theta - G.transpose() * u;
+  }
 
   Data data;
   Coefficients coefficients;

@@ -15,13 +15,15 @@ Eigen::Vector4d Stepping::Place::theta() const { return group.now.theta.segment<
 
 CellVector Stepping::Place::end_forces() const {
   const CellStrain B = part.effect.strain_matrix(cell);
-  const Eigen::Vector2d stress = part.effect.modulus() * (B * u() - part.effect.beta() * group.model.heat.projection(cell) * theta());
+  const Eigen::Vector2d stress =
+      part.effect.modulus() * (B * u() - part.effect.beta() * group.model.heat.projection(cell) * theta());
   const std::size_t index = static_cast<std::size_t>(&part - group.model.parts.data());
   return part.effect.h(cell) * B.transpose() * stress - group.forces.on_cells[index].col(cell);
 }
 
 Stepping::Place Stepping::place(Effect::Kind kind, double x) const {
-  if (!(x >= 0 && x <= data().length)) throw InputError(text("x = ", x, " is not on the beam, which goes from 0 to ", data().length));
+  if (!(x >= 0 && x <= data().length))
+    throw InputError(text("x = ", x, " is not on the beam, which goes from 0 to ", data().length));
   for (const auto& group : groups_)
     for (const Part& part : group->model.parts)
       if (part.effect.kind() == kind) {
@@ -63,7 +65,8 @@ double Stepping::gradient(double x) const {
 }
 
 double Stepping::temperature(double x, double z) const {
-  if (!(std::abs(z) <= data().height / 2)) throw InputError(text("z = ", z, " is not within the beam, whose height is ", data().height));
+  if (!(std::abs(z) <= data().height / 2))
+    throw InputError(text("z = ", z, " is not within the beam, whose height is ", data().height));
   const Place at = place(Effect::Kind::stretching, x);
   return Hermite(at.s, at.part.effect.h(at.cell)).value.dot(slopes(at.theta(), data().length)) + (z == 0 ? 0 : z * gradient(x));
 }

@@ -14,7 +14,8 @@ namespace {
 /// What a motion does to the unknowns that have laws: laws × motions.
 DenseMatrix on_laws(const Part& part) {
   DenseMatrix N(part.held.size(), part.kernel.cols());
-  for (std::size_t i = 0; i < part.held.size(); ++i) N.row(static_cast<int>(i)) = part.kernel.row(part.held[i].unknown - part.first);
+  for (std::size_t i = 0; i < part.held.size(); ++i)
+    N.row(static_cast<int>(i)) = part.kernel.row(part.held[i].unknown - part.first);
   return N;
 }
 

@@ -17,12 +17,13 @@ struct Tableau {
   double diagonal;                     ///< of the implicit stages
   std::vector<std::vector<double>> a;  ///< below the diagonal
   std::vector<double> c;
-  bool continues = false;              ///< the first stage is the end of the last step
+  bool continues = false;  ///< the first stage is the end of the last step
 };
 
 const Tableau& tableau(Order order, bool first_step) {
   static const double gamma = 1 - std::sqrt(0.5), w = std::sqrt(2.0) / 4;
-  static const Tableau euler{1, {{}}, {1}}, alexander{gamma, {{}, {1 - gamma}}, {gamma, 1}}, tr_bdf2{gamma, {{}, {gamma}, {w, w}}, {0, 2 * gamma, 1}, true};
+  static const Tableau euler{1, {{}}, {1}}, alexander{gamma, {{}, {1 - gamma}}, {gamma, 1}},
+      tr_bdf2{gamma, {{}, {gamma}, {w, w}}, {0, 2 * gamma, 1}, true};
   return order == Order::one ? euler : first_step ? alexander : tr_bdf2;
 }
 
@@ -45,12 +46,15 @@ double Stepping::Group::stored() const {
 
 Stepping::~Stepping() = default;
 
-Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor) : scheme_(scheme) {
+Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor)
+    : scheme_(scheme) {
   require_valid(data);
-  if (!(scheme.step > 0) || !std::isfinite(scheme.step)) throw InputError(text("its step is ", scheme.step, "; it must be positive"));
+  if (!(scheme.step > 0) || !std::isfinite(scheme.step))
+    throw InputError(text("its step is ", scheme.step, "; it must be positive"));
   using Kind = Effect::Kind;
   const bool split = data.exchange_above == data.exchange_below;
-  const auto kinds = split ? std::vector<std::vector<Kind>>{{Kind::stretching}, {Kind::bending}} : std::vector<std::vector<Kind>>{{Kind::stretching, Kind::bending}};
+  const auto kinds = split ? std::vector<std::vector<Kind>>{{Kind::stretching}, {Kind::bending}}
+                           : std::vector<std::vector<Kind>>{{Kind::stretching, Kind::bending}};
   for (const auto& effects : kinds) {
     auto group = std::make_unique<Group>(data, effects);
     for (const Part& part : group->model.parts) group->decomposed.push_back(scheme.decompose && determinate(part));
@@ -127,18 +131,23 @@ Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, 
   out.put_in += scheme_.order == Order::one ? out.forces.f.dot(moved) : 0.5 * (group.forces.f + out.forces.f).dot(moved);
   out.rates = std::move(stages.back());
   if (!out.fields.u.allFinite() || !out.fields.theta.allFinite() || !std::isfinite(out.put_in) || !std::isfinite(out.dissipated))
-    throw InputError(text("at t = ", time_ + tau, " values are beyond the range of numbers; choose units in which loads, stiffnesses and temperatures are moderate"));
+    throw InputError(
+        text("at t = ", time_ + tau,
+             " values are beyond the range of numbers; choose units in which loads, stiffnesses and temperatures are moderate"));
   return out;
 }
 
-Fields Stepping::solve(Group& group, const Forces& forces, const Vector& b, double t, double tau, bool displaced, Work& work, Monitor& monitor) {
+Fields Stepping::solve(Group& group, const Forces& forces, const Vector& b, double t, double tau, bool displaced, Work& work,
+                       Monitor& monitor) {
   const auto of = [&](std::optional<System>& system, const std::vector<char>& decomposed) -> System& {
     if (!system || std::abs(system->tau() - tau) > kSameStep * tau) system.emplace(group.model, decomposed, tau);
     return *system;
   };
-  if (auto fields = of(group.system, group.decomposed).solve(forces, b, t, displaced, scheme_.method, work, monitor)) return *std::move(fields);
+  if (auto fields = of(group.system, group.decomposed).solve(forces, b, t, displaced, scheme_.method, work, monitor))
+    return *std::move(fields);
   group.always_decomposed = false;
-  return *of(group.whole, std::vector<char>(group.decomposed.size(), false)).solve(forces, b, t, displaced, scheme_.method, work, monitor);
+  return *of(group.whole, std::vector<char>(group.decomposed.size(), false))
+              .solve(forces, b, t, displaced, scheme_.method, work, monitor);
 }
 
 const Data& Stepping::data() const { return groups_.front()->model.data; }

@@ -25,8 +25,8 @@ struct Scheme {
 /// Energies of P4's equations with the weights kF/θ₀ and kJ/θ₀, since t = 0:
 ///   stored: ½∫ EF (Du₁)² + EJ (D²u₂)² + (c/θ₀)(F ϑ₁² + J ϑ₂²) and the supports',
 ///   put in: the loads' work, and 1/θ₀ of the heat supplied times the temperature,
-///   dissipated: conduction and exchange. stored + dissipated = put in + what was stored at first, to the scheme's order (but where a prescribed temperature jumps
-///   from the one at first).
+///   dissipated: conduction and exchange. stored + dissipated = put in + what was stored at first, to the scheme's order (but
+///   where a prescribed temperature jumps from the one at first).
 struct Energy {
   double stored = 0, put_in = 0, dissipated = 0;
   double defect = 0;  ///< stored + dissipated − put in − stored at first
@@ -38,10 +38,12 @@ struct Reaction {
   double deflection = 0, rotation = 0, displacement = 0;
 };
 
-/// A thermoelastic beam stepped in time. Where α_h = α_d, stretching and bending are stepped on their own. A call that throws leaves the state as it was.
+/// A thermoelastic beam stepped in time. Where α_h = α_d, stretching and bending are stepped on their own. A call that throws
+/// leaves the state as it was.
 class Stepping {
  public:
-  /// At t = 0, at rest under the loads and temperatures of that time. Throws InputError as require_valid() and Interface::solve().
+  /// At t = 0, at rest under the loads and temperatures of that time. Throws InputError as require_valid() and
+  /// Interface::solve().
   Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor);
   ~Stepping();
 
@@ -60,7 +62,7 @@ class Stepping {
   /// At x on the beam, else InputError.
   double deflection(double x) const;
   double rotation(double x) const;
-  double displacement(double x) const;   ///< u₁
+  double displacement(double x) const;  ///< u₁
   double temperature(double x, double z = 0) const;
   double gradient(double x) const;
   double moment(double x) const;  ///< by equilibrium of the cell's ends, between them a cubic: exact for constant q
@@ -74,7 +76,8 @@ class Stepping {
   struct Place;
   void advance(double tau, const Loads& loads, Monitor& monitor);
   Stage stepped(Group& group, double tau, const Loads& loads, Work& work, Monitor& monitor);
-  Fields solve(Group& group, const Forces& forces, const algebra::Vector& b, double t, double tau, bool displaced, Work& work, Monitor& monitor);
+  Fields solve(Group& group, const Forces& forces, const algebra::Vector& b, double t, double tau, bool displaced, Work& work,
+               Monitor& monitor);
   Place place(Effect::Kind kind, double x) const;
 
   Scheme scheme_;

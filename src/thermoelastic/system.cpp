@@ -49,7 +49,8 @@ void finish(const Model& model, Fields& fields, const std::vector<int>& parts) {
 
 }  // namespace
 
-System::System(const Model& model, std::vector<char> decomposed, double tau) : model_(model), decomposed_(std::move(decomposed)), tau_(tau) {
+System::System(const Model& model, std::vector<char> decomposed, double tau)
+    : model_(model), decomposed_(std::move(decomposed)), tau_(tau) {
   number();
   std::vector<int> all;
   for (const int unknown : gamma_) all.push_back(place_[unknown]);
@@ -121,13 +122,16 @@ void System::add_decomposed(Fields& fields) const {
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
     if (!decomposed_[p]) continue;
     const Part& part = model_.parts[p];
-    const OnCells strain = statics_[p].stress / part.effect.modulus() + part.effect.beta() * model_.heat.projected(fields.theta.segment(part.first_heat, model_.heat.unknowns()));
+    const OnCells strain =
+        statics_[p].stress / part.effect.modulus() +
+        part.effect.beta() * model_.heat.projected(fields.theta.segment(part.first_heat, model_.heat.unknowns()));
     fields.u.segment(part.first, part.effect.unknowns()) = displacement(part, strain, statics_[p].w);
     fields.reactions[p] = statics_[p].reactions;
   }
 }
 
-std::optional<Fields> System::solve(const Forces& forces, const Vector& b, double t, bool displaced, const solver::Method& method, Work& work, Monitor& monitor) {
+std::optional<Fields> System::solve(const Forces& forces, const Vector& b, double t, bool displaced, const solver::Method& method,
+                                    Work& work, Monitor& monitor) {
   if (!update_statics(forces.f)) return std::nullopt;
   const int heats = static_cast<int>(b.size()), own = static_cast<int>(gamma_.size());
   Vector right(heat_ + heats);
@@ -138,7 +142,8 @@ std::optional<Fields> System::solve(const Forces& forces, const Vector& b, doubl
   Vector on_gamma(own + forces.held_heat.size());
   on_gamma.tail(forces.held_heat.size()) = forces.held_heat;
   if (interface_) {
-    const Vector g = condensation_->condensed(right).head(own) - condensation_->schur().topRightCorner(own, forces.held_heat.size()) * forces.held_heat;
+    const Vector g = condensation_->condensed(right).head(own) -
+                     condensation_->schur().topRightCorner(own, forces.held_heat.size()) * forces.held_heat;
     on_gamma.head(own) = interface_->solve(g, resultants(model_, coupled_, forces.f), t, method, out.reactions, work, monitor);
   }
   const Vector x = condensation_->recovered(right, on_gamma);
@@ -150,7 +155,8 @@ std::optional<Fields> System::solve(const Forces& forces, const Vector& b, doubl
   return out;
 }
 
-Fields at_rest(const Model& model, const Forces& forces, Vector theta, double t, const solver::Method& method, Work& work, Monitor& monitor) {
+Fields at_rest(const Model& model, const Forces& forces, Vector theta, double t, const solver::Method& method, Work& work,
+               Monitor& monitor) {
   std::vector<int> gamma, parts;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     parts.push_back(static_cast<int>(p));
@@ -160,7 +166,8 @@ Fields at_rest(const Model& model, const Forces& forces, Vector theta, double t,
   Interface interface(model, parts, gamma, condensation.schur());
   const Vector right = forces.f - model.G * theta;
   Fields out{{}, std::move(theta), std::vector<Vector>(model.parts.size())};
-  out.u = condensation.recovered(right, interface.solve(condensation.condensed(right), resultants(model, parts, forces.f), t, method, out.reactions, work, monitor));
+  out.u = condensation.recovered(right, interface.solve(condensation.condensed(right), resultants(model, parts, forces.f), t,
+                                                        method, out.reactions, work, monitor));
   finish(model, out, parts);
   return out;
 }

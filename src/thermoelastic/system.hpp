@@ -27,9 +27,10 @@ class System {
   System(const Model& model, std::vector<char> decomposed, double tau);
   double tau() const { return tau_; }
 
-  /// b: C ϑ − Gᵀu of the last stages and τr. `displaced`: is u of decomposed parts asked for? Nothing where statics does not do (by_statics); throws as Interface::solve().
-  std::optional<Fields> solve(const Forces& forces, const algebra::Vector& b, double t, bool displaced, const solver::Method& method, Work& work,
-                              Monitor& monitor);
+  /// b: C ϑ − Gᵀu of the last stages and τr. `displaced`: is u of decomposed parts asked for? Nothing where statics does not do
+  /// (by_statics); throws as Interface::solve().
+  std::optional<Fields> solve(const Forces& forces, const algebra::Vector& b, double t, bool displaced,
+                              const solver::Method& method, Work& work, Monitor& monitor);
 
  private:
   void number();
@@ -40,18 +41,19 @@ class System {
   const Model& model_;
   std::vector<char> decomposed_;
   double tau_;
-  std::vector<int> coupled_;           ///< parts that are not decomposed
-  std::vector<int> place_;             ///< of every u among the system's unknowns; −1: left out
-  int heat_ = 0;                       ///< of the first ϑ
-  std::vector<int> gamma_;             ///< all u at supports and ends of coupled parts
+  std::vector<int> coupled_;  ///< parts that are not decomposed
+  std::vector<int> place_;    ///< of every u among the system's unknowns; −1: left out
+  int heat_ = 0;              ///< of the first ϑ
+  std::vector<int> gamma_;    ///< all u at supports and ends of coupled parts
   std::optional<Condensation> condensation_;
   std::optional<Interface> interface_;
-  algebra::Vector f_;                  ///< that the following belong to
-  std::vector<Static> statics_;        ///< of decomposed parts
-  algebra::Vector heating_;            ///< −β∫Sη, on all ϑ
+  algebra::Vector f_;            ///< that the following belong to
+  std::vector<Static> statics_;  ///< of decomposed parts
+  algebra::Vector heating_;      ///< −β∫Sη, on all ϑ
 };
 
 /// The displacement under the temperatures theta, without any step: K u = f − Gϑ + reactions.
-Fields at_rest(const Model& model, const Forces& forces, algebra::Vector theta, double t, const solver::Method& method, Work& work, Monitor& monitor);
+Fields at_rest(const Model& model, const Forces& forces, algebra::Vector theta, double t, const solver::Method& method,
+               Work& work, Monitor& monitor);
 
 }  // namespace dotyk::thermoelastic
