@@ -1,11 +1,12 @@
--- A beam on one-sided supports, and every pair of laws at its ends (P4).
+-- A beam on one-sided supports, and what its supports tend to (P4).
 --
 --   ./dotyk scripts/beam.lua [cells]
 --
 -- Shown: a continuous beam on five supports under a load on one span, held both ways, resting, and resting on springs:
 -- where it lifts off (images/beam.png: resting, with deflection, bending moment and shear force; images/beam_deflection.png,
--- images/beam_moment.png: all three); a table of all pairs of laws
--- for the deflections of two ends, each solved by several methods or refused with its reason; how springs tend to a rigid stop.
+-- images/beam_moment.png: all three). Then the limits of laws: stiff springs tend to a rigid stop by 1/k, soft ones to
+-- none by k, friction to a prescribed displacement as its bound nears the reaction that holds, and is one from there on.
+-- Every law against its closed form is scripts/beam_laws.lua, all pairs of laws scripts/beam_table.lua.
 
 local law <const> = dotyk.law
 local cells <const> = tonumber(arg[1]) or 40
@@ -20,14 +21,20 @@ local function continuous(support)
 end
 local cases <const> = { { "held both ways", law.prescribed(0) }, { "resting", law.signorini() }, { "resting on springs, k = 50", law.one_sided_elastic(50) } }
 local deflections, moments = {}, {}
+local function curve(s, quantity, keys, points) -- over the beam
+  local out <const> = { x = {}, y = {} }
+  for key, value in pairs(keys) do out[key] = value end
+  for i = 0, points do
+    local x <const> = 4 * i / points
+    out.x[i + 1], out.y[i + 1] = x, s[quantity](s, x)
+  end
+  return out
+end
 for _, case in ipairs(cases) do
   local s <const> = continuous(case[2])
-  local u <const>, M <const> = { name = case[1], x = {}, y = {}, style = "line" }, { name = case[1], x = {}, y = {}, style = "line" }
-  for i = 0, 400 do
-    local x <const> = i / 100
-    u.x[i + 1], u.y[i + 1], M.x[i + 1], M.y[i + 1] = x, s:deflection(x), x, s:moment(x)
-  end
-  deflections[#deflections + 1], moments[#moments + 1] = u, M
+  deflections[#deflections + 1] = curve(s, "deflection", { name = case[1], style = "line" }, 400)
+  local springs <const> = case[1]:find "springs" -- its moments are nearly those of resting: points on that line
+  moments[#moments + 1] = curve(s, "moment", { name = case[1], style = springs and "points" or "line" }, springs and 32 or 400)
   local reactions, sum, off = {}, 0, {}
   for _, at in ipairs{ "left", 1, 2, 3, "right" } do
     local r <const> = s:reaction(at)
@@ -40,58 +47,41 @@ for _, case in ipairs(cases) do
 end
 continuous(law.signorini()):render{ file = "images/beam.png", title = "A beam resting on five supports, loaded on one span" }
 table.insert(deflections, { name = "supports", x = { 0, 1, 2, 3, 4 }, y = { 0, 0, 0, 0, 0 }, style = "points" })
-dotyk.chart{ file = "images/beam_deflection.png", title = "A beam on five supports, held and resting", x = "x", y = "deflection", series = deflections }
-dotyk.chart{ file = "images/beam_moment.png", title = "Its bending moment, −EJ u″", x = "x", y = "M", series = moments }
+dotyk.chart{ file = "images/beam_deflection.png", title = "A beam on five supports: deflection", x = "x", y = "deflection", series = deflections }
+dotyk.chart{ file = "images/beam_moment.png", title = "A beam on five supports: bending moment", x = "x", y = "M = −EJ u″", series = moments }
 
--- 2. All pairs of laws for the deflections of two ends; loads down, and half as much up at the right end.
-local laws <const> = { { "free", law.free() }, { "prescribed", law.prescribed(0) }, { "load", law.load(0.3) }, { "elastic", law.elastic(4) },
-  { "one-sided elastic", law.one_sided_elastic(4) }, { "Signorini", law.signorini() }, { "friction", law.friction(0.7) },
-  { "one-sided friction", law.one_sided_friction(0.7) }, { "capped elastic", law.capped_elastic(4, 0.7) }, { "breaking", law.breaking(4, 0.6) } }
-local methods <const> = { dotyk.solver.pdas{}, dotyk.solver.newton{}, dotyk.solver.psor{}, dotyk.solver.uzawa{ max_iterations = 100000 }, dotyk.solver.interior_point{} }
-local counted, refused, most = 0, {}, 0
-print "\nleft                right               by   |du| between methods"
-for _, left in ipairs(laws) do
-  for _, right in ipairs(laws) do
-    local beam <const> = dotyk.beam{ length = 1, EJ = 1, cells = 8, load = -1, left = { deflection = left[2] }, right = { deflection = right[2] } }
-    local known, by, apart = nil, 0, 0
-    local why
-    for _, method in ipairs(methods) do
-      local solved <const>, s = pcall(method.solve, method, beam)
-      if solved and s.converged and not s.reason:find "unique up to" then
-        known = known or s
-        by = by + 1
-        for _, x in ipairs{ 0, 0.5, 1 } do apart = math.max(apart, math.abs(s:deflection(x) - known:deflection(x))) end
-      elseif not solved and tostring(s):find "no solution" then
-        why = s
-      end
-    end
-    if why then
-      assert(by == 0)
-      local reason <const> = why:match "theorem %d" or "nothing holds it"
-      refused[reason] = (refused[reason] or 0) + 1
-    else
-      assert(by >= 2, ("%s, %s: solved by %d methods"):format(left[1], right[1], by))
-      counted, most = counted + 1, math.max(most, apart)
-      if left[1] <= right[1] then print(("%-19s %-19s %d    %.1e"):format(left[1], right[1], by, apart)) end
-    end
+-- 2. Limits of laws, on a cantilever's tip and on the rotation of a beam's end on two supports.
+local ends <const> = {
+  deflection = { { deflection = law.prescribed(), rotation = law.prescribed() }, function(l) return { deflection = l } end },
+  rotation = { { deflection = law.prescribed() }, function(l) return { deflection = law.prescribed(), rotation = l } end } }
+local function solved(of, l) -- its deflection in the middle, and what the law bears
+  local s <const> = dotyk.solve(dotyk.beam{ length = 2, load = -1, cells = 8, left = ends[of][1], right = ends[of][2](l) })
+  return s:deflection(1), s:reaction("right")[of == "deflection" and "force" or "moment"]
+end
+local function limit(title, of, make, to, powers)
+  local target <const>, last = solved(of, to), nil
+  local line <const>, orders <const> = {}, {}
+  for power = powers[1], powers[2], powers[1] < powers[2] and 1 or -1 do
+    local off <const> = math.abs(solved(of, make(10.0^power)) - target) / math.abs(target)
+    line[#line + 1] = ("%.1e"):format(off)
+    if last then orders[#orders + 1] = math.abs(math.log(last / off, 10)) end
+    last = off
   end
+  print(("%-33s %-10s  1e%+d, …: %s   order %.3f"):format(title, of, powers[1], table.concat(line, "  "), orders[#orders]))
+  assert(math.abs(orders[#orders] - 1) < 0.01)
 end
-print(("%d of %d pairs solved, methods differ by %.1e at most"):format(counted, (#laws)^2, most))
-for reason, count in pairs(refused) do print(("%d refused: %s"):format(count, reason)) end
-assert(most < 1e-7)
-
--- 3. Springs tend to a rigid stop by 1/k.
-local function tip(support)
-  return dotyk.solve(dotyk.beam{ length = 2, load = -1, cells = 8, left = { deflection = law.prescribed(0), rotation = law.prescribed(0) },
-    right = { deflection = support } }):deflection(1)
-end
-local rigid <const>, last = tip(law.signorini())
-print "\n      k   off the rigid stop   order"
-for power = 1, 6 do
-  local off <const> = math.abs(tip(law.one_sided_elastic(10^power)) - rigid)
-  local order <const> = last and math.log(last / off, 10)
-  print(("1e%d       %.3e           %s"):format(power, off, order and ("%.3f"):format(order) or ""))
-  if power > 2 then assert(math.abs(order - 1) < 0.02) end
-  last = off
+print "\nhow far laws are from their limits, relative, by powers of ten of k or of 1 - bound/reaction that holds"
+for _, of in ipairs{ "deflection", "rotation" } do
+  limit("one-sided elastic to Signorini", of, law.one_sided_elastic, law.signorini(), { 1, 6 })
+  limit("elastic to prescribed", of, law.elastic, law.prescribed(), { 1, 6 })
+  limit("one-sided elastic to free", of, law.one_sided_elastic, law.free(), { -1, -6 })
+  limit("elastic to free", of, law.elastic, law.free(), { -1, -6 })
+  local held <const>, reaction = solved(of, law.prescribed())
+  reaction = math.abs(reaction)
+  limit("friction to prescribed", of, function(short) return law.friction((1 - short) * reaction) end, law.prescribed(), { -1, -6 })
+  local off = 0
+  for power = 0, 8 do off = math.max(off, math.abs(solved(of, law.friction((1 + 1e-9) * reaction * 10^power)) / held - 1)) end
+  print(("%-33s %-10s  bounds from %.6g to 1e8 times as much: %.1e"):format("friction to prescribed", of, reaction, off))
+  assert(off < 1e-12)
 end
 print "images/beam.png, images/beam_deflection.png, images/beam_moment.png"

@@ -114,6 +114,6 @@ for _, liquid in ipairs{ { name = "salt water", make = salt_water },
   for i = 1, #limit.x do table.insert(limits.x, limit.x[i]) table.insert(limits.y, limit.y[i]) end
 end
 series[#series + 1] = { name = "1/(aω)", x = limits.x, y = limits.y, style = "points" }
-dotyk.chart{ file = "images/channel_amplitude.png", x = "ω [1/s]", y = "amplitude on the axis [m/s]", log = "xy",
+dotyk.chart{ file = "images/channel_amplitude.png", title = "The oscillating part of the velocity fades with ω", x = "ω [1/s]", y = "amplitude on the axis [m/s]", log = "xy",
   slopes = { -1 }, series = series }
 print "images/channel.png  images/channel_axis.png  images/channel_amplitude.png"

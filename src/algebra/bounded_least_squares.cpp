@@ -17,7 +17,8 @@ class Iteration {
   Iteration(const DenseMatrix& A, const Vector& b, const Vector& low, const Vector& high, double tolerance)
       : A_(A), b_(b), low_(low), high_(high), tolerance_(tolerance), x_(A.cols()), place_(A.cols()), idle_(A.cols(), 0) {
     for (int j = 0; j < A.cols(); ++j) {
-      place_[j] = std::isfinite(low[j]) ? Place::low : std::isfinite(high[j]) ? Place::high : Place::free;
+      // At the bound that is nearest to 0, free about 0: what far bounds cancel would leave rounding of their size.
+      place_[j] = low[j] >= 0 ? Place::low : high[j] <= 0 ? Place::high : Place::free;
       x_[j] = place_[j] == Place::low ? low[j] : place_[j] == Place::high ? high[j] : 0;
     }
   }

@@ -36,8 +36,7 @@ bool balanced(const problem::Problem& problem, const solver::Result& result) {
   return left.maxCoeff() <= kBalanced * (beam.f.lpNorm<1>() + reactions.lpNorm<1>());
 }
 
-solver::Result run(const Beam& beam, const Model& model, const solver::Method& method, Monitor& monitor) {
-  const std::string note = require_solvable(beam, model);
+solver::Result run(const Model& model, const std::string& note, const solver::Method& method, Monitor& monitor) {
   const solver::Method chosen = method ? method : solver::Method(solver::Pdas{});
   solver::Result result = chosen.run(model.problem, {}, monitor);
   if (result.converged && !balanced(model.problem, result)) {
@@ -56,20 +55,26 @@ std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monito
     throw InputError(text("", which.size(), " supports may break; every choice of broken ones is solved, which is possible with ", kMostBreaking, " at most"));
   std::vector<Branch> minima;
   std::optional<InputError> refused;
+  bool holds = false;
   for (unsigned choice = 0; choice < 1u << which.size(); ++choice) {
     std::vector<Broken> broken;
     for (std::size_t k = 0; k < which.size(); ++k) broken.push_back(choice >> k & 1 ? Broken::yes : Broken::no);
+    Model model = build(beam, broken);
+    std::string note;
     try {
-      Model model = build(beam, broken);
-      solver::Result result = run(beam, model, method, monitor);
-      auto solution = std::make_shared<const Solution>(beam, std::move(model), std::move(result));
-      if (consistent(beam, which, broken, *solution)) minima.push_back({broken, solution});
+      note = require_solvable(beam, model);
     } catch (const InputError& error) {
       if (which.empty()) throw;
       if (!refused) refused = error;
+      continue;
     }
+    solver::Result result = run(model, note, method, monitor);  // a method that cannot treat one choice would miss branches: let it say so
+    holds = true;
+    auto solution = std::make_shared<const Solution>(beam, std::move(model), std::move(result));
+    if (consistent(beam, which, broken, *solution)) minima.push_back({broken, solution});
   }
-  if (minima.empty()) throw refused ? *refused : InputError("no solution: every support that may break would break, and without them nothing holds the beam");
+  if (minima.empty() && holds) throw InputError("no solution: whichever supports are whole, one of them would break, and without them nothing holds the beam");
+  if (minima.empty()) throw *refused;
   std::sort(minima.begin(), minima.end(), [](const Branch& a, const Branch& b) { return a.solution->energy() < b.solution->energy(); });
   return minima;
 }

@@ -21,7 +21,8 @@ struct Branch {
 /// Least energy first. No method named: PDAS.
 ///
 /// Throws InputError where there is no solution (theorems 2 to 5 of P4), telling the ends, the motion and the condition;
-/// where the method cannot treat a law; with more than twelve supports that may break.
+/// where whichever breaking supports are whole, one of them would break; where the method cannot treat a law of one of the
+/// choices, so that no branch is missed; with more than twelve supports that may break.
 std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monitor& monitor);
 
 }  // namespace dotyk::beam

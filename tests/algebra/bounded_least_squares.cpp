@@ -63,3 +63,12 @@ TEST_CASE("columns that repeat or vanish do not disturb") {
   const auto empty = algebra::bounded_least_squares(DenseMatrix(3, 0), Vector{{1, 2, 3}}, Vector(0), Vector(0));
   CHECK(empty.residual.isApprox(Vector{{1, 2, 3}}));
 }
+
+TEST_CASE("bounds far beyond what is needed leave no rounding of their size") {
+  const DenseMatrix A{{1, 0, 1}, {0, 1, 1}};
+  const Vector b{{0.3, -0.7}};
+  for (const double far : {1e3, 1e8, 1e15, kInfinity}) {
+    CAPTURE(far);
+    CHECK(algebra::bounded_least_squares(A, b, Vector::Constant(3, -far), Vector::Constant(3, far)).residual.norm() < 1e-15);
+  }
+}

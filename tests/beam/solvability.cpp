@@ -85,6 +85,14 @@ TEST_CASE("limits: a stiff one-sided support tends to Signorini's by 1/k, a soft
   // From the bound at which it does not slip on, friction is a prescribed deflection.
   const double needed = with(kHeld)->reaction(1).force;
   CHECK(with({Kind::friction, 1.0001 * needed, 0})->deflection(1) == doctest::Approx(with(kHeld)->deflection(1)).epsilon(1e-9));
+  for (double bound = 1; bound < 1e13; bound *= 10)
+    CHECK(with({Kind::friction, bound, 0})->deflection(1) == doctest::Approx(with(kHeld)->deflection(1)).epsilon(1e-12));
+  const auto turning = [](SupportLaw law) { return test::only(test::beam_between(2, 3, -1, kHeld, kFree, kHeld, law)); };
+  for (double bound = 1; bound < 1e13; bound *= 10) {
+    const auto held = turning({Kind::friction, bound, 0});
+    CHECK(held->result().reason.find("limit") == std::string::npos);
+    CHECK(held->deflection(1) == doctest::Approx(turning(kHeld)->deflection(1)).epsilon(1e-12));
+  }
   CHECK(std::abs(with({Kind::friction, 0.9999 * needed, 0})->deflection(2)) > 1e-6);
 }
 
