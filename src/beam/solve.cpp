@@ -53,7 +53,7 @@ std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monito
   const std::vector<Breaking> which = breaking(beam);
   if (which.size() > kMostBreaking)
     throw InputError(text("", which.size(), " supports may break; every choice of broken ones is solved, which is possible with ", kMostBreaking, " at most"));
-  std::vector<Branch> minima;
+  std::vector<Branch> minima, not_converged;
   std::optional<InputError> refused;
   bool holds = false;
   for (unsigned choice = 0; choice < 1u << which.size(); ++choice) {
@@ -72,7 +72,9 @@ std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monito
     holds = true;
     auto solution = std::make_shared<const Solution>(beam, std::move(model), std::move(result));
     if (consistent(beam, which, broken, *solution)) minima.push_back({broken, solution});
+    else if (!solution->result().converged) not_converged.push_back({broken, solution});
   }
+  if (minima.empty()) minima = not_converged;
   if (minima.empty() && holds) throw InputError("no solution: whichever supports are whole, one of them would break, and without them nothing holds the beam");
   if (minima.empty()) throw *refused;
   std::sort(minima.begin(), minima.end(), [](const Branch& a, const Branch& b) { return a.solution->energy() < b.solution->energy(); });
