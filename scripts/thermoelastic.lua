@@ -3,7 +3,7 @@
 --   ./dotyk scripts/thermoelastic.lua [steps]
 --
 -- Ten minutes of hot air above it, then ten of cold: the strip bends onto its stop, then lifts off it
--- (images/thermoelastic.png, images/thermoelastic_lines.png). Then what the numbers are worth: the orders in time
+-- (images/thermoelastic.png, images/thermoelastic_lines.png; images/thermoelastic_state.png while it is lifted). Then what the numbers are worth: the orders in time
 -- of both schemes through closing and opening (images/thermoelastic_orders.png), the balance of energy, and the
 -- decomposition: in the six exceptional cases, and where solvability forces one, the heat is solved without the
 -- displacement; the same to rounding, at a fraction of the work.
@@ -48,7 +48,11 @@ for i = 1, steps do
   b:run(i * 1200 / steps)
   note()
   if i == steps // 2 then line "10 min of hot air" end
-  if i == math.floor(0.61 * steps) then line "2 min of cold air, lifted" end
+  if i == math.floor(0.61 * steps) then
+    line "2 min of cold air, lifted"
+    b:render{ file = "images/thermoelastic_state.png", title = "The strip after 2 min of cold air", size = { 1000, 1150 },
+      units = { length = "m", force = "N", temperature = "K" } }
+  end
   if i == steps then line "10 min of cold air" end
 end
 print(b)
@@ -58,10 +62,10 @@ assert(least > -1e-6 and most > 10 and math.min(table.unpack(history.force)) == 
 print(("the stop bears %.0f N under the weight alone, %.0f N at most, and none while the tip is up to %.0f µm above it")
   :format(history.force[1], math.max(table.unpack(history.force)), most))
 
-dotyk.chart{ file = "images/thermoelastic.png", title = "A strip on its stop, under hot air for 10 min, then cold", x = "time [min]",
-  y = "force [N], height [µm], temperature [K]", series = {
-    { name = "force of the stop [N]", x = history.t, y = history.force }, { name = "tip above the stop [µm]", x = history.t, y = history.tip },
-    { name = "air above, over 20 °C [K]", x = history.t, y = history.air }, { name = "strip near its tip [K]", x = history.t, y = history.mean } } }
+dotyk.chart{ file = "images/thermoelastic.png", title = "A strip on its stop, under hot air for 10 min, then cold", x = "time [min]", panels = {
+  { y = "over 20 °C [K]", series = { { name = "air above", x = history.t, y = history.air }, { name = "strip near its tip", x = history.t, y = history.mean } } },
+  { y = "force of the stop [N]", series = { { x = history.t, y = history.force, style = "line" } } },
+  { y = "tip above the stop [µm]", series = { { x = history.t, y = history.tip, style = "line" } } } } }
 dotyk.chart{ file = "images/thermoelastic_lines.png", title = "Deflection of the strip", x = "x [m]", y = "deflection [mm]", series = lines }
 
 -- 2. Orders in time, through closing and opening of the stop; the energy's balance.

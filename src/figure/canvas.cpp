@@ -20,6 +20,8 @@
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "osmesa_window.hpp"
+
 namespace dotyk::figure {
 
 namespace {
@@ -82,7 +84,7 @@ bool crop(Point& p, Point& q, const Box& box) {
 
 void Canvas::emit(Point p, Colour c, double opacity) {
   const auto alpha = static_cast<unsigned char>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
-  vertices_.push_back({static_cast<float>(p.x * factor_), static_cast<float>(p.y * factor_), {c.r, c.g, c.b, alpha}});
+  vertices_.push_back({static_cast<float>((origin_.x + p.x) * factor_), static_cast<float>((origin_.y + p.y) * factor_), {c.r, c.g, c.b, alpha}});
 }
 
 void Canvas::fan(std::span<const Point> corners, Colour colour, double opacity) {
@@ -240,7 +242,7 @@ void Canvas::arrow(Point tail, Point head, double width, double head_length, Col
 }
 
 void Canvas::text(Point at, const std::string& text, const TextStyle& style) {
-  if (!text.empty()) texts_.push_back({at, text, style});
+  if (!text.empty()) texts_.push_back({{origin_.x + at.x, origin_.y + at.y}, text, style});
 }
 
 void Canvas::add_to(vtkRenderer* renderer) const {
@@ -275,6 +277,17 @@ void Canvas::add_to(vtkRenderer* renderer) const {
   vtkNew<vtkActor2D> actor;
   actor->SetMapper(mapper);
   renderer->AddViewProp(actor);
+}
+
+void write_canvas(const Canvas& canvas, int width, int height, const std::string& file) {
+  OsmesaWindow window(canvas.factor() * width, canvas.factor() * height);
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  window.vtk()->AddRenderer(renderer);
+  canvas.add_to(renderer);
+  Image image = reduce(window.render(), width, height, canvas.factor());
+  canvas.set_texts(image);
+  write_png(image, file);
 }
 
 }  // namespace dotyk::figure

@@ -54,6 +54,8 @@ class Canvas {
 public:
   explicit Canvas(int factor) : factor_(factor) {}
 
+  // Where (0, 0) of what follows is.
+  void origin(Point origin) { origin_ = origin; }
   // Triangles outside the box are cut off from here on.
   void clip(const Box& box) { clip_ = box, clipped_ = true; }
   void no_clip() { clipped_ = false; }
@@ -75,6 +77,7 @@ public:
 
   void add_to(vtkRenderer* renderer) const;
   void set_texts(Image& image) const;
+  int factor() const { return factor_; }
 
 private:
   struct Vertex {
@@ -90,10 +93,14 @@ private:
   void emit(Point p, Colour colour, double opacity);
 
   int factor_;
+  Point origin_;
   bool clipped_ = false;
   Box clip_;
   std::vector<Vertex> vertices_;  // three a triangle
   std::vector<Text> texts_;
 };
+
+// A canvas alone on white, as PNG.
+void write_canvas(const Canvas& canvas, int width, int height, const std::string& file);
 
 }  // namespace dotyk::figure

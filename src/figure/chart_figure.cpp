@@ -6,16 +6,12 @@
 #include <cmath>
 #include <optional>
 
-#include <vtkNew.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-
 #include "axes.hpp"
 #include "canvas.hpp"
+#include "chart_column.hpp"
 #include "chart_layout.hpp"
 #include "figures.hpp"
 #include "legend.hpp"
-#include "osmesa_window.hpp"
 #include "ticks.hpp"
 
 namespace dotyk::figure {
@@ -28,8 +24,8 @@ constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Mar
 
 class Chart {
 public:
-  Chart(const ChartPicture& picture, int factor) : picture_(picture), canvas_(factor) {
-    em_ = 0.034 * std::min<double>(picture.height, 0.8 * picture.width);
+  // Draws itself, from the canvas's origin.
+  Chart(const ChartPicture& picture, Canvas& canvas, const ChartFrame& frame) : picture_(picture), canvas_(canvas), frame_(frame), em_(frame.em) {
     x_ = fit_axis(picture, false);
     y_ = fit_axis(picture, true);
     place(0);
@@ -59,7 +55,7 @@ public:
     for (const SlopeGuide& guide : picture.slopes) draw_guide(guide);
   }
 
-  const Canvas& canvas() const { return canvas_; }
+  ChartMargins margins() const { return {room_.left, picture_.width - room_.right}; }
 
 private:
   double line_width() const { return std::max(1.5, em_ / 9); }
@@ -75,14 +71,15 @@ private:
       const double labels_x = std::max(3.0, room_.width() > 1 ? room_.width() / (4.5 * em_) : 6);
       const double labels_y = std::max(3.0, room_.height() > 1 ? room_.height() / (3.2 * em_) : 6);
       x_ticks_ = x_.log ? log_ticks(x_.low, x_.high, static_cast<int>(labels_x) + 1) : linear_ticks(x_.low, x_.high, std::min(8, static_cast<int>(labels_x)));
-      y_ticks_ = y_.log ? log_ticks(y_.low, y_.high, static_cast<int>(labels_y) + 1) : linear_ticks(y_.low, y_.high, std::min(8, static_cast<int>(labels_y)));
+      y_ticks_ = y_.log ? log_ticks(y_.low, y_.high, static_cast<int>(labels_y) + 1) : few_ticks(y_.low, y_.high, std::min(8.0, labels_y));
       double widest = 0;
       for (const Tick& t : y_ticks_.ticks) widest = std::max(widest, text_extent(t.label, em_).x);
       double last = 0;
       for (const Tick& t : x_ticks_.ticks) last = std::max(last, text_extent(t.label, em_).x);
       room_.left = 0.6 * em_ + (picture_.y_label.empty() && !y_ticks_.exponent ? 0 : 1.7 * em_) + widest + 0.5 * em_;
-      room_.bottom = 0.4 * em_ + (picture_.x_label.empty() && !x_ticks_.exponent ? 0 : 1.35 * em_) + 1.6 * em_;
-      room_.right = w - 0.6 * em_ - last / 2;
+      room_.left = std::max(room_.left, frame_.least.left);
+      room_.bottom = frame_.x_labels ? 0.4 * em_ + (picture_.x_label.empty() && !x_ticks_.exponent ? 0 : 1.35 * em_) + 1.6 * em_ : 0.2 * em_;
+      room_.right = w - std::max(0.6 * em_ + last / 2, frame_.least.right);
       room_.top = h - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - legend_height;
     }
     x_.from = room_.left, x_.to = room_.right;
@@ -167,11 +164,11 @@ private:
 
   void draw_axes() {
     draw_grid(canvas_, axes());
-    draw_ticks(canvas_, axes());
+    draw_ticks(canvas_, axes(), frame_.x_labels);
     TextStyle style;
     style.size = em_;
     style.across = Align::middle;
-    const std::string x_name = axis_name(picture_.x_label, x_ticks_), y_name = axis_name(picture_.y_label, y_ticks_);
+    const std::string x_name = frame_.x_labels ? axis_name(picture_.x_label, x_ticks_) : "", y_name = axis_name(picture_.y_label, y_ticks_);
     style.size = fitting_size(x_name, em_, picture_.width - em_);
     canvas_.text({(room_.left + room_.right) / 2, 0.4 * em_}, x_name, style);
     style.size = fitting_size(y_name, em_, room_.height());
@@ -191,11 +188,24 @@ private:
 
   Axes axes() const { return {room_, x_, y_, x_ticks_, y_ticks_, em_}; }
 
-  // A triangle whose slanted side has the slope, near the curves and clear of
-  // them; smaller where there is little room.
+  // A triangle whose slanted side has the slope, near the curve whose slope is most like it and clear of
+  // all; smaller where there is little room.
   void draw_guide(const SlopeGuide& guide) {
     for (const double share : {0.16, 0.11, 0.07})
       if (draw_guide(guide, share)) return;
+  }
+
+  // The curve of nearest slope, in pixels; all where there is none.
+  Occupied like(double slope) const {
+    std::vector<std::vector<Point>> all;
+    for (const SeriesPicture& s : picture_.series)
+      if (!s.reference)
+        for (auto& curve : curves(s, x_, y_)) all.push_back(std::move(curve));
+    const std::vector<Point>* best = nearest_slope(all, slope);
+    if (!best) return occupied_;
+    Occupied out;
+    out.add(*best, room_);
+    return out;
   }
 
   bool draw_guide(const SlopeGuide& guide, double share) {
@@ -210,7 +220,7 @@ private:
     const double pad = 0.35 * em_;
     // With room for the labels on the right and below.
     const double width = run + extent.x + 2 * pad, height = up + 1.2 * em_ + pad;
-    const std::optional<Point> place = near_place(occupied_, room_, width, height, 0.5 * em_);
+    const std::optional<Point> place = near_place(occupied_, like(ratio), room_, width, height, 0.5 * em_);
     if (!place) return false;
     const Point at = *place;
     occupied_.add(Box{at.x, at.y, at.x + width, at.y + height});
@@ -233,8 +243,9 @@ private:
   }
 
   const ChartPicture& picture_;
-  Canvas canvas_;
-  double em_ = 20;
+  Canvas& canvas_;
+  ChartFrame frame_;
+  double em_;
   Axis x_, y_;
   Ticks x_ticks_, y_ticks_;
   Box room_;
@@ -243,17 +254,12 @@ private:
 
 }  // namespace
 
+ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
+
 void draw_chart(const ChartPicture& picture) {
-  const int factor = oversampling(picture.width, picture.height);
-  const Chart chart(picture, factor);
-  OsmesaWindow window(factor * picture.width, factor * picture.height);
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1, 1, 1);
-  window.vtk()->AddRenderer(renderer);
-  chart.canvas().add_to(renderer);
-  Image image = reduce(window.render(), picture.width, picture.height, factor);
-  chart.canvas().set_texts(image);
-  write_png(image, picture.file);
+  Canvas canvas(oversampling(picture.width, picture.height));
+  draw_on(canvas, picture, {0.034 * std::min<double>(picture.height, 0.8 * picture.width), {}, true});
+  write_canvas(canvas, picture.width, picture.height, picture.file);
 }
 
 }  // namespace dotyk::figure

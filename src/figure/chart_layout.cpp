@@ -115,7 +115,7 @@ std::optional<Point> free_place(const Occupied& occupied, const Box& room, doubl
   return std::nullopt;
 }
 
-std::optional<Point> near_place(const Occupied& occupied, const Box& room, double width, double height, double margin) {
+std::optional<Point> near_place(const Occupied& occupied, const Occupied& to, const Box& room, double width, double height, double margin) {
   constexpr int steps = 40;
   const double x = room.width() - width - 2 * margin, y = room.height() - height - 2 * margin;
   if (x < 0 || y < 0) return std::nullopt;
@@ -124,12 +124,24 @@ std::optional<Point> near_place(const Occupied& occupied, const Box& room, doubl
   for (int i = 0; i <= steps; ++i)
     for (int j = 0; j <= steps; ++j) {
       const Point p{room.left + margin + x * i / steps, room.bottom + margin + y * j / steps};
-      const double distance = occupied.distance({p.x, p.y, p.x + width, p.y + height});
-      if (distance < margin) continue;
-      const double cost = distance + 0.02 * (p.y - room.bottom);
+      const Box block{p.x, p.y, p.x + width, p.y + height};
+      if (occupied.distance(block) < margin) continue;
+      const double cost = to.distance(block) + 0.02 * (p.y - room.bottom);
       if (!place || cost < best) best = cost, place = p;
     }
   return place;
+}
+
+const std::vector<Point>* nearest_slope(const std::vector<std::vector<Point>>& curves, double slope) {
+  const std::vector<Point>* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& curve : curves) {
+    if (curve.size() < 2 || curve.back().x == curve.front().x) continue;
+    // Between angles: steep slopes differ little.
+    const double off = std::abs(std::atan((curve.back().y - curve.front().y) / (curve.back().x - curve.front().x)) - std::atan(slope));
+    if (off < least - 1e-9) least = off, best = &curve;
+  }
+  return best;
 }
 
 std::optional<Point> place_beside(const Occupied& occupied, const Box& room, Point at, double width, double height, double margin) {

@@ -41,9 +41,12 @@ private:
 // The corner or edge of `room` where a block of this size meets no curve.
 std::optional<Point> free_place(const Occupied& occupied, const Box& room, double width, double height, double margin);
 
-// Where in `room` a block of this size stands next to the curves, rather
-// below than above, but keeps `margin` clear of them.
-std::optional<Point> near_place(const Occupied& occupied, const Box& room, double width, double height, double margin);
+// Where in `room` a block of this size stands next to the curves of `to`, rather
+// below than above, but keeps `margin` clear of all that is occupied.
+std::optional<Point> near_place(const Occupied& occupied, const Occupied& to, const Box& room, double width, double height, double margin);
+
+// Which of the curves has nearest to this slope, pixels over pixels: from its first to its last point.
+const std::vector<Point>* nearest_slope(const std::vector<std::vector<Point>>& curves, double slope);
 
 // The same nearest to a point: where the middle of the block stands.
 std::optional<Point> place_beside(const Occupied& occupied, const Box& room, Point at, double width, double height, double margin);

@@ -137,9 +137,7 @@ void check(const ScenePicture& p) {
     require(finite(l.position) && finite(l.displacement) && finite(l.vector), "a load has a value that is not finite");
 }
 
-void check(const ChartPicture& p) {
-  check_file(p.file, ".png");
-  check_size(p.file, p.width, p.height);
+static void check_chart(const ChartPicture& p) {
   for (const SeriesPicture& s : p.series) {
     const std::string who = "series \"" + s.name + "\"";
     require(s.x.size() == s.y.size(), who + ": " + count(s.x.size()) + " x for " + count(s.y.size()) + " y");
@@ -151,6 +149,22 @@ void check(const ChartPicture& p) {
     if (range)
       require(std::isfinite((*range)[0]) && std::isfinite((*range)[1]) && (*range)[0] < (*range)[1] && (!log || (*range)[0] > 0),
               std::string("the range of the ") + name + " axis must be {least, greatest}" + (log ? ", both positive" : ""));
+}
+
+void check(const ChartPicture& p) {
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
+  check_chart(p);
+}
+
+void check(const ChartColumn& p) {
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
+  require(!p.panels.empty(), "the picture " + p.file + " has no panels");
+  for (const ChartPicture& panel : p.panels) {
+    check_chart(panel);
+    require(!p.shared_x || panel.log_x == p.panels.front().log_x, "panels that share the x axis are all logarithmic in x, or none is");
+  }
 }
 
 void check_drawing(const BeamDrawing& b) {

@@ -11,6 +11,7 @@ namespace dotyk::figure {
 // node numbers, the file's ending and folder.
 void check(const ScenePicture& picture);
 void check(const ChartPicture& picture);
+void check(const ChartColumn& picture);
 void check(const PagePicture& picture);
 void check(const GridFile& grid);
 

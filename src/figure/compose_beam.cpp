@@ -7,7 +7,6 @@
 
 namespace dotyk::figure {
 
-using beam::Solution;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
 
@@ -16,12 +15,11 @@ namespace {
 constexpr int kPoints = 400;  // of a curve, at least
 
 /// Where curves are taken: equal steps, the nodes, and the points where something acts.
-std::vector<double> points(const Solution& s) {
-  const double length = s.beam().length;
-  std::vector<double> x = s.model().nodes;
-  for (int i = 0; i <= kPoints; ++i) x.push_back(length * i / kPoints);
-  for (const beam::PointLoad& load : s.beam().loads) x.push_back(load.x);
-  for (double& v : x) v = std::clamp(v, 0.0, length);
+std::vector<double> points(const BeamView& view) {
+  std::vector<double> x = view.nodes;
+  for (int i = 0; i <= kPoints; ++i) x.push_back(view.length * i / kPoints);
+  for (const BeamLoad& load : view.loads) x.push_back(load.x);
+  for (double& v : x) v = std::clamp(v, 0.0, view.length);
   std::sort(x.begin(), x.end());
   x.erase(std::unique(x.begin(), x.end()), x.end());
   return x;
@@ -61,13 +59,13 @@ SupportState state(const SupportLaw& law, double v, double r, const Scales& scal
   }
 }
 
-SupportElement element(const Solution& s, int support, LawSide of) {
-  const SupportLaw& law = law_of(s, support, of);
-  const WorkingPoint at = working_point(s, support, of);
-  const double turn = turned(law, of) ? -1 : 1, v = turn * at.displacement;
-  SupportElement out{element_kind(law.kind), state(law, v, turn * at.reaction, scales(s, of)), 0};
-  const double yield = problem::yield_displacement(law);
-  if (law.kind == Kind::capped_elastic && std::isfinite(yield)) out.slip = v - std::clamp(v, -yield, yield);
+SupportElement element(const ViewedLaw& at, const Scales& scale) {
+  const double turn = at.turned ? -1 : 1;
+  const WorkingPoint w = working_point(at, scale);
+  const double v = turn * w.displacement;
+  SupportElement out{element_kind(at.law.kind), state(at.law, v, turn * w.reaction, scale), 0};
+  const double yield = problem::yield_displacement(at.law);
+  if (at.law.kind == Kind::capped_elastic && std::isfinite(yield)) out.slip = v - std::clamp(v, -yield, yield);
   return out;
 }
 
@@ -78,81 +76,98 @@ void clean(std::vector<double>& y, double scale) {
   if (most <= kRounding * scale) std::fill(y.begin(), y.end(), 0.0);
 }
 
-/// M or T over x, from and back to zero at the ends; where it jumps both values.
-PageCurve diagram(const Solution& s, BeamPanel panel) {
-  const double length = s.beam().length, force = scales(s, LawSide::deflection).force;
-  const auto value = [&](double x) { return panel == BeamPanel::moment ? s.moment(x) : s.shear(x); };
-  PageCurve curve{{0}, {0}, false};
+/// Forces and moments within a beam come from zero at one end and go back to it at the other.
+bool closes(BeamPanel panel) { return panel == BeamPanel::moment || panel == BeamPanel::shear || panel == BeamPanel::normal; }
+
+/// Over x; where it jumps both values.
+PageCurve curve_of(const BeamView& view, BeamPanel panel) {
+  const Diagram& diagram = view.diagrams.at(panel);
+  PageCurve curve;
   const auto add = [&](double x, double y) { curve.x.push_back(x), curve.y.push_back(y); };
-  std::vector<beam::PointLoad> acting = s.beam().loads;
-  for (std::size_t i = 0; i < s.beam().supports.size(); ++i) {
-    const beam::Reaction r = s.reaction(static_cast<int>(i));
-    acting.push_back({s.model().nodes[s.model().supports[i].node], r.force, r.moment});
-  }
-  for (const double x : points(s)) {
+  if (closes(panel)) add(0, 0);
+  for (const double x : points(view)) {
     double jump = 0;  // the value to the right less that to the left
-    for (const beam::PointLoad& load : acting)
-      if (load.x == x && x > 0 && x < length) jump += panel == BeamPanel::moment ? load.moment : -load.force;
-    if (jump != 0) add(x, value(x) - jump);
-    add(x, value(x));
+    for (const Diagram::Jump& j : diagram.jumps)
+      if (j.x == x && x > 0 && x < view.length) jump += j.by;
+    const double y = diagram.value(x);
+    if (jump != 0) add(x, y - jump);
+    add(x, y);
   }
-  add(length, 0);
-  clean(curve.y, panel == BeamPanel::moment ? force * length : force);
+  if (closes(panel)) add(view.length, 0);
+  clean(curve.y, diagram.scale);
   return curve;
 }
 
 std::string unit_text(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
 
-std::string joined(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + "·" + b; }
+std::string joined(const std::string& a, const char* sign, const std::string& b) { return a.empty() || b.empty() ? a + b : a + sign + b; }
+
+struct PanelStyle {
+  std::string label;
+  int colour;
+};
+
+PanelStyle style(BeamPanel panel, const Units& units) {
+  switch (panel) {
+    case BeamPanel::deflection: return {"deflection u" + unit_text(units.length), 0};
+    case BeamPanel::moment: return {"moment M" + unit_text(joined(units.force, "·", units.length)), 0};
+    case BeamPanel::shear: return {"shear force T" + unit_text(units.force), 2};
+    case BeamPanel::normal: return {"normal force N" + unit_text(units.force), 4};
+    case BeamPanel::temperature: return {"temperature ϑ₁" + unit_text(units.temperature), 1};
+    case BeamPanel::gradient: return {"gradient ϑ₂" + unit_text(units.temperature.empty() || units.length.empty() ? "" : units.temperature + "/" + units.length), 3};
+    case BeamPanel::displacement: return {"displacement u₁" + unit_text(units.length), 5};
+  }
+  return {};
+}
 
 }  // namespace
 
-BeamDrawing beam_drawing(const Solution& s) {
+BeamDrawing beam_drawing(const BeamView& view) {
   BeamDrawing out;
-  const beam::Beam& b = s.beam();
-  out.length = b.length;
-  out.x = points(s);
+  out.length = view.length;
+  out.x = points(view);
   for (const double x : out.x) {
-    out.deflection.push_back(s.deflection(x));
-    out.load.push_back(b.q_of ? b.q_of(x) : b.q);
+    out.deflection.push_back(view.deflection(x));
+    out.load.push_back(view.load ? view.load(x) : 0);
   }
+  clean(out.deflection, view.bending.displacement);
   if (std::all_of(out.load.begin(), out.load.end(), [](double q) { return q == 0; })) out.load.clear();
-  for (const beam::PointLoad& load : b.loads) out.loads.push_back({load.x, load.force, load.moment});
-  for (std::size_t i = 0; i < b.supports.size(); ++i) {
-    const beam::Support& support = b.supports[i];
-    const int index = static_cast<int>(i);
-    const beam::Reaction r = s.reaction(index);
-    out.supports.push_back({support.x, r.deflection, r.rotation, element(s, index, LawSide::deflection), element(s, index, LawSide::rotation),
-                            problem::one_sided(support.rotation.kind)});
-    const double force = support.deflection.kind == Kind::load ? support.deflection.value : 0;
-    const double moment = support.rotation.kind == Kind::load ? support.rotation.value : 0;
-    if (force != 0 || moment != 0) out.loads.push_back({support.x, force, moment});
+  out.loads = view.loads;
+  for (const ViewedSupport& s : view.supports) {
+    const Scales bending = scales(view, LawSide::deflection), turning = scales(view, LawSide::rotation);
+    out.supports.push_back({s.x, working_point(s.deflection, bending).displacement, working_point(s.rotation, turning).displacement,
+                            element(s.deflection, bending), element(s.rotation, turning), problem::one_sided(s.rotation.law.kind)});
+    const double force = s.deflection.law.kind == Kind::load ? s.deflection.law.value : 0;
+    const double moment = s.rotation.law.kind == Kind::load ? s.rotation.law.value : 0;
+    if (force != 0 || moment != 0) out.loads.push_back({s.x, force, moment});
   }
   return out;
 }
 
-PagePicture compose(const Solution& s, const std::vector<BeamPanel>& panels, const Units& units) {
+PagePicture compose(const BeamView& view, const std::vector<BeamPanel>& panels, const Units& units) {
   PagePicture page;
   page.shared_x = true;
   page.column_weights = {1};
   for (const BeamPanel panel : panels) {
+    const auto [label, colour] = style(panel, units);
     PageCell cell;
     cell.x_label = "x" + unit_text(units.length);
+    cell.y_label = label;
     if (panel == BeamPanel::deflection) {
-      cell.y_label = "deflection u" + unit_text(units.length);
-      cell.drawing = beam_drawing(s);
+      cell.drawing = beam_drawing(view);
     } else {
-      const bool moment = panel == BeamPanel::moment;
-      cell.y_label = moment ? "moment M" + unit_text(joined(units.force, units.length)) : "shear force T" + unit_text(units.force);
       CurveDrawing curve;
-      curve.curves = {diagram(s, panel)};
+      curve.curves = {curve_of(view, panel)};
       curve.area = true;
-      curve.colour = moment ? 0 : 2;
+      curve.colour = colour;
       cell.drawing = std::move(curve);
     }
     page.rows.push_back({std::move(cell)});
     page.row_weights.push_back(panel == BeamPanel::deflection ? 1.6 : 1);
   }
+  double weight = 0;
+  for (const double w : page.row_weights) weight += w;
+  page.height = 60 + static_cast<int>(std::lround(250 * weight));
   return page;
 }
 

@@ -7,7 +7,6 @@
 
 namespace dotyk::figure {
 
-using beam::Solution;
 using problem::GraphWindow;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
@@ -74,13 +73,11 @@ CurveDrawing energy_drawing(const problem::SupportGraph& graph, const GraphWindo
 std::string unit_text(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
 
 /// Graph and superpotential.
-std::vector<PageCell> law_cells(const SupportLaw& law, LawSide of, const std::optional<WorkingPoint>& at, const Scales& scale, const Units& units) {
-  const double sign = turned(law, of) ? -1 : 1;
+std::vector<PageCell> law_cells(const SupportLaw& law, LawSide of, bool turned, const std::optional<WorkingPoint>& at, const Scales& scale, const Units& units) {
+  const double sign = turned ? -1 : 1;
   const GraphWindow w = window(law, at, scale);
   const problem::SupportGraph graph = problem::graph(law, w);
-  const bool rotation = of == LawSide::rotation;
   const std::string moment = units.force.empty() || units.length.empty() ? units.force + units.length : units.force + "·" + units.length;
-  const std::string x = rotation ? "rotation u′" + unit_text(units.length.empty() ? "" : "rad") : "deflection u" + unit_text(units.length);
   std::vector<PageCell> cells(2);
   CurveDrawing reaction = turn(reaction_drawing(graph, w), sign, sign), energy = turn(energy_drawing(graph, w), sign, 1);
   if (at) {
@@ -88,62 +85,39 @@ std::vector<PageCell> law_cells(const SupportLaw& law, LawSide of, const std::op
     const double v = sign * at->displacement;
     energy.point = {at->displacement, problem::energy(law, std::clamp(v, graph.low, graph.high))};
   }
-  cells[0].y_label = rotation ? "reaction moment" + unit_text(moment) : "reaction" + unit_text(units.force);
-  cells[1].y_label = "superpotential" + unit_text(moment);
+  std::string x = "deflection u" + unit_text(units.length), y = "reaction" + unit_text(units.force);
+  if (of == LawSide::rotation) x = "rotation u′" + unit_text(units.length.empty() ? "" : "rad"), y = "reaction moment" + unit_text(moment);
+  if (of == LawSide::displacement) x = "displacement u₁" + unit_text(units.length), y = "axial reaction" + unit_text(units.force);
   cells[0].x_label = cells[1].x_label = x;
+  cells[0].y_label = y, cells[1].y_label = "superpotential" + unit_text(moment);
   cells[0].drawing = std::move(reaction), cells[1].drawing = std::move(energy);
   return cells;
 }
 
-}  // namespace
-
-const SupportLaw& law_of(const Solution& s, int support, LawSide of) {
-  const beam::Support& laws = s.beam().supports[static_cast<std::size_t>(support)];
-  return of == LawSide::deflection ? laws.deflection : laws.rotation;
+std::vector<PageCell> law_cells(const BeamView& view, int support, LawSide of, const Units& units) {
+  const ViewedLaw& at = view.supports[static_cast<std::size_t>(support)].of(of);
+  const Scales scale = scales(view, of);
+  return law_cells(at.law, of, at.turned, working_point(at, scale), scale, units);
 }
 
-WorkingPoint working_point(const Solution& s, int support, LawSide of) {
-  const beam::Reaction r = s.reaction(support);
-  const Scales scale = scales(s, of);
-  const auto clean = [](double value, double size) { return std::abs(value) > kRounding * size ? value : 0; };
-  if (of == LawSide::deflection) return {clean(r.deflection, scale.displacement), clean(r.force, scale.force)};
-  return {clean(r.rotation, scale.displacement), clean(r.moment, scale.force)};
-}
-
-bool turned(const SupportLaw& law, LawSide of) { return of == LawSide::rotation && problem::one_sided(law.kind); }
-
-Scales scales(const Solution& s, LawSide of) {
-  const beam::Beam& b = s.beam();
-  double u = 0, force = 0, load = 0;
-  for (const double x : s.model().nodes) {
-    u = std::max(u, std::abs(s.deflection(x)));
-    load = std::max(load, std::abs(b.q_of ? b.q_of(x) : b.q));
-  }
-  for (const beam::PointLoad& p : b.loads) force += std::abs(p.force) + std::abs(p.moment) / b.length;
-  for (std::size_t i = 0; i < b.supports.size(); ++i) {
-    const beam::Reaction r = s.reaction(static_cast<int>(i));
-    force = std::max({force, std::abs(r.force), std::abs(r.moment) / b.length});
-  }
-  const double EJ = b.EJ_of ? b.EJ_of(b.length / 2) : b.EJ;
-  force = std::max({force, load * b.length, EJ * u / (b.length * b.length * b.length)});
-  if (!(u > 0)) u = b.length;
-  if (!(force > 0)) force = 1;
-  return of == LawSide::deflection ? Scales{u, force} : Scales{u / b.length, force * b.length};
-}
-
-PagePicture compose(const SupportLaw& law, LawSide of, const Units& units) {
+PagePicture law_page(std::vector<PageCell> cells) {
   PagePicture page;
   page.width = 1100, page.height = 480;
   page.column_weights = {1, 1}, page.row_weights = {1};
-  page.rows = {law_cells(law, of, std::nullopt, {}, units)};
+  page.rows = {std::move(cells)};
   return page;
 }
 
-PagePicture compose(const Solution& s, int support, LawSide of, const Units& units) {
-  PagePicture page = compose(law_of(s, support, of), of, units);
-  page.rows = {law_cells(law_of(s, support, of), of, working_point(s, support, of), scales(s, of), units)};
-  return page;
+}  // namespace
+
+WorkingPoint working_point(const ViewedLaw& at, const Scales& scale) {
+  const auto clean = [](double value, double size) { return std::abs(value) > kRounding * size ? value : 0; };
+  return {clean(at.displacement, scale.displacement), clean(at.reaction, scale.force)};
 }
+
+PagePicture compose(const SupportLaw& law, LawSide of, const Units& units) { return law_page(law_cells(law, of, turned(law, of), std::nullopt, {}, units)); }
+
+PagePicture compose(const BeamView& view, int support, LawSide of, const Units& units) { return law_page(law_cells(view, support, of, units)); }
 
 PagePicture compose(const std::vector<GalleryRow>& rows) {
   PagePicture page;
@@ -153,9 +127,8 @@ PagePicture compose(const std::vector<GalleryRow>& rows) {
     PageCell beam;
     beam.title = row.title;
     beam.x_label = "x", beam.y_label = "deflection u";
-    beam.drawing = beam_drawing(*row.solution);
-    std::vector<PageCell> cells = law_cells(law_of(*row.solution, row.support, row.of), row.of,
-                                            working_point(*row.solution, row.support, row.of), scales(*row.solution, row.of), {});
+    beam.drawing = beam_drawing(row.view);
+    std::vector<PageCell> cells = law_cells(row.view, row.support, row.of, {});
     cells.insert(cells.begin(), std::move(beam));
     page.rows.push_back(std::move(cells));
     page.row_weights.push_back(1);

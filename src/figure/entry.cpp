@@ -32,6 +32,10 @@ __attribute__((visibility("default"))) int dotyk_figure_draw_chart(const dotyk::
   return guarded([&] { dotyk::figure::draw_chart(*picture); }, error, size);
 }
 
+__attribute__((visibility("default"))) int dotyk_figure_draw_charts(const dotyk::figure::ChartColumn* picture, char* error, int size) {
+  return guarded([&] { dotyk::figure::draw_charts(*picture); }, error, size);
+}
+
 __attribute__((visibility("default"))) int dotyk_figure_draw_page(const dotyk::figure::PagePicture* picture, char* error, int size) {
   return guarded([&] { dotyk::figure::draw_page(*picture); }, error, size);
 }

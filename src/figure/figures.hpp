@@ -10,6 +10,7 @@ namespace dotyk::figure {
 
 void draw_scene(const ScenePicture& picture);
 void draw_chart(const ChartPicture& picture);
+void draw_charts(const ChartColumn& picture);
 void draw_page(const PagePicture& picture);
 void write_grid(const GridFile& grid);
 

@@ -23,6 +23,7 @@ using Draw = int (*)(const Picture*, char* error, int size);
 struct Library {
   Draw<ScenePicture> scene = nullptr;
   Draw<ChartPicture> chart = nullptr;
+  Draw<ChartColumn> charts = nullptr;
   Draw<PagePicture> page = nullptr;
   Draw<GridFile> grid = nullptr;
 };
@@ -61,9 +62,10 @@ const Library& library() {
     Library l;
     l.scene = reinterpret_cast<Draw<ScenePicture>>(dlsym(handle, "dotyk_figure_draw_scene"));
     l.chart = reinterpret_cast<Draw<ChartPicture>>(dlsym(handle, "dotyk_figure_draw_chart"));
+    l.charts = reinterpret_cast<Draw<ChartColumn>>(dlsym(handle, "dotyk_figure_draw_charts"));
     l.page = reinterpret_cast<Draw<PagePicture>>(dlsym(handle, "dotyk_figure_draw_page"));
     l.grid = reinterpret_cast<Draw<GridFile>>(dlsym(handle, "dotyk_figure_write_grid"));
-    if (!l.scene || !l.chart || !l.page || !l.grid) throw std::runtime_error("the drawing library is of another version of dotyk");
+    if (!l.scene || !l.chart || !l.charts || !l.page || !l.grid) throw std::runtime_error("the drawing library is of another version of dotyk");
     return l;
   }();
   return opened;
@@ -80,6 +82,7 @@ void call(Draw<Picture> Library::*function, const Picture& picture) {
 
 void draw(const ScenePicture& picture) { call(&Library::scene, picture); }
 void draw(const ChartPicture& picture) { call(&Library::chart, picture); }
+void draw(const ChartColumn& picture) { call(&Library::charts, picture); }
 void draw(const PagePicture& picture) { call(&Library::page, picture); }
 void write(const GridFile& grid) { call(&Library::grid, grid); }
 

@@ -5,14 +5,9 @@
 #include <map>
 #include <numeric>
 
-#include <vtkNew.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-
 #include "canvas.hpp"
 #include "figures.hpp"
 #include "legend.hpp"
-#include "osmesa_window.hpp"
 #include "page_cells.hpp"
 
 namespace dotyk::figure {
@@ -180,16 +175,8 @@ private:
 }  // namespace
 
 void draw_page(const PagePicture& picture) {
-  const int factor = oversampling(picture.width, picture.height);
-  const Page page(picture, factor);
-  OsmesaWindow window(factor * picture.width, factor * picture.height);
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1, 1, 1);
-  window.vtk()->AddRenderer(renderer);
-  page.canvas().add_to(renderer);
-  Image image = reduce(window.render(), picture.width, picture.height, factor);
-  page.canvas().set_texts(image);
-  write_png(image, picture.file);
+  const Page page(picture, oversampling(picture.width, picture.height));
+  write_canvas(page.canvas(), picture.width, picture.height, picture.file);
 }
 
 }  // namespace dotyk::figure

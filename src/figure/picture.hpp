@@ -175,6 +175,15 @@ struct ChartPicture {
   std::optional<std::array<double, 2>> x_range, y_range;  // default: the data with a margin
 };
 
+// Charts one below the other. The panels' files and sizes are not looked at.
+struct ChartColumn {
+  std::string file;                         // ends in .png; its folder must exist
+  int width = 1000, height = 900;           // pixels, 160 to 8192 each
+  std::string title;
+  bool shared_x = false;                    // one x axis, named below the last panel; all or none logarithmic
+  std::vector<ChartPicture> panels;         // from above
+};
+
 // ---------------------------------------------------------------- drawing
 
 // Draws the picture and writes it as PNG, whole or not at all: on an error
@@ -184,5 +193,6 @@ struct ChartPicture {
 // number out of range, a size out of range, the drawing library not found.
 void draw(const ScenePicture& picture);
 void draw(const ChartPicture& picture);
+void draw(const ChartColumn& picture);
 
 }  // namespace dotyk::figure

@@ -21,9 +21,9 @@ void bind_all(Library& library) {
   bind_fclib(library);
   bind_law(library);
   bind_beam(library);
-  bind_beam_figure(library);
   bind_channel(library);
   bind_thermoelastic(library);
+  bind_beam_figure(library);
 }
 
 }  // namespace dotyk::script

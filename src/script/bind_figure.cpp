@@ -94,23 +94,55 @@ std::string not_shown(const figure::ChartPicture& picture) {
   return out;
 }
 
+void read_chart(const Arguments& given, figure::ChartPicture& chart) {
+  chart.title = given.has("title") ? given.text("title") : "";
+  chart.x_label = given.has("x") ? given.text("x") : "";
+  chart.y_label = given.has("y") ? given.text("y") : "";
+  const std::string log = given.text("log");
+  chart.log_x = log.find('x') != std::string::npos;
+  chart.log_y = log.find('y') != std::string::npos;
+  for (const Arguments& series : given.tables("series")) chart.series.push_back(series_of(series));
+  if (given.has("slopes"))
+    for (const double slope : given.vector("slopes")) chart.slopes.push_back({slope, ""});
+}
+
+void tell_not_shown(const figure::ChartPicture& chart, const std::string& file) {
+  if (const std::string lost = not_shown(chart); !lost.empty())
+    std::fprintf(stderr, "dotyk: %s: zero and negative values have no place on a logarithmic axis; left out: %s\n", file.c_str(), lost.c_str());
+}
+
+// Panels one below the other; x given for all is one axis.
+int chart_column(Call& call) {
+  for (const char* name : {"series", "slopes", "y", "log"})
+    if (call.has(name)) throw InputError(text("'", name, "' beside 'panels'; give it within each panel"));
+  figure::ChartColumn column;
+  column.file = call.text("file");
+  column.title = call.has("title") ? call.text("title") : "";
+  column.shared_x = call.has("x");
+  for (const Arguments& panel : call.tables("panels")) {
+    figure::ChartPicture& chart = column.panels.emplace_back();
+    read_chart(panel, chart);
+    if (column.shared_x && panel.has("x")) throw InputError(text("panel ", column.panels.size(), " has an 'x', but there is one for all panels; give one or the other"));
+    if (column.shared_x) chart.x_label = call.text("x");
+    if (column.shared_x && chart.log_x != column.panels.front().log_x)
+      throw InputError(text("panel ", column.panels.size(), " is ", chart.log_x ? "" : "not ", "logarithmic in x, the first one is", chart.log_x ? " not" : "", ", but there is one x axis for all panels"));
+  }
+  column.height = 60 + 260 * static_cast<int>(column.panels.size());
+  read_size(call, column.width, column.height);
+  figure::draw(column);
+  for (const figure::ChartPicture& chart : column.panels) tell_not_shown(chart, column.file);
+  return call.give(column.file);
+}
+
 int chart(Call& call) {
+  if (call.has("panels")) return chart_column(call);
+  if (!call.has("series")) throw InputError("missing key 'series', or 'panels'");
   figure::ChartPicture picture;
+  read_chart(call, picture);
   picture.file = call.text("file");
   read_size(call, picture.width, picture.height);
-  picture.title = call.has("title") ? call.text("title") : "";
-  picture.x_label = call.has("x") ? call.text("x") : "";
-  picture.y_label = call.has("y") ? call.text("y") : "";
-  const std::string log = call.text("log");
-  picture.log_x = log.find('x') != std::string::npos;
-  picture.log_y = log.find('y') != std::string::npos;
-  for (const Arguments& series : call.tables("series")) picture.series.push_back(series_of(series));
-  if (call.has("slopes"))
-    for (const double slope : call.vector("slopes")) picture.slopes.push_back({slope, ""});
   figure::draw(picture);
-  if (const std::string lost = not_shown(picture); !lost.empty())
-    std::fprintf(stderr, "dotyk: %s: zero and negative values have no place on a logarithmic axis; left out: %s\n",
-                 picture.file.c_str(), lost.c_str());
+  tell_not_shown(picture, picture.file);
   return call.give(picture.file);
 }
 
@@ -123,24 +155,36 @@ Key series_key() {
                                    key::boolean("reference", "a reference curve: dashed, without markers").fallback(false),
                               key::boolean("twin", "dashed, with the colour and marker of the series before it").fallback(false)},
                               "one curve"),
-                   "the curves").count(1, std::numeric_limits<std::size_t>::max()).required();
+                   "the curves").count(1, std::numeric_limits<std::size_t>::max());
+}
+
+// Of a chart, alone or a panel.
+std::vector<Key> chart_keys(Key series) {
+  return {key::string("title", "above the chart").otherwise("none"),
+          key::string("x", "label of the x axis"), key::string("y", "label of the y axis"),
+          key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
+                      "are left out, and counted on standard error").fallback(""),
+          std::move(series),
+          key::vector("slopes", "guides of these slopes, each beside the curve of nearest slope").otherwise("none")};
+}
+
+std::vector<Key> figure_keys() {
+  std::vector<Key> keys = chart_keys(series_key());
+  keys.insert(keys.begin(), key::string("file", "where to; ends in .png, its folder must exist").required());
+  keys.push_back(key::list("panels", key::table("", chart_keys(series_key().required()), ""),
+                           "instead of series, y, log and slopes: charts one below the other; an x beside them is one axis for all").count(1, 12));
+  keys.push_back(size_key("{1000, 750}; with panels {1000, 60 and 260 for each}"));
+  return keys;
 }
 
 }  // namespace
 
 void bind_figure(Library& library) {
   library.function({.name = "dotyk.chart",
-                    .help = "Draws curves into a PNG file and returns its name.",
+                    .help = "Draws curves into a PNG file, in one chart or in panels one below the other, and returns its name.",
                     .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
                                "  series = { { name = \"P1\", x = { 1, 0.5 }, y = { 0.1, 0.03 } } } }",
-                    .arguments = {key::table({key::string("file", "where to; ends in .png, its folder must exist").required(),
-                                              key::string("title", "above the chart").otherwise("none"),
-                                              key::string("x", "label of the x axis"), key::string("y", "label of the y axis"),
-                                              key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
-                                                          "are left out, and counted on standard error").fallback(""),
-                                              series_key(),
-                                              key::vector("slopes", "guides of these slopes").otherwise("none"),
-                                              size_key("{1000, 750}")})},
+                    .arguments = {key::table(figure_keys())},
                     .run = chart});
   library.extend<Solution>().method(
       {.name = "solution:render",

@@ -78,15 +78,6 @@ void keep_functions(Call& call, int object, Loads& constants) {
   });
 }
 
-// Constants and kept functions of the object before the colon.
-Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
-  Loads all = beam.constants;
-  each_load(all, [&](const Place& at, auto& load) {
-    for (const Function& f : call.kept_function(1, at.kept())) set_function(load, f);
-  });
-  return all;
-}
-
 Source at_first(const Arguments& from, const char* name) {
   Source out;
   if (from.is(name, LUA_TNUMBER)) out.constant = from.number(name);
@@ -162,14 +153,9 @@ int make(Call& call) {
 template <class Advance>
 int stepped(Call& call, Advance advance) {
   const auto beam = call.self<ThermoelasticBeam>();
-  if (beam->stepping_now) throw InputError("it is being stepped: a function of its loads cannot step it");
+  const LoadsCalled called(*beam, "step it");
   const Loads loads = kept_loads(call, *beam);
   Watch watch(call.state(), "stepping");
-  struct Flag {
-    bool& on;
-    explicit Flag(bool& flag) : on(flag) { on = true; }
-    ~Flag() { on = false; }
-  } flag(beam->stepping_now);
   advance(*beam->stepping, loads, watch);
   return call.give_self();
 }
@@ -302,6 +288,19 @@ void add_values(TypeOf<ThermoelasticBeam>& type) {
 }
 
 }  // namespace
+
+LoadsCalled::LoadsCalled(ThermoelasticBeam& beam, const char* what) : on_(beam.loads_called) {
+  if (on_) throw InputError(text("it is being stepped or drawn: a function of its loads cannot ", what));
+  on_ = true;
+}
+
+Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
+  Loads all = beam.constants;
+  each_load(all, [&](const Place& at, auto& load) {
+    for (const Function& f : call.kept_function(1, at.kept())) set_function(load, f);
+  });
+  return all;
+}
 
 void bind_thermoelastic(Library& library) {
   library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .example = example("print(b:run(60):deflection(0.5))"), .arguments = {key::table(keys())},

@@ -76,7 +76,7 @@ TEST_CASE("the working point of every law lies on its graph") {
         b.q = q;
         CAPTURE(problem::support_name(law.kind));
         CAPTURE(q);
-        for (const beam::Branch& branch : solutions(b)) check_working_point(compose(*branch.solution, 1, of, {}));
+        for (const beam::Branch& branch : solutions(b)) check_working_point(compose(view(*branch.solution), 1, of, {}));
       }
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("diagrams begin and end at zero, and jump by what acts at a point") {
   b.supports = {{"left", 0, held, held}, {"x = 2", 2, held, {Kind::elastic, 3, 0}}, {"right", 4, {Kind::elastic, 5, 0}, nothing}};
   b.loads = {{1.234, -2, 0}, {3.1, 0, 0.7}};
   const auto s = solutions(b)[0].solution;
-  const PagePicture page = compose(*s, {BeamPanel::moment, BeamPanel::shear}, {});
+  const PagePicture page = compose(view(*s), {BeamPanel::moment, BeamPanel::shear}, {});
   REQUIRE(page.rows.size() == 2);
   const beam::Reaction middle = s->reaction(1);
   const std::vector<std::array<double, 3>> points{{1.234, 0, 2}, {3.1, 0.7, 0}, {2, middle.moment, -middle.force}};  // x, jumps of M and T
@@ -114,7 +114,7 @@ TEST_CASE("diagrams begin and end at zero, and jump by what acts at a point") {
 TEST_CASE("what rounding leaves of a diagram that vanishes is not drawn") {
   beam::Beam b;
   b.supports = {{"left", 0, held, nothing}, {"right", 1, {Kind::prescribed, 0.3, 0}, nothing}};
-  const PagePicture page = compose(*solutions(b)[0].solution, {BeamPanel::moment, BeamPanel::shear}, {});
+  const PagePicture page = compose(view(*solutions(b)[0].solution), {BeamPanel::moment, BeamPanel::shear}, {});
   for (const std::size_t row : {0u, 1u})
     for (const double y : diagram(page, row).y) CHECK(y == 0);
 }
@@ -123,7 +123,7 @@ TEST_CASE("states of supports") {
   const auto state = [](const SupportLaw& law, double q) {
     beam::Beam b = beam_of(law, nothing);
     b.q = q;
-    return std::get<BeamDrawing>(compose(*solutions(b)[0].solution, {BeamPanel::deflection}, {}).rows[0][0].drawing).supports[1].below.state;
+    return std::get<BeamDrawing>(compose(view(*solutions(b)[0].solution), {BeamPanel::deflection}, {}).rows[0][0].drawing).supports[1].below.state;
   };
   CHECK(state({Kind::signorini, 0, 0}, -1) == SupportState::pushing);
   CHECK(state({Kind::signorini, 0, 0}, 1) == SupportState::open);
@@ -151,7 +151,7 @@ TEST_CASE("symbols of every law stand whole within the frame") {
           if (turned) std::swap(b.supports[0].deflection, b.supports[1].deflection), std::swap(b.supports[0].rotation, b.supports[1].rotation);
           b.q = q;
           const auto s = solutions(b)[0].solution;
-          PagePicture page = compose(*s, {BeamPanel::deflection}, {});
+          PagePicture page = compose(view(*s), {BeamPanel::deflection}, {});
           page.file = "symbol.png", page.width = 640, page.height = 300;
           draw(page);
           const Pixels p = read_png("symbol.png");
@@ -217,7 +217,7 @@ TEST_CASE("beams of any size, without load, and at small sizes of the picture ar
       for (const double q : {0.0, -1e-3, 5e6}) {
         beam::Beam b = beam_of({Kind::elastic, 1, 0}, nothing);
         b.length = b.supports[1].x = length, b.EJ = EJ, b.q = q;
-        PagePicture page = compose(*solutions(b)[0].solution, {BeamPanel::deflection, BeamPanel::moment, BeamPanel::shear}, {"m", "N"});
+        PagePicture page = compose(view(*solutions(b)[0].solution), {BeamPanel::deflection, BeamPanel::moment, BeamPanel::shear}, {"m", "N"});
         page.file = "sizes.png", page.width = 400, page.height = 360;
         CHECK(message_of([&] { draw(page); }) == "");
         CHECK(white_rim(read_png("sizes.png")));

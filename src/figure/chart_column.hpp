@@ -1,0 +1,22 @@
+// A chart among others: what it has in common with those above and below it.
+#pragma once
+
+#include "canvas.hpp"
+
+namespace dotyk::figure {
+
+// Pixels beside the plot.
+struct ChartMargins {
+  double left = 0, right = 0;
+};
+
+struct ChartFrame {
+  double em = 20;
+  ChartMargins least;
+  bool x_labels = true;
+};
+
+// From the canvas's origin, of the picture's size; returns the margins taken.
+ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame);
+
+}  // namespace dotyk::figure
