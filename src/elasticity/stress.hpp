@@ -26,12 +26,4 @@ std::vector<Stress> cell_stress(const mesh::Mesh& mesh, const MaterialField& mat
 /// boundary) take in the neighbours' cells. Reproduces linear stress exactly.
 std::vector<Stress> recover_stress(const mesh::Mesh& mesh, const std::vector<Stress>& at_centres);
 
-/// Squares of the energy norms of the recovery estimate of the error and of the solution:
-/// ∫ (σ* − σ_h):c⁻¹:(σ* − σ_h) and ∫ σ_h:c⁻¹:σ_h.
-struct EnergyEstimate {
-  double error_squared = 0, solution_squared = 0;
-};
-EnergyEstimate estimate_error(const mesh::Mesh& mesh, const MaterialField& material,
-                              const std::vector<double>& u, const std::vector<Stress>& recovered);
-
 }  // namespace dotyk::elasticity

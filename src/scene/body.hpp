@@ -43,12 +43,13 @@ struct SlideRow {
   mesh::Point normal;  ///< unit, outward
 };
 
-/// A load as drawn: its value at a facet's centre (force per length or area).
+/// A load's mean over a facet (force per length or area), drawn at the facet's centre.
 struct LoadArrow {
   PartMark part;
   mesh::Point at;
   mesh::Point value;
   std::string load_case = {};
+  mesh::Facet facet{};
 };
 
 /// Loads of one name, which the steps of a history scale apart from the others.
@@ -89,6 +90,7 @@ struct Body {
   std::vector<SpringPatch> springs;
   std::vector<LawSupport> laws;
   std::vector<double> force;  ///< nodal loads of no case, node × dimension
+  std::vector<mesh::Point> volume_force;  ///< per volume, at each cell's centre; empty: none
   std::vector<LoadCase> cases;
   std::vector<LoadArrow> arrows;
 

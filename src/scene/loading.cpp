@@ -57,6 +57,8 @@ Body Loading::applied_to(const Body& body) const {
   Body scaled = body;
   const double rest = of("");
   for (double& f : scaled.force) f *= rest;
+  for (mesh::Point& f : scaled.volume_force)
+    for (double& v : f) v *= rest;
   for (const LoadCase& one : body.cases)
     for (std::size_t k = 0; k < one.force.size(); ++k) scaled.force[k] += of(one.name) * one.force[k];
   scaled.cases.clear();

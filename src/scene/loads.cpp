@@ -28,7 +28,7 @@ void add(Part& part, const std::string& load_case, Traction&& traction) {
   std::vector<LoadArrow> arrows;
   const PartMark mark = part.mark();
   for (const mesh::Facet f : part.facets) {
-    LoadArrow arrow{mark, body.mesh->facet_centre(f), {0, 0, 0}, load_case};
+    LoadArrow arrow{mark, body.mesh->facet_centre(f), {0, 0, 0}, load_case, f};
     double area = 0;
     elasticity::add_traction(*body.mesh, {f}, [&](const FacetPoint& p) {
       const Point t = traction(p);

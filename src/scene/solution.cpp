@@ -129,18 +129,6 @@ bool Solution::active(int row) const {
   return !result_.active_sets.empty() && result_.active_sets.back()[row];
 }
 
-double Solution::error_estimate() const {
-  elasticity::EnergyEstimate sum;
-  for (std::size_t k = 0; k < scene_->bodies.size(); ++k) {
-    const Body& b = body(static_cast<int>(k));
-    const auto e = elasticity::estimate_error(*b.mesh, b.material, displacement_[k], stress(static_cast<int>(k)));
-    sum.error_squared += e.error_squared;
-    sum.solution_squared += e.solution_squared;
-  }
-  const double whole = sum.error_squared + sum.solution_squared;
-  return whole > 0 ? std::sqrt(sum.error_squared / whole) : 0;
-}
-
 std::string describe(const Solution& s) {
   const solver::Result& r = s.result();
   std::string out = text("solution: ", r.converged ? "converged" : "NOT CONVERGED", " (", r.method, ", ",

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "elasticity/error_estimate.hpp"
 #include "elasticity/stress.hpp"
 #include "problem/residual.hpp"
 #include "scene/model.hpp"
@@ -63,6 +64,14 @@ struct SupportResult {
   int open = 0, closed = 0, stick = 0, slip = 0, broken = 0;  ///< nodes, by their status along the normal
   int tangential_stick = 0, tangential_slip = 0;
   std::vector<SupportNode> nodes;
+};
+
+/// Of the energy norm of u − u_h, all bodies together; see elasticity/error_estimate.hpp for the parts.
+struct ErrorEstimate {
+  double absolute = 0;  ///< √Σ of the parts: √(force·length)
+  double relative = 0;  ///< absolute / √(absolute² + ‖u_h‖²)
+  elasticity::ErrorParts parts;                              ///< squares
+  std::vector<std::vector<elasticity::ErrorParts>> cells;    ///< body → cell → its share
 };
 
 class Locator;
@@ -124,8 +133,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
   /// Force that the supports (fix, slide, displace, spring, laws) of the part exert on the body. A node
   /// component held by several parts counts for the one that held it first.
   mesh::Point reaction(const Part& part) const;
-  /// Recovery estimate of the relative error in the energy norm.
-  double error_estimate() const;
+  /// A posteriori estimate of the error in the energy norm, contact included.
+  ErrorEstimate error_estimate() const;
 
   /// As the scene was solved; a step that is not the last has no stiffness matrices.
   const Model& model() const { return model_; }

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/space.hpp"
@@ -175,6 +177,24 @@ int reaction(Call& call) {
   return call.give_all(components(s->reaction(*call.object<scene::Part>("part")), s->scene().dimension()));
 }
 
+int error_estimate(Call& call) {
+  const scene::ErrorEstimate e = call.self<Solution>()->error_estimate();
+  const elasticity::ErrorParts& p = e.parts;
+  Record record{"error estimate", {{"absolute", e.absolute}, {"relative", e.relative}, {"recovery", std::sqrt(p.recovery)},
+                                   {"bulk", std::sqrt(p.bulk)}, {"jump", std::sqrt(p.jump)}, {"boundary", std::sqrt(p.boundary)},
+                                   {"contact_pressure", std::sqrt(p.contact_pressure)},
+                                   {"complementarity", std::sqrt(p.complementarity)}, {"friction", std::sqrt(p.friction)}}};
+  call.give(e.relative, record);
+  std::vector<std::vector<double>> cells;
+  for (const auto& of_body : e.cells) {
+    cells.emplace_back();
+    for (const auto& cell : of_body) cells.back().push_back(std::sqrt(cell.sum()));
+  }
+  push(call.state(), cells);
+  lua_setfield(call.state(), -2, "cells");
+  return 2;
+}
+
 }  // namespace
 
 void bind_solution(Library& library) {
@@ -239,9 +259,14 @@ void bind_solution(Library& library) {
                .arguments = {key::object<scene::Part>("part", "a supported part").required()},
                .run = reaction})
       .method({.name = "solution:error_estimate",
-               .help = "Estimate of the relative error in the energy norm, by stress recovery.",
-               .example = "print(s:error_estimate())",
-               .run = [](Call& call) { return call.give(call.self<Solution>()->error_estimate()); }})
+               .help = "A posteriori estimate of the error in the energy norm, contact included: first the relative one, a number; "
+                       "then a record: absolute (of ‖u - u_h‖, √(force·length)), relative, its parts, whose squares add up to "
+                       "absolute²: recovery (stress against recovered stress), bulk (equilibrium of the recovered stress inside cells), "
+                       "jump (of its tractions where the material jumps), boundary (against loads and free boundaries), "
+                       "contact_pressure and friction (against the contact's pressure and shear; friction also slip against its law), "
+                       "complementarity (pressure where the gap opens); and cells[i], the estimate of each cell of the i-th body.",
+               .example = "local relative, parts = s:error_estimate()\nprint(relative, parts.contact_pressure, #parts.cells[1])",
+               .run = error_estimate})
       .method({.name = "solution:write_contact",
                .help = "Writes the contact nodes of all contacts as comma-separated values: contact, node, coordinates, gap, "
                        "pressure, force, weight, components of shear and slip, status.",

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/elastic.hpp"
+#include "elasticity/error_estimate.hpp"
 
 using namespace dotyk;
 using elasticity::Stress;
@@ -83,9 +84,8 @@ TEST_CASE("the error estimate of a linear displacement is zero") {
       test::distort(m, 0.04);
       const auto material = test::steel(dim);
       const auto u = test::nodal(m, [](const Point& x) { return Point{x[0] + 2 * x[1], x[1] - x[2], 3 * x[0]}; });
-      const auto e = elasticity::estimate_error(m, material, u,
-                                                elasticity::recover_stress(m, elasticity::cell_stress(m, material, u)));
-      CHECK(e.error_squared < 1e-22 * e.solution_squared);
+      const auto e = elasticity::estimate_error(m, material, u, {}, {});
+      for (const auto& cell : e.cells) CHECK(cell.sum() < 1e-22 * e.solution_squared);
       CHECK(e.solution_squared > 0);
     }
 }

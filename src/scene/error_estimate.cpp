@@ -1,0 +1,265 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scene/solution.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+using elasticity::ErrorParts;
+using elasticity::FacetTraction;
+using mesh::Facet;
+using mesh::Point;
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// What is known of the tractions on a body's boundary.
+class Boundary {
+ public:
+  Boundary(const Body& body, const elasticity::Numbering& numbering, const std::vector<double>& u) : mesh_(*body.mesh) {
+    for (const Facet f : mesh::boundary(mesh_)) {
+      index_[{f.cell, f.local}] = all_.size();
+      all_.push_back({f});
+    }
+    for (const LoadArrow& load : body.arrows)
+      if (FacetTraction* at = find(load.facet))
+        for (Point& t : at->traction)
+          for (int i = 0; i < 3; ++i) t[i] += load.value[i];
+    for (const SpringPatch& patch : body.springs) add_spring(patch.spring, u);
+    forget_held(body, numbering);
+  }
+
+  /// Null where the facet is not on the boundary.
+  FacetTraction* find(Facet f) {
+    const auto found = index_.find({f.cell, f.local});
+    return found == index_.end() ? nullptr : &all_[found->second];
+  }
+  const std::vector<FacetTraction>& all() const { return all_; }
+
+ private:
+  /// −k u at the nodes, k the facet's mean.
+  void add_spring(const elasticity::FacetSpring& spring, const std::vector<double>& u) {
+    FacetTraction* at = find(spring.facet);
+    if (!at || spring.stiffness.empty()) return;
+    for (int k = 0; k < corners(); ++k)
+      for (int i = 0; i < mesh_.dimension(); ++i)
+        for (const auto& stiffness : spring.stiffness)
+          at->traction[k][i] -= stiffness[i] / static_cast<double>(spring.stiffness.size()) *
+                                u[static_cast<std::size_t>(mesh_.facet_node(spring.facet, k)) * mesh_.dimension() + i];
+  }
+
+  /// Directions in which all nodes of a facet are held.
+  void forget_held(const Body& body, const elasticity::Numbering& numbering) {
+    std::map<int, std::vector<Point>> slides;
+    for (const SlideRow& slide : body.slides) slides[slide.node].push_back(slide.normal);
+    for (FacetTraction& facet : all_) {
+      for (int i = 0; i < mesh_.dimension(); ++i) {
+        bool held = true;
+        for (int k = 0; k < corners(); ++k)
+          held = held && numbering.unknown[static_cast<std::size_t>(mesh_.facet_node(facet.facet, k)) * mesh_.dimension() + i] < 0;
+        Point axis{0, 0, 0};
+        axis[i] = 1;
+        if (held) facet.forget(axis);
+      }
+      if (slides.empty()) continue;
+      const Point n = unit_normal(facet.facet);
+      bool slides_all = true;
+      for (int k = 0; k < corners(); ++k) {
+        const auto found = slides.find(mesh_.facet_node(facet.facet, k));
+        slides_all = slides_all && found != slides.end() &&
+                     std::any_of(found->second.begin(), found->second.end(), [&](const Point& m) { return dot(m, n) > 0.9; });
+      }
+      if (slides_all) facet.forget(n);
+    }
+  }
+
+  int corners() const { return mesh_.topology().nodes_per_facet; }
+  Point unit_normal(Facet f) const {
+    Point n = mesh_.facet_area_vector(f);
+    const double area = std::sqrt(dot(n, n));
+    for (double& v : n) v /= area;
+    return n;
+  }
+
+  const mesh::Mesh& mesh_;
+  std::map<std::pair<int, int>, std::size_t> index_;
+  std::vector<FacetTraction> all_;
+};
+
+/// Traction on the first body at a contact node.
+Point traction(const ContactNode& node) {
+  Point t = node.shear;
+  for (int i = 0; i < 3; ++i) t[i] -= node.pressure * node.normal[i];
+  return t;
+}
+
+/// Adds the tractions of a contact to the first body's facets.
+void add_first(const contact::Surface& surface, const ContactResult& result, Boundary& boundary) {
+  for (const contact::SurfaceFacet& f : surface.facets) {
+    FacetTraction* at = boundary.find(f.facet);
+    if (!at) continue;
+    at->contact = true;
+    for (int a = 0; a < f.corners; ++a)
+      for (int i = 0; i < 3 && f.row[a] >= 0; ++i) at->traction[a][i] += traction(result.nodes[f.row[a]])[i];
+  }
+}
+
+/// The opposite tractions on the second body's facets all of whose nodes are partners, on the side that looks their way.
+void add_second(const Contact& contact, const ContactResult& result, Boundary& boundary) {
+  const mesh::Mesh& mesh = *contact.second.body->mesh;
+  std::map<int, std::vector<std::size_t>> rows;
+  for (std::size_t k = 0; k < contact.rows.size(); ++k) rows[contact.rows[k].partner].push_back(k);
+  for (const Facet f : contact.second.facets) {
+    FacetTraction* at = boundary.find(f);
+    const Point n = mesh.facet_area_vector(f);
+    std::array<Point, 4> opposite{};
+    bool all = at != nullptr;
+    for (int a = 0; all && a < mesh.topology().nodes_per_facet; ++a) {
+      const auto found = rows.find(mesh.facet_node(f, a));
+      all = found != rows.end();
+      if (!all) break;
+      const std::size_t row = *std::min_element(found->second.begin(), found->second.end(), [&](std::size_t i, std::size_t j) {
+        return dot(contact.rows[i].normal, n) < dot(contact.rows[j].normal, n);
+      });
+      const Point t = traction(result.nodes[row]);
+      for (int i = 0; i < 3; ++i) opposite[a][i] = -t[i];
+    }
+    if (!all) continue;
+    at->contact = true;
+    for (int a = 0; a < 4; ++a)
+      for (int i = 0; i < 3; ++i) at->traction[a][i] += opposite[a][i];
+  }
+}
+
+/// Glued facets: nothing is known of the traction.
+void forget_glued(const mesh::Mesh& mesh, const std::vector<Facet>& facets, std::vector<int> nodes, Boundary& boundary) {
+  std::sort(nodes.begin(), nodes.end());
+  for (const Facet f : facets) {
+    FacetTraction* at = boundary.find(f);
+    for (int a = 0; at && a < mesh.topology().nodes_per_facet; ++a)
+      if (!std::binary_search(nodes.begin(), nodes.end(), mesh.facet_node(f, a))) at = nullptr;
+    if (at) at->known = {};
+  }
+}
+
+/// Reactions of a support by laws.
+void add_laws(const mesh::Mesh& mesh, const LawSupport& support, const SupportResult& result, Boundary& boundary) {
+  std::map<int, std::vector<const SupportNode*>> at_node;
+  for (const SupportNode& node : result.nodes) at_node[node.node].push_back(&node);
+  for (const Facet f : support.facets) {
+    FacetTraction* at = boundary.find(f);
+    if (!at) continue;
+    const Point n = mesh.facet_area_vector(f);
+    for (int a = 0; a < mesh.topology().nodes_per_facet; ++a) {
+      const auto found = at_node.find(mesh.facet_node(f, a));
+      if (found == at_node.end()) continue;
+      const SupportNode& node = **std::max_element(found->second.begin(), found->second.end(), [&](const auto* i, const auto* j) {
+        return dot(i->normal, n) < dot(j->normal, n);
+      });
+      for (int i = 0; i < 3; ++i) at->traction[a][i] += node.shear[i] - node.pressure * node.normal[i];
+    }
+  }
+}
+
+/// ∫ of the product of two linear (bilinear) functions on a facet.
+double product(const contact::Gram& gram, int corners, const double* x, const double* y) {
+  double sum = 0;
+  for (int a = 0; a < corners; ++a)
+    for (int b = 0; b < corners; ++b) sum += gram[a][b] * x[a] * y[b];
+  return sum;
+}
+
+/// 2∫ pressure·gap on the facet, as nodal values interpolate them; or, if less, the error of a traction
+/// without that pressure: both are admissible.
+double complementarity(const contact::SurfaceFacet& f, const contact::Gram& gram, const ContactResult& result,
+                       const elasticity::TractionWeight& weight) {
+  double pressure[4] = {}, gap[4] = {}, stiffness = 0;
+  for (int a = 0; a < f.corners; ++a) {
+    if (f.row[a] < 0) continue;
+    const ContactNode& node = result.nodes[f.row[a]];
+    pressure[a] = std::abs(node.pressure);
+    gap[a] = std::abs(node.gap);
+    double along = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) along += node.normal[i] * weight.inverse[i][k] * node.normal[k];
+    stiffness = std::max(stiffness, along);
+  }
+  return std::min(2 * product(gram, f.corners, pressure, gap),
+                  weight.depth * stiffness * product(gram, f.corners, pressure, pressure));
+}
+
+/// 2∫ (bound ‖slip‖ + shear·slip) on the facet, or, if less, the error of a traction without that shear.
+double slip_law(const Contact& contact, const contact::SurfaceFacet& f, const contact::Gram& gram, const ContactResult& result,
+                const elasticity::TractionWeight& weight) {
+  double bound[4] = {}, slip[4] = {}, size[4] = {}, work = 0, stiffness = 0;
+  for (int a = 0; a < f.corners; ++a) {
+    if (f.row[a] < 0) continue;
+    const ContactNode& node = result.nodes[f.row[a]];
+    const double value = contact.friction_value[f.row[a]];
+    bound[a] = contact.friction == Friction::Kind::tresca ? value : value * std::max(0.0, node.pressure);
+    slip[a] = std::sqrt(dot(node.slip, node.slip));
+    size[a] = std::sqrt(dot(node.shear, node.shear));
+    for (int i = 0; i < 3; ++i) stiffness = std::max(stiffness, weight.inverse[i][i]);
+    for (int b = 0; b < f.corners; ++b)
+      if (f.row[b] >= 0) work += gram[a][b] * dot(node.shear, result.nodes[f.row[b]].slip);
+  }
+  const double lost = 2 * (product(gram, f.corners, bound, slip) + work);
+  const double without = weight.depth * stiffness * product(gram, f.corners, size, size);
+  return std::isfinite(lost) ? std::min(std::max(0.0, lost), without) : 0;
+}
+
+}  // namespace
+
+ErrorEstimate Solution::error_estimate() const {
+  const auto count = static_cast<int>(scene_->bodies.size());
+  std::vector<Boundary> boundary;
+  for (int b = 0; b < count; ++b) boundary.emplace_back(body(b), model_.numbering[b], displacement_[b]);
+  std::vector<std::optional<ContactResult>> results;
+  for (const auto& contact : scene_->contacts) {
+    const int first = scene_->index_of(contact->first.body.get()), second = scene_->index_of(contact->second.body.get());
+    results.emplace_back();
+    if (contact->kind == Contact::Kind::contact) {
+      results.back() = this->contact(*contact);
+      add_first(surface_of(*contact), *results.back(), boundary[first]);
+      if (second >= 0) add_second(*contact, *results.back(), boundary[second]);
+      continue;
+    }
+    std::vector<int> ours, theirs;
+    for (const auto& pair : contact->glued) ours.push_back(pair.first), theirs.push_back(pair.second);
+    forget_glued(*contact->first.body->mesh, contact->first.facets, ours, boundary[first]);
+    forget_glued(*contact->second.body->mesh, contact->second.facets, theirs, boundary[second]);
+  }
+  ErrorEstimate estimate;
+  double solution = 0;
+  for (int b = 0; b < count; ++b) {
+    const Body& own = body(b);
+    for (const LawSupport& on : own.laws)
+      add_laws(*own.mesh, on, support({scene_->bodies[b], on.part.name, on.facets}), boundary[b]);
+    auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement_[b], own.volume_force, boundary[b].all());
+    estimate.cells.push_back(std::move(of_body.cells));
+    solution += of_body.solution_squared;
+  }
+  for (std::size_t c = 0; c < results.size(); ++c) {
+    if (!results[c]) continue;
+    const Contact& contact = *scene_->contacts[c];
+    const Body& own = body(scene_->index_of(contact.first.body.get()));
+    auto& cells = estimate.cells[scene_->index_of(contact.first.body.get())];
+    for (const contact::SurfaceFacet& f : surface_of(contact).facets) {
+      const contact::Gram gram = contact::gram(*own.mesh, f.facet);
+      const auto weight = elasticity::traction_weight(*own.mesh, own.material.at(f.facet.cell), f.facet);
+      cells[f.facet.cell].complementarity += complementarity(f, gram, *results[c], weight);
+      // Slip is counted from the beginning: in a history only its first step's is the increment.
+      if (contact.friction != Friction::Kind::none && past_.slip.size() == 0)
+        cells[f.facet.cell].friction += slip_law(contact, f, gram, *results[c], weight);
+    }
+  }
+  for (const auto& cells : estimate.cells)
+    for (const ErrorParts& parts : cells) estimate.parts += parts;
+  const double square = estimate.parts.sum(), whole = square + solution;
+  estimate.absolute = std::sqrt(square);
+  estimate.relative = whole > 0 ? std::sqrt(square / whole) : 0;
+  return estimate;
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,269 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "../support/scenes.hpp"
+#include "scene/adaptive.hpp"
+
+using namespace dotyk;
+
+namespace {
+
+using Meshes = std::vector<std::shared_ptr<const mesh::Mesh>>;
+using Make = std::function<std::shared_ptr<scene::Scene>(const Meshes&)>;
+
+constexpr double kE = 1000;
+
+std::shared_ptr<scene::Body> body(const std::string& name, const std::shared_ptr<const mesh::Mesh>& m, double E = kE) {
+  return scene::make_body(name, m, elasticity::MaterialField(elasticity::isotropic(E, 0.3, m->dimension(), elasticity::Plane::strain)), {});
+}
+
+std::shared_ptr<scene::Solution> solve(const std::shared_ptr<scene::Scene>& s) {
+  Monitor quiet;
+  for (const auto& contact : s->contacts)
+    if (contact->friction != scene::Friction::Kind::none) return scene::solve(s, solver::Newton{}, {}, quiet);
+  return scene::solve(s, solver::Pdas{}, {}, quiet);
+}
+
+/// Displacements (a mesh each) on the mesh refined from theirs: linear along edges, so the midpoints' are means.
+void prolong(std::vector<double>& u, const mesh::Refined& refined, int dim) {
+  for (const auto& [a, b] : refined.ends)
+    for (int i = 0; i < dim; ++i)
+      u.push_back(0.5 * u[static_cast<std::size_t>(a) * dim + i] + 0.5 * u[static_cast<std::size_t>(b) * dim + i]);
+}
+
+struct Outcome {
+  double effectivity;
+  scene::ErrorEstimate estimate;
+};
+
+/// The estimate over ‖ū − u_h‖, ū the solution after `rounds` more uniform refinements. Where the error is ~ h^s, that
+/// is too little by √(1 − 4^(−s rounds)): 1 % in the plane, 3 % in space for smooth u, twice as much and four times
+/// at corners.
+Outcome effectivity(const Make& make, const std::vector<mesh::Mesh>& start, int rounds) {
+  std::vector<mesh::Bisection> meshes(start.begin(), start.end());
+  const auto now = [&] {
+    Meshes list;
+    for (const auto& m : meshes) list.push_back(m.mesh());
+    return list;
+  };
+  const auto coarse = solve(make(now()));
+  REQUIRE(coarse->result().converged);
+  const int dim = start[0].dimension();
+  std::vector<std::vector<double>> u;
+  for (std::size_t b = 0; b < start.size(); ++b) u.push_back(coarse->displacement(static_cast<int>(b)));
+  for (int k = 0; k < rounds; ++k)
+    for (std::size_t b = 0; b < start.size(); ++b) {
+      std::vector<int> all(meshes[b].mesh()->cell_count());
+      std::iota(all.begin(), all.end(), 0);
+      prolong(u[b], meshes[b].refine(all), dim);
+    }
+  const auto fine = solve(make(now()));
+  REQUIRE(fine->result().converged);
+  double square = 0;
+  for (std::size_t b = 0; b < start.size(); ++b) {
+    const auto& own = fine->body(static_cast<int>(b));
+    std::vector<double> e = fine->displacement(static_cast<int>(b));
+    for (std::size_t k = 0; k < e.size(); ++k) e[k] -= u[b][k];
+    const auto force = elasticity::internal_force(*own.mesh, own.material, {}, e);
+    square += std::inner_product(e.begin(), e.end(), force.begin(), 0.0);
+  }
+  const auto estimate = coarse->error_estimate();
+  return {estimate.absolute / std::sqrt(square), estimate};
+}
+
+mesh::Mesh slab(int dim, int n, double low = -1, double high = 0) {
+  return dim == 2 ? test::rectangle(mesh::Family::p1, n, n / 2, -1, low, 1, high)
+                  : test::box(mesh::Family::p1, n, n, n / 2, {-1, -1, low}, {1, 1, high});
+}
+
+contact::RigidGap gap(int dim, elasticity::ScalarField value) {
+  mesh::Point normal{0, 0, 0};
+  normal[dim - 1] = 1;
+  return {normal, std::move(value)};
+}
+
+double radius_squared(const mesh::Point& x, int dim) { return x[0] * x[0] + (dim == 3 ? x[1] * x[1] : 0); }
+
+/// A rigid parabola pressed into a slab, with friction or without.
+Make hertz(int dim, scene::Friction friction = {}) {
+  return [=](const Meshes& m) {
+    auto b = body("slab", m[0]);
+    test::fix(b, "bottom");
+    auto s = scene::make_scene({b});
+    const double depth = dim == 2 ? 0.02 : 0.05;
+    scene::add_contact(*s, test::part(b, "top"), gap(dim, [=](const mesh::Point& x) { return radius_squared(x, dim) / 2 - depth; }), {}, false, friction);
+    return s;
+  };
+}
+
+/// A flat punch with sharp edges: pressure with a root singularity at both sides of the edge, seen by the body alone.
+Make punch(int dim) {
+  return [=](const Meshes& m) {
+    auto b = body("slab", m[0]);
+    test::fix(b, "bottom");
+    auto s = scene::make_scene({b});
+    const auto under = scene::chosen_part(b, "under", [=](const mesh::Point& x, const mesh::Point& n) {
+      return n[dim - 1] > 0.9 && std::abs(x[0]) < 0.5 && (dim == 2 || std::abs(x[1]) < 0.5);
+    });
+    scene::add_contact(*s, under, gap(dim, [](const mesh::Point&) { return -0.02; }), {}, false);
+    return s;
+  };
+}
+
+Make pulled(int dim, const std::string& held, const std::string& loaded, mesh::Point traction) {
+  return [=](const Meshes& m) {
+    auto b = body("body", m[0]);
+    CHECK(m[0]->dimension() == dim);
+    test::fix(b, held);
+    test::pull(b, loaded, [=](const mesh::Point&) { return traction; });
+    return scene::make_scene({b});
+  };
+}
+
+mesh::Mesh corner(int dim) {
+  const auto out = [dim](const mesh::Point& x) { return x[0] < 0 || x[dim - 1] < 0; };
+  return mesh::keep(dim == 2 ? test::rectangle(mesh::Family::p1, 4, 4, -1, -1, 1, 1) : test::box(mesh::Family::p1, 4, 2, 4, {-1, 0, -1}, {1, 1, 1}), out, "cut");
+}
+
+mesh::Mesh bar(int dim) {
+  return dim == 2 ? test::rectangle(mesh::Family::p1, 16, 4, 0, 0, 4, 1) : test::box(mesh::Family::p1, 8, 2, 2, {0, 0, 0}, {4, 1, 1});
+}
+
+/// Two slabs, the upper free but for its load, its lower side a shallow roof.
+Make slabs(int dim) {
+  return [=](const Meshes& m) {
+    auto lower = body("lower", m[0]), upper = body("upper", m[1], 3 * kE);
+    test::fix(lower, "bottom");
+    test::press(upper, "top", 10);
+    auto s = scene::make_scene({lower, upper});
+    scene::add_contact(*s, test::part(lower, "top"), test::part(upper, "bottom"),
+                       [=](const mesh::Point& x) { return 0.1 * radius_squared(x, dim); });
+    for (int i = 0; i + 1 < dim; ++i) {
+      std::array<bool, 3> held{};
+      held[i] = true;
+      test::fix(upper, "top", held);
+    }
+    return s;
+  };
+}
+
+/// Stiff above soft in one body.
+Make two_materials(int dim) {
+  return [=](const Meshes& m) {
+    std::vector<double> E, nu(m[0]->cell_count(), 0.3);
+    for (int c = 0; c < m[0]->cell_count(); ++c) E.push_back(m[0]->cell_centre(c)[dim - 1] > 0.5 ? 10 * kE : kE);
+    auto b = scene::make_body("bar", m[0], elasticity::MaterialField(E, nu, dim, elasticity::Plane::strain), {});
+    test::fix(b, "left");
+    mesh::Point traction{0, 0, 0};
+    traction[dim - 1] = -1;
+    test::pull(b, "right", [=](const mesh::Point&) { return traction; });
+    return scene::make_scene({b});
+  };
+}
+
+mesh::Point down(int dim) {
+  mesh::Point t{0, 0, 0};
+  t[dim - 1] = -1;
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("effectivity lies between 0.5 and 3: smooth, with corners, with contact and friction, two bodies, two materials") {
+  for (const int dim : {2, 3}) {
+    const int n = dim == 2 ? 16 : 4, rounds = dim == 2 ? 3 : 2;
+    const auto tresca = scene::Friction{scene::Friction::Kind::tresca, [](const mesh::Point&) { return 2.0; }};
+    const auto coulomb = scene::Friction{scene::Friction::Kind::coulomb, [](const mesh::Point&) { return 0.3; }};
+    const std::tuple<const char*, Make, std::vector<mesh::Mesh>> cases[] = {
+        {"cantilever", pulled(dim, "left", "right", down(dim)), {bar(dim)}},
+        {"re-entrant corner", pulled(dim, "left", "bottom", {1, 0, 0}), {corner(dim)}},
+        {"parabola", hertz(dim), {slab(dim, n)}},
+        {"parabola, given friction", hertz(dim, tresca), {slab(dim, n)}},
+        {"parabola, Coulomb", hertz(dim, coulomb), {slab(dim, n)}},
+        {"sharp punch", punch(dim), {slab(dim, n)}},
+        {"two slabs", slabs(dim), {slab(dim, n), slab(dim, n, 0, 1)}},
+        {"two materials", two_materials(dim), {bar(dim)}}};
+    for (const auto& [name, make, start] : cases) {
+      const Outcome r = effectivity(make, start, rounds);
+      INFO(dim, "-D ", std::string(name), ": effectivity ", r.effectivity, " relative ", r.estimate.relative);
+      CHECK(r.effectivity > 0.5);
+      CHECK(r.effectivity < 3);
+    }
+  }
+}
+
+TEST_CASE("against a closed form the estimate comes to be exact") {
+  // u_i = A_i times the sines πx_k on the unit square or cube, held all round; ‖u‖² by hand, ‖u − u_h‖² = ‖u‖² − ‖u_h‖².
+  const double pi = std::acos(-1.0), A[3] = {0.01, -0.007, 0.004}, mu = kE / 2.6, lambda = kE * 0.3 / (1.3 * 0.4);
+  for (const int dim : {2, 3}) {
+    double last = 0;
+    for (const int n : dim == 2 ? std::vector{8, 32} : std::vector{4, 16}) {
+      const auto force = [&](const mesh::Point& x) {
+        double s[3] = {1, 1, 1}, c[3] = {1, 1, 1}, all = 1;
+        for (int i = 0; i < dim; ++i) s[i] = std::sin(pi * x[i]), c[i] = std::cos(pi * x[i]), all *= s[i];
+        mesh::Point f{0, 0, 0};
+        for (int i = 0; i < dim; ++i) {
+          f[i] = A[i] * (lambda + mu + dim * mu) * all;
+          for (int j = 0; j < dim; ++j)
+            if (j != i) f[i] -= (lambda + mu) * A[j] * c[i] * c[j] * (dim == 3 ? s[3 - i - j] : 1);
+          f[i] *= pi * pi;
+        }
+        return f;
+      };
+      const auto m = std::make_shared<const mesh::Mesh>(test::unit(dim, mesh::Family::p1, n));
+      auto b = scene::make_body("cube", m, elasticity::MaterialField(elasticity::isotropic(kE, 0.3, dim, elasticity::Plane::strain)), force);
+      for (const auto& [name, facets] : m->parts) test::fix(b, name);
+      const auto s = solve(scene::make_scene({b}));
+      double whole = 0;
+      for (int i = 0; i < dim; ++i) whole += A[i] * A[i] * pi * pi * (lambda + mu + dim * mu) / (1 << dim);
+      last = s->error_estimate().absolute / std::sqrt(whole + 2 * s->energy());
+      CHECK(last > 0.9);
+      CHECK(last < 2);
+    }
+    CHECK(last == doctest::Approx(1).epsilon(dim == 2 ? 0.02 : 0.15));
+  }
+}
+
+TEST_CASE("two blocks pressed together, of constant stress: no error in body, boundary or contact") {
+  for (const int dim : {2, 3})
+    for (const auto family : test::kFamilies) {
+      auto lower = test::block("lower", dim, family, 3), upper = test::block("upper", dim, family, 3, 1);
+      test::slide(lower, "bottom");
+      test::symmetric(lower);
+      test::symmetric(upper);
+      test::press(upper, "top", 2);
+      const auto s = scene::make_scene({lower, upper});
+      scene::add_contact(*s, test::part(lower, "top"), test::part(upper, "bottom"), {});
+      const auto solution = solve(s);
+      REQUIRE(solution->result().converged);
+      CHECK(solution->error_estimate().relative < 1e-7);
+    }
+}
+
+TEST_CASE("refinement where the estimate is large keeps the error at the optimal order at a sharp punch, and matching bodies matching") {
+  scene::Adaptive meshes({std::make_shared<const mesh::Mesh>(slab(2, 8))});
+  std::vector<double> unknowns, errors;
+  for (int round = 0; round < 14; ++round) {
+    const auto s = solve(punch(2)({meshes.mesh(0)}));
+    const auto e = s->error_estimate();
+    unknowns.push_back(std::log(s->unknowns()));
+    errors.push_back(std::log(e.absolute));
+    CHECK(meshes.refine(*s, e, 0.5) > 0);
+  }
+  // Uniform refinement is of order 1/4 in N here. Last ten rounds, least squares.
+  const std::size_t from = unknowns.size() - 10;
+  double x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t k = from; k < unknowns.size(); ++k) x += unknowns[k], y += errors[k], xx += unknowns[k] * unknowns[k], xy += unknowns[k] * errors[k];
+  const double slope = (10 * xy - x * y) / (10 * xx - x * x);
+  CHECK(slope == doctest::Approx(-0.5).epsilon(0.08));
+
+  scene::Adaptive pair({std::make_shared<const mesh::Mesh>(slab(2, 8)), std::make_shared<const mesh::Mesh>(slab(2, 8, 0, 1))});
+  for (int round = 0; round < 6; ++round) {
+    const auto s = solve(slabs(2)({pair.mesh(0), pair.mesh(1)}));  // throws where nodes do not match
+    REQUIRE(s->result().converged);
+    CHECK(pair.refine(*s, s->error_estimate(), 0.4) > 0);
+  }
+}
