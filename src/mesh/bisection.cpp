@@ -40,7 +40,8 @@ bool Bisection::longer(int a, int b, int c, int d) const {
   return order_key(*mesh_, a, b) > order_key(*mesh_, c, d);
 }
 
-Bisection::Bisection(const Mesh& start) : dim_(start.dimension()), mesh_(std::make_shared<const Mesh>(start)) {
+Bisection::Bisection(std::shared_ptr<const Mesh> mesh) : dim_(mesh->dimension()), mesh_(std::move(mesh)) {
+  const Mesh& start = *mesh_;
   const ElementTopology& t = start.topology();
   if (t.nodes != dim_ + 1)
     throw InputError(text("the mesh is of ", t.shapes, " (", t.name, "); only simplices, element = \"P1\", are refined by bisection"));

@@ -31,7 +31,8 @@ struct Refined {
 class Bisection {
  public:
   /// Throws InputError where the cells are not simplices.
-  explicit Bisection(const Mesh& start);
+  explicit Bisection(std::shared_ptr<const Mesh> start);
+  explicit Bisection(const Mesh& start) : Bisection(std::make_shared<const Mesh>(start)) {}
 
   const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
 

@@ -12,7 +12,7 @@ Adaptive::Adaptive(const std::vector<std::shared_ptr<const mesh::Mesh>>& meshes)
   if (meshes.empty()) throw InputError("no mesh is given");
   for (const auto& mesh : meshes) {
     mesh::check(*mesh, "the mesh to be refined");
-    meshes_.emplace_back(*mesh);
+    meshes_.emplace_back(mesh);
   }
 }
 

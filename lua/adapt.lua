@@ -1,0 +1,76 @@
+-- dotyk.adapt: meshes refined where the solution errs.
+local core <const> = ...
+
+local adapt = {}
+
+-- Every component of every node, held ones included.
+local function components(meshes)
+  local sum = 0
+  for _, mesh in ipairs(meshes) do sum = sum + mesh.dimension * mesh.node_count end
+  return sum
+end
+
+local function cells(meshes)
+  local sum = 0
+  for _, mesh in ipairs(meshes) do sum = sum + mesh.cell_count end
+  return sum
+end
+
+local function build(o, meshes)
+  local made <const> = table.pack(o.scene(table.unpack(meshes)))
+  if core.type_name(made[1]) ~= "scene" then
+    core.fail(("adapt: 'scene' must return a scene first, it returned %s"):format(core.type_name(made[1])))
+  end
+  return made
+end
+
+local function solve(o, scene, coarse)
+  local options <const> = coarse and { start = coarse } or nil
+  if o.method then return o.method:solve(scene, options) end
+  return dotyk.solve(scene, options)
+end
+
+local function refine(o, refinement, s)
+  if o.uniform then refinement:refine() else refinement:refine(s, o.share or 0.5) end
+  for _, curve in ipairs(o.curved or {}) do refinement:project(curve.part, curve.map) end
+end
+
+-- Why the rounds end here; nil where they go on.
+local function ended(o, entry, s, round)
+  if not s.converged then return "the solve did not converge: " .. s.reason end
+  if entry.estimate <= (o.tol or 0.05) then return "the estimate is at most tol", true end
+  if round >= (o.max_rounds or 50) then return "max_rounds reached" end
+end
+
+function adapt.run(o)
+  local begun <const> = core.clock()
+  local refinement <const> = dotyk.refinement(core.type_name(o.mesh) == "mesh" and { o.mesh } or o.mesh)
+  local history <const> = { converged = false }
+  local s, made
+  for round = 1, math.huge do
+    local meshes <const> = refinement.meshes
+    made = build(o, meshes)
+    s = solve(o, made[1], s)
+    local relative <const>, parts <const> = s:error_estimate()
+    local entry <const> = { unknowns = s.unknowns, cells = cells(meshes), estimate = relative, absolute = parts.absolute,
+                            iterations = s.iterations, seconds = core.clock() - begun }
+    history[round] = entry
+    if core.terminal "stderr" then
+      core.progress(("adapt: round %d, %d unknowns, estimated error %.3g, %.1f s"):format(round, s.unknowns, relative, entry.seconds))
+    end
+    local goes_on <const> = not o.on_round or o.on_round(round, entry, s, table.unpack(made, 2, made.n)) ~= false
+    history.reason, history.converged = ended(o, entry, s, round)
+    history.converged = history.converged or false
+    if not goes_on then history.reason = history.reason or "stopped by on_round" end
+    if history.reason then break end
+    refine(o, refinement, s)
+    if components(refinement.meshes) > (o.max_unknowns or 200000) then
+      history.reason = "max_unknowns reached"
+      break
+    end
+  end
+  core.progress()
+  return s, history, table.unpack(made, 2, made.n)
+end
+
+return adapt
