@@ -6,7 +6,7 @@
 --    closed form, and energies of a reference mesh at corners, in bending and under punches.
 -- 2. A punch with sharp edges: error against unknowns and against seconds, uniform and adaptive.
 -- 3. Hertz's pressure: what a given accuracy costs, uniform and adaptive.
--- Draws images/adaptivity_{unknowns,seconds,punch,edge,hertz,pressure}.png. Units: N, mm.
+-- Draws images/adaptivity_{unknowns,seconds,punch,edge,solid,hertz,pressure}.png. Units: N, mm.
 
 local most <const> = tonumber(arg[1]) or 40000 -- unknowns of the finest meshes
 local E <const>, nu <const> = 1000, 0.3
@@ -173,9 +173,14 @@ for _, by in ipairs{ { "unknowns", "N", "displacement unknowns N", { -0.5, -0.25
                y = "relative error in the energy norm", log = "xy", slopes = by[4], series = series }
 end
 local shown <const> = dotyk.adapt{ scene = punch, mesh = slab, tol = 0.06 }
-shown:render{ file = "images/adaptivity_punch.png", field = "von_mises", edges = true, title = "Mesh for an error of 6 %" }
+shown:render{ file = "images/adaptivity_punch.png", field = "none", edges = true, pressure = "none", deform = 1,
+              title = "Mesh for an error of 6 %" }
 shown:render{ file = "images/adaptivity_edge.png", field = "von_mises", edges = true, window = {0.42, -0.09, 0.58, 0.01},
               title = "The punch's right edge" }
+
+local solid <const> = dotyk.adapt{ scene = punch, mesh = thick, tol = 1e-9, max_unknowns = most // 2 }
+solid:render{ file = "images/adaptivity_solid.png", field = "von_mises", edges = true, pressure = "none", deform = 1,
+              range = {0, 80}, view = {-0.6, -1, 0.9}, title = "Square punch: adapted in space" }
 
 -- 3. Hertz: a rigid parabola of radius R, on half of a block that is large beside the contact.
 local R <const>, target <const> = 1, 0.02
@@ -231,4 +236,4 @@ for i = 0, 200 do
 end
 dotyk.chart{ file = "images/adaptivity_pressure.png", x = "x [mm]", y = "contact pressure [MPa]",
              series = { { name = "nodes of the adapted mesh", x = x, y = p, style = "points" }, { name = "Hertz", x = hx, y = hp, reference = true } } }
-print "images/adaptivity_{unknowns,seconds,punch,edge,hertz,pressure}.png"
+print "images/adaptivity_{unknowns,seconds,punch,edge,solid,hertz,pressure}.png"

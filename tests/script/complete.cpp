@@ -45,7 +45,7 @@ TEST_CASE("completion inside a table argument") {
   CHECK(words("dotyk.test.toy{ size = prin") == Words{"print"});
   CHECK(words("dotyk.test.box{ ").front() == "gap = ");
   CHECK(words("help 'toy:") == Words{"toy:grow"});
-  CHECK(words("help(\"dotyk.ref") == Words{"dotyk.reference"});
+  CHECK(words("help(\"dotyk.refe") == Words{"dotyk.reference"});
   CHECK(complete(bench.interpreter.state(), "io.open('/et").file_names);
   CHECK(complete(bench.interpreter.state(), "dotyk.test.toy{ name = 'x").file_names);
 }
