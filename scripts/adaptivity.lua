@@ -179,8 +179,8 @@ shown:render{ file = "images/adaptivity_edge.png", field = "von_mises", edges = 
               title = "The punch's right edge" }
 
 local solid <const> = dotyk.adapt{ scene = punch, mesh = thick, tol = 1e-9, max_unknowns = most // 2 }
-solid:render{ file = "images/adaptivity_solid.png", field = "von_mises", edges = true, pressure = "none", deform = 1,
-              range = {0, 80}, view = {-0.6, -1, 0.9}, title = "Square punch: adapted in space" }
+solid:render{ file = "images/adaptivity_solid.png", field = "von_mises", edges = true, contact = false, deform = 1,
+              view = {-0.6, -1, 0.9}, title = "A square punch with sharp edges" }
 
 -- 3. Hertz: a rigid parabola of radius R, on half of a block that is large beside the contact.
 local R <const>, target <const> = 1, 0.02

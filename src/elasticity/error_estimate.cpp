@@ -99,9 +99,10 @@ std::vector<Recovered> recover(const Mesh& mesh, const MaterialField& material, 
 
 double longest_edge(const Mesh& mesh, int c) {
   double longest = 0;
-  for (int a = 0; a < mesh.topology().nodes; ++a)
-    for (int b = 0; b < a; ++b) {
-      const Point p = mesh.point(mesh.cell(c)[a]), q = mesh.point(mesh.cell(c)[b]);
+  const mesh::ElementTopology& t = mesh.topology();
+  for (int l = 0; l < t.facets; ++l)
+    for (int k = 0; k < t.nodes_per_facet; ++k) {
+      const Point p = mesh.point(mesh.facet_node({c, l}, k)), q = mesh.point(mesh.facet_node({c, l}, (k + 1) % t.nodes_per_facet));
       longest = std::max(longest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
     }
   return longest;

@@ -15,8 +15,8 @@ namespace dotyk::elasticity {
 /// norms of stress ∫ τ:c⁻¹:τ. The σ* taken here is the recovered stress (Zienkiewicz and Zhu 1987, 1992), which is near
 /// σ, but only nearly in equilibrium; what it lacks is measured by the stress that would mend it, cell by cell:
 ///   recovery   ∫ (σ* − σ_h):c⁻¹:(σ* − σ_h)
-///   bulk       (h/π)² ∫ (f + div σ*)²/m, h the cell's longest edge, h/π Poincaré's constant of a convex cell, m the
-///              mean over directions of the stiffness of a wave, tr Q/d
+///   bulk       (h/π)² ∫ (f + div σ*)²/m, h the cell's longest edge, h/π Poincaré's constant of a simplex (Payne and
+///              Weinberger 1960: its diameter) or a box, m the mean stiffness of a wave, tr Q/d over the axes
 ///   jump       H/3 ∫ r·Q⁻¹r, r the jump of σ*n where the material jumps: σ* is recovered on either side apart
 ///   boundary   the same with r = t − σ*n on the boundary with traction t given, springs included
 ///   contact_pressure, friction   the same with the normal and the tangential part of r on the contact boundary, t the

@@ -108,24 +108,27 @@ void add_first(const contact::Surface& surface, const ContactResult& result, Bou
 /// The opposite tractions on the second body's facets all of whose nodes are partners, on the side that looks their way.
 void add_second(const Contact& contact, const ContactResult& result, Boundary& boundary) {
   const mesh::Mesh& mesh = *contact.second.body->mesh;
+  const bool itself = contact.first.body == contact.second.body;
   std::map<int, std::vector<std::size_t>> rows;
   for (std::size_t k = 0; k < contact.rows.size(); ++k) rows[contact.rows[k].partner].push_back(k);
   for (const Facet f : contact.second.facets) {
     FacetTraction* at = boundary.find(f);
     const Point n = mesh.facet_area_vector(f);
     std::array<Point, 4> opposite{};
-    bool all = at != nullptr;
+    bool all = at != nullptr, any = false;
     for (int a = 0; all && a < mesh.topology().nodes_per_facet; ++a) {
       const auto found = rows.find(mesh.facet_node(f, a));
+      if (itself && found == rows.end()) continue;  // the tip of a crack
       all = found != rows.end();
       if (!all) break;
+      any = true;
       const std::size_t row = *std::min_element(found->second.begin(), found->second.end(), [&](std::size_t i, std::size_t j) {
         return dot(contact.rows[i].normal, n) < dot(contact.rows[j].normal, n);
       });
       const Point t = traction(result.nodes[row]);
       for (int i = 0; i < 3; ++i) opposite[a][i] = -t[i];
     }
-    if (!all) continue;
+    if (!all || !any) continue;
     at->contact = true;
     for (int a = 0; a < 4; ++a)
       for (int i = 0; i < 3; ++i) at->traction[a][i] += opposite[a][i];

@@ -53,6 +53,20 @@ local pair = dotyk.adapt{ mesh = { start, upper }, tol = 0.15, scene = function(
 end }
 check.that(pair:error_estimate() <= 0.15)
 
+local disc = dotyk.mesh.disc{ center = { 0, 1 }, radius = 1, cells = 6 }
+local d, rounds_of_disc, wheel = dotyk.adapt{ mesh = disc, tol = 0.12,
+  curved = { { part = "boundary", map = function(x, y) local r = math.sqrt(x^2 + (y - 1)^2) return x / r, 1 + (y - 1) / r end } },
+  scene = function(mesh)
+    local body = dotyk.body{ mesh = mesh, material = dotyk.material{ E = 1000, nu = 0.3 }, force = { 0, -10 } }
+    body:part("boundary"):spring{ x = 1, y = 0 }
+    local scene = dotyk.scene{ body }
+    local below = body:part("below", function(_, y) return y < 0.5 end)
+    return scene, scene:contact{ below, rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }, body
+  end }
+check.that(rounds_of_disc.converged and #rounds_of_disc > 1)
+check.near(d:contact(wheel).force[2], 10 * math.pi, 0.02 * 10 * math.pi) -- its weight: the polygon comes near the disc
+for _, node in ipairs(d:contact(wheel).nodes) do check.near(node.x^2 + (node.y - 1)^2, 1, 1e-12) end
+
 check.error(function() dotyk.adapt{ mesh = start, scene = function() return 1 end } end, "'scene' must return a scene first, it returned number")
 check.error(function() dotyk.adapt{ mesh = start, scene = punch, tol = 0 } end, "tol")
 check.error(function() dotyk.adapt{ mesh = start, scene = punch, tolerance = 1 } end, "unknown key 'tolerance'")

@@ -164,6 +164,19 @@ Make two_materials(int dim) {
   };
 }
 
+/// A bar on springs at its left end and on a foundation without tension at its bottom, pressed down in the middle.
+Make founded(int dim) {
+  return [=](const Meshes& m) {
+    auto b = body("bar", m[0]);
+    test::springs(b, "left", {200, 200, 200});
+    auto bottom = test::part(b, "bottom");
+    scene::support(bottom, {problem::SupportLaw::Kind::one_sided_elastic, 500}, {});
+    auto middle = scene::chosen_part(b, "middle", [=](const mesh::Point& x, const mesh::Point& n) { return n[dim - 1] > 0.9 && x[0] > 1 && x[0] < 2; });
+    scene::pressure(middle, [](const mesh::Point& x) { return 5 * (x[0] - 1) * (2 - x[0]); });
+    return scene::make_scene({b});
+  };
+}
+
 mesh::Point down(int dim) {
   mesh::Point t{0, 0, 0};
   t[dim - 1] = -1;
@@ -185,6 +198,7 @@ TEST_CASE("effectivity lies between 0.5 and 3: smooth, with corners, with contac
         {"parabola, Coulomb", hertz(dim, coulomb), {slab(dim, n)}},
         {"sharp punch", punch(dim), {slab(dim, n)}},
         {"two slabs", slabs(dim), {slab(dim, n), slab(dim, n, 0, 1)}},
+        {"springs and foundation", founded(dim), {bar(dim)}},
         {"two materials", two_materials(dim), {bar(dim)}}};
     for (const auto& [name, make, start] : cases) {
       const Outcome r = effectivity(make, start, rounds);
@@ -198,7 +212,7 @@ TEST_CASE("effectivity lies between 0.5 and 3: smooth, with corners, with contac
 TEST_CASE("against a closed form the estimate comes to be exact") {
   // u_i = A_i times the sines πx_k on the unit square or cube, held all round; ‖u‖² by hand, ‖u − u_h‖² = ‖u‖² − ‖u_h‖².
   const double pi = std::acos(-1.0), A[3] = {0.01, -0.007, 0.004}, mu = kE / 2.6, lambda = kE * 0.3 / (1.3 * 0.4);
-  for (const int dim : {2, 3}) {
+  for (const auto& [dim, family] : {std::pair(2, mesh::Family::p1), {2, mesh::Family::q1}, {3, mesh::Family::p1}, {3, mesh::Family::q1}}) {
     double last = 0;
     for (const int n : dim == 2 ? std::vector{8, 32} : std::vector{4, 16}) {
       const auto force = [&](const mesh::Point& x) {
@@ -213,15 +227,16 @@ TEST_CASE("against a closed form the estimate comes to be exact") {
         }
         return f;
       };
-      const auto m = std::make_shared<const mesh::Mesh>(test::unit(dim, mesh::Family::p1, n));
+      const auto m = std::make_shared<const mesh::Mesh>(test::unit(dim, family, n));
       auto b = scene::make_body("cube", m, elasticity::MaterialField(elasticity::isotropic(kE, 0.3, dim, elasticity::Plane::strain)), force);
       for (const auto& [name, facets] : m->parts) test::fix(b, name);
       const auto s = solve(scene::make_scene({b}));
       double whole = 0;
       for (int i = 0; i < dim; ++i) whole += A[i] * A[i] * pi * pi * (lambda + mu + dim * mu) / (1 << dim);
       last = s->error_estimate().absolute / std::sqrt(whole + 2 * s->energy());
+      INFO(dim, "-D, cells ", n, " effectivity ", last);
       CHECK(last > 0.9);
-      CHECK(last < 2);
+      CHECK(last < 3);  // 4 cells along half a wave: the recovered stress is far from equilibrium
     }
     CHECK(last == doctest::Approx(1).epsilon(dim == 2 ? 0.02 : 0.15));
   }
