@@ -2,9 +2,12 @@
 
 #include <atomic>
 
+#include "base/memory.hpp"
+
 extern "C" {
 int openblas_get_num_threads();
 void openblas_set_num_threads(int count);
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 }
 
 namespace dotyk::algebra {
@@ -22,7 +25,20 @@ int all_threads() {
 
 }  // namespace
 
+void reserve_blas_buffer() {
+  static const bool taken = [] {
+    require_memory(160e6, "the first product of matrices");  // 128 MiB, and what the allocator takes beside them
+    double a = 1;
+    const int n = 1;
+    int info = 0;
+    dpotrf_("L", &n, &a, &n, &info);
+    return info == 0;
+  }();
+  static_cast<void>(taken);
+}
+
 BlasThreads::BlasThreads(double flops) {
+  reserve_blas_buffer();
   if (held_to_one > 0) return;
   const int all = all_threads();
   openblas_set_num_threads(flops > kWorthSharing ? all : 1);
@@ -33,6 +49,7 @@ BlasThreads::~BlasThreads() {
 }
 
 OneBlasThread::OneBlasThread() {
+  reserve_blas_buffer();
   all_threads();  // counted before the first change
   openblas_set_num_threads(1);
   ++held_to_one;

@@ -2,6 +2,10 @@
 
 namespace dotyk::algebra {
 
+/// OpenBLAS takes 128 MiB for itself at its first product, and asks for them for ever where it does not get them
+/// (ulimit -v): they are taken here, once, or InputError is thrown. The classes below call it.
+void reserve_blas_buffer();
+
 /// While it lives, BLAS calls use all threads it started with (OPENBLAS_NUM_THREADS, else the cores)
 /// if the work ahead is worth it, else one; afterwards one again. The many small products of a plane
 /// mesh's factorisation run slower on two threads than on one (measured: 1.3 s against 0.85 s for

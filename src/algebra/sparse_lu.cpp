@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "algebra/blas_threads.hpp"
+
 namespace dotyk::algebra {
 
 struct SparseLu::Implementation {
@@ -29,6 +31,7 @@ void check(int status, const char* step) {
 SparseLu::SparseLu(const SparseMatrix& a) : it_(new Implementation{a}) {
   const int n = static_cast<int>(a.rows());
   if (n == 0) return;
+  reserve_blas_buffer();
   void* symbolic = nullptr;
   int status = umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(),
                                    &symbolic, nullptr, nullptr);

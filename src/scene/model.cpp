@@ -1,5 +1,6 @@
 #include "scene/model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -33,10 +34,11 @@ std::string supports_of(const Body& body) {
   return all.size() > 4 ? text(out, " and ", all.size() - 4, " more") : out;
 }
 
-/// The entry of Model::nearly_free.
-std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block) {
+/// The entry of Model::nearly_free; lowers `softest`.
+std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block, double& softest) {
   const auto weak = elasticity::weak_motions(*body.mesh, numbering, block.K, block.kernel);
   if (weak.motions.empty()) return "";
+  softest = std::min(softest, weak.stiffness);
   std::string motions;
   for (const Motion& motion : weak.motions) motions += (motions.empty() ? "" : ", ") + motion.text();
   if (weak.stiffness == 0)
@@ -61,7 +63,7 @@ void add_body(const Body& body, Model& model) {
   block.node = numbering.node;
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
-  model.nearly_free.push_back(nearly_free(body, numbering, block));
+  model.nearly_free.push_back(nearly_free(body, numbering, block, model.softest));
   problem::add(model.problem, std::move(block));
 }
 

@@ -52,6 +52,7 @@ struct Model {
   /// Body → rigid motions that its supports hardly hold, with what they are and how stiff: "nearly free:
   /// rotation about (0, 0); held only by fix of left (2 nodes), 3e-08 as stiff as the body". Mostly empty.
   std::vector<std::string> nearly_free;
+  double softest = 1;  ///< how stiff the softest of these motions is held, relative to its body
 
   /// A body's displacement, node × dimension, from the unknowns of all blocks.
   std::vector<double> displacement(int body, const algebra::Vector& u) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "base/error.hpp"
@@ -27,6 +28,15 @@ void refuse_noise(const problem::Residual& r, solver::Result& result) {
                                    : "(a material nearly incompressible, a spring nearly absent, cells nearly flat)");
 }
 
+/// A motion held by a part of the body's own stiffness is known to rounding over that part, whatever the residuals say:
+/// a factor of K is no better.
+void refuse_lost_motions(double softest, solver::Result& result) {
+  const double lost = std::numeric_limits<double>::epsilon() / softest;
+  if (!result.converged || lost <= result.noise) return;
+  result.converged = false;
+  result.reason = text("rounding may leave ", lost, " of a motion that supports hardly hold");
+}
+
 }  // namespace
 
 Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const problem::Problem* with_stiffness,
@@ -43,6 +53,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
         "the solution has values beyond the range of numbers: stiffness, loads or sizes are too large or too "
         "small; choose units in which they are moderate");
   refuse_noise(residual_, result_);
+  refuse_lost_motions(model_.softest, result_);
   add_step(problem);
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     if (!model_.nearly_free[b].empty()) result_.reason += "; '" + scene_->bodies[b]->name + "' is " + model_.nearly_free[b];

@@ -1,0 +1,110 @@
+-- Stability atlas: stopped in the middle, by the user or by memory.
+--
+--   ./dotyk scripts/stability/interrupted.lua [CELLS]
+--
+-- 1. Every method is stopped after its iteration k, by on_iteration returning false, as Ctrl-C does: the
+--    state so far must come back whole (finite numbers, its fields and its contact readable), not converged, with that as the
+--    reason; the next solve on the same scene and solver must end where an undisturbed one does, in as many iterations.
+-- 2. The program again as a process of its own, with less and less address space (ulimit -v): it must solve, or refuse in words what does not fit, and
+--    never be killed. The least space in which it solves is found by bisection, for several sizes of a cube; a child
+--    that refused the cube must still solve a small one.
+-- Draws images/stability_interrupted.png (2).
+
+local n <const> = tonumber(arg[1]) or 16
+local here <const> = arg[0]:match "^(.*)/[^/]*$" or "."
+local common <const>, scenes <const> = dofile(here .. "/common.lua"), dofile(here .. "/../scenes/friction.lua")
+
+-- 1. Stopped by the user.
+local coulomb <const>, given <const> = dotyk.friction.coulomb(0.3), dotyk.friction.tresca(2.5)
+local function parabola()
+  local body = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
+    mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {2 * n, n} } }
+  body:part"bottom":fix()
+  local scene = dotyk.scene{ body }
+  return scene, scene:contact{ body:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 - 0.02 end } }
+end
+local function rubbed() return scenes.lifted(n, coulomb) end
+local function held() return scenes.lifted(n, given) end
+local runs <const> = { { "pdas", parabola }, { "active_set", parabola }, { "interior_point", parabola }, { "penalty", parabola }, { "newton", rubbed },
+  { "uzawa", held }, { "psor", rubbed }, { "projected_cg", held }, { "proximal", rubbed }, { "coulomb_loop", rubbed }, { "feti", held } }
+local stops, torn = 0, {}
+print "method          iterations  stopped after  reason"
+for _, run in ipairs(runs) do
+  local name, build = table.unpack(run)
+  local scene, contact = build()
+  local whole = dotyk.solver[name]{}:solve(scene)
+  local places = {}
+  for k = 1, math.min(3, whole.iterations - 1) do places[k] = k end
+  if whole.iterations > 8 then places[#places + 1] = whole.iterations // 2 end
+  local last = ""
+  for _, k in ipairs(places) do
+    local s = dotyk.solver[name]{ on_iteration = function(at) return at < k end }:solve(scene)
+    local sum = s.energy + common.residual(s)
+    for _, node in ipairs(s:contact(contact).nodes) do sum = sum + node.force + node.gap end
+    local again = dotyk.solver[name]{}:solve(scene)
+    stops, last = stops + 1, s.reason
+    local done = s.converged and math.abs(s.energy - whole.energy) <= 1e-10 * math.abs(whole.energy) -- it was there already
+    if not done and (s.converged or not (s.reason:find("interrupted", 1, true) or s.reason:find("stopped on request", 1, true))) or s.iterations > k + 1 or sum ~= sum or math.abs(sum) == math.huge
+       or again.iterations ~= whole.iterations or again.energy ~= whole.energy then torn[#torn + 1] = name .. " after " .. k .. ": " .. s.reason end
+  end
+  print(("%-16s  %8d  %13s  %s"):format(name, whole.iterations, table.concat(places, ", "), last:sub(1, 90)))
+end
+for _, text in ipairs(torn) do print("not whole: " .. text) end
+
+-- 2. Stopped by memory. The child tells what became of it.
+local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
+local child <const> = [[
+local function cube(n)
+  local b = dotyk.body{ material = dotyk.material{ E = 1 }, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {n,n,n} } }
+  b:part"bottom":fix()
+  local s = dotyk.scene{ b }
+  s:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = {0,0,1}, gap = function(x, y) return ((x-0.5)^2 + (y-0.5)^2)/2 - 0.02 end } }
+  return dotyk.solve(s)
+end
+local ok, s = pcall(cube, %d)
+print(ok and s.converged and "solved" or "refused " .. tostring(s))
+local small, t = pcall(cube, 3)
+print(small and t.converged and "small solved" or "small refused " .. tostring(t))
+]]
+local killed, seen = {}, {}
+local function run(cells, megabytes)
+  local pipe = io.popen(("OPENBLAS_NUM_THREADS=1; export OPENBLAS_NUM_THREADS; ulimit -v %d; timeout 60 '%s' -e '%s' 2>&1; echo status $?"):format(
+    math.floor(megabytes * 1000), program, child:format(cells)))
+  local text = pipe:read "a"
+  pipe:close()
+  local status = tonumber(text:match "status (%d+)%s*$")
+  if text:find "^solved" then return "solved", text end
+  if text:find("refused", 1, true) and status == 0 then
+    if text:find("small solved", 1, true) then return "refused, then solves a small one", text end
+    return "refused", text
+  end
+  if status == 1 and text:find("memory", 1, true) then return "refused", text end
+  if status == 127 or text:find("shared lib", 1, true) then return "does not start", text end
+  if status == 1 and text:find("libgomp: Thread creation failed", 1, true) then return "ended by OpenMP", text end
+  killed[#killed + 1] = ("%d cells, %g MB: %s"):format(cells, megabytes, text)
+  return "killed or hung", text
+end
+local map <const> = common.map{ "solved", "refused, then solves a small one", "refused", "ended by OpenMP", "does not start", "killed or hung" }
+local least = common.curve("least that solves, found", { style = "points" })
+local first = run(3, 4000)
+if first ~= "solved" then
+  print "(the child does not run with a limit of its address space, as a sanitized program does not: part 2 is left out)"
+else
+  for _, cells in ipairs{ 4, n // 2, n, 5 * n // 4 } do
+    for _, megabytes in ipairs{ 50, 100, 140, 180, 220, 260, 320, 400, 560, 800, 1600, 4000 } do
+      local what, text = run(cells, megabytes)
+      map:add(what, cells, megabytes)
+      if not seen[what] then seen[what] = text end
+    end
+    least:add(cells, common.boundary(1 / 4000, 1 / 20, function(inverse) return run(cells, 1 / inverse) == "solved" end, 0.03)^-1)
+  end
+  print "\nwhat the children say, the first of each kind:"
+  for what, text in pairs(seen) do print("  " .. what .. ": " .. text:gsub("%s+", " "):sub(1, 200)) end
+  for _, text in ipairs(killed) do print("  killed: " .. text:gsub("%s+", " "):sub(1, 200)) end
+  local series = map:series()
+  series[#series + 1] = least
+  dotyk.chart{ file = "images/stability_interrupted.png", log = "xy", x = "cells along the cube", y = "address space [MB]", series = series }
+  print "images/stability_interrupted.png"
+end
+common.verdict(#torn == 0 and #killed == 0, ("stopped after any iteration, every method gives back a whole state and says that it was interrupted (%d stops), and the next solve is none the "
+  .. "worse; short of memory, the program refuses in words and goes on, or does not start, and is never killed nor hangs (OpenMP inside CHOLMOD may end it, in words, where its threads find no room)"):format(stops))
