@@ -1,5 +1,5 @@
--- What the scripts of the stability atlas share: boundaries by bisection, maps of outcomes, the comparison of
--- two solutions, the sentence at the end. Loaded by dofile.
+-- What the scripts of the stability atlas share: boundaries by bisection, maps of outcomes, the comparison of two
+-- solutions, the sentence at the end. Loaded by dofile.
 
 local common = {}
 

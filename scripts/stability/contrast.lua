@@ -2,13 +2,14 @@
 --
 --   ./dotyk scripts/stability/contrast.lua [CELLS]
 --
--- Three blocks on each other, each 2 long and 1 high, the left sides and the bottom sliding, pressed from above by
--- p = 1 without friction; E = 1, C, 1 from below, C from 1e-16 to 1e16. Closed form for every C: pressure p in both contacts, the top sinks by
--- p (1 − ν²)(1 + 1/C + 1). A body that another one carries moves as a whole, by w, and its stiffness times that motion
--- cancels but for rounding: Ku is out of equilibrium by about ε E w, ε = 2e-16, of the load p. dotyk calls no state converged that is out
--- of equilibrium by more than 1e-6: the greatest C is found by bisection, and compared with
--- where this proportion, measured at C = 1e4 to 1e7, meets 1e-6. The forces of methods on contact rows, where motions are unknowns of their own, do not suffer at
--- all; those of methods on all displacements do, in proportion to the contrast. Draws images/stability_contrast.png.
+-- Three blocks on each other, each 2 long and 1 high, the left sides and the bottom sliding, pressed from above by p
+-- = 1 without friction; E = 1, C, 1 from below, C from 1e-16 to 1e16. Closed form for every C: pressure p in both
+-- contacts, the top sinks by p (1 − ν²)(1 + 1/C + 1). A body that another one carries moves as a whole, by w, and its
+-- stiffness times that motion cancels but for rounding: Ku is out of equilibrium by about ε E w, ε = 2e-16, of the
+-- load p. dotyk calls no state converged that is out of equilibrium by more than 1e-6: the greatest C is found by
+-- bisection, and compared with where this proportion, measured at C = 1e4 to 1e7, meets 1e-6. The forces of methods
+-- on contact rows, where motions are unknowns of their own, do not suffer at all; those of methods on all
+-- displacements do, in proportion to the contrast. Draws images/stability_contrast.png.
 
 local n <const> = tonumber(arg[1]) or 16
 local common <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/common.lua")

@@ -4,11 +4,13 @@
 --
 -- 1. The loop over given friction, g := μ·pressure, on a foot dragged along a plane: while all its nodes slip, a step
 --    is linear and contracts by μ times a constant, so it ends to converge at the μ where that is 1, on a half-plane
---    2(1 − ν)/(1 − 2ν). The constant is measured at 0.9 of that, where the loop still ends; the place where the loop ceases to converge is found by
---    bisection. Newton's method has the coupling in its derivative: iterations at every μ.
--- 2. A strut with one contact node. Its slip to one side lets the node follow the pressure, which a coefficient beyond
---    μ* = W_nn/|W_nt| over-compensates (W the compliance of the node, measured from two states): from there on the open
---    state and a slipping one solve the same problem, below there is one solution. μ* is found by bisection on all solutions.
+--    2(1 − ν)/(1 − 2ν). The constant is measured at 0.9 of that, where the loop still ends; the place where the loop
+--    ceases to converge is found by bisection. Newton's method has the coupling in its derivative: iterations at
+--    every μ.
+-- 2. A strut with one contact node. Its slip to one side lets the node follow the pressure, which a coefficient
+--    beyond μ* = W_nn/|W_nt| over-compensates (W the compliance of the node, measured from two states): from there on
+--    the open state and a slipping one solve the same problem, below there is one solution. μ* is found by bisection
+--    on all solutions.
 -- Draws images/stability_coulomb.png (1) and images/stability_coulomb_several.png (2).
 
 local finest <const> = tonumber(arg[1]) or 64

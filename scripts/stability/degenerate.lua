@@ -2,11 +2,12 @@
 --
 --   ./dotyk scripts/stability/degenerate.lua [CELLS]
 --
--- A column, ν = 0, pulled up by p against a rigid ceiling at the distance (1 + δ) of what it would stretch without it: for δ ≥ 0 there is no
--- force, for δ < 0 it is −δp, at every node alike. At δ = 0 both force and gap are zero everywhere (no strict
--- complementarity), and the sign that active sets are chosen by is rounding. δ goes from −1/2 through 0 to 1/2, as near as 5e-19; force and
--- iterations of each method, without friction and (where it can) with Coulomb's, beside the closed form. An interior point, whose forces
--- times gaps are all of the size tol, is off by √tol there; methods that choose a set have no such loss.
+-- A column, ν = 0, pulled up by p against a rigid ceiling at the distance (1 + δ) of what it would stretch without
+-- it: for δ ≥ 0 there is no force, for δ < 0 it is −δp, at every node alike. At δ = 0 both force and gap are zero
+-- everywhere (no strict complementarity), and the sign that active sets are chosen by is rounding. δ goes from −1/2
+-- through 0 to 1/2, as near as 5e-19; force and iterations of each method, without friction and (where it can) with
+-- Coulomb's, beside the closed form. An interior point, whose forces times gaps are all of the size tol, is off by
+-- √tol there; methods that choose a set have no such loss.
 -- Draws images/stability_degenerate.png.
 
 local n <const> = tonumber(arg[1]) or 16

@@ -2,12 +2,13 @@
 --
 --   ./dotyk scripts/stability/inf_sup.lua [FINEST]
 --
--- P1 tetrahedra in space, friction constant on cells of extent H (scripts/inf_sup.lua has the plane, Q1 and the pressure as well). On
--- single triangles the mean values of a P1 function on n × n squares cut in two: its nodes can be coloured with three colours,
--- each triangle having all of them, so there are two independent functions, constant on each colour, of no mean on any triangle.
--- The means have the rank (n + 1)² − 2, of 2n² triangles (n − 1)² combinations go unnoticed, 2(n − 1)² in two
--- tangents: the kernel in theory. On squares (H = h) there is none, but the checkerboard comes near it, and the inf-sup constant falls like h. From
--- H = 2h on it settles. Map of the constant over n and H/h. Draws images/stability_inf_sup.png.
+-- P1 tetrahedra in space, friction constant on cells of extent H (scripts/inf_sup.lua has the plane, Q1 and the
+-- pressure as well). On single triangles the mean values of a P1 function on n × n squares cut in two: its nodes can
+-- be coloured with three colours, each triangle having all of them, so there are two independent functions, constant
+-- on each colour, of no mean on any triangle. The means have the rank (n + 1)² − 2, of 2n² triangles (n − 1)²
+-- combinations go unnoticed, 2(n − 1)² in two tangents: the kernel in theory. On squares (H = h) there is none, but
+-- the checkerboard comes near it, and the inf-sup constant falls like h. From H = 2h on it settles. Map of the
+-- constant over n and H/h. Draws images/stability_inf_sup.png.
 
 local finest <const> = tonumber(arg[1]) or 12
 local here <const> = arg[0]:match "^(.*)/[^/]*$" or "."

@@ -2,12 +2,13 @@
 --
 --   ./dotyk scripts/stability/interrupted.lua [CELLS]
 --
--- 1. Every method is stopped after its iteration k, by on_iteration returning false, as Ctrl-C does: the
---    state so far must come back whole (finite numbers, its fields and its contact readable), not converged, with that as the
---    reason; the next solve on the same scene and solver must end where an undisturbed one does, in as many iterations.
--- 2. The program again as a process of its own, with less and less address space (ulimit -v): it must solve, or refuse in words what does not fit, and
---    never be killed. The least space in which it solves is found by bisection, for several sizes of a cube; a child
---    that refused the cube must still solve a small one.
+-- 1. Every method is stopped after its iteration k, by on_iteration returning false, as Ctrl-C does: the state so far
+--    must come back whole (finite numbers, its fields and its contact readable), not converged, with that as the
+--    reason; the next solve on the same scene and solver must end where an undisturbed one does, in as many
+--    iterations.
+-- 2. The program again as a process of its own, with less and less address space (ulimit -v): it must solve, or
+--    refuse in words what does not fit, and never be killed or hang. The least space in which it solves is found by
+--    bisection, for several sizes of a cube; whether a child that refused the cube then solves a small one is noted.
 -- Draws images/stability_interrupted.png (2).
 
 local n <const> = tonumber(arg[1]) or 16

@@ -2,11 +2,12 @@
 --
 --   ./dotyk scripts/stability/load_limit.lua [CELLS]
 --
--- A free block, 1 wide and h high, on a rough floor under its weight per volume (t, −1). It slides where t > μ and tips where the line of
--- action leaves the foot, t > 1/h: a solution exists for t ≤ min(μ, 1/h). The verdict of scene:balance() is bisected over t for many
--- μ and two heights. Then the elastic block is solved at relative distances from 1e-1 to 1e-13 to either side of both limits: inside, the
--- resultant must be the load, its line of action that of the load; beyond, there is no solution and no state may be called one. As the limit comes near
--- the bounds of friction are reached at every node, or all the force goes through the last node: iterations and the part
+-- A free block, 1 wide and h high, on a rough floor under its weight per volume (t, −1). It slides where t > μ and
+-- tips where the line of action leaves the foot, t > 1/h: a solution exists for t ≤ min(μ, 1/h). The verdict of
+-- scene:balance() is bisected over t for many μ and two heights. Then the elastic block is solved at relative
+-- distances from 1e-1 to 1e-13 to either side of both limits: inside, the resultant must be the load, its line of
+-- action that of the load; beyond, there is no solution and no state may be called one. As the limit comes near the
+-- bounds of friction are reached at every node, or all the force goes through the last node: iterations and the part
 -- of the foot that carries show it. Draws images/stability_load_limit.png.
 
 local n <const> = tonumber(arg[1]) or 8

@@ -2,12 +2,12 @@
 --
 --   ./dotyk scripts/stability/locking.lua [FINEST]
 --
--- Two concentric rings in frictionless contact at r = 2, 1 < r < 3, plane strain, pressed from inside: by Lamé
--- σ_r = A − B/r², u_r = (1 + ν)/E ((1 − 2ν) A r + B/r), A = 1/8, B = 9/8, for every ν. Elements that cannot stretch
--- without a change of volume store the energy of a false one, a part C h²/(1 − 2ν) of that of the true strain: then the
--- displacement is 1/(1 + C h²/(1 − 2ν)) of the true one, half of it is lost at 1 − 2ν = C h². For Q1 the
--- place of one half is found by bisection on each mesh and compared with the law, its exponent with 2; P1 on
--- diagonals keeps a third by those fields that its triangles leave free, and the wrong pressure.
+-- Two concentric rings in frictionless contact at r = 2, 1 < r < 3, plane strain, pressed from inside: by Lamé σ_r =
+-- A − B/r², u_r = (1 + ν)/E ((1 − 2ν) A r + B/r), A = 1/8, B = 9/8, for every ν. Elements that cannot stretch without
+-- a change of volume store the energy of a false one, a part C h²/(1 − 2ν) of that of the true strain: then the
+-- displacement is 1/(1 + C h²/(1 − 2ν)) of the true one, half of it is lost at 1 − 2ν = C h². For Q1 the place of one
+-- half is found by bisection on each mesh and compared with the law, its exponent with 2; P1 on diagonals keeps a
+-- third by those fields that its triangles leave free, and the wrong pressure.
 -- Draws images/stability_locking.png.
 
 local finest <const> = tonumber(arg[1]) or 32

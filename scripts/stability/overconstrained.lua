@@ -1,12 +1,14 @@
 -- Stability atlas: more conditions at a node than it has freedom.
 --
 --   ./dotyk scripts/stability/overconstrained.lua [CELLS]
--- Four blocks meet at a point, each joint of two in contact or glued: all 16 ways, without friction and with Coulomb's. Around the
--- point the jumps of each displacement component add up to zero; where all four joints prescribe a component there (a glue both,
--- a contact that along its normal, one that sticks both), one of the rows is redundant and only a sum of forces is determined. By that count, without friction, the
--- pressure is unique unless both upright joints are glued, or both level ones. Every method is run on each; displacements
--- are unique always, and compared with the closed form of uniform stress; where pressures deviate from it at all is compared
--- with the count. Draws images/stability_overconstrained.png.
+--
+-- Four blocks meet at a point, each joint of two in contact or glued: all 16 ways, without friction and with
+-- Coulomb's. Around the point the jumps of each displacement component add up to zero; where all four joints
+-- prescribe a component there (a glue both, a contact that along its normal, one that sticks both), one of the rows
+-- is redundant and only a sum of forces is determined. By that count, without friction, the pressure is unique unless
+-- both upright joints are glued, or both level ones. Every method is run on each; displacements are unique always,
+-- and compared with the closed form of uniform stress; where pressures deviate from it at all is compared with the
+-- count. Draws images/stability_overconstrained.png.
 
 local n <const> = tonumber(arg[1]) or 8
 local common <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/common.lua")

@@ -2,11 +2,12 @@
 --
 --   ./dotyk scripts/stability/penalty.lua [FINEST]
 --
--- Springs, factor times as stiff as a contact node, in place of the contact. Too soft, the bodies overlap: the forces are
--- off by a/factor. Added to the stiffness matrix, springs make its condition grow like factor, and rounding takes
--- b·factor of the forces, b of the size of the machine's ε = 2.2e-16 times the node's stiffness over the least one of the body: a V
--- with its foot at factor = √(a/b). a is fitted on the left branch, b on the right one (geometric means), the foot
--- of the curve is compared with √(a/b), mesh by mesh. On the contact rows, forces as unknowns, there is no right branch.
+-- Springs, factor times as stiff as a contact node, in place of the contact. Too soft, the bodies overlap: the forces
+-- are off by a/factor. Added to the stiffness matrix, springs make its condition grow like factor, and rounding takes
+-- b·factor of the forces, b of the size of the machine's ε = 2.2e-16 times the node's stiffness over the least one of
+-- the body: a V with its foot at factor = √(a/b). a is fitted on the left branch, b on the right one (geometric
+-- means), the foot of the curve is compared with √(a/b), mesh by mesh. On the contact rows, forces as unknowns, there
+-- is no right branch.
 -- Draws images/stability_penalty.png.
 
 local finest <const> = tonumber(arg[1]) or 64

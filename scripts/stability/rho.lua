@@ -2,13 +2,13 @@
 --
 --   ./dotyk scripts/stability/rho.lua [CELLS]
 --
--- pdas is Newton's method on λ = π(λ + ρ(Bu − c)). After its first linear solve λ·x = 0 on every row, so a sign of
--- λ + ρx is the sign of λ or that of x: ρ chooses the first set, then drops out (TR965 1.2.1). With friction a slipping point
--- has neither zero slip nor a force inside its bound, and ρ stays. Then λ + ρx is known to rounding ε = 2.2e-16 of λ or of ρx:
--- forces to ερ, jumps to ε/ρ of what the rows see, so that between ρ = ε/tol and tol/ε, and there alone, tol can be met.
--- Iterations against ρ, in units of the stiffness that a row sees; then both ends by bisection, for several tol. Every state
--- that is called converged is compared with that of another method. Draws images/stability_rho.png (iterations) and
--- images/stability_rho_tol.png (ends).
+-- pdas is Newton's method on λ = π(λ + ρ(Bu − c)). After its first linear solve λ·x = 0 on every row, so a sign of λ
+-- + ρx is the sign of λ or that of x: ρ chooses the first set, then drops out (TR965 1.2.1). With friction a slipping
+-- point has neither zero slip nor a force inside its bound, and ρ stays. Then λ + ρx is known to rounding ε = 2.2e-16
+-- of λ or of ρx: forces to ερ, jumps to ε/ρ of what the rows see, so that between ρ = ε/tol and tol/ε, and there
+-- alone, tol can be met. Iterations against ρ, in units of the stiffness that a row sees; then both ends by
+-- bisection, for several tol. Every state that is called converged is compared with that of another method. Draws
+-- images/stability_rho.png (iterations) and images/stability_rho_tol.png (ends).
 
 local n <const> = tonumber(arg[1]) or 32
 local folder <const> = arg[0]:match "^(.*)/[^/]*$" or "."

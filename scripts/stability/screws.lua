@@ -2,11 +2,12 @@
 --
 --   ./dotyk scripts/stability/screws.lua [CELLS]
 --
--- A screw is a contact node taken as closed; in space three of them hold the two rotations and the translation which a free body
--- has left here (TR965 1.2.2). Between two blocks a groove, flat but for a part a of its depth: as a → 0 the third screw's condition
--- becomes that of the other two, the regularity (least over greatest singular value of the screws' equilibrium) falls in proportion to a, and rounding
--- may take ε over it of the forces. At a = 0 the plane does not notice one motion: two screws and a linear condition (remark 1.6). a from 1 to
--- 1e-16, against the exact kernel. Draws images/stability_screws.png.
+-- A screw is a contact node taken as closed; in space three of them hold the two rotations and the translation which
+-- a free body has left here (TR965 1.2.2). Between two blocks a groove, flat but for a part a of its depth: as a → 0
+-- the third screw's condition becomes that of the other two, the regularity (least over greatest singular value of
+-- the screws' equilibrium) falls in proportion to a, and rounding may take ε over it of the forces. At a = 0 the
+-- plane does not notice one motion: two screws and a linear condition (remark 1.6). a from 1 to 1e-16, against the
+-- exact kernel. Draws images/stability_screws.png.
 
 local n <const> = tonumber(arg[1]) or 6
 local here <const> = arg[0]:match "^(.*)/[^/]*$" or "."

@@ -2,13 +2,14 @@
 --
 --   ./dotyk scripts/stability/stretched.lua [CELLS]
 --
--- 1. A strip, held at its left end, meets at its right end a rigid wedge that presses and turns the whole end face: bending by
---    contact alone, u = (κxy, −κx²/2) for ν = 0. Bilinear cells of length l follow u_x exactly and u_y by chords: the shear
---    κ(x − middle) of each cell is false, and the strip of height H is too stiff by 1 + (l/H)²/2 (E = 2G). Twice too stiff from
---    l/H = √2 on, however many layers there are and whatever the cells' aspect ratio; found by bisection for 1 to 4 layers.
---    P1 triangles, and cells slanted to and fro by an angle, have no such formula and are worse.
--- 2. A punched block with layers of cells as thin as 1/16384 of their width towards the contact: the compliance that the
---    contact sees hardly changes, and neither do iterations and force.
+-- 1. A strip, held at its left end, meets at its right end a rigid wedge that presses and turns the whole end face:
+--    bending by contact alone, u = (κxy, −κx²/2) for ν = 0. Bilinear cells of length l follow u_x exactly and u_y by
+--    chords: the shear κ(x − middle) of each cell is false, and the strip of height H is too stiff by 1 + (l/H)²/2 (E
+--    = 2G). Twice too stiff from l/H = √2 on, however many layers there are and whatever the cells' aspect ratio;
+--    found by bisection for 1 to 4 layers. P1 triangles, and cells slanted to and fro by an angle, have no such
+--    formula and are worse.
+-- 2. A punched block with layers of cells as thin as 1/16384 of their width towards the contact: the compliance that
+--    the contact sees hardly changes, and neither do iterations and force.
 -- Draws images/stability_stretched.png.
 
 local n <const> = tonumber(arg[1]) or 16

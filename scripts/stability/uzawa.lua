@@ -3,10 +3,10 @@
 --   ./dotyk scripts/stability/uzawa.lua [FINEST]
 --
 -- λ := π(λ + ρDx), D = 1/W_rr, contracts for ρ < 2/λ_max(D^½WD^½), W the compliance of the contact rows. Near a
--- solution only the rows A that stay closed count, 2/λ_max(W_AA): beyond it no solution attracts, and between the
--- two the way there decides. Here W is measured node by node (a linear solve for each unit load), so both are
--- known apart from the method; the step at which it ceases to converge is found by bisection, for a flat punch
--- (all rows closed, the two are one) and a parabola (some), mesh by mesh. Draws images/stability_uzawa.png.
+-- solution only the rows A that stay closed count, 2/λ_max(W_AA): beyond it no solution attracts, and between the two
+-- the way there decides. Here W is measured node by node (a linear solve for each unit load), so both are known apart
+-- from the method; the step at which it ceases to converge is found by bisection, for a flat punch (all rows closed,
+-- the two are one) and a parabola (some), mesh by mesh. Draws images/stability_uzawa.png.
 
 local finest <const> = tonumber(arg[1]) or 64
 local common <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/common.lua")

@@ -2,11 +2,12 @@
 --
 --   ./dotyk scripts/stability/weak_springs.lua [CELLS]
 --
--- A block, E = 1, on a fixed one, in contact without friction; across, nothing holds it but springs of k per length on its
--- top, k from 1 to 1e-16, while a load pulls across by 1e-3 k: it moves by 1e-3 for every k, and the contact carries the pressure
--- 0.1. A pivot of the factor is of the size of k, known to rounding ε of the stiffness: the motion is lost in proportion to ε/k,
--- while the residuals, blind to a force of 1e-3 k, stay small. pdas, newton, active_set, and FETI with supports as rows and in the
--- stiffness, with 1 and 4 subdomains a body, beside that law. Draws images/stability_weak_springs.png.
+-- A block, E = 1, on a fixed one, in contact without friction; across, nothing holds it but springs of k per length
+-- on its top, k from 1 to 1e-16, while a load pulls across by 1e-3 k: it moves by 1e-3 for every k, and the contact
+-- carries the pressure 0.1. A pivot of the factor is of the size of k, known to rounding ε of the stiffness: the
+-- motion is lost in proportion to ε/k, while the residuals, blind to a force of 1e-3 k, stay small. pdas, newton,
+-- active_set, and FETI with supports as rows and in the stiffness, with 1 and 4 subdomains a body, beside that law.
+-- Draws images/stability_weak_springs.png.
 
 local n <const> = tonumber(arg[1]) or 8
 local common <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/common.lua")
