@@ -1,6 +1,7 @@
 #include "scene/adaptive.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -46,7 +47,8 @@ std::vector<mesh::Refined> Adaptive::apply(const std::vector<std::vector<int>>& 
   return mesh::refine(all, cells, joints);
 }
 
-int Adaptive::refine(const Solution& solution, const ErrorEstimate& estimate, double share) {
+int Adaptive::refine(const Solution& solution, double share) {
+  const ErrorEstimate& estimate = solution.error_estimate();
   if (!(share > 0) || !(share <= 1)) throw InputError(text("the share of the error to be refined is ", share, "; it must be in (0, 1]"));
   struct Entry {
     double square;
@@ -54,14 +56,18 @@ int Adaptive::refine(const Solution& solution, const ErrorEstimate& estimate, do
   };
   std::vector<Entry> entries;
   double whole = 0;
+  bool any = false;
   for (std::size_t b = 0; b < solution.scene().bodies.size(); ++b) {
     const int m = mesh_of(solution.body(static_cast<int>(b)));
+    any = any || m >= 0;
+    const double least = m >= 0 ? std::pow(1e-9 * mesh(m)->size(), mesh(m)->dimension()) : 0;
     for (std::size_t c = 0; m >= 0 && c < estimate.cells[b].size(); ++c) {
+      if (mesh::least_jacobian(*mesh(m), static_cast<int>(c)) < least) continue;
       entries.push_back({estimate.cells[b][c].sum(), m, static_cast<int>(c)});
       whole += entries.back().square;
     }
   }
-  if (entries.empty())
+  if (!any)
     throw InputError("no body of the solution has one of the meshes being refined, as it is now; make the bodies from these meshes, without "
                      "mesh:transform or mesh:keep");
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.square > b.square; });

@@ -18,10 +18,11 @@ class Adaptive {
   std::shared_ptr<const mesh::Mesh> mesh(int index) const { return meshes_[index].mesh(); }
 
   /// Bisects the cells of least number whose squared estimates make up `share` of all (Dörfler 1996, share = θ): bodies
-  /// whose mesh is one of these take part, others stay as they are. Surfaces in contact or glued go on matching. Returns
+  /// whose mesh is one of these take part, others stay as they are; so do cells smaller than 1e-9 of their mesh, which
+  /// a stronger singularity than elasticity has would ask for. Surfaces in contact or glued go on matching. Returns
   /// how many cells were marked. Throws InputError where no body has one of the meshes as it is now, where one is joined to a body that does not
   /// take part, and for a share outside (0, 1].
-  int refine(const Solution& solution, const ErrorEstimate& estimate, double share);
+  int refine(const Solution& solution, double share);
   /// Bisects these cells, a list a mesh. Throws InputError as mesh::Bisection::refine.
   void refine(const std::vector<std::vector<int>>& cells);
   /// Bisects all cells.

@@ -214,7 +214,12 @@ double slip_law(const Contact& contact, const contact::SurfaceFacet& f, const co
 
 }  // namespace
 
-ErrorEstimate Solution::error_estimate() const {
+const ErrorEstimate& Solution::error_estimate() const {
+  if (!error_estimate_) error_estimate_ = make_error_estimate();
+  return *error_estimate_;
+}
+
+ErrorEstimate Solution::make_error_estimate() const {
   const auto count = static_cast<int>(scene_->bodies.size());
   std::vector<Boundary> boundary;
   for (int b = 0; b < count; ++b) boundary.emplace_back(body(b), model_.numbering[b], displacement_[b]);

@@ -133,14 +133,15 @@ class Solution : public std::enable_shared_from_this<Solution> {
   /// Force that the supports (fix, slide, displace, spring, laws) of the part exert on the body. A node
   /// component held by several parts counts for the one that held it first.
   mesh::Point reaction(const Part& part) const;
-  /// A posteriori estimate of the error in the energy norm, contact included.
-  ErrorEstimate error_estimate() const;
+  /// A posteriori estimate of the error in the energy norm, contact included, made on first use.
+  const ErrorEstimate& error_estimate() const;
 
   /// As the scene was solved; a step that is not the last has no stiffness matrices.
   const Model& model() const { return model_; }
   bool active(int row) const;
 
  private:
+  ErrorEstimate make_error_estimate() const;
   SupportNode support_node(const LawSupport& support, std::size_t node, const SupportRows& rows, int body) const;
   void add_step(const problem::Problem& problem);
   const Locator& locator(int body) const;
@@ -156,6 +157,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   std::vector<std::vector<double>> displacement_;
   mutable std::vector<std::vector<elasticity::Stress>> stress_;
   mutable std::vector<std::unique_ptr<Locator>> locators_;
+  mutable std::optional<ErrorEstimate> error_estimate_;
 };
 
 /// Where contacts start: as a coarser solution's nearest nodes were, or with the rows named

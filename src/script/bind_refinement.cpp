@@ -37,8 +37,7 @@ int refine(Call& call) {
   if (!call.has("where")) {
     refinement->refine();
   } else if (call.holds<scene::Solution>("where")) {
-    const auto s = call.object<scene::Solution>("where");
-    refinement->refine(*s, s->error_estimate(), call.number("share"));
+    refinement->refine(*call.object<scene::Solution>("where"), call.number("share"));
   } else {
     std::vector<std::vector<int>> cells;
     for (const auto& list : call.matrix("where")) {

@@ -178,7 +178,8 @@ int reaction(Call& call) {
 }
 
 int error_estimate(Call& call) {
-  const scene::ErrorEstimate e = call.self<Solution>()->error_estimate();
+  const auto s = call.self<Solution>();
+  const scene::ErrorEstimate& e = s->error_estimate();
   const elasticity::ErrorParts& p = e.parts;
   Record record{"error estimate", {{"absolute", e.absolute}, {"relative", e.relative}, {"recovery", std::sqrt(p.recovery)},
                                    {"bulk", std::sqrt(p.bulk)}, {"jump", std::sqrt(p.jump)}, {"boundary", std::sqrt(p.boundary)},
