@@ -45,4 +45,60 @@ core.describe{
     { name = "on_round", kind = "function", help = "f(k, entry of the history, solution, what the scene's function returned after the scene); false stops" } },
   run = core.lazily("adapt", "run") }
 
+core.describe{
+  name = "dotyk.work_precision",
+  help = "Speed against accuracy: solves the scenes of a family by several methods, prints a table, draws error against "
+    .. "seconds and returns the rows of the table (method, tol, level, unknowns, rows, iterations, status, error, seconds, "
+    .. "low, high, runs, assembly, ordering, factor, iterate, recover, front, reason; nil where there is none). Seconds are "
+    .. "the median of the runs, low and high the least and the greatest, the parts those of the run that is the median. Runs of "
+    .. "different methods take turns, so that what else the machine does meets all alike. Front: converged, and no row that "
+    .. "is as fast is as near, up to a hundredth (Pareto). A method that refuses a scene, does not converge or has spent its budget has rows "
+    .. "that say so, and marks crossed out in the figure.\n"
+    .. "Errors are relative. energy: |u − ū|_E/|ū|_E, ū the reference solution (see solution:distance); for beams, and where "
+    .. "the reference is a number, from energies J (with given friction's): √|J − J̄| / √|J̄|, which bounds the norm, "
+    .. "up to the factor √(|J̄|/½|ū|²_E), where u minimises J (not with Coulomb's friction). displacement: in L2 (beams: of the "
+    .. "deflection). pressure: in L2 over the contacts. peak_pressure: |max p/max p̄ − 1|. A function gets the solution and "
+    .. "what the scene's function returned after the scene: without a reference it returns the error itself, with one a value "
+    .. "to be compared with the number or with its value for the reference solution.",
+  example = "dotyk.work_precision{ methods = { dotyk.solver.pdas{}, dotyk.solver.interior_point{} }, scene = function(level)\n"
+    .. "  local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = { 8 << level, 8 << level } },\n"
+    .. "    material = dotyk.material{ E = 1000, nu = 0.3 } }\n"
+    .. "  b:part \"left\":fix()\n  b:part \"top\":load{ 0, -10 }\n  local scene = dotyk.scene{ b }\n"
+    .. "  return scene, scene:contact{ b:part \"bottom\", rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} } }\nend }",
+  returns = "table",
+  keys = {
+    { name = "scene", kind = "function", required = true,
+      help = "level → scene or beam, and what an error function is to get (contacts); finer for greater levels" },
+    { name = "levels", kind = "either", otherwise = "4", help = "how many, from 1 on, or a list of them",
+      keys = { { kind = "integer", at_least = 1 },
+               { kind = "list", item = { kind = "integer", at_least = 1 }, fewest = 1 } } },
+    { name = "methods", kind = "list", fewest = 1,
+      otherwise = "those of pdas, newton, interior_point, uzawa_pdas that treat the scene",
+      help = "methods, or { name = , method = } for a name of one's own",
+      item = { kind = "either", keys = {
+        { kind = "object", type = "solver", help = "a method" },
+        { kind = "table", help = "a method and its name", keys = { { name = "name", kind = "string", required = true, help = "in table and legend" },
+                                   { name = "method", kind = "object", type = "solver", required = true, help = "which" } } } } } },
+    { name = "tolerances", kind = "list", fewest = 1, item = { kind = "number", above = 0 }, otherwise = "each method's own",
+      help = "every method is run with each of these for its tol" },
+    { name = "error", kind = "either", default = "energy", help = "what is measured",
+      keys = { { kind = "choice", choices = { "energy", "displacement", "pressure", "peak_pressure" } }, { kind = "function" } } },
+    { name = "reference", kind = "either", otherwise = "\"finest\"; none for an error function",
+      help = "finest: the scene one level beyond the last, solved by dotyk.solve, so that no solution is compared with itself (with "
+        .. "an error ~ h the last one is told 13 % too small); or the exact value; or a solution",
+      keys = { { kind = "choice", choices = { "finest" } }, { kind = "number" }, { kind = "object", type = "solution" },
+               { kind = "object", type = "beam_solution" } } },
+    { name = "repeats", kind = "integer", at_least = 1, default = 3, help = "runs of each; fewer where they would last longer than the budget" },
+    { name = "budget", kind = "number", above = 0, default = 30, unit = "s",
+      help = "a run that lasts longer is stopped, and its method goes no further up the levels" },
+    { name = "file", kind = "string", otherwise = "no figure", help = "of the figure; ends in .png" },
+    { name = "csv", kind = "either", otherwise = "beside the figure", help = "where the rows go as comma-separated values; false: nowhere",
+      keys = { { kind = "string" }, { kind = "boolean" } } },
+    { name = "slopes", kind = "vector", otherwise = "none", help = "guides of these slopes" },
+    { name = "title", kind = "string", otherwise = "none", help = "above the figure" },
+    { name = "size", kind = "vector", otherwise = "{1000, 750}", help = "of the figure", unit = "pixels" },
+  },
+  run = core.lazily("work_precision", "run"),
+}
+
 return core

@@ -7,27 +7,15 @@
 -- 4.2), and images/ball.png.
 
 local n <const> = tonumber(arg[1]) or 18
-local E <const>, nu <const>, R <const>, depth <const> = 1000, 0.3, 2, 0.02
-local E_star <const> = E / (1 - nu^2)
+local ball <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/scenes/hertz.lua").ball
+local R <const>, E_star <const> = ball.R, ball.E / (1 - ball.nu^2)
 
--- 1. The quarter block, finer towards the contact.
-local function towards(s) return s * (0.25 + 0.75 * s) end
-local mesh = dotyk.mesh.box{ from = {0, 0, -1}, to = {1, 1, 0}, cells = {n, n, n}, element = "Q1",
-  grading = { x = towards, y = towards, z = function(s) return 1 - towards(1 - s) end } }
-local block = dotyk.body{ name = "block", mesh = mesh, material = dotyk.material{ E = E, nu = nu } }
-block:part"left":slide()
-block:part"front":slide()
-block:part"bottom":fix()
-
--- 2. The ball overlaps the block by the depth that it is pressed in.
-local scene = dotyk.scene{ block }
-local top = block:part("near", function(x, y, _, _, _, nz) return nz > 0.9 and x^2 + y^2 < 0.4 end)
-local contact = scene:contact{ top, interference = true,
-                               rigid = dotyk.rigid.ball{ center = {0, 0, R - depth}, radius = R } }
+-- 1. The quarter block and its solution.
+local scene, contact = ball.scene(n)
 local s = dotyk.solve(scene)
 print(s)
 
--- 3. Hertz for the force found. The block is no half-space, so the depth is not compared.
+-- 2. Hertz for the force found. The block is no half-space, so the depth is not compared.
 local c = s:contact(contact)
 local force = -4 * c.force[3]
 local a = (3 * force * R / (4 * E_star))^(1 / 3)

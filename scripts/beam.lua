@@ -12,13 +12,8 @@ local law <const> = dotyk.law
 local cells <const> = tonumber(arg[1]) or 40
 
 -- 1. Five supports at 0, 1, … 4, a load on the second span.
-local function continuous(support)
-  local inner = {}
-  for x = 1, 3 do inner[x] = { x = x, deflection = support } end
-  local beam <const> = dotyk.beam{ length = 4, EJ = 1, cells = cells, left = { deflection = support }, right = { deflection = support },
-    supports = inner, load = function(x) return (x > 1 and x < 2) and -10 or -0.2 end }
-  return dotyk.solve(beam)
-end
+local beam_on <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/scenes/beam.lua")
+local function continuous(support) return dotyk.solve(beam_on(support, cells)) end
 local cases <const> = { { "held both ways", law.prescribed(0) }, { "resting", law.signorini() }, { "resting on springs, k = 50", law.one_sided_elastic(50) } }
 local deflections, moments = {}, {}
 local function curve(s, quantity, keys, points) -- over the beam

@@ -8,34 +8,10 @@
 -- stiffness: the coarse space is the two vertical motions. Shown: the paper's table; the solution against a direct
 -- method's; images/three_blocks.png.
 
--- 1. The blocks; lengths in m, the modulus and the weight are of sandstone.
-local rock <const> = dotyk.material{ E = 10e9, nu = 0.2 }
-local weight <const> = { 0, 0, -25e3 }  -- N/m³
-local deep <const>, layer <const> = 40, 12
-local nx <const>, ny <const>, nz <const> = 7, 17, 4  -- cells of an upper block
-local function block(name, from, to, cells, keep)
-  local mesh = dotyk.mesh.box{ from = from, to = to, cells = cells, element = "Q1" }
-  if keep then mesh = mesh:keep(keep, "excavation") end
-  return dotyk.body{ name = name, mesh = mesh, material = rock, force = weight }
-end
-local bottom <const> = block("bottom", { -20, 0, -layer }, { 20, deep, 0 }, { 2 * nx, ny, 3 },
-  function(x, y, z) return math.abs(x) > 9 or y > 0.65 * deep or z > -layer / 3 end)
-local left <const> = block("left", { -20, 0, 0 }, { 0, deep, 1.5 * layer }, { nx, ny, nz })
-local right <const> = block("right", { 0, 0, 0 }, { 20, deep, 1.5 * layer }, { nx, ny, nz })
-for _, body in ipairs{ bottom, left, right } do
-  body:part "front":slide()
-  body:part "back":slide()
-end
-bottom:part "left":slide()
-bottom:part "right":slide()
-bottom:part "bottom":slide()
-left:part "left":slide()
-right:part "right":slide()
-local scene <const> = dotyk.scene{ bottom, left, right }
-local contacts <const> = {
-  scene:contact{ left:part "bottom", bottom:part("under left", function(x, _, _, _, _, nz_) return nz_ > 0.9 and x < 0 end) },
-  scene:contact{ right:part "bottom", bottom:part("under right", function(x, _, _, _, _, nz_) return nz_ > 0.9 and x > 0 end) },
-  scene:contact{ left:part "right", right:part "left" } }
+-- 1. The blocks.
+local scene <const>, contacts <const>, bodies <const> =
+  dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/scenes/three_blocks.lua")({ 7, 17, 4, 3 }, { 3 / 7, 11 / 17, 2 / 3 })
+local bottom <const>, left <const>, right <const> = table.unpack(bodies)
 print(scene:plan())
 
 -- 2. The direct method, and FETI to the same precision.

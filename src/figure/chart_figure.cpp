@@ -19,6 +19,7 @@ namespace dotyk::figure {
 namespace {
 
 constexpr Colour reference_grey{90, 90, 90};
+constexpr Colour front_yellow{255, 232, 150};
 constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
                              Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
 
@@ -42,8 +43,10 @@ public:
     }
     draw_axes();
     canvas_.clip(room_);
+    for (const SeriesPicture& s : picture.series) draw_front(s);
     for (std::size_t k = 0; k < picture.series.size(); ++k) draw_spread(static_cast<int>(k));
     for (std::size_t k = 0; k < picture.series.size(); ++k) draw_line(static_cast<int>(k));
+    for (std::size_t k = 0; k < picture.series.size(); ++k) draw_whiskers(static_cast<int>(k));
     canvas_.no_clip();
     for (std::size_t k = 0; k < picture.series.size(); ++k) draw_markers(static_cast<int>(k));
     draw_frame(canvas_, axes());
@@ -89,6 +92,9 @@ private:
   void occupy() {
     for (const SeriesPicture& s : picture_.series) {
       for (const auto& curve : curves(s, x_, y_)) occupied_.add(curve, {room_.left, room_.bottom, room_.right, room_.top});
+      for (std::size_t i = 0; i < s.x_low.size(); ++i)
+        if (x_.shows(s.x_low[i]) && x_.shows(s.x_high[i]) && y_.shows(s.y[i]))
+          occupied_.add({{x_.pixel(s.x_low[i]), y_.pixel(s.y[i])}, {x_.pixel(s.x_high[i]), y_.pixel(s.y[i])}}, room_);
       if (s.low.empty()) continue;
       for (const auto* bound : {&s.low, &s.high}) {
         SeriesPicture edge;
@@ -106,10 +112,11 @@ private:
       out.push_back({s.name, [this, k, &s](Canvas& canvas, const Box& b) {
                        const double middle = (b.bottom + b.top) / 2;
                        const std::array<Point, 2> line{{{b.left, middle}, {b.right, middle}}};
+                       if (s.front) return canvas.polyline(line, front_width(), front_yellow);
                        if (!s.low.empty()) canvas.box({b.left, middle - 0.3 * em_, b.right, middle + 0.3 * em_}, colour(static_cast<int>(k)), 0.2);
                        if (s.style != SeriesStyle::points || s.reference) stroke(canvas, line, s, static_cast<int>(k));
                        if (s.style != SeriesStyle::line && !s.reference)
-                         canvas.marker(marker(static_cast<int>(k)), {(b.left + b.right) / 2, middle}, marker_size(s), colour(static_cast<int>(k)));
+                         mark(canvas, s, static_cast<int>(k), {(b.left + b.right) / 2, middle});
                      }});
     }
     return out;
@@ -117,7 +124,7 @@ private:
 
   // Reference curves and twins take no colour of their own, so the k-th series keeps its own.
   int index(int k) const {
-    const auto own = [](const SeriesPicture& s) { return !s.reference && !s.twin; };
+    const auto own = [](const SeriesPicture& s) { return !s.reference && !s.twin && !s.front; };
     return std::max(0, static_cast<int>(std::count_if(picture_.series.begin(), picture_.series.begin() + k + 1, own)) - 1);
   }
   Colour colour(int k) const {
@@ -128,6 +135,39 @@ private:
   void stroke(Canvas& canvas, std::span<const Point> points, const SeriesPicture& s, int k) const {
     const std::array<double, 2> dash{0.42 * em_, 0.26 * em_};
     canvas.polyline(points, line_width(), colour(k), s.reference || s.twin ? std::span<const double>(dash) : std::span<const double>());
+  }
+
+  void mark(Canvas& canvas, const SeriesPicture& s, int k, Point at) const {
+    const double size = marker_size(s), arm = 0.55 * size;
+    const auto paled = [](unsigned char c) { return static_cast<unsigned char>(255 - (255 - c) / 3); };
+    const Colour full = colour(k), pale{paled(full.r), paled(full.g), paled(full.b)};
+    canvas.marker(marker(k), at, s.crossed ? 1.2 * size : size, s.crossed ? pale : full);
+    if (!s.crossed) return;
+    for (const double side : {-1.0, 1.0})
+      canvas.line({at.x - arm, at.y - side * arm}, {at.x + arm, at.y + side * arm}, 0.16 * size, full);
+  }
+
+  double front_width() const { return 0.9 * em_; }
+
+  void draw_front(const SeriesPicture& s) {
+    if (!s.front) return;
+    for (const auto& curve : curves(s, x_, y_)) {
+      canvas_.polyline(curve, front_width(), front_yellow);
+      for (const Point& end : {curve.front(), curve.back()}) canvas_.disc(end, front_width() / 2, front_yellow);
+    }
+  }
+
+  // From x_low to x_high at every point, with caps.
+  void draw_whiskers(int k) {
+    const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
+    const double cap = 0.22 * em_, width = 0.8 * line_width();
+    for (std::size_t i = 0; i < s.x_low.size(); ++i) {
+      if (!x_.shows(s.x_low[i]) || !x_.shows(s.x_high[i]) || !y_.shows(s.y[i])) continue;
+      const double y = y_.pixel(s.y[i]);
+      const Point ends[] = {{x_.pixel(s.x_low[i]), y}, {x_.pixel(s.x_high[i]), y}};
+      canvas_.line(ends[0], ends[1], width, colour(k));
+      for (const Point& end : ends) canvas_.line({end.x, y - cap}, {end.x, y + cap}, width, colour(k));
+    }
   }
 
   void draw_spread(int k) {
@@ -142,13 +182,13 @@ private:
 
   void draw_line(int k) {
     const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
-    if (s.style == SeriesStyle::points && !s.reference) return;
+    if (s.front || (s.style == SeriesStyle::points && !s.reference)) return;
     for (const auto& curve : curves(s, x_, y_)) stroke(canvas_, curve, s, k);
   }
 
   void draw_markers(int k) {
     const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
-    if (s.style == SeriesStyle::line || s.reference) return;
+    if (s.style == SeriesStyle::line || s.reference || s.front) return;
     for (const auto& curve : curves(s, x_, y_)) {
       // A line needs no marker at every one of many points; points alone do.
       const bool thin = s.style == SeriesStyle::both && dense(curve, marker_size(s));
@@ -156,7 +196,7 @@ private:
       Point last{-1e9, -1e9};
       for (const Point& p : curve) {
         if (!room_.holds(p, 0.5) || std::hypot(p.x - last.x, p.y - last.y) < spacing) continue;
-        canvas_.marker(marker(k), p, marker_size(s), colour(k));
+        mark(canvas_, s, k, p);
         last = p;
       }
     }

@@ -36,6 +36,7 @@ Axis fit_axis(const ChartPicture& chart, bool vertical) {
       if (!other.shows(vertical ? s.x[i] : s.y[i])) continue;
       see(vertical ? s.y[i] : s.x[i]);
       if (vertical && !s.low.empty()) see(s.low[i]), see(s.high[i]);
+      if (!vertical && !s.x_low.empty()) see(s.x_low[i]), see(s.x_high[i]);
     }
   if (low > high) {
     axis.low = axis.log ? 1 : 0, axis.high = axis.log ? 10 : 1;

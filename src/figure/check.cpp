@@ -143,6 +143,8 @@ static void check_chart(const ChartPicture& p) {
     require(s.x.size() == s.y.size(), who + ": " + count(s.x.size()) + " x for " + count(s.y.size()) + " y");
     require(s.low.size() == s.high.size() && (s.low.empty() || s.low.size() == s.x.size()),
             who + ": the spread needs as many low and high values as points");
+    require(s.x_low.size() == s.x_high.size() && (s.x_low.empty() || s.x_low.size() == s.x.size()),
+            who + ": whiskers need as many x_low and x_high values as points");
   }
   for (const SlopeGuide& guide : p.slopes) require(std::isfinite(guide.slope), "the slope of a guide is not finite");
   for (const auto& [range, log, name] : {std::tuple{p.x_range, p.log_x, "x"}, std::tuple{p.y_range, p.log_y, "y"}})

@@ -154,6 +154,9 @@ struct SeriesPicture {
   SeriesStyle style = SeriesStyle::both;
   std::vector<double> low, high;            // n each or empty: a spread about y, drawn as a band
   bool reference = false;                   // a reference curve: dashed, dark grey, no markers
+  std::vector<double> x_low, x_high;        // n each or empty: a spread about x, drawn as whiskers
+  bool crossed = false;                     // markers pale and crossed out: points that do not count
+  bool front = false;                       // a broad pale line beneath everything, no markers
   bool twin = false;                        // dashed, with colour and marker of the series before it
 };
 

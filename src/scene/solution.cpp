@@ -20,7 +20,8 @@ namespace {
 void refuse_noise(const problem::Residual& r, solver::Result& result) {
   const bool equilibrium_alone = result.penalty || result.feti;  // the rest is what was asked for
   const double worst = equilibrium_alone ? r.equilibrium : std::max({r.equilibrium, r.penetration, r.complementarity});
-  if (!result.converged || worst <= result.noise) return;
+  const double allowed = equilibrium_alone ? result.noise : std::max(result.noise, result.asked);
+  if (!result.converged || worst <= allowed) return;
   result.converged = false;
   result.reason = text("rounding leaves ", equilibrium_alone ? "the displacements out of equilibrium by " : "a residual of ",
                        worst, ": stiffnesses, supports or sizes are too far apart ",

@@ -73,6 +73,10 @@ figure::SeriesPicture series_of(const Arguments& given) {
     throw InputError(text("series '", series.name, "' has ", series.x.size(), " x and ", series.y.size(), " y"));
   if (given.has("low")) series.low = given.vector("low");
   if (given.has("high")) series.high = given.vector("high");
+  if (given.has("x_low")) series.x_low = given.vector("x_low");
+  if (given.has("x_high")) series.x_high = given.vector("x_high");
+  series.crossed = given.boolean("crossed");
+  series.front = given.boolean("front");
   series.style = static_cast<figure::SeriesStyle>(given.choice("style"));
   series.reference = given.boolean("reference");
   series.twin = given.boolean("twin");
@@ -151,9 +155,12 @@ Key series_key() {
                    key::table("", {key::string("name", "its name in the legend"),
                                    key::vector("x", "abscissas").required(), key::vector("y", "ordinates").required(),
                                    key::vector("low", "lower end of a spread"), key::vector("high", "upper end of a spread"),
+                                   key::vector("x_low", "left end of a whisker at each point"), key::vector("x_high", "right end of it"),
                                    key::choice("style", {"line", "points", "both"}, "how it is drawn").fallback("both"),
                                    key::boolean("reference", "a reference curve: dashed, without markers").fallback(false),
-                              key::boolean("twin", "dashed, with the colour and marker of the series before it").fallback(false)},
+                                   key::boolean("crossed", "markers pale and crossed out, for points that do not count").fallback(false),
+                                   key::boolean("front", "a broad pale line beneath all others, for what is best").fallback(false),
+                                   key::boolean("twin", "dashed, with the colour and marker of the series before it").fallback(false)},
                               "one curve"),
                    "the curves").count(1, std::numeric_limits<std::size_t>::max());
 }

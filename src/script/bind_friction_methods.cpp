@@ -56,7 +56,7 @@ int make_coulomb_loop(Call& call) {
   if (call.has("inner")) {
     const auto given = call.object<Solver>("inner");
     loop.inner = given->method.on_rows();
-    inner = given->text;
+    inner = given->text();
     if (!loop.inner)
       throw InputError(text("inner is a ", inner, ", which cannot treat friction; ", solver::kFrictionMethods, " can"));
   }

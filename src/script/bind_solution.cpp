@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "scene/distance.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/space.hpp"
@@ -27,6 +28,13 @@ Record residual_record(const Solution& s) {
   const problem::Residual& r = s.residual();
   return {"residual", {{"equilibrium", r.equilibrium}, {"penetration", r.penetration},
                        {"complementarity", r.complementarity}, {"friction", r.friction}, {"law", r.law}}};
+}
+
+Record distance_record(const scene::Distance& d) {
+  Record r{"distance", {{"energy", d.energy}, {"displacement", d.displacement}}};
+  if (!d.pressure) r.absent = {"pressure", "peak_pressure"};
+  else r.entries.insert(r.entries.end(), {{"pressure", *d.pressure}, {"peak_pressure", *d.peak_pressure}});
+  return r;
 }
 
 std::optional<Record> working_set_record(const Solution& s) {
@@ -268,6 +276,13 @@ void bind_solution(Library& library) {
                        "complementarity (pressure where the gap opens); and cells[i], the estimate of each cell of the i-th body.",
                .example = "local relative, parts = s:error_estimate()\nprint(relative, parts.contact_pressure, #parts.cells[1])",
                .run = error_estimate})
+      .method({.name = "solution:distance",
+               .help = "How far it is from another solution of the same bodies and contacts, taken for exact (usually of a finer "
+                       "mesh), relative to that: energy (norm of the difference), displacement (L2 over the bodies), and with "
+                       "contact pressure (L2 over the contacts, at this solution's nodes) and peak_pressure.",
+               .example = "local coarse, fine = dotyk.solve(scene), dotyk.solve(fine_scene)\nprint(coarse:distance(fine).energy)",
+               .arguments = {key::object<Solution>("reference", "what is taken for exact").required()},
+               .run = [](Call& call) { return call.give(distance_record(scene::distance(*call.self<Solution>(), *call.object<Solution>("reference")))); }})
       .method({.name = "solution:write_contact",
                .help = "Writes the contact nodes of all contacts as comma-separated values: contact, node, coordinates, gap, "
                        "pressure, force, weight, components of shear and slip, status.",

@@ -52,6 +52,7 @@ int run(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& m
     }
   }
   Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
+  if (call.has("options") && call.table("options").has("seconds")) watch.limit(call.table("options").number("seconds"));
   const auto solution = scene::solve(scene, method, start, watch, steps);
   watch.answer();
   return call.give(solution);
@@ -59,6 +60,17 @@ int run(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& m
 
 void require_no_options(const Call& call) {
   if (call.has("options")) throw InputError("options are for scenes; other problems take none");
+}
+
+int with_tol(Call& call) {
+  const auto solver = call.self<Solver>();
+  auto other = std::make_shared<Solver>(*solver);
+  other->tol = call.number("tol");
+  other->method = solver->method.with_tol(other->tol);
+  const int kept = call.kept(1, "on_iteration");
+  call.give(other);
+  if (kept) call.keep(lua_gettop(call.state()), "on_iteration", kept);
+  return 1;
 }
 
 int solve_with(Call& call) {
@@ -100,8 +112,10 @@ std::vector<Key> solve_keys(Key what) {
                      {start_key(), steps_key(),
                       key::object<Solution>("after", "the solution that this one follows in a quasi-static history: slip is "
                                             "measured from it, its factors and moves go on; of the same meshes, contacts "
-                                            "and friction, on this scene or one like it")},
-                     "start, steps, after")};
+                                            "and friction, on this scene or one like it"),
+                      key::positive("seconds", "stop at the first iteration after so long, with the state so far (converged is "
+                                    "false); an error where there is none yet").unit("s").otherwise("no limit")},
+                     "start, steps, after, seconds")};
 }
 
 }  // namespace
@@ -126,7 +140,14 @@ void bind_solver(Library& library) {
                .arguments = solve_keys(scene_or_problem_key()),
                .returns = "solution",
                .run = solve_with})
-      .text([](const Solver& s) { return s.text; });
+      .method({.name = "solver:with",
+               .help = "The same method with another tol; this one stays as it is.",
+               .example = "local rough = solver:with{ tol = 1e-3 }",
+               .arguments = {key::table({key::positive("tol", "relative natural residual at which it stops").required()})},
+               .returns = "solver",
+               .run = with_tol})
+      .field("tol", "relative natural residual at which it stops", [](const Solver& s) { return s.tol; })
+      .text([](const Solver& s) { return s.text(); });
 }
 
 }  // namespace dotyk::script

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "base/whole_file.hpp"
 #include "script/describe.hpp"
 #include "script/enter.hpp"
 #include "script/guard.hpp"
@@ -50,6 +51,13 @@ int progress(lua_State* L) {
   return guarded(L, "progress", [L] {
     if (lua_isnoneornil(L, 1)) clear_progress();
     else show_progress(luaL_checkstring(L, 1));
+    return 0;
+  });
+}
+
+int write(lua_State* L) {
+  return guarded(L, "", [L] {
+    write_whole_file(luaL_checkstring(L, 1), luaL_checkstring(L, 2));
     return 0;
   });
 }
@@ -136,7 +144,7 @@ void load_lua_side(lua_State* L) {
   lua_newtable(L);
   static const luaL_Reg functions[] = {
       {"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
-      {"progress", progress}, {"clock", clock},           {"type_name", type_name},
+      {"progress", progress}, {"clock", clock},       {"write", write},               {"type_name", type_name},
       {"describe", describe}, {"signature", signature},   {nullptr, nullptr}};
   luaL_setfuncs(L, functions, 0);
   lua_pushvalue(L, -1);

@@ -8,6 +8,7 @@
 //   nearest(s, t)   the entry of t nearest to s, or nil
 //   terminal(name)  is "stdin", "stdout" or "stderr" a terminal
 //   progress(text)  shows the text on the progress line; progress() takes it away
+//   write(f, text)  writes a file whole or not at all
 //   clock()         seconds, of a clock that never jumps
 //   lazily(f, name) a function that loads lua/<f>.lua when first called
 //   signature(f)    of a callable of dotyk's, else nil

@@ -8,6 +8,8 @@
 
 namespace dotyk::script {
 
+std::string Solver::text() const { return own + dotyk::text(", tol = ", tol) + common; }
+
 std::vector<Key> method_keys(std::vector<Key> own, int max_iterations) {
   const std::vector<Key> common = {
       key::positive("tol", "relative natural residual at which iterative methods stop").fallback(1e-10),
@@ -27,9 +29,10 @@ void read_settings(const Call& call, solver::Settings& settings) {
 }
 
 int give_method(Call& call, solver::Method method, std::string text) {
-  text += dotyk::text(", tol = ", call.number("tol"), ", max_iterations = ", call.integer("max_iterations"));
-  if (call.choice("ordering") != 0) text += ", ordering = " + call.text("ordering");
-  auto made = std::make_shared<Solver>(Solver{std::move(method), "solver " + std::move(text), call.boolean("verbose")});
+  std::string common = dotyk::text(", max_iterations = ", call.integer("max_iterations"));
+  if (call.choice("ordering") != 0) common += ", ordering = " + call.text("ordering");
+  auto made = std::make_shared<Solver>(
+      Solver{std::move(method), "solver " + std::move(text), call.number("tol"), std::move(common), call.boolean("verbose")});
   return call.give_keeping(made, {"on_iteration"});
 }
 

@@ -1,5 +1,6 @@
 #include "script/watch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -47,7 +48,15 @@ void Watch::iteration(const IterationInfo& info) {
     refused_ = true;
 }
 
-bool Watch::stop() { return refused_ || interrupted(); }
+void Watch::limit(double seconds) {
+  // No clock counts longer than this, a century.
+  const std::chrono::duration<double> length(std::min(seconds, 3e9));
+  deadline_ = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(length);
+}
+
+bool Watch::stop() {
+  return refused_ || interrupted() || (deadline_ && std::chrono::steady_clock::now() > *deadline_);
+}
 
 void Watch::answer() {
   const bool at_prompt = position(L_).rfind(std::string(prompt_chunk) + ":", 0) == 0;

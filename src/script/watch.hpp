@@ -1,6 +1,8 @@
 #pragma once
 // A script's eye on long work in the numerical rooms: the progress line, the
 // user's on_iteration, Ctrl-C.
+#include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,9 @@ class Watch : public Monitor {
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
+  // From now on, asks to stop after so many seconds.
+  void limit(double seconds);
+
   void phase(const std::string& what) override;
   void iteration(const IterationInfo& info) override;
   bool stop() override;
@@ -38,6 +43,7 @@ class Watch : public Monitor {
   std::string work_;
   std::vector<Function> on_iteration_;
   bool verbose_, refused_ = false;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
 };
 
 }  // namespace dotyk::script

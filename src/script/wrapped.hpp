@@ -45,8 +45,11 @@ struct FrictionLaw {
 // A method with its options; on_iteration is kept with the object.
 struct Solver {
   solver::Method method;
-  std::string text;  // name and options, as printed
+  std::string own;     // name and its own options, as printed
+  double tol = 0;
+  std::string common;  // ", max_iterations = 100" and what else every method takes
   bool verbose = false;
+  std::string text() const;
 };
 
 template <>

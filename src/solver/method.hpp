@@ -30,13 +30,20 @@ class Method {
           Chosen started = chosen;
           if (!from.start.empty()) started.start = std::move(from.start);
           started.condenser = std::move(from.condenser);
-          return solve(problem, started, monitor);
+          return as_asked(solve(problem, started, monitor), started.tol);
+        }),
+        with_tol_([chosen](double tol) {
+          Chosen other = chosen;
+          other.tol = tol;
+          return Method(other);
         }) {
     if constexpr (std::derived_from<Chosen, RowMethod>) on_rows_ = std::make_shared<const Chosen>(chosen);
   }
 
   explicit operator bool() const { return static_cast<bool>(run_); }
   algebra::Ordering ordering() const { return ordering_; }
+  /// The same method with another tol.
+  Method with_tol(double tol) const { return with_tol_(tol); }
   /// How the method wants bodies cut into subdomains; nothing where it has no use for them.
   const std::optional<problem::Decomposition>& decomposition() const { return decomposition_; }
   Result run(const problem::Problem& problem, Beginning from, Monitor& monitor) const {
@@ -45,12 +52,19 @@ class Method {
   /// On a problem already condensed. Throws InputError for a method that works on bodies.
   Result run(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) const {
     if (!on_rows_) throw InputError(text("this method works on scenes alone; on rows alone work ", kFrictionMethods));
-    return solve(problem, condensed, *on_rows_, monitor);
+    return as_asked(solve(problem, condensed, *on_rows_, monitor), on_rows_->tol);
   }
   /// The method, where it works on the condensed problem alone; else null.
   const std::shared_ptr<const RowMethod>& on_rows() const { return on_rows_; }
 
  private:
+  /// The residuals that a scene measures are no more than so many times the natural residual that tol is about.
+  static constexpr double kMost = 1e4;
+  static Result as_asked(Result result, double tol) {
+    result.asked = kMost * tol;
+    return result;
+  }
+
   template <class Chosen>
   static std::optional<problem::Decomposition> decomposition_of(const Chosen& chosen) {
     if constexpr (requires { chosen.decomposition; }) return chosen.decomposition;
@@ -60,6 +74,7 @@ class Method {
   algebra::Ordering ordering_ = algebra::Ordering::automatic;
   std::optional<problem::Decomposition> decomposition_;
   std::function<Result(const problem::Problem&, Beginning, Monitor&)> run_;
+  std::function<Method(double)> with_tol_;
   std::shared_ptr<const RowMethod> on_rows_;
 };
 

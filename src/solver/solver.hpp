@@ -71,6 +71,9 @@ struct Result {
   /// A relative residual beyond this is rounding, not a solution: of equilibrium, penetration and complementarity for
   /// methods that end exactly, of equilibrium for penalty and for those as precise as was asked for (feti).
   double noise = 1e-6;
+  /// Of other methods than these two: residuals up to this are what tol left (of equilibrium, too, where bodies are held
+  /// by contact alone), not rounding.
+  double asked = 0;
   std::string ordering;  ///< the ordering used, "AMD", "METIS", …
 };
 

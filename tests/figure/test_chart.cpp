@@ -158,3 +158,31 @@ TEST_CASE("charts without data, or with one point, are drawn") {
     CHECK(message_of([&] { draw(chart); }) == "");
   }
 }
+
+TEST_CASE("whiskers run from x_low to x_high, a front lies pale beneath, crossed markers are pale") {
+  ChartPicture chart = chart_of("whiskers.png", {2, 8}, {0.3, 0.7});
+  chart.x_range = {0, 10};
+  chart.y_range = {0, 1};
+  SeriesPicture& s = chart.series[0];
+  s.style = SeriesStyle::points;
+  s.x_low = {1, 8}, s.x_high = {4, 8};
+  SeriesPicture front = chart_of("", {2, 8}, {0.3, 0.7}).series[0];
+  front.front = true;
+  SeriesPicture poor = chart_of("", {5}, {0.1}).series[0];
+  poor.style = SeriesStyle::points, poor.twin = poor.crossed = true;
+  chart.series = {front, s, poor};
+  draw(chart);
+  const Pixels p = read_png("whiskers.png");
+  const Frame f = frame_of(p);
+  const Colour blue = series_colour(0), pale{255, 232, 150};
+  for (const double x : {0.11, 0.16, 0.25, 0.39}) CHECK(drawn_at(p, f, x, 0.3, blue));
+  for (const double x : {0.08, 0.43}) CHECK_FALSE(drawn_at(p, f, x, 0.3, blue));
+  CHECK_FALSE(drawn_at(p, f, 0.84, 0.7, blue));  // no spread
+  for (const double x : {0.5, 0.6}) CHECK(drawn_at(p, f, x, 0.3 + 0.4 * (x - 0.2) / 0.6, pale));
+  const Colour tint{static_cast<unsigned char>(255 - (255 - blue.r) / 3), static_cast<unsigned char>(255 - (255 - blue.g) / 3),
+                    static_cast<unsigned char>(255 - (255 - blue.b) / 3)};
+  CHECK(drawn_at(p, f, 0.5, 0.1, tint));
+
+  chart.series[1].x_low.pop_back();
+  CHECK_THROWS_WITH(draw(chart), "series \"\": whiskers need as many x_low and x_high values as points");
+}

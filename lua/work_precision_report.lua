@@ -1,0 +1,212 @@
+-- What dotyk.work_precision says: the table, the file of comma-separated values, the figure.
+local core <const> = ...
+local rows <const> = core.load "work_precision_rows"
+
+local report = {}
+
+local described <const> = { energy = "relative error, energy norm", displacement = "relative error, displacement in L2",
+  pressure = "relative error, contact pressure in L2", peak_pressure = "relative error, peak pressure" }
+
+local function number(value, format) return value and format:format(value) or "–" end
+
+-- Texts padded by letters, not bytes.
+local function left(text, width) return text .. (" "):rep(width - utf8.len(text)) end
+local function right(text, width) return (" "):rep(width - utf8.len(text)) .. text end
+
+-- A text of one line, cut after so many letters.
+local function short(text, letters)
+  text = text:gsub("%s+", " ")
+  if utf8.len(text) <= letters then return text end
+  return text:sub(1, utf8.offset(text, letters) - 1) .. "…"
+end
+
+local columns <const> = {
+  { "level", function(r) return tostring(r.level) end },
+  { "tol", function(r) return number(r.tol, "%.0e") end },
+  { "unknowns", function(r) return number(r.unknowns, "%d") end },
+  { "iterations", function(r) return number(r.iterations, "%d") end },
+  { "error", function(r) return number(r.error, "%.3e") end },
+  { "seconds", function(r) return number(r.seconds, "%.4f") end },
+  { "least", function(r) return number(r.low, "%.4f") end },
+  { "most", function(r) return number(r.high, "%.4f") end },
+  { "assembly", function(r) return number(r.assembly, "%.4f") end },
+  { "factor", function(r) return number(r.factor and r.factor + r.ordering, "%.4f") end },
+  { "iterate", function(r) return number(r.iterate, "%.4f") end },
+  { "recover", function(r) return number(r.recover, "%.4f") end },
+}
+
+local function remark(row)
+  if row.status == "converged" then return row.front and "  *" or "" end
+  return ("  %s: %s"):format(row.status, short(row.reason, 90))
+end
+
+-- "pdas on levels 1, 2, 3; newton on level 4": the rows, by method.
+local function listed(some, tolerances)
+  local order, of = {}, {}
+  for _, row in ipairs(some) do
+    if not of[row.method] then
+      order[#order + 1] = row.method
+      of[row.method] = {}
+    end
+    table.insert(of[row.method], tolerances and ("%d (tol %.0e)"):format(row.level, row.tol) or tostring(row.level))
+  end
+  for k, method in ipairs(order) do
+    order[k] = ("%s on level%s %s"):format(method, #of[method] > 1 and "s" or "", table.concat(of[method], ", "))
+  end
+  return table.concat(order, "; ")
+end
+
+-- "on level 4 pdas is fastest, newton takes 1.5 times as long, …", by converged rows; nil where fewer than two are.
+function report.verdict(all)
+  local last, best = all[#all].level, {}
+  local by = {}
+  for _, row in ipairs(all) do
+    if row.level == last and row.status == "converged" and row.seconds then
+      local known <const> = by[row.method]
+      if not known then best[#best + 1] = row.method end
+      if not known or row.seconds < known then by[row.method] = row.seconds end
+    end
+  end
+  if #best < 2 then return nil end
+  table.sort(best, function(a, b) return by[a] < by[b] end)
+  local texts <const> = {}
+  for k = 2, #best do texts[#texts + 1] = ("%s %.3g"):format(best[k], by[best[k]] / by[best[1]]) end
+  return ("on level %d %s is fastest; times as long: %s"):format(last, best[1], table.concat(texts, ", "))
+end
+
+function report.print(all, options, reference)
+  local widest, widths = 6, {}
+  for _, row in ipairs(all) do widest = math.max(widest, utf8.len(row.method)) end
+  local header = left("method", widest)
+  for k, column in ipairs(columns) do
+    widths[k] = #column[1]
+    for _, row in ipairs(all) do widths[k] = math.max(widths[k], utf8.len(column[2](row))) end
+    header = header .. "  " .. right(column[1], widths[k])
+  end
+  print(header)
+  for _, row in ipairs(all) do
+    local line = left(row.method, widest)
+    for k, column in ipairs(columns) do line = line .. "  " .. right(column[2](row), widths[k]) end
+    print(line .. remark(row))
+  end
+  local what <const> = described[options.error] or "the function's"
+  print(("error: %s%s; seconds: median of up to %d runs; *: the front"):format(what,
+    reference.level and (" against level %d"):format(reference.level) or "", options.repeats))
+  print("front: " .. listed(rows.front(all), options.tolerances))
+  local verdict <const> = report.verdict(all)
+  if verdict then print(verdict) end
+end
+
+-- Comma-separated values.
+local fields <const> = { "method", "tol", "level", "unknowns", "rows", "iterations", "status", "error", "seconds", "low", "high", "runs",
+  "assembly", "ordering", "factor", "iterate", "recover", "front", "reason" }
+
+local function cell(value)
+  if value == nil then return "" end
+  if math.type(value) == "float" then return ("%.10g"):format(value) end
+  if type(value) ~= "string" then return tostring(value) end
+  return value:find '[",\n]' and '"' .. value:gsub('"', '""') .. '"' or value
+end
+
+function report.csv(all)
+  local lines <const> = { table.concat(fields, ",") }
+  for _, row in ipairs(all) do
+    local cells <const> = {}
+    for k, field in ipairs(fields) do cells[k] = cell(row[field]) end
+    lines[#lines + 1] = table.concat(cells, ",")
+  end
+  return table.concat(lines, "\n") .. "\n"
+end
+
+-- Curves: a method's over the levels; with several tolerances over these, one for each level, the later ones dashed.
+local function curves_of(all, tolerances)
+  local list, of = {}, {}
+  for _, row in ipairs(all) do
+    local key <const> = (tolerances and #tolerances > 1) and ("%s\n%d"):format(row.method, row.level) or row.method
+    if not of[key] then
+      of[key] = { method = row.method, rows = {} }
+      list[#list + 1] = of[key]
+    end
+    table.insert(of[key].rows, row)
+  end
+  -- Those of a method stand together.
+  local first, position = {}, {}
+  for k, curve in ipairs(list) do first[curve.method], position[curve] = first[curve.method] or k, k end
+  table.sort(list, function(a, b)
+    if a.method ~= b.method then return first[a.method] < first[b.method] end
+    return position[a] < position[b]
+  end)
+  return list
+end
+
+local function series_of(name, some, extra)
+  local out <const> = { name = name, x = {}, y = {}, x_low = {}, x_high = {} }
+  for _, row in ipairs(some) do
+    local k <const> = #out.x + 1
+    out.x[k], out.y[k], out.x_low[k], out.x_high[k] = row.seconds, row.error, row.low, row.high
+  end
+  for key, value in pairs(extra or {}) do out[key] = value end
+  return out
+end
+
+-- What the legend says of rows without a solution that counts: "not converged: level 3".
+local function failure(some)
+  local order, of = {}, {}
+  for _, row in ipairs(some) do
+    if row.status ~= "converged" then
+      if not of[row.status] then order[#order + 1], of[row.status] = row.status, {} end
+      local levels <const> = of[row.status]
+      if levels[#levels] ~= row.level then levels[#levels + 1] = row.level end
+    end
+  end
+  for k, status in ipairs(order) do
+    order[k] = ("%s on %s %s"):format(status, #of[status] > 1 and "levels" or "level", table.concat(of[status], ", "))
+  end
+  return #order > 0 and table.concat(order, ", ") or nil
+end
+
+local function split(some)
+  local good, poor = {}, {}
+  for _, row in ipairs(some) do
+    if row.error and row.seconds then table.insert(row.status == "converged" and good or poor, row) end
+  end
+  return good, poor
+end
+
+-- The series of the chart.
+function report.series(all, tolerances)
+  local out <const> = { series_of("Pareto front", rows.front(all), { front = true }) }
+  out[1].x_low, out[1].x_high = nil, nil
+  local failed, known = {}, {}
+  for _, row in ipairs(all) do failed[row.method] = failed[row.method] or {}; table.insert(failed[row.method], row) end
+  for _, curve in ipairs(curves_of(all, tolerances)) do
+    local good <const>, poor <const> = split(curve.rows)
+    local why <const> = not known[curve.method] and failure(failed[curve.method])
+    local named <const> = not known[curve.method] and not (why and #good == 0)  -- not in the legend twice
+    out[#out + 1] = series_of(named and curve.method or nil, good, { twin = known[curve.method] })
+    if why or #poor > 0 then
+      out[#out + 1] = series_of(why and ("%s: %s"):format(curve.method, why) or nil, poor,
+        { twin = true, crossed = true, style = "points" })
+    end
+    known[curve.method] = true
+  end
+  return out
+end
+
+function report.write(all, options)
+  local csv <const> = options.csv == nil and options.file and options.file:gsub("%.png$", "") .. ".csv" or options.csv
+  local written <const> = {}
+  if options.file then
+    dotyk.chart{ file = options.file, title = options.title, size = options.size, slopes = options.slopes, log = "xy",
+      x = options.repeats > 1 and ("seconds (median of %d, whiskers: least and greatest)"):format(options.repeats) or "seconds",
+      y = described[options.error] or "error", series = report.series(all, options.tolerances) }
+    written[1] = options.file
+  end
+  if csv then
+    core.write(csv, report.csv(all))
+    written[#written + 1] = csv
+  end
+  if #written > 0 then print(table.concat(written, ", ")) end
+end
+
+return report
