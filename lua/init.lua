@@ -52,14 +52,15 @@ core.describe{
     .. "low, high, runs, assembly, ordering, factor, iterate, recover, front, reason; nil where there is none). Seconds are "
     .. "the median of the runs, low and high the least and the greatest, the parts those of the run that is the median. Runs of "
     .. "different methods take turns, so that what else the machine does meets all alike. Front: converged, and no row that "
-    .. "is as fast is as near, up to a hundredth (Pareto). A method that refuses a scene, does not converge or has spent its budget has rows "
+    .. "is as fast is as near, up to a hundredth (Pareto). A method that refuses a scene, does not converge or spends its budget has rows "
     .. "that say so, and marks crossed out in the figure.\n"
     .. "Errors are relative. energy: |u − ū|_E/|ū|_E, ū the reference solution (see solution:distance); for beams, and where "
     .. "the reference is a number, from energies J (with given friction's): √|J − J̄| / √|J̄|, which bounds the norm, "
     .. "up to the factor √(|J̄|/½|ū|²_E), where u minimises J (not with Coulomb's friction). displacement: in L2 (beams: of the "
     .. "deflection). pressure: in L2 over the contacts. peak_pressure: |max p/max p̄ − 1|. A function gets the solution and "
     .. "what the scene's function returned after the scene: without a reference it returns the error itself, with one a value "
-    .. "to be compared with the number or with its value for the reference solution.",
+    .. "to be compared with the number or with its value for the reference solution. The finest reference is one level beyond the "
+    .. "last, solved by dotyk.solve: where the error halves with each level, that of the last is shown 13 % too small.",
   example = "dotyk.work_precision{ methods = { dotyk.solver.pdas{}, dotyk.solver.interior_point{} }, scene = function(level)\n"
     .. "  local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = { 8 << level, 8 << level } },\n"
     .. "    material = dotyk.material{ E = 1000, nu = 0.3 } }\n"
@@ -84,8 +85,7 @@ core.describe{
     { name = "error", kind = "either", default = "energy", help = "what is measured",
       keys = { { kind = "choice", choices = { "energy", "displacement", "pressure", "peak_pressure" } }, { kind = "function" } } },
     { name = "reference", kind = "either", otherwise = "\"finest\"; none for an error function",
-      help = "finest: the scene one level beyond the last, solved by dotyk.solve, so that no solution is compared with itself (with "
-        .. "an error ~ h the last one is told 13 % too small); or the exact value; or a solution",
+      help = "finest: one level beyond the last, so that nothing is compared with itself; or the exact value; or a solution",
       keys = { { kind = "choice", choices = { "finest" } }, { kind = "number" }, { kind = "object", type = "solution" },
                { kind = "object", type = "beam_solution" } } },
     { name = "repeats", kind = "integer", at_least = 1, default = 3, help = "runs of each; fewer where they would last longer than the budget" },

@@ -166,8 +166,8 @@ local function run_once(runner, at, options)
     runner.runs[#runner.runs + 1] = { seconds = time and time.total or seconds, time = time }
     runner.last = s
   end
-  runner.why = why or (not s.converged and s.reason) or nil
   runner.stopped = seconds > options.budget
+  runner.why = runner.stopped and ("it lasted longer than %g s"):format(options.budget) or why
   local typical <const> = runner.spent / math.max(1, #runner.runs)
   return s and not runner.stopped and runner.spent + typical <= options.budget
 end
@@ -188,7 +188,7 @@ local function level_rows(at, runners, options, reference)
     local s <const> = runner.last
     if s then row.error = error_of(options.error, s, at, reference) end
     if s and not at.beam then row.unknowns, row.rows = s.unknowns, s.rows end
-    if runner.stopped then runner.over = ("a run on level %d lasted longer than %g s"):format(at.level, options.budget) end
+    if runner.stopped then runner.over = runner.over or ("a run on level %d lasted longer than %g s"):format(at.level, options.budget) end
     out[k] = row
   end
   return out

@@ -194,7 +194,8 @@ function report.series(all, tolerances)
 end
 
 function report.write(all, options)
-  local csv <const> = options.csv == nil and options.file and options.file:gsub("%.png$", "") .. ".csv" or options.csv
+  local csv = options.csv
+  if csv == nil or csv == true then csv = options.file and options.file:gsub("%.png$", "") .. ".csv" end
   local written <const> = {}
   if options.file then
     dotyk.chart{ file = options.file, title = options.title, size = options.size, slopes = options.slopes, log = "xy",

@@ -44,16 +44,20 @@ function rows.median(runs)
   return sorted[(#sorted + 1) // 2], sorted[1].seconds, sorted[#sorted].seconds
 end
 
--- The row of a runner's runs on a level; status "converged", "not converged", "refused" or "not run".
+-- The row of a runner's runs on a level; status "converged", "not converged", "refused", "stopped" (by the budget) or "not run".
 function rows.row(runner, level)
   local row <const> = { method = runner.method, tol = runner.tol, level = level, front = false, runs = #runner.runs }
   local s <const> = runner.last
   if runner.over then
     row.status, row.reason = "not run", runner.over
+  elseif runner.stopped and not (s and s.converged) then
+    row.status, row.reason = "stopped", runner.why
   elseif not s then
     row.status, row.reason = "refused", runner.why
   else
     row.status, row.reason = s.converged and "converged" or "not converged", s.reason
+  end
+  if s then
     row.iterations = s.iterations
     local middle
     middle, row.low, row.high = rows.median(runner.runs)
