@@ -79,9 +79,13 @@ struct Recovered {
 };
 
 std::vector<Recovered> recover(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u,
-                               const Regions& regions) {
-  const std::vector<Stress> raw = cell_stress(mesh, material, u);
+                               const Regions& regions, const std::vector<Stress>* whole) {
   std::vector<Recovered> result(regions.count);
+  if (regions.count == 1 && whole) {
+    result[0].nodal = *whole;
+    return result;
+  }
+  const std::vector<Stress> raw = cell_stress(mesh, material, u);
   if (regions.count == 1) {
     result[0].nodal = recover_stress(mesh, raw);
     return result;
@@ -268,9 +272,10 @@ TractionWeight traction_weight(const Mesh& mesh, const Hooke& hooke, Facet facet
 }
 
 ErrorEstimate estimate_error(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u,
-                             const std::vector<Point>& force, const std::vector<FacetTraction>& boundary) {
+                             const std::vector<Point>& force, const std::vector<FacetTraction>& boundary,
+                             const std::vector<Stress>* whole) {
   const Regions regions = elasticity::regions(mesh, material);
-  const std::vector<Recovered> recovered = recover(mesh, material, u, regions);
+  const std::vector<Recovered> recovered = recover(mesh, material, u, regions, whole);
   ErrorEstimate estimate{std::vector<ErrorParts>(mesh.cell_count()), 0};
   dispatch(mesh.element, [&]<class E>() { inside<E>(mesh, material, u, force, regions, recovered, estimate); });
   for (const FacetTraction& given : boundary) {

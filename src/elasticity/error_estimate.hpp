@@ -50,9 +50,11 @@ struct ErrorEstimate {
 
 /// The estimate for one body of the nodal displacement u (node × dimension). `force`: per volume, the mean of each
 /// cell, or empty; `boundary`: facets without an entry are not looked at. Where Hooke's tensor jumps by more than a
-/// fifth across a facet, stresses are recovered on either side apart. The parts of contact that need gaps and slips are left 0.
+/// fifth across a facet, stresses are recovered on either side apart; otherwise `recovered`, if given, is what
+/// recover_stress gives, and not made again. The parts of contact that need gaps and slips are left 0.
 ErrorEstimate estimate_error(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<double>& u,
-                             const std::vector<mesh::Point>& force, const std::vector<FacetTraction>& boundary);
+                             const std::vector<mesh::Point>& force, const std::vector<FacetTraction>& boundary,
+                             const std::vector<Stress>* recovered = nullptr);
 
 /// H/3 and Q⁻¹ of a facet: the weight of a traction that is missing there, as above.
 struct TractionWeight {

@@ -244,7 +244,8 @@ ErrorEstimate Solution::make_error_estimate() const {
     const Body& own = body(b);
     for (const LawSupport& on : own.laws)
       add_laws(*own.mesh, on, support({scene_->bodies[b], on.part.name, on.facets}), boundary[b]);
-    auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement_[b], own.volume_force, boundary[b].all());
+    auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement_[b], own.volume_force, boundary[b].all(),
+                                              own.material.varies() ? nullptr : &stress(b));
     estimate.cells.push_back(std::move(of_body.cells));
     solution += of_body.solution_squared;
   }
