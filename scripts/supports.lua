@@ -6,10 +6,11 @@
 -- what it does; the support's law, reaction against displacement, with the working point that the solution has on it; and the
 -- superpotential, whose negative (sub)gradient the law is. Displacements that a law forbids are grey, there the
 -- superpotential is infinite. images/supports_classical.png: figures 1 to 4, linear boundary conditions.
--- images/supports_elastic.png: 5, 6, 13 and 14, springs and one-sided springs. images/supports_capped.png: 10, springs with a
+-- images/supports_elastic.png: 5, 6, 13 and 14, springs and one-sided springs. images/supports_unequal.png:
+-- 15, springs that push with one stiffness and pull with another. images/supports_capped.png: 10, springs with a
 -- greatest reaction. images/supports_one_sided.png: 7, Signorini's conditions.
 -- images/supports_friction.png: 8, 9, 11 and 12, rigid friction. images/supports_breaking.png: 16 and 17, laws that are not monotone.
--- A table tells every working point. (15, springs of two stiffnesses, has no law here.)
+-- A table tells every working point.
 
 local law <const> = dotyk.law
 local clamped <const> = { deflection = law.prescribed(0), rotation = law.prescribed(0) }
@@ -39,6 +40,11 @@ local figures <const> = {
     { title = "6, 14. One-sided elastic, pushing", support = "right", solution = solved(clamped, { deflection = law.one_sided_elastic(20) }, -1) },
     { title = "6, 14. One-sided elastic, lifted off", support = "right", solution = solved(clamped, { deflection = law.one_sided_elastic(20) }, -1, tip(0.6)) },
     { title = "6, 14. One-sided elastic about the rotation", support = "right", of = "rotation", solution = solved(pinned, { deflection = law.prescribed(0), rotation = law.one_sided_elastic(4) }, -1) } } },
+  { file = "supports_unequal", title = "Elastic supports of two stiffnesses", rows = {
+    { title = "15. Pushing, the stiffer spring", support = "right", solution = solved(clamped, { deflection = law.unequal_elastic(20, 5) }, -1) },
+    { title = "15. Pulling, the softer spring", support = "right", solution = solved(clamped, { deflection = law.unequal_elastic(20, 5) }, 1) },
+    { title = "15. About the rotation, pushing", support = "right", of = "rotation", solution = solved(pinned, { deflection = law.prescribed(0), rotation = law.unequal_elastic(4, 1) }, -1) },
+    { title = "15. About the rotation, pulling", support = "right", of = "rotation", solution = solved(pinned, { deflection = law.prescribed(0), rotation = law.unequal_elastic(4, 1) }, 1) } } },
   { file = "supports_capped", title = "Capped elastic supports: elastic friction", rows = {
     { title = "10. Capped elastic, within its limit", support = "right", solution = solved(clamped, { deflection = law.capped_elastic(20, 0.3) }, -0.7) },
     { title = "10. Capped elastic, at its limit", support = "right", solution = solved(clamped, { deflection = law.capped_elastic(20, 0.2) }, -1) },
@@ -72,4 +78,4 @@ for _, figure in ipairs(figures) do
   end
   dotyk.support_gallery{ file = "images/" .. figure.file .. ".png", title = figure.title, rows = figure.rows }
 end
-print "images/supports_classical.png, supports_elastic.png, supports_capped.png, supports_one_sided.png, supports_friction.png, supports_breaking.png"
+print "images/supports_classical.png, supports_elastic.png, supports_unequal.png, supports_capped.png, supports_one_sided.png, supports_friction.png, supports_breaking.png"

@@ -68,7 +68,7 @@ class Builder {
   void add_support(const Support& support) {
     SupportRows rows;
     rows.node = nearest(model_.nodes, support.x);
-    rows.turn = problem::one_sided(support.rotation.kind) ? -1 : 1;
+    rows.turn = problem::directed(support.rotation.kind) ? -1 : 1;
     rows.deflection = add_row(support.deflection, support.name + " deflection", 2 * rows.node, 1, 1);
     rows.rotation = add_row(support.rotation, support.name + " rotation", 2 * rows.node + 1, model_.unit, rows.turn);
     model_.supports.push_back(rows);

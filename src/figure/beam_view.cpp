@@ -47,7 +47,7 @@ const ViewedLaw& ViewedSupport::of(LawSide side) const {
 }
 
 bool turned(const problem::SupportLaw& law, LawSide of, bool right_end) {
-  return (of == LawSide::rotation || (of == LawSide::displacement && right_end)) && problem::one_sided(law.kind);
+  return (of == LawSide::rotation || (of == LawSide::displacement && right_end)) && problem::directed(law.kind);
 }
 
 Scales scales(const BeamView& view, LawSide of) {

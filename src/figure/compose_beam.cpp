@@ -36,6 +36,7 @@ ElementKind element_kind(Kind kind) {
     case Kind::friction: return ElementKind::slider;
     case Kind::one_sided_friction: return ElementKind::plate_slider;
     case Kind::capped_elastic: return ElementKind::capped_spring;
+    case Kind::unequal_elastic: return ElementKind::paired_springs;
     case Kind::breaking: return ElementKind::breaking_spring;
   }
   return ElementKind::none;
@@ -52,6 +53,9 @@ SupportState state(const SupportLaw& law, double v, double r, const Scales& scal
       if (moved) return v > 0 ? SupportState::open : SupportState::slip;
       return pushes ? SupportState::stick : SupportState::open;
     case Kind::capped_elastic: return std::abs(law.value * v) > law.limit ? SupportState::slip : SupportState::acting;
+    case Kind::unequal_elastic:
+      if (std::abs(r) > kRounding * scale.force) return pushes ? SupportState::pushing : SupportState::pulling;
+      return moved ? SupportState::open : SupportState::acting;
     case Kind::breaking:
       if (-law.value * v > law.limit) return SupportState::broken;
       return pushes ? SupportState::pushing : SupportState::open;
@@ -136,7 +140,7 @@ BeamDrawing beam_drawing(const BeamView& view) {
   for (const ViewedSupport& s : view.supports) {
     const Scales bending = scales(view, LawSide::deflection), turning = scales(view, LawSide::rotation);
     out.supports.push_back({s.x, working_point(s.deflection, bending).displacement, working_point(s.rotation, turning).displacement,
-                            element(s.deflection, bending), element(s.rotation, turning), problem::one_sided(s.rotation.law.kind)});
+                            element(s.deflection, bending), element(s.rotation, turning), problem::directed(s.rotation.law.kind)});
     const double force = s.deflection.law.kind == Kind::load ? s.deflection.law.value : 0;
     const double moment = s.rotation.law.kind == Kind::load ? s.rotation.law.value : 0;
     if (force != 0 || moment != 0) out.loads.push_back({s.x, force, moment});

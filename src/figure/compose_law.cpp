@@ -20,9 +20,9 @@ GraphWindow window(const SupportLaw& law, const std::optional<WorkingPoint>& at,
   if (std::isfinite(yield)) v = std::max(v, yield);
   if (law.kind == Kind::prescribed) v = std::max(v, std::abs(law.value));
   if (!(v > kRounding * scale.displacement)) v = scale.displacement;
-  const bool spring = law.kind == Kind::elastic || law.kind == Kind::one_sided_elastic;
+  const bool spring = law.kind == Kind::elastic || law.kind == Kind::one_sided_elastic || law.kind == Kind::unequal_elastic;
   const bool bounded = law.kind == Kind::friction || law.kind == Kind::one_sided_friction || law.kind == Kind::load;
-  r = std::max({r, spring ? law.value * v : 0, bounded ? std::abs(law.value) : 0, law.limit});
+  r = std::max({r, spring ? std::max(law.value, law.pull) * v : 0, bounded ? std::abs(law.value) : 0, law.limit});
   if (!(r > kRounding * scale.force)) r = bounded || spring || law.limit > 0 ? std::max(r, std::numeric_limits<double>::min()) : scale.force;
   if (spring) r *= 1.1;
   const bool up = problem::one_sided(law.kind);

@@ -24,10 +24,11 @@ enum class ElementKind {
   slider,        // a rod between rubbing pads
   plate_slider,  // the same under a plate on which the beam rests
   capped_spring, // a spring on such a rod
-  breaking_spring
+  breaking_spring,
+  paired_springs // one pushes, beside it another pulls
 };
 
-enum class SupportState { acting, open, pushing, stick, slip, broken };
+enum class SupportState { acting, open, pushing, pulling, stick, slip, broken };
 
 struct SupportElement {
   ElementKind kind = ElementKind::none;
@@ -41,7 +42,7 @@ struct BeamSupport {
   double x = 0;
   double deflection = 0, rotation = 0;
   SupportElement below, arc;
-  bool one_sided_arc = false;  // resists slopes above zero alone
+  bool directed_arc = false;  // differs between slopes above and below zero
 };
 
 // Forces upwards, moments anticlockwise.
@@ -94,7 +95,7 @@ struct PagePicture {
   bool shared_x = false;                    // one x axis a column, labelled below the last row
 };
 
-// "acting", "open", "pushing", "sticking", "slipping, at its limit", "broken".
+// "acting", "open", "pushing", "pulling", "sticking", "slipping, at its limit", "broken".
 const char* state_name(SupportState state);
 Colour state_colour(SupportState state);
 

@@ -29,8 +29,8 @@ bool moves(const BeamSupport& s) { return s.below.kind != ElementKind::none && s
 bool at_left_end(const BeamDrawing& beam, const BeamSupport& s) { return s.x <= 1e-9 * beam.length; }
 bool at_right_end(const BeamDrawing& beam, const BeamSupport& s) { return s.x >= (1 - 1e-9) * beam.length; }
 
-// To the left (1), where slopes above zero turn the arm; at the right end outside, if it resists both senses.
-double arc_sign(const BeamDrawing& beam, const BeamSupport& s) { return at_right_end(beam, s) && !s.one_sided_arc ? -1 : 1; }
+// To the left (1), where slopes above zero turn the arm; at the right end outside, if it resists both senses alike.
+double arc_sign(const BeamDrawing& beam, const BeamSupport& s) { return at_right_end(beam, s) && !s.directed_arc ? -1 : 1; }
 
 class SupportSymbols {
 public:

@@ -30,6 +30,7 @@ const char* state_name(SupportState state) {
     case SupportState::acting: return "acting";
     case SupportState::open: return "open";
     case SupportState::pushing: return "pushing";
+    case SupportState::pulling: return "pulling";
     case SupportState::stick: return "sticking";
     case SupportState::slip: return "slipping, at its limit";
     case SupportState::broken: return "broken";
@@ -43,6 +44,7 @@ Colour state_colour(SupportState state) {
     case SupportState::acting: return {100, 100, 100};
     case SupportState::open: return status_colour(Status::open);
     case SupportState::pushing: return status_colour(Status::closed);
+    case SupportState::pulling: return {0, 158, 115};  // bluish green
     case SupportState::stick: return status_colour(Status::stick);
     case SupportState::slip: return status_colour(Status::slip);
     case SupportState::broken: return {0, 0, 0};

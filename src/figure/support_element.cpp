@@ -10,7 +10,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour ground_ink{70, 70, 70};
+constexpr Colour ground_ink{70, 70, 70}, idle_ink{175, 175, 175};
 constexpr double pad_half = 0.42, pad_in = 0.13, pad_out = 0.42, neck = 0.75;  // em
 
 class Element {
@@ -49,7 +49,8 @@ public:
         zigzag(moved, joint);
         break;
       }
-      case ElementKind::breaking_spring: breaking(rest, end);
+      case ElementKind::breaking_spring: breaking(rest, end); break;
+      case ElementKind::paired_springs: paired(moved, end);
     }
   }
 
@@ -64,18 +65,21 @@ private:
     canvas_.polyline(points, thick, colour);
   }
 
-  void ground(double s) { draw_ground(canvas_, place_.track, s, 0.55 * em_, em_); }
+  void ground(double s, double half = 0.55) { draw_ground(canvas_, place_.track, s, half * em_, em_); }
   void plate(double s) { canvas_.line(at(s, -0.5 * em_), at(s, 0.5 * em_), 1.6 * width(), colour_); }
 
-  void zigzag(double from, double to) {
+  void zigzag(double from, double to) { zigzag(from, to, 0, 0.32 * em_, colour_); }
+
+  // About t, with teeth of a.
+  void zigzag(double from, double to, double t, double a, Colour colour) {
     const int teeth = std::clamp(static_cast<int>((to - from) / (0.36 * em_)), 2, 4);
-    const double stub = 0.12 * (to - from), a = 0.32 * em_;
-    std::vector<Point> points{at(from, 0), at(from + stub, 0)};
+    const double stub = 0.12 * (to - from);
+    std::vector<Point> points{at(from, t), at(from + stub, t)};
     const double step = (to - from - 2 * stub) / (2 * teeth);
-    for (int i = 0; i < 2 * teeth; ++i) points.push_back(at(from + stub + (i + 0.5) * step, i % 2 ? a : -a));
-    points.push_back(at(to - stub, 0));
-    points.push_back(at(to, 0));
-    canvas_.polyline(points, width(), colour_);
+    for (int i = 0; i < 2 * teeth; ++i) points.push_back(at(from + stub + (i + 0.5) * step, i % 2 ? t + a : t - a));
+    points.push_back(at(to - stub, t));
+    points.push_back(at(to, t));
+    canvas_.polyline(points, width(), colour);
   }
 
   void rod(double from, double end) { path(from, end + 0.35 * em_, 0, 1.3 * width(), colour_); }
@@ -103,6 +107,15 @@ private:
     canvas_.polyline(post, 0.7 * width(), colour_, {}, true);
     canvas_.line(at(0, -0.5 * em_), at(0, 0.5 * em_), 1.6 * width(), colour_);
     ground(end);
+  }
+
+  // On a common bar one that pushes and one that pulls; that which does not act is pale.
+  void paired(double moved, double end) {
+    const double apart = 0.36 * em_, teeth = 0.24 * em_;
+    zigzag(moved, end, -apart, teeth, element_.state == SupportState::pulling ? idle_ink : colour_);
+    zigzag(moved, end, apart, teeth, element_.state == SupportState::pushing ? idle_ink : colour_);
+    canvas_.line(at(moved, -0.62 * em_), at(moved, 0.62 * em_), 1.6 * width(), colour_);
+    ground(end, 0.75);
   }
 
   // A neck that tears joins the spring to the ground.

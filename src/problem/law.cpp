@@ -11,4 +11,9 @@ const char* status_name(Status status) {
   }
 }
 
+bool kinked_at_zero(const Law& law, int row) {
+  const Springs k = law.springs(row);
+  return k.below != k.above;
+}
+
 }  // namespace dotyk::problem

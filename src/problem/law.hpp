@@ -24,6 +24,11 @@ struct Interval {
   double low, high;
 };
 
+/// k of φ*(λ) = λ²/2k for λ < 0 and for λ > 0; infinite: φ* = 0 there.
+struct Springs {
+  double below, above;
+};
+
 /// An interface law φ on one row: λ ∈ ∂φ(x), x = (Bu − c)_r. Unit of λ: that of
 /// f (force, integrated over the node's share of the boundary); of x: of u.
 ///
@@ -47,8 +52,8 @@ class Law {
   virtual bool unilateral() const { return false; }
   /// Where λ follows x (or x is held and λ free): at lesser x λ is the least multiplier, at greater x the greatest.
   virtual Interval following(int /*row*/) const { return {-kUnbounded, kUnbounded}; }
-  /// k of φ*(λ) = λ²/2k on multipliers(); infinite: φ* = 0.
-  virtual double spring(int /*row*/) const { return kUnbounded; }
+  /// Of φ* on multipliers().
+  virtual Springs springs(int /*row*/) const { return {kUnbounded, kUnbounded}; }
   /// k where φ(x) = ½kx² for every x (infinite: x = 0); nothing where the law has branches.
   virtual std::optional<double> linear_stiffness(int /*row*/) const { return std::nullopt; }
 };
@@ -62,5 +67,14 @@ std::shared_ptr<const Law> bilateral();
 /// Newton's elastic support: φ = ½k x², λ = kx. P(y) = y k/(k + ρ).
 /// `stiffness[row]` in force per displacement; throws InputError unless each is ≥ 0.
 std::shared_ptr<const Law> elastic(std::vector<double> stiffness);
+
+/// Generalised Newton's support, one spring where x < 0 and another where x > 0 (P4, remark 6, figure 15):
+/// φ = ½k x², λ = kx, k by the side of x; P(y) = y k/(k + ρ), k by the side of y; φ*(λ) = λ²/2k. At y = 0, where P has a
+/// kink, its slope is that of the stiffer side. A spring of 0 bears nothing on its side, the law is then one-sided.
+/// `stiffness[row]` in force per displacement; throws InputError unless each is ≥ 0 and finite.
+std::shared_ptr<const Law> unequal_elastic(std::vector<Springs> stiffness);
+
+/// Has φ* two parabolas, so that λ(x) has a kink at λ = 0?
+bool kinked_at_zero(const Law& law, int row);
 
 }  // namespace dotyk::problem

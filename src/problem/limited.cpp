@@ -44,7 +44,7 @@ class Limited final : public Law {
     return l.stiffness > 0 ? Interval{l.low, l.high} : Interval{0, 0};
   }
 
-  double spring(int row) const override { return limits_[row].stiffness; }
+  Springs springs(int row) const override { return {limits_[row].stiffness, limits_[row].stiffness}; }
 
   Interval following(int row) const override {
     const auto [k, low, high] = limits_[row];

@@ -29,6 +29,7 @@ double limit_of_reaction(const SupportLaw& law, double v, Side side) {
     case Kind::friction: return below(0) ? law.value : -law.value;
     case Kind::one_sided_friction: return below(0) ? law.value : 0;
     case Kind::capped_elastic: return below(-yield) ? law.limit : below(yield) ? -k * v : -law.limit;
+    case Kind::unequal_elastic: return -(below(0) ? k : law.pull) * v;
     case Kind::breaking: return below(-yield) || !below(0) ? 0 : -k * v;
   }
   return 0;
@@ -39,6 +40,7 @@ std::vector<double> kinks(const SupportLaw& law) {
   const double yield = yield_displacement(law);
   switch (law.kind) {
     case Kind::one_sided_elastic:
+    case Kind::unequal_elastic:
     case Kind::friction:
     case Kind::one_sided_friction: return {0};
     case Kind::capped_elastic: return {-yield, yield};

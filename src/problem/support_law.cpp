@@ -21,6 +21,7 @@ const char* support_name(Kind kind) {
     case Kind::friction: return "friction";
     case Kind::one_sided_friction: return "one-sided friction";
     case Kind::capped_elastic: return "capped elastic";
+    case Kind::unequal_elastic: return "unequal elastic";
     case Kind::breaking: return "breaking";
   }
   return "";
@@ -30,6 +31,7 @@ std::string describe(const SupportLaw& law) {
   std::string out = support_name(law.kind);
   if (law.kind != Kind::free && law.kind != Kind::signorini) out += text(" ", law.value);
   if (law.kind == Kind::capped_elastic || law.kind == Kind::breaking) out += text(", at most ", law.limit);
+  if (law.kind == Kind::unequal_elastic) out += text(" pushed, ", law.pull, " pulled");
   return out;
 }
 
@@ -37,12 +39,16 @@ bool one_sided(Kind kind) {
   return kind == Kind::one_sided_elastic || kind == Kind::signorini || kind == Kind::one_sided_friction || kind == Kind::breaking;
 }
 
+bool directed(Kind kind) { return one_sided(kind) || kind == Kind::unequal_elastic; }
+
 void require_valid(const SupportLaw& law) {
   const bool any_sign = law.kind == Kind::prescribed || law.kind == Kind::load;
   if (!std::isfinite(law.value) || (!any_sign && law.value < 0))
     throw InputError(text(support_name(law.kind), " law: the number is ", law.value, "; it must be ", any_sign ? "finite" : "zero or positive, and finite"));
   if (!(law.limit >= 0) || !std::isfinite(law.limit))
     throw InputError(text(support_name(law.kind), " law: the greatest force is ", law.limit, "; it must be zero or positive, and finite"));
+  if (!(law.pull >= 0) || !std::isfinite(law.pull))
+    throw InputError(text(support_name(law.kind), " law: the stiffness that pulls is ", law.pull, "; it must be zero or positive, and finite"));
 }
 
 std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit, const std::vector<double>& shares) {
@@ -64,6 +70,11 @@ std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit, const std
     case Kind::friction: return cut_off(rigid, -bound, bound);
     case Kind::one_sided_friction: return cut_off(rigid, 0, bound);
     case Kind::capped_elastic: return cut_off(k, -limit, limit);
+    case Kind::unequal_elastic: {
+      std::vector<Springs> springs;
+      for (const double share : shares) springs.push_back({law.pull / (unit * unit) * share, k * share});
+      return unequal_elastic(std::move(springs));
+    }
     case Kind::elastic: {
       std::vector<double> stiffness;
       for (const double share : shares) stiffness.push_back(k * share);
@@ -85,6 +96,9 @@ std::optional<double> sole_displacement(const SupportLaw& law, double r) {
     case Kind::friction: return within(std::abs(r) < law.value, 0);
     case Kind::one_sided_friction: return within(r > 0 && r < law.value, 0);
     case Kind::capped_elastic: return within(law.value > 0 && std::abs(r) < law.limit, -r / law.value);
+    case Kind::unequal_elastic:
+      if (r == 0) return within(law.value > 0 && law.pull > 0, 0);
+      return r > 0 ? within(law.value > 0, -r / law.value) : within(law.pull > 0, -r / law.pull);
     case Kind::breaking: return within(law.value > 0 && r > 0 && r < law.limit, -r / law.value);
   }
   return std::nullopt;

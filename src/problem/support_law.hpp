@@ -22,21 +22,26 @@ struct SupportLaw {
     friction,            ///< rigid friction: |r| ≤ value; where v ≠ 0 it is value, against v
     one_sided_friction,  ///< the same for v < 0, nothing for v > 0: 0 ≤ r ≤ value
     capped_elastic,      ///< r = −value v, cut off at ±limit
+    unequal_elastic,     ///< r = −value v for v < 0, r = −pull v for v > 0
     breaking             ///< one-sided elastic up to r = limit; beyond it is broken and r = 0: not monotone
   };
   Kind kind = Kind::free;
   double value = 0;  ///< displacement, force, stiffness or bound; of stiffness and bound ≥ 0
-  double limit = 0;  ///< force, ≥ 0; of the last two kinds
+  double limit = 0;  ///< force, ≥ 0; of capped_elastic and breaking
+  double pull = 0;   ///< stiffness, ≥ 0; of unequal_elastic
 };
 
 /// "one-sided elastic".
 const char* support_name(SupportLaw::Kind kind);
 
-/// "elastic 100", "capped elastic 100, at most 2".
+/// "elastic 100", "capped elastic 100, at most 2", "unequal elastic 100 pushed, 20 pulled".
 std::string describe(const SupportLaw& law);
 
 /// Pushes it towards v > 0 alone?
 bool one_sided(SupportLaw::Kind kind);
+
+/// Tells v < 0 from v > 0, so that it matters which way v is counted: one-sided, or elastic with two stiffnesses.
+bool directed(SupportLaw::Kind kind);
 
 /// Throws InputError where a number is not finite, or negative where it must not be.
 void require_valid(const SupportLaw& law);
@@ -46,7 +51,7 @@ void require_valid(const SupportLaw& law);
 /// not broken yet: one-sided elastic. Null for `free` and `load`, which have no row.
 ///
 /// One row for each of `shares`, the length or area that it stands for where the law's numbers are per length or area:
-/// stiffness, bound and limit are multiplied by it. A share of 0 bears nothing, but where the law is rigid.
+/// stiffnesses, bound and limit are multiplied by it. A share of 0 bears nothing, but where the law is rigid.
 std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit = 1, const std::vector<double>& shares = {1});
 
 /// The displacement at which the law gives this reaction, where there is one only; nothing at its limits and beyond them.

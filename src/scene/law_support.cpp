@@ -23,6 +23,7 @@ void require_tangential(const SupportLaw& law, int dimension) {
                           "; a tangential law ", plane ? "in the plane" : "in space", " is one of ", allowed));
   };
   if (problem::one_sided(law.kind)) refuse("slip to either side is alike, and nothing is open");
+  if (problem::directed(law.kind)) refuse("slip to either side is alike");
   if (plane) return;
   if (law.kind == Kind::load) refuse("it does not say along which tangent (part:load does)");
   if (law.kind == Kind::prescribed && law.value != 0) refuse("it does not say along which tangent (part:displace does)");

@@ -24,6 +24,7 @@ Status status_of(Kind kind, bool follows, bool bears) {
     case Kind::elastic: return Status::closed;
     case Kind::signorini:
     case Kind::one_sided_elastic:
+    case Kind::unequal_elastic:
     case Kind::breaking: return follows ? Status::closed : Status::open;
     case Kind::one_sided_friction: return follows ? Status::stick : bears ? Status::slip : Status::open;
     case Kind::friction:

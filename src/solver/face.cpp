@@ -18,6 +18,15 @@ namespace {
 /// A point this close to its circle (relative) is on it: projections end there up to rounding.
 constexpr double kOnCircle = 1e-13;
 
+/// Multipliers around λ on which φ* is one parabola.
+problem::Interval parabola(const problem::Law& law, int row, double lambda) {
+  problem::Interval interval = law.multipliers(row);
+  if (!problem::kinked_at_zero(law, row)) return interval;
+  if (lambda >= 0) interval.low = std::max(interval.low, 0.0);
+  if (lambda <= 0) interval.high = std::min(interval.high, 0.0);
+  return interval;
+}
+
 }  // namespace
 
 Face::Face(const Problem& problem, const Vector& lambda, const Vector& x, const Vector& rho, const Vector& bounds)
@@ -30,7 +39,7 @@ Face::Face(const Problem& problem, const Vector& lambda, const Vector& x, const 
 void Face::add_rows(const Vector& x, const Vector& rho) {
   for (const RowGroup& group : problem_.groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
-      const problem::Interval interval = group.law->multipliers(r - group.first);
+      const problem::Interval interval = parabola(*group.law, r - group.first, lambda_[r]);
       if (!(lambda_[r] > interval.low && lambda_[r] < interval.high)) continue;
       // φ* is a parabola within the interval: P(λ) = s (λ + const) has its second derivative, and its first.
       const problem::Projection p = group.law->project(r - group.first, lambda_[r], rho[r]);
@@ -82,7 +91,7 @@ double Face::room(const Vector& p) const {
   for (const RowGroup& group : problem_.groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
       if (!free_[r] || p[r] == 0) continue;
-      const problem::Interval interval = group.law->multipliers(r - group.first);
+      const problem::Interval interval = parabola(*group.law, r - group.first, lambda_[r]);
       room = std::min(room, ((p[r] > 0 ? interval.high : interval.low) - lambda_[r]) / p[r]);
     }
   for (const Disc& disc : discs_) {

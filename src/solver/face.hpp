@@ -6,7 +6,7 @@ namespace dotyk::solver {
 
 /// The face of the admissible multipliers, bounds b of friction given, that λ lies on, and what conjugate
 /// gradients need of the dual energy q(λ) = ½λᵀWλ − x₀ᵀλ + Σφ*(λ) there. A scalar row strictly within its
-/// interval is free, and so is a friction point strictly within its disc. A point on its circle that x
+/// interval is free (at a kink of φ* it has two, which end there), and so is a friction point strictly within its disc. A point on its circle that x
 /// pushes outward is free along the circle, whose curvature adds x·n/b to the Hessian (n = λ_t/b); one that x
 /// pushes inward, and a row at an end of its interval, are not free.
 class Face {

@@ -13,6 +13,7 @@
 #include "solver/dual_spectrum.hpp"
 #include "solver/feti_preconditioner.hpp"
 #include "solver/load_size.hpp"
+#include "solver/opposed_springs.hpp"
 #include "solver/projection.hpp"
 #include "solver/require_solvable.hpp"
 #include "solver/settling_bounds.hpp"
@@ -275,6 +276,7 @@ class Run {
 }  // namespace
 
 Result solve(const Problem& problem, const Feti& method, Monitor& monitor) {
+  if (has_two_springs(problem)) return joined(solve(opposed_springs(problem), method, monitor), problem);
   int motions = 0;
   for (const problem::Block& block : problem.blocks) motions += static_cast<int>(block.kernel.cols());
   if (motions > kManyMotions) return Run(problem, method, {}, monitor)();

@@ -1,6 +1,7 @@
 #include "solver/linearisation.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -25,8 +26,10 @@ void set(Linearisation& l, int row, double y, Projection p) {
 }
 
 /// Is a row whose λ followed x at the end of that, up to rounding, or one whose λ did not at its beginning?
+/// Where one spring follows another, that end is 0.
 bool at_kink(const problem::Law& law, int row, double lambda, double x, double force, double gap, const Linearisation& previous, int r) {
   const auto [low, high] = law.multipliers(row);
+  if (previous.active[r] && problem::kinked_at_zero(law, row)) return std::abs(lambda) <= force;
   if (previous.active[r]) return std::min(std::abs(lambda - low), std::abs(lambda - high)) <= force;
   const auto [from, to] = law.following(row);
   return std::abs(x - (previous.value[r] >= high ? to : from)) <= gap;
@@ -37,9 +40,14 @@ Projection closed(double y) { return {y, 1}; }
 
 }  // namespace
 
+bool Linearisation::same_piece(const Linearisation& other, int row) const {
+  return slope[row] == other.slope[row] && (slope[row] != 0 || value[row] == other.value[row]);
+}
+
 std::uint64_t Linearisation::fingerprint() const {
-  std::uint64_t h = 1469598103934665603ull;  // FNV-1a over the flags
-  for (char a : active) h = (h ^ static_cast<unsigned char>(a)) * 1099511628211ull;
+  std::uint64_t h = 1469598103934665603ull;  // FNV-1a
+  const auto add = [&h](double number) { h = (h ^ std::bit_cast<std::uint64_t>(number + 0.0)) * 1099511628211ull; };  // −0 is 0
+  for (Eigen::Index r = 0; r < slope.size(); ++r) add(slope[r]), add(slope[r] == 0 ? value[r] : 0);
   return h;
 }
 

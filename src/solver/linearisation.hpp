@@ -22,6 +22,9 @@ struct Linearisation {
   double offset(int row, double rho) const {
     return (slope[row] * y[row] - value[row]) / (slope[row] * rho);
   }
+  /// Is the row on the same piece of its law? Pieces have different slopes, or where that is 0 different values.
+  bool same_piece(const Linearisation& other, int row) const;
+  /// Of all rows' pieces.
   std::uint64_t fingerprint() const;
   int active_count() const;
 };

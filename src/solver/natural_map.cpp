@@ -83,7 +83,8 @@ NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) cons
       slope[r] = p.slope;
       if (p.slope == 0) continue;
       v.slope.emplace_back(r, r, p.slope);
-      v.closed[r] = v.piece[r] = 1;
+      v.closed[r] = 1;
+      v.piece[r] = p.lambda < 0 && problem::kinked_at_zero(*group.law, r - group.first) ? 2 : 1;
       ++v.active;
     }
   for (const FrictionGroup& group : problem_.friction)

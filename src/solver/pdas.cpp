@@ -160,9 +160,9 @@ class Iteration {
     Linearisation next = held(linearise(problem_, lambda_, x_, rho_, noise(lambda_, x_), &l), x_);
     changed_.clear();
     for (int r = 0; r < problem_.rows(); ++r)
-      if (next.active[r] != l.active[r]) changed_.push_back(r);
+      if (!next.same_piece(l, r)) changed_.push_back(r);
     record(next);
-    if (changed_.empty() && same_values(l, next)) {
+    if (changed_.empty()) {
       if (move_screws(l)) return true;
       result_.converged = !misplaced_;
       if (result_.reason.empty()) result_.reason = "the active set repeats";
@@ -173,12 +173,9 @@ class Iteration {
     return true;
   }
 
-  /// Branches agree, and so do the constants of the branches (laws with a nonzero λ off contact).
-  bool same_values(const Linearisation& a, const Linearisation& b) const {
-    for (int r = 0; r < problem_.rows(); ++r) {
-      if (a.slope[r] != b.slope[r]) return false;
-      if (a.slope[r] == 0 && a.value[r] != b.value[r]) return false;
-    }
+  bool same_pieces(const Linearisation& a, const Linearisation& b) const {
+    for (int r = 0; r < problem_.rows(); ++r)
+      if (!a.same_piece(b, r)) return false;
     return true;
   }
 
@@ -225,7 +222,7 @@ class Iteration {
       Vector lambda, x;
       if (!newton->solve(l, lambda, x)) continue;
       const Linearisation next = linearise(problem_, lambda, x, rho_, noise(lambda, x), &l);
-      if (next.active == l.active && same_values(l, next)) {
+      if (same_pieces(l, next)) {
         result_.reason = "active sets repeated at " + where + "; left by sweeps that decrease the dual energy";
         return true;  // the ordinary iteration confirms it
       }

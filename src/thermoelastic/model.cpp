@@ -33,6 +33,7 @@ SparseMatrix sparse(int rows, int columns, const Entries& entries) {
 bool carries(const problem::SupportLaw& law) {
   if (law.kind == Kind::free || law.kind == Kind::load) return false;
   if (law.kind == Kind::prescribed || law.kind == Kind::signorini) return true;
+  if (law.kind == Kind::unequal_elastic) return law.value > 0 || law.pull > 0;
   return law.value > 0 && (law.kind != Kind::capped_elastic || law.limit > 0);
 }
 
@@ -50,7 +51,7 @@ std::vector<Held> held(const Data& data, const std::vector<double>& nodes, Effec
   const auto add = [&](const Support& s, std::size_t i, Held::What what, const char* of, const problem::SupportLaw& law,
                        int unknown, double unit, double turn) {
     if (carries(law))
-      out.push_back({static_cast<int>(i), what, s.name + of, unknown, unit, problem::one_sided(law.kind) ? turn : 1, law});
+      out.push_back({static_cast<int>(i), what, s.name + of, unknown, unit, problem::directed(law.kind) ? turn : 1, law});
   };
   for (std::size_t i = 0; i < data.supports.size(); ++i) {
     const Support& s = data.supports[i];

@@ -18,7 +18,7 @@ check.equal(s:render{ file = "beam.png", panels = { "shear", "deflection" }, tit
 check.equal(size "beam.png", { 500, 400 })
 check.equal(s:render_law{ file = "law.png", support = "right" }, "law.png")
 s:render_law{ file = "law.png", support = 1, of = "rotation", units = { force = "N" } }
-for name, numbers in pairs{ free = {}, prescribed = { 0.2 }, load = { -1 }, elastic = { 2 }, one_sided_elastic = { 2 }, signorini = {}, friction = { 1 },
+for name, numbers in pairs{ free = {}, prescribed = { 0.2 }, load = { -1 }, elastic = { 2 }, one_sided_elastic = { 2 }, unequal_elastic = { 2, 1 }, signorini = {}, friction = { 1 },
   one_sided_friction = { 1 }, capped_elastic = { 2, 1 }, breaking = { 2, 1 } } do
   for _, of in ipairs{ "deflection", "rotation" } do check.equal(law[name](table.unpack(numbers)):render{ file = "law.png", of = of }, "law.png") end
 end

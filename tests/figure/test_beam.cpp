@@ -21,7 +21,8 @@ const SupportLaw held{Kind::prescribed, 0, 0}, nothing;
 
 const std::vector<SupportLaw> laws{{Kind::free, 0, 0}, {Kind::prescribed, -0.02, 0}, {Kind::load, 0.1, 0}, {Kind::elastic, 5, 0},
                                    {Kind::one_sided_elastic, 5, 0}, {Kind::signorini, 0, 0}, {Kind::friction, 0.2, 0},
-                                   {Kind::one_sided_friction, 0.2, 0}, {Kind::capped_elastic, 5, 0.1}, {Kind::breaking, 5, 0.2}};
+                                   {Kind::one_sided_friction, 0.2, 0}, {Kind::capped_elastic, 5, 0.1}, {Kind::breaking, 5, 0.2},
+                                   {Kind::unequal_elastic, 5, 0, 2}};
 
 beam::Beam beam_of(const SupportLaw& deflection, const SupportLaw& rotation) {
   beam::Beam b;
@@ -136,6 +137,10 @@ TEST_CASE("states of supports") {
   CHECK(state({Kind::one_sided_friction, 0.2, 0}, 1) == SupportState::open);
   CHECK(state({Kind::capped_elastic, 5, 0.1}, -1) == SupportState::slip);
   CHECK(state({Kind::capped_elastic, 5, 1}, -1) == SupportState::acting);
+  CHECK(state({Kind::unequal_elastic, 5, 0, 2}, -1) == SupportState::pushing);
+  CHECK(state({Kind::unequal_elastic, 5, 0, 2}, 1) == SupportState::pulling);
+  CHECK(state({Kind::unequal_elastic, 5, 0, 0}, 1) == SupportState::open);
+  CHECK(state({Kind::unequal_elastic, 5, 0, 2}, 0) == SupportState::acting);
   CHECK(state({Kind::breaking, 50, 0.01}, -1) == SupportState::broken);
   CHECK(state({Kind::breaking, 5, 1}, -1) == SupportState::pushing);
 }

@@ -87,7 +87,7 @@ TEST_CASE("without expansion a thermoelastic beam and a plain one have the same 
       CHECK(u.supports[i].below.kind == v.supports[i].below.kind);
       CHECK(u.supports[i].below.state == v.supports[i].below.state);
       CHECK(u.supports[i].arc.state == v.supports[i].arc.state);
-      CHECK(u.supports[i].one_sided_arc == v.supports[i].one_sided_arc);
+      CHECK(u.supports[i].directed_arc == v.supports[i].directed_arc);
     }
     for (const std::size_t row : {1u, 2u}) {
       REQUIRE(curve(warm, row).x == curve(plain, row).x);

@@ -186,3 +186,56 @@ TEST_CASE("limited refuses what is no spring") {
   CHECK_THROWS_AS(limited("a", {{NAN, -2, 1}}), InputError);
   CHECK_THROWS_AS(limited("a", {{1, NAN, 1}}), InputError);
 }
+
+namespace {
+
+const std::vector<Springs> kSprings{{2, 40}, {40, 2}, {0, 3}, {3, 0}, {0, 0}, {7, 7}, {1e-3, 1e3}};
+
+}  // namespace
+
+TEST_CASE("unequal elastic: λ = P(λ + ρx) says λ = kx, k by the side of x") {
+  const auto law = unequal_elastic(kSprings);
+  for (int row = 0; row < static_cast<int>(kSprings.size()); ++row) {
+    CAPTURE(row);
+    check_slope(*law, row);
+    for (double x : grid()) {
+      const double lambda = (x < 0 ? kSprings[row].below : kSprings[row].above) * x;
+      for (double rho : rhos()) {
+        CHECK(satisfied(*law, row, x, lambda, rho));
+        // The pair of every y: P(y) = k (y − P(y))/ρ.
+        const double of_y = law->project(row, x, rho).lambda, k = x < 0 ? kSprings[row].below : kSprings[row].above;
+        CHECK(std::abs(of_y * rho - k * (x - of_y)) <= 1e-14 * (k + rho) * std::abs(x));
+      }
+      const double both = law->energy(row, x) + law->conjugate(row, lambda);
+      CHECK(std::abs(both - lambda * x) <= 1e-14 * both);
+      const Interval range = law->multipliers(row);
+      for (double other : grid())
+        if (other >= range.low && other <= range.high)
+          CHECK(law->energy(row, x) + law->conjugate(row, other) - other * x >= -1e-14 * law->energy(row, x) - 1e-14 * std::abs(other * x));
+    }
+  }
+}
+
+TEST_CASE("unequal elastic with one stiffness is elastic, with one of 0 one-sided") {
+  const auto same = unequal_elastic({{7, 7}}), up = unequal_elastic({{0, 3}}), down = unequal_elastic({{3, 0}});
+  const auto equal = elastic({7}), pushes = limited("one-sided", {{3, 0, kInf}}), pulls = limited("one-sided", {{3, -kInf, 0}});
+  CHECK(*same->linear_stiffness(0) == 7);
+  CHECK_FALSE(up->linear_stiffness(0));
+  CHECK_FALSE(unequal_elastic({{0, 0}, {1, 2}})->linear_stiffness(0));  // of all rows
+  for (const auto& [a, b] : {std::pair{same, equal}, {up, pushes}, {down, pulls}}) {
+    CHECK(a->multipliers(0).low == b->multipliers(0).low);
+    CHECK(a->multipliers(0).high == b->multipliers(0).high);
+    CHECK(a->following(0).low == b->following(0).low);
+    CHECK(a->following(0).high == b->following(0).high);
+    for (double y : grid()) {
+      for (double rho : rhos()) {
+        CHECK(a->project(0, y, rho).lambda == b->project(0, y, rho).lambda);
+        CHECK(a->project(0, y, rho).slope == b->project(0, y, rho).slope);
+      }
+      CHECK(a->energy(0, y) == doctest::Approx(b->energy(0, y)).epsilon(1e-14));
+    }
+  }
+  CHECK_THROWS_WITH_AS(unequal_elastic({{1, -2}}), "unequal elastic law: a stiffness is -2; it must be zero or positive, and finite", InputError);
+  CHECK_THROWS_AS(unequal_elastic({{kInf, 1}}), InputError);
+  CHECK_THROWS_AS(unequal_elastic({{1, NAN}}), InputError);
+}

@@ -16,7 +16,9 @@ const GraphWindow window{-2, 2.5, -3, 4};
 const std::vector<SupportLaw> laws{{Kind::free, 0, 0}, {Kind::prescribed, -0.7, 0}, {Kind::load, -1.3, 0}, {Kind::elastic, 1.5, 0},
                                    {Kind::elastic, 0, 0}, {Kind::one_sided_elastic, 1.5, 0}, {Kind::signorini, 0, 0}, {Kind::friction, 0.8, 0},
                                    {Kind::friction, 0, 0}, {Kind::one_sided_friction, 0.8, 0}, {Kind::capped_elastic, 2, 1.1}, {Kind::capped_elastic, 0, 1},
-                                   {Kind::capped_elastic, 2, 0}, {Kind::breaking, 2, 1.1}, {Kind::breaking, 0, 1}, {Kind::breaking, 0.1, 5}};
+                                   {Kind::capped_elastic, 2, 0}, {Kind::breaking, 2, 1.1}, {Kind::breaking, 0, 1}, {Kind::breaking, 0.1, 5},
+                                   {Kind::unequal_elastic, 2, 0, 0.5}, {Kind::unequal_elastic, 0.5, 0, 2},
+                                   {Kind::unequal_elastic, 0, 0, 2}, {Kind::unequal_elastic, 2, 0, 0}};
 
 struct OnGraph {
   double v, r;

@@ -19,11 +19,13 @@ refused(function() top:support{ normal = dotyk.friction.tresca(1) } end, "'norma
 refused(function() top:support{ tangental = law.friction(1) } end, "unknown key 'tangental', did you mean 'tangential'?")
 refused(function() top:support(law.elastic(1)) end, "support")
 refused(function() law.one_sided_elastic(-1) end, "'k' must be")
+refused(function() law.unequal_elastic(1, -1) end, "'k_pull' must be")
+refused(function() law.unequal_elastic(1) end, "k_pull")
 refused(function() law.friction(0/0) end, "'g' must be")
 refused(function() it.body:part("none", function() return false end):support{ normal = law.signorini() } end, "part 'none' of 'block' is empty")
 
 -- Tangential laws without meaning.
-for _, one in ipairs{ law.signorini(), law.one_sided_elastic(1), law.one_sided_friction(1), law.breaking(1, 1) } do
+for _, one in ipairs{ law.signorini(), law.one_sided_elastic(1), law.one_sided_friction(1), law.breaking(1, 1), law.unequal_elastic(2, 1) } do
   refused(function() top:support{ tangential = one } end, "law cannot be tangential: slip to either side is alike",
     "in the plane is one of free, prescribed, load, elastic, friction and capped_elastic")
   refused(function() base:support{ tangential = one } end, "in space is one of free, prescribed(0), elastic and friction")

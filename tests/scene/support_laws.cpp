@@ -48,7 +48,7 @@ TEST_CASE("a block pressed on a foundation sinks in by p/k, alike everywhere") {
   for (const int dimension : {2, 3})
     for (const auto family : test::kFamilies)
       for (const Laws law : {Laws{LawKind::one_sided_elastic, k}, Laws{LawKind::elastic, k}, Laws{LawKind::capped_elastic, k, 3.0},
-                             Laws{LawKind::breaking, k, 3.0}}) {
+                             Laws{LawKind::breaking, k, 3.0}, Laws{LawKind::unequal_elastic, k, 0, 3 * k}}) {
         const auto s = test::solve(pressed(dimension, family, law, p));
         REQUIRE(s->result().converged);
         const auto r = s->support(test::part(s->scene().bodies[0], "bottom"));
@@ -67,10 +67,35 @@ TEST_CASE("a block pressed on a foundation sinks in by p/k, alike everywhere") {
       }
 }
 
+TEST_CASE("a block pulled off a foundation of two stiffnesses rises by p/k of the spring that pulls") {
+  const double p = 2.5, k = 40;
+  for (const int dimension : {2, 3})
+    for (const auto family : test::kFamilies) {
+      const auto s = test::solve(pressed(dimension, family, {LawKind::unequal_elastic, 3 * k, 0, k}, -p));
+      for (const scene::SupportNode& node : s->support(test::part(s->scene().bodies[0], "bottom")).nodes) {
+        CHECK(node.away == doctest::Approx(p / k).epsilon(1e-11));
+        CHECK(node.pressure == doctest::Approx(-p).epsilon(1e-11));
+        CHECK(node.status == problem::Status::closed);
+      }
+      CHECK(test::imbalance(*s, {"bottom", "left"}) < 1e-11);
+    }
+}
+
+TEST_CASE("a foundation that pulls as well as it pushes is elastic, one that does not pull one-sided, one that hardly does nearly so") {
+  const auto solved = [](const Laws& law) { return test::solve(eccentric(50, law, 1, 12)); };
+  CHECK(test::distance(*solved({LawKind::unequal_elastic, 20, 0, 20}), *solved({LawKind::elastic, 20})) < 1e-12);
+  const auto one_sided = solved({LawKind::one_sided_elastic, 20});
+  CHECK(test::distance(*solved({LawKind::unequal_elastic, 20, 0, 0}), *one_sided) < 1e-12);
+  const double near = test::distance(*solved({LawKind::unequal_elastic, 20, 0, 1e-3}), *one_sided);
+  const double nearer = test::distance(*solved({LawKind::unequal_elastic, 20, 0, 1e-4}), *one_sided);
+  CHECK(near / nearer == doctest::Approx(10).epsilon(0.05));  // the first order in k_pull
+}
+
 TEST_CASE("every method gives the same foundation") {
-  for (const LawKind kind : {LawKind::one_sided_elastic, LawKind::capped_elastic, LawKind::one_sided_friction, LawKind::signorini}) {
+  for (const LawKind kind : {LawKind::one_sided_elastic, LawKind::capped_elastic, LawKind::one_sided_friction, LawKind::signorini, LawKind::unequal_elastic}) {
     Laws law{kind, 60, 1.9};
     if (kind == LawKind::one_sided_friction) law.value = 1.9;
+    if (kind == LawKind::unequal_elastic) law.pull = 5;
     const auto scene = eccentric(50, law, 1.2, 10);
     const auto exact = test::solve_by(scene, solver::Pdas{});
     CHECK(test::distance(*test::solve_by(scene, solver::Newton{}), *exact) < 1e-9);

@@ -75,6 +75,7 @@ double difference(const Data& d, Order order, const std::vector<std::string>& ex
 
 TEST_CASE("decomposed and coupled agree after 200 steps in the six exceptional cases and where solvability forces one") {
   const auto spring = law(LawKind::elastic, 20), weak = law(LawKind::elastic, 5);
+  const problem::SupportLaw unequal{LawKind::unequal_elastic, 20, 0, 5};
   const std::vector<Case> cases{
       {"1, simply supported", kHeld, kNone, kAtNought, kNone},
       {"2, cantilever", kHeld, kHeld, kNone, kNone},
@@ -89,6 +90,8 @@ TEST_CASE("decomposed and coupled agree after 200 steps in the six exceptional c
       {"theorem 5, friction against deflection", law(LawKind::friction, 2), kNone, law(LawKind::friction, 2), kNone},
       {"one-sided friction", law(LawKind::one_sided_friction, 2), kNone, law(LawKind::one_sided_friction, 2), kNone},
       {"capped springs", law(LawKind::capped_elastic, 20, 2), kNone, law(LawKind::capped_elastic, 20, 2), kNone},
+      {"springs of two stiffnesses", unequal, kNone, unequal, kNone},
+      {"springs of two stiffnesses about the rotation", kHeld, unequal, kNone, kNone},
       {"laws without strength besides", kHeld, law(LawKind::friction, 0), kAtNought, law(LawKind::elastic, 0)},
   };
   const std::vector<std::string> both{"stretching", "bending"};
