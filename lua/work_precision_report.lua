@@ -56,22 +56,22 @@ local function listed(some, tolerances)
   return table.concat(order, "; ")
 end
 
--- "on level 4 pdas is fastest, newton takes 1.5 times as long, …", by converged rows; nil where fewer than two are.
-function report.verdict(all)
-  local last, best = all[#all].level, {}
-  local by = {}
+-- "on level 4 pdas is fastest; times as long: newton 1.5, …", by rows converged to the least of the tolerances; nil where
+-- fewer than two are.
+function report.verdict(all, tolerances)
+  local last <const>, tol <const> = all[#all].level, tolerances and math.min(table.unpack(tolerances))
+  local best, by = {}, {}
   for _, row in ipairs(all) do
-    if row.level == last and row.status == "converged" and row.seconds then
-      local known <const> = by[row.method]
-      if not known then best[#best + 1] = row.method end
-      if not known or row.seconds < known then by[row.method] = row.seconds end
+    if row.level == last and row.status == "converged" and (not tol or row.tol == tol) then
+      best[#best + 1], by[row.method] = row.method, row.seconds
     end
   end
   if #best < 2 then return nil end
   table.sort(best, function(a, b) return by[a] < by[b] end)
   local texts <const> = {}
   for k = 2, #best do texts[#texts + 1] = ("%s %.3g"):format(best[k], by[best[k]] / by[best[1]]) end
-  return ("on level %d %s is fastest; times as long: %s"):format(last, best[1], table.concat(texts, ", "))
+  return ("on level %d%s %s is fastest; times as long: %s"):format(last, tol and (" to tol %.0e"):format(tol) or "", best[1],
+    table.concat(texts, ", "))
 end
 
 function report.print(all, options, reference)
@@ -93,7 +93,7 @@ function report.print(all, options, reference)
   print(("error: %s%s; seconds: median of up to %d runs; *: the front"):format(what,
     reference.level and (" against level %d"):format(reference.level) or "", options.repeats))
   print("front: " .. listed(rows.front(all), options.tolerances))
-  local verdict <const> = report.verdict(all)
+  local verdict <const> = report.verdict(all, options.tolerances)
   if verdict then print(verdict) end
 end
 

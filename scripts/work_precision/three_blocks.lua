@@ -3,7 +3,7 @@
 --   ./dotyk scripts/work_precision/three_blocks.lua [LEVELS]
 --
 -- The error in the energy norm against twice the cells of the finest level charted. What the chart says: at these sizes the factor
--- of whole bodies is cheap, and the direct method is as fast as FETI on whole bodies; subdomains and preconditioners pay later
+-- of whole bodies is cheap, and the direct method is a little faster than FETI on whole bodies; subdomains pay later
 -- (see feti_scaling.lua). images/work_precision_three_blocks.png.
 
 local levels <const> = tonumber(arg[1]) or 3

@@ -222,6 +222,13 @@ void Canvas::marker(Marker kind, Point c, double size, Colour colour) {
   }
 }
 
+void Canvas::crossed_marker(Marker kind, Point c, double size, Colour colour) {
+  const auto pale = [](unsigned char value) { return static_cast<unsigned char>(255 - (255 - value) / 3); };
+  marker(kind, c, 1.2 * size, {pale(colour.r), pale(colour.g), pale(colour.b)});
+  const double arm = 0.55 * size;
+  for (const double side : {-1.0, 1.0}) line({c.x - arm, c.y - side * arm}, {c.x + arm, c.y + side * arm}, 0.16 * size, colour);
+}
+
 void Canvas::arrow(Point tail, Point head, double width, double head_length, Colour colour, double rim) {
   const double length = std::hypot(head.x - tail.x, head.y - tail.y);
   if (!(length > 0)) return;

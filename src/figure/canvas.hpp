@@ -70,6 +70,8 @@ public:
   void disc(Point centre, double radius, Colour colour);
   // size: the diameter. Rimmed in white so that it stands off its ground.
   void marker(Marker kind, Point centre, double size, Colour colour);
+  // The same, pale and crossed out.
+  void crossed_marker(Marker kind, Point centre, double size, Colour colour);
   // rim: pixels of white around it.
   void arrow(Point tail, Point head, double width, double head_length, Colour colour, double rim = 0);
   // A gradient rectangle is a row of boxes; texts need no clip.

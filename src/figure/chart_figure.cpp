@@ -138,13 +138,8 @@ private:
   }
 
   void mark(Canvas& canvas, const SeriesPicture& s, int k, Point at) const {
-    const double size = marker_size(s), arm = 0.55 * size;
-    const auto paled = [](unsigned char c) { return static_cast<unsigned char>(255 - (255 - c) / 3); };
-    const Colour full = colour(k), pale{paled(full.r), paled(full.g), paled(full.b)};
-    canvas.marker(marker(k), at, s.crossed ? 1.2 * size : size, s.crossed ? pale : full);
-    if (!s.crossed) return;
-    for (const double side : {-1.0, 1.0})
-      canvas.line({at.x - arm, at.y - side * arm}, {at.x + arm, at.y + side * arm}, 0.16 * size, full);
+    if (s.crossed) canvas.crossed_marker(marker(k), at, marker_size(s), colour(k));
+    else canvas.marker(marker(k), at, marker_size(s), colour(k));
   }
 
   double front_width() const { return 0.9 * em_; }

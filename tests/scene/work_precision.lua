@@ -34,6 +34,14 @@ check.equal(report.csv{ { method = 'a "b", c', level = 1, status = "refused", fr
   "method,tol,level,unknowns,rows,iterations,status,error,seconds,low,high,runs,assembly,ordering,factor,iterate,recover,front,reason\n"
   .. '"a ""b"", c",,1,,,,refused,,,,,,,,,,,false,"two\nlines"\n')
 
+do
+  local function timed(method, seconds, tol, status) return { method = method, seconds = seconds, tol = tol, level = 2, status = status or "converged" } end
+  check.equal(report.verdict{ timed("a", 2), timed("b", 1), timed("c", 0.5, nil, "not converged") }, "on level 2 b is fastest; times as long: a 2")
+  check.equal(report.verdict({ timed("a", 2, 1e-1), timed("a", 3, 1e-3), timed("b", 4, 1e-1), timed("b", 9, 1e-3) }, { 1e-3, 1e-1 }),
+    "on level 2 to tol 1e-03 a is fastest; times as long: b 3")
+  check.equal(report.verdict{ timed("a", 2) }, nil)
+end
+
 -- 2. Distances. A pressed block with nu = 0 has one strain: twice the load is twice everything.
 local function pressed(load, n)
   local block = dotyk.body{ name = "block", material = dotyk.material{ E = 10, nu = 0 },
