@@ -113,7 +113,8 @@ local function laws(prescribed, load, k, bound, cap)
     { "one-sided friction", law.one_sided_friction(bound), { "sticks", { v = 0 }, function(_, r) return r > 0 and r < bound end },
       { "slips", { r = bound }, slips }, { "off", { r = 0 }, off }, one_sided = true },
     { "capped elastic", law.capped_elastic(k, cap), { "elastic", { r = 0, k = k }, function(v) return math.abs(k * v) < cap end },
-      { "capped", { r = cap }, function(v) return k * v < -cap end }, { "capped", { r = -cap }, function(v) return k * v > cap end } } }
+      { "capped", { r = cap }, function(v) return k * v < -cap end }, { "capped", { r = -cap }, function(v) return k * v > cap end } },
+    { "unequal elastic", law.unequal_elastic(k, k / 4), { "pushed", { r = 0, k = k }, slips }, { "pulled", { r = 0, k = k / 4 }, off }, one_sided = true } }
 end
 
 -- The closed form of the one branch that is consistent, and its name.
