@@ -50,7 +50,7 @@ for _, element in ipairs{ "P1", "Q1" } do
           curve:add(0.999 * 10^(-half / 2), math.abs(loss))
           if common.residual(s) > 1e-6 then wrong = wrong + 1 end
         else refused = refused + 1 end
-        if element == "Q1" and loss > 0.9 then told = math.min(told, s:error_estimate()) end
+        if element == "Q1" and loss > 0.9 then told = math.min(told, (s:error_estimate())) end
         if half % 4 == 0 and (n == finest or n == 8) then
           print(("%s %3d   %5.0e   %20.4f   %17.4f   %16.4f  %s"):format(element, n, 10^(-half / 2), loss, worst, s:error_estimate(), s.converged and "" or s.reason:match "^[^:]*"))
         end
