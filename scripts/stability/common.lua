@@ -65,6 +65,15 @@ function common.ending(s)
   return s.reason:find("diverge", 1, true) and "diverges" or s.reason:find("not fallen", 1, true) and "stalls" or "gives up"
 end
 
+-- A rigid parabola pressed into a block of n cells along its top: its scene and contact.
+function common.punch(n)
+  local body = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
+    mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {n, n // 2} } }
+  body:part"bottom":fix()
+  local scene = dotyk.scene{ body }
+  return scene, scene:contact{ body:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 - 0.02 end } }
+end
+
 -- The script's last line: what it found, if that is so.
 function common.verdict(holds, sentence)
   print("verdict: " .. sentence)

@@ -82,7 +82,7 @@ for _, sign in ipairs{ 1, -1 } do
   worst = math.max(worst, found / predicted, predicted / found)
   print(("C^%+d is solved up to C = %.1e; by the residual at 1e4 to 1e7, in proportion to C, %.1e"):format(sign, found, predicted))
 end
-series[#series + 1] = common.curve("its limit", { style = "line" })
+series[#series + 1] = common.curve("its limit", { reference = true })
 for power = -16, 16, 32 do series[#series]:add(10.0^power, 1e-6) end
 dotyk.chart{ file = "images/stability_contrast.png", log = "xy", x = "stiffness C of the block in the middle, over that of the others",
              y = "relative error against the closed form", series = series, size = { 1100, 800 } }

@@ -26,8 +26,8 @@ end
 local methods <const> = { "pdas", "active_set", "interior_point", "newton", "projected_cg", "psor", "uzawa", "feti" }
 local rubbing <const> = { newton = true, psor = true, uzawa = true }
 local worst, inner, sets, wrong, most, unconverged = 0, 0, 0, 0, 0, 0
-local curves, series = {}, {}
-for k, name in ipairs(methods) do curves[name] = common.curve(name) series[k] = curves[name] end
+local pressed, apart = {}, {} -- iterations where δ < 0 and where δ > 0, against |δ|
+for k, name in ipairs(methods) do pressed[k], apart[k] = common.curve(name), common.curve(name) end
 local deltas = {}
 for power = 0, -18, -1 do deltas[#deltas + 1] = -0.5 * 10.0^power end
 deltas[#deltas + 1] = 0
@@ -35,7 +35,7 @@ for power = -18, 0 do deltas[#deltas + 1] = 0.5 * 10.0^power end
 print("error of the force over p, iterations; ! not converged\n    delta " .. ("%16s"):rep(#methods):format(table.unpack(methods)))
 for place, delta in ipairs(deltas) do
   local line = ("%9.0e "):format(delta)
-  for _, name in ipairs(methods) do
+  for k, name in ipairs(methods) do
     local text, off, count = "", 0, 0
     for _, friction in ipairs(rubbing[name] and { false, dotyk.friction.coulomb(0.3) } or { false }) do
       local scene, contact = column(delta, friction or nil)
@@ -54,12 +54,13 @@ for place, delta in ipairs(deltas) do
       count = math.max(count, s.iterations)
     end
     if name == "pdas" or name == "newton" then most = math.max(most, count) end
-    curves[name]:add(place, math.max(count, 1))
+    if delta ~= 0 then (delta < 0 and pressed or apart)[k]:add(math.abs(delta), math.max(count, 1)) end
     line = line .. ("%10.0e %4d%1s"):format(off, count, text)
   end
   if place % 3 == 1 or delta == 0 then print(line) end
 end
-dotyk.chart{ file = "images/stability_degenerate.png", log = "y", x = "δ: −5e-1 … −5e-19 (1 to 19), 0 (20), 5e-19 … 5e-1 (21 to 39)", y = "iterations", series = series }
+dotyk.chart{ file = "images/stability_degenerate.png", size = { 1000, 1100 }, x = "|δ|", panels = {
+  { title = "pressed, δ < 0", y = "iterations", log = "xy", series = pressed }, { title = "apart, δ > 0", y = "iterations", log = "xy", series = apart } } }
 print "images/stability_degenerate.png"
 common.verdict(wrong == 0 and unconverged == 0 and worst < 1e-8 and most <= 10, ("touching without force costs nobody convergence: active sets settle in %d iterations at most and forces are right to %.0e of p at "
   .. "every δ, active_set's to %.0e, and the interior point's to %.0e, where theory says √tol = 1e-5"):format(most, worst, sets, inner))

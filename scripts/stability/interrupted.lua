@@ -17,13 +17,7 @@ local common <const>, scenes <const> = dofile(here .. "/common.lua"), dofile(her
 
 -- 1. Stopped by the user.
 local coulomb <const>, given <const> = dotyk.friction.coulomb(0.3), dotyk.friction.tresca(2.5)
-local function parabola()
-  local body = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
-    mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {2 * n, n} } }
-  body:part"bottom":fix()
-  local scene = dotyk.scene{ body }
-  return scene, scene:contact{ body:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 - 0.02 end } }
-end
+local function parabola() return common.punch(2 * n) end
 local function rubbed() return scenes.lifted(n, coulomb) end
 local function held() return scenes.lifted(n, given) end
 local runs <const> = { { "pdas", parabola }, { "active_set", parabola }, { "interior_point", parabola }, { "penalty", parabola }, { "newton", rubbed },

@@ -72,7 +72,7 @@ for row = 0, 31 do
   if not friction and joints ~= "gggg" and deviates == unique then miscounted = miscounted + 1 end
   print(line)
 end
-dotyk.chart{ file = "images/stability_overconstrained.png", x = "1 pdas, 2 active set, 3 interior point, 4 newton, 5 proximal, 6 cg, 7 psor, 8 uzawa, 9 feti", y = "joints (bits: glued; 16: friction)",
+dotyk.chart{ file = "images/stability_overconstrained.png", x = "1 pdas, 2 active set, 3 int. point, 4 newton, 5 proximal, 6 cg, 7 psor, 8 uzawa, 9 feti", y = "joints (bits: glued; 16: friction)",
              series = map:series(), size = { 1500, 950 } }
 print "images/stability_overconstrained.png"
 local text = {}

@@ -14,13 +14,6 @@ local finest <const> = tonumber(arg[1]) or 64
 local here <const> = arg[0]:match "^(.*)/[^/]*$" or "."
 local common <const>, fit <const> = dofile(here .. "/common.lua"), dofile(here .. "/../scenes/least_squares.lua")
 
-local function punch(n)
-  local body = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
-    mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {n, n // 2} } }
-  body:part"bottom":fix()
-  local scene = dotyk.scene{ body }
-  return scene, scene:contact{ body:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 - 0.02 end } }
-end
 
 -- Error of the contact forces in the mean square.
 local function off(s, exact, contact)
@@ -35,7 +28,7 @@ local series, wrong, worst_left, worst_right, worst_foot, least_rows = {}, 0, 0,
 print "   n        a         b  slope left  slope right  foot in theory   found  error there  converged up to  rows at 1e14"
 for n = 16, finest do
   if n & (n - 1) == 0 then
-    local scene, contact = punch(n)
+    local scene, contact = common.punch(n)
     local exact = dotyk.solver.pdas{}:solve(scene)
     local classical, rows = common.curve("n = " .. n .. ", classical"), common.curve("n = " .. n .. ", on contact rows", { twin = true })
     local foot, lowest, left, right = 1, math.huge, { x = {}, y = {} }, { x = {}, y = {} }

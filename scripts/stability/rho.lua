@@ -16,13 +16,7 @@ local common <const> = dofile(folder .. "/common.lua")
 local fit <const> = dofile(folder .. "/../scenes/least_squares.lua")
 local scenes <const> = dofile(folder .. "/../scenes/friction.lua")
 
-local function punch()
-  local body = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
-    mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {n, n // 2} } }
-  body:part"bottom":fix()
-  local scene = dotyk.scene{ body }
-  return scene, scene:contact{ body:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 - 0.02 end } }
-end
+local function punch() return common.punch(n) end
 local m <const> = math.max(4, n // 4)
 local coulomb <const>, given <const> = dotyk.friction.coulomb(0.3), dotyk.friction.tresca(2.5)
 local cases <const> = {

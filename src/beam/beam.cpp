@@ -53,15 +53,13 @@ std::vector<double> nodes(const Beam& beam) {
   std::vector<char> taken(x.size(), 0);
   taken.front() = taken.back() = 1;
   for (const Support& s : beam.supports) {
-    const int i = nearest(x, s.x);
-    if (!taken[i]) x[i] = s.x;
-    else if (x[i] == s.x) continue;
-    else {
-      const auto at = std::upper_bound(x.begin(), x.end(), s.x) - x.begin();
-      x.insert(x.begin() + at, s.x);
-      taken.insert(taken.begin() + at, 1);
-      continue;
+    std::size_t i = nearest(x, s.x);
+    if (taken[i] && x[i] != s.x) {
+      i = std::upper_bound(x.begin(), x.end(), s.x) - x.begin();
+      x.insert(x.begin() + i, s.x);
+      taken.insert(taken.begin() + i, 1);
     }
+    x[i] = s.x;
     taken[i] = 1;
   }
   return x;

@@ -1,18 +1,11 @@
 #include "beam/element.hpp"
 
-#include "algebra/quadrature.hpp"
-
 namespace dotyk::beam {
 
-namespace {
-
-/// On 0 ≤ s ≤ 1.
 const algebra::Quadrature& rule() {
   static const algebra::Quadrature eight = algebra::gauss(8);
   return eight;
 }
-
-}  // namespace
 
 Hermite::Hermite(double s, double h)
     : value(1 + s * s * (2 * s - 3), h * s * (1 - s) * (1 - s), s * s * (3 - 2 * s), h * s * s * (s - 1)),

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "algebra/quadrature.hpp"
+
 namespace dotyk::beam {
 
 using Four = Eigen::Vector4d;
@@ -15,6 +17,9 @@ struct Hermite {
   Hermite(double s, double h);
   Four value, slope, curvature;
 };
+
+/// Gauss's rule with eight points on 0 ≤ s ≤ 1.
+const algebra::Quadrature& rule();
 
 /// ∫ EJ N″N″ᵀ over the cell from x0 to x0 + h, and ∫ q N, for constants in closed form, for functions by Gauss's rule
 /// with eight points: with EJ constant the loads are exact for polynomials q up to degree 12.

@@ -21,7 +21,7 @@ std::function<double(double)> checked(const std::function<double(double)>& f, co
   return [&f, what, positive](double x) {
     const double value = f(x);
     if (!std::isfinite(value) || (positive && !(value > 0)))
-      throw InputError(text("", what, " is ", value, " at x = ", x, positive ? "; it must be positive" : "; it must be finite"));
+      throw InputError(text(what, " is ", value, " at x = ", x, positive ? "; it must be positive" : "; it must be finite"));
     return value;
   };
 }

@@ -36,6 +36,13 @@ std::string ends(double translation, double rotation) {
   return text("u = ", u[0], " at the left end and ", u[1], " at the right one");
 }
 
+bool balanced(const problem::Problem& problem, const algebra::Vector& lambda) {
+  constexpr double kRounding = 1e-6;  // of all forces; 1000 cells leave less
+  const problem::Block& beam = problem.blocks.front();
+  const algebra::Vector reactions = problem.B.transpose() * lambda;
+  return (beam.kernel.transpose() * (beam.f - reactions)).lpNorm<Eigen::Infinity>() <= kRounding * (beam.f.lpNorm<1>() + reactions.lpNorm<1>());
+}
+
 std::string require_solvable(const Beam& beam, const Model& model) {
   using Verdict = problem::Solvability::Verdict;
   const auto rigid = problem::rigid_motions(model.problem);

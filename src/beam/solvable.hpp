@@ -18,4 +18,10 @@ std::string theorem(const Beam& beam);
 /// The motion u = translation + rotation (x/ℓ − ½) by its deflections at the ends, the greater 1.
 std::string ends(double translation, double rotation);
 
+/// Do the reactions of the rows balance the load of the problem's one block? Not where a spring that alone holds the beam is too
+/// weak to be told from none.
+bool balanced(const problem::Problem& problem, const algebra::Vector& lambda);
+inline constexpr const char* kUnbalanced =
+    "the reactions do not balance the load: a spring is too weak beside the beam, or the beam too stiff, for the numbers to tell";
+
 }  // namespace dotyk::beam

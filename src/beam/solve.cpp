@@ -13,7 +13,6 @@ namespace dotyk::beam {
 namespace {
 
 constexpr int kMostBreaking = 12;
-constexpr double kBalanced = 1e-6;  // of all forces; rounding leaves less with 1000 cells
 
 /// Where the choice of broken supports is what the displacements say.
 bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std::vector<Broken>& broken, const Solution& s) {
@@ -28,20 +27,12 @@ bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std:
   return true;
 }
 
-/// Do the reactions balance the load? Not where a spring that alone holds the beam is too weak to be told from none.
-bool balanced(const problem::Problem& problem, const solver::Result& result) {
-  const problem::Block& beam = problem.blocks.front();
-  const algebra::Vector reactions = problem.B.transpose() * result.state.lambda, forces = beam.f - reactions;
-  const algebra::Vector left = (beam.kernel.transpose() * forces).cwiseAbs();
-  return left.maxCoeff() <= kBalanced * (beam.f.lpNorm<1>() + reactions.lpNorm<1>());
-}
-
 solver::Result run(const Model& model, const std::string& note, const solver::Method& method, Monitor& monitor) {
   const solver::Method chosen = method ? method : solver::Method(solver::Pdas{});
   solver::Result result = chosen.run(model.problem, {}, monitor);
-  if (result.converged && !balanced(model.problem, result)) {
+  if (result.converged && !balanced(model.problem, result.state.lambda)) {
     result.converged = false;
-    result.reason = "the reactions do not balance the load: a spring is too weak beside the beam, or the beam too stiff, for the numbers to tell";
+    result.reason = kUnbalanced;
   }
   if (!note.empty() && result.reason.find("unique up to") == std::string::npos) result.reason += "; " + note;
   return result;
@@ -52,7 +43,7 @@ solver::Result run(const Model& model, const std::string& note, const solver::Me
 std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monitor& monitor) {
   const std::vector<Breaking> which = breaking(beam);
   if (which.size() > kMostBreaking)
-    throw InputError(text("", which.size(), " supports may break; every choice of broken ones is solved, which is possible with ", kMostBreaking, " at most"));
+    throw InputError(text(which.size(), " supports may break; every choice of broken ones is solved, which is possible with ", kMostBreaking, " at most"));
   std::vector<Branch> minima, not_converged;
   std::optional<InputError> refused;
   bool holds = false;

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "algebra/quadrature.hpp"
 #include "beam/element.hpp"
 
 namespace dotyk::thermoelastic {
@@ -12,11 +11,6 @@ using algebra::DenseMatrix;
 using algebra::Vector;
 
 namespace {
-
-const algebra::Quadrature& rule() {
-  static const algebra::Quadrature eight = algebra::gauss(8);
-  return eight;
-}
 
 const double kRoot3 = std::sqrt(3.0);
 
@@ -57,9 +51,9 @@ CellVector Effect::cell_load(int cell, const std::function<double(double)>& f) c
     return out;
   }
   CellVector out = CellVector::Zero(3);
-  for (int i = 0; i < rule().points.size(); ++i) {
-    const double s = rule().points[i];
-    out += length * rule().weights[i] * f(x0 + s * length) * quadratic(s);
+  for (int i = 0; i < beam::rule().points.size(); ++i) {
+    const double s = beam::rule().points[i];
+    out += length * beam::rule().weights[i] * f(x0 + s * length) * quadratic(s);
   }
   return out;
 }

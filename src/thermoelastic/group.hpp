@@ -1,5 +1,6 @@
 #pragma once
 // What Stepping keeps of effects that are coupled; for its own sources.
+#include "beam/element.hpp"
 #include "thermoelastic/stepping.hpp"
 
 namespace dotyk::thermoelastic {
@@ -37,8 +38,9 @@ struct Stepping::Place {
   const Group& group;
   const Part& part;
   int cell;
-  double s;              ///< 0 ≤ s ≤ 1
-  CellVector u() const;  ///< the cell's unknowns
+  double s;                     ///< 0 ≤ s ≤ 1
+  beam::Hermite shape() const;  ///< the cubic functions there
+  CellVector u() const;         ///< the cell's unknowns
   Eigen::Vector4d theta() const;
   CellVector end_forces() const;  ///< on the cell, for its unknowns: the stress's less the load's
 };

@@ -17,8 +17,6 @@ using algebra::Vector;
 
 namespace {
 
-constexpr double kBalanced = 1e-6;  // of all forces; rounding leaves less with 1000 cells
-
 /// "u = 0 at the left end and 1 at the right one, 0.5 along the axis": amounts of the kernel's modes, part by part.
 std::string motion(const Model& model, const std::vector<int>& parts, const Vector& amounts) {
   std::string out;
@@ -68,7 +66,6 @@ Interface::Interface(const Model& model, std::vector<int> parts, const std::vect
   }
   block.K = DenseMatrix(S.triangularView<Eigen::Lower>()).sparseView();
   for (int i = 0; i < n; ++i) block.node.push_back(i);
-  kernel_ = block.kernel;
   problem_.blocks.push_back(std::move(block));  // its kernel is one up to what rounding left of stiff cells in S
   problem_.B = algebra::SparseRows(static_cast<int>(c.size()), n);
   problem_.B.setFromTriplets(B.begin(), B.end());
@@ -92,7 +89,8 @@ void Interface::require_solvable(double t) {
 Vector Interface::solve(Vector g, const Vector& resultants, double t, const solver::Method& method,
                         std::vector<Vector>& reactions, Work& work, Monitor& monitor) {
   // Heat moves nothing rigidly: the resultants are the load's, and not what rounding makes of them.
-  g -= kernel_ * (kernel_.transpose() * kernel_).ldlt().solve(kernel_.transpose() * g - resultants);
+  const DenseMatrix& R = problem_.blocks.front().kernel;
+  g -= R * (R.transpose() * R).ldlt().solve(R.transpose() * g - resultants);
   problem_.blocks.front().f = g;
   require_solvable(t);
   if (problem_.rows() == 0) {  // no support at all: the load is balanced, and the least solution as good as any
@@ -105,11 +103,7 @@ Vector Interface::solve(Vector g, const Vector& resultants, double t, const solv
     monitor.check();
     throw InputError(text("", result.method, " did not converge at t = ", t, ": ", result.reason));
   }
-  const Vector forces = problem_.B.transpose() * result.state.lambda;
-  if ((resultants - kernel_.transpose() * forces).lpNorm<Eigen::Infinity>() > kBalanced * (g.lpNorm<1>() + forces.lpNorm<1>()))
-    throw InputError(text("at t = ", t,
-                          " the reactions do not balance the load: a spring is too weak beside the beam, or the beam too stiff, "
-                          "for the numbers to tell"));
+  if (!beam::balanced(problem_, result.state.lambda)) throw InputError(text("at t = ", t, " ", beam::kUnbalanced));
   ++work.problems;
   work.reason = result.reason;
   work.iterations += result.iterations;

@@ -34,7 +34,6 @@ class Interface {
   const Model& model_;
   std::vector<int> parts_;
   problem::Problem problem_;
-  algebra::DenseMatrix kernel_;
   std::shared_ptr<problem::Condenser> condenser_ = std::make_shared<problem::Condenser>();
   algebra::Vector solvable_;  ///< resultants of the load that was last found to have a solution
 };

@@ -13,6 +13,8 @@ CellVector Stepping::Place::u() const { return group.now.u.segment(part.first + 
 
 Eigen::Vector4d Stepping::Place::theta() const { return group.now.theta.segment<4>(part.first_heat + 2 * cell); }
 
+Hermite Stepping::Place::shape() const { return {s, part.effect.h(cell)}; }
+
 CellVector Stepping::Place::end_forces() const {
   const CellStrain B = part.effect.strain_matrix(cell);
   const Eigen::Vector2d stress =
@@ -46,12 +48,12 @@ Eigen::Vector4d moments(const CellVector& g, double unit) { return {unit * g[1],
 
 double Stepping::deflection(double x) const {
   const Place at = place(Effect::Kind::bending, x);
-  return Hermite(at.s, at.part.effect.h(at.cell)).value.dot(slopes(at.u(), data().length));
+  return at.shape().value.dot(slopes(at.u(), data().length));
 }
 
 double Stepping::rotation(double x) const {
   const Place at = place(Effect::Kind::bending, x);
-  return Hermite(at.s, at.part.effect.h(at.cell)).slope.dot(slopes(at.u(), data().length));
+  return at.shape().slope.dot(slopes(at.u(), data().length));
 }
 
 double Stepping::displacement(double x) const {
@@ -61,24 +63,24 @@ double Stepping::displacement(double x) const {
 
 double Stepping::gradient(double x) const {
   const Place at = place(Effect::Kind::bending, x);
-  return Hermite(at.s, at.part.effect.h(at.cell)).value.dot(slopes(at.theta(), data().length));
+  return at.shape().value.dot(slopes(at.theta(), data().length));
 }
 
 double Stepping::temperature(double x, double z) const {
   if (!(std::abs(z) <= data().height / 2))
     throw InputError(text("z = ", z, " is not within the beam, whose height is ", data().height));
   const Place at = place(Effect::Kind::stretching, x);
-  return Hermite(at.s, at.part.effect.h(at.cell)).value.dot(slopes(at.theta(), data().length)) + (z == 0 ? 0 : z * gradient(x));
+  return at.shape().value.dot(slopes(at.theta(), data().length)) + (z == 0 ? 0 : z * gradient(x));
 }
 
 double Stepping::moment(double x) const {
   const Place at = place(Effect::Kind::bending, x);
-  return Hermite(at.s, at.part.effect.h(at.cell)).value.dot(moments(at.end_forces(), data().length));
+  return at.shape().value.dot(moments(at.end_forces(), data().length));
 }
 
 double Stepping::shear(double x) const {
   const Place at = place(Effect::Kind::bending, x);
-  return Hermite(at.s, at.part.effect.h(at.cell)).slope.dot(moments(at.end_forces(), data().length));
+  return at.shape().slope.dot(moments(at.end_forces(), data().length));
 }
 
 double Stepping::normal(double x) const {

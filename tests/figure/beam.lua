@@ -1,17 +1,11 @@
 -- Figures of beams and laws as a script asks for them.
 local check <const> = require "check"
 local refused <const> = require "refused"
+local size <const> = require "png_size"
 local law <const> = dotyk.law
 
 local s <const> = dotyk.solve(dotyk.beam{ length = 2, load = -1, left = { deflection = law.prescribed(), rotation = law.prescribed() },
   right = { deflection = law.signorini() }, supports = { { x = 1, deflection = law.elastic(3), rotation = law.friction(0.1) } } })
-local function size(file)
-  local f <const> = assert(io.open(file, "rb"))
-  local head <const> = f:read(24)
-  f:close()
-  local width <const>, height <const> = string.unpack(">I4I4", head, 17)
-  return { width, height }
-end
 
 check.equal(s:render{ file = "beam.png" }, "beam.png")
 check.equal(s:render{ file = "beam.png", panels = { "shear", "deflection" }, title = "T", units = { length = "m", force = "kN" }, size = { 500, 400 } }, "beam.png")

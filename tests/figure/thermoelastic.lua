@@ -1,6 +1,7 @@
 -- Figures of thermoelastic beams and of charts in panels, as a script asks for them.
 local check <const> = require "check"
 local refused <const> = require "refused"
+local size <const> = require "png_size"
 local law <const> = dotyk.law
 
 local function beam(keys)
@@ -9,13 +10,6 @@ local function beam(keys)
     right = { deflection = law.signorini() }, supports = { { x = 1, deflection = law.elastic(3) } }, load = -1, step = 0.1 }
   for key, value in pairs(keys or {}) do all[key] = value end
   return dotyk.thermoelastic_beam(all)
-end
-local function size(file)
-  local f <const> = assert(io.open(file, "rb"))
-  local head <const> = f:read(24)
-  f:close()
-  local width <const>, height <const> = string.unpack(">I4I4", head, 17)
-  return { width, height }
 end
 local function bytes(file)
   local f <const> = assert(io.open(file, "rb"))
