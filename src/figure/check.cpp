@@ -201,6 +201,37 @@ void check(const PagePicture& p) {
     for (const double w : weights) require(w > 0 && std::isfinite(w), "the weights of a page are positive");
 }
 
+void check_boundary(const PlateEdge& e) {
+  require(std::isfinite(e.from[0]) && std::isfinite(e.from[1]) && std::isfinite(e.to[0]) && std::isfinite(e.to[1]), "an edge of a plate has a coordinate that is not finite");
+  double last = 0;
+  for (const EdgeSample& s : e.samples) {
+    require(s.share >= last && s.share <= 1, "samples along an edge of a plate ascend from 0 to 1");
+    require(std::isfinite(s.deflection) && std::isfinite(s.reaction), "an edge of a plate has a value that is not finite");
+    last = s.share;
+  }
+}
+
+void check(const PlatePicture& p) {
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
+  require(p.points.size() % 2 == 0, "points of a plate come two coordinates each");
+  const std::size_t n = p.points.size() / 2;
+  require(!p.triangles.empty(), "the picture " + p.file + " shows no triangle");
+  check_nodes(p.triangles, 3, n, "plate, triangles");
+  check_nodes(p.bearing, 1, n, "plate, nodes that bear");
+  require(p.deflection.size() == n, "plate: " + count(p.deflection.size()) + " deflections for " + count(n) + " nodes");
+  require(p.values.empty() || p.values.size() == n, "plate: " + count(p.values.size()) + " field values for " + count(n) + " nodes");
+  require(p.obstacle.empty() || p.obstacle.size() == n, "plate: " + count(p.obstacle.size()) + " heights of the obstacle for " + count(n) + " nodes");
+  require(finite(p.points) && finite(p.deflection) && finite(p.obstacle) && std::isfinite(p.deformation), "a plate has a value that is not finite");
+  require(!p.field_range || ((*p.field_range)[0] <= (*p.field_range)[1] && std::isfinite((*p.field_range)[1] - (*p.field_range)[0])),
+          "the range of the field must be {least, greatest}");
+  require(!p.view_from || finite(*p.view_from), "the direction towards the eye is not finite");
+  for (const PlateEdge& e : p.boundary) check_boundary(e);
+  for (const PlateForce& f : p.forces) require(std::isfinite(f.x) && std::isfinite(f.y) && std::isfinite(f.force), "a force on a plate is not finite");
+  for (const PlatePointSupport& s : p.supports)
+    require(std::isfinite(s.x) && std::isfinite(s.y) && std::isfinite(s.deflection), "a support of a plate has a value that is not finite");
+}
+
 void check(const GridFile& g) {
   check_file(g.file, ".vtu");
   require(g.points.size() % 3 == 0, g.file + ": points come three coordinates each");

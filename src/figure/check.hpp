@@ -4,6 +4,7 @@
 #include "grid_file.hpp"
 #include "page_picture.hpp"
 #include "picture.hpp"
+#include "plate_picture.hpp"
 
 namespace dotyk::figure {
 
@@ -13,6 +14,7 @@ void check(const ScenePicture& picture);
 void check(const ChartPicture& picture);
 void check(const ChartColumn& picture);
 void check(const PagePicture& picture);
+void check(const PlatePicture& picture);
 void check(const GridFile& grid);
 
 }  // namespace dotyk::figure

@@ -40,6 +40,10 @@ __attribute__((visibility("default"))) int dotyk_figure_draw_page(const dotyk::f
   return guarded([&] { dotyk::figure::draw_page(*picture); }, error, size);
 }
 
+__attribute__((visibility("default"))) int dotyk_figure_draw_plate(const dotyk::figure::PlatePicture* picture, char* error, int size) {
+  return guarded([&] { dotyk::figure::draw_plate(*picture); }, error, size);
+}
+
 __attribute__((visibility("default"))) int dotyk_figure_write_grid(const dotyk::figure::GridFile* grid, char* error, int size) {
   return guarded([&] { dotyk::figure::write_grid(*grid); }, error, size);
 }

@@ -5,6 +5,7 @@
 #include "grid_file.hpp"
 #include "page_picture.hpp"
 #include "picture.hpp"
+#include "plate_picture.hpp"
 
 namespace dotyk::figure {
 
@@ -12,6 +13,7 @@ void draw_scene(const ScenePicture& picture);
 void draw_chart(const ChartPicture& picture);
 void draw_charts(const ChartColumn& picture);
 void draw_page(const PagePicture& picture);
+void draw_plate(const PlatePicture& picture);
 void write_grid(const GridFile& grid);
 
 }  // namespace dotyk::figure

@@ -12,6 +12,7 @@
 #include "grid_file.hpp"
 #include "page_picture.hpp"
 #include "picture.hpp"
+#include "plate_picture.hpp"
 
 namespace dotyk::figure {
 
@@ -25,6 +26,7 @@ struct Library {
   Draw<ChartPicture> chart = nullptr;
   Draw<ChartColumn> charts = nullptr;
   Draw<PagePicture> page = nullptr;
+  Draw<PlatePicture> plate = nullptr;
   Draw<GridFile> grid = nullptr;
 };
 
@@ -64,8 +66,9 @@ const Library& library() {
     l.chart = reinterpret_cast<Draw<ChartPicture>>(dlsym(handle, "dotyk_figure_draw_chart"));
     l.charts = reinterpret_cast<Draw<ChartColumn>>(dlsym(handle, "dotyk_figure_draw_charts"));
     l.page = reinterpret_cast<Draw<PagePicture>>(dlsym(handle, "dotyk_figure_draw_page"));
+    l.plate = reinterpret_cast<Draw<PlatePicture>>(dlsym(handle, "dotyk_figure_draw_plate"));
     l.grid = reinterpret_cast<Draw<GridFile>>(dlsym(handle, "dotyk_figure_write_grid"));
-    if (!l.scene || !l.chart || !l.charts || !l.page || !l.grid) throw std::runtime_error("the drawing library is of another version of dotyk");
+    if (!l.scene || !l.chart || !l.charts || !l.page || !l.plate || !l.grid) throw std::runtime_error("the drawing library is of another version of dotyk");
     return l;
   }();
   return opened;
@@ -84,6 +87,7 @@ void draw(const ScenePicture& picture) { call(&Library::scene, picture); }
 void draw(const ChartPicture& picture) { call(&Library::chart, picture); }
 void draw(const ChartColumn& picture) { call(&Library::charts, picture); }
 void draw(const PagePicture& picture) { call(&Library::page, picture); }
+void draw(const PlatePicture& picture) { call(&Library::plate, picture); }
 void write(const GridFile& grid) { call(&Library::grid, grid); }
 
 }  // namespace dotyk::figure

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "page_picture.hpp"
+#include "plate_picture.hpp"
 
 namespace dotyk::figure {
 
@@ -23,6 +24,17 @@ Colour status_colour(Status status) {
     case Status::slip: return {230, 159, 0};      // orange
   }
   return {};
+}
+
+const char* support_name(PlateSupport support) {
+  switch (support) {
+    case PlateSupport::free: return "free";
+    case PlateSupport::held: return "held";
+    case PlateSupport::one_sided: return "one-sided";
+    case PlateSupport::elastic: return "elastic";
+    case PlateSupport::friction: return "with friction";
+  }
+  return "";
 }
 
 const char* state_name(SupportState state) {

@@ -166,9 +166,9 @@ void set_camera(const Stage& stage, vtkRenderer* renderer) {
 
 }  // namespace
 
-void draw_scene(const ScenePicture& picture) {
-  const int factor = oversampling(picture.width, picture.height);
-  Stage stage(picture, factor);
+void draw_stage(Stage& stage) {
+  const ScenePicture& picture = stage.picture;
+  const int factor = stage.factor;
   lay_out(stage);
 
   OsmesaWindow window(factor * picture.width, factor * picture.height);
@@ -183,9 +183,11 @@ void draw_scene(const ScenePicture& picture) {
   draw_obstacles(stage, bodies);
   if (stage.window) stage.over.clip(stage.frame);
   draw_bodies(stage, bodies);
+  if (stage.added.below) stage.added.below(stage, bodies);
   draw_supports(stage);
   draw_loads(stage);
   draw_contacts(stage, bodies);
+  if (stage.added.above) stage.added.above(stage, bodies);
   stage.over.no_clip();
   if (stage.window) draw_rim(stage);
   set_camera(stage, bodies);
@@ -195,6 +197,11 @@ void draw_scene(const ScenePicture& picture) {
   Image image = reduce(window.render(), picture.width, picture.height, factor);
   stage.over.set_texts(image);
   write_png(image, picture.file);
+}
+
+void draw_scene(const ScenePicture& picture) {
+  Stage stage(picture, oversampling(picture.width, picture.height));
+  draw_stage(stage);
 }
 
 }  // namespace dotyk::figure

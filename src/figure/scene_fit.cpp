@@ -45,6 +45,7 @@ void add_symbols(Bounds& bounds, const Stage& stage) {
   const double greatest = greatest_load(p);
   for (const LoadArrow& load : p.loads)
     for (const Point& end : load_arrow(stage, load, greatest)) bounds.add(end);
+  if (stage.added.bounds) stage.added.bounds(stage, bounds);
   if (stage.plane)
     for (const RigidPicture& rigid : p.obstacles) {
       if (rigid.closed) continue;

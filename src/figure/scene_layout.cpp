@@ -21,8 +21,16 @@ struct FrameTicks {
   Ticks x, y;
 };
 
+// What the axes measure: the frame, or the bodies in it.
+Box measured(const Stage& stage) {
+  if (!stage.added.axes_of_bodies) return stage.frame;
+  Bounds bounds;
+  for (const auto& [least, most] : stage.body_boxes) bounds.add(stage.view.flat(least)), bounds.add(stage.view.flat(most));
+  return bounds.empty() ? stage.frame : Box{bounds.left, bounds.bottom, bounds.right, bounds.top};
+}
+
 FrameTicks frame_ticks(const Stage& stage) {
-  const Box& f = stage.frame;
+  const Box f = measured(stage);
   const double s = stage.view.scale, em = stage.em;
   const Window w = stage.window.value_or(Window{(f.left - stage.view.origin.x) / s, (f.bottom - stage.view.origin.y) / s,
                                                 (f.right - stage.view.origin.x) / s, (f.top - stage.view.origin.y) / s});
@@ -34,10 +42,11 @@ void draw_axes(Stage& stage) {
   const double em = stage.em, width = std::max(1.0, em / 20), tick = 0.28 * em;
   const Box f{stage.frame.left - axis_gap(stage), stage.frame.bottom - axis_gap(stage), stage.frame.right, stage.frame.top};
   const FrameTicks ticks = frame_ticks(stage);
+  const Box along = stage.added.axes_of_bodies ? measured(stage) : f;
   Canvas& c = stage.over;
   if (!stage.window) {
-    c.line({f.left, f.bottom}, {f.right, f.bottom}, width, ink);
-    c.line({f.left, f.bottom}, {f.left, f.top}, width, ink);
+    c.line({along.left, f.bottom}, {along.right, f.bottom}, width, ink);
+    c.line({f.left, along.bottom}, {f.left, along.top}, width, ink);
   }
   TextStyle style;
   style.size = legend_size * em;
@@ -57,9 +66,9 @@ void draw_axes(Stage& stage) {
   const auto with_factor = [](const char* name, int exponent) { return exponent ? std::string(name) + " × " + power_of_ten(exponent) : std::string(name); };
   // The names stand at the far ends of the axes.
   style.across = Align::low, style.up = Align::middle;
-  c.text({f.right + 0.3 * em, f.bottom}, with_factor("x", ticks.x.exponent), style);
+  c.text({along.right + 0.3 * em, f.bottom}, with_factor("x", ticks.x.exponent), style);
   style.across = Align::middle, style.up = Align::low;
-  c.text({f.left, f.top + (stage.window ? 0.45 : 0.15) * em}, with_factor("y", ticks.y.exponent), style);
+  c.text({f.left, along.top + (stage.window ? 0.45 : stage.added.axes_of_bodies ? 0.5 : 0.15) * em}, with_factor("y", ticks.y.exponent), style);
 }
 
 void draw_triad(Stage& stage, Point at) {
@@ -123,6 +132,8 @@ std::vector<LegendEntry> legend_entries(const Stage& stage) {
                      c.line({b.left, middle + 0.3 * em}, {b.right, middle + 0.3 * em}, std::max(1.5, em / 12), {95, 95, 95});
                    }});
   for (LegendEntry& entry : support_legend(stage)) out.push_back(std::move(entry));
+  if (stage.added.legend)
+    for (LegendEntry& entry : stage.added.legend(stage)) out.push_back(std::move(entry));
   if (stage.picture.undeformed_outline && stage.deformation_shows)
     out.push_back({"undeformed", [em, plane = stage.plane](Canvas& c, const Box& b) {
                      const std::array<double, 2> dash{0.35 * em, 0.22 * em};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,18 @@
 class vtkRenderer;
 
 namespace dotyk::figure {
+
+struct Stage;
+
+// What a kind of picture adds to a scene: names for the legend, the room that
+// symbols want at the present scale, what is drawn below and above contacts
+// and supports.
+struct Additions {
+  std::function<std::vector<LegendEntry>(const Stage&)> legend = {};
+  std::function<void(const Stage&, Bounds&)> bounds = {};
+  std::function<void(Stage&, vtkRenderer*)> below = {}, above = {};
+  bool axes_of_bodies = false;  // plane: along the bodies, not all that stands around them
+};
 
 struct Stage {
   Stage(const ScenePicture& picture, int factor);
@@ -32,7 +45,7 @@ struct Stage {
   double greatest_pressure = 0, greatest_shear = 0;  // of what is seen
   bool deformation_shows = false;
   Canvas under, over;         // below and above the bodies
-  std::vector<LegendEntry> legend;
+  Additions added;
 
   double strip_height() const;                    // pixels of the greatest pressure
   bool strips() const;                            // pressure as strips, not arrows
@@ -49,6 +62,9 @@ struct Stage {
   // at least `spacing` pixels apart, taken in the order given.
   std::vector<std::size_t> spaced(const std::vector<Point>& at, double spacing, double within = 0) const;
 };
+
+// Lays out, draws, and writes the file.
+void draw_stage(Stage& stage);
 
 // Chooses the view and the frame, and reserves room for title, legend, axes
 // and colour bar; draws these.
