@@ -2,9 +2,8 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
-#include "mesh/mesh.hpp"
+#include "mesh/cell_grid.hpp"
 
 namespace dotyk::scene {
 
@@ -14,18 +13,16 @@ struct Place {
   std::array<double, 8> shape;
 };
 
-/// Finds the cell that contains a point, by a uniform grid of cell boxes.
+/// Finds the cell that contains a point.
 class Locator {
  public:
-  explicit Locator(const mesh::Mesh& mesh);
+  explicit Locator(const mesh::Mesh& mesh) : mesh_(mesh), grid_(mesh) {}
   /// Empty outside the mesh (by more than 1e-6 of a cell).
   std::optional<Place> find(const mesh::Point& x) const;
 
  private:
   const mesh::Mesh& mesh_;
-  mesh::Point low_{}, high_{}, step_{};
-  std::array<int, 3> count_{1, 1, 1};
-  std::vector<int> start_, cells_;  ///< bin → cells whose box meets it
+  mesh::CellGrid grid_;
 };
 
 }  // namespace dotyk::scene

@@ -25,6 +25,7 @@ void bind_all(Library& library) {
   bind_channel(library);
   bind_thermoelastic(library);
   bind_beam_figure(library);
+  bind_plate(library);
 }
 
 }  // namespace dotyk::script

@@ -23,6 +23,8 @@ void bind_fclib(Library& library);
 void bind_law(Library& library);
 void bind_beam(Library& library);
 void bind_beam_figure(Library& library);
+void bind_plate(Library& library);
+void bind_plate_solution(Library& library);
 void bind_channel(Library& library);
 void bind_thermoelastic(Library& library);
 

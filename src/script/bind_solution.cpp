@@ -3,6 +3,7 @@
 #include "scene/distance.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/result_records.hpp"
 #include "script/space.hpp"
 #include "script/watch.hpp"
 #include "script/wrapped.hpp"
@@ -16,18 +17,6 @@ using scene::Solution;
 
 std::vector<double> components(const mesh::Point& p, int dimension) {
   return {p.begin(), p.begin() + dimension};
-}
-
-Record time_record(const Solution& s) {
-  const problem::Clock& t = s.clock();
-  return {"time", {{"total", t.total}, {"assembly", t.assembly}, {"ordering", t.ordering}, {"factor", t.factor},
-                   {"iterate", t.iterate}, {"recover", t.recover}}};
-}
-
-Record residual_record(const Solution& s) {
-  const problem::Residual& r = s.residual();
-  return {"residual", {{"equilibrium", r.equilibrium}, {"penetration", r.penetration},
-                       {"complementarity", r.complementarity}, {"friction", r.friction}, {"law", r.law}}};
 }
 
 Record distance_record(const scene::Distance& d) {
@@ -221,8 +210,8 @@ void bind_solution(Library& library) {
       .field("steps", "the solutions of a history's steps, the last is this one", [](const Solution& s) { return s.steps(); })
       .field("unknowns", "displacement unknowns", [](const Solution& s) { return s.unknowns(); })
       .field("rows", "interface conditions", [](const Solution& s) { return s.rows(); })
-      .field("time", "seconds, of a history since its first step: total assembly ordering factor iterate recover", time_record, "s")
-      .field("residual", "relative: equilibrium penetration complementarity friction law", residual_record)
+      .field("time", "seconds, of a history since its first step: total assembly ordering factor iterate recover", [](const Solution& s) { return time_record(s.clock()); }, "s")
+      .field("residual", "relative: equilibrium penetration complementarity friction law", [](const Solution& s) { return residual_record(s.residual()); })
       .field("working_set", "of active_set, else nil: added dropped singular survived factorisations repeats", working_set_record)
       .field("penalty", "of penalty, else nil: factor, penetration (length), energy (force·length, too low by)", penalty_record)
       .field("feti", "of feti, else nil: subdomains, factors (distinct ones), rows of the dual problem, kernel (size of the coarse "

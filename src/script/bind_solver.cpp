@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "script/bind.hpp"
 #include "script/bind_beam.hpp"
+#include "script/bind_plate.hpp"
 #include "script/bind_fclib.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
@@ -84,12 +85,17 @@ int solve_with(Call& call) {
     require_no_options(call);
     return solve_beam(call, *call.object<beam::Beam>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
   }
+  if (call.holds<plate::Model>("scene")) {
+    require_no_options(call);
+    return solve_plate(call, call.object<plate::Model>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
+  }
   return run(call, call.object<Scene>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
 }
 
 int solve(Call& call) {
-  if (!call.holds<beam::Beam>("scene")) return run(call, call.object<Scene>("scene"), {}, {}, false);
+  if (call.holds<Scene>("scene")) return run(call, call.object<Scene>("scene"), {}, {}, false);
   require_no_options(call);
+  if (call.holds<plate::Model>("scene")) return solve_plate(call, call.object<plate::Model>("scene"), {}, {}, false);
   return solve_beam(call, *call.object<beam::Beam>("scene"), {}, {}, false);
 }
 
@@ -98,12 +104,12 @@ constexpr const char* kSteps =
     "steps share one factorisation. The result is the last step; all of them are in s.steps.";
 
 Key scene_or_beam_key() {
-  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam")}, "what to solve: a scene or a beam").required();
+  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam"), key::object<plate::Model>("", "a plate")}, "what to solve: a scene, a beam or a plate").required();
 }
 
 Key scene_or_problem_key() {
-  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam"), key::object<fclib::ContactProblem>("", "a problem from a file")},
-                     "what to solve: a scene, a beam, or a problem that dotyk.fclib read").required();
+  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam"), key::object<plate::Model>("", "a plate"), key::object<fclib::ContactProblem>("", "a problem from a file")},
+                     "what to solve: a scene, a beam, a plate, or a problem that dotyk.fclib read").required();
 }
 
 std::vector<Key> solve_keys(Key what) {

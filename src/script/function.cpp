@@ -96,6 +96,17 @@ bool Function::truth(std::span<const double> arguments) const {
   return truth;
 }
 
+std::shared_ptr<void> Function::object(std::span<const double> arguments, const char* type) const {
+  begin(static_cast<int>(arguments.size()));
+  for (const double x : arguments) lua_pushnumber(L_, x);
+  call(static_cast<int>(arguments.size()), 1);
+  if (!object_at(L_, -1, type))
+    throw std::runtime_error("function '" + key_ + "' returned " + describe_value(L_, -1) + ", expected " + with_article(type) + ", at " + point_text(arguments));
+  auto found = checked_object(L_, -1, type);
+  lua_pop(L_, 1);
+  return found;
+}
+
 Field::Field(std::vector<double> constant) : components_(constant.size()), constant_(std::move(constant)) {}
 
 Field::Field(Function function, std::size_t components)

@@ -1,12 +1,13 @@
 #pragma once
 // Functions of a script, called from C++ while the call that was given them is
 // still running. They never outlive it: the numerical rooms hold no Lua values.
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "script/lua.hpp"
-#include "script/push.hpp"
+#include "script/object.hpp"
 
 namespace dotyk::script {
 
@@ -24,6 +25,12 @@ class Function {
   std::vector<double> numbers(std::span<const double> arguments, std::size_t count) const;
   double number(std::span<const double> arguments) const { return numbers(arguments, 1)[0]; }
 
+  // f(arguments...) -> one of dotyk's own objects.
+  template <class T>
+  std::shared_ptr<T> object(std::span<const double> arguments) const {
+    return std::static_pointer_cast<T>(object(arguments, Wrapped<T>::name));
+  }
+
   // f(arguments...) -> anything, read as Lua's truth.
   bool truth(std::span<const double> arguments) const;
 
@@ -40,6 +47,7 @@ class Function {
   void begin(int count) const;
   bool finish(int count) const;
   void call(int count, int results) const;
+  std::shared_ptr<void> object(std::span<const double> arguments, const char* type) const;
 
   lua_State* L_;
   int slot_;

@@ -1,0 +1,45 @@
+#include "plate/family.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotyk::plate {
+
+using algebra::Vector;
+
+namespace {
+
+/// Of x, at this λ: both ends the same but where λ is at a limit of the law, where φ* ends.
+problem::Interval allowed(const problem::Law& law, int row, double lambda, double x, double noise) {
+  const problem::Interval bounds = law.multipliers(row);
+  problem::Interval out{x, x};
+  if (lambda <= bounds.low + noise) out.low = -INFINITY, out.high = std::max(x, law.following(row).low);
+  if (lambda >= bounds.high - noise) out.high = INFINITY, out.low = lambda <= bounds.low + noise ? -INFINITY : std::min(x, law.following(row).high);
+  return out;
+}
+
+}  // namespace
+
+Family family(const Model& model, const problem::State& state, const Vector& motion) {
+  const problem::Problem& problem = model.problem;
+  Vector moved(problem.unknowns());
+  for (int i = 0; i < motion.size(); ++i)
+    if (model.unknown[i] >= 0) moved[model.unknown[i]] = motion[i];
+  const Vector x = problem.B * state.u - problem.c, by = problem.B * moved;
+  const double noise = 1e-9 * std::max(state.lambda.size() ? state.lambda.lpNorm<Eigen::Infinity>() : 0.0, problem.blocks.front().f.lpNorm<Eigen::Infinity>());
+  Family out{motion, -INFINITY, INFINITY};
+  for (const problem::RowGroup& group : problem.groups)
+    for (int k = 0; k < group.count; ++k) {
+      const int r = group.first + k;
+      if (std::abs(by[r]) < 1e-12 * by.lpNorm<Eigen::Infinity>()) continue;
+      const problem::Interval at = allowed(*group.law, k, state.lambda[r], x[r], noise);
+      double a = (at.low - x[r]) / by[r], b = (at.high - x[r]) / by[r];
+      if (a > b) std::swap(a, b);
+      out.from = std::max(out.from, a);
+      out.to = std::min(out.to, b);
+    }
+  if (out.from > out.to) out.from = out.to = 0;
+  return out;
+}
+
+}  // namespace dotyk::plate

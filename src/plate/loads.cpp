@@ -1,0 +1,107 @@
+#include "plate/loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::plate {
+
+using algebra::Vector;
+using Eigen::Vector2d;
+
+Place Finder::find(const Vector2d& x, const std::string& what) const {
+  constexpr double kSlack = 1e-6;  // in barycentric coordinates
+  Place best{-1, {}};
+  double depth = -kSlack;
+  for (const int c : grid_.near({x[0], x[1], 0})) {
+    const Barycentric b = barycentric(triangle(*space_.mesh, space_.edges, c), x);
+    if (!(b.minCoeff() >= depth)) continue;
+    best = {c, b};
+    depth = b.minCoeff();
+  }
+  if (best.cell < 0) throw InputError(text(what, " (", x[0], ", ", x[1], ") is not on the plate"));
+  return best;
+}
+
+namespace {
+
+void add(Vector& load, const Functional& functional, double force) {
+  for (const Term& term : functional) load[term.freedom] += term.factor * force;
+}
+
+void add_distributed(const Plate& plate, const Space& space, Vector& load) {
+  if (!plate.f_of && plate.f == 0) return;
+  const Rule& rule = load_rule(space.element);
+  for (int c = 0; c < space.mesh->cell_count(); ++c) {
+    const Triangle t = triangle(*space.mesh, space.edges, c);
+    const auto functions = basis(space.element, t);
+    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12> local = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12>::Zero(functions->size());
+    for (std::size_t i = 0; i < rule.points.size(); ++i) {
+      double f = plate.f;
+      if (plate.f_of) {
+        const Vector2d x = t.point(rule.points[i]);
+        f = plate.f_of(x[0], x[1]);
+        if (!std::isfinite(f)) throw InputError(text("the load is ", f, " at (", x[0], ", ", x[1], "); it must be finite"));
+      }
+      local += rule.weights[i] * t.area * f * functions->at(rule.points[i]).value;
+    }
+    space.to_freedoms(c, local);
+    const auto freedom = space.freedoms(c);
+    for (int i = 0; i < space.local_size(); ++i) load[freedom[i]] += local[i];
+  }
+}
+
+/// Where the line crosses edges, as parts of its length, ascending; with 0 and 1.
+std::vector<double> crossings(const Space& space, const Vector2d& from, const Vector2d& along) {
+  std::vector<double> out{0, 1};
+  for (const Edge& edge : space.edges.edges) {
+    const double towards = edge.normal.dot(along);
+    if (std::abs(towards) < 1e-12 * along.norm()) continue;
+    const double s = edge.normal.dot(edge.middle - from) / towards;
+    if (!(s > 0 && s < 1) || std::abs(edge.tangent.dot(from + s * along - edge.middle)) > edge.length * 0.5000001) continue;
+    out.push_back(s);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+void add_line(const LineLoad& line, const Space& space, const Finder& finder, Vector& load) {
+  const Vector2d from(line.from[0], line.from[1]), along = Vector2d(line.to[0], line.to[1]) - from;
+  const double root = std::sqrt(0.6) / 2, points[3] = {0.5 - root, 0.5, 0.5 + root}, weights[3] = {5. / 18, 8. / 18, 5. / 18};
+  const auto at = crossings(space, from, along);
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    const double part = at[i + 1] - at[i];
+    if (part < 1e-12) continue;
+    for (int g = 0; g < 3; ++g) {
+      const Place place = finder.find(from + (at[i] + points[g] * part) * along, "a line load:");
+      add(load, space.deflection_at(place.cell, place.at), line.force * weights[g] * part * along.norm());
+    }
+  }
+}
+
+}  // namespace
+
+Vector loads(const Plate& plate, const Space& space) {
+  Vector load = Vector::Zero(space.count());
+  add_distributed(plate, space, load);
+  if (plate.point_loads.empty() && plate.line_loads.empty()) return load;
+  const Finder finder(space);
+  for (const PointLoad& point : plate.point_loads) {
+    const Place place = finder.find({point.x, point.y}, "a point load:");
+    add(load, space.deflection_at(place.cell, place.at), point.force);
+  }
+  for (const LineLoad& line : plate.line_loads) add_line(line, space, finder, load);
+  return load;
+}
+
+void add_law_loads(const Space& space, const std::vector<Sample>& deflections, const std::vector<Sample>& rotations, Vector& load) {
+  using Kind = problem::SupportLaw::Kind;
+  for (const Sample& s : deflections)
+    if (s.law.kind == Kind::load) add(load, deflection(space, s), s.law.value * s.share);
+  for (const Sample& s : rotations)
+    if (s.law.kind == Kind::load) add(load, rotation(space, s), s.law.value * s.share);
+}
+
+}  // namespace dotyk::plate

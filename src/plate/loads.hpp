@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include "mesh/cell_grid.hpp"
+#include "plate/samples.hpp"
+
+namespace dotyk::plate {
+
+/// The cell that a point lies in, and where. Throws InputError where it is not on the plate; `what`: for the message.
+struct Place {
+  int cell;
+  Barycentric at;
+};
+class Finder {
+ public:
+  explicit Finder(const Space& space) : space_(space), grid_(*space.mesh) {}
+  Place find(const Eigen::Vector2d& x, const std::string& what) const;
+
+ private:
+  const Space& space_;
+  mesh::CellGrid grid_;
+};
+
+/// ∫ f v + loads on points and lines, of every freedom. What edges are loaded with by their laws is not in it. Throws InputError where
+/// f is not finite, or a load is off the plate.
+algebra::Vector loads(const Plate& plate, const Space& space);
+
+/// Adds what laws of kind `load` do.
+void add_law_loads(const Space& space, const std::vector<Sample>& deflections, const std::vector<Sample>& rotations, algebra::Vector& load);
+
+}  // namespace dotyk::plate

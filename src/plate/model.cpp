@@ -1,0 +1,89 @@
+#include "plate/model.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "base/error.hpp"
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+#include "plate/free_motions.hpp"
+#include "plate/loads.hpp"
+#include "plate/rows.hpp"
+#include "plate/stiffness.hpp"
+
+namespace dotyk::plate {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+Vector Model::freedoms(const Vector& unknowns) const {
+  Vector all = held.value;
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    if (unknown[i] >= 0) all[i] = unknowns[unknown[i]];
+  return all;
+}
+
+namespace {
+
+/// Takes off what quadrature leaves of a load that balances: a resultant below 1e-6 of the forces.
+void balance(const DenseMatrix& R, Vector& f) {
+  if (R.cols() == 0) return;
+  const Vector resultant = R.transpose() * f;
+  if (resultant.lpNorm<Eigen::Infinity>() > 1e-6 * f.lpNorm<1>()) return;
+  f -= R * (R.transpose() * R).ldlt().solve(resultant);
+}
+
+problem::Block block(const Plate& plate, const Model& model) {
+  problem::Block block;
+  block.name = "plate";
+  Stiffness K = stiffness(model.D, plate.nu, model.space, model.held, model.unknown);
+  block.K = std::move(K.on_free);
+  block.offset = K.energy_of_held - model.load.dot(model.held.value);
+  block.f = -K.force_of_held;
+  for (int i = 0; i < model.space.count(); ++i) {
+    if (model.unknown[i] < 0) continue;
+    block.f[model.unknown[i]] += model.load[i];
+    block.node.push_back(model.space.node(i));
+  }
+  FreeMotions motions = free_motions(model.space, model.held, model.unknown);
+  if (plate.f_of) balance(motions.kernel, block.f);
+  block.kernel = std::move(motions.kernel);
+  block.motions = std::move(motions.motions);
+  return block;
+}
+
+/// What the model keeps of it.
+Plate without_functions(Plate plate) {
+  plate.D_of = plate.f_of = plate.obstacle = {};
+  for (EdgeSupport& edge : plate.edges) edge.deflection = edge.rotation = {};
+  return plate;
+}
+
+}  // namespace
+
+Model build(Plate plate) {
+  Stopwatch watch;
+  require_valid(plate);
+  mesh::check(*plate.mesh, "the plate's mesh");
+  Model model{without_functions(plate), bending_stiffness(plate), Space(plate.element, *plate.mesh), {}, {}, {}, {}, {}, {}, {}, {}, 0};
+  model.deflections = deflection_samples(plate, model.space);
+  model.rotations = rotation_samples(plate, model.space);
+  model.held = hold(plate, model.space, model.deflections, model.rotations);
+  model.unknown.assign(model.space.count(), -1);
+  int count = 0;
+  for (std::size_t i = 0; i < model.unknown.size(); ++i)
+    if (!model.held.is[i]) model.unknown[i] = count++;
+  if (count == 0) throw InputError("its supports hold every freedom: the mesh is too coarse; give it more cells");
+  model.load = loads(plate, model.space);
+  add_law_loads(model.space, model.deflections, model.rotations, model.load);
+  for (const PointSupport& s : plate.supports) {
+    if (s.deflection.kind != problem::SupportLaw::Kind::load) continue;
+    const Place place = Finder(model.space).find({s.x, s.y}, "a support:");
+    for (const Term& term : model.space.deflection_at(place.cell, place.at)) model.load[term.freedom] += term.factor * s.deflection.value;
+  }
+  problem::add(model.problem, block(plate, model));
+  add_rows(plate, model);
+  model.seconds = watch.seconds();
+  return model;
+}
+
+}  // namespace dotyk::plate

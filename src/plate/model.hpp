@@ -1,0 +1,31 @@
+#pragma once
+
+#include "plate/held.hpp"
+#include "problem/problem.hpp"
+
+namespace dotyk::plate {
+
+/// A plate as a problem: one block on the freedoms that are not held, in lengths, so that all multipliers are forces. The kernel is what
+/// is not held of 1, x and y. Rows, x = Bu − c: of laws of edges −v·unit (v a deflection: −v), of point supports and the obstacle −u.
+struct Model {
+  Plate plate;                     ///< without its functions: what they gave is in the model
+  std::vector<double> D;           ///< see bending_stiffness()
+  Space space;
+  std::vector<Sample> deflections, rotations;  ///< points of edges at which laws act
+  Held held;
+  std::vector<int> unknown;        ///< of a freedom; −1 where it is held
+  algebra::Vector load;            ///< of every freedom
+  std::vector<int> point_row;      ///< of Plate::supports; −1: free or loaded
+  std::vector<int> obstacle_row;   ///< of vertices; −1: none, or the edge's own law minds the obstacle; empty without one
+  problem::Problem problem;
+  double seconds = 0;              ///< that building it took
+
+  /// Every freedom, from the problem's unknowns.
+  algebra::Vector freedoms(const algebra::Vector& unknowns) const;
+};
+
+/// Calls the plate's functions, here and never again. Throws InputError as require_valid(), where D, the load or a law is not what it must be at some point, supports contradict each other, or a load
+/// or support is off the plate.
+Model build(Plate plate);
+
+}  // namespace dotyk::plate

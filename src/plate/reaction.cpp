@@ -1,0 +1,196 @@
+#include "plate/reaction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "plate/stiffness.hpp"
+
+namespace dotyk::plate {
+
+using algebra::Vector;
+using Eigen::Vector2d;
+using problem::SupportLaw;
+using problem::Status;
+using Kind = SupportLaw::Kind;
+
+namespace {
+
+struct AtVertex {
+  double force = 0, moment = 0, length = 0;
+  const Sample* deflection = nullptr;
+  const Sample* rotation = nullptr;
+  int row = -1;  ///< of the deflection
+};
+
+/// What laws of one edge do, at its vertices; of the middle of an edge half at either end.
+class Collector {
+ public:
+  Collector(const Solution& s, int support) : s_(s), model_(s.model()), support_(support) {
+    if (std::find(model_.held.is.begin(), model_.held.is.end(), 1) != model_.held.is.end())
+      holding_ = holding_forces(model_.D, s.plate().nu, model_.space, model_.held, model_.load, s.freedoms());
+    for (const Sample& sample : model_.deflections)
+      if (sample.held) shares_[sample.place] += sample.share;
+    for (const mesh::Facet f : s.plate().edges[support].facets) {
+      const Edge& edge = model_.space.edges.edges[model_.space.edges.of_cell[f.cell][f.local]];
+      for (const int n : edge.node) at[n].length += edge.length / 2;
+    }
+    for (const Sample& sample : model_.deflections)
+      if (sample.support == support) add_deflection(sample);
+    for (const Sample& sample : model_.rotations)
+      if (sample.support == support) add_rotation(sample);
+  }
+
+  std::map<int, AtVertex> at;
+
+ private:
+  const Vector& lambda() const { return s_.result().state.lambda; }
+
+  template <class Add>
+  void spread(const Sample& sample, const Add& add) {
+    if (sample.at_vertex) return add(at[sample.place], 1.0);
+    for (const int n : model_.space.edges.edges[sample.place].node) add(at[n], 0.5);
+  }
+
+  void add_deflection(const Sample& sample) {
+    double force = 0;
+    if (sample.held) force = holding_[model_.space.of_vertex(sample.place)] * sample.share / shares_[sample.place];
+    if (sample.row >= 0) force = lambda()[sample.row] * sample.part_of_row;
+    if (sample.law.kind == Kind::load) force = sample.law.value * sample.share;
+    spread(sample, [&](AtVertex& v, double part) { v.force += part * force; });
+    if (!sample.at_vertex) return;
+    at[sample.place].deflection = &sample;
+    at[sample.place].row = sample.row;
+  }
+
+  void add_rotation(const Sample& sample) {
+    double moment = 0;
+    const double turn = problem::directed(sample.law.kind) ? -1 : 1;
+    if (sample.held && !sample.at_vertex) moment = holding_[model_.space.of_edge(sample.place)] * model_.space.unit;
+    if (sample.held && sample.at_vertex) moment = held_moment(sample);
+    if (sample.row >= 0) moment = turn * lambda()[sample.row] * sample.part_of_row * model_.space.unit;
+    if (sample.law.kind == Kind::load) moment = sample.law.value * sample.share;
+    spread(sample, [&](AtVertex& v, double part) {
+      v.moment += part * moment;
+      if (!v.rotation) v.rotation = &sample;
+    });
+  }
+
+  /// HCT: the component along the edge's normal of the moment that holds a vertex's gradient.
+  double held_moment(const Sample& sample) const {
+    const int first = model_.space.of_vertex(sample.place) + 1;
+    const Vector2d a = model_.space.frame[sample.place], b(-a[1], a[0]);
+    const Vector2d normal = sample.along_node ? model_.space.boundary[sample.place].normal : model_.space.edges.edges[sample.edge].normal;
+    const Vector2d moment = (holding_[first] * a + holding_[first + 1] * b) * model_.space.unit;
+    return moment.dot(normal) / (sample.along_node ? 1.0 : 2.0);
+  }
+
+  const Solution& s_;
+  const Model& model_;
+  int support_;
+  Vector holding_;                    ///< of every freedom
+  std::map<int, double> shares_;      ///< lengths that held vertices stand for
+};
+
+/// By the multiplier of the vertex's own row; HCT: open where the halves of its edges bear nothing either.
+Status status(const Solution& s, const std::vector<const problem::RowGroup*>& groups, const AtVertex& at) {
+  if (!at.deflection || at.deflection->law.kind == Kind::free || at.deflection->law.kind == Kind::load) return Status::open;
+  if (at.row < 0) return Status::closed;
+  const Vector& lambda = s.result().state.lambda;
+  const double noise = 1e-9 * lambda.lpNorm<Eigen::Infinity>(), force = lambda[at.row];
+  const auto [low, high] = groups[at.row]->law->multipliers(at.row - groups[at.row]->first);
+  if (low == 0 && at.force <= noise) return Status::open;
+  const bool limited = std::isfinite(high) || (std::isfinite(low) && low < 0);
+  if (!limited) return Status::closed;
+  return force >= high - noise || (low < 0 && force <= low + noise) ? Status::slip : Status::stick;
+}
+
+/// Edges of a part put end to end.
+std::vector<std::vector<int>> chains(const Solution& s, int support) {
+  const Edges& edges = s.model().space.edges;
+  std::map<int, int> next;   // node → edge that begins there
+  std::map<int, int> ends;
+  for (const mesh::Facet f : s.plate().edges[support].facets) {
+    const int e = edges.of_cell[f.cell][f.local];
+    next[edges.edges[e].node[0]] = e;
+    ++ends[edges.edges[e].node[1]];
+  }
+  std::vector<std::vector<int>> out;
+  while (!next.empty()) {
+    auto start = std::find_if(next.begin(), next.end(), [&](const auto& n) { return ends.find(n.first) == ends.end(); });
+    if (start == next.end())  // only closed ones are left: begin at a corner where there is one
+      start = std::find_if(next.begin(), next.end(), [&](const auto& n) { return !s.model().space.boundary[n.first].smooth; });
+    if (start == next.end()) start = next.begin();
+    std::vector<int> nodes{start->first};
+    for (auto at = start; at != next.end(); at = next.find(nodes.back())) {
+      nodes.push_back(edges.edges[at->second].node[1]);
+      next.erase(at);
+    }
+    for (const int n : nodes) ends.erase(n);
+    out.push_back(std::move(nodes));
+  }
+  return out;
+}
+
+double distance(const EdgePoint& a, const EdgePoint& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+/// What half of the first edge carries, by the reaction per length of the next two nodes, taken to be linear.
+double carried(const EdgePoint& corner, const EdgePoint& next, const EdgePoint& after) {
+  const double h = distance(corner, next), slope = (after.per_length() - next.per_length()) / distance(next, after);
+  return h / 2 * (next.per_length() - slope * h * 3 / 4);
+}
+
+}  // namespace
+
+EdgeReaction reaction(const Solution& s, int support) {
+  const Model& model = s.model();
+  const Collector collected(s, support);
+  const auto groups = model.problem.group_of_rows();
+  EdgeReaction out;
+  for (const auto& [vertex, at] : collected.at) {
+    out.force += at.force;
+    out.length += at.length;
+    if (status(s, groups, at) == Status::open) out.open += at.length;
+  }
+  for (const auto& nodes : chains(s, support)) {
+    std::vector<EdgePoint> piece;
+    for (const int n : nodes) {
+      const AtVertex& at = collected.at.at(n);
+      EdgePoint point{n, s.plate().mesh->node(n)[0], s.plate().mesh->node(n)[1], 0, at.length, s.vertex_deflection(n), 0, at.force, at.moment,
+                      at.deflection ? at.deflection->law : SupportLaw{}, at.rotation ? at.rotation->law : SupportLaw{}, status(s, groups, at), !model.space.boundary[n].smooth};
+      for (const int e : model.space.boundary[n].edges)
+        point.slope += s.freedoms()[model.space.of_edge(e)] / model.space.unit / static_cast<double>(model.space.boundary[n].edges.size());
+      if (!piece.empty()) point.at = piece.back().at + distance(piece.back(), point);
+      piece.push_back(point);
+    }
+    out.pieces.push_back(std::move(piece));
+  }
+  return out;
+}
+
+double point_reaction(const Solution& s, int support) {
+  const SupportLaw& law = s.plate().supports[support].deflection;
+  if (law.kind == Kind::load) return law.value;
+  const int row = s.model().point_row[support];
+  return row < 0 ? 0 : s.result().state.lambda[row];
+}
+
+std::vector<CornerForce> corner_forces(const Solution& s) {
+  std::map<int, CornerForce> at;
+  for (std::size_t e = 0; e < s.plate().edges.size(); ++e)
+    for (const auto& piece : reaction(s, static_cast<int>(e)).pieces)
+      for (std::size_t i = 0; i < piece.size(); ++i) {
+        if (!piece[i].corner || piece.size() < 4 || (i + 1 == piece.size() && piece[i].vertex == piece[0].vertex)) continue;
+        CornerForce& corner = at.emplace(piece[i].vertex, CornerForce{piece[i].vertex, piece[i].x, piece[i].y, 0}).first->second;
+        corner.force += piece[i].force;
+        const bool closed = piece.front().vertex == piece.back().vertex;
+        if (i + 2 < piece.size()) corner.force -= carried(piece[i], piece[i + 1], piece[i + 2]);
+        if (i > 1) corner.force -= carried(piece[i], piece[i - 1], piece[i - 2]);
+        else if (closed) corner.force -= carried(piece[i], piece[piece.size() - 2], piece[piece.size() - 3]);
+      }
+  std::vector<CornerForce> out;
+  for (const auto& [vertex, corner] : at) out.push_back(corner);
+  return out;
+}
+
+}  // namespace dotyk::plate

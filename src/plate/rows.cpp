@@ -1,0 +1,205 @@
+#include "plate/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "plate/loads.hpp"
+
+namespace dotyk::plate {
+
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+namespace {
+
+/// Which of the laws that hold a point rigidly prevails: the greater.
+int rigidity(Kind kind) {
+  switch (kind) {
+    case Kind::prescribed: return 4;
+    case Kind::signorini: return 3;
+    case Kind::friction: return 2;
+    case Kind::one_sided_friction: return 1;
+    default: return 0;
+  }
+}
+
+bool same(const SupportLaw& a, const SupportLaw& b) { return a.kind == b.kind && a.value == b.value && a.limit == b.limit && a.pull == b.pull; }
+
+class Rows {
+ public:
+  Rows(const Plate& plate, Model& model) : plate_(plate), model_(model) {}
+
+  void operator()() {
+    if (plate_.obstacle) find_obstacle();
+    add_edges(model_.deflections, "deflection", deflection, 1);
+    add_edges(model_.rotations, "rotation", rotation, model_.space.unit);
+    add_points();
+    if (plate_.obstacle) add_obstacle();
+    close_group();
+    finish();
+  }
+
+ private:
+  void find_obstacle() {
+    const mesh::Mesh& mesh = *plate_.mesh;
+    height_.resize(mesh.node_count());
+    model_.obstacle_row.assign(mesh.node_count(), -1);
+    minded_.assign(mesh.node_count(), 0);
+    for (int n = 0; n < mesh.node_count(); ++n) height_[n] = height(mesh.node(n)[0], mesh.node(n)[1]);
+  }
+
+  double height(double x, double y) const {
+    const double h = plate_.obstacle(x, y);
+    if (std::isnan(h) || h == INFINITY) throw InputError(text("the obstacle is ", h, " at (", x, ", ", y, "); it must be a number, or -math.huge for none"));
+    return h;
+  }
+
+  /// The samples of one point together.
+  void add_edges(std::vector<Sample>& samples, const char* what, Functional (*functional)(const Space&, const Sample&), double unit) {
+    std::map<std::array<int, 3>, std::vector<Sample*>> at;
+    std::vector<std::array<int, 3>> order;
+    for (Sample& s : samples) {
+      if (s.held) {
+        if (unit == 1 && s.at_vertex && plate_.obstacle) require_above(s.place, s.law.value, s.x);
+        continue;
+      }
+      if (s.law.kind == Kind::free || s.law.kind == Kind::load) continue;
+      const bool by_edge = !s.at_vertex || (unit != 1 && !s.along_node);
+      const std::array<int, 3> key{s.at_vertex, s.place, by_edge ? s.edge : -1};
+      auto& list = at[key];
+      if (list.empty()) order.push_back(key);
+      list.push_back(&s);
+    }
+    for (const auto& key : order) add_point(at[key], what, functional(model_.space, *at[key].front()), unit);
+  }
+
+  /// A row for each kind of law that acts at one point.
+  void add_point(std::vector<Sample*>& samples, const char* what, const Functional& v, double unit) {
+    const Reduced reduced = reduce(v, model_.held);
+    int most = 0;
+    for (const Sample* s : samples) most = std::max(most, rigidity(s->law.kind));
+    std::vector<char> done(samples.size(), 0);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Kind kind = samples[i]->law.kind;
+      if (done[i] || (rigidity(kind) > 0 && rigidity(kind) < most) || (most == 4 && kind != Kind::prescribed)) continue;
+      std::vector<Sample*> alike;
+      for (std::size_t j = i; j < samples.size(); ++j)
+        if (samples[j]->law.kind == kind) alike.push_back(samples[j]), done[j] = 1;
+      add_alike(alike, what, reduced, unit);
+    }
+  }
+
+  void add_alike(const std::vector<Sample*>& samples, const char* what, const Reduced& v, double unit) {
+    double share = 0;
+    for (const Sample* s : samples) share += s->share;
+    SupportLaw law = samples.front()->law;
+    if (samples.size() > 1 && law.kind != Kind::prescribed) {
+      law.value = law.limit = law.pull = 0;
+      for (const Sample* s : samples) {
+        law.value += s->law.value * s->share / share;
+        law.limit += s->law.limit * s->share / share;
+        law.pull += s->law.pull * s->share / share;
+      }
+    }
+    const Sample& first = *samples.front();
+    const double floor = unit == 1 && law.kind == Kind::signorini && plate_.obstacle ? mind_obstacle(first) : 0;
+    const double turn = unit != 1 && problem::directed(law.kind) ? -1 : 1;
+    if (v.on_free.empty()) return require_obeyed(law, turn * v.held, floor, first);
+    const double target = law.kind == Kind::prescribed ? law.value : floor;
+    const int row = add(law, text("edge '", plate_.edges[first.support].part, "' ", what), v, turn * unit, -target * unit, unit, share,
+                        text(what, " of the edge at (", first.x[0], ", ", first.x[1], ")"));
+    for (Sample* s : samples) s->row = row, s->part_of_row = s->share / share;
+  }
+
+  /// The obstacle's height where it is above 0, at a point that may not go below 0.
+  double mind_obstacle(const Sample& s) {
+    if (s.at_vertex) minded_[s.place] = 1;
+    return std::max(0.0, s.at_vertex ? height_[s.place] : height(s.x[0], s.x[1]));
+  }
+
+  void require_above(int vertex, double held, const Eigen::Vector2d& x) {
+    minded_[vertex] = 1;
+    if (held < height_[vertex] - 1e-12 * model_.space.unit)
+      throw InputError(text("contradictory supports: at (", x[0], ", ", x[1], ") the deflection is held at ", held, ", below the obstacle's ", height_[vertex]));
+  }
+
+  void require_obeyed(const SupportLaw& law, double v, double floor, const Sample& s) const {
+    const double rounding = 1e-12 * model_.space.unit;
+    if ((law.kind == Kind::signorini && v < floor - rounding) || (law.kind == Kind::prescribed && std::abs(v - law.value) > rounding))
+      throw InputError(text("contradictory supports: at (", s.x[0], ", ", s.x[1], ") the ", problem::support_name(law.kind), " law of edge '",
+                            plate_.edges[s.support].part, "' and what other parts of the edge hold differ by ", std::abs(v - (law.kind == Kind::signorini ? floor : law.value))));
+  }
+
+  /// x = −factor·v − c. The law is about v; consecutive rows of equal laws make a group.
+  int add(const SupportLaw& law, const std::string& group, const Reduced& v, double factor, double c, double unit, double share, std::string place) {
+    if (shares_.empty() || group != group_ || !same(law, law_)) {
+      close_group();
+      model_.problem.groups.push_back({group, nullptr, static_cast<int>(c_.size()), 0});
+      group_ = group, law_ = law, unit_ = unit;
+    }
+    shares_.push_back(share);
+    const int row = static_cast<int>(c_.size());
+    for (const Term& term : v.on_free) B_.emplace_back(row, model_.unknown[term.freedom], -factor * term.factor);
+    c_.push_back(c + factor * v.held);
+    places_.push_back(std::move(place));
+    return row;
+  }
+
+  void close_group() {
+    if (shares_.empty()) return;
+    model_.problem.groups.back().count = static_cast<int>(shares_.size());
+    model_.problem.groups.back().law = problem::row_law(law_, unit_, shares_);
+    shares_.clear();
+  }
+
+  void add_points() {
+    const Finder finder(model_.space);
+    for (const PointSupport& s : plate_.supports) {
+      const Place place = finder.find({s.x, s.y}, "a support:");
+      model_.point_row.push_back(-1);
+      if (s.deflection.kind == Kind::free || s.deflection.kind == Kind::load) continue;
+      const Reduced v = reduce(model_.space.deflection_at(place.cell, place.at), model_.held);
+      if (v.on_free.empty()) throw InputError(text("a support: at (", s.x, ", ", s.y, ") the edge is held already"));
+      model_.point_row.back() = add(s.deflection, text("support at (", s.x, ", ", s.y, ")"), v, 1, s.deflection.kind == Kind::prescribed ? -s.deflection.value : 0, 1, 1,
+                                    text("the support at (", s.x, ", ", s.y, ")"));
+    }
+  }
+
+  void add_obstacle() {
+    for (int n = 0; n < plate_.mesh->node_count(); ++n) {
+      if (minded_[n] || !std::isfinite(height_[n])) continue;
+      const Reduced v = reduce(model_.space.deflection_of_vertex(n), model_.held);
+      if (v.on_free.empty()) continue;
+      model_.obstacle_row[n] = add({.kind = Kind::signorini}, "obstacle", v, 1, -height_[n], 1, 1,
+                                   text("the obstacle at (", plate_.mesh->node(n)[0], ", ", plate_.mesh->node(n)[1], ")"));
+    }
+  }
+
+  void finish() {
+    const int rows = static_cast<int>(c_.size());
+    model_.problem.B = algebra::SparseRows(rows, model_.problem.unknowns());
+    model_.problem.B.setFromTriplets(B_.begin(), B_.end());
+    model_.problem.c = Eigen::Map<const algebra::Vector>(c_.data(), rows);
+    model_.problem.row_name = [places = std::move(places_)](int row) { return places[row]; };
+  }
+
+  const Plate& plate_;
+  Model& model_;
+  std::vector<double> height_;   ///< of the obstacle at vertices
+  std::vector<char> minded_;     ///< vertices where an edge's law or what is held keeps the plate above it
+  std::vector<Eigen::Triplet<double>> B_;
+  std::vector<double> c_, shares_;
+  std::vector<std::string> places_;
+  std::string group_;
+  SupportLaw law_;
+  double unit_ = 1;
+};
+
+}  // namespace
+
+void add_rows(const Plate& plate, Model& model) { Rows(plate, model)(); }
+
+}  // namespace dotyk::plate

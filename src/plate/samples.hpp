@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "plate/space.hpp"
+
+namespace dotyk::plate {
+
+/// A point of a supported edge at which a law acts, for the length that it stands for.
+struct Sample {
+  int support;           ///< place in Plate::edges
+  bool at_vertex;
+  int place;             ///< node of the mesh, or edge
+  int edge;              ///< the edge along whose normal a slope is, or one that the point is on
+  bool along_node = false;  ///< a slope along the node's normal, not the edge's
+  double share;          ///< length
+  Eigen::Vector2d x;
+  problem::SupportLaw law;
+  int row = -1;          ///< of the problem; −1: free, loaded, or held by freedoms
+  double part_of_row = 1;  ///< share / all shares of its row
+  bool held = false;     ///< its freedoms are held
+};
+
+/// Where the laws of the deflection act: Morley: the vertices, by the trapezoid rule; HCT: vertices and edge middles, by Simpson's.
+std::vector<Sample> deflection_samples(const Plate& plate, const Space& space);
+
+/// Where those of the rotation do. Morley: the edge middles; HCT: these and the vertices, by Simpson's rule.
+std::vector<Sample> rotation_samples(const Plate& plate, const Space& space);
+
+/// v of a law at a sample.
+Functional deflection(const Space& space, const Sample& sample);
+Functional rotation(const Space& space, const Sample& sample);
+
+}  // namespace dotyk::plate

@@ -1,0 +1,93 @@
+#include "plate/solution.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::plate {
+
+using algebra::Vector;
+using Eigen::Vector2d;
+
+namespace {
+
+/// Mean D of a cell.
+double stiffness_of(const Model& model, int cell) {
+  const Rule& rule = stiffness_rule(model.plate.element);
+  const std::size_t first = model.D.size() > rule.points.size() ? cell * rule.points.size() : 0;
+  double D = 0;
+  for (std::size_t i = 0; i < rule.points.size(); ++i) D += rule.weights[i] * model.D[first + i];
+  return D;
+}
+
+}  // namespace
+
+Solution::Solution(std::shared_ptr<const Model> model, solver::Result result, std::optional<Family> family)
+    : model_(std::move(model)), result_(std::move(result)), residual_(problem::residual(model_->problem, result_.state)),
+      energy_(problem::energy(model_->problem, result_.state)), u_(model_->freedoms(result_.state.u)), family_(std::move(family)), finder_(model_->space) {
+  if (!u_.allFinite() || !result_.state.lambda.allFinite() || !std::isfinite(energy_))
+    throw std::runtime_error("the solution has values beyond the range of numbers; choose units in which loads and stiffnesses are moderate");
+}
+
+Eigen::Matrix<double, 6, 1> Solution::values(const Place& place, const Vector& freedoms) const {
+  const Space& space = model_->space;
+  const Triangle t = triangle(*space.mesh, space.edges, place.cell);
+  const Shape shape = basis(space.element, t)->at(place.at);
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 12> rows(6, space.local_size());
+  rows << shape.value, shape.gradient, shape.curvature;
+  space.to_freedoms(place.cell, rows);
+  const auto freedom = space.freedoms(place.cell);
+  Eigen::Matrix<double, 6, 1> out = Eigen::Matrix<double, 6, 1>::Zero();
+  for (int i = 0; i < space.local_size(); ++i) out += rows.col(i) * freedoms[freedom[i]];
+  return out;
+}
+
+double Solution::deflection(double x, double y) const { return values(finder_.find({x, y}, "the point"), u_)[0]; }
+
+Vector2d Solution::slope(double x, double y) const { return values(finder_.find({x, y}, "the point"), u_).segment<2>(1); }
+
+double Solution::motion(double x, double y) const {
+  return family_ ? values(finder_.find({x, y}, "the point"), family_->motion)[0] : 0;
+}
+
+Moment Solution::moment(double x, double y) const {
+  const Place place = finder_.find({x, y}, "the point");
+  Moment out;
+  for (int k = 0; k < 3; ++k) {
+    const Moment& at = vertex_moments()[plate().mesh->cell(place.cell)[k]];
+    out.xx += place.at[k] * at.xx;
+    out.yy += place.at[k] * at.yy;
+    out.xy += place.at[k] * at.xy;
+  }
+  return out;
+}
+
+const std::vector<Moment>& Solution::vertex_moments() const {
+  if (!moments_.empty()) return moments_;
+  const mesh::Mesh& mesh = *plate().mesh;
+  std::vector<Eigen::Vector3d> sum(mesh.node_count(), Eigen::Vector3d::Zero());
+  std::vector<double> area(mesh.node_count(), 0);
+  constexpr double kInside = 1e-9;  // to one of the thirds that meet at a vertex
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const double weight = triangle(mesh, model_->space.edges, c).area / 2, D = stiffness_of(*model_, c);
+    for (int k = 0; k < 3; ++k)
+      for (int side = 1; side < 3; ++side) {
+        Barycentric b = Barycentric::Zero();
+        b[k] = 1 - kInside;
+        b[(k + side) % 3] = kInside;
+        sum[mesh.cell(c)[k]] -= weight * D * values({c, b}, u_).tail<3>();
+        area[mesh.cell(c)[k]] += weight;
+      }
+  }
+  const Eigen::Matrix3d C = bending(plate().nu);
+  moments_.resize(mesh.node_count());
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    const Eigen::Vector3d m = C * sum[n] / area[n];
+    moments_[n] = {m[0], m[1], m[2]};
+  }
+  return moments_;
+}
+
+}  // namespace dotyk::plate

@@ -1,0 +1,87 @@
+#include "plate/solvable.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "problem/solvability.hpp"
+
+namespace dotyk::plate {
+
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+namespace {
+
+/// Which kinds act, and what friction and caps can bear in all.
+struct Kinds {
+  bool signorini = false, one_sided_elastic = false, friction = false;
+  double bound = 0;
+};
+
+Kinds kinds(const Model& model) {
+  Kinds out;
+  const auto note = [&](const SupportLaw& law, double share) {
+    out.signorini |= law.kind == Kind::signorini;
+    out.one_sided_elastic |= law.kind == Kind::one_sided_elastic || (law.kind == Kind::unequal_elastic && (law.value == 0) != (law.pull == 0));
+    const bool yields = law.kind == Kind::capped_elastic, rubs = law.kind == Kind::friction || law.kind == Kind::one_sided_friction;
+    out.friction |= yields || rubs;
+    out.bound += share * (yields ? law.limit : rubs ? law.value : 0);
+  };
+  for (const Sample& s : model.deflections) note(s.law, s.share);
+  for (const PointSupport& s : model.plate.supports) note(s.deflection, 1);
+  out.signorini |= !model.obstacle_row.empty();
+  return out;
+}
+
+/// "translation along z" reads better as what it does to the plate.
+std::string told(const Model& model, const problem::RigidMotions& rigid, const algebra::Vector& amounts) {
+  if (model.problem.blocks.front().kernel.cols() == 1 && rigid.motions.front().motion.kind == Motion::Kind::translation)
+    return amounts[0] > 0 ? "the motion of the whole plate upwards" : "the motion of the whole plate downwards";
+  return "the motion " + problem::describe(rigid.motions, amounts);
+}
+
+algebra::Vector of_freedoms(const Model& model, const algebra::Vector& amounts) {
+  const problem::Block& block = model.problem.blocks.front();
+  algebra::Vector moved = block.kernel * amounts;
+  algebra::Vector all = algebra::Vector::Zero(model.space.count());
+  for (int i = 0; i < all.size(); ++i)
+    if (model.unknown[i] >= 0) all[i] = moved[model.unknown[i]];
+  return all / all.lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace
+
+std::string conditions(const Model& model) {
+  const Kinds is = kinds(model);
+  std::string out;
+  const auto add = [&](const std::string& condition) { out += (out.empty() ? "" : "; ") + condition; };
+  if (!is.signorini && !is.one_sided_elastic && !is.friction) add("nothing but the load acts on it: its resultant and moments must vanish (P5 (33))");
+  if (is.signorini) add("one-sided supports: the load must press on them, its resultant < 0 (P5 (45))");
+  if (is.friction) add(text("friction: the resultant must be below all that it can bear, ", is.bound, " (P5 (63))"));
+  if (is.one_sided_elastic) add("one-sided elastic supports: the load must press on them, its resultant < 0 (P5 (74), where u counts downwards)");
+  return out;
+}
+
+Verdict require_solvable(const Model& model) {
+  using Outcome = problem::Solvability::Verdict;
+  const problem::Block& block = model.problem.blocks.front();
+  if (block.kernel.cols() == 0) return {};
+  if (model.problem.rows() == 0 && block.f.isZero(0)) throw InputError("nothing holds it, and nothing loads it");
+  const auto rigid = problem::rigid_motions(model.problem);
+  const auto s = problem::solvability(rigid, model.problem);
+  if (s.verdict == Outcome::unique && !s.limit) return {};
+  const std::string resultant = text("the load's resultant is ", model.load.dot(model.space.motions().col(0)));
+  if (s.verdict == Outcome::unsolvable)
+    throw InputError(text("no solution: nothing stops ", told(model, rigid, s.motion), ", on which the load does work; ", resultant, "; ",
+                          conditions(model), s.limit ? "; a limit case: a load less by a millionth has a solution" : ""));
+  Verdict out;
+  if (s.verdict == Outcome::up_to_motion) {
+    out.note = text("unique up to ", told(model, rigid, s.motion));
+    out.motion = of_freedoms(model, s.motion);
+  }
+  if (s.limit) out.note += text(out.note.empty() ? "" : "; ", "a limit case: ", resultant, "; ", conditions(model));
+  return out;
+}
+
+}  // namespace dotyk::plate

@@ -1,0 +1,87 @@
+#include "plate/space.hpp"
+
+namespace dotyk::plate {
+
+using Eigen::Vector2d;
+
+Space::Space(Element chosen, const mesh::Mesh& on) : element(chosen), mesh(&on), edges(find_edges(on)), boundary(find_boundary_nodes(on, edges)), unit(on.size()) {
+  if (element == Element::hct) frame.assign(on.node_count(), Vector2d(1, 0));
+}
+
+int Space::node(int freedom) const {
+  const int of_vertices = per_vertex() * mesh->node_count();
+  return freedom < of_vertices ? freedom / per_vertex() : mesh->node_count() + freedom - of_vertices;
+}
+
+std::array<int, 12> Space::freedoms(int cell) const {
+  std::array<int, 12> out{};
+  int n = 0;
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < per_vertex(); ++i) out[n++] = of_vertex(mesh->cell(cell)[k]) + i;
+  for (int k = 0; k < 3; ++k) out[n++] = of_edge(edges.of_cell[cell][k]);
+  return out;
+}
+
+Functional Space::slope_of_vertex(int vertex, const Vector2d& direction) const {
+  const Vector2d a = frame[vertex];
+  const double along = a.dot(direction), across = a[0] * direction[1] - a[1] * direction[0];
+  Functional out;
+  if (std::abs(along) > 1e-14) out.push_back({of_vertex(vertex) + 1, along / unit});
+  if (std::abs(across) > 1e-14) out.push_back({of_vertex(vertex) + 2, across / unit});
+  return out;
+}
+
+/// On an edge u is a cubic: its middle is the mean of the ends and l/8 of the difference of their slopes.
+Functional Space::deflection_of_edge(int number) const {
+  const Edge& edge = edges.edges[number];
+  Functional out;
+  for (int end = 0; end < 2; ++end) {
+    out.push_back({of_vertex(edge.node[end]), 0.5});
+    for (Term term : slope_of_vertex(edge.node[end], edge.tangent)) {
+      term.factor *= (end == 0 ? 1 : -1) * edge.length / 8;
+      out.push_back(term);
+    }
+  }
+  const double s = sagitta(edge, boundary);
+  if (s != 0) out.push_back({of_edge(number), s / unit});
+  return out;
+}
+
+Functional Space::deflection_at(int cell, const Barycentric& point) const {
+  const Triangle t = triangle(*mesh, edges, cell);
+  auto value = basis(element, t)->at(point).value;
+  to_freedoms(cell, value);
+  const auto freedom = freedoms(cell);
+  Functional out;
+  for (int i = 0; i < local_size(); ++i)
+    if (value[i] != 0) out.push_back({freedom[i], value[i]});
+  return out;
+}
+
+Vector2d Space::centre() const {
+  Vector2d sum(0, 0);
+  for (int n = 0; n < mesh->node_count(); ++n) sum += Vector2d(mesh->node(n)[0], mesh->node(n)[1]);
+  return sum / mesh->node_count();
+}
+
+algebra::DenseMatrix Space::motions() const {
+  algebra::DenseMatrix R = algebra::DenseMatrix::Zero(count(), 3);
+  const Vector2d middle = centre();
+  for (int n = 0; n < mesh->node_count(); ++n) {
+    const int first = of_vertex(n);
+    R.row(first) << 1, (mesh->node(n)[0] - middle[0]) / unit, (mesh->node(n)[1] - middle[1]) / unit;
+    if (element == Element::morley) continue;
+    const Vector2d a = frame[n];
+    R.block<2, 2>(first + 1, 1) << a[0], a[1], -a[1], a[0];
+  }
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) R.block<1, 2>(of_edge(static_cast<int>(e)), 1) = edges.edges[e].normal.transpose();
+  return R;
+}
+
+Barycentric barycentric(const Triangle& t, const Vector2d& x) {
+  Barycentric b;
+  for (int k = 0; k < 3; ++k) b[k] = 1. / 3 + t.barycentric_gradient.col(k).dot(x - (t.x[0] + t.x[1] + t.x[2]) / 3);
+  return b;
+}
+
+}  // namespace dotyk::plate

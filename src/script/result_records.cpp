@@ -1,0 +1,15 @@
+#include "script/result_records.hpp"
+
+namespace dotyk::script {
+
+Record time_record(const problem::Clock& t) {
+  return {"time", {{"total", t.total}, {"assembly", t.assembly}, {"ordering", t.ordering}, {"factor", t.factor},
+                   {"iterate", t.iterate}, {"recover", t.recover}}};
+}
+
+Record residual_record(const problem::Residual& r) {
+  return {"residual", {{"equilibrium", r.equilibrium}, {"penetration", r.penetration},
+                       {"complementarity", r.complementarity}, {"friction", r.friction}, {"law", r.law}}};
+}
+
+}  // namespace dotyk::script
