@@ -38,4 +38,14 @@ class Monitor {
   }
 };
 
+/// For a method within another: of its phases and iterations only a stop reaches the watcher of the other.
+class InnerMonitor final : public Monitor {
+ public:
+  explicit InnerMonitor(Monitor& outer) : outer_(outer) {}
+  bool stop() override { return outer_.stop(); }
+
+ private:
+  Monitor& outer_;
+};
+
 }  // namespace dotyk

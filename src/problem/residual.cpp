@@ -1,7 +1,10 @@
 #include "problem/residual.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dotyk::problem {
 
@@ -65,16 +68,69 @@ double friction_violation(const Problem& problem, const State& state) {
   return largest > 0 ? excess / largest : excess;
 }
 
+/// Ku, Bᵀλ and f of all blocks.
+struct Forces {
+  Vector internal, contact, load;
+  double size() const { return internal.stableNorm() + contact.stableNorm() + load.stableNorm(); }
+};
+
+Forces forces(const Problem& problem, const State& state) {
+  Forces all{stiffness_times(problem, state.u), problem.B.transpose() * state.lambda, Vector(problem.unknowns())};
+  for (const Block& block : problem.blocks) all.load.segment(block.first, block.size()) = block.f;
+  return all;
+}
+
+/// ‖|K||w|‖, w the part of u in the block's kernel.
+double moved_forces(const Block& block, const Vector& u) {
+  const algebra::DenseMatrix& R = block.kernel;
+  const Vector w = (R * R.colPivHouseholderQr().solve(u)).cwiseAbs();
+  Vector sum = Vector::Zero(u.size());
+  for (int j = 0; j < block.K.outerSize(); ++j)
+    for (algebra::SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
+      sum[it.row()] += std::abs(it.value()) * w[j];
+      if (it.row() != j) sum[j] += std::abs(it.value()) * w[it.row()];
+    }
+  return sum.stableNorm();
+}
+
+/// Greatest resultant of the forces on the block that is not balanced, relative to all of them at the longest lever.
+double unbalanced(const Block& block, const Vector& force, double gross) {
+  double most = 0;
+  for (const auto& mode : block.kernel.colwise())
+    most = std::max(most, std::abs(mode.dot(force)) / (mode.lpNorm<Eigen::Infinity>() * gross));
+  return gross > 0 ? most : 0;
+}
+
 }  // namespace
+
+MotionResidual motion_residual(const Problem& problem, const State& state) {
+  constexpr double kRoundings = 4;  // of u itself and of the sums in Ku
+  const Forces all = forces(problem, state);
+  const Vector gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + all.load.cwiseAbs();
+  MotionResidual result;
+  double greatest = 0;
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    const Block& block = problem.blocks[b];
+    const auto own = [&](const Vector& v) { return v.segment(block.first, block.size()); };
+    const Vector force = own(all.contact) - own(all.load);
+    const double left = (own(all.internal) + force).stableNorm();
+    double granted = 0;
+    if (block.kernel.cols() > 0) {
+      granted = kRoundings * std::numeric_limits<double>::epsilon() * moved_forces(block, own(state.u));
+      result.resultants = std::max(result.resultants, unbalanced(block, force, own(gross).sum()));
+    }
+    if (std::min(left, granted) > greatest) greatest = std::min(left, granted), result.most = static_cast<int>(b);
+    result.beyond = std::hypot(result.beyond, std::max(0.0, left - granted));
+  }
+  if (all.size() > 0) result.beyond /= all.size();
+  return result;
+}
 
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
-  const Vector internal = stiffness_times(problem, state.u);
-  const Vector contact = problem.B.transpose() * state.lambda;
-  Vector load(problem.unknowns());
-  for (const Block& block : problem.blocks) load.segment(block.first, block.size()) = block.f;
-  const double scale = internal.stableNorm() + contact.stableNorm() + load.stableNorm();
-  if (scale > 0) result.equilibrium = (internal + contact - load).stableNorm() / scale;
+  const Forces all = forces(problem, state);
+  const double scale = all.size();
+  if (scale > 0) result.equilibrium = (all.internal + all.contact - all.load).stableNorm() / scale;
   if (problem.rows() == 0) return result;
 
   const Vector jump = problem.B * state.u, x = jump - problem.c;
@@ -94,7 +150,7 @@ Residual residual(const Problem& problem, const State& state) {
       work += std::abs(state.lambda[r] * problem.c[r]);
     }
   }
-  work += std::abs(0.5 * state.u.dot(internal)) + std::abs(state.u.dot(load));
+  work += std::abs(0.5 * state.u.dot(all.internal)) + std::abs(state.u.dot(all.load));
   if (work > 0) result.complementarity = product / work;
   result.friction = friction_violation(problem, state);
   result.law = natural_residual(problem, x, state.lambda, stiffness);

@@ -16,6 +16,19 @@ struct Residual {
 
 Residual residual(const Problem& problem, const State& state);
 
+/// The equilibrium residual told apart from the rounding of motions as a whole. A block that is free but for its rows
+/// moves by w = the part of u in its kernel, R; Kw = 0, but of a w that is rounded, to Kw about ε|K||w|, however small the
+/// forces are: where the block is C times as stiff as what carries it, ε C of them. Such a residual says nothing
+/// against u and λ. It is granted to a block up to 4ε‖|K||w|‖, and its resultants are asked for instead, which no rounding
+/// of w enters as RᵀK = 0: Rᵀ(Bᵀλ − f) = 0.
+struct MotionResidual {
+  double beyond = 0;      ///< √Σ (‖Ku + Bᵀλ − f‖ − 4ε‖|K||w|‖)⁺², norms of each block / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖) of all
+  /// Greatest |rᵀ(Bᵀλ − f)| / (max|r| Σ(|Bᵀ||λ| + |f|)) of all columns r of all R, sums over its block.
+  double resultants = 0;
+  int most = -1;          ///< the block with the greatest residual that is granted; -1: none
+};
+MotionResidual motion_residual(const Problem& problem, const State& state);
+
 /// ½uᵀKu − fᵀu + offsets + the energies of the laws at Bu − c.
 double energy(const Problem& problem, const State& state);
 

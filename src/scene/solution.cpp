@@ -16,12 +16,29 @@ using mesh::Point;
 
 namespace {
 
+/// Of forces; stresses of which so much is rounding are no result.
+constexpr double kMostGranted = 0.1;
+
+/// The equilibrium residual less what rounding of motions as a whole makes of it, where that is what is too great: the
+/// reason then says whose stresses suffer.
+double honest_equilibrium(const problem::Problem& problem, double raw, double allowed, solver::Result& result) {
+  if (raw <= allowed || raw > kMostGranted) return raw;
+  const problem::MotionResidual motion = problem::motion_residual(problem, result.state);
+  const double honest = std::max(motion.beyond, motion.resultants);
+  if (motion.most >= 0 && honest <= allowed)
+    result.reason += text("; '", problem.blocks[motion.most].name, "' moves as a whole far more than it deforms: rounding "
+                          "of the displacements leaves its stresses uncertain by about ", raw);
+  return honest;
+}
+
 /// Where rounding is most of what a method returns, that is no solution.
-void refuse_noise(const problem::Residual& r, solver::Result& result) {
+void refuse_noise(const problem::Problem& problem, const problem::Residual& r, solver::Result& result) {
+  if (!result.converged) return;
   const bool equilibrium_alone = result.penalty || result.feti;  // the rest is what was asked for
-  const double worst = equilibrium_alone ? r.equilibrium : std::max({r.equilibrium, r.penetration, r.complementarity});
   const double allowed = equilibrium_alone ? result.noise : std::max(result.noise, result.asked);
-  if (!result.converged || worst <= allowed) return;
+  const double equilibrium = honest_equilibrium(problem, r.equilibrium, allowed, result);
+  const double worst = equilibrium_alone ? equilibrium : std::max({equilibrium, r.penetration, r.complementarity});
+  if (worst <= allowed) return;
   result.converged = false;
   result.reason = text("rounding leaves ", equilibrium_alone ? "the displacements out of equilibrium by " : "a residual of ",
                        worst, ": stiffnesses, supports or sizes are too far apart ",
@@ -53,7 +70,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     throw std::runtime_error(
         "the solution has values beyond the range of numbers: stiffness, loads or sizes are too large or too "
         "small; choose units in which they are moderate");
-  refuse_noise(residual_, result_);
+  refuse_noise(problem, residual_, result_);
   refuse_lost_motions(model_.softest, result_);
   add_step(problem);
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)

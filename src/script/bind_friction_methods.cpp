@@ -58,7 +58,7 @@ int make_coulomb_loop(Call& call) {
     loop.inner = given->method.on_rows();
     inner = given->text();
     if (!loop.inner)
-      throw InputError(text("inner is a ", inner, ", which cannot treat friction; ", solver::kFrictionMethods, " can"));
+      throw InputError(text("inner is ", inner, ", which does not work on contact rows alone with friction; ", solver::kRowMethods, " do"));
   }
   return give_method(call, loop, text("coulomb_loop: inner = ", inner));
 }

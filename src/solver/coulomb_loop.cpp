@@ -21,16 +21,6 @@ constexpr double kNoSlip = 1e300;
 /// Changes of the bounds below this part of them are the inner solver's rounding, and tell no contraction.
 constexpr double kNoise = 1e-8;
 
-/// Of the inner iterations only a stop reaches the user.
-class Inner final : public Monitor {
- public:
-  explicit Inner(Monitor& outer) : outer_(outer) {}
-  bool stop() override { return outer_.stop(); }
-
- private:
-  Monitor& outer_;
-};
-
 /// The rows with their laws, without the bodies: what methods on the condensed problem see.
 Problem rows_of(const Problem& problem) {
   Problem rows;
@@ -72,7 +62,7 @@ double contraction(const std::vector<double>& changes) {
 
 void CoulombLoop::iterate(RowIteration& it) const {
   Problem rows = rows_of(it.problem);
-  Inner monitor(it.monitor());
+  InnerMonitor monitor(it.monitor());
   Settings settings = *inner;
   settings.tol = std::min(inner->tol, tol / 10);
   Vector bounds = it.begun() ? friction_bounds(it.problem, it.lambda()) : no_slip(it.problem);

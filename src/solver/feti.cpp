@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
@@ -41,6 +42,8 @@ constexpr double kImbalance = 1e-9;
 /// The equilibrium of the displacements recovered may be worse than tol by what stiffnesses and sizes make of the copies'
 /// disagreement; beyond this, or a hundredth of the forces, it is no solution.
 constexpr double kSpoilt = 1e4, kMostNoise = 1e-2;
+/// Below this part of what it is the difference of Pd may be rounding; it is taken for so many times what was seen of it.
+constexpr double kSuspect = 1e-9, kRoundings = 10;
 
 class Run {
  public:
@@ -67,10 +70,8 @@ class Run {
   }
 
  private:
-  /// (F + compliance) v.
-  Vector apply(const Vector& v) const { return dual_.apply(v) + compliance_.cwiseProduct(v); }
-  /// PFPv of v with Qv = 0.
-  Vector PFP(const Vector& v) const { return coarse_.P(apply(v)); }
+  Vector apply(const Vector& v) const { return dual_.apply(v) + compliance_.cwiseProduct(v); }  ///< (F + compliance) v
+  Vector PFP(const Vector& v) const { return coarse_.P(apply(v)); }                             ///< PFPv of v with Qv = 0
 
   /// Which body's motion multipliers leave the most of the load to.
   std::string unbalanced(const Vector& lambda) const {
@@ -89,9 +90,17 @@ class Run {
     shift_ = coarse_.particular() / unit_;
     force_ *= force_unit(dual_, coarse_.particular());
     gross_ = gross_load(dual_, coarse_.particular()) / unit_;
-    program_.b = coarse_.P(dual_.d() / unit_ - apply(shift_));
+    const Vector d = dual_.d() / unit_, Fshift = apply(shift_);
+    program_.b = coarse_.P(d - Fshift);
     x_ = nu_ = Vector::Zero(dual_.rows());
-    displacement_ = program_.b.norm();
+    displacement_ = program_.b.norm(), noise_ = rounding(d, Fshift);
+  }
+
+  /// What of Pd is rounding, where that may be all of it (λ̄ is the solution: of uniform stress it is), else zero.
+  double rounding(const Vector& d, const Vector& Fshift) const {
+    const double size = d.norm() + Fshift.norm(), last = std::numeric_limits<double>::epsilon() * size;
+    if (!(displacement_ <= kSuspect * size)) return 0;
+    return kRoundings * (last + algebra::rounding_seen([this](const Vector& v) { return apply(v); }, shift_, Fshift));
   }
 
   /// Forces are counted in a power of two of the size of the load, or where that is zero of what gaps and prescribed
@@ -106,14 +115,14 @@ class Run {
     scale_ = dual_.scale() * unit_;
   }
 
-  /// λ of all rows, in the user's units but for the rows' scale.
-  Vector lambda() const { return (x_ + shift_) * unit_; }
+  Vector lambda() const { return (x_ + shift_) * unit_; }  ///< of all rows, in the user's units but for the rows' scale
   /// Of the problem's rows, in the user's units.
   Vector multipliers() const { return (x_ + shift_).head(problem_.rows()).cwiseProduct(scale_); }
 
   double relative(double gradient, double equality, const Vector& x) const {
     const double force = force_ > 0 ? force_ : (x_ + shift_).norm();
-    const double g = displacement_ > 0 ? gradient / displacement_ : gradient, e = force > 0 ? equality / force : equality;
+    const double beyond = std::max(0.0, gradient - noise_);
+    const double g = displacement_ > 0 ? beyond / displacement_ : beyond, e = force > 0 ? equality / force : equality;
     return std::max({g, e, gross_ > 0 ? (dual_.G() * x).cwiseAbs().maxCoeff() / gross_ : 0});
   }
 
@@ -264,7 +273,7 @@ class Run {
   FetiPreconditioner preconditioner_;
   Vector compliance_;
   EqualityProgram program_;
-  double unit_ = 1, force_ = 0, gross_ = 0, displacement_ = 0, residual_ = 0, M_ = 0, rho_ = 0;
+  double unit_ = 1, force_ = 0, gross_ = 0, displacement_ = 0, noise_ = 0, residual_ = 0, M_ = 0, rho_ = 0;
   Vector scale_;  ///< D in that unit
   Vector shift_, x_, nu_;
   SettlingBounds bounds_;

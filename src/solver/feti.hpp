@@ -17,7 +17,8 @@ namespace dotyk::solver {
 ///   ‖g^P‖ ≤ tol ‖Pd‖,  d = d̃ − Fλ̄,  and  ‖Gλ − e‖ = ‖Qx‖ ≤ tol ‖f‖        (‖λ‖ in place of ‖f‖ where there is no load)
 /// (P2, §5, but for ‖d̃‖ there, which depends on what the generalised inverse fixes), rows scaled by the stiffness of what they
 /// join (TornProblem) and ‖f‖ by force_unit(), 1 where all is as stiff as each other; and where no resultant on a piece is above tol
-/// times the greatest gross_load(). Coulomb
+/// times the greatest gross_load(). Where λ̄ is the solution already, Pd is rounding: g^P is then zero as far as it is. Rows that
+/// depend on each other make F singular, nothing else; of their multipliers one choice is returned. Coulomb
 /// friction is an outer loop over given friction, b := μλ_n, ended where the bounds change by less than tol.
 struct Feti : Settings {
   Feti() { outer.rho = 30, outer.update = Smalbe::Update::both; }

@@ -51,7 +51,7 @@ class Method {
   }
   /// On a problem already condensed. Throws InputError for a method that works on bodies.
   Result run(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) const {
-    if (!on_rows_) throw InputError(text("this method works on scenes alone; on rows alone work ", kFrictionMethods));
+    if (!on_rows_) throw InputError(text("this method works on scenes alone; on rows alone work ", kRowMethods));
     return as_asked(solve(problem, condensed, *on_rows_, monitor), on_rows_->tol);
   }
   /// The method, where it works on the condensed problem alone; else null.

@@ -8,6 +8,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "problem/residual.hpp"
+#include "solver/active_set.hpp"
 #include "solver/descent.hpp"
 #include "solver/hold.hpp"
 #include "solver/linearisation.hpp"
@@ -70,7 +71,7 @@ class Iteration {
     if (!note.empty()) result_.reason += "; " + note;
     result_.clock.iterate += iterating.lap();
     monitor_.phase("recovering the displacement");
-    result_.state.u = left_alpha_ ? condensed_->recover(lambda_, *left_alpha_) : step_->recover();
+    result_.state.u = settled_ ? *settled_ : left_alpha_ ? condensed_->recover(lambda_, *left_alpha_) : step_->recover();
     result_.state.lambda = lambda_;
     result_.clock.recover += iterating.lap();
     return std::move(result_);
@@ -213,7 +214,9 @@ class Iteration {
     if (!condensed_) condense();
     DualDescent descent(problem_, *condensed_, lambda_);
     const auto newton = reduced_step(*condensed_, rho_);
-    while (result_.iterations < settings_.max_iterations && !monitor_.stop()) {
+    const bool finite = unilateral_or_linear(problem_);  // the active-set method ends where descent crawls
+    for (int round = 0; result_.iterations < settings_.max_iterations && !monitor_.stop(); ++round) {
+      if (finite && round == kRounds) return settle(where);
       ++result_.iterations;
       for (int k = 0; k < kSweeps; ++k) descent.sweep();
       descent.update_equilibrium();
@@ -235,8 +238,30 @@ class Iteration {
     return false;
   }
 
+  /// The active-set method of programs, from rest: false, as all is done.
+  bool settle(const std::string& where) {
+    ActiveSet method;
+    method.tol = settings_.tol;
+    method.ordering = settings_.ordering;
+    method.max_iterations = kStepsPerRow * problem_.rows();
+    monitor_.phase("active sets repeat: the active-set method of programs, from rest");
+    InnerMonitor monitor(monitor_);
+    Result settled = solve(problem_, method, monitor);
+    result_.converged = settled.converged;
+    result_.working_set = settled.working_set;
+    result_.active_sets.push_back(settled.active_sets.back());
+    result_.clock.factor += settled.clock.factor;
+    result_.reason = text("active sets repeated at ", where, "; left by ", settled.iterations, " steps of active_set",
+                          settled.converged ? "" : ", in vain: " + settled.reason);
+    lambda_ = settled.state.lambda;
+    settled_ = std::move(settled.state.u);
+    return false;
+  }
+
   /// Sweeps between two Newton steps of the descent (and two updates of the free bodies' equilibrium).
   static constexpr int kSweeps = 3;
+  /// Newton steps of the descent before the active-set method is asked; steps granted to that.
+  static constexpr int kRounds = 20, kStepsPerRow = 20;
 
   const Problem& problem_;
   const Pdas& settings_;
@@ -253,6 +278,7 @@ class Iteration {
   Vector lambda_, x_;
   std::vector<int> changed_;
   std::optional<Vector> left_alpha_;  ///< of the descent, where λ is the descent's and not the last step's
+  std::optional<Vector> settled_;     ///< u of another method
   std::set<std::uint64_t> seen_;
   Stopwatch watch_;
 };

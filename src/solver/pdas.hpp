@@ -32,7 +32,9 @@ struct Pdas : Settings {
 };
 
 /// Solves. Where active sets repeat without being a solution, the nodes concerned are put into
-/// `reason` and Gauss–Seidel sweeps that decrease the dual energy take over between Newton steps.
+/// `reason` and Gauss–Seidel sweeps that decrease the dual energy take over between Newton steps; where these have not
+/// settled it after twenty such steps and all laws are unilateral or linear, ActiveSet solves the problem from rest
+/// (its steps are not among `iterations`).
 /// Throws InputError where a body is not held, naming its motion.
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
 

@@ -1,5 +1,7 @@
 #include "solver/treatable.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -11,11 +13,23 @@ void require_frictionless(const problem::Problem& problem, const std::string& me
   throw InputError(text(method, " cannot treat the ", group.law->name(), " of the ", group.name, "; ", kFrictionMethods, " can"));
 }
 
+namespace {
+
+bool is_other(const problem::RowGroup& group) {
+  return group.count > 0 && !group.law->unilateral() && !group.law->linear_stiffness(0);
+}
+
+}  // namespace
+
+bool unilateral_or_linear(const problem::Problem& problem) {
+  return problem.friction.empty() && std::none_of(problem.groups.begin(), problem.groups.end(), is_other);
+}
+
 void require_unilateral_or_linear(const problem::Problem& problem, const std::string& method) {
   require_frictionless(problem, method);
-  for (const problem::RowGroup& group : problem.groups)
-    if (group.count > 0 && !group.law->unilateral() && !group.law->linear_stiffness(0))
-      throw InputError(text(method, " cannot treat the ", group.law->name(), " law of the ", group.name, "; pdas can"));
+  const auto other = std::find_if(problem.groups.begin(), problem.groups.end(), is_other);
+  if (other != problem.groups.end())
+    throw InputError(text(method, " cannot treat the ", other->law->name(), " law of the ", other->name, "; pdas can"));
 }
 
 }  // namespace dotyk::solver

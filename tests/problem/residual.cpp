@@ -105,3 +105,32 @@ TEST_CASE("row stiffness is Σ B² K_jj") {
   CHECK(p.row_stiffness()[0] == 18);
   CHECK(p.group_of_rows()[0] == &p.groups[0]);
 }
+
+TEST_CASE("rounding of a motion as a whole is told from forces out of balance and from wrong strains") {
+  // A bar of stiffness C, pushed by 1 onto a spring of stiffness 7: λ = 1, u = (1/7, 1/7 + 1/C).
+  const double C = 3e12, seventh = 1.0 / 7;
+  Problem p;
+  Block bar;
+  bar.name = "bar";
+  bar.K = test::lower((DenseMatrix(2, 2) << C, -C, -C, C).finished());
+  bar.f = Vector::Unit(2, 1);
+  bar.node = {0, 1};
+  bar.kernel = DenseMatrix::Ones(2, 1);
+  add(p, bar);
+  p.B = test::rows(DenseMatrix::Identity(1, 2));
+  p.c = Vector::Zero(1);
+  p.groups.push_back(test::group(elastic({7}), 0, 1));
+  const auto at = [&](double strain, double lambda) {
+    return State{Vector{{seventh, seventh + strain / C}}, Vector::Constant(1, lambda)};
+  };
+  const State right = at(1, 1);
+  CHECK(residual(p, right).equilibrium > 1e-6);  // u has 16 digits, its difference 4
+  CHECK(motion_residual(p, right).beyond == 0);
+  CHECK(motion_residual(p, right).resultants == 0);
+  CHECK(motion_residual(p, right).most == 0);
+  CHECK(motion_residual(p, at(1, 1.001)).resultants == doctest::Approx(0.001 / 2.001));
+  CHECK(motion_residual(p, at(1.1, 1)).beyond > 0.01);
+  p.blocks[0].kernel.resize(2, 0);  // of a body that is held nothing is granted
+  CHECK(motion_residual(p, right).beyond == residual(p, right).equilibrium);
+  CHECK(motion_residual(p, right).most == -1);
+}

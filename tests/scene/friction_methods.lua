@@ -9,7 +9,7 @@ for _, omega in ipairs{ 0, 2, 2.5 } do
 end
 refused(function() solver.uzawa_pdas{ unit = "force" } end, "'unit'", "\"force/displacement\"")
 refused(function() solver.coulomb_loop{ inner = "newton" } end, "'inner'", "a solver")
-refused(function() solver.coulomb_loop{ inner = solver.pdas{} } end, "which cannot treat friction", "newton, proximal, uzawa, uzawa_pdas, psor, projected_cg and coulomb_loop can")
+refused(function() solver.coulomb_loop{ inner = solver.pdas{} } end, "does not work on contact rows alone with friction", "newton, proximal, uzawa, uzawa_pdas, psor, projected_cg and coulomb_loop do")
 
 local function foot(mu)
   local block = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0 },
@@ -69,3 +69,13 @@ end
 refused(function() dotyk.friction.tresca(-1/0) end, "got the number -inf")
 refused(function() dotyk.friction.coulomb(1/0) end, "'value' must be a finite number, got inf")
 assert(tostring(dotyk.friction.tresca(1/0)) == "given friction, bound inf")
+
+-- Each that the refusal names.
+local _, message = pcall(function() solver.pdas{}:solve(scene) end)
+local named <const> = {}
+for name in message:match("; ([^;]*) can$"):gmatch "[%w_]+" do if name ~= "and" then named[#named + 1] = name end end
+assert(#named == 8, message)
+for _, name in ipairs(named) do
+  local s = solver[name]{}:solve(scene)
+  assert(s.converged and math.abs(s.energy - newton.energy) < 1e-8 * newton.energy, name)
+end

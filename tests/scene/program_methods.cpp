@@ -225,7 +225,7 @@ TEST_CASE("these methods refuse friction, naming one that can, and loads that no
   for (const solver::Method& method : {solver::Method(solver::ActiveSet{}), solver::Method(solver::InteriorPoint{}),
                                        solver::Method(solver::Penalty{})}) {
     CHECK_THROWS_WITH_AS(solve(lifted, method), doctest::Contains("nothing stops 'block': translation along"), InputError);
-    CHECK_THROWS_WITH_AS(solve(rubs, method), doctest::Contains("newton, proximal, uzawa, uzawa_pdas, psor, projected_cg and coulomb_loop can"), InputError);
+    CHECK_THROWS_WITH_AS(solve(rubs, method), doctest::Contains("newton, proximal, uzawa, uzawa_pdas, psor, projected_cg, coulomb_loop and feti can"), InputError);
   }
 }
 
