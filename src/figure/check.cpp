@@ -222,7 +222,7 @@ void check(const PlatePicture& p) {
   require(p.deflection.size() == n, "plate: " + count(p.deflection.size()) + " deflections for " + count(n) + " nodes");
   require(p.values.empty() || p.values.size() == n, "plate: " + count(p.values.size()) + " field values for " + count(n) + " nodes");
   require(p.obstacle.empty() || p.obstacle.size() == n, "plate: " + count(p.obstacle.size()) + " heights of the obstacle for " + count(n) + " nodes");
-  require(finite(p.points) && finite(p.deflection) && finite(p.obstacle) && std::isfinite(p.deformation), "a plate has a value that is not finite");
+  require(finite(p.points) && finite(p.deflection) && std::isfinite(p.deformation), "a plate has a value that is not finite");
   require(!p.field_range || ((*p.field_range)[0] <= (*p.field_range)[1] && std::isfinite((*p.field_range)[1] - (*p.field_range)[0])),
           "the range of the field must be {least, greatest}");
   require(!p.view_from || finite(*p.view_from), "the direction towards the eye is not finite");

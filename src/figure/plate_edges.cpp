@@ -52,7 +52,7 @@ void append(EdgeRun& run, const PlateEdge& edge, const Vec3& at_start, const Vec
     for (std::size_t c = 0; c < 2; ++c) p.position[c] = edge.from[c] + s.share * (edge.to[c] - edge.from[c]);
     // From the mean at one end to that at the other.
     p.normal = unit(plus(plus(n, plus(at_start, n, -1), std::max(0.0, 1 - 2 * s.share)), plus(at_end, n, -1), std::max(0.0, 2 * s.share - 1)));
-    p.deflection = s.deflection, p.reaction = s.reaction, p.status = s.status;
+    p.deflection = s.deflection, p.reaction = s.reaction, p.status = s.status, p.extrapolated = s.extrapolated;
     run.points.push_back(p);
   }
 }

@@ -14,6 +14,7 @@ struct EdgePoint {
   Vec3 normal = {0, 0, 0};    // outward
   double deflection = 0, reaction = 0;
   std::optional<Status> status;
+  bool extrapolated = false;
 };
 
 // Pieces that follow each other without a corner and rest on the same.

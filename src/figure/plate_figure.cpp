@@ -74,10 +74,17 @@ BodyPicture body_of(const PlatePicture& p, bool space) {
   return body;
 }
 
+// A little below where it is, so that what lies on it is not cut by it.
 RigidPicture obstacle_of(const PlatePicture& p) {
   RigidPicture out;
-  for (std::size_t i = 0; i < p.obstacle.size(); ++i) out.points.insert(out.points.end(), {p.points[2 * i], p.points[2 * i + 1], p.deformation * p.obstacle[i]});
-  out.triangles = p.triangles;
+  double size = 0;
+  for (const double x : p.points) size = std::max(size, std::abs(x - p.points[0]));
+  const auto there = [&](int i) { return std::isfinite(p.obstacle[static_cast<std::size_t>(i)]); };
+  for (std::size_t i = 0; i < p.obstacle.size(); ++i)
+    out.points.insert(out.points.end(), {p.points[2 * i], p.points[2 * i + 1], there(static_cast<int>(i)) ? p.deformation * p.obstacle[i] - 0.004 * size : 0});
+  const std::vector<int>& t = p.triangles;
+  for (std::size_t k = 0; k + 2 < t.size(); k += 3)
+    if (there(t[k]) && there(t[k + 1]) && there(t[k + 2])) out.triangles.insert(out.triangles.end(), &t[k], &t[k] + 3);
   return out;
 }
 

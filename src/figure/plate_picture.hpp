@@ -24,6 +24,7 @@ struct EdgeSample {
   double share = 0;                         // along the piece: 0 at `from`, 1 at `to`
   double deflection = 0, reaction = 0;      // reaction: force per length
   std::optional<Status> status;             // none: the support has none
+  bool extrapolated = false;                // the reaction, which then has no label
 };
 
 // A straight piece of the boundary, the plate to its left.
@@ -65,7 +66,7 @@ struct PlatePicture {
   std::vector<PlateEdge> boundary;          // each follows the one it begins at the end of, all around
   std::vector<PlateForce> forces;
   std::vector<PlatePointSupport> supports;
-  std::vector<double> obstacle;             // n: heights of an obstacle under the plate, or empty: none
+  std::vector<double> obstacle;             // n: heights of an obstacle under the plate, NaN where there is none; or empty
   std::vector<int> bearing;                 // nodes that bear on the obstacle
   std::string reaction_unit, force_unit;    // of reactions per length, of concentrated ones; may be empty
   std::optional<Vec3> view_from;            // surface: direction towards the eye

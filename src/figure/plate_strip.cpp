@@ -98,11 +98,12 @@ PlateLabel label_at(const Stage& stage, const Plate& plate, const EdgePoint& p) 
 // Of equal peaks that in the middle; nothing where the run carries next to nothing.
 void add_peak(std::vector<PlateLabel>& out, const Stage& stage, const Plate& plate, const EdgeRun& run, double sign) {
   double peak = 0;
-  for (const EdgePoint& p : run.points) peak = std::max(peak, sign * p.reaction);
+  for (const EdgePoint& p : run.points)
+    if (!p.extrapolated) peak = std::max(peak, sign * p.reaction);
   if (!(peak > 0.04 * plate.greatest_reaction)) return;
   std::vector<const EdgePoint*> peaks;
   for (const EdgePoint& p : run.points)
-    if (sign * p.reaction >= 0.9999 * peak) peaks.push_back(&p);
+    if (!p.extrapolated && sign * p.reaction >= 0.9999 * peak) peaks.push_back(&p);
   out.push_back(label_at(stage, plate, *peaks[peaks.size() / 2]));
 }
 

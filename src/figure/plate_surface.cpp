@@ -118,7 +118,7 @@ std::vector<LegendEntry> legend(const Stage& stage, const Plate& plate) {
   for (const EdgeRun& run : plate.runs)
     for (const EdgePoint& p : run.points) gap = gap || (rests(run) && lifted(stage, p));
   if (gap)
-    out.push_back({"gap under an edge", [em = stage.em](Canvas& c, const Box& b) {
+    out.push_back({"deflection of an edge", [em = stage.em](Canvas& c, const Box& b) {
                      const double low = (b.bottom + b.top) / 2 - 0.35 * em;
                      const std::array<Point, 3> corners{{{b.left, low}, {b.right, low}, {b.right, low + 0.75 * em}}};
                      c.convex(corners, status_colour(Status::open), 0.3);

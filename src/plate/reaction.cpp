@@ -180,7 +180,7 @@ std::vector<CornerForce> corner_forces(const Solution& s) {
   for (std::size_t e = 0; e < s.plate().edges.size(); ++e)
     for (const auto& piece : reaction(s, static_cast<int>(e)).pieces)
       for (std::size_t i = 0; i < piece.size(); ++i) {
-        if (!piece[i].corner || piece.size() < 4 || (i + 1 == piece.size() && piece[i].vertex == piece[0].vertex)) continue;
+        if (!piece[i].corner || piece[i].status == Status::open || piece.size() < 4 || (i + 1 == piece.size() && piece[i].vertex == piece[0].vertex)) continue;
         CornerForce& corner = at.emplace(piece[i].vertex, CornerForce{piece[i].vertex, piece[i].x, piece[i].y, 0}).first->second;
         corner.force += piece[i].force;
         const bool closed = piece.front().vertex == piece.back().vertex;

@@ -35,7 +35,7 @@ EdgeReaction reaction(const Solution& solution, int edge);
 double point_reaction(const Solution& solution, int support);
 
 /// A force that an edge's reaction per length does not tell: at a corner the force less what its two sides carry there, by the
-/// reaction per length of the next two nodes.
+/// reaction per length of the next two nodes. None where the plate has lifted off.
 struct CornerForce {
   int vertex;
   double x, y;

@@ -25,6 +25,7 @@ void bind_beam(Library& library);
 void bind_beam_figure(Library& library);
 void bind_plate(Library& library);
 void bind_plate_solution(Library& library);
+void bind_plate_figure(Library& library);
 void bind_channel(Library& library);
 void bind_thermoelastic(Library& library);
 

@@ -23,25 +23,12 @@ const std::vector<std::string> kPanels = {"deflection", "moment", "shear", "norm
 const std::vector<std::string> kSides = {"deflection", "rotation", "displacement"};
 std::vector<std::string> first(const std::vector<std::string>& names, int count) { return {names.begin(), names.begin() + count}; }
 
-Key units_key(bool heat) {
-  std::vector<Key> keys = {key::string("length", "\"m\"").otherwise("none"), key::string("force", "\"kN\"").otherwise("none")};
-  if (heat) keys.push_back(key::string("temperature", "\"K\"").otherwise("none"));
-  return key::table("units", std::move(keys), "names of the units, written beside the axes");
-}
-
 std::vector<Key> page_keys(std::vector<Key> keys, const char* size, bool heat = false) {
   keys.insert(keys.begin(), key::string("file", "where to; ends in .png, its folder must exist").required());
   keys.push_back(key::string("title", "above the figure").otherwise("none"));
   keys.push_back(units_key(heat));
   keys.push_back(size_key(size));
   return keys;
-}
-
-figure::Units units(const Arguments& call, bool heat = false) {
-  if (!call.has("units")) return {};
-  const Arguments given = call.table("units");
-  const auto name = [&](const char* unit) { return given.has(unit) ? given.text(unit) : ""; };
-  return {name("length"), name("force"), heat ? name("temperature") : ""};
 }
 
 int draw(Call& call, figure::PagePicture picture) {
@@ -61,17 +48,17 @@ std::vector<BeamPanel> panels(const Arguments& call, std::vector<BeamPanel> othe
 
 int render(Call& call) {
   const auto chosen = panels(call, {BeamPanel::deflection, BeamPanel::moment, BeamPanel::shear});
-  return draw(call, figure::compose(figure::view(call.self<BeamResult>()->solution()), chosen, units(call)));
+  return draw(call, figure::compose(figure::view(call.self<BeamResult>()->solution()), chosen, read_units(call)));
 }
 
 LawSide side(const Arguments& from) { return static_cast<LawSide>(from.choice("of")); }
 
 int render_law(Call& call) {
   const beam::Solution& s = call.self<BeamResult>()->solution();
-  return draw(call, figure::compose(figure::view(s), find_support(s.beam(), call, "support"), side(call), units(call)));
+  return draw(call, figure::compose(figure::view(s), find_support(s.beam(), call, "support"), side(call), read_units(call)));
 }
 
-int render_support_law(Call& call) { return draw(call, figure::compose(*call.self<SupportLaw>(), side(call), units(call))); }
+int render_support_law(Call& call) { return draw(call, figure::compose(*call.self<SupportLaw>(), side(call), read_units(call))); }
 
 // As it is now, with the load along it.
 figure::BeamView view_now(const ThermoelasticBeam& beam, const thermoelastic::Loads& loads) {
@@ -87,7 +74,7 @@ int render_thermoelastic(Call& call) {
   const LoadsCalled called(*beam, "draw it");
   const thermoelastic::Loads loads = kept_loads(call, *beam);
   const auto chosen = panels(call, {BeamPanel::deflection, BeamPanel::moment, BeamPanel::temperature, BeamPanel::gradient});
-  return draw(call, figure::compose(view_now(*beam, loads), chosen, units(call, true)));
+  return draw(call, figure::compose(view_now(*beam, loads), chosen, read_units(call, true)));
 }
 
 int render_thermoelastic_law(Call& call) {
@@ -98,7 +85,7 @@ int render_thermoelastic_law(Call& call) {
   const int support = find_support(thermoelastic::plain(data), call, "support");
   const bool end = support == 0 || support + 1 == static_cast<int>(data.supports.size());
   if (side(call) == LawSide::displacement && !end) throw InputError("supports within the beam have no law about the displacement along it; \"left\" and \"right\" have");
-  return draw(call, figure::compose(view_now(*beam, loads), support, side(call), units(call)));
+  return draw(call, figure::compose(view_now(*beam, loads), support, side(call), read_units(call)));
 }
 
 int gallery(Call& call) {

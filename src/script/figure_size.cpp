@@ -19,4 +19,17 @@ void read_size(const Arguments& call, int& width, int& height) {
   height = static_cast<int>(size[1]);
 }
 
+Key units_key(bool heat) {
+  std::vector<Key> keys = {key::string("length", "\"m\"").otherwise("none"), key::string("force", "\"kN\"").otherwise("none")};
+  if (heat) keys.push_back(key::string("temperature", "\"K\"").otherwise("none"));
+  return key::table("units", std::move(keys), "names of the units, written beside the axes");
+}
+
+figure::Units read_units(const Arguments& call, bool heat) {
+  if (!call.has("units")) return {};
+  const Arguments given = call.table("units");
+  const auto name = [&](const char* unit) { return given.has(unit) ? given.text(unit) : ""; };
+  return {name("length"), name("force"), heat ? name("temperature") : ""};
+}
+
 }  // namespace dotyk::script

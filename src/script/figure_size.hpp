@@ -1,5 +1,6 @@
 #pragma once
-// The key "size" of everything that draws.
+// The keys "size" and "units" of everything that draws.
+#include "figure/compose_beam.hpp"
 #include "script/arguments.hpp"
 
 namespace dotyk::script {
@@ -8,5 +9,9 @@ Key size_key(const char* otherwise);
 
 // Both pixel counts of "size", where it is given. Throws InputError where one is out of range.
 void read_size(const Arguments& call, int& width, int& height);
+
+// Names of the units of length and force, of temperature too where there is `heat`.
+Key units_key(bool heat = false);
+figure::Units read_units(const Arguments& call, bool heat = false);
 
 }  // namespace dotyk::script
