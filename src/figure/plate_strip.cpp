@@ -90,7 +90,8 @@ PlateLabel label_at(const Stage& stage, const Plate& plate, const EdgePoint& p) 
   label.text = number(p.reaction) + (unit.empty() ? "" : " " + unit);
   label.colour = p.reaction < 0 ? pull_line : pressure_line;
   const Point tip = strip_tip(stage, plate, p), n = stage.view.direction(p.normal), size = text_extent(label.text, 0.85 * stage.em);
-  const Point middle{tip.x + n.x * (size.x / 2 + 0.35 * stage.em), tip.y + n.y * (size.y / 2 + 0.3 * stage.em)};
+  const auto beyond = [](double c) { return std::clamp(1.5 * c, -1.0, 1.0); };  // on a slant by a corner of the box
+  const Point middle{tip.x + beyond(n.x) * size.x / 2 + 0.35 * stage.em * n.x, tip.y + beyond(n.y) * size.y / 2 + 0.3 * stage.em * n.y};
   label.box = {middle.x - size.x / 2, middle.y - size.y / 2, middle.x + size.x / 2, middle.y + size.y / 2};
   return label;
 }

@@ -27,8 +27,7 @@ struct AtVertex {
 class Collector {
  public:
   Collector(const Solution& s, int support) : s_(s), model_(s.model()), support_(support) {
-    if (std::find(model_.held.is.begin(), model_.held.is.end(), 1) != model_.held.is.end())
-      holding_ = holding_forces(model_.D, s.plate().nu, model_.space, model_.held, model_.load, s.freedoms());
+    if (std::find(model_.held.is.begin(), model_.held.is.end(), 1) != model_.held.is.end()) find_holding_forces();
     for (const Sample& sample : model_.deflections)
       if (sample.held) shares_[sample.place] += sample.share;
     for (const mesh::Facet f : s.plate().edges[support].facets) {
@@ -45,6 +44,26 @@ class Collector {
 
  private:
   const Vector& lambda() const { return s_.result().state.lambda; }
+
+  /// What holds the held freedoms, less what rows of laws and of point supports beside them do to them.
+  void find_holding_forces() {
+    holding_ = holding_forces(model_.D, s_.plate().nu, model_.space, model_.held, model_.load, s_.freedoms());
+    const auto take_off = [&](const Functional& v, double force) {
+      for (const Term& term : v)
+        if (model_.held.is[term.freedom]) holding_[term.freedom] -= force * term.factor;
+    };
+    for (const Sample& d : model_.deflections)
+      if (d.row >= 0) take_off(plate::deflection(model_.space, d), lambda()[d.row] * d.part_of_row);
+    for (const Sample& r : model_.rotations)
+      if (r.row >= 0) take_off(plate::rotation(model_.space, r), (problem::directed(r.law.kind) ? -1 : 1) * lambda()[r.row] * r.part_of_row * model_.space.unit);
+    const Finder finder(model_.space);
+    for (std::size_t k = 0; k < model_.point_row.size(); ++k) {
+      if (model_.point_row[k] < 0) continue;
+      const PointSupport& support = s_.plate().supports[k];
+      const Place place = finder.find({support.x, support.y}, "a support:");
+      take_off(model_.space.deflection_at(place.cell, place.at), lambda()[model_.point_row[k]]);
+    }
+  }
 
   template <class Add>
   void spread(const Sample& sample, const Add& add) {

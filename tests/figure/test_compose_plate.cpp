@@ -175,3 +175,25 @@ TEST_CASE("no edge bears more than its friction") {
     }
   CHECK(slipping > 0);
 }
+
+TEST_CASE("edges and point supports carry the load where rows reach what is held") {
+  // The rows: of edge middles on a curved edge (HCT), of a point support in a cell at the edge.
+  const auto total = [](const plate::Solution& s) {
+    double sum = 0;
+    for (std::size_t k = 0; k < s.plate().edges.size(); ++k) sum += plate::reaction(s, static_cast<int>(k)).force;
+    for (std::size_t k = 0; k < s.plate().supports.size(); ++k) sum += plate::point_reaction(s, static_cast<int>(k));
+    return sum;
+  };
+  for (const plate::Element element : {plate::Element::morley, plate::Element::hct}) {
+    plate::Plate p = square(8, -1, held);
+    p.element = element;
+    p.supports = {{0.95, 0.52, {Kind::prescribed, 0.01, 0, 0}}};
+    CHECK(total(*solved(p)) == doctest::Approx(1).epsilon(1e-9));
+    const double centre[2] = {0, 0};
+    p.supports.clear();
+    p.mesh = std::make_shared<mesh::Mesh>(mesh::disc(centre, 1, 5, mesh::Family::p1));
+    p.edges = {{"edge", mesh::boundary(*p.mesh), everywhere(held), {}}};
+    const double area = 15 * std::sin(2 * std::acos(-1.0) / 30);  // of the polygon
+    CHECK(total(*solved(p)) == doctest::Approx(area).epsilon(1e-9));
+  }
+}
