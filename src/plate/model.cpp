@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "plate/chains.hpp"
 #include "plate/free_motions.hpp"
 #include "plate/loads.hpp"
 #include "plate/rows.hpp"
@@ -82,6 +83,8 @@ Model build(Plate plate) {
   }
   problem::add(model.problem, block(plate, model));
   add_rows(plate, model);
+  for (const auto* samples : {&model.deflections, &model.rotations})
+    for (auto& chain : row_chains(model, *samples)) model.problem.chains.push_back(std::move(chain));
   model.seconds = watch.seconds();
   return model;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "plate/chains.hpp"
 #include "plate/stiffness.hpp"
 
 namespace dotyk::plate {
@@ -124,33 +125,6 @@ Status status(const Solution& s, const std::vector<const problem::RowGroup*>& gr
   return force >= high - noise || (low < 0 && force <= low + noise) ? Status::slip : Status::stick;
 }
 
-/// Edges of a part put end to end.
-std::vector<std::vector<int>> chains(const Solution& s, int support) {
-  const Edges& edges = s.model().space.edges;
-  std::map<int, int> next;   // node → edge that begins there
-  std::map<int, int> ends;
-  for (const mesh::Facet f : s.plate().edges[support].facets) {
-    const int e = edges.of_cell[f.cell][f.local];
-    next[edges.edges[e].node[0]] = e;
-    ++ends[edges.edges[e].node[1]];
-  }
-  std::vector<std::vector<int>> out;
-  while (!next.empty()) {
-    auto start = std::find_if(next.begin(), next.end(), [&](const auto& n) { return ends.find(n.first) == ends.end(); });
-    if (start == next.end())  // only closed ones are left: begin at a corner where there is one
-      start = std::find_if(next.begin(), next.end(), [&](const auto& n) { return !s.model().space.boundary[n.first].smooth; });
-    if (start == next.end()) start = next.begin();
-    std::vector<int> nodes{start->first};
-    for (auto at = start; at != next.end(); at = next.find(nodes.back())) {
-      nodes.push_back(edges.edges[at->second].node[1]);
-      next.erase(at);
-    }
-    for (const int n : nodes) ends.erase(n);
-    out.push_back(std::move(nodes));
-  }
-  return out;
-}
-
 double distance(const EdgePoint& a, const EdgePoint& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 /// What half of the first edge carries, by the reaction per length of the next two nodes, taken to be linear.
@@ -171,7 +145,7 @@ EdgeReaction reaction(const Solution& s, int support) {
     out.length += at.length;
     if (status(s, groups, at) == Status::open) out.open += at.length;
   }
-  for (const auto& nodes : chains(s, support)) {
+  for (const auto& nodes : node_chains(model, support)) {
     std::vector<EdgePoint> piece;
     for (const int n : nodes) {
       const AtVertex& at = collected.at.at(n);

@@ -44,6 +44,8 @@ struct Problem {
   std::vector<FrictionGroup> friction;     ///< tangential rows; a row is under one law only
   /// The blocks cut into pieces, by block, where the method asked for it; empty: each block is one piece.
   std::vector<Subdomain> subdomains;
+  /// Rows of one kind that follow one another along an edge, where that is known; every row is in one chain at most, but for the ends.
+  std::vector<std::vector<int>> chains;
   /// Where a row is, for messages: "node 12 of 'block' at (0.5, 0)". May be empty.
   std::function<std::string(int)> row_name;
 

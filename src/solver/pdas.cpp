@@ -12,6 +12,7 @@
 #include "solver/descent.hpp"
 #include "solver/hold.hpp"
 #include "solver/linearisation.hpp"
+#include "solver/nested_start.hpp"
 #include "solver/require_solvable.hpp"
 #include "solver/screws.hpp"
 #include "solver/step.hpp"
@@ -58,6 +59,7 @@ class Iteration {
             : settings_.step    ? settings_.step(problem_, rigid_, rho_)
                                 : full_step(problem_, rigid_, rho_);
     Stopwatch iterating;
+    begin_on_few(l);
     while (result_.iterations < settings_.max_iterations) {
       if (monitor_.stop()) {
         result_.reason = "interrupted; this is the state so far";
@@ -68,6 +70,7 @@ class Iteration {
     if (result_.reason.empty())
       result_.reason = text("no repeated active set within ", settings_.max_iterations,
                             " iterations; rows that still change: ", places(problem_, changed_));
+    result_.reason += begun_;
     if (!note.empty()) result_.reason += "; " + note;
     result_.clock.iterate += iterating.lap();
     monitor_.phase("recovering the displacement");
@@ -122,6 +125,15 @@ class Iteration {
     }
     Linearisation l = from_flags(problem_, active, rho_);
     return held(std::move(l), -problem_.c);
+  }
+
+  /// Where rows follow one another along edges, on few of them first.
+  void begin_on_few(Linearisation& l) {
+    if (!settings_.reduced || screws_ || !settings_.start.empty()) return;
+    NestedStart nested(problem_, rho_);
+    if (!nested.worthwhile()) return;
+    l = held(nested.run(*step_), -problem_.c);
+    begun_ = text(", begun with ", nested.solves(), " solves on a part of the rows");
   }
 
   /// The linearisation with rows added where a rigid motion would be free.
@@ -280,6 +292,7 @@ class Iteration {
   std::optional<Vector> left_alpha_;  ///< of the descent, where λ is the descent's and not the last step's
   std::optional<Vector> settled_;     ///< u of another method
   std::set<std::uint64_t> seen_;
+  std::string begun_;
   Stopwatch watch_;
 };
 
