@@ -100,7 +100,7 @@ class Collector {
   double held_moment(const Sample& sample) const {
     const int first = model_.space.of_vertex(sample.place) + 1;
     const Vector2d a = model_.space.frame[sample.place], b(-a[1], a[0]);
-    const Vector2d normal = sample.along_node ? model_.space.boundary[sample.place].normal : model_.space.edges.edges[sample.edge].normal;
+    const Vector2d normal = sample.along_node ? model_.space.boundary[sample.place].normal : model_.space.edges.edges[sample.edges[0]].normal;
     const Vector2d moment = (holding_[first] * a + holding_[first + 1] * b) * model_.space.unit;
     return moment.dot(normal) / (sample.along_node ? 1.0 : 2.0);
   }

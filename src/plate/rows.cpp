@@ -67,8 +67,9 @@ class Rows {
         continue;
       }
       if (s.law.kind == Kind::free || s.law.kind == Kind::load) continue;
-      const bool by_edge = !s.at_vertex || (unit != 1 && !s.along_node);
-      const std::array<int, 3> key{s.at_vertex, s.place, by_edge ? s.edge : -1};
+      const bool of_edge = !s.at_vertex || (unit != 1 && !s.along_node);
+      const bool of_part = unit == 1 && model_.space.element == Element::hct;  // the mean about a corner, along one part's edge
+      const std::array<int, 3> key{s.at_vertex, s.place, of_edge ? s.edges[0] : of_part ? s.edges[0] : -1};
       auto& list = at[key];
       if (list.empty()) order.push_back(key);
       list.push_back(&s);

@@ -35,16 +35,17 @@ class Collector {
 
   void middle(int edge, double share) {
     const Vector2d x = space_.edges.edges[edge].middle;
-    out_.push_back({support_, false, edge, edge, false, share, x, law_at(law_, part_, x)});
+    out_.push_back({support_, false, edge, {edge, -1}, false, share, x, law_at(law_, part_, x)});
   }
   /// `apart`: of this edge alone.
   void vertex(int node, int edge, double share, bool apart, bool along_node) {
     const auto [place, fresh] = seen_.emplace(std::pair(node, apart ? edge : -1), out_.size());
     if (fresh) {
       const Vector2d x = at(*space_.mesh, node);
-      out_.push_back({support_, true, node, edge, along_node, share, x, law_at(law_, part_, x)});
+      out_.push_back({support_, true, node, {edge, -1}, along_node, share, x, law_at(law_, part_, x)});
     } else {
       out_[place->second].share += share;
+      out_[place->second].edges[1] = edge;
     }
   }
 
@@ -61,15 +62,12 @@ class Collector {
 
 std::vector<Sample> deflection_samples(const Plate& plate, const Space& space) {
   std::vector<Sample> out;
-  const bool morley = space.element == Element::morley;
   for (std::size_t s = 0; s < plate.edges.size(); ++s) {
     if (!plate.edges[s].deflection) continue;
     Collector collect(space, plate.edges[s].part, plate.edges[s].deflection, static_cast<int>(s), out);
     for (const mesh::Facet f : plate.edges[s].facets) {
       const int e = edge_of(space, f);
-      const Edge& edge = space.edges.edges[e];
-      for (const int node : edge.node) collect.vertex(node, e, edge.length * (morley ? 1. / 2 : 1. / 6), false, false);
-      if (!morley) collect.middle(e, edge.length * 2 / 3);
+      for (const int node : space.edges.edges[e].node) collect.vertex(node, e, space.edges.edges[e].length / 2, false, false);
     }
   }
   return out;
@@ -96,12 +94,17 @@ std::vector<Sample> rotation_samples(const Plate& plate, const Space& space) {
 }
 
 Functional deflection(const Space& space, const Sample& sample) {
-  return sample.at_vertex ? space.deflection_of_vertex(sample.place) : space.deflection_of_edge(sample.place);
+  if (space.element == Element::morley) return space.deflection_of_vertex(sample.place);
+  Functional out;
+  for (const int edge : sample.edges)
+    if (edge >= 0)
+      for (Term term : space.mean_deflection(edge, sample.place)) out.push_back({term.freedom, term.factor / sample.share});
+  return out;
 }
 
 Functional rotation(const Space& space, const Sample& sample) {
   if (!sample.at_vertex) return space.slope_of_edge(sample.place);
-  return space.slope_of_vertex(sample.place, sample.along_node ? space.boundary[sample.place].normal : space.edges.edges[sample.edge].normal);
+  return space.slope_of_vertex(sample.place, sample.along_node ? space.boundary[sample.place].normal : space.edges.edges[sample.edges[0]].normal);
 }
 
 }  // namespace dotyk::plate

@@ -11,7 +11,7 @@ struct Sample {
   int support;           ///< place in Plate::edges
   bool at_vertex;
   int place;             ///< node of the mesh, or edge
-  int edge;              ///< the edge along whose normal a slope is, or one that the point is on
+  std::array<int, 2> edges{-1, -1};  ///< of the part, that it is on: a slope is along the first one's normal
   bool along_node = false;  ///< a slope along the node's normal, not the edge's
   double share;          ///< length
   Eigen::Vector2d x;
@@ -21,7 +21,9 @@ struct Sample {
   bool held = false;     ///< its freedoms are held
 };
 
-/// Where the laws of the deflection act: Morley: the vertices, by the trapezoid rule; HCT: vertices and edge middles, by Simpson's.
+/// Where the laws of the deflection act, for half of either edge: the vertices. What they act on is with Morley's element the deflection there; with HCT its
+/// mean about the vertex, weighted by the hat function, so that reactions are linear along an edge and the forces on the slopes are theirs, too:
+/// forces at vertices alone would let edges sag between them, and leave of the order h² in energy h^1.5.
 std::vector<Sample> deflection_samples(const Plate& plate, const Space& space);
 
 /// Where those of the rotation do. Morley: the edge middles; HCT: these and the vertices, by Simpson's rule.

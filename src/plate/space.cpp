@@ -31,19 +31,19 @@ Functional Space::slope_of_vertex(int vertex, const Vector2d& direction) const {
   return out;
 }
 
-/// On an edge u is a cubic: its middle is the mean of the ends and l/8 of the difference of their slopes.
-Functional Space::deflection_of_edge(int number) const {
+/// Of the cubic with u and u' at both ends: h (7/20 u₀ + 3/20 u₁) + h² (1/20 u₀' − 1/30 u₁'), u' along the edge away from the vertex; of a parabola
+/// with s at the middle hs/3.
+Functional Space::mean_deflection(int number, int vertex) const {
   const Edge& edge = edges.edges[number];
-  Functional out;
-  for (int end = 0; end < 2; ++end) {
-    out.push_back({of_vertex(edge.node[end]), 0.5});
-    for (Term term : slope_of_vertex(edge.node[end], edge.tangent)) {
-      term.factor *= (end == 0 ? 1 : -1) * edge.length / 8;
-      out.push_back(term);
-    }
-  }
+  const double h = edge.length;
+  const int end = edge.node[0] == vertex ? 0 : 1;
+  const Vector2d away = end == 0 ? edge.tangent : Vector2d(-edge.tangent);
+  const int other = edge.node[1 - end];
+  Functional out{{of_vertex(vertex), h * 7 / 20}, {of_vertex(other), h * 3 / 20}};
+  for (const Term& term : slope_of_vertex(vertex, away)) out.push_back({term.freedom, term.factor * h * h / 20});
+  for (const Term& term : slope_of_vertex(other, away)) out.push_back({term.freedom, -term.factor * h * h / 30});
   const double s = sagitta(edge, boundary);
-  if (s != 0) out.push_back({of_edge(number), s / unit});
+  if (s != 0) out.push_back({of_edge(number), h * s / 3 / unit});
   return out;
 }
 

@@ -53,8 +53,9 @@ struct Space {
   /// HCT: ∂u along a direction.
   Functional slope_of_vertex(int vertex, const Eigen::Vector2d& direction) const;
   Functional slope_of_edge(int edge) const { return {{of_edge(edge), 1 / unit}}; }
-  /// HCT, on the boundary: u at the middle of the curve that the edge approximates, u + s ∂ₙu of the edge's middle.
-  Functional deflection_of_edge(int edge) const;
+  /// HCT, on the boundary: ∫ ψu along an edge, ψ = 1 at this end of it, 0 at the other, linear between; on the curve that the edge approximates, which stands
+  /// out of it by s at its middle, where u + s ∂ₙu is taken for the deflection.
+  Functional mean_deflection(int edge, int vertex) const;
   /// u within a cell.
   Functional deflection_at(int cell, const Barycentric& point) const;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/box_barrier.hpp"
+
 namespace dotyk::solver {
 
 using algebra::Vector;
@@ -11,12 +13,14 @@ using problem::Problem;
 namespace {
 
 constexpr int kFewest = 8;    ///< rows of the longest chain to begin with
-constexpr int kMostSolves = 12;  ///< on one set of rows; the next one mends what is left
+constexpr int kMostSolves = 10;      ///< of active sets on one set of rows
+constexpr int kMostByBarrier = 600;  ///< rows; the work grows as their third power
+constexpr double kPrecise = 1e-7;
 
 }  // namespace
 
-NestedStart::NestedStart(const Problem& problem, const Vector& rho)
-    : problem_(problem), rho_(rho), group_(problem.group_of_rows()), stands_for_(problem.rows(), 1), pieces_(problem.rows(), Piece::between) {
+NestedStart::NestedStart(const Problem& problem, const problem::CondensedProblem& condensed, const Vector& rho)
+    : problem_(problem), rho_(rho), condensed_(condensed), group_(problem.group_of_rows()), stands_for_(problem.rows(), 1), pieces_(problem.rows(), Piece::between) {
   std::size_t longest = 0;
   for (const auto& chain : problem.chains) longest = std::max(longest, chain.size());
   while (longest / (2 * stride_) >= kFewest) stride_ *= 2;
@@ -27,7 +31,8 @@ Linearisation NestedStart::run(Step& step) {
     keep(stride);
     Linearisation l = begin();
     Vector x;
-    if (!iterate(step, l, x)) break;
+    const bool done = (stride < stride_ && iterate(step, l, x)) || by_barrier(l, x);
+    if (!done && x.size() == 0) break;
     spread(stride, l, x);
   }
   keep(1);
@@ -91,22 +96,42 @@ Linearisation NestedStart::linearise(const Vector& lambda, const Vector& x) cons
 NestedStart::Piece NestedStart::piece(const Linearisation& l, int row) const {
   if (l.slope[row] > 0) return Piece::between;
   const auto [low, high] = group_[row]->law->multipliers(row - group_[row]->first);
-  if (low == high) return Piece::between;
+  if (low == high || stands_for_[row] == 0) return Piece::between;
   return std::isfinite(high) && l.value[row] >= stands_for_[row] * (std::isfinite(low) ? (low + high) / 2 : high) ? Piece::greatest : Piece::least;
 }
 
+/// Active sets until they repeat; false where they do not.
 bool NestedStart::iterate(Step& step, Linearisation& l, Vector& x) {
   for (int k = 0; k < kMostSolves; ++k) {
     Vector lambda;
-    if (!step.solve(l, lambda, x)) return k > 0;
+    if (!step.solve(l, lambda, x)) return false;
     ++solves_;
-    if (lambda.size() > 0) force_ = std::max(lambda.lpNorm<Eigen::Infinity>(), 1e-300);
+    force_ = std::max(lambda.lpNorm<Eigen::Infinity>(), 1e-300);
     const Linearisation next = linearise(lambda, x);
     bool same = true;
     for (int r = 0; r < problem_.rows() && same; ++r) same = next.same_piece(l, r);
     l = next;
-    if (same) break;
+    if (same) return true;
   }
+  return false;
+}
+
+bool NestedStart::by_barrier(Linearisation& l, Vector& x) {
+  std::vector<int> rows;
+  for (int r = 0; r < problem_.rows(); ++r)
+    if (stands_for_[r] > 0) rows.push_back(r);
+  if (static_cast<int>(rows.size()) > kMostByBarrier) return false;
+  const BoxSolution s = solve_by_barrier(box_program(problem_, condensed_, rows, stands_for_), kPrecise);
+  solves_ += s.iterations;
+  if (!s.converged) return false;
+  Vector lambda = Vector::Zero(problem_.rows());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    lambda[rows[k]] = s.lambda[k];
+    pieces_[rows[k]] = s.side[k] < 0 ? Piece::least : s.side[k] > 0 ? Piece::greatest : Piece::between;
+  }
+  force_ = std::max(lambda.lpNorm<Eigen::Infinity>(), 1e-300);
+  x = condensed_.jump(lambda, s.alpha);
+  l = begin();
   return true;
 }
 

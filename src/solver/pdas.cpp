@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "problem/residual.hpp"
 #include "solver/active_set.hpp"
+#include "solver/box_barrier.hpp"
 #include "solver/descent.hpp"
 #include "solver/hold.hpp"
 #include "solver/linearisation.hpp"
@@ -130,7 +132,7 @@ class Iteration {
   /// Where rows follow one another along edges, on few of them first.
   void begin_on_few(Linearisation& l) {
     if (!settings_.reduced || screws_ || !settings_.start.empty()) return;
-    NestedStart nested(problem_, rho_);
+    NestedStart nested(problem_, *condensed_, rho_);
     if (!nested.worthwhile()) return;
     l = held(nested.run(*step_), -problem_.c);
     begun_ = text(", begun with ", nested.solves(), " solves on a part of the rows");
@@ -228,6 +230,7 @@ class Iteration {
     const auto newton = reduced_step(*condensed_, rho_);
     const bool finite = unilateral_or_linear(problem_);  // the active-set method ends where descent crawls
     for (int round = 0; result_.iterations < settings_.max_iterations && !monitor_.stop(); ++round) {
+      if (round == kSweepRounds && by_barrier(l, where)) return true;
       if (finite && round == kRounds) return settle(where);
       ++result_.iterations;
       for (int k = 0; k < kSweeps; ++k) descent.sweep();
@@ -247,6 +250,31 @@ class Iteration {
     x_ = descent.jump();
     left_alpha_ = descent.alpha();
     result_.reason = "active sets repeat at " + where + "; descent did not settle within max_iterations";
+    return false;
+  }
+
+  /// The pieces that a barrier method ends on, where a Newton step confirms them.
+  bool by_barrier(Linearisation& l, const std::string& where) {
+    if (problem_.rows() > kMostByBarrier) return false;
+    monitor_.phase("active sets repeat: a barrier method on the rows");
+    std::vector<int> rows(problem_.rows());
+    std::iota(rows.begin(), rows.end(), 0);
+    const BoxSolution s = solve_by_barrier(box_program(problem_, *condensed_, rows, std::vector<double>(rows.size(), 1)), kBarrierTol);
+    result_.iterations += s.iterations;
+    if (!s.converged) return false;
+    Linearisation from = linearise(problem_, s.lambda, condensed_->jump(s.lambda, s.alpha), rho_, noise(s.lambda, -problem_.c), nullptr);
+    const auto newton = reduced_step(*condensed_, rho_);
+    for (int k = 0; k < kConfirmations; ++k) {
+      Vector lambda, x;
+      if (!newton->solve(from, lambda, x)) return false;
+      Linearisation next = linearise(problem_, lambda, x, rho_, noise(lambda, x), &from);
+      const bool same = same_pieces(from, next);
+      from = std::move(next);
+      if (!same) continue;
+      l = std::move(from);
+      result_.reason = text("active sets repeated at ", where, "; left by ", s.iterations, " steps of a barrier method");
+      return true;
+    }
     return false;
   }
 
@@ -272,7 +300,9 @@ class Iteration {
 
   /// Sweeps between two Newton steps of the descent (and two updates of the free bodies' equilibrium).
   static constexpr int kSweeps = 3;
-  /// Newton steps of the descent before the active-set method is asked; steps granted to that.
+  /// Newton steps of the descent before the barrier method is asked, and that of active sets; steps granted to that.
+  static constexpr int kSweepRounds = 3, kConfirmations = 5, kMostByBarrier = 3000;
+  static constexpr double kBarrierTol = 1e-10;
   static constexpr int kRounds = 20, kStepsPerRow = 20;
 
   const Problem& problem_;
