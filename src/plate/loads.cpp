@@ -53,15 +53,22 @@ void add_distributed(const Plate& plate, const Space& space, Vector& load) {
   }
 }
 
-/// Where the line crosses edges, as parts of its length, ascending; with 0 and 1.
+/// Adds where the line crosses a segment, as a part of its length.
+void add_crossing(const Vector2d& from, const Vector2d& along, const Vector2d& a, const Vector2d& b, std::vector<double>& out) {
+  const Vector2d segment = b - a, normal(segment[1], -segment[0]);
+  const double towards = normal.dot(along);
+  if (std::abs(towards) < 1e-12 * along.norm() * segment.norm()) return;
+  const double s = normal.dot(a - from) / towards, t = segment.dot(from + s * along - a) / segment.squaredNorm();
+  if (s > 0 && s < 1 && t > -1e-7 && t < 1 + 1e-7) out.push_back(s);
+}
+
+/// Where the line passes from one polynomial to another: at edges and, of HCT, between the thirds of cells; ascending, with 0 and 1.
 std::vector<double> crossings(const Space& space, const Vector2d& from, const Vector2d& along) {
   std::vector<double> out{0, 1};
-  for (const Edge& edge : space.edges.edges) {
-    const double towards = edge.normal.dot(along);
-    if (std::abs(towards) < 1e-12 * along.norm()) continue;
-    const double s = edge.normal.dot(edge.middle - from) / towards;
-    if (!(s > 0 && s < 1) || std::abs(edge.tangent.dot(from + s * along - edge.middle)) > edge.length * 0.5000001) continue;
-    out.push_back(s);
+  for (const Edge& edge : space.edges.edges) add_crossing(from, along, edge.middle - edge.length / 2 * edge.tangent, edge.middle + edge.length / 2 * edge.tangent, out);
+  for (int c = 0; space.element == Element::hct && c < space.mesh->cell_count(); ++c) {
+    const Triangle t = triangle(*space.mesh, space.edges, c);
+    for (const Vector2d& vertex : t.x) add_crossing(from, along, vertex, t.point(Barycentric::Constant(1. / 3)), out);
   }
   std::sort(out.begin(), out.end());
   return out;
