@@ -13,8 +13,8 @@ namespace {
 problem::Interval allowed(const problem::Law& law, int row, double lambda, double x, double noise) {
   const problem::Interval bounds = law.multipliers(row);
   problem::Interval out{x, x};
-  if (lambda <= bounds.low + noise) out.low = -INFINITY, out.high = std::max(x, law.following(row).low);
-  if (lambda >= bounds.high - noise) out.high = INFINITY, out.low = lambda <= bounds.low + noise ? -INFINITY : std::min(x, law.following(row).high);
+  if (lambda <= bounds.low + noise) out.low = -INFINITY, out.high = law.following(row).low;
+  if (lambda >= bounds.high - noise) out.high = INFINITY, out.low = lambda <= bounds.low + noise ? -INFINITY : law.following(row).high;
   return out;
 }
 
@@ -31,7 +31,7 @@ Family family(const Model& model, const problem::State& state, const Vector& mot
   for (const problem::RowGroup& group : problem.groups)
     for (int k = 0; k < group.count; ++k) {
       const int r = group.first + k;
-      if (std::abs(by[r]) < 1e-12 * by.lpNorm<Eigen::Infinity>()) continue;
+      if (std::abs(by[r]) < 1e-9 * by.lpNorm<Eigen::Infinity>()) continue;
       const problem::Interval at = allowed(*group.law, k, state.lambda[r], x[r], noise);
       double a = (at.low - x[r]) / by[r], b = (at.high - x[r]) / by[r];
       if (a > b) std::swap(a, b);

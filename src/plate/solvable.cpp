@@ -76,6 +76,11 @@ Verdict require_solvable(const Model& model) {
     throw InputError(text("no solution: nothing stops ", told(model, rigid, s.motion), ", on which the load does work; ", resultant, "; ",
                           conditions(model), s.limit ? "; a limit case: a load less by a millionth has a solution" : ""));
   Verdict out;
+  if (rigid.unnoticed.cols() > 1) {
+    out.note = rigid.unnoticed.cols() == 3 ? "unique up to all rigid motions, a + bx + cy; this one has (u, 1) = (u, x) = (u, y) = 0"
+                                           : "unique up to several rigid motions that no support notices";
+    return out;
+  }
   if (s.verdict == Outcome::up_to_motion) {
     out.note = text("unique up to ", told(model, rigid, s.motion));
     out.motion = of_freedoms(model, s.motion);

@@ -6,32 +6,14 @@
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "plate/auxiliary.hpp"
 #include "plate/solvable.hpp"
-#include "solver/pdas.hpp"
 
 namespace dotyk::plate {
 
 using algebra::Vector;
 
 namespace {
-
-/// Beyond so many unknowns that rows act on the dense condensed problem costs more than a sparse factorisation an iteration.
-constexpr int kMostCondensed = 6000;
-
-bool few_rows(const problem::Problem& problem) {
-  std::vector<char> touched(problem.unknowns(), 0);
-  for (int r = 0; r < problem.rows(); ++r)
-    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) touched[it.col()] = 1;
-  return std::count(touched.begin(), touched.end(), 1) <= kMostCondensed;
-}
-
-solver::Result run(const problem::Problem& problem, const solver::Method& method, Monitor& monitor) {
-  if (problem.rows() == 0) return solver::solve_linear(problem, method.ordering(), monitor);
-  if (method) return method.run(problem, {}, monitor);
-  solver::Pdas pdas;
-  pdas.reduced = few_rows(problem);
-  return solver::solve(problem, pdas, monitor);
-}
 
 /// Takes off the part in the three motions, so that (u, 1) = (u, x) = (u, y) = 0 over the plate.
 void normalise(const Model& model, Vector& unknowns) {
@@ -55,16 +37,31 @@ void refuse_noise(const problem::Residual& r, solver::Result& result) {
   result.reason = text("the equilibrium residual is ", r.equilibrium, ": what rounding leaves is no solution; ", result.reason);
 }
 
+/// What is known before in place of what methods say of it in general.
+void tell(const std::string& note, std::string& reason) {
+  if (note.empty()) return;
+  for (const char* general : {"; unique up to", "; a limit case"}) reason.erase(std::min(reason.find(general), reason.size()));
+  reason += "; " + note;
+}
+
 }  // namespace
 
 std::shared_ptr<const Solution> solve(std::shared_ptr<const Model> model, const solver::Method& method, Monitor& monitor) {
   Stopwatch total;
   const Verdict verdict = require_solvable(*model);
-  solver::Result result = run(model->problem, method, monitor);
-  if (!verdict.note.empty() && result.reason.find("unique up to") == std::string::npos) result.reason += "; " + verdict.note;
-  if (model->problem.rows() == 0 && model->problem.blocks.front().kernel.cols() == 3) normalise(*model, result.state.u);
+  solver::Result result;
   std::optional<Family> all;
-  if (verdict.motion && result.converged) all = family(*model, result.state, *verdict.motion);
+  std::optional<LimitCase> limit;
+  if (verdict.motion && model->problem.rows() > 0) limit = solve_limit_case(*model, *verdict.motion, method, monitor);
+  if (limit) {
+    result = std::move(limit->result);
+    all = std::move(limit->all);
+  } else {
+    result = run(model->problem, method, monitor);
+    if (verdict.motion && result.converged) all = family(*model, result.state, *verdict.motion);
+  }
+  tell(verdict.note, result.reason);
+  if (model->problem.rows() == 0 && model->problem.blocks.front().kernel.cols() == 3) normalise(*model, result.state.u);
   refuse_noise(problem::residual(model->problem, result.state), result);
   result.clock.assembly += model->seconds;
   result.clock.total = model->seconds + total.seconds();

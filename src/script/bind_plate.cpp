@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "plate/solvable.hpp"
 #include "script/bind.hpp"
 #include "script/bind_beam.hpp"
 #include "script/library.hpp"
@@ -118,6 +119,12 @@ std::string show(const plate::Model& m) {
   if (motions.empty()) out += "\n  held by its supports";
   for (const Motion& motion : motions) out += "\n  free but for one-sided laws and friction: " + motion.text();
   for (const problem::RowGroup& group : m.problem.groups) out += text("\n  ", group.name, ": ", group.law->name(), ", ", group.count, group.count == 1 ? " row" : " rows");
+  try {
+    const std::string note = plate::require_solvable(m).note;
+    out += "\n  has a solution" + (note.empty() ? "" : ", " + note);
+  } catch (const InputError& error) {
+    out += std::string("\n  ") + error.what();
+  }
   return out;
 }
 

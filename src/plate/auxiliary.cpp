@@ -1,0 +1,122 @@
+#include "plate/auxiliary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/pdas.hpp"
+
+namespace dotyk::plate {
+
+using algebra::SparseRows;
+using algebra::Vector;
+using problem::Problem;
+
+namespace {
+
+/// Beyond so many unknowns that rows act on the dense condensed problem costs more than a sparse factorisation an iteration.
+constexpr int kMostCondensed = 6000;
+
+bool few_rows(const Problem& problem) {
+  std::vector<char> touched(problem.unknowns(), 0);
+  for (int r = 0; r < problem.rows(); ++r)
+    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) touched[it.col()] = 1;
+  return std::count(touched.begin(), touched.end(), 1) <= kMostCondensed;
+}
+
+/// The rows of a problem that are left, group by group.
+struct Remaining {
+  Problem problem;
+  std::vector<int> row;  ///< of the whole problem
+};
+
+/// One law for the rows of another that are kept.
+class Kept final : public problem::Law {
+ public:
+  Kept(std::shared_ptr<const Law> law, std::vector<int> rows) : law_(std::move(law)), rows_(std::move(rows)) {}
+  std::string name() const override { return law_->name(); }
+  problem::Projection project(int row, double y, double rho) const override { return law_->project(rows_[row], y, rho); }
+  double energy(int row, double x) const override { return law_->energy(rows_[row], x); }
+  double conjugate(int row, double lambda) const override { return law_->conjugate(rows_[row], lambda); }
+  problem::Interval multipliers(int row) const override { return law_->multipliers(rows_[row]); }
+  bool unilateral() const override { return law_->unilateral(); }
+  problem::Interval following(int row) const override { return law_->following(rows_[row]); }
+  problem::Springs springs(int row) const override { return law_->springs(rows_[row]); }
+  std::optional<double> linear_stiffness(int row) const override { return law_->linear_stiffness(rows_[row]); }
+
+ private:
+  std::shared_ptr<const Law> law_;
+  std::vector<int> rows_;
+};
+
+Remaining without(const Problem& whole, const std::vector<char>& left_out) {
+  Remaining out;
+  out.problem.blocks = whole.blocks;
+  for (const problem::RowGroup& group : whole.groups) {
+    std::vector<int> kept;
+    for (int k = 0; k < group.count; ++k)
+      if (!left_out[group.first + k]) kept.push_back(k);
+    if (kept.empty()) continue;
+    out.problem.groups.push_back({group.name, nullptr, static_cast<int>(out.row.size()), static_cast<int>(kept.size())});
+    for (const int k : kept) out.row.push_back(group.first + k);
+    out.problem.groups.back().law = std::make_shared<Kept>(group.law, std::move(kept));
+  }
+  const int rows = static_cast<int>(out.row.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  out.problem.c.resize(rows);
+  for (int r = 0; r < rows; ++r) {
+    out.problem.c[r] = whole.c[out.row[r]];
+    for (SparseRows::InnerIterator it(whole.B, out.row[r]); it; ++it) entries.emplace_back(r, static_cast<int>(it.col()), it.value());
+  }
+  out.problem.B = SparseRows(rows, whole.unknowns());
+  out.problem.B.setFromTriplets(entries.begin(), entries.end());
+  out.problem.row_name = [name = whole.row_name, row = out.row](int r) { return name(row[r]); };
+  return out;
+}
+
+}  // namespace
+
+solver::Result run(const Problem& problem, const solver::Method& method, Monitor& monitor) {
+  if (problem.rows() == 0) return solver::solve_linear(problem, method.ordering(), monitor);
+  if (method) return method.run(problem, {}, monitor);
+  solver::Pdas pdas;
+  pdas.reduced = few_rows(problem);
+  return solver::solve(problem, pdas, monitor);
+}
+
+std::optional<LimitCase> solve_limit_case(const Model& model, const Vector& motion, const solver::Method& method, Monitor& monitor) {
+  const Problem& whole = model.problem;
+  Vector moved(whole.unknowns());
+  for (int i = 0; i < motion.size(); ++i)
+    if (model.unknown[i] >= 0) moved[model.unknown[i]] = motion[i];
+  const Vector by = whole.B * moved;
+  const double noticed = 1e-9 * (by.size() ? by.lpNorm<Eigen::Infinity>() : 0);
+  std::vector<char> known(whole.rows(), 0);
+  Vector lambda = Vector::Zero(whole.rows());
+  for (const problem::RowGroup& group : whole.groups)
+    for (int k = 0; k < group.count; ++k) {
+      const int r = group.first + k;
+      if (std::abs(by[r]) <= noticed) continue;
+      const problem::Interval bounds = group.law->multipliers(k);
+      known[r] = 1;
+      lambda[r] = by[r] > 0 ? bounds.high : bounds.low;
+      if (!std::isfinite(lambda[r])) return std::nullopt;
+    }
+  Remaining left = without(whole, known);
+  Vector& f = left.problem.blocks.front().f;
+  f -= whole.B.transpose() * lambda;
+  f -= moved * (moved.dot(f) / moved.squaredNorm());
+  if (problem::rigid_motions(left.problem).unnoticed.cols() != 1) return std::nullopt;
+  LimitCase out{run(left.problem, method, monitor), {}};
+  for (std::size_t r = 0; r < left.row.size(); ++r) lambda[left.row[r]] = out.result.state.lambda[static_cast<Eigen::Index>(r)];
+  out.result.state.lambda = lambda;
+  out.result.method = left.row.empty() ? "auxiliary problem" : "auxiliary problem, " + out.result.method;
+  out.result.active_sets.clear();
+  out.all = family(model, out.result.state, motion);
+  const double begin = std::isfinite(out.all.from) ? out.all.from : std::isfinite(out.all.to) ? out.all.to : 0;
+  out.result.state.u += begin * moved;
+  out.all.from -= begin;
+  out.all.to -= begin;
+  return out;
+}
+
+}  // namespace dotyk::plate
