@@ -42,7 +42,9 @@ class Basis {
   /// On the line between two pieces of a cell: of one of them.
   virtual Shape at(const Barycentric& point) const = 0;
   /// The same, without the value and the gradient.
-  virtual Shape curvature_at(const Barycentric& point) const { return at(point); }
+  virtual Shape curvature_at(const Barycentric& point) const = 0;
+  /// The values alone.
+  virtual Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12> value_at(const Barycentric& point) const { return at(point).value; }
 };
 std::unique_ptr<const Basis> basis(Element element, const Triangle& triangle);
 

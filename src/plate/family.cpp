@@ -39,6 +39,9 @@ Family family(const Model& model, const problem::State& state, const Vector& mot
       out.to = std::min(out.to, b);
     }
   if (out.from > out.to) out.from = out.to = 0;
+  const double rounding = 1e-12 * std::max(state.u.lpNorm<Eigen::Infinity>(), model.space.unit * 1e-3);
+  for (double* end : {&out.from, &out.to})
+    if (std::abs(*end) < rounding) *end = 0;
   return out;
 }
 

@@ -4,12 +4,6 @@ namespace dotyk::plate {
 
 using Eigen::Vector2d;
 
-/// Of the exponents of a cubic: by the third, then the second one.
-int Hct::index(const Exponents& e) {
-  constexpr int first[4] = {0, 4, 7, 9};
-  return first[e[2]] + e[1];
-}
-
 Hct::Hct(const Triangle& t) {
   for (int k = 0; k < 3; ++k) {
     // λ of third k: b = (λk − λl, λk+1 − λl, 3λl), l the vertex off it.
@@ -74,18 +68,14 @@ int Hct::third_of(const Barycentric& p, Barycentric& within) {
 Eigen::Matrix<double, 3, 12> Hct::curvature(int k, const Barycentric& within) const {
   Eigen::Matrix<double, 3, 12> out = Eigen::Matrix<double, 3, 12>::Zero();
   const auto& g = gradient_[k];
+  const auto& c = coefficients_[k];
   for (int p = 0; p < 3; ++p)
     for (int q = p; q < 3; ++q) {
-      Row second = Row::Zero();
-      for (int corner = 0; corner < 3; ++corner) {
-        Exponents e{0, 0, 0};
-        ++e[corner], ++e[p], ++e[q];
-        second += within[corner] * coefficients_[k][index(e)];
-      }
-      const double twice = p == q ? 1 : 2;
-      out.row(0) += 6 * twice * g(0, p) * g(0, q) * second;
-      out.row(1) += 6 * twice * g(1, p) * g(1, q) * second;
-      out.row(2) += 6 * twice * (g(0, p) * g(1, q) + g(1, p) * g(0, q)) * second;
+      const Row second = within[0] * c[between(0, p, q)] + within[1] * c[between(1, p, q)] + within[2] * c[between(2, p, q)];
+      const double factor = p == q ? 6 : 12;
+      out.row(0) += factor * g(0, p) * g(0, q) * second;
+      out.row(1) += factor * g(1, p) * g(1, q) * second;
+      out.row(2) += factor * (g(0, p) * g(1, q) + g(1, p) * g(0, q)) * second;
     }
   return out;
 }
@@ -98,22 +88,30 @@ Shape Hct::curvature_at(const Barycentric& point) const {
   return out;
 }
 
+/// Two of de Casteljau's steps leave a linear polynomial.
+std::array<Hct::Row, 3> Hct::linear(int k, const Barycentric& b) const {
+  std::array<Row, 3> left;
+  const auto& c = coefficients_[k];
+  for (int r = 0; r < 3; ++r) {
+    left[r] = b[0] * b[0] * c[between(0, 0, r)] + b[1] * b[1] * c[between(1, 1, r)] + b[2] * b[2] * c[between(2, 2, r)];
+    left[r] += 2 * (b[0] * b[1] * c[between(0, 1, r)] + b[0] * b[2] * c[between(0, 2, r)] + b[1] * b[2] * c[between(1, 2, r)]);
+  }
+  return left;
+}
+
+Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12> Hct::value_at(const Barycentric& point) const {
+  Barycentric b;
+  const int k = third_of(point, b);
+  const auto left = linear(k, b);
+  return b[0] * left[0] + b[1] * left[1] + b[2] * left[2];
+}
+
 Shape Hct::at(const Barycentric& point) const {
   Barycentric b;
   const int k = third_of(point, b);
   Shape out;
   out.curvature = curvature(k, b);
-  // De Casteljau's steps down to degree 1: what is left gives the slope along each coordinate.
-  std::array<Row, 3> left;
-  for (int r = 0; r < 3; ++r) {
-    left[r].setZero();
-    for (int p = 0; p < 3; ++p)
-      for (int q = 0; q < 3; ++q) {
-        Exponents e{0, 0, 0};
-        ++e[p], ++e[q], ++e[r];
-        left[r] += b[p] * b[q] * coefficients_[k][index(e)];
-      }
-  }
+  const auto left = linear(k, b);
   out.value = b[0] * left[0] + b[1] * left[1] + b[2] * left[2];
   out.gradient = Eigen::Matrix<double, 2, 12>::Zero();
   for (int r = 0; r < 3; ++r) out.gradient += 3 * gradient_[k].col(r) * left[r];

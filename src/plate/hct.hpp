@@ -12,17 +12,21 @@ class Hct final : public Basis {
   int size() const override { return 12; }
   Shape at(const Barycentric& point) const override;
   Shape curvature_at(const Barycentric& point) const override;
+  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12> value_at(const Barycentric& point) const override;
 
  private:
   using Row = Eigen::Matrix<double, 1, 12>;
-  using Exponents = std::array<int, 3>;
-  static int index(const Exponents& e);
   void set_outer(const Triangle& t, int k);
   void set_middle(const Triangle& t, int k);
   void set_inner();
-  Row& c(int third, int i, int j, int l) { return coefficients_[third][index({i, j, l})]; }
+  /// Of a coefficient by its exponents: by the third, then the second one.
+  static constexpr int place(int, int j, int l) { return (l * (9 - l)) / 2 + j; }
+  /// By the three corners that it is between.
+  static constexpr int between(int p, int q, int r) { return place(0, (p == 1) + (q == 1) + (r == 1), (p == 2) + (q == 2) + (r == 2)); }
+  Row& c(int third, int i, int j, int l) { return coefficients_[third][place(i, j, l)]; }
   /// The third that a point lies in, and its barycentric coordinates there.
   static int third_of(const Barycentric& point, Barycentric& within);
+  std::array<Row, 3> linear(int third, const Barycentric& within) const;
   Eigen::Matrix<double, 3, 12> curvature(int third, const Barycentric& within) const;
 
   std::array<std::array<Row, 10>, 3> coefficients_;

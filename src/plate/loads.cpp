@@ -45,7 +45,7 @@ void add_distributed(const Plate& plate, const Space& space, Vector& load) {
         f = plate.f_of(x[0], x[1]);
         if (!std::isfinite(f)) throw InputError(text("the load is ", f, " at (", x[0], ", ", x[1], "); it must be finite"));
       }
-      local += rule.weights[i] * t.area * f * functions->at(rule.points[i]).value;
+      local += rule.weights[i] * t.area * f * functions->value_at(rule.points[i]);
     }
     space.to_freedoms(c, local);
     const auto freedom = space.freedoms(c);

@@ -59,6 +59,23 @@ Plate without_functions(Plate plate) {
   return plate;
 }
 
+/// Freedoms of a vertex that no row acts on stand apart from those that rows do: the condensed problem is smaller without them.
+std::vector<int> nodes(const Model& model) {
+  std::vector<char> touched(model.problem.unknowns(), 0);
+  for (int r = 0; r < model.problem.rows(); ++r)
+    for (algebra::SparseRows::InnerIterator it(model.problem.B, r); it; ++it) touched[it.col()] = 1;
+  std::vector<int> out;
+  int last = -1;
+  for (int i = 0; i < model.space.count(); ++i) {
+    const int unknown = model.unknown[i];
+    if (unknown < 0) continue;
+    const bool same = unknown > 0 && model.space.node(i) == last && touched[unknown] == touched[unknown - 1];
+    out.push_back(out.empty() ? 0 : out.back() + (same ? 0 : 1));
+    last = model.space.node(i);
+  }
+  return out;
+}
+
 }  // namespace
 
 Model build(Plate plate) {
@@ -83,6 +100,7 @@ Model build(Plate plate) {
   }
   problem::add(model.problem, block(plate, model));
   add_rows(plate, model);
+  model.problem.blocks.front().node = nodes(model);
   for (const auto* samples : {&model.deflections, &model.rotations})
     for (auto& chain : row_chains(model, *samples)) model.problem.chains.push_back(std::move(chain));
   model.seconds = watch.seconds();

@@ -5,7 +5,13 @@ namespace dotyk::plate {
 using Eigen::Vector2d;
 
 Space::Space(Element chosen, const mesh::Mesh& on) : element(chosen), mesh(&on), edges(find_edges(on)), boundary(find_boundary_nodes(on, edges)), unit(on.size()) {
-  if (element == Element::hct) frame.assign(on.node_count(), Vector2d(1, 0));
+  if (element != Element::hct) return;
+  frame.assign(on.node_count(), Vector2d(1, 0));
+  for (int n = 0; n < on.node_count(); ++n)
+    if (!boundary[n].edges.empty()) {
+      const Vector2d normal = boundary[n].smooth ? boundary[n].normal : edges.edges[boundary[n].edges.front()].normal;
+      frame[n] = {-normal[1], normal[0]};
+    }
 }
 
 int Space::node(int freedom) const {
@@ -61,7 +67,8 @@ Functional Space::deflection_at(int cell, const Barycentric& point) const {
 Vector2d Space::centre() const {
   Vector2d sum(0, 0);
   for (int n = 0; n < mesh->node_count(); ++n) sum += Vector2d(mesh->node(n)[0], mesh->node(n)[1]);
-  return sum / mesh->node_count();
+  sum /= mesh->node_count();
+  return (sum.array().abs() < 1e-14 * unit).select(0, sum);  // for messages
 }
 
 algebra::DenseMatrix Space::motions() const {

@@ -21,7 +21,7 @@ struct Space {
   const mesh::Mesh* mesh;
   Edges edges;
   std::vector<BoundaryNode> boundary;          ///< one a vertex
-  std::vector<Eigen::Vector2d> frame;          ///< HCT: first axis of each vertex's gradient; the second is 90° to its left
+  std::vector<Eigen::Vector2d> frame;          ///< HCT: first axis of each vertex's gradient, on the boundary along it; the second is 90° to its left
   double unit = 1;
 
   Space(Element element, const mesh::Mesh& mesh);
