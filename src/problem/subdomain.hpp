@@ -14,8 +14,8 @@ struct Decomposition {
   int count = 0;
   /// Each body's bounding box cut into so many equal boxes along each axis; a cell belongs where its centre is.
   std::array<int, 3> boxes = {1, 1, 1};
-  /// Supports as rows of the dual problem (total FETI: every subdomain without springs then has all its rigid
-  /// motions as kernel, and equal subdomains have equal matrices); false: supports stay in the matrices.
+  /// Supports, springs among them, as rows of the dual problem (total FETI: every subdomain then has all its rigid motions
+  /// as kernel, and equal subdomains have equal matrices); false: supports stay in the matrices.
   bool support_rows = true;
 };
 
@@ -25,7 +25,7 @@ struct Stiffness {
   algebra::DenseMatrix kernel;  ///< ker K: unknowns × modes
 };
 
-/// A piece of a block: the energy ½vᵀKv − fᵀv of some of its cells, on copies of its own of the block's
+/// A piece of a block: the energy ½vᵀKv − fᵀv + ½ Σ k_q (Sv)_q² of some of its cells, on copies of its own of the block's
 /// unknowns. Where all copies of an unknown agree and the held ones have their values, the pieces' energies
 /// sum up to the block's (but for its offset).
 struct Subdomain {
@@ -35,6 +35,8 @@ struct Subdomain {
   std::vector<int> node;        ///< of the block's mesh, for each own unknown, ascending
   std::vector<int> unknown;     ///< which of all blocks' unknowns each own unknown is a copy of; -1: one held by a support
   algebra::Vector value;        ///< the displacement that the support prescribes where `unknown` is -1; else 0
+  algebra::SparseRows S;        ///< springs that are to be rows of the dual problem: those × own unknowns
+  algebra::Vector spring;       ///< k_q > 0 of each; none where supports are in the matrices
   int size() const { return static_cast<int>(f.size()); }
   const algebra::SparseMatrix& K() const { return stiffness->K; }
   const algebra::DenseMatrix& kernel() const { return stiffness->kernel; }

@@ -30,7 +30,7 @@ elasticity::Numbering number(const mesh::Submesh& part, const elasticity::Number
 }
 
 /// Gives every spring to the piece that its facet's cell is in. `first`: the body's first piece.
-void share_springs(const Body& body, const mesh::Pieces& of, std::vector<Piece>& all, std::size_t first) {
+void share_springs(const Body& body, const mesh::Pieces& of, bool support_rows, std::vector<Piece>& all, std::size_t first) {
   if (body.springs.empty()) return;
   std::vector<int> own(of.of_cell.size());
   for (int p = 0; p < of.count; ++p) {
@@ -41,7 +41,8 @@ void share_springs(const Body& body, const mesh::Pieces& of, std::vector<Piece>&
     elasticity::FacetSpring spring = patch.spring;
     const int cell = spring.facet.cell;
     spring.facet.cell = own[cell];
-    all[first + of.of_cell[cell]].springs.push_back(std::move(spring));
+    Piece& piece = all[first + of.of_cell[cell]];
+    (support_rows ? piece.row_springs : piece.springs).push_back(std::move(spring));
   }
 }
 
@@ -65,7 +66,7 @@ std::vector<Piece> pieces(const Model& model, const problem::Decomposition& deco
     piece.numbering = number(piece.part, model.numbering[piece.body], decomposition.support_rows);
   });
   std::size_t first = 0;
-  for (std::size_t b = 0; b < of.size(); first += of[b++].count) share_springs(model.bodies[b], of[b], all, first);
+  for (std::size_t b = 0; b < of.size(); first += of[b++].count) share_springs(model.bodies[b], of[b], decomposition.support_rows, all, first);
   std::erase_if(all, [](const Piece& piece) { return piece.numbering.count() == 0; });
   return all;
 }

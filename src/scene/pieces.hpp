@@ -13,7 +13,8 @@ struct Piece {
   int body = 0;
   mesh::Submesh part;
   elasticity::MaterialField material;            ///< of its own cells
-  std::vector<elasticity::FacetSpring> springs;  ///< on facets of its own cells
+  std::vector<elasticity::FacetSpring> springs;  ///< on facets of its own cells, in its matrix
+  std::vector<elasticity::FacetSpring> row_springs;  ///< the same where supports are rows
   /// Of its own components: all unknown where supports are rows, else as the body's; values are in the body's alone.
   elasticity::Numbering numbering;
 };

@@ -4,6 +4,7 @@
 #include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
+#include "elasticity/spring_rows.hpp"
 #include "scene/congruent.hpp"
 #include "scene/pieces.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 using problem::Subdomain;
 
-/// Which of the blocks' unknowns the piece's own ones are.
+/// Which of the blocks' unknowns the piece's own ones are; with its springs apart.
 Subdomain numbered(const Piece& piece, const Model& model) {
   const problem::Block& block = model.problem.blocks[piece.body];
   const std::vector<int>& whole = model.numbering[piece.body].unknown;
@@ -27,6 +28,9 @@ Subdomain numbered(const Piece& piece, const Model& model) {
     s.node.push_back(node);
     s.unknown.push_back(unknown < 0 ? -1 : block.first + unknown);
   }
+  elasticity::SpringRows springs = elasticity::spring_rows(piece.part.mesh, piece.row_springs, piece.numbering);
+  s.S = std::move(springs.S);
+  s.spring = std::move(springs.stiffness);
   return s;
 }
 

@@ -66,8 +66,8 @@ void bind_feti(Library& library) {
                         {key::integer("", "how many in all, shared out by cells and cut by METIS").within(1, kMost),
                          key::list("", key::integer("", "").within(1, 1000), "boxes along each axis of every body's bounding box; a third number counts in space only")},
                         "into what bodies are cut: a number in all, or boxes along the axes").otherwise("a subdomain a body"),
-            key::choice("supports", {"rows", "stiffness"}, "supports as rows of the dual problem (total FETI: subdomains of "
-                        "equal shape share a factor), or in the subdomains' stiffness").fallback("rows"),
+            key::choice("supports", {"rows", "stiffness"}, "supports and springs as rows of the dual problem (total FETI: subdomains "
+                        "of equal shape share a factor, and all have rigid motions for the coarse space), or in the subdomains' stiffness").fallback("rows"),
             key::choice("preconditioner", {"none", "lumped", "dirichlet"}, "of the inner conjugate gradients; lumped is the paper's with "
                         "coarse = \"whole\" alone").fallback("none"),
             key::choice("coarse", {"face", "whole"}, "the coarse space in conjugate gradients: that of the multipliers free to "

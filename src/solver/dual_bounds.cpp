@@ -46,12 +46,4 @@ Vector first_bounds(const Problem& problem) {
   return bounds;
 }
 
-Vector row_compliance(const Problem& problem, const Vector& scale, Eigen::Index size) {
-  Vector compliance = Vector::Zero(size);
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r)
-      if (const double k = group.law->springs(r - group.first).above; k > 0) compliance[r] = scale[r] * scale[r] / k;
-  return compliance;
-}
-
 }  // namespace dotyk::solver

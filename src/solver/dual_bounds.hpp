@@ -15,8 +15,4 @@ SeparableSet admissible(const problem::Problem& problem, const algebra::Vector& 
 /// these (Coulomb), so that such points do not slip.
 algebra::Vector first_bounds(const problem::Problem& problem);
 
-/// The compliance 1/k of rows with springs, scaled: what ½λ²/k adds to the dual problem's matrix, one entry a row of
-/// the dual problem (`size`); 0 where k is 0, for such a row carries nothing. Of laws with one spring (see opposed_springs).
-algebra::Vector row_compliance(const problem::Problem& problem, const algebra::Vector& scale, Eigen::Index size);
-
 }  // namespace dotyk::solver

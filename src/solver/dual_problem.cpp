@@ -98,9 +98,10 @@ void DualProblem::add_modes() {
 }
 
 Vector DualProblem::apply(const Vector& lambda) const {
-  return through_pieces(torn_, batches_, lambda, [this](const Batch& batch, DenseMatrix& columns) {
+  const Vector moved = through_pieces(torn_, batches_, lambda, [this](const Batch& batch, DenseMatrix& columns) {
     columns = inverses_[batch.kind].apply(columns);
   });
+  return moved + torn_.compliance.cwiseProduct(lambda);
 }
 
 Vector DualProblem::inverse(const Vector& f) const {

@@ -13,9 +13,10 @@ namespace dotyk::solver {
 /// The dual of a torn problem (P2 (2.6)–(3.1); rows, D and ĉ as in TornProblem): of all multipliers λ that its laws allow
 /// and that balance the load on every rigid motion of every piece, the one that minimises
 ///   ½λᵀFλ − λᵀd̃     subject to  G̃λ = ẽ,
-///   F = B̂ K⁺ B̂ᵀ,   d̃ = B̂ K⁺ f − ĉ,   G̃ = R̂ᵀB̂ᵀ,   ẽ = R̂ᵀf.
+///   F = B̂ K⁺ B̂ᵀ + C,   d̃ = B̂ K⁺ f − ĉ,   G̃ = R̂ᵀB̂ᵀ,   ẽ = R̂ᵀf.
 /// K⁺ is the generalised inverse of each piece with some of its unknowns fixed, R̂ an orthonormal basis of each piece's
-/// kernel. F is symmetric; on the kernel of G̃ it is what B̂ K† B̂ᵀ is. Equal pieces (equal_pieces) share one factor and R̂.
+/// kernel, C the compliance of rows with springs. F is symmetric; on the kernel of G̃ it is what B̂ K† B̂ᵀ + C is. Equal
+/// pieces (equal_pieces) share one factor and R̂.
 /// Every method gives the same bits on any number of threads.
 class DualProblem {
  public:

@@ -51,8 +51,7 @@ class Run {
   Run(const Problem& problem, const Feti& method, DenseMatrix unnoticed, Monitor& monitor)
       : problem_(problem), method_(method), unnoticed_(std::move(unnoticed)), monitor_(monitor),
         dual_(problem, method.ordering, result_.clock, monitor), coarse_(dual_.G(), dual_.e()),
-        preconditioner_(dual_, coarse_, method, monitor),
-        compliance_(row_compliance(problem, dual_.scale(), dual_.rows())) {
+        preconditioner_(dual_, coarse_, method, monitor) {
     if (coarse_.imbalance() > kImbalance)
       throw InputError(text("the load does work on a rigid motion that nothing holds: no contact forces balance ",
                             coarse_.imbalance(), " of its resultants", unbalanced(coarse_.particular())));
@@ -70,8 +69,8 @@ class Run {
   }
 
  private:
-  Vector apply(const Vector& v) const { return dual_.apply(v) + compliance_.cwiseProduct(v); }  ///< (F + compliance) v
-  Vector PFP(const Vector& v) const { return coarse_.P(apply(v)); }                             ///< PFPv of v with Qv = 0
+  /// PFPv of v with Qv = 0.
+  Vector PFP(const Vector& v) const { return coarse_.P(dual_.apply(v)); }
 
   /// Which body's motion multipliers leave the most of the load to.
   std::string unbalanced(const Vector& lambda) const {
@@ -83,14 +82,13 @@ class Run {
     program_.Q = [this](const Vector& v) { return coarse_.Q(v); };
     program_.complementary = true;
     const auto ends = dual_spectrum(dual_, coarse_, method_.spectrum ? algebra::Ends::both : algebra::Ends::greatest, monitor_);
-    const double stiffest = compliance_.size() ? compliance_.maxCoeff() : 0;
-    counts_.norm = program_.norm = ends.bound() + stiffest > 0 ? ends.bound() + stiffest : 1;
+    counts_.norm = program_.norm = ends.bound() > 0 ? ends.bound() : 1;
     if (method_.spectrum && ends.least > 0) counts_.condition = ends.greatest / ends.least;
     choose_unit();
     shift_ = coarse_.particular() / unit_;
     force_ *= force_unit(dual_, coarse_.particular());
     gross_ = gross_load(dual_, coarse_.particular()) / unit_;
-    const Vector d = dual_.d() / unit_, Fshift = apply(shift_);
+    const Vector d = dual_.d() / unit_, Fshift = dual_.apply(shift_);
     program_.b = coarse_.P(d - Fshift);
     x_ = nu_ = Vector::Zero(dual_.rows());
     displacement_ = program_.b.norm(), noise_ = rounding(d, Fshift);
@@ -100,7 +98,7 @@ class Run {
   double rounding(const Vector& d, const Vector& Fshift) const {
     const double size = d.norm() + Fshift.norm(), last = std::numeric_limits<double>::epsilon() * size;
     if (!(displacement_ <= kSuspect * size)) return 0;
-    return kRoundings * (last + algebra::rounding_seen([this](const Vector& v) { return apply(v); }, shift_, Fshift));
+    return kRoundings * (last + algebra::rounding_seen([this](const Vector& v) { return dual_.apply(v); }, shift_, Fshift));
   }
 
   /// Forces are counted in a power of two of the size of the load, or where that is zero of what gaps and prescribed
@@ -245,7 +243,7 @@ class Run {
 
   void recover() {
     const Vector v = dual_.elastic(lambda());
-    const Vector alpha = coarse_.amounts(compliance_.cwiseProduct(lambda()) - dual_.jump(v) - nu_ * unit_);
+    const Vector alpha = coarse_.amounts(dual_.torn().compliance.cwiseProduct(lambda()) - dual_.jump(v) - nu_ * unit_);
     result_.state.u = problem::least(unnoticed_, average(dual_.torn(), dual_.moved(v, alpha)));
     result_.state.lambda = multipliers();
   }
@@ -271,7 +269,6 @@ class Run {
   DualProblem dual_;
   CoarseSpace coarse_;
   FetiPreconditioner preconditioner_;
-  Vector compliance_;
   EqualityProgram program_;
   double unit_ = 1, force_ = 0, gross_ = 0, displacement_ = 0, noise_ = 0, residual_ = 0, M_ = 0, rho_ = 0;
   Vector scale_;  ///< D in that unit

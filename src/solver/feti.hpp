@@ -10,7 +10,8 @@ namespace dotyk::solver {
 ///
 /// The problem is solved on the pieces of Problem::subdomains, each on its own copies of its unknowns, joined by
 /// gluing rows (DualProblem). Its dual,
-///   minimise ½λᵀFλ − λᵀd̃  subject to  G̃λ = ẽ, λ what the laws can carry,   F = BK⁺Bᵀ,
+///   minimise ½λᵀFλ − λᵀd̃  subject to  G̃λ = ẽ, λ what the laws can carry,   F = BK⁺Bᵀ + C,
+/// C the compliance of rows with springs (TornProblem),
 /// is homogenised by λ = λ̄ + x with G̃λ̄ = ẽ and decomposed by the projectors P = I − Q and Q onto im G̃ᵀ; with
 /// the gradients divided by an upper bound of ‖PFP‖ it is solved by augmented Lagrangians (Smalbe) with Mprgp within.
 /// It stops where

@@ -6,7 +6,8 @@ using algebra::Vector;
 
 FetiPreconditioner::FetiPreconditioner(const DualProblem& dual, const CoarseSpace& coarse, const Feti& method,
                                        Monitor& monitor)
-    : coarse_(coarse), face_(coarse), on_face_(method.face_coarse) {
+    : coarse_(coarse), springs_(dual.torn().stiffest * (dual.torn().stiffest * dual.torn().compliance)), face_(coarse),
+      on_face_(method.face_coarse) {
   if (method.preconditioner == Feti::Preconditioner::lumped) lumped_.emplace(dual);
   if (method.preconditioner == Feti::Preconditioner::dirichlet) dirichlet_.emplace(dual, method.ordering, monitor);
 }

@@ -25,11 +25,15 @@ class FetiPreconditioner {
 
  private:
   bool any() const { return lumped_ || dirichlet_; }
-  algebra::Vector M(const algebra::Vector& v) const { return dirichlet_ ? dirichlet_->apply(v) : lumped_->apply(v); }
+  /// Springs are as pieces of one unknown each, whose B̂WKWB̂ᵀ is the square of the greatest stiffness times their compliance.
+  algebra::Vector M(const algebra::Vector& v) const {
+    return (dirichlet_ ? dirichlet_->apply(v) : lumped_->apply(v)) + springs_.cwiseProduct(v);
+  }
   algebra::Vector whole(const algebra::Vector& v, double rho) const;
   algebra::Vector face(const algebra::Vector& v, double norm) const;
 
   const CoarseSpace& coarse_;
+  algebra::Vector springs_;
   FaceCoarse face_;
   bool on_face_;
   std::optional<Lumped> lumped_;

@@ -64,8 +64,8 @@ void add_subdomains(const Problem& problem, TornProblem& torn) {
     torn.value.segment(torn.pieces[k].first, torn.pieces[k].size()) = problem.subdomains[k].value;
 }
 
-/// k. An unknown without stiffness of its own counts for the stiffest of its piece.
-Vector relative_stiffness(const TornProblem& torn) {
+/// k and the greatest diagonal entry. An unknown without stiffness of its own counts for the stiffest of its piece.
+void take_stiffness(TornProblem& torn) {
   Vector k(torn.copies());
   for (const Piece& piece : torn.pieces) {
     if (piece.size() == 0) continue;
@@ -74,7 +74,8 @@ Vector relative_stiffness(const TornProblem& torn) {
     k.segment(piece.first, piece.size()) = (diagonal.array() > kNoStiffness * most).select(diagonal, most);
   }
   const double greatest = k.size() > 0 ? k.maxCoeff() : 0;
-  return k.unaryExpr([=](double x) { return x > 0 ? x / greatest : 1.0; });
+  if (greatest > 0) torn.stiffest = greatest;
+  torn.stiffness = k.unaryExpr([=](double x) { return x > 0 ? x / greatest : 1.0; });
 }
 
 /// Rows of the problem on all copies, not yet scaled.
@@ -93,12 +94,27 @@ SparseRows spread(const Problem& problem, const TornProblem& torn, const Copies&
   return rows;
 }
 
-/// One over each row's norm in k⁻¹, or over the greater one of a friction point's rows; 1 for rows without entries.
-Vector scale_of(const Problem& problem, const TornProblem& torn, const SparseRows& rows) {
-  Vector norm = Vector::Zero(rows.rows());
-  for (int r = 0; r < rows.rows(); ++r)
-    for (SparseRows::InnerIterator it(rows, r); it; ++it)
-      norm[r] = std::hypot(norm[r], it.value() / std::sqrt(torn.stiffness[it.col()]));
+/// 1/k_q of every row's law; 0 without a spring, and where k_q is 0.
+Vector law_compliance(const Problem& problem) {
+  Vector compliance = Vector::Zero(problem.rows());
+  for (const problem::RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r)
+      if (const double k = group.law->springs(r - group.first).above; k > 0) compliance[r] = 1 / k;
+  return compliance;
+}
+
+/// A row's norm in k⁻¹, `first` being the first copy of its columns, its spring's compliance included.
+double row_norm(const TornProblem& torn, const SparseRows& rows, int r, int first, double compliance) {
+  double norm = std::sqrt(torn.stiffest * compliance);
+  for (SparseRows::InnerIterator it(rows, r); it; ++it)
+    norm = std::hypot(norm, it.value() / std::sqrt(torn.stiffness[first + it.col()]));
+  return norm;
+}
+
+/// One over each row's norm, or over the greater one of a friction point's rows; 1 for rows without entries.
+Vector scale_of(const Problem& problem, const TornProblem& torn, const SparseRows& rows, const Vector& compliance) {
+  Vector norm(rows.rows());
+  for (int r = 0; r < rows.rows(); ++r) norm[r] = row_norm(torn, rows, r, 0, compliance[r]);
   for (const problem::FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k) {
       auto point = norm.segment(group.row(k), group.components);
@@ -116,6 +132,19 @@ void add_gluing(const TornProblem& torn, const Copies& copies, int& row, Entries
       for (int v : all.first(next)) entries.emplace_back(row, v, s * (torn.stiffness[v] / before));
       entries.emplace_back(row, all[next], -s);
       before += k;
+    }
+  }
+}
+
+void add_springs(const Problem& problem, TornProblem& torn, int row, Entries& entries) {
+  for (std::size_t p = 0; p < problem.subdomains.size(); ++p) {
+    const problem::Subdomain& s = problem.subdomains[p];
+    const int first = torn.pieces[p].first;
+    for (int q = 0; q < s.spring.size(); ++q, ++row) {
+      const double scale = 1 / row_norm(torn, s.S, q, first, 1 / s.spring[q]);
+      for (SparseRows::InnerIterator it(s.S, q); it; ++it)
+        entries.emplace_back(row, first + static_cast<int>(it.col()), scale * it.value());
+      torn.compliance[row] = scale * scale / s.spring[q];
     }
   }
 }
@@ -150,9 +179,10 @@ TornProblem tear(const Problem& problem) {
   problem.subdomains.empty() ? add_blocks(problem, torn) : add_subdomains(problem, torn);
   const Copies copies = copies_of(torn);
 
-  torn.stiffness = relative_stiffness(torn);
+  take_stiffness(torn);
   const SparseRows rows = spread(problem, torn, copies);
-  torn.scale = scale_of(problem, torn, rows);
+  const Vector compliance = law_compliance(problem);
+  torn.scale = scale_of(problem, torn, rows, compliance);
   Entries entries;
   for (int r = 0; r < rows.rows(); ++r)
     for (SparseRows::InnerIterator it(rows, r); it; ++it)
@@ -164,9 +194,13 @@ TornProblem tear(const Problem& problem) {
   for (int v = 0; v < torn.copies(); ++v)
     if (torn.unknown[v] < 0) entries.emplace_back(row++, v, std::sqrt(torn.stiffness[v]));
   torn.support_rows = row - first_support;
+  const int first_spring = row;
+  for (const problem::Subdomain& s : problem.subdomains) row += static_cast<int>(s.spring.size());
 
-  torn.c = Vector::Zero(row);
+  torn.c = torn.compliance = Vector::Zero(row);
   torn.c.head(problem.rows()) = torn.scale.cwiseProduct(problem.c);
+  torn.compliance.head(problem.rows()) = torn.scale.cwiseAbs2().cwiseProduct(compliance);
+  add_springs(problem, torn, first_spring, entries);
   for (int v = 0, r = first_support; v < torn.copies(); ++v)
     if (torn.unknown[v] < 0) torn.c[r++] = std::sqrt(torn.stiffness[v]) * torn.value[v];
   number_touched(torn, entries);

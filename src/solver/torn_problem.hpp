@@ -38,17 +38,24 @@ struct Piece {
 ///  2. for an unknown with m copies m − 1 rows that are orthonormal in k⁻¹, and orthogonal to (k, …, k) and so to
 ///     those of the problem: row j is s k/S_j on the first j copies and −s on the next one, S_j the sum of k over the
 ///     first j, s² = S_j k_{j+1}/S_{j+1} (Helmert's matrix where all are as stiff as each other);
-///  3. for every copy of an unknown that a support holds, √k v = √k times its value.
+///  3. for every copy of an unknown that a support holds, √k v = √k times its value;
+///  4. for every spring of a subdomain, of stiffness k_q, its displacement, which the multiplier λ lets be λ/k_q (a
+///     spring is as a piece of one unknown between body and ground).
+/// The norm of a row with a spring, of one of these or of the problem's law there, includes the spring's 1/k_q.
 /// Only copies that rows touch have a column: "touched copies", piece after piece.
 struct TornProblem {
   std::vector<Piece> pieces;
   algebra::SparseRows B;     ///< B̂: rows × touched copies
   algebra::SparseRows Bt;    ///< B̂ᵀ
-  algebra::Vector c;         ///< ĉ = (Dc, 0, √k values)
+  algebra::Vector c;         ///< ĉ = (Dc, 0, √k values, 0)
   algebra::Vector scale;     ///< D, one a row of the problem
+  double stiffest = 1;             ///< the greatest diagonal entry of any K
   algebra::Vector stiffness;       ///< k, one a copy
   algebra::Vector touched_weight;  ///< 1/k, one a touched copy
   int gluing_rows = 0, support_rows = 0;
+  /// What ½λ²/k_q of springs adds to the dual problem's matrix, one a row: their squared scale over k_q; 0 of rows without
+  /// springs, and of laws where k_q = 0, for such a row carries nothing. Of laws with one spring (see opposed_springs).
+  algebra::Vector compliance;
   std::vector<int> unknown;  ///< of which unknown of the problem every copy is one; −1: of one held by a support
   algebra::Vector value;     ///< where the support holds it; 0 elsewhere
   int unknowns = 0;          ///< of the problem

@@ -1,3 +1,5 @@
+#include "elasticity/spring_rows.hpp"
+
 #include <doctest/doctest.h>
 
 #include "../support/elastic.hpp"
@@ -78,6 +80,10 @@ TEST_CASE("springs: the energy of any displacement is ½∫ k u² over the facet
                         S = test::full(
                                 elasticity::assemble(m, test::steel(dim), springs(m, "top", {2, 5, 7}), {}, free).K) -
                             K;
+      const auto rows = elasticity::spring_rows(m, springs(m, "top", {2, 5, 7}), free);
+      CHECK(rows.stiffness.minCoeff() > 0);
+      // The difference of K with and without springs is known to rounding of K.
+      CHECK((DenseMatrix(rows.S.transpose() * rows.stiffness.asDiagonal() * rows.S) - S).cwiseAbs().maxCoeff() < 1e-14 * K.maxCoeff());
       const auto energy = [&](const elasticity::VectorField& u) {
         const auto nodal = test::nodal(m, u);
         const auto x = Eigen::Map<const Vector>(nodal.data(), static_cast<int>(nodal.size()));

@@ -143,3 +143,38 @@ TEST_CASE("without subdomains each block is a piece; the rows of a friction poin
   CHECK(torn.pieces[0].touched == std::vector<int>{0, 1, 2});
   CHECK(torn.pieces[1].touched == std::vector<int>{2, 3, 4});
 }
+
+TEST_CASE("a spring is as a piece of one unknown between body and ground: rows of norm one with it, its compliance in F") {
+  for (const double k : {1e-6, 1.0, 1e6}) {
+    auto p = test::cut_box(true, 2);
+    p.groups[0].law = problem::elastic(std::vector<double>(p.groups[0].count, k));
+    const auto plain = test::dual_of(p);
+    auto& piece = p.subdomains[1];
+    piece.S = DenseMatrix(DenseMatrix::Ones(1, piece.size()) / piece.size()).sparseView();
+    piece.spring = Vector::Constant(1, 3 * k);
+    const auto torn = solver::tear(p);
+    REQUIRE(torn.rows() == torn.problem_rows() + torn.gluing_rows + torn.support_rows + 1);
+    const DenseMatrix B = torn.B;
+    const Vector gram = (B * torn.touched_weight.asDiagonal() * B.transpose()).diagonal();
+    CHECK((gram + torn.stiffest * torn.compliance - Vector::Ones(torn.rows())).cwiseAbs().maxCoeff() < 1e-13);
+    const auto& group = p.groups[0];
+    for (int r = group.first; r < group.first + group.count; ++r)
+      CHECK(torn.compliance[r] == doctest::Approx(torn.scale[r] * torn.scale[r] / k));
+    CHECK(torn.compliance.segment(p.rows(), torn.gluing_rows + torn.support_rows).isZero(0));
+    // Copies at v stretch the spring by its row, unscaled by what its compliance says of its scale.
+    test::Random random(502);
+    const Vector own = random.vector(piece.size());
+    Vector touched = Vector::Zero(B.cols());
+    const auto& cut = torn.pieces[1];
+    for (std::size_t i = 0; i < cut.touched.size(); ++i) touched[cut.first_touched + i] = own[cut.touched[i]];
+    const int last = torn.rows() - 1;
+    CHECK((B * touched)[last] == doctest::Approx(std::sqrt(torn.compliance[last] * 3 * k) * own.mean()));
+    // F without the spring is a part of F with it. The generalised inverse is the same: K is.
+    const auto dual = test::dual_of(p);
+    const Vector lambda = random.vector(last);
+    Vector longer = Vector::Zero(torn.rows());
+    longer.head(last) = lambda;
+    CHECK(test::relative(dual.apply(longer).head(last), plain.apply(lambda)) < 1e-12);
+    CHECK(dual.apply(Vector::Unit(torn.rows(), last))[last] > torn.compliance[last]);
+  }
+}

@@ -50,7 +50,8 @@ struct Glued {
 inline Glued glued(const problem::Problem& p) {
   Glued sum{algebra::DenseMatrix::Zero(p.unknowns(), p.unknowns()), algebra::Vector::Zero(p.unknowns())};
   for (const problem::Subdomain& s : p.subdomains) {
-    const algebra::DenseMatrix K = full(s.K());
+    algebra::DenseMatrix K = full(s.K());
+    if (s.spring.size() > 0) K += s.S.transpose() * s.spring.asDiagonal() * algebra::DenseMatrix(s.S);
     const algebra::Vector f = s.f - K * s.value;
     for (int i = 0; i < s.size(); ++i) {
       if (s.unknown[i] < 0) continue;
