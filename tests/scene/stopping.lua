@@ -67,5 +67,5 @@ refused(function() dotyk.solve(scene, { start = { 1.5 } }) end, "'start': entry 
 refused(function() dotyk.solve(scene, { start = { 1, nil, 3 } }) end, "'start': entry 2 must be an integer, got nil")
 refused(function() dotyk.solve(scene, { start = "best" }) end, "'start' must be a solution or a table of integers")
 refused(function() dotyk.solve(scene, { strat = best }) end, "unknown key 'strat', did you mean 'start'?")
-refused(function() dotyk.solve(b) end, "argument 1 'scene' must be a scene or a beam, got a body")
+refused(function() dotyk.solve(b) end, "argument 1 'scene' must be a scene, a beam or a plate, got a body")
 refused(function() dotyk.solve() end, "argument 1 'scene' is missing")
