@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include <Eigen/QR>
+
 #include "plate/chains.hpp"
 #include "plate/stiffness.hpp"
 
@@ -49,6 +51,7 @@ class Collector {
   /// What holds the held freedoms, less what rows of laws and of point supports beside them do to them.
   void find_holding_forces() {
     holding_ = holding_forces(model_.D, s_.plate().nu, model_.space, model_.held, model_.load, s_.freedoms());
+    find_held_directions();
     const auto take_off = [&](const Functional& v, double force) {
       for (const Term& term : v)
         if (model_.held.is[term.freedom]) holding_[term.freedom] -= force * term.factor;
@@ -96,19 +99,38 @@ class Collector {
     });
   }
 
-  /// HCT: the component along the edge's normal of the moment that holds a vertex's gradient.
+  Vector2d direction(const Sample& rotation) const {
+    return rotation.along_node ? model_.space.boundary[rotation.place].normal : model_.space.edges.edges[rotation.edges[0]].normal;
+  }
+
+  /// HCT: of each vertex whose gradient is held Σ ddᵀ over the directions d that laws hold it in.
+  void find_held_directions() {
+    const auto add = [&](int vertex, const Vector2d& d) { held_directions_.emplace(vertex, Eigen::Matrix2d::Zero()).first->second += d * d.transpose(); };
+    for (const Sample& r : model_.rotations)
+      if (r.held && r.at_vertex) add(r.place, direction(r));
+    const auto along = [](const Vector2d& normal) { return Vector2d(-normal[1], normal[0]); };
+    for (const Sample& d : model_.deflections) {
+      const BoundaryNode& node = model_.space.boundary[d.place];
+      if (!d.held || model_.space.element != Element::hct) continue;
+      if (node.smooth) add(d.place, along(node.normal));
+      for (const int e : d.edges)
+        if (!node.smooth && e >= 0) add(d.place, along(model_.space.edges.edges[e].normal));
+    }
+  }
+
+  /// HCT: what this law has of the moment that holds a vertex's gradient, the least that laws can share it as.
   double held_moment(const Sample& sample) const {
     const int first = model_.space.of_vertex(sample.place) + 1;
     const Vector2d a = model_.space.frame[sample.place], b(-a[1], a[0]);
-    const Vector2d normal = sample.along_node ? model_.space.boundary[sample.place].normal : model_.space.edges.edges[sample.edges[0]].normal;
     const Vector2d moment = (holding_[first] * a + holding_[first + 1] * b) * model_.space.unit;
-    return moment.dot(normal) / (sample.along_node ? 1.0 : 2.0);
+    return direction(sample).dot(held_directions_.at(sample.place).completeOrthogonalDecomposition().solve(moment));
   }
 
   const Solution& s_;
   const Model& model_;
   int support_;
   Vector holding_;                    ///< of every freedom
+  std::map<int, Eigen::Matrix2d> held_directions_;
   std::map<int, double> shares_;      ///< lengths that held vertices stand for
 };
 

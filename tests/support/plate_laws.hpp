@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "plates.hpp"
+
+namespace dotyk::test {
+
+/// How far (v, r) is from the law's graph, r per length in units of `force`, v of `displacement`.
+inline double off_law(const SupportLaw& law, double v, double r, double displacement, double force) {
+  const auto force_off = [&](double expected) { return std::abs(r - expected) / force; };
+  const double rigid = std::abs(v) / displacement;
+  switch (law.kind) {
+    case Kind::free: return force_off(0);
+    case Kind::prescribed: return std::abs(v - law.value) / displacement;
+    case Kind::load: return force_off(law.value);
+    case Kind::elastic: return force_off(-law.value * v);
+    case Kind::one_sided_elastic: return force_off(law.value * std::max(-v, 0.0));
+    case Kind::unequal_elastic: return force_off(-(v < 0 ? law.value : law.pull) * v);
+    case Kind::capped_elastic: return force_off(std::clamp(-law.value * v, -law.limit, law.limit));
+    case Kind::signorini: return std::max({-v / displacement, -r / force, std::min(rigid, std::abs(r) / force)});
+    case Kind::friction: return std::min(std::max(rigid, (std::abs(r) - law.value) / force), force_off(v > 0 ? -law.value : law.value));
+    case Kind::one_sided_friction: return std::min(std::max({rigid, (r - law.value) / force, -r / force}), force_off(v > 0 ? 0 : law.value));
+    case Kind::breaking: break;
+  }
+  return INFINITY;
+}
+
+/// The greatest of off_law() at the points of edges where laws act by rows, displacements of deflections and slopes together, and
+/// of point supports; corners with several rows are left out where their laws are of different kinds, as only one of them may prevail.
+inline double off_laws(const plate::Solution& s) {
+  const plate::Model& m = s.model();
+  const auto value = [&](const plate::Functional& f) {
+    double sum = 0;
+    for (const plate::Term& term : f) sum += term.factor * s.freedoms()[term.freedom];
+    return sum;
+  };
+  const algebra::Vector& lambda = s.result().state.lambda;
+  double length = m.space.unit, greatest = 0, most = s.freedoms().lpNorm<Eigen::Infinity>();
+  for (const auto* samples : {&m.deflections, &m.rotations})
+    for (const plate::Sample& a : *samples)
+      if (a.row >= 0) greatest = std::max(greatest, std::abs(lambda[a.row]) / a.share);
+  for (const int row : m.point_row)
+    if (row >= 0) greatest = std::max(greatest, std::abs(lambda[row]) / length);
+  greatest = std::max({greatest, m.D.front() * most / (length * length * length), 1e-300});  // a plate that nothing bends is moved by rounding
+  double worst = 0;
+  for (const plate::Sample& a : m.deflections)
+    if (a.row >= 0) worst = std::max(worst, off_law(a.law, value(plate::deflection(m.space, a)), lambda[a.row] * a.part_of_row / a.share, most, greatest));
+  for (const plate::Sample& a : m.rotations) {
+    if (a.row < 0) continue;
+    const double turn = problem::directed(a.law.kind) ? -1 : 1;  // one-sided ones keep the slope down
+    const double v = turn * value(plate::rotation(m.space, a)), r = lambda[a.row] * a.part_of_row / a.share * m.space.unit;
+    worst = std::max(worst, off_law(a.law, v, r, most / length, greatest * length));
+  }
+  for (std::size_t k = 0; k < m.point_row.size(); ++k) {
+    if (m.point_row[k] < 0) continue;
+    const auto& p = s.plate().supports[k];
+    worst = std::max(worst, off_law(p.deflection, s.deflection(p.x, p.y), lambda[m.point_row[k]], most, greatest * length));
+  }
+  return worst;
+}
+
+}  // namespace dotyk::test
