@@ -56,7 +56,7 @@ core.describe{
     .. "that say so, and marks crossed out in the figure.\n"
     .. "Errors are relative. energy: |u − ū|_E/|ū|_E, ū the reference solution (see solution:distance); for beams, and where "
     .. "the reference is a number, from energies J (with given friction's): √|J − J̄| / √|J̄|, which bounds the norm, "
-    .. "up to the factor √(|J̄|/½|ū|²_E), where u minimises J (not with Coulomb's friction). displacement: in L2 (beams: of the "
+    .. "up to the factor √(|J̄|/½|ū|²_E), where u minimises J (not with Coulomb's friction). displacement: in L2 (beams and plates: of the "
     .. "deflection). pressure: in L2 over the contacts. peak_pressure: |max p/max p̄ − 1|. A function gets the solution and "
     .. "what the scene's function returned after the scene: without a reference it returns the error itself, with one a value "
     .. "to be compared with the number or with its value for the reference solution. The finest reference is one level beyond the "
@@ -69,7 +69,7 @@ core.describe{
   returns = "table",
   keys = {
     { name = "scene", kind = "function", required = true,
-      help = "level → scene or beam, and what an error function is to get (contacts); finer for greater levels" },
+      help = "level → scene, beam or plate, and what an error function is to get (contacts); finer for greater levels" },
     { name = "levels", kind = "either", otherwise = "4", help = "how many, from 1 on, or a list of them",
       keys = { { kind = "integer", at_least = 1 },
                { kind = "list", item = { kind = "integer", at_least = 1 }, fewest = 1 } } },
@@ -87,7 +87,7 @@ core.describe{
     { name = "reference", kind = "either", otherwise = "\"finest\"; none for an error function",
       help = "finest: one level beyond the last, so that nothing is compared with itself; or the exact value; or a solution",
       keys = { { kind = "choice", choices = { "finest" } }, { kind = "number" }, { kind = "object", type = "solution" },
-               { kind = "object", type = "beam_solution" } } },
+               { kind = "object", type = "beam_solution" }, { kind = "object", type = "plate_solution" } } },
     { name = "repeats", kind = "integer", at_least = 1, default = 3, help = "runs of each; fewer where they would last longer than the budget" },
     { name = "budget", kind = "number", above = 0, default = 30, unit = "s",
       help = "a run that lasts longer is stopped, and its method goes no further up the levels" },

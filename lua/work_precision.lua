@@ -11,11 +11,11 @@ local work_precision = {}
 local function scene_at(options, level)
   local made <const> = table.pack(options.scene(level))
   local kind <const> = core.type_name(made[1])
-  if kind ~= "scene" and kind ~= "beam" then
-    core.fail(("work_precision: scene(%d) returned %s, expected a scene or a beam"):format(level,
+  if kind ~= "scene" and kind ~= "beam" and kind ~= "plate" then
+    core.fail(("work_precision: scene(%d) returned %s, expected a scene, a beam or a plate"):format(level,
       made[1] == nil and "nil" or "a " .. kind))
   end
-  return { level = level, scene = made[1], beam = kind == "beam", rest = table.pack(table.unpack(made, 2, made.n)) }
+  return { level = level, scene = made[1], kind = kind, rest = table.pack(table.unpack(made, 2, made.n)) }
 end
 
 local function levels_of(options)
@@ -55,7 +55,7 @@ end
 local function solve(runner, at, budget)
   local started <const> = core.clock()
   local solved, s
-  if at.beam then solved, s = pcall(runner.solver.solve, runner.solver, at.scene)
+  if at.kind ~= "scene" then solved, s = pcall(runner.solver.solve, runner.solver, at.scene)
   else solved, s = pcall(runner.solver.solve, runner.solver, at.scene, { seconds = budget }) end
   local seconds <const> = core.clock() - started
   if solved then return s, nil, seconds end
@@ -76,7 +76,7 @@ local function default_methods(at, budget)
 end
 
 -- 3. Errors.
-local of_reference <const> = { solution = true, beam_solution = true }
+local of_reference <const> = { solution = true, beam_solution = true, plate_solution = true }
 
 -- What the errors are measured against: { number = } or { solution = , rest = }, or none.
 local function reference_of(options, levels)
@@ -97,7 +97,8 @@ local function reference_of(options, levels)
   return { solution = s, rest = at.rest, level = at.level }
 end
 
-local function total_energy(s, beam) return beam and s.energy or s.energy + s.friction_energy end
+-- Of beams and plates friction is among the laws.
+local function total_energy(s, kind) return kind ~= "scene" and s.energy or s.energy + s.friction_energy end
 
 local function deflections_apart(s, reference, length)
   local apart, whole = 0, 0
@@ -133,23 +134,25 @@ local function by_function(f, s, at, reference)
   return math.abs(value / reference.value - 1)
 end
 
-local function of_beam(kind, s, at, reference)
-  if kind == "displacement" then return deflections_apart(s, reference.solution, at.scene.length) end
-  core.fail(("work_precision: a beam has no contact, so no error of %s; take energy, displacement or a function"):format(kind))
+local function without_contact(kind, s, at, reference)
+  if kind == "displacement" and at.kind == "beam" then return deflections_apart(s, reference.solution, at.scene.length) end
+  if kind == "displacement" or kind == "energy" then return s:distance(reference.solution)[kind] end
+  core.fail(("work_precision: a %s has no contact, so no error of %s; take energy, displacement or a function"):format(at.kind, kind))
 end
 
 -- The relative error of a solution.
 local function error_of(kind, s, at, reference)
   if type(kind) == "function" then return by_function(kind, s, at, reference) end
   local exact <const> = reference.solution
-  if exact and (core.type_name(exact) == "beam_solution") ~= at.beam then
-    core.fail(("work_precision: the reference is a %s, the scene a %s"):format(core.type_name(exact), at.beam and "beam" or "scene"))
+  local expected <const> = at.kind == "scene" and "solution" or at.kind .. "_solution"
+  if exact and core.type_name(exact) ~= expected then
+    core.fail(("work_precision: the reference is a %s, the scene a %s"):format(core.type_name(exact), at.kind))
   end
-  if kind == "energy" and (at.beam or reference.number) then
-    local J <const> = reference.number or total_energy(exact, at.beam)
-    return math.sqrt(math.abs(total_energy(s, at.beam) / J - 1))
+  if kind == "energy" and (at.kind == "beam" or reference.number) then
+    local J <const> = reference.number or total_energy(exact, at.kind)
+    return math.sqrt(math.abs(total_energy(s, at.kind) / J - 1))
   end
-  if at.beam then return of_beam(kind, s, at, reference) end
+  if at.kind ~= "scene" then return without_contact(kind, s, at, reference) end
   if reference.number then return math.abs(peak_of(s, at.rest) / reference.number - 1) end
   return s:distance(exact)[kind]
     or core.fail(("work_precision: nothing is pressed together in the reference, so there is no error of %s"):format(kind))
@@ -162,7 +165,7 @@ local function run_once(runner, at, options)
   local s <const>, why <const>, seconds <const> = solve(runner, at, options.budget)
   runner.spent = runner.spent + seconds
   if s then
-    local time <const> = not at.beam and s.time or nil
+    local time <const> = at.kind ~= "beam" and s.time or nil
     runner.runs[#runner.runs + 1] = { seconds = time and time.total or seconds, time = time }
     runner.last = s
   end
@@ -187,7 +190,7 @@ local function level_rows(at, runners, options, reference)
     local row <const> = rows.row(runner, at.level)
     local s <const> = runner.last
     if s then row.error = error_of(options.error, s, at, reference) end
-    if s and not at.beam then row.unknowns, row.rows = s.unknowns, s.rows end
+    if s and at.kind ~= "beam" then row.unknowns, row.rows = s.unknowns, s.rows end
     if runner.stopped then runner.over = runner.over or ("a run on level %d lasted longer than %g s"):format(at.level, options.budget) end
     out[k] = row
   end

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "figure/grid_file.hpp"
+#include "plate/solution.hpp"
 #include "scene/solution.hpp"
 
 namespace dotyk::figure {
@@ -18,5 +19,9 @@ namespace dotyk::figure {
 // The contact arrays are left out where the scene has no contact. Of several conditions at one node (a
 // corner, two contacts) the one with the greatest pressure is shown, else that with the least gap.
 GridFile compose_grid(const scene::Solution& solution, const std::string& file);
+
+// A plate at rest, with node arrays displacement (3 components, along z), moment (per length, xx yy xy) and, where there is
+// one, obstacle_force.
+GridFile compose_grid(const plate::Solution& solution, const std::string& file);
 
 }  // namespace dotyk::figure

@@ -12,6 +12,11 @@ using algebra::Vector;
 using Eigen::Vector2d;
 
 Place Finder::find(const Vector2d& x, const std::string& what) const {
+  if (const auto place = find(x)) return *place;
+  throw InputError(text(what, " (", x[0], ", ", x[1], ") is not on the plate"));
+}
+
+std::optional<Place> Finder::find(const Vector2d& x) const {
   constexpr double kSlack = 1e-6;  // in barycentric coordinates
   Place best{-1, {}};
   double depth = -kSlack;
@@ -21,7 +26,7 @@ Place Finder::find(const Vector2d& x, const std::string& what) const {
     best = {c, b};
     depth = b.minCoeff();
   }
-  if (best.cell < 0) throw InputError(text(what, " (", x[0], ", ", x[1], ") is not on the plate"));
+  if (best.cell < 0) return std::nullopt;
   return best;
 }
 

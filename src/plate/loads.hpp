@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "mesh/cell_grid.hpp"
 #include "plate/samples.hpp"
@@ -16,6 +17,7 @@ class Finder {
  public:
   explicit Finder(const Space& space) : space_(space), grid_(*space.mesh) {}
   Place find(const Eigen::Vector2d& x, const std::string& what) const;
+  std::optional<Place> find(const Eigen::Vector2d& x) const;
 
  private:
   const Space& space_;

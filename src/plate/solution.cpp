@@ -44,6 +44,13 @@ Eigen::Matrix<double, 6, 1> Solution::values(const Place& place, const Vector& f
   return out;
 }
 
+std::optional<Values> Solution::at(const Vector2d& x) const {
+  const auto place = finder_.find(x);
+  if (!place) return std::nullopt;
+  const auto v = values(*place, u_);
+  return Values{v[0], v.tail<3>(), stiffness_of(*model_, place->cell)};
+}
+
 double Solution::deflection(double x, double y) const { return values(finder_.find({x, y}, "the point"), u_)[0]; }
 
 Vector2d Solution::slope(double x, double y) const { return values(finder_.find({x, y}, "the point"), u_).segment<2>(1); }

@@ -16,7 +16,6 @@ void bind_all(Library& library) {
   bind_all_solutions(library);
   bind_solution(library);
   bind_figure(library);
-  bind_write(library);
   bind_program(library);
   bind_lcp(library);
   bind_fclib(library);
@@ -26,6 +25,7 @@ void bind_all(Library& library) {
   bind_thermoelastic(library);
   bind_beam_figure(library);
   bind_plate(library);
+  bind_write(library);
   bind_plate_figure(library);
 }
 

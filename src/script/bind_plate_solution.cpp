@@ -1,3 +1,4 @@
+#include "plate/distance.hpp"
 #include "plate/reaction.hpp"
 #include "base/text.hpp"
 #include "script/bind.hpp"
@@ -48,6 +49,11 @@ int reaction(Call& call) {
   if (number < 1 || number > count || number != call.number("part"))
     throw InputError(count == 0 ? "it has no point supports" : text("there are supports 1 to ", count));
   return call.give(Record{"reaction", {{"force", plate::point_reaction(*s, number - 1)}}});
+}
+
+int distance(Call& call) {
+  const plate::Distance d = plate::distance(*call.self<Solution>(), *call.object<Solution>("other"));
+  return call.give(Record{"distance", {{"energy", d.energy}, {"displacement", d.displacement}}});
 }
 
 int corners(Call& call) {
@@ -136,6 +142,11 @@ void bind_plate_solution(Library& library) {
                .example = "print(s:reaction(\"edge\").force)",
                .arguments = {key::either("part", {key::string("", "a part of the edge that has laws; \"edge\" where all has the same"), key::integer("", "which of the point supports")}, "which support").required()},
                .run = reaction})
+      .method({.name = "plate_solution:distance",
+               .help = "How far this solution is from another one of the same plate, on another mesh or with the other element, relative to the other: energy, of the curvatures, weighted "
+                       "by the bending stiffness; displacement, of the deflection in L2.",
+               .example = "print(s:distance(fine).energy)",
+               .arguments = {key::object<Solution>("other", "a solution, as a rule a finer one").required()}, .run = distance})
       .method({.name = "plate_solution:corners",
                .help = "The forces that the supports concentrate at the corners of the edge (x, y, force, upwards): what a corner bears beyond the reaction per length of the nodes next to it.",
                .example = "for _, c in ipairs(s:corners()) do print(c.x, c.y, c.force) end", .arguments = {}, .run = corners})
