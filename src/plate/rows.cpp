@@ -28,14 +28,22 @@ int rigidity(Kind kind) {
 
 bool same(const SupportLaw& a, const SupportLaw& b) { return a.kind == b.kind && a.value == b.value && a.limit == b.limit && a.pull == b.pull; }
 
+/// What laws of edges are about.
+struct About {
+  bool rotation;
+  const char* name;
+  Functional (*functional)(const Space&, const Sample&);
+  double unit;  ///< its rows are of v·unit
+};
+
 class Rows {
  public:
   Rows(const Plate& plate, Model& model) : plate_(plate), model_(model) {}
 
   void operator()() {
     if (plate_.obstacle) find_obstacle();
-    add_edges(model_.deflections, "deflection", deflection, 1);
-    add_edges(model_.rotations, "rotation", rotation, model_.space.unit);
+    add_edges(model_.deflections, {false, "deflection", deflection, 1});
+    add_edges(model_.rotations, {true, "rotation", rotation, model_.space.unit});
     add_points();
     if (plate_.obstacle) add_obstacle();
     close_group();
@@ -58,27 +66,27 @@ class Rows {
   }
 
   /// The samples of one point together.
-  void add_edges(std::vector<Sample>& samples, const char* what, Functional (*functional)(const Space&, const Sample&), double unit) {
+  void add_edges(std::vector<Sample>& samples, const About& about) {
     std::map<std::array<int, 3>, std::vector<Sample*>> at;
     std::vector<std::array<int, 3>> order;
     for (Sample& s : samples) {
       if (s.held) {
-        if (unit == 1 && s.at_vertex && plate_.obstacle) require_above(s.place, s.law.value, s.x);
+        if (!about.rotation && s.at_vertex && plate_.obstacle) require_above(s.place, s.law.value, s.x);
         continue;
       }
       if (s.law.kind == Kind::free || s.law.kind == Kind::load) continue;
-      const bool of_edge = !s.at_vertex || (unit != 1 && !s.along_node);
-      const bool of_part = unit == 1 && model_.space.element == Element::hct;  // the mean about a corner, along one part's edge
+      const bool of_edge = !s.at_vertex || (about.rotation && !s.along_node);
+      const bool of_part = !about.rotation && model_.space.element == Element::hct;  // the mean about a corner, along one part's edge
       const std::array<int, 3> key{s.at_vertex, s.place, of_edge ? s.edges[0] : of_part ? s.edges[0] : -1};
       auto& list = at[key];
       if (list.empty()) order.push_back(key);
       list.push_back(&s);
     }
-    for (const auto& key : order) add_point(at[key], what, functional(model_.space, *at[key].front()), unit);
+    for (const auto& key : order) add_point(at[key], about, about.functional(model_.space, *at[key].front()));
   }
 
   /// A row for each kind of law that acts at one point.
-  void add_point(std::vector<Sample*>& samples, const char* what, const Functional& v, double unit) {
+  void add_point(std::vector<Sample*>& samples, const About& about, const Functional& v) {
     const Reduced reduced = reduce(v, model_.held);
     int most = 0;
     for (const Sample* s : samples) most = std::max(most, rigidity(s->law.kind));
@@ -89,11 +97,11 @@ class Rows {
       std::vector<Sample*> alike;
       for (std::size_t j = i; j < samples.size(); ++j)
         if (samples[j]->law.kind == kind) alike.push_back(samples[j]), done[j] = 1;
-      add_alike(alike, what, reduced, unit);
+      add_alike(alike, about, reduced);
     }
   }
 
-  void add_alike(const std::vector<Sample*>& samples, const char* what, const Reduced& v, double unit) {
+  void add_alike(const std::vector<Sample*>& samples, const About& about, const Reduced& v) {
     double share = 0;
     for (const Sample* s : samples) share += s->share;
     SupportLaw law = samples.front()->law;
@@ -106,12 +114,12 @@ class Rows {
       }
     }
     const Sample& first = *samples.front();
-    const double floor = unit == 1 && law.kind == Kind::signorini && plate_.obstacle ? mind_obstacle(first) : 0;
-    const double turn = unit != 1 && problem::directed(law.kind) ? -1 : 1;
+    const double floor = !about.rotation && law.kind == Kind::signorini && plate_.obstacle ? mind_obstacle(first) : 0;
+    const double turn = about.rotation && problem::directed(law.kind) ? -1 : 1;
     if (v.on_free.empty()) return require_obeyed(law, turn * v.held, floor, first);
     const double target = law.kind == Kind::prescribed ? law.value : floor;
-    const int row = add(law, text("edge '", plate_.edges[first.support].part, "' ", what), v, turn * unit, -target * unit, unit, share,
-                        text(what, " of the edge at (", first.x[0], ", ", first.x[1], ")"));
+    const int row = add(law, text("edge '", plate_.edges[first.support].part, "' ", about.name), v, turn * about.unit, -target * about.unit, about.unit, share,
+                        text(about.name, " of the edge at (", first.x[0], ", ", first.x[1], ")"));
     for (Sample* s : samples) s->row = row, s->part_of_row = s->share / share;
   }
 

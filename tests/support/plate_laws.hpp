@@ -7,9 +7,10 @@
 
 namespace dotyk::test {
 
-/// How far (v, r) is from the law's graph, r per length in units of `force`, v of `displacement`.
+/// How far (v, r) is from the law's graph, r per length in units of `force`, v of `displacement`: the lesser way where a spring is stiff.
 inline double off_law(const SupportLaw& law, double v, double r, double displacement, double force) {
-  const auto force_off = [&](double expected) { return std::abs(r - expected) / force; };
+  const double spring = law.kind == Kind::friction || law.kind == Kind::one_sided_friction || law.kind == Kind::load ? 0 : std::max(law.value, law.pull);
+  const auto force_off = [&](double expected) { return std::abs(r - expected) / (force + spring * displacement); };
   const double rigid = std::abs(v) / displacement;
   switch (law.kind) {
     case Kind::free: return force_off(0);
