@@ -12,17 +12,17 @@ using test::kElements;
 
 namespace {
 
-using Values = Eigen::Matrix<double, 6, 1>;  // u, ∂x u, ∂y u, ∂xx u, ∂yy u, 2∂xy u
+using Jet = Eigen::Matrix<double, 6, 1>;  // u, ∂x u, ∂y u, ∂xx u, ∂yy u, 2∂xy u
 
 /// xᵐyⁿ about (0.3, −0.2).
-Values monomial(int m, int n, const Vector2d& at) {
+Jet monomial(int m, int n, const Vector2d& at) {
   const double x = at[0] - 0.3, y = at[1] + 0.2;
   const auto d = [](double t, int power, int times) {
     double factor = 1;
     for (int i = 0; i < times; ++i) factor *= power - i;
     return factor == 0 ? 0.0 : factor * std::pow(t, power - times);
   };
-  Values v;
+  Jet v;
   v << d(x, m, 0) * d(y, n, 0), d(x, m, 1) * d(y, n, 0), d(x, m, 0) * d(y, n, 1), d(x, m, 2) * d(y, n, 0), d(x, m, 0) * d(y, n, 2), 2 * d(x, m, 1) * d(y, n, 1);
   return v;
 }
@@ -151,7 +151,7 @@ TEST_CASE("across cells: HCT is C1; Morley's means of the slope and values at th
         const Barycentric b = cell == 0 ? Barycentric(1 - s, s, 0) : Barycentric(s, 1 - s, 0);
         Eigen::MatrixXd shape = rows(basis(element, t)->at(b));
         space.to_freedoms(cell, shape);
-        Values v = Values::Zero();
+        Jet v = Jet::Zero();
         const auto freedom = space.freedoms(cell);
         for (int i = 0; i < space.local_size(); ++i) v += shape.col(i) * u[freedom[i]];
         return v;
@@ -159,7 +159,7 @@ TEST_CASE("across cells: HCT is C1; Morley's means of the slope and values at th
       const Vector2d normal = space.edges.edges[space.edges.of_cell[0][0]].normal;
       double worst_value = 0, worst_slope = 0, mean = 0;
       for (const double s : {0.0, 0.1, 0.5, 0.7, 1.0}) {
-        const Values a = at(0, s), b = at(1, s);
+        const Jet a = at(0, s), b = at(1, s);
         worst_value = std::max(worst_value, std::abs(a[0] - b[0]));
         worst_slope = std::max(worst_slope, (a - b).segment<2>(1).norm());
         if (s == 0 || s == 1) CHECK(std::abs(a[0] - b[0]) < 1e-13);

@@ -10,7 +10,7 @@ using test::kHeld;
 
 namespace {
 
-using Values = Eigen::Matrix<double, 6, 1>;
+using Jet = Eigen::Matrix<double, 6, 1>;
 
 /// A function of one variable with its derivatives.
 struct Along {
@@ -25,7 +25,7 @@ Along sine(double t) {
 /// u = X(x) Y(y) on the unit square, X = Y.
 struct Product {
   Along (*along)(double);
-  Values values(double x, double y) const {
+  Jet values(double x, double y) const {
     const Along X = along(x), Y = along(y);
     return {X.f * Y.f, X.d * Y.f, X.f * Y.d, X.dd * Y.f, X.f * Y.dd, 2 * X.d * Y.d};
   }
@@ -103,7 +103,7 @@ TEST_CASE("orders with deflections and rotations prescribed by functions that ar
   // u = exp(x) sin(2y): Δ²u = (1 − 4)² u.
   const auto exact = [](double x, double y) {
     const double e = std::exp(x), s = std::sin(2 * y), c = std::cos(2 * y);
-    return Values{e * s, e * s, 2 * e * c, e * s, -4 * e * s, 4 * e * c};
+    return Jet{e * s, e * s, 2 * e * c, e * s, -4 * e * s, 4 * e * c};
   };
   for (const Element element : kElements)
     for (const bool held : {true, false}) {  // the rotation, or the moment
@@ -118,7 +118,7 @@ TEST_CASE("orders with deflections and rotations prescribed by functions that ar
         } sides[] = {{"left", -1, 0}, {"right", 1, 0}, {"bottom", 0, -1}, {"top", 0, 1}};
         for (const auto& side : sides) {
           const auto rotation = [exact, side, held](double x, double y) {
-            const Values v = exact(x, y);
+            const Jet v = exact(x, y);
             const double along = side.nx * v[1] + side.ny * v[2], bent = side.nx != 0 ? v[3] : v[4];
             return held ? test::SupportLaw{test::Kind::prescribed, along} : test::SupportLaw{test::Kind::load, kNu * (v[3] + v[4]) + (1 - kNu) * bent};
           };
