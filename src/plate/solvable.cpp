@@ -13,6 +13,9 @@ using Kind = SupportLaw::Kind;
 
 namespace {
 
+/// Work on a motion below this part of the load counts as none: a little more than the motion's own rounding.
+constexpr double kRounding = 1e-9;
+
 /// Which kinds act, and what friction and caps can bear in all.
 struct Kinds {
   bool signorini = false, one_sided_elastic = false, friction = false;
@@ -39,6 +42,20 @@ std::string told(const Model& model, const problem::RigidMotions& rigid, const a
   if (model.problem.blocks.front().kernel.cols() == 1 && rigid.motions.front().motion.kind == Motion::Kind::translation)
     return amounts[0] > 0 ? "the motion of the whole plate upwards" : "the motion of the whole plate downwards";
   return "the motion " + problem::describe(rigid.motions, amounts);
+}
+
+/// What the rows could bear on the motion beyond the load's work on it.
+double left_to_bear(const Model& model, const problem::RigidMotions& rigid, const algebra::Vector& amounts) {
+  const algebra::Vector moved = rigid.N * amounts;
+  const double noticed = 1e-9 * (moved.size() ? moved.lpNorm<Eigen::Infinity>() : 0);
+  double sum = -rigid.e.dot(amounts);
+  for (const problem::RowGroup& group : model.problem.groups)
+    for (int k = 0; k < group.count; ++k) {
+      const double by = moved[group.first + k];
+      const auto [low, high] = group.law->multipliers(k);
+      if (std::abs(by) > noticed) sum += by * (by > 0 ? high : low);
+    }
+  return sum;
 }
 
 algebra::Vector of_freedoms(const Model& model, const algebra::Vector& amounts) {
@@ -81,11 +98,13 @@ Verdict require_solvable(const Model& model) {
                                            : "unique up to several rigid motions that no support notices";
     return out;
   }
-  if (s.verdict == Outcome::up_to_motion) {
+  // Beside the limit, by up to 1e-6 of the load, the solution is unique.
+  const bool at_limit = !s.limit || left_to_bear(model, rigid, s.motion) <= kRounding * rigid.e.norm();
+  if (s.verdict == Outcome::up_to_motion && at_limit) {
     out.note = text("unique up to ", told(model, rigid, s.motion));
     out.motion = of_freedoms(model, s.motion);
   }
-  if (s.limit) out.note += text(out.note.empty() ? "" : "; ", "a limit case: ", resultant, "; ", conditions(model));
+  if (s.limit) out.note += text(out.note.empty() ? "" : "; ", at_limit ? "a limit case: " : "close to a limit case: ", resultant, "; ", conditions(model));
   return out;
 }
 

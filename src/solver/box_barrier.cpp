@@ -116,13 +116,14 @@ class Barrier {
     const int n = size();
     x_ = Vector::Zero(n), z_low_ = Vector::Zero(n), z_high_ = Vector::Zero(n), alpha_ = Vector::Zero(N_.cols());
     for (int k = 0; k < n; ++k) {
-      if (bounded_below(k) && bounded_above(k)) x_[k] = (low_[k] + high_[k]) / 2;
+      if (bounded_below(k) && bounded_above(k)) x_[k] = std::clamp(0.0, std::min(low_[k] + 1, middle(k)), std::max(high_[k] - 1, middle(k)));
       else if (bounded_below(k)) x_[k] = low_[k] + 1;
       else if (bounded_above(k)) x_[k] = high_[k] - 1;
       z_low_[k] = bounded_below(k), z_high_[k] = bounded_above(k);
     }
   }
 
+  double middle(int k) const { return (low_[k] + high_[k]) / 2; }
   int bounds() const {
     int count = 0;
     for (int k = 0; k < size(); ++k) count += bounded_below(k) + bounded_above(k);

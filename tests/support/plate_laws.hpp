@@ -30,15 +30,18 @@ inline double off_law(const SupportLaw& law, double v, double r, double displace
 
 /// The greatest of off_law() at the points of edges where laws act by rows, displacements of deflections and slopes together, and
 /// of point supports; corners with several rows are left out where their laws are of different kinds, as only one of them may prevail.
-inline double off_laws(const plate::Solution& s) {
+/// `t`: how far along the family of all solutions, where there is one.
+inline double off_laws(const plate::Solution& s, double t = 0) {
   const plate::Model& m = s.model();
+  algebra::Vector u = s.freedoms();
+  if (t != 0) u += t * s.family().value().motion;
   const auto value = [&](const plate::Functional& f) {
     double sum = 0;
-    for (const plate::Term& term : f) sum += term.factor * s.freedoms()[term.freedom];
+    for (const plate::Term& term : f) sum += term.factor * u[term.freedom];
     return sum;
   };
   const algebra::Vector& lambda = s.result().state.lambda;
-  double length = m.space.unit, greatest = 0, most = s.freedoms().lpNorm<Eigen::Infinity>();
+  double length = m.space.unit, greatest = 0, most = u.lpNorm<Eigen::Infinity>();
   for (const auto* samples : {&m.deflections, &m.rotations})
     for (const plate::Sample& a : *samples)
       if (a.row >= 0) greatest = std::max(greatest, std::abs(lambda[a.row]) / a.share);
@@ -57,7 +60,7 @@ inline double off_laws(const plate::Solution& s) {
   for (std::size_t k = 0; k < m.point_row.size(); ++k) {
     if (m.point_row[k] < 0) continue;
     const auto& p = s.plate().supports[k];
-    worst = std::max(worst, off_law(p.deflection, s.deflection(p.x, p.y), lambda[m.point_row[k]], most, greatest * length));
+    worst = std::max(worst, off_law(p.deflection, s.deflection(p.x, p.y) + t * s.motion(p.x, p.y), lambda[m.point_row[k]], most, greatest * length));
   }
   return worst;
 }
