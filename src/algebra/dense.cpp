@@ -100,4 +100,19 @@ double smallest_singular_value(DenseMatrix a) {
   return singular_values(std::move(a)).tail(1)[0];
 }
 
+DenseMatrix pure(DenseMatrix V) {
+  int done = 0;
+  for (int i = 0; i < V.rows() && done < V.cols(); ++i) {
+    Eigen::Index pivot;
+    const double largest = V.row(i).tail(V.cols() - done).cwiseAbs().maxCoeff(&pivot);
+    if (largest < 1e-7) continue;
+    V.col(done).swap(V.col(done + pivot));
+    V.col(done) /= V(i, done);
+    for (int k = 0; k < V.cols(); ++k)
+      if (k != done) V.col(k) -= V(i, k) * V.col(done);
+    ++done;
+  }
+  return V.unaryExpr([](double v) { return std::abs(v) < 1e-12 ? 0.0 : v; });
+}
+
 }  // namespace dotyk::algebra

@@ -25,6 +25,9 @@ DenseMatrix square(const DenseMatrix& l);
 /// An orthonormal basis of the span of independent columns, by reflections: of X's size.
 DenseMatrix orthonormal(const DenseMatrix& x);
 
+/// The same span in column echelon form with pivoting: each vector as pure as can be.
+DenseMatrix pure(DenseMatrix V);
+
 /// The singular values, greatest first; NaN where an entry is not finite.
 Vector singular_values(DenseMatrix a);
 

@@ -23,7 +23,4 @@ struct RigidFrame {
   Motion motion(const algebra::Vector& coefficients, double noise = 1e-9) const;
 };
 
-/// The same span in column echelon form with pivoting: each vector as pure as can be.
-algebra::DenseMatrix pure(algebra::DenseMatrix V);
-
 }  // namespace dotyk::elasticity

@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 
 #include "elasticity/load.hpp"
+#include "algebra/dense.hpp"
 #include "elasticity/rigid_frame.hpp"
 
 namespace dotyk::elasticity {
@@ -24,7 +25,7 @@ DenseMatrix null_space(const DenseMatrix& rows, int count) {
     while (rank < count && svd.singularValues()[rank] > 1e-9 * svd.singularValues()[0]) ++rank;
     V = svd.matrixV().rightCols(count - rank);
   }
-  return pure(V);
+  return algebra::pure(V);
 }
 
 }  // namespace

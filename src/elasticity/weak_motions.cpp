@@ -7,6 +7,7 @@
 
 #include "algebra/generalised_inverse.hpp"
 #include "elasticity/kernel.hpp"
+#include "algebra/dense.hpp"
 #include "elasticity/rigid_frame.hpp"
 
 namespace dotyk::elasticity {
@@ -93,7 +94,7 @@ struct Motions {
 
   std::vector<Motion> named(const DenseMatrix& motion) const {
     std::vector<Motion> result;
-    const DenseMatrix c = pure(coefficients(motion));
+    const DenseMatrix c = algebra::pure(coefficients(motion));
     for (Eigen::Index k = 0; k < c.cols(); ++k) result.push_back(frame.motion(c.col(k), kNoise));
     return result;
   }

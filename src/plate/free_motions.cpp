@@ -4,6 +4,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "algebra/dense.hpp"
+
 namespace dotyk::plate {
 
 using algebra::DenseMatrix;
@@ -11,21 +13,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
-
-/// Columns by Gauss and Jordan, each pure in the coefficient where it is greatest, so that a translation is told as one.
-DenseMatrix pure(DenseMatrix V) {
-  std::vector<char> taken(V.rows(), 0);
-  for (int j = 0; j < V.cols(); ++j) {
-    int pivot = -1;
-    for (int i = 0; i < V.rows(); ++i)
-      if (!taken[i] && std::abs(V(i, j)) > 1e-9 && (pivot < 0 || std::abs(V(i, j)) > 1.000001 * std::abs(V(pivot, j)))) pivot = i;
-    taken[pivot] = 1;
-    V.col(j) /= V(pivot, j);
-    for (int k = 0; k < V.cols(); ++k)
-      if (k != j) V.col(k) -= V(pivot, k) * V.col(j);
-  }
-  return (V.array().abs() < 1e-12).select(0, V);
-}
 
 /// a + b (x − x₀)/ℓ + c (y − y₀)/ℓ.
 Motion motion(const Vector3d& p, const Vector2d& centre, double unit) {
@@ -50,7 +37,7 @@ FreeMotions free_motions(const Space& space, const Held& held, const std::vector
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(stopped);
   int free = 0;
   while (free < 3 && eigen.eigenvalues()[free] <= 1e-12 * std::max(count, 1)) ++free;
-  const DenseMatrix coefficients = free == 3 ? DenseMatrix(DenseMatrix::Identity(3, 3)) : free > 0 ? pure(eigen.eigenvectors().leftCols(free)) : DenseMatrix(3, 0);
+  const DenseMatrix coefficients = free == 3 ? DenseMatrix(DenseMatrix::Identity(3, 3)) : free > 0 ? algebra::pure(eigen.eigenvectors().leftCols(free)) : DenseMatrix(3, 0);
   FreeMotions out;
   out.kernel.resize(unknowns, free);
   for (int i = 0; i < R.rows(); ++i)
