@@ -1,0 +1,208 @@
+#include "elasticity/shape_derivative.hpp"
+
+#include "elasticity/kernel.hpp"
+
+namespace dotyk::elasticity {
+namespace {
+
+using mesh::Facet;
+using mesh::Mesh;
+using mesh::Point;
+
+/// Values at the nodes of a cell.
+template <class E>
+void gather(const Mesh& mesh, int cell, const std::vector<double>& nodal, double at[][E::dim]) {
+  for (int a = 0; a < E::nodes; ++a)
+    for (int i = 0; i < E::dim; ++i) at[a][i] = nodal[static_cast<std::size_t>(mesh.cell(cell)[a]) * E::dim + i];
+}
+
+/// out[i][j] = ∂_j w_i.
+template <class E>
+void gradient_of(const double w[][E::dim], const double g[][E::dim], double out[E::dim][E::dim]) {
+  for (int i = 0; i < E::dim; ++i)
+    for (int j = 0; j < E::dim; ++j) {
+      out[i][j] = 0;
+      for (int a = 0; a < E::nodes; ++a) out[i][j] += w[a][i] * g[a][j];
+    }
+}
+
+template <int d>
+double trace(const double m[d][d]) {
+  double sum = 0;
+  for (int i = 0; i < d; ++i) sum += m[i][i];
+  return sum;
+}
+
+/// σ_im = c_imkl e_kl.
+template <int d>
+void stress_of(const Hooke& h, const double e[d][d], double out[d][d]) {
+  for (int i = 0; i < d; ++i)
+    for (int m = 0; m < d; ++m) {
+      out[i][m] = 0;
+      for (int k = 0; k < d; ++k)
+        for (int l = 0; l < d; ++l) out[i][m] += h.c[i][m][k][l] * e[k][l];
+    }
+}
+
+/// ∫ ∂φ:σ changes by ∫ ∂φ:(σ div V − σ(∇V)ᵀ + c:(−∇u ∇V)).
+template <class E>
+void add_cell(const Hooke& h, const double x[][E::dim], const double u[][E::dim], const double v[][E::dim], double force[][E::dim]) {
+  constexpr int d = E::dim;
+  for (int q = 0; q < E::points; ++q) {
+    double g[E::nodes][d], grad_u[d][d], grad_v[d][d], changed[d][d], sigma[d][d], change[d][d];
+    const double w = physical_gradient<E>(x, E::point(q), g) * E::weight(q);
+    gradient_of<E>(u, g, grad_u);
+    gradient_of<E>(v, g, grad_v);
+    for (int i = 0; i < d; ++i)
+      for (int j = 0; j < d; ++j) {
+        changed[i][j] = 0;
+        for (int k = 0; k < d; ++k) changed[i][j] -= grad_u[i][k] * grad_v[k][j];
+      }
+    stress_of<d>(h, grad_u, sigma);
+    stress_of<d>(h, changed, change);
+    const double div = trace<d>(grad_v);
+    for (int i = 0; i < d; ++i)
+      for (int m = 0; m < d; ++m) {
+        change[i][m] += sigma[i][m] * div;
+        for (int k = 0; k < d; ++k) change[i][m] -= sigma[i][k] * grad_v[m][k];
+      }
+    for (int a = 0; a < E::nodes; ++a)
+      for (int i = 0; i < d; ++i)
+        for (int m = 0; m < d; ++m) force[a][i] += w * change[i][m] * g[a][m];
+  }
+}
+
+Point velocity(const Mesh& mesh, const std::vector<double>& V, int node) {
+  Point out{0, 0, 0};
+  for (int i = 0; i < mesh.dimension(); ++i) out[i] = V[static_cast<std::size_t>(node) * mesh.dimension() + i];
+  return out;
+}
+
+/// How the measure of a facet's points changes as its nodes move: n·d(area vector), or along the line.
+class FacetGrowth {
+ public:
+  FacetGrowth(const Mesh& mesh, Facet facet, const std::vector<double>& V) : mesh_(mesh), facet_(facet) {
+    for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) v_.push_back(velocity(mesh, V, mesh.facet_node(facet, k)));
+  }
+  /// d(measure) / measure at a point: div_Γ V = Σ_k V_k·∇_Γ φ_k.
+  double at(const FacetPoint& p) const { return mesh_.dimension() == 2 ? along_line() : on_surface(p); }
+
+ private:
+  double along_line() const {
+    const Point a = mesh_.point(mesh_.facet_node(facet_, 0)), b = mesh_.point(mesh_.facet_node(facet_, 1));
+    double along = 0, square = 0;
+    for (int i = 0; i < 2; ++i) along += (b[i] - a[i]) * (v_[1][i] - v_[0][i]), square += (b[i] - a[i]) * (b[i] - a[i]);
+    return along / square;
+  }
+
+  /// With tangents t_u, t_v of the facet at the point: the change of |t_u × t_v|, by n·(ṫ_u × t_v + t_u × ṫ_v).
+  double on_surface(const FacetPoint& p) const {
+    Point tu{0, 0, 0}, tv{0, 0, 0}, du{0, 0, 0}, dv{0, 0, 0};
+    double su[4], sv[4];
+    facet_gradients(p.nodes, p.shape, su, sv);
+    for (int a = 0; a < p.nodes; ++a) {
+      const Point x = mesh_.point(mesh_.facet_node(facet_, a));
+      for (int i = 0; i < 3; ++i) tu[i] += su[a] * x[i], tv[i] += sv[a] * x[i], du[i] += su[a] * v_[a][i], dv[i] += sv[a] * v_[a][i];
+    }
+    const Point area = cross(tu, tv), first = cross(du, tv), second = cross(tu, dv);
+    double change = 0, size = 0;
+    for (int i = 0; i < 3; ++i) change += p.normal[i] * (first[i] + second[i]), size += p.normal[i] * area[i];
+    return change / size;
+  }
+
+  /// Derivatives of the facet's shape functions where they have these values.
+  static void facet_gradients(int nodes, const double shape[4], double du[4], double dv[4]) {
+    if (nodes == 3) {
+      const double u[3] = {-1, 1, 0}, v[3] = {-1, 0, 1};
+      for (int a = 0; a < 3; ++a) du[a] = u[a], dv[a] = v[a];
+      return;
+    }
+    const double s = 2 * (shape[1] + shape[2]) - 1, t = 2 * (shape[2] + shape[3]) - 1;
+    const double u[4] = {-(1 - t), 1 - t, 1 + t, -(1 + t)}, v[4] = {-(1 - s), -(1 + s), 1 + s, 1 - s};
+    for (int a = 0; a < 4; ++a) du[a] = u[a] / 4, dv[a] = v[a] / 4;
+  }
+
+  static Point cross(const Point& u, const Point& v) {
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  }
+
+  const Mesh& mesh_;
+  Facet facet_;
+  std::vector<Point> v_;
+};
+
+}  // namespace
+
+std::vector<double> internal_force_derivative(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u,
+                                              const std::vector<double>& V) {
+  std::vector<double> out(u.size(), 0.0);
+  dispatch(mesh.element, [&]<class E>() {
+    double x[E::nodes][E::dim], at_u[E::nodes][E::dim], at_v[E::nodes][E::dim];
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      cell_coordinates<E>(mesh, c, x);
+      gather<E>(mesh, c, u, at_u);
+      gather<E>(mesh, c, V, at_v);
+      double force[E::nodes][E::dim] = {};
+      add_cell<E>(material.at(c), x, at_u, at_v, force);
+      for (int a = 0; a < E::nodes; ++a)
+        for (int i = 0; i < E::dim; ++i) out[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i] += force[a][i];
+    }
+  });
+  return out;
+}
+
+void add_body_force_derivative(const Mesh& mesh, const VectorField& f, const std::vector<double>& V, std::vector<double>& nodal) {
+  dispatch(mesh.element, [&]<class E>() {
+    double x[E::nodes][E::dim], v[E::nodes][E::dim], g[E::nodes][E::dim], grad_v[E::dim][E::dim];
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      cell_coordinates<E>(mesh, c, x);
+      gather<E>(mesh, c, V, v);
+      for (int q = 0; q < E::load_points; ++q) {
+        const auto xi = E::load_point(q);
+        const double w = physical_gradient<E>(x, xi, g) * E::load_weight(q);
+        gradient_of<E>(v, g, grad_v);
+        const auto shape = E::shape(xi);
+        Point at{0, 0, 0};
+        for (int a = 0; a < E::nodes; ++a)
+          for (int i = 0; i < E::dim; ++i) at[i] += shape[a] * x[a][i];
+        const Point value = f(at);
+        for (int a = 0; a < E::nodes; ++a)
+          for (int i = 0; i < E::dim; ++i)
+            nodal[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i] += w * trace<E::dim>(grad_v) * shape[a] * value[i];
+      }
+    }
+  });
+}
+
+void add_traction_derivative(const Mesh& mesh, const std::vector<Facet>& facets, const std::function<Point(const FacetPoint&)>& t,
+                             const std::vector<double>& V, std::vector<double>& nodal) {
+  const int dim = mesh.dimension();
+  for (const Facet facet : facets) {
+    const FacetGrowth growth(mesh, facet, V);
+    for_each_facet_point(mesh, facet, [&](const FacetPoint& p) {
+      const Point value = t(p);
+      const double change = p.measure * growth.at(p);
+      for (int a = 0; a < p.nodes; ++a)
+        for (int i = 0; i < dim; ++i) nodal[static_cast<std::size_t>(mesh.facet_node(facet, a)) * dim + i] += change * p.shape[a] * value[i];
+    });
+  }
+}
+
+double volume_derivative(const Mesh& mesh, const std::vector<double>& V) {
+  double sum = 0;
+  dispatch(mesh.element, [&]<class E>() {
+    double x[E::nodes][E::dim], v[E::nodes][E::dim], g[E::nodes][E::dim], grad_v[E::dim][E::dim];
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      cell_coordinates<E>(mesh, c, x);
+      gather<E>(mesh, c, V, v);
+      for (int q = 0; q < E::points; ++q) {
+        const double w = physical_gradient<E>(x, E::point(q), g) * E::weight(q);
+        gradient_of<E>(v, g, grad_v);
+        sum += w * trace<E::dim>(grad_v);
+      }
+    }
+  });
+  return sum;
+}
+
+}  // namespace dotyk::elasticity
