@@ -54,7 +54,9 @@ plate::EdgeSupport edge(const Arguments& from, std::string part, std::vector<mes
 std::vector<mesh::Facet> facets(const mesh::Mesh& mesh, const std::string& part, const Arguments& from) {
   if (from.has("where")) {
     const Function where = from.function("where");
-    return mesh::select(mesh, [&](const mesh::Point& x, const mesh::Point& n) { return where.truth(std::vector<double>{x[0], x[1], n[0], n[1]}); });
+    auto chosen = mesh::select(mesh, [&](const mesh::Point& x, const mesh::Point& n) { return where.truth(std::vector<double>{x[0], x[1], n[0], n[1]}); });
+    if (chosen.empty()) throw InputError(text("edges: where of '", part, "' chooses no edge of the boundary"));
+    return chosen;
   }
   const auto found = mesh.parts.find(part);
   if (found != mesh.parts.end()) return found->second;
