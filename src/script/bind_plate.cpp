@@ -9,6 +9,7 @@
 #include "script/bind_beam.hpp"
 #include "script/library.hpp"
 #include "script/nearest.hpp"
+#include "script/position.hpp"
 #include "script/watch.hpp"
 
 namespace dotyk::script {
@@ -73,6 +74,10 @@ void take_edges(Call& call, Plate& plate) {
   keys.push_back(key::function("where", "f(x, y, nx, ny) of edge middles and normals → which edges are this part"));
   const Key table = key::table("", keys, "");
   lua_State* L = call.state();
+  const auto require_table = [L](int index, const std::string& what, const char* expected) {
+    if (lua_type(L, index) != LUA_TTABLE) throw InputError(text(what, ": expected ", expected, ", got ", describe_value(L, index)));
+  };
+  require_table(call.slot("edges"), "edges", "{ part = { rotation = law, deflection = law }, … }");
   std::vector<std::string> parts;
   for (lua_pushnil(L); lua_next(L, call.slot("edges")); lua_pop(L, 1)) {
     if (lua_type(L, -2) != LUA_TSTRING) throw InputError("edges: expected { part = { rotation = law, deflection = law }, … }");
@@ -81,6 +86,7 @@ void take_edges(Call& call, Plate& plate) {
   std::sort(parts.begin(), parts.end());  // Lua's own order changes from run to run
   for (const std::string& part : parts) {
     lua_getfield(L, call.slot("edges"), part.c_str());
+    require_table(lua_gettop(L), "edges." + part, "{ rotation = law, deflection = law }");
     const Arguments from(L, lua_gettop(L), table, "plate", "edges." + part + ": ");
     plate.edges.push_back(edge(from, part, facets(*plate.mesh, part, from)));
   }

@@ -38,7 +38,10 @@ refused(function() dotyk.plate{ mesh = square, edges = { left = held, side = { w
 refused(function() dotyk.plate{ mesh = square, edges = { nowhere = { where = function() return false end, deflection = law.prescribed() } } } end, "nowhere")
 refused(function() dotyk.plate{ mesh = square, edges = { left = { deflexion = law.prescribed() } } } end, "'deflexion'", "'deflection'")
 refused(function() dotyk.plate{ mesh = square, edges = { held } } end, "edges")
-refused(function() dotyk.plate{ mesh = square, edges = { left = 3 } } end, "left")
+refused(function() dotyk.plate{ mesh = square, edges = { left = 3 } } end, "edges.left", "rotation = law", "got the number 3")
+refused(function() dotyk.plate{ mesh = square, edges = { left = law.signorini() } } end, "edges.left", "rotation = law")
+refused(function() dotyk.plate{ mesh = square, edges = 3 } end, "edges", "got the number 3")
+refused(function() dotyk.plate{ mesh = square, edges = { left = { where = 3 } } } end, "where")
 
 -- Laws.
 refused(function() dotyk.plate{ mesh = square, edge = { deflection = law.breaking(10, 1) } } end, "do not break", "capped_elastic")
