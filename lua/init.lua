@@ -96,6 +96,7 @@ core.describe{
       keys = { { kind = "string" }, { kind = "boolean" } } },
     { name = "slopes", kind = "vector", otherwise = "none", help = "guides of these slopes" },
     { name = "title", kind = "string", otherwise = "none", help = "above the figure" },
+    { name = "label", kind = "string", otherwise = "after 'error'", help = "what the error is, in the table and at the figure's axis" },
     { name = "size", kind = "vector", otherwise = "{1000, 750}", help = "of the figure", unit = "pixels" },
   },
   run = core.lazily("work_precision", "run"),

@@ -165,8 +165,7 @@ local function run_once(runner, at, options)
   local s <const>, why <const>, seconds <const> = solve(runner, at, options.budget)
   runner.spent = runner.spent + seconds
   if s then
-    local time <const> = at.kind ~= "beam" and s.time or nil
-    runner.runs[#runner.runs + 1] = { seconds = time and time.total or seconds, time = time }
+    runner.runs[#runner.runs + 1] = { seconds = at.kind == "beam" and seconds or s.time.total, time = s.time } -- a beam's are of one branch
     runner.last = s
   end
   runner.stopped = seconds > options.budget
@@ -190,7 +189,7 @@ local function level_rows(at, runners, options, reference)
     local row <const> = rows.row(runner, at.level)
     local s <const> = runner.last
     if s then row.error = error_of(options.error, s, at, reference) end
-    if s and at.kind ~= "beam" then row.unknowns, row.rows = s.unknowns, s.rows end
+    if s then row.unknowns, row.rows = s.unknowns, s.rows end
     if runner.stopped then runner.over = runner.over or ("a run on level %d lasted longer than %g s"):format(at.level, options.budget) end
     out[k] = row
   end

@@ -89,8 +89,7 @@ function report.print(all, options, reference)
     for k, column in ipairs(columns) do line = line .. "  " .. right(column[2](row), widths[k]) end
     print(line .. remark(row))
   end
-  local what <const> = described[options.error] or "the function's"
-  print(("error: %s%s; seconds: median of up to %d runs; *: the front"):format(what,
+  print(("error: %s%s; seconds: median of up to %d runs; *: the front"):format(options.label or described[options.error] or "the function's",
     reference.level and (" against level %d"):format(reference.level) or "", options.repeats))
   print("front: " .. listed(rows.front(all), options.tolerances))
   local verdict <const> = report.verdict(all, options.tolerances)
@@ -200,7 +199,7 @@ function report.write(all, options)
   if options.file then
     dotyk.chart{ file = options.file, title = options.title, size = options.size, slopes = options.slopes, log = "xy",
       x = options.repeats > 1 and ("seconds (median of %d, whiskers: least and greatest)"):format(options.repeats) or "seconds",
-      y = described[options.error] or "error", series = report.series(all, options.tolerances) }
+      y = options.label or described[options.error] or "error", series = report.series(all, options.tolerances) }
     written[1] = options.file
   end
   if csv then

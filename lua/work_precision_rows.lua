@@ -63,7 +63,7 @@ function rows.row(runner, level)
     middle, row.low, row.high = rows.median(runner.runs)
     row.seconds = middle.seconds
     for _, part in ipairs{ "assembly", "ordering", "factor", "iterate", "recover" } do
-      row[part] = middle.time and middle.time[part]
+      row[part] = middle.time[part]
     end
   end
   return row

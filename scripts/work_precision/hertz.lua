@@ -12,13 +12,14 @@ local hertz <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/../scenes
 local solver <const> = dotyk.solver
 local sizes <const> = { 8, 12, 16, 24, 32, 48, 96 } -- cells along the radius; LEVELS + 1 of them
 
-for _, case in ipairs{ { "", "energy", "Hertz's line contact" }, { "_pressure", hertz.line_error, "Hertz's line contact: pressure beside the closed form" } } do
+for _, case in ipairs{ { "", "energy", "Hertz's line contact" },
+  { "_pressure", hertz.line_error, "Hertz's line contact: pressure", "distance from the closed form in L2, relative" } } do
   print(case[3])
   dotyk.work_precision{
     scene = function(level) return hertz.disc(sizes[level]) end,
     levels = levels,
     methods = { { name = "pdas, condensed", method = solver.pdas{} }, { name = "pdas, whole system", method = solver.pdas{ reduced = false } },
       solver.interior_point{}, solver.projected_cg{}, solver.uzawa{} },
-    error = case[2], slopes = { -0.5 }, title = case[3],
+    error = case[2], label = case[4], slopes = { -0.5 }, title = case[3],
     file = ("images/work_precision_hertz%s.png"):format(case[1]) }
 end

@@ -18,5 +18,5 @@ dotyk.work_precision{
     { name = "many rows a step", method = solver.active_set{ change = "many" } }, solver.interior_point{},
     { name = "penalty 10", method = solver.penalty{ factor = 10 } }, { name = "feti", method = solver.feti{} } },
   slopes = { -0.5 }, budget = 5,
-  title = blocks.name,
+  title = "Five blocks apart",
   file = "images/work_precision_semicoercive.png" }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "beam/solvable.hpp"
 #include "solver/pdas.hpp"
@@ -50,7 +51,9 @@ std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monito
   for (unsigned choice = 0; choice < 1u << which.size(); ++choice) {
     std::vector<Broken> broken;
     for (std::size_t k = 0; k < which.size(); ++k) broken.push_back(choice >> k & 1 ? Broken::yes : Broken::no);
+    const Stopwatch total;
     Model model = build(beam, broken);
+    const double assembly = total.seconds();
     std::string note;
     try {
       note = require_solvable(beam, model);
@@ -60,6 +63,8 @@ std::vector<Branch> solve(const Beam& beam, const solver::Method& method, Monito
       continue;
     }
     solver::Result result = run(model, note, method, monitor);  // a method that cannot treat one choice would miss branches: let it say so
+    result.clock.assembly += assembly;
+    result.clock.total = total.seconds();
     holds = true;
     auto solution = std::make_shared<const Solution>(beam, std::move(model), std::move(result));
     if (consistent(beam, which, broken, *solution)) minima.push_back({broken, solution});

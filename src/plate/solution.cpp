@@ -11,19 +11,6 @@ namespace dotyk::plate {
 using algebra::Vector;
 using Eigen::Vector2d;
 
-namespace {
-
-/// Mean D of a cell.
-double stiffness_of(const Model& model, int cell) {
-  const Rule& rule = stiffness_rule(model.plate.element);
-  const std::size_t first = model.D.size() > rule.points.size() ? cell * rule.points.size() : 0;
-  double D = 0;
-  for (std::size_t i = 0; i < rule.points.size(); ++i) D += rule.weights[i] * model.D[first + i];
-  return D;
-}
-
-}  // namespace
-
 Solution::Solution(std::shared_ptr<const Model> model, solver::Result result, std::optional<Family> family)
     : model_(std::move(model)), result_(std::move(result)), residual_(problem::residual(model_->problem, result_.state)),
       energy_(problem::energy(model_->problem, result_.state)), u_(model_->freedoms(result_.state.u)), family_(std::move(family)), finder_(model_->space) {
@@ -44,11 +31,12 @@ Eigen::Matrix<double, 6, 1> Solution::values(const Place& place, const Vector& f
   return out;
 }
 
-std::optional<Values> Solution::at(const Vector2d& x) const {
-  const auto place = finder_.find(x);
-  if (!place) return std::nullopt;
-  const auto v = values(*place, u_);
-  return Values{v[0], v.tail<3>(), stiffness_of(*model_, place->cell)};
+double Solution::stiffness(int cell) const {
+  const Rule& rule = stiffness_rule(model_->plate.element);
+  const std::size_t first = model_->D.size() > rule.points.size() ? cell * rule.points.size() : 0;
+  double D = 0;
+  for (std::size_t i = 0; i < rule.points.size(); ++i) D += rule.weights[i] * model_->D[first + i];
+  return D;
 }
 
 double Solution::deflection(double x, double y) const { return values(finder_.find({x, y}, "the point"), u_)[0]; }
@@ -78,7 +66,7 @@ const std::vector<Moment>& Solution::vertex_moments() const {
   std::vector<double> area(mesh.node_count(), 0);
   constexpr double kInside = 1e-9;  // to one of the thirds that meet at a vertex
   for (int c = 0; c < mesh.cell_count(); ++c) {
-    const double weight = triangle(mesh, model_->space.edges, c).area / 2, D = stiffness_of(*model_, c);
+    const double weight = triangle(mesh, model_->space.edges, c).area / 2, D = stiffness(c);
     for (int k = 0; k < 3; ++k)
       for (int side = 1; side < 3; ++side) {
         Barycentric b = Barycentric::Zero();

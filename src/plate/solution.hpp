@@ -16,13 +16,6 @@ struct Moment {
   double xx = 0, yy = 0, xy = 0;
 };
 
-/// At a point.
-struct Values {
-  double u;
-  Eigen::Vector3d curvature;  ///< ∂xx u, ∂yy u, 2∂xy u of its cell
-  double D;                   ///< mean of its cell
-};
-
 /// A solved plate. Points must lie on it, else InputError.
 class Solution {
  public:
@@ -38,7 +31,8 @@ class Solution {
   /// Where the solution is not the only one: all of them.
   const std::optional<Family>& family() const { return family_; }
 
-  std::optional<Values> at(const Eigen::Vector2d& x) const;  ///< nothing where x is not on the plate
+  std::optional<Place> find(const Eigen::Vector2d& x) const { return finder_.find(x); }  ///< nothing where x is not on the plate
+  double stiffness(int cell) const;                                                     ///< mean D of a cell
   double deflection(double x, double y) const;
   Eigen::Vector2d slope(double x, double y) const;  ///< ∇u
   /// Of the mean curvatures about each vertex, linear on a cell: of order h² within where the mesh is regular, h at the edge with Morley's element.

@@ -152,6 +152,10 @@ do
   for what, order in pairs{ energy = 2, displacement = 4 } do
     local t <const> = dotyk.work_precision{ scene = beam, levels = 3, error = what, repeats = 1, methods = { dotyk.solver.pdas{} } }
     check.near(math.log(t[1].error / t[2].error, 2), order, 0.15, what)
+    for _, r in ipairs(t) do
+      check.equal({ r.unknowns, r.rows }, { 2 * ((2 << r.level) + 1), 2 })
+      check.that(r.assembly > 0 and r.assembly + r.ordering + r.factor + r.iterate + r.recover <= r.seconds)
+    end
   end
   local t <const> = dotyk.work_precision{ scene = beam, levels = 1, repeats = 1, reference = 2, methods = { dotyk.solver.newton{} },
     error = function(s) return s:reaction("left").force / (math.exp(1) - 2) end }
@@ -161,13 +165,30 @@ do
     "the reference is a beam_solution, the scene a scene")
 end
 
+-- A clamped plate, Morley's element: order 1 in the energy norm, 2 for the deflection. What the error is called.
+do
+  local function plate(level)
+    local n <const> = 4 << level
+    return dotyk.plate{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {n,n} }, element = "morley", load = -1,
+      edge = { deflection = dotyk.law.prescribed(0), rotation = dotyk.law.prescribed(0) } }
+  end
+  local reference <const> = dotyk.solve(plate(5))
+  for what, order in pairs{ energy = 1, displacement = 2 } do
+    local t <const> = dotyk.work_precision{ scene = plate, levels = 3, error = what, repeats = 1, methods = { dotyk.solver.pdas{} }, reference = reference,
+      label = "how far the plate is off" }
+    check.near(math.log(t[2].error / t[3].error, 2), order, 0.15, what)
+    check.that(t[1].unknowns > 0 and t[1].assembly > 0)
+  end
+  check.that(table.concat(said, "\n"):find("error: how far the plate is off;", 1, true))
+end
+
 -- 5. What it refuses, at the script's line.
 local pdas <const> = { dotyk.solver.pdas{} }
 refused(function() dotyk.work_precision{ scene = cantilever, methods = pdas, error = "enrgy" } end, '"energy"')
 refused(function() dotyk.work_precision{ scene = cantilever, methods = {} } end, "methods")
 refused(function() dotyk.work_precision{ scene = cantilever, methods = { "pdas" } } end, "methods")
 refused(function() dotyk.work_precision{ methods = pdas } end, "scene")
-refused(function() dotyk.work_precision{ scene = function() end, methods = pdas } end, "scene(1) returned nil", "a scene or a beam")
+refused(function() dotyk.work_precision{ scene = function() end, methods = pdas } end, "scene(1) returned nil", "a scene, a beam or a plate")
 refused(function() dotyk.work_precision{ scene = function() return 3 end, methods = pdas } end, "scene(1) returned a number")
 refused(function() dotyk.work_precision{ scene = cantilever, methods = pdas, levels = 0 } end, "levels")
 refused(function() dotyk.work_precision{ scene = cantilever, methods = pdas, levels = 1, reference = 0 } end, "reference is 0")
