@@ -44,13 +44,18 @@ local function share(n, alpha) -- of the starts that cycle
   end
   return cycling / (1 << n)
 end
-local worst, series = 0, {}
+local worst, cyclic, series = 0, {}, {}
 print "cyclic matrix, n   cycles from alpha (theory 1)   starts that cycle beyond"
 for _, n in ipairs{ 3, 5, 7 } do -- P-matrices for every α ≥ 0, as n is odd
   local at = common.boundary(0.1, 10, function(alpha) return share(n, alpha) == 0 end, 1e-6)
   worst = math.max(worst, math.abs(at - 1))
   print(("%16d   %28.7f   %d of %d"):format(n, at, math.floor(share(n, 1.1 * at) * 2^n + 0.5), 1 << n))
+  local curve = common.curve("n = " .. n)
+  for step = 0, 30 do curve:add(0.5 + 0.05 * step, 100 * share(n, 0.5 + 0.05 * step)) end
+  cyclic[#cyclic + 1] = curve
 end
+cyclic[#cyclic + 1] = common.curve("theory: from α = 1 on", { reference = true })
+for _, percent in ipairs{ 0, 100 } do cyclic[#cyclic]:add(1, percent) end
 
 -- 2. Random symmetric matrices of a condition.
 local function normal()
@@ -107,8 +112,9 @@ for _, n in ipairs{ 2, 3, 4, 6, 8, 12 } do
   print(line)
   series[#series + 1] = curve
 end
-dotyk.chart{ file = "images/stability_cycling.png", log = "x", x = "condition of M, symmetric positive definite",
-             y = "problems whose active sets repeat [%]", series = series }
+dotyk.chart{ file = "images/stability_cycling.png", size = { 1000, 1200 }, panels = {
+  { title = "M = I + α (cyclic permutation)", x = "α", y = "starts that cycle [%]", series = cyclic },
+  { title = "M random, symmetric positive definite", log = "x", x = "condition of M", y = "problems whose active sets repeat [%]", series = series } } }
 
 -- 3. The strip, 8 long, held at its left end; the load in units of that which bends it by the space.
 local function strip(thick, load, phase)

@@ -9,6 +9,8 @@
 -- 2. The program again as a process of its own, with less and less address space (ulimit -v): it must solve, or
 --    refuse in words what does not fit, and never be killed or hang. The least space in which it solves is found by
 --    bisection, for several sizes of a cube; whether a child that refused the cube then solves a small one is noted.
+-- 3. That process is sent the signal of Ctrl-C while it solves one cube after the other, at several moments: it must end
+--    with the word "interrupted", soon (a factorisation that has begun is ended first).
 -- Draws images/stability_interrupted.png (2).
 
 local n <const> = tonumber(arg[1]) or 16
@@ -48,7 +50,7 @@ for _, text in ipairs(torn) do print("not whole: " .. text) end
 
 -- 2. Stopped by memory. The child tells what became of it.
 local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
-local child <const> = [[
+local cubes <const> = [[
 local function cube(n)
   local b = dotyk.body{ material = dotyk.material{ E = 1 }, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {n,n,n} } }
   b:part"bottom":fix()
@@ -56,6 +58,8 @@ local function cube(n)
   s:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = {0,0,1}, gap = function(x, y) return ((x-0.5)^2 + (y-0.5)^2)/2 - 0.02 end } }
   return dotyk.solve(s)
 end
+]]
+local child <const> = cubes .. [[
 local ok, s = pcall(cube, %d)
 print(ok and s.converged and "solved" or "refused " .. tostring(s))
 local small, t = pcall(cube, 3)
@@ -102,5 +106,17 @@ else
   dotyk.chart{ file = "images/stability_interrupted.png", log = "xy", x = "cells along the cube", y = "address space [MB]", series = series }
   print "images/stability_interrupted.png"
 end
-common.verdict(#torn == 0 and #killed == 0, ("stopped after any iteration, every method gives back a whole state and says that it was interrupted (%d stops), and the next solve is none the "
-  .. "worse; short of memory, the program refuses in words and goes on, or does not start, and is never killed nor hangs (OpenMP inside CHOLMOD may end it, in words, where its threads find no room)"):format(stops))
+-- 3. Stopped by a signal.
+local signals, deaf = 0, {}
+for _, after in ipairs{ 0.3, 0.4, 0.55, 0.7, 0.85, 1 } do
+  local pipe = io.popen(("timeout --preserve-status -k 60 -s INT %g '%s' -e '%s\nwhile true do cube(%d) end' 2>&1; echo status $?"):format(
+    after, program, cubes, math.min(n, 12)))
+  local text = pipe:read "a"
+  pipe:close()
+  signals = signals + 1
+  if not text:find("interrupted\nstatus 1\n", 1, true) then deaf[#deaf + 1] = ("after %g s: %s"):format(after, text) end
+end
+for _, text in ipairs(deaf) do print("not interrupted: " .. text:gsub("%s+", " "):sub(1, 200)) end
+
+common.verdict(#torn == 0 and #killed == 0 and #deaf == 0, ("stopped after any iteration, every method gives back a whole state and says that it was interrupted (%d stops), and the next solve is none the "
+  .. "worse; Ctrl-C ends a running solve (%d signals); short of memory, the program refuses in words and goes on, or does not start, and is never killed nor hangs (OpenMP inside CHOLMOD may end it, in words, where its threads find no room)"):format(stops, signals))

@@ -69,7 +69,7 @@ for _, sign in ipairs{ -1, 1 } do
         local off = math.max(math.abs(c.force[2] / h - 1), math.abs(c.force[1] / (t * h) + 1), math.abs(moment - h * (1 + t * h) / 2))
         if s.converged then
           worst_force, most = math.max(worst_force, off), math.max(most, s.iterations)
-          if sign > 0 and power > -6 or off > 1e-6 then wrong = wrong + 1 end
+          if sign > 0 and power > -9 or off > 1e-6 then wrong = wrong + 1 end
         end
         line = line .. ("  %2d iterations, %2d nodes carry, off %.0e%-13s"):format(s.iterations, carrying, off, s.converged and "" or ", not conv.")
       end
