@@ -23,7 +23,7 @@ function plate.simply_supported(nu)
 end
 
 -- Gaussian elimination with pivots; b becomes the solution of A x = b.
-local function solve_linear(A, b)
+function plate.solve_linear(A, b)
   for i = 1, #b do
     local pivot = i
     for row = i + 1, #b do
@@ -58,7 +58,7 @@ function plate.clamped(terms)
     end
     E[k] = 4 / math.pi^3 / i^4 * (s - t)
   end
-  solve_linear(A, E)
+  plate.solve_linear(A, E)
   local w, moment = plate.simply_supported(0).deflection, 0
   for k = 1, terms do
     local m <const>, a <const>, turn <const> = 2 * k - 1, (2 * k - 1) * math.pi / 2, k % 2 == 1 and 1 or -1
