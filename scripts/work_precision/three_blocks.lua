@@ -3,8 +3,8 @@
 --   ./dotyk scripts/work_precision/three_blocks.lua [LEVELS]
 --
 -- The error in the energy norm against twice the cells of the finest level charted. What the chart says: at these sizes the factor
--- of whole bodies is cheap, and the direct method is a little faster than FETI on whole bodies; subdomains pay later
--- (see feti_scaling.lua). images/work_precision_three_blocks.png.
+-- of whole bodies is cheap; FETI on them, which uses both cores, comes up to the direct method at the finest level, where it is
+-- little faster on a quiet machine and slower on a busy one; subdomains pay later (see feti_scaling.lua). images/work_precision_three_blocks.png.
 
 local levels <const> = tonumber(arg[1]) or 3
 local three_blocks <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/../scenes/three_blocks.lua")
