@@ -79,11 +79,10 @@ local function run(cells, megabytes)
   end
   if status == 1 and text:find("memory", 1, true) then return "refused", text end
   if status == 127 or text:find("shared lib", 1, true) then return "does not start", text end
-  if status == 1 and text:find("libgomp: Thread creation failed", 1, true) then return "ended by OpenMP", text end
   killed[#killed + 1] = ("%d cells, %g MB: %s"):format(cells, megabytes, text)
   return "killed or hung", text
 end
-local map <const> = common.map{ "solved", "refused, then solves a small one", "refused", "ended by OpenMP", "does not start", "killed or hung" }
+local map <const> = common.map{ "solved", "refused, then solves a small one", "refused", "does not start", "killed or hung" }
 local least = common.curve("least that solves, found", { style = "points" })
 local first = run(3, 4000)
 if first ~= "solved" then
@@ -119,4 +118,4 @@ end
 for _, text in ipairs(deaf) do print("not interrupted: " .. text:gsub("%s+", " "):sub(1, 200)) end
 
 common.verdict(#torn == 0 and #killed == 0 and #deaf == 0, ("stopped after any iteration, every method gives back a whole state and says that it was interrupted (%d stops), and the next solve is none the "
-  .. "worse; Ctrl-C ends a running solve (%d signals); short of memory, the program refuses in words and goes on, or does not start, and is never killed nor hangs (OpenMP inside CHOLMOD may end it, in words, where its threads find no room)"):format(stops, signals))
+  .. "worse; Ctrl-C ends a running solve (%d signals); short of memory, the program refuses in words and goes on, or does not start, and is never killed nor hangs"):format(stops, signals))

@@ -10,6 +10,9 @@ void reserve_blas_buffer();
 /// if the work ahead is worth it, else one; afterwards one again. The many small products of a plane
 /// mesh's factorisation run slower on two threads than on one (measured: 1.3 s against 0.85 s for
 /// 262 656 unknowns on a busy two-core machine), since the threads wait for each other actively.
+///
+/// CHOLMOD's loops ask OpenMP for threads, which ends the program where there is no room for their stacks: with a limit of
+/// the address space they run on one thread from here on.
 class BlasThreads {
  public:
   explicit BlasThreads(double flops);
