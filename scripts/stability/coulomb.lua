@@ -25,7 +25,7 @@ local law, half_plane = common.curve("limit by its contraction", { style = "poin
 print "   ν    n  contraction / μ  limit by it   found   off [%]   half-plane   Newton's iterations at most"
 for _, nu in ipairs{ 0, 0.3 } do
   local theory = 2 * (1 - nu) / (1 - 2 * nu)
-  half_plane[#half_plane + 1] = common.curve(("half-plane, ν = %g"):format(nu), { reference = true })
+  half_plane[#half_plane + 1] = common.curve(("half-plane, ν = %g: μ = %g"):format(nu, theory), { reference = true })
   for n = 16, finest do
     if n & (n - 1) == 0 then
       local y, newton_here = n * (nu == 0 and 1 or 1.12), 0
