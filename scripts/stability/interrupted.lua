@@ -107,9 +107,9 @@ else
 end
 -- 3. Stopped by a signal.
 local signals, deaf = 0, {}
-for _, after in ipairs{ 0.3, 0.4, 0.55, 0.7, 0.85, 1 } do
-  local pipe = io.popen(("timeout --preserve-status -k 60 -s INT %g '%s' -e '%s\nwhile true do cube(%d) end' 2>&1; echo status $?"):format(
-    after, program, cubes, math.min(n, 12)))
+for _, after in ipairs{ 0.02, 0.05, 0.1, 0.2, 0.35, 0.5 } do
+  local pipe = io.popen(("timeout 60 '%s' -e '%s\nos.execute \"(sleep %g; kill -INT $PPID) &\"\nwhile true do cube(%d) end' 2>&1; echo status $?"):format(
+    program, cubes, after, math.min(n, 12)))
   local text = pipe:read "a"
   pipe:close()
   signals = signals + 1
