@@ -38,7 +38,8 @@ local methods <const> = { "pdas", "active_set", "interior_point", "newton", "pro
 local nu <const>, q <const> = 0.3, 0.5
 local strain <const> = { -((1 - nu^2) * q - nu * (1 + nu)), -((1 - nu^2) - nu * (1 + nu) * q) } -- plane strain, E = 1
 
-local map <const> = common.map{ "pressure right", "displacement right, pressure another", "said not to be converged" }
+local outcomes <const> = { "pressure right", "displacement right, pressure another", "said not to be converged" }
+local maps <const> = { common.map(outcomes), common.map(outcomes) } -- without friction, with it
 local wrong, miscounted, missing, runs, worst = 0, 0, {}, 0, 0
 print("deviation of displacements and of pressures, iterations; ! not converged; - cannot treat friction\n            " .. ("%17s"):rep(#methods):format(table.unpack(methods)))
 for row = 0, 31 do
@@ -64,7 +65,7 @@ for row = 0, 31 do
         if off > 1e-8 or common.residual(s) > 1e-8 then wrong = wrong + 1 end
         deviates = deviates or pressure > 1e-6
       else missing[name] = (missing[name] or 0) + 1 end
-      map:add(not s.converged and "said not to be converged" or pressure > 1e-6 and "displacement right, pressure another" or "pressure right", column, row)
+      maps[row // 16 + 1]:add(not s.converged and "said not to be converged" or pressure > 1e-6 and "displacement right, pressure another" or "pressure right", column, row % 16 + 1)
       line = line .. (" %5.0e %5.0e%4d%1s"):format(off, pressure, s.iterations, s.converged and "" or "!")
     end
   end
@@ -72,8 +73,10 @@ for row = 0, 31 do
   if not friction and joints ~= "gggg" and deviates == unique then miscounted = miscounted + 1 end
   print(line)
 end
-dotyk.chart{ file = "images/stability_overconstrained.png", x = "1 pdas, 2 active set, 3 int. point, 4 newton, 5 proximal, 6 cg, 7 psor, 8 uzawa, 9 feti", y = "joints (bits: glued; 16: friction)",
-             series = map:series(), size = { 1500, 950 } }
+dotyk.chart{ file = "images/stability_overconstrained.png", size = { 1500, 1250 },
+  x = "1 pdas, 2 active set, 3 int. point, 4 newton, 5 proximal, 6 cg, 7 psor, 8 uzawa, 9 feti", panels = {
+    { title = "Without friction", y = "joints (16: all glued)", series = maps[1]:series() },
+    { title = "Coulomb's friction", y = "joints (16: all glued)", series = maps[2]:series() } } }
 print "images/stability_overconstrained.png"
 local text = {}
 for _, name in ipairs(methods) do if missing[name] then text[#text + 1] = name .. " " .. missing[name] end end
