@@ -15,7 +15,11 @@ void grow(DenseMatrix& columns, Eigen::Index rows, Eigen::Index count) {
 }
 
 void ConjugateBasis::conjugate(Vector& p) const {
-  for (int twice = 0; twice < 2 && count_ > 0; ++twice) p -= directions() * (products().transpose() * p);
+  for (int twice = 0; twice < 2 && count_ > 0; ++twice) {
+    const double before = p.norm();
+    p -= directions() * (products().transpose() * p);
+    if (p.norm() > before / 2) return;
+  }
 }
 
 Vector ConjugateBasis::solve(Vector& r) const {

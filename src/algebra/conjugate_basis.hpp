@@ -13,7 +13,7 @@ class ConjugateBasis {
   auto directions() const { return p_.leftCols(count_); }
   auto products() const { return w_.leftCols(count_); }
 
-  /// p − P Wᵀ p: conjugate to all of them, twice so that rounding leaves nothing.
+  /// p − P Wᵀ p: conjugate to all of them; twice where that takes away half of p, so that rounding leaves nothing.
   void conjugate(Vector& p) const;
   /// The solution within the span, x = P Pᵀ r, for the residual r, which becomes r − Â x = r − W Pᵀ r.
   Vector solve(Vector& r) const;

@@ -15,7 +15,7 @@ struct RepeatedSettings {
   double omega = 1;                                         ///< of SSOR
   CgSettings cg;
   bool extend = false;  ///< scg: see SuccessiveCg
-  bool deflate = true;  ///< cglan: see Cglan
+  bool deflate = false; ///< cglan: see Cglan
 };
 
 /// How one system was solved.

@@ -7,7 +7,7 @@ namespace dotyk::algebra {
 /// Successive conjugate gradients for K x_i = b_i, one after the other (Suarjana and Law 1994). The first system with
 /// b ≠ 0 is solved by conjugate gradients whose directions p_j are kept, with Â p_j; every further one starts from
 /// the solution in their span, Σ p_j p_jᵀb̂, and is completed by conjugate gradients. Directions are kept conjugate by
-/// full reorthogonalisation, each against all kept ones, twice (8 n m operations for the m-th). A right-hand side in
+/// full reorthogonalisation, each against all kept ones (4 n m operations for the m-th). A right-hand side in
 /// K span p_j takes no iteration. Memory: 16 n bytes a direction.
 class SuccessiveCg {
  public:

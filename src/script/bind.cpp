@@ -14,6 +14,7 @@ void bind_all(Library& library) {
   bind_scene(library);
   bind_solver(library);
   bind_all_solutions(library);
+  bind_repeated(library);
   bind_solution(library);
   bind_figure(library);
   bind_program(library);
