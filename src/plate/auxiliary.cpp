@@ -88,14 +88,13 @@ std::optional<LimitCase> solve_limit_case(const Model& model, const Vector& moti
   Vector moved(whole.unknowns());
   for (int i = 0; i < motion.size(); ++i)
     if (model.unknown[i] >= 0) moved[model.unknown[i]] = motion[i];
-  const Vector by = whole.B * moved;
-  const double noticed = 1e-9 * (by.size() ? by.lpNorm<Eigen::Infinity>() : 0);
+  const Vector by = by_motion(whole.B, moved);
   std::vector<char> known(whole.rows(), 0);
   Vector lambda = Vector::Zero(whole.rows());
   for (const problem::RowGroup& group : whole.groups)
     for (int k = 0; k < group.count; ++k) {
       const int r = group.first + k;
-      if (std::abs(by[r]) <= noticed) continue;
+      if (by[r] == 0) continue;
       const problem::Interval bounds = group.law->multipliers(k);
       known[r] = 1;
       lambda[r] = by[r] > 0 ? bounds.high : bounds.low;
@@ -104,8 +103,10 @@ std::optional<LimitCase> solve_limit_case(const Model& model, const Vector& moti
   Remaining left = without(whole, known);
   Vector& f = left.problem.blocks.front().f;
   f -= whole.B.transpose() * lambda;
-  f -= moved * (moved.dot(f) / moved.squaredNorm());
-  if (problem::rigid_motions(left.problem).unnoticed.cols() != 1) return std::nullopt;
+  const auto rigid = problem::rigid_motions(left.problem);
+  if (rigid.unnoticed.cols() != 1) return std::nullopt;
+  const algebra::DenseMatrix free = problem::unnoticed_displacements(left.problem, rigid);  // to rounding, as `motion` need not be
+  f -= free * (free.transpose() * f);
   LimitCase out{run(left.problem, method, monitor), {}};
   for (std::size_t r = 0; r < left.row.size(); ++r) lambda[left.row[r]] = out.result.state.lambda[static_cast<Eigen::Index>(r)];
   out.result.state.lambda = lambda;

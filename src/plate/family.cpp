@@ -20,18 +20,29 @@ problem::Interval allowed(const problem::Law& law, int row, double lambda, doubl
 
 }  // namespace
 
+Vector by_motion(const algebra::SparseRows& B, const Vector& moved) {
+  Vector by = B * moved;
+  const double greatest = moved.size() ? moved.lpNorm<Eigen::Infinity>() : 0;
+  for (int r = 0; r < B.rows(); ++r) {
+    double sum = 0;
+    for (algebra::SparseRows::InnerIterator it(B, r); it; ++it) sum += std::abs(it.value());
+    if (std::abs(by[r]) <= 1e-9 * sum * greatest) by[r] = 0;
+  }
+  return by;
+}
+
 Family family(const Model& model, const problem::State& state, const Vector& motion) {
   const problem::Problem& problem = model.problem;
   Vector moved(problem.unknowns());
   for (int i = 0; i < motion.size(); ++i)
     if (model.unknown[i] >= 0) moved[model.unknown[i]] = motion[i];
-  const Vector x = problem.B * state.u - problem.c, by = problem.B * moved;
+  const Vector x = problem.B * state.u - problem.c, by = by_motion(problem.B, moved);
   const double noise = 1e-9 * std::max(state.lambda.size() ? state.lambda.lpNorm<Eigen::Infinity>() : 0.0, problem.blocks.front().f.lpNorm<Eigen::Infinity>());
   Family out{motion, -INFINITY, INFINITY};
   for (const problem::RowGroup& group : problem.groups)
     for (int k = 0; k < group.count; ++k) {
       const int r = group.first + k;
-      if (std::abs(by[r]) < 1e-9 * by.lpNorm<Eigen::Infinity>()) continue;
+      if (by[r] == 0) continue;
       const problem::Interval at = allowed(*group.law, k, state.lambda[r], x[r], noise);
       double a = (at.low - x[r]) / by[r], b = (at.high - x[r]) / by[r];
       if (a > b) std::swap(a, b);

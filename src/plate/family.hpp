@@ -10,6 +10,9 @@ struct Family {
   double from, to;          ///< may be infinite
 };
 
+/// B·moved, zero where it is no more than rounding, 1e-9 of Σⱼ|Bᵢⱼ| max|moved|: the row does not notice the motion.
+algebra::Vector by_motion(const algebra::SparseRows& B, const algebra::Vector& moved);
+
 /// For how much of the motion the multipliers still obey the laws, x − t B·motion ∈ ∂φ*(λ) in every row.
 Family family(const Model& model, const problem::State& state, const algebra::Vector& motion);
 

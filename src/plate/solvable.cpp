@@ -47,13 +47,13 @@ std::string told(const Model& model, const problem::RigidMotions& rigid, const a
 /// What the rows could bear on the motion beyond the load's work on it.
 double left_to_bear(const Model& model, const problem::RigidMotions& rigid, const algebra::Vector& amounts) {
   const algebra::Vector moved = rigid.N * amounts;
-  const double noticed = 1e-9 * (moved.size() ? moved.lpNorm<Eigen::Infinity>() : 0);
+  const algebra::Vector rounding = 1e-9 * amounts.lpNorm<Eigen::Infinity>() * rigid.N.cwiseAbs().rowwise().sum();
   double sum = -rigid.e.dot(amounts);
   for (const problem::RowGroup& group : model.problem.groups)
     for (int k = 0; k < group.count; ++k) {
       const double by = moved[group.first + k];
       const auto [low, high] = group.law->multipliers(k);
-      if (std::abs(by) > noticed) sum += by * (by > 0 ? high : low);
+      if (std::abs(by) > rounding[group.first + k]) sum += by * (by > 0 ? high : low);
     }
   return sum;
 }

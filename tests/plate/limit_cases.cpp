@@ -117,6 +117,31 @@ TEST_CASE("limit cases by point supports: a force over one support, and on the l
   }
 }
 
+TEST_CASE("a motion that no support notices, all supports on one line: without end both ways") {
+  for (const plate::Element element : kElements)
+    for (const Kind kind : {Kind::prescribed, Kind::signorini}) {
+      Plate p = test::plate_on(test::rectangle(test::Family::p1, 8, 8), element, -1);
+      for (const double y : {0.0, 1.0}) p.supports.push_back({y, y, {kind}});
+      const auto s = test::solved(p);
+      check_family(*s, -INFINITY, INFINITY);
+      for (int k = 0; k < 2; ++k) CHECK(plate::point_reaction(*s, k) == doctest::Approx(0.5));
+      CHECK(std::abs(s->motion(0.5, 0.5)) < 1e-9);
+      CHECK(std::abs(s->motion(0, 1)) > 0.5);
+    }
+}
+
+TEST_CASE("three one-sided corners, the resultant on the line of two: the third leaves without end") {
+  for (const plate::Element element : kElements) {
+    Plate p = test::plate_on(test::rectangle(test::Family::p1, 8, 8), element, -1);
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}}) p.supports.push_back({x, y, {Kind::signorini}});
+    const auto s = test::solved(p);
+    check_family(*s, 0, INFINITY);
+    CHECK(std::abs(plate::point_reaction(*s, 0)) < 1e-9);
+    CHECK(plate::point_reaction(*s, 1) == doctest::Approx(0.5));
+    CHECK(plate::point_reaction(*s, 2) == doctest::Approx(0.5));
+  }
+}
+
 TEST_CASE("an obstacle, a load without resultant and an edge that cannot rotate: upwards without end") {
   for (const plate::Element element : kElements) {
     Plate p = test::plate_on(rough(), element);
