@@ -91,6 +91,13 @@ for _, element in ipairs(elements) do
   end
 end
 
+for _, p in ipairs{ 3, 3.2, 3.3 } do -- a row or two of 768 stick beside each corner
+  local n <const> = 3 * finest // 2
+  local s <const> = dotyk.solve(plate(n, "morley", p))
+  print(("morley   %.2f  %5d   %4d + %-4s"):format(p, n, s.iterations, s.reason:match "(%d+) solves on a part" or 0))
+  assert(s.converged and s.iterations <= 40)
+end
+
 -- 3. Towards the limit: w = -(x²(1 - x)² + y²(1 - y)²)/12 where all the edge slips (plate_cases.lua).
 print "\nload       energy       off the limit's -1/180   middle      off the limit's -1/96"
 local before = 1

@@ -230,7 +230,7 @@ class Iteration {
     const auto newton = reduced_step(*condensed_, rho_);
     const bool finite = unilateral_or_linear(problem_);  // the active-set method ends where descent crawls
     for (int round = 0; result_.iterations < settings_.max_iterations && !monitor_.stop(); ++round) {
-      if (round == kSweepRounds && by_barrier(l, where)) return true;
+      if (round == kSweepRounds && by_barrier(l, descent, where)) return true;
       if (finite && round == kRounds) return settle(where);
       ++result_.iterations;
       for (int k = 0; k < kSweeps; ++k) descent.sweep();
@@ -253,8 +253,8 @@ class Iteration {
     return false;
   }
 
-  /// The pieces that a barrier method ends on, where a Newton step confirms them.
-  bool by_barrier(Linearisation& l, const std::string& where) {
+  /// The pieces that a barrier method ends on, where a Newton step confirms them; else descent goes on from there.
+  bool by_barrier(Linearisation& l, DualDescent& descent, const std::string& where) {
     if (problem_.rows() > kMostByBarrier) return false;
     monitor_.phase("active sets repeat: a barrier method on the rows");
     std::vector<int> rows(problem_.rows());
@@ -262,17 +262,34 @@ class Iteration {
     const BoxSolution s = solve_by_barrier(box_program(problem_, *condensed_, rows, std::vector<double>(rows.size(), 1)), kBarrierTol);
     result_.iterations += s.iterations;
     if (!s.converged) return false;
-    Linearisation from = linearise(problem_, s.lambda, condensed_->jump(s.lambda, s.alpha), rho_, noise(s.lambda, -problem_.c), nullptr);
+    const Vector jump = condensed_->jump(s.lambda, s.alpha);
+    if (!confirmed(l, s.lambda, jump) && !confirmed(l, s.lambda, without_error(jump, s))) {
+      descent.take_if_lower(s.lambda);
+      return false;
+    }
+    result_.reason = text("active sets repeated at ", where, "; left by ", s.iterations, " steps of a barrier method");
+    return true;
+  }
+
+  /// Of a row between its bounds the jump is the barrier's error, which ρ can blow up until it leaves them.
+  static Vector without_error(Vector jump, const BoxSolution& s) {
+    for (int r = 0; r < jump.size(); ++r)
+      if (s.side[r] == 0) jump[r] = 0;
+    return jump;
+  }
+
+  /// Do a few Newton steps from there end on pieces that repeat? Then these are in `l`.
+  bool confirmed(Linearisation& l, const Vector& lambda, const Vector& jump) {
+    Linearisation from = linearise(problem_, lambda, jump, rho_, noise(lambda, -problem_.c), nullptr);
     const auto newton = reduced_step(*condensed_, rho_);
     for (int k = 0; k < kConfirmations; ++k) {
-      Vector lambda, x;
-      if (!newton->solve(from, lambda, x)) return false;
-      Linearisation next = linearise(problem_, lambda, x, rho_, noise(lambda, x), &from);
+      Vector next_lambda, x;
+      if (!newton->solve(from, next_lambda, x)) return false;
+      Linearisation next = linearise(problem_, next_lambda, x, rho_, noise(next_lambda, x), &from);
       const bool same = same_pieces(from, next);
       from = std::move(next);
       if (!same) continue;
       l = std::move(from);
-      result_.reason = text("active sets repeated at ", where, "; left by ", s.iterations, " steps of a barrier method");
       return true;
     }
     return false;
