@@ -13,14 +13,16 @@ using problem::Problem;
 
 namespace {
 
-/// Beyond so many unknowns that rows act on the dense condensed problem costs more than a sparse factorisation an iteration.
-constexpr int kMostCondensed = 6000;
+/// The condensed problem is dense: beyond so many unknowns that rows act on, or so many against the root of all, a sparse factorisation an
+/// iteration costs less. Obstacles under squares, where rows act on a quarter (Morley) and a sixth (HCT) of the unknowns: alike at 24 to 28 cells a side.
+constexpr double kMostCondensed = 6000, kMostAgainstRoot = 11;
 
-bool few_rows(const Problem& problem) {
+bool condensed_pays(const Problem& problem) {
   std::vector<char> touched(problem.unknowns(), 0);
   for (int r = 0; r < problem.rows(); ++r)
     for (SparseRows::InnerIterator it(problem.B, r); it; ++it) touched[it.col()] = 1;
-  return std::count(touched.begin(), touched.end(), 1) <= kMostCondensed;
+  const auto count = static_cast<double>(std::count(touched.begin(), touched.end(), 1));
+  return count <= kMostCondensed && count <= kMostAgainstRoot * std::sqrt(problem.unknowns());
 }
 
 /// The rows of a problem that are left, group by group.
@@ -79,7 +81,8 @@ solver::Result run(const Problem& problem, const solver::Method& method, Monitor
   if (problem.rows() == 0) return solver::solve_linear(problem, method.ordering(), monitor);
   if (method) return method.run(problem, {}, monitor);
   solver::Pdas pdas;
-  pdas.reduced = few_rows(problem);
+  pdas.reduced = condensed_pays(problem);
+  pdas.held = !pdas.reduced;
   return solver::solve(problem, pdas, monitor);
 }
 

@@ -17,7 +17,8 @@ struct LimitCase {
 };
 std::optional<LimitCase> solve_limit_case(const Model& model, const algebra::Vector& motion, const solver::Method& method, Monitor& monitor);
 
-/// By the method; without one linearly where there are no rows, else by PDAS, on the condensed problem while rows act on few unknowns.
+/// By the method; without one linearly where there are no rows, else by PDAS: on the condensed problem while rows act on few unknowns,
+/// else on the unknowns, begun with an interior point method (Pdas::held), as over an obstacle, which has a row at every vertex.
 solver::Result run(const problem::Problem& problem, const solver::Method& method, Monitor& monitor);
 
 }  // namespace dotyk::plate

@@ -12,7 +12,9 @@
 #include "solver/active_set.hpp"
 #include "solver/box_barrier.hpp"
 #include "solver/descent.hpp"
+#include "solver/held_stiffness.hpp"
 #include "solver/hold.hpp"
+#include "solver/interior_start.hpp"
 #include "solver/linearisation.hpp"
 #include "solver/nested_start.hpp"
 #include "solver/require_solvable.hpp"
@@ -48,7 +50,7 @@ class Iteration {
     for (double& r : rho_)
       if (!(r > 0)) r = largest > 0 ? largest : 1;
     lambda_ = Vector::Zero(problem.rows());
-    result_.method = settings.reduced ? "pdas" : "pdas (full)";
+    result_.method = settings.reduced ? "pdas" : settings.held ? "pdas (held)" : "pdas (full)";
   }
 
   Result run() {
@@ -56,12 +58,15 @@ class Iteration {
     place_screws();
     Linearisation l = first();
     if (settings_.reduced) condense();
+    else if (settings_.held) analyse();
     step_ = screws_             ? screw_step(*condensed_, rho_, *screws_)
             : settings_.reduced ? reduced_step(*condensed_, rho_)
+            : settings_.held    ? held_step(problem_, *stiffness_, rho_)
             : settings_.step    ? settings_.step(problem_, rigid_, rho_)
                                 : full_step(problem_, rigid_, rho_);
     Stopwatch iterating;
     begin_on_few(l);
+    begin_inside(l);
     while (result_.iterations < settings_.max_iterations) {
       if (monitor_.stop()) {
         result_.reason = "interrupted; this is the state so far";
@@ -118,6 +123,15 @@ class Iteration {
     result_.ordering = condensed_->ordering();
   }
 
+  void analyse() {
+    Stopwatch watch;
+    monitor_.phase("ordering");
+    stiffness_.emplace(problem_, rigid_, settings_.ordering);
+    result_.clock.ordering += watch.lap();
+    result_.factor_bytes = stiffness_->cholesky().bytes();
+    result_.ordering = stiffness_->cholesky().method();
+  }
+
   Linearisation first() {
     const double touching = 1e-12 * (problem_.rows() ? problem_.c.lpNorm<Eigen::Infinity>() : 0);
     std::vector<char> active = settings_.start;
@@ -136,6 +150,16 @@ class Iteration {
     if (!nested.worthwhile()) return;
     l = held(nested.run(*step_), -problem_.c);
     begun_ = text(", begun with ", nested.solves(), " solves on a part of the rows");
+  }
+
+  /// Where an interior point method ends.
+  void begin_inside(Linearisation& l) {
+    if (!stiffness_ || !settings_.start.empty()) return;
+    monitor_.phase("an interior point method");
+    const InteriorPointState s = interior_start(problem_, rigid_, *stiffness_, kBeginning, monitor_);
+    if (s.iterations == 0) return;
+    l = held(linearise(problem_, s.lambda, s.x, rho_, noise(s.lambda, s.x), nullptr), s.x);
+    begun_ = text(", begun with ", s.iterations, " steps of an interior point method");
   }
 
   /// The linearisation with rows added where a rigid motion would be free.
@@ -225,6 +249,10 @@ class Iteration {
   /// each sweep, until the step confirms its own active set.
   bool leave_cycle(Linearisation& l) {
     const std::string where = places(problem_, changed_);
+    if (stiffness_ && problem_.rows() > kMostDense) {
+      result_.reason = text("active sets repeat at ", where, "; the methods that leave that are for at most ", kMostDense, " rows");
+      return false;
+    }
     if (!condensed_) condense();
     DualDescent descent(problem_, *condensed_, lambda_);
     const auto newton = reduced_step(*condensed_, rho_);
@@ -255,7 +283,7 @@ class Iteration {
 
   /// The pieces that a barrier method ends on, where a Newton step confirms them; else descent goes on from there.
   bool by_barrier(Linearisation& l, DualDescent& descent, const std::string& where) {
-    if (problem_.rows() > kMostByBarrier) return false;
+    if (problem_.rows() > kMostDense) return false;
     monitor_.phase("active sets repeat: a barrier method on the rows");
     std::vector<int> rows(problem_.rows());
     std::iota(rows.begin(), rows.end(), 0);
@@ -318,8 +346,8 @@ class Iteration {
   /// Sweeps between two Newton steps of the descent (and two updates of the free bodies' equilibrium).
   static constexpr int kSweeps = 3;
   /// Newton steps of the descent before the barrier method is asked, and that of active sets; steps granted to that.
-  static constexpr int kSweepRounds = 3, kConfirmations = 5, kMostByBarrier = 3000;
-  static constexpr double kBarrierTol = 1e-10;
+  static constexpr int kSweepRounds = 3, kConfirmations = 5, kMostDense = 3000;
+  static constexpr double kBarrierTol = 1e-10, kBeginning = 1e-10;
   static constexpr int kRounds = 20, kStepsPerRow = 20;
 
   const Problem& problem_;
@@ -333,6 +361,7 @@ class Iteration {
   const CondensedProblem* condensed_ = nullptr;
   std::optional<Screws> screws_;
   bool misplaced_ = false;  ///< a screw pulls and has nowhere to go
+  std::optional<HeldStiffness> stiffness_;  ///< of the held form
   std::unique_ptr<Step> step_;
   Vector lambda_, x_;
   std::vector<int> changed_;

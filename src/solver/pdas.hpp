@@ -19,6 +19,9 @@ struct Pdas : Settings {
   /// On the condensed problem (one sparse factorisation in all), or on the whole system
   /// (one LU an iteration): the same iterates (TR965 remark 1.3).
   bool reduced = true;
+  /// Where not reduced: by held_step, begun where an interior point method ends (interior_start; not counted among iterations) unless `start` says
+  /// where: for problems with many rows of few unknowns each. The iterates from one start are the same again.
+  bool held = false;
   /// What solves the linear problem of an iteration where not reduced; empty: full_step.
   std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>
       step;

@@ -7,6 +7,8 @@
 
 namespace dotyk::solver {
 
+class HeldStiffness;
+
 /// One linear problem of PDAS: equilibrium with the laws linearised.
 class Step {
  public:
@@ -26,5 +28,10 @@ std::unique_ptr<Step> reduced_step(const problem::CondensedProblem& condensed,
 /// Motions that no row notices are taken out by a border: their part of u is zero.
 std::unique_ptr<Step> full_step(const problem::Problem& problem, const problem::RigidMotions& rigid,
                                 const algebra::Vector& rho);
+
+/// On the unknowns alone (see HeldStiffness), where rows act on few unknowns each. An active rigid row of one unknown holds it, and its λ is what
+/// equilibrium leaves there; a row with compliance is a spring. Rigid rows of several unknowns, and those whose unknown is held already, are springs to which conjugate gradients
+/// add the forces that keep them closed. One sparse Cholesky factorisation in each iteration. Dependent rows get some multipliers, not refused.
+std::unique_ptr<Step> held_step(const problem::Problem& problem, HeldStiffness& stiffness, const algebra::Vector& rho);
 
 }  // namespace dotyk::solver
