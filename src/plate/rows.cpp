@@ -61,7 +61,7 @@ class Rows {
 
   double height(double x, double y) const {
     const double h = plate_.obstacle(x, y);
-    if (std::isnan(h) || h == INFINITY) throw InputError(text("the obstacle is ", h, " at (", x, ", ", y, "); it must be a number, or -math.huge for none"));
+    if (std::isnan(h) || h == INFINITY) throw InputError(text("the obstacle is ", h, " at (", x, ", ", y, "); it must be a number"));
     return h;
   }
 
