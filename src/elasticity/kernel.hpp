@@ -15,6 +15,24 @@ void cell_coordinates(const mesh::Mesh& mesh, int cell, double x[][E::dim]) {
     for (int i = 0; i < E::dim; ++i) x[a][i] = mesh.node(n[a])[i];
 }
 
+/// Calls visit(cell, weight × measure, shape functions, their gradients, point) for each point of the cells' load rule.
+template <class E, class Visit>
+void for_each_load_point(const mesh::Mesh& mesh, Visit&& visit) {
+  double x[E::nodes][E::dim], g[E::nodes][E::dim];
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    cell_coordinates<E>(mesh, c, x);
+    for (int q = 0; q < E::load_points; ++q) {
+      const auto xi = E::load_point(q);
+      const double w = physical_gradient<E>(x, xi, g) * E::load_weight(q);
+      const auto shape = E::shape(xi);
+      mesh::Point at{0, 0, 0};
+      for (int a = 0; a < E::nodes; ++a)
+        for (int i = 0; i < E::dim; ++i) at[i] += shape[a] * x[a][i];
+      visit(c, w, shape, g, at);
+    }
+  }
+}
+
 /// k[a][b][i][j] = ∫ ∂_k φ_a c_ikjl ∂_l φ_b over the cell, for a ≥ b.
 template <class E>
 void stiffness(const double x[][E::dim], const Hooke& h, double k[][E::nodes][E::dim][E::dim]) {

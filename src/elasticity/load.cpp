@@ -73,24 +73,12 @@ void for_each_facet_point(const Mesh& mesh, Facet facet,
 }
 
 void add_body_force(const Mesh& mesh, const VectorField& f, std::vector<double>& nodal) {
-  const int dim = mesh.dimension();
   dispatch(mesh.element, [&]<class E>() {
-    double x[E::nodes][E::dim], g[E::nodes][E::dim];
-    for (int c = 0; c < mesh.cell_count(); ++c) {
-      cell_coordinates<E>(mesh, c, x);
-      for (int q = 0; q < E::load_points; ++q) {
-        const auto xi = E::load_point(q);
-        const double w = physical_gradient<E>(x, xi, g) * E::load_weight(q);
-        const auto shape = E::shape(xi);
-        Point at{0, 0, 0};
-        for (int a = 0; a < E::nodes; ++a)
-          for (int i = 0; i < E::dim; ++i) at[i] += shape[a] * x[a][i];
-        const Point value = f(at);
-        for (int a = 0; a < E::nodes; ++a)
-          for (int i = 0; i < E::dim; ++i)
-            nodal[static_cast<std::size_t>(mesh.cell(c)[a]) * dim + i] += w * shape[a] * value[i];
-      }
-    }
+    for_each_load_point<E>(mesh, [&](int c, double w, const auto& shape, const auto&, const Point& at) {
+      const Point value = f(at);
+      for (int a = 0; a < E::nodes; ++a)
+        for (int i = 0; i < E::dim; ++i) nodal[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i] += w * shape[a] * value[i];
+    });
   });
 }
 

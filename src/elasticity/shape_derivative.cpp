@@ -153,24 +153,15 @@ std::vector<double> internal_force_derivative(const Mesh& mesh, const MaterialFi
 
 void add_body_force_derivative(const Mesh& mesh, const VectorField& f, const std::vector<double>& V, std::vector<double>& nodal) {
   dispatch(mesh.element, [&]<class E>() {
-    double x[E::nodes][E::dim], v[E::nodes][E::dim], g[E::nodes][E::dim], grad_v[E::dim][E::dim];
-    for (int c = 0; c < mesh.cell_count(); ++c) {
-      cell_coordinates<E>(mesh, c, x);
+    for_each_load_point<E>(mesh, [&](int c, double w, const auto& shape, const auto& g, const Point& at) {
+      double v[E::nodes][E::dim], grad_v[E::dim][E::dim];
       gather<E>(mesh, c, V, v);
-      for (int q = 0; q < E::load_points; ++q) {
-        const auto xi = E::load_point(q);
-        const double w = physical_gradient<E>(x, xi, g) * E::load_weight(q);
-        gradient_of<E>(v, g, grad_v);
-        const auto shape = E::shape(xi);
-        Point at{0, 0, 0};
-        for (int a = 0; a < E::nodes; ++a)
-          for (int i = 0; i < E::dim; ++i) at[i] += shape[a] * x[a][i];
-        const Point value = f(at);
-        for (int a = 0; a < E::nodes; ++a)
-          for (int i = 0; i < E::dim; ++i)
-            nodal[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i] += w * trace<E::dim>(grad_v) * shape[a] * value[i];
-      }
-    }
+      gradient_of<E>(v, g, grad_v);
+      const Point value = f(at);
+      for (int a = 0; a < E::nodes; ++a)
+        for (int i = 0; i < E::dim; ++i)
+          nodal[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i] += w * trace<E::dim>(grad_v) * shape[a] * value[i];
+    });
   });
 }
 

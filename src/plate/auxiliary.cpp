@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plate/rows.hpp"
 #include "solver/pdas.hpp"
 
 namespace dotyk::plate {
@@ -18,9 +19,7 @@ namespace {
 constexpr double kMostCondensed = 6000, kMostAgainstRoot = 11;
 
 bool condensed_pays(const Problem& problem) {
-  std::vector<char> touched(problem.unknowns(), 0);
-  for (int r = 0; r < problem.rows(); ++r)
-    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) touched[it.col()] = 1;
+  const std::vector<char> touched = touched_by_rows(problem);
   const auto count = static_cast<double>(std::count(touched.begin(), touched.end(), 1));
   return count <= kMostCondensed && count <= kMostAgainstRoot * std::sqrt(problem.unknowns());
 }
@@ -88,9 +87,7 @@ solver::Result run(const Problem& problem, const solver::Method& method, Monitor
 
 std::optional<LimitCase> solve_limit_case(const Model& model, const Vector& motion, const solver::Method& method, Monitor& monitor) {
   const Problem& whole = model.problem;
-  Vector moved(whole.unknowns());
-  for (int i = 0; i < motion.size(); ++i)
-    if (model.unknown[i] >= 0) moved[model.unknown[i]] = motion[i];
+  const Vector moved = model.unknowns(motion);
   const Vector by = by_motion(whole.B, moved);
   std::vector<char> known(whole.rows(), 0);
   Vector lambda = Vector::Zero(whole.rows());

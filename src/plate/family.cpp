@@ -33,9 +33,7 @@ Vector by_motion(const algebra::SparseRows& B, const Vector& moved) {
 
 Family family(const Model& model, const problem::State& state, const Vector& motion) {
   const problem::Problem& problem = model.problem;
-  Vector moved(problem.unknowns());
-  for (int i = 0; i < motion.size(); ++i)
-    if (model.unknown[i] >= 0) moved[model.unknown[i]] = motion[i];
+  const Vector moved = model.unknowns(motion);
   const Vector x = problem.B * state.u - problem.c, by = by_motion(problem.B, moved);
   const double noise = 1e-9 * std::max(state.lambda.size() ? state.lambda.lpNorm<Eigen::Infinity>() : 0.0, problem.blocks.front().f.lpNorm<Eigen::Infinity>());
   Family out{motion, -INFINITY, INFINITY};

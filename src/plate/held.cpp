@@ -33,7 +33,7 @@ class Holder {
   Held operator()(std::vector<Sample>& deflections, std::vector<Sample>& rotations) {
     const bool hct = space_.element == Element::hct;
     for (Sample& s : deflections) {
-      if (s.law.kind != Kind::prescribed || !s.at_vertex) continue;
+      if (s.law.kind != Kind::prescribed) continue;
       s.held = true;
       set(space_.of_vertex(s.place), s.law.value, s.x);
       if (hct) hold_tangents(s);
@@ -42,7 +42,7 @@ class Holder {
       if (s.law.kind != Kind::prescribed) continue;
       s.held = true;
       if (!s.at_vertex) set(space_.of_edge(s.place), s.law.value * space_.unit, s.x);
-      else slopes_[s.place].push_back({s.along_node ? space_.boundary[s.place].normal : space_.edges.edges[s.edges[0]].normal, s.law.value});
+      else slopes_[s.place].push_back({slope_direction(space_, s), s.law.value});
     }
     for (const auto& [vertex, slopes] : slopes_) hold_slopes(vertex, slopes);
     return std::move(held_);

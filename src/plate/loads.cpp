@@ -98,12 +98,15 @@ void add_line(const LineLoad& line, const Space& space, const Finder& finder, Ve
 Vector loads(const Plate& plate, const Space& space) {
   Vector load = Vector::Zero(space.count());
   add_distributed(plate, space, load);
-  if (plate.point_loads.empty() && plate.line_loads.empty()) return load;
+  if (plate.point_loads.empty() && plate.line_loads.empty() && plate.supports.empty()) return load;
   const Finder finder(space);
-  for (const PointLoad& point : plate.point_loads) {
-    const Place place = finder.find({point.x, point.y}, "a point load:");
-    add(load, space.deflection_at(place.cell, place.at), point.force);
-  }
+  const auto add_point = [&](double x, double y, double force, const char* what) {
+    const Place place = finder.find({x, y}, what);
+    add(load, space.deflection_at(place.cell, place.at), force);
+  };
+  for (const PointLoad& point : plate.point_loads) add_point(point.x, point.y, point.force, "a point load:");
+  for (const PointSupport& s : plate.supports)
+    if (s.deflection.kind == problem::SupportLaw::Kind::load) add_point(s.x, s.y, s.deflection.value, "a support:");
   for (const LineLoad& line : plate.line_loads) add_line(line, space, finder, load);
   return load;
 }

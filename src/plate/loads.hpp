@@ -24,7 +24,7 @@ class Finder {
   mesh::CellGrid grid_;
 };
 
-/// ∫ f v + loads on points and lines, of every freedom. What edges are loaded with by their laws is not in it. Throws InputError where
+/// ∫ f v + loads on points, those of point supports included, and lines, of every freedom. What edges are loaded with by their laws is not in it. Throws InputError where
 /// f is not finite, or a load is off the plate.
 algebra::Vector loads(const Plate& plate, const Space& space);
 

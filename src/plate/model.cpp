@@ -23,6 +23,13 @@ Vector Model::freedoms(const Vector& unknowns) const {
   return all;
 }
 
+Vector Model::unknowns(const Vector& freedoms) const {
+  Vector out(problem.unknowns());
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    if (unknown[i] >= 0) out[unknown[i]] = freedoms[i];
+  return out;
+}
+
 namespace {
 
 /// Takes off what quadrature leaves of a load that balances: a resultant below 1e-6 of the forces.
@@ -40,11 +47,8 @@ problem::Block block(const Plate& plate, const Model& model) {
   block.K = std::move(K.on_free);
   block.offset = K.energy_of_held - model.load.dot(model.held.value);
   block.f = -K.force_of_held;
-  for (int i = 0; i < model.space.count(); ++i) {
-    if (model.unknown[i] < 0) continue;
-    block.f[model.unknown[i]] += model.load[i];
-    block.node.push_back(model.space.node(i));
-  }
+  for (int i = 0; i < model.space.count(); ++i)
+    if (model.unknown[i] >= 0) block.f[model.unknown[i]] += model.load[i];
   FreeMotions motions = free_motions(model.space, model.held, model.unknown);
   if (plate.f_of) balance(motions.kernel, block.f);
   block.kernel = std::move(motions.kernel);
@@ -61,9 +65,7 @@ Plate without_functions(Plate plate) {
 
 /// Freedoms of a vertex that no row acts on stand apart from those that rows do: the condensed problem is smaller without them.
 std::vector<int> nodes(const Model& model) {
-  std::vector<char> touched(model.problem.unknowns(), 0);
-  for (int r = 0; r < model.problem.rows(); ++r)
-    for (algebra::SparseRows::InnerIterator it(model.problem.B, r); it; ++it) touched[it.col()] = 1;
+  const std::vector<char> touched = touched_by_rows(model.problem);
   std::vector<int> out;
   int last = -1;
   for (int i = 0; i < model.space.count(); ++i) {
@@ -93,11 +95,6 @@ Model build(Plate plate) {
   if (count == 0) throw InputError("its supports hold every freedom: the mesh is too coarse; give it more cells");
   model.load = loads(plate, model.space);
   add_law_loads(model.space, model.deflections, model.rotations, model.load);
-  for (const PointSupport& s : plate.supports) {
-    if (s.deflection.kind != problem::SupportLaw::Kind::load) continue;
-    const Place place = Finder(model.space).find({s.x, s.y}, "a support:");
-    for (const Term& term : model.space.deflection_at(place.cell, place.at)) model.load[term.freedom] += term.factor * s.deflection.value;
-  }
   problem::add(model.problem, block(plate, model));
   add_rows(plate, model);
   model.problem.blocks.front().node = nodes(model);

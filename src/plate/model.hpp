@@ -22,6 +22,8 @@ struct Model {
 
   /// Every freedom, from the problem's unknowns.
   algebra::Vector freedoms(const algebra::Vector& unknowns) const;
+  /// The problem's unknowns among values of every freedom.
+  algebra::Vector unknowns(const algebra::Vector& freedoms) const;
 };
 
 /// Calls the plate's functions, here and never again. Throws InputError as require_valid(), where D, the load or a law is not what it must be at some point, supports contradict each other, or a load

@@ -69,21 +69,15 @@ class Collector {
     }
   }
 
-  template <class Add>
-  void spread(const Sample& sample, const Add& add) {
-    if (sample.at_vertex) return add(at[sample.place], 1.0);
-    for (const int n : model_.space.edges.edges[sample.place].node) add(at[n], 0.5);
-  }
-
   void add_deflection(const Sample& sample) {
     double force = 0;
     if (sample.held) force = holding_[model_.space.of_vertex(sample.place)] * sample.share / shares_[sample.place];
     if (sample.row >= 0) force = lambda()[sample.row] * sample.part_of_row;
     if (sample.law.kind == Kind::load) force = sample.law.value * sample.share;
-    spread(sample, [&](AtVertex& v, double part) { v.force += part * force; });
-    if (!sample.at_vertex) return;
-    at[sample.place].deflection = &sample;
-    at[sample.place].row = sample.row;
+    AtVertex& vertex = at[sample.place];
+    vertex.force += force;
+    vertex.deflection = &sample;
+    vertex.row = sample.row;
   }
 
   void add_rotation(const Sample& sample) {
@@ -93,21 +87,19 @@ class Collector {
     if (sample.held && sample.at_vertex) moment = held_moment(sample);
     if (sample.row >= 0) moment = turn * lambda()[sample.row] * sample.part_of_row * model_.space.unit;
     if (sample.law.kind == Kind::load) moment = sample.law.value * sample.share;
-    spread(sample, [&](AtVertex& v, double part) {
-      v.moment += part * moment;
-      if (!v.rotation) v.rotation = &sample;
-    });
-  }
-
-  Vector2d direction(const Sample& rotation) const {
-    return rotation.along_node ? model_.space.boundary[rotation.place].normal : model_.space.edges.edges[rotation.edges[0]].normal;
+    const auto add = [&](int vertex, double part) {
+      at[vertex].moment += part * moment;
+      if (!at[vertex].rotation) at[vertex].rotation = &sample;
+    };
+    if (sample.at_vertex) return add(sample.place, 1);
+    for (const int n : model_.space.edges.edges[sample.place].node) add(n, 0.5);
   }
 
   /// HCT: of each vertex whose gradient is held Σ ddᵀ over the directions d that laws hold it in.
   void find_held_directions() {
     const auto add = [&](int vertex, const Vector2d& d) { held_directions_.emplace(vertex, Eigen::Matrix2d::Zero()).first->second += d * d.transpose(); };
     for (const Sample& r : model_.rotations)
-      if (r.held && r.at_vertex) add(r.place, direction(r));
+      if (r.held && r.at_vertex) add(r.place, slope_direction(model_.space, r));
     const auto along = [](const Vector2d& normal) { return Vector2d(-normal[1], normal[0]); };
     for (const Sample& d : model_.deflections) {
       const BoundaryNode& node = model_.space.boundary[d.place];
@@ -123,7 +115,7 @@ class Collector {
     const int first = model_.space.of_vertex(sample.place) + 1;
     const Vector2d a = model_.space.frame[sample.place], b(-a[1], a[0]);
     const Vector2d moment = (holding_[first] * a + holding_[first + 1] * b) * model_.space.unit;
-    return direction(sample).dot(held_directions_.at(sample.place).completeOrthogonalDecomposition().solve(moment));
+    return slope_direction(model_.space, sample).dot(held_directions_.at(sample.place).completeOrthogonalDecomposition().solve(moment));
   }
 
   const Solution& s_;

@@ -71,7 +71,7 @@ class Rows {
     std::vector<std::array<int, 3>> order;
     for (Sample& s : samples) {
       if (s.held) {
-        if (!about.rotation && s.at_vertex && plate_.obstacle) require_above(s.place, s.law.value, s.x);
+        if (!about.rotation && plate_.obstacle) require_above(s.place, s.law.value, s.x);
         continue;
       }
       if (s.law.kind == Kind::free || s.law.kind == Kind::load) continue;
@@ -125,8 +125,8 @@ class Rows {
 
   /// The obstacle's height where it is above 0, at a point that may not go below 0.
   double mind_obstacle(const Sample& s) {
-    if (s.at_vertex) minded_[s.place] = 1;
-    return std::max(0.0, s.at_vertex ? height_[s.place] : height(s.x[0], s.x[1]));
+    minded_[s.place] = 1;
+    return std::max(0.0, height_[s.place]);
   }
 
   void require_above(int vertex, double held, const Eigen::Vector2d& x) {
@@ -165,6 +165,7 @@ class Rows {
   }
 
   void add_points() {
+    if (plate_.supports.empty()) return;
     const Finder finder(model_.space);
     for (const PointSupport& s : plate_.supports) {
       const Place place = finder.find({s.x, s.y}, "a support:");
@@ -210,5 +211,12 @@ class Rows {
 }  // namespace
 
 void add_rows(const Plate& plate, Model& model) { Rows(plate, model)(); }
+
+std::vector<char> touched_by_rows(const problem::Problem& problem) {
+  std::vector<char> touched(problem.unknowns(), 0);
+  for (int r = 0; r < problem.rows(); ++r)
+    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) touched[it.col()] = 1;
+  return touched;
+}
 
 }  // namespace dotyk::plate

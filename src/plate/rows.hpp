@@ -9,4 +9,7 @@ namespace dotyk::plate {
 /// does not change. Throws InputError where what is held contradicts a one-sided law or the obstacle.
 void add_rows(const Plate& plate, Model& model);
 
+/// Which unknowns some row acts on.
+std::vector<char> touched_by_rows(const problem::Problem& problem);
+
 }  // namespace dotyk::plate

@@ -102,9 +102,13 @@ Functional deflection(const Space& space, const Sample& sample) {
   return out;
 }
 
+Vector2d slope_direction(const Space& space, const Sample& sample) {
+  return sample.along_node ? space.boundary[sample.place].normal : space.edges.edges[sample.edges[0]].normal;
+}
+
 Functional rotation(const Space& space, const Sample& sample) {
   if (!sample.at_vertex) return space.slope_of_edge(sample.place);
-  return space.slope_of_vertex(sample.place, sample.along_node ? space.boundary[sample.place].normal : space.edges.edges[sample.edges[0]].normal);
+  return space.slope_of_vertex(sample.place, slope_direction(space, sample));
 }
 
 }  // namespace dotyk::plate

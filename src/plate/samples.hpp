@@ -29,6 +29,9 @@ std::vector<Sample> deflection_samples(const Plate& plate, const Space& space);
 /// Where those of the rotation do. Morley: the edge middles; HCT: these and the vertices, by Simpson's rule.
 std::vector<Sample> rotation_samples(const Plate& plate, const Space& space);
 
+/// Along which a rotation's slope is: the normal of its edge, or of a smooth node.
+Eigen::Vector2d slope_direction(const Space& space, const Sample& sample);
+
 /// v of a law at a sample.
 Functional deflection(const Space& space, const Sample& sample);
 Functional rotation(const Space& space, const Sample& sample);

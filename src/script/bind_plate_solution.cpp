@@ -91,12 +91,6 @@ std::optional<Record> contact(const Solution& s) {
   return Record{"contact", {{"force", force}, {"nodes", nodes}}};
 }
 
-std::vector<Record> history(const Solution& s) {
-  std::vector<Record> rows;
-  for (const IterationInfo& info : s.result().history) rows.push_back(iteration_record(info));
-  return rows;
-}
-
 std::string show(const Solution& s) {
   const solver::Result& r = s.result();
   std::string out = text("plate solution: ", r.converged ? "converged" : "NOT CONVERGED", " (", r.method, ", ", r.iterations, r.iterations == 1 ? " iteration" : " iterations", "; ",
@@ -126,7 +120,7 @@ void bind_plate_solution(Library& library) {
       .field("rows", "conditions of laws, point supports and the obstacle", [](const Solution& s) { return s.model().problem.rows(); })
       .field("time", "seconds: total assembly ordering factor iterate recover", [](const Solution& s) { return time_record(s.result().clock); }, "s")
       .field("residual", "relative: equilibrium penetration complementarity law", [](const Solution& s) { return residual_record(s.residual()); })
-      .field("history", "one entry an iteration: active changed residual time", history)
+      .field("history", "one entry an iteration: active changed residual time", [](const Solution& s) { return history_records(s.result()); })
       .field("family", "where the solution is not the only one: all are u + t motion, from <= t <= to, motion as plate_solution:motion gives it; else nil", family)
       .field("contact", "of the plate with its obstacle: force upwards, and nodes (x, y, force) that bear; nil without one", contact)
       .method({.name = "plate_solution:deflection", .help = "The deflection at a point, positive upwards.", .example = "print(s:deflection(0.5, 0.5))", .arguments = point_keys(), .run = deflection})

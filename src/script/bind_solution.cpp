@@ -53,12 +53,6 @@ std::optional<Record> feti_record(const Solution& s) {
   return r;
 }
 
-std::vector<Record> history(const Solution& s) {
-  std::vector<Record> rows;
-  for (const IterationInfo& info : s.result().history) rows.push_back(iteration_record(info));
-  return rows;
-}
-
 std::vector<Record> screws(const Solution& s) {
   std::vector<Record> placements;
   for (const solver::ScrewPlacement& p : s.result().screws) {
@@ -218,7 +212,7 @@ void bind_solution(Library& library) {
                      "space), inner (steps), products (with F), loops (updates of Coulomb's bounds), norm (bound of |PFP|), "
                      "condition (of PFP, with spectrum = true, else nil)", feti_record)
       .field("history", "one entry an iteration: active stick slip changed residual time, and of newton singular_value: the least one "
-                         "of the scaled derivative of that step; of coulomb_loop contraction", history)
+                         "of the scaled derivative of that step; of coulomb_loop contraction", [](const Solution& s) { return history_records(s.result()); })
       .field("ordering", "elimination order used", [](const Solution& s) { return s.result().ordering; })
       .field("factor_bytes", "size of the sparse factors", [](const Solution& s) { return s.result().factor_bytes; }, "bytes");
   type.method({.name = "solution:displacement",

@@ -1,5 +1,7 @@
 #include "script/result_records.hpp"
 
+#include "script/watch.hpp"
+
 namespace dotyk::script {
 
 Record time_record(const problem::Clock& t) {
@@ -10,6 +12,12 @@ Record time_record(const problem::Clock& t) {
 Record residual_record(const problem::Residual& r) {
   return {"residual", {{"equilibrium", r.equilibrium}, {"penetration", r.penetration},
                        {"complementarity", r.complementarity}, {"friction", r.friction}, {"law", r.law}}};
+}
+
+std::vector<Record> history_records(const solver::Result& result) {
+  std::vector<Record> rows;
+  for (const IterationInfo& info : result.history) rows.push_back(iteration_record(info));
+  return rows;
 }
 
 }  // namespace dotyk::script

@@ -3,10 +3,12 @@
 #include "problem/condensed_block.hpp"
 #include "problem/residual.hpp"
 #include "script/push.hpp"
+#include "solver/solver.hpp"
 
 namespace dotyk::script {
 
 Record time_record(const problem::Clock& clock);
 Record residual_record(const problem::Residual& residual);
+std::vector<Record> history_records(const solver::Result& result);
 
 }  // namespace dotyk::script

@@ -11,7 +11,6 @@ namespace dotyk::solver {
 
 using algebra::DenseMatrix;
 using algebra::Vector;
-using problem::Law;
 
 BoxProgram box_program(const problem::Problem& problem, const problem::CondensedProblem& condensed, const std::vector<int>& rows,
                        const std::vector<double>& stands_for) {
@@ -56,7 +55,7 @@ class Barrier {
       ++out.iterations;
       out.converged = error() <= tol_;
     }
-    out.lambda = whole_.low.cwiseMax(-Law::kUnbounded);
+    out.lambda = whole_.low;
     out.alpha = alpha_.cwiseProduct(motion_unit_);
     out.side.assign(whole_.g.size(), 0);
     for (int k = 0; k < size(); ++k) {

@@ -58,10 +58,14 @@ void NestedStart::keep(int stride) {
   }
 }
 
-Linearisation NestedStart::begin() const {
+Linearisation NestedStart::unset() const {
   const int rows = problem_.rows();
-  Linearisation l{Vector::Zero(rows), Vector::Zero(rows), Vector::Zero(rows), std::vector<char>(rows, 0)};
-  for (int r = 0; r < rows; ++r) set(l, r, pieces_[r]);
+  return {Vector::Zero(rows), Vector::Zero(rows), Vector::Zero(rows), std::vector<char>(rows, 0)};
+}
+
+Linearisation NestedStart::begin() const {
+  Linearisation l = unset();
+  for (int r = 0; r < problem_.rows(); ++r) set(l, r, pieces_[r]);
   return l;
 }
 
@@ -88,7 +92,7 @@ void NestedStart::set(Linearisation& l, int row, Piece piece) const {
 }
 
 Linearisation NestedStart::linearise(const Vector& lambda, const Vector& x) const {
-  Linearisation l = begin();
+  Linearisation l = unset();
   for (int r = 0; r < problem_.rows(); ++r) set(l, r, lambda[r] + rho_[r] * x[r]);
   return l;
 }
