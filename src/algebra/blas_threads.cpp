@@ -1,7 +1,5 @@
 #include "algebra/blas_threads.hpp"
 
-#include <sys/resource.h>
-
 #include <atomic>
 
 #include "base/memory.hpp"
@@ -20,15 +18,6 @@ namespace {
 constexpr double kWorthSharing = 1e11;
 
 std::atomic<int> held_to_one{0};  ///< how many OneBlasThread live
-
-/// Is there a limit of the address space (ulimit -v)?
-bool limited() {
-  static const bool is = [] {
-    rlimit own{};
-    return getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY;
-  }();
-  return is;
-}
 
 int all_threads() {
   static const int count = openblas_get_num_threads();  // as the program was started
@@ -51,7 +40,7 @@ void reserve_blas_buffer() {
 
 BlasThreads::BlasThreads(double flops) {
   reserve_blas_buffer();
-  if (limited()) omp_set_max_active_levels(0);  // of this thread: its loops stay on it
+  omp_set_max_active_levels(0);  // of this thread: its loops stay on it
   if (held_to_one > 0) return;
   const int all = all_threads();
   openblas_set_num_threads(flops > kWorthSharing ? all : 1);

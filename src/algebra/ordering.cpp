@@ -13,6 +13,9 @@ namespace {
 /// plane meshes of 10⁶ unknowns stay below, 3-D ones of 10⁴ are above).
 constexpr double kDissectionFlopsPerNode = 3e5;
 
+/// Above these many a second ordering by minimum degree, and a third, pay: each costs what some 5e3 flops a node do.
+constexpr double kSecondFlopsPerNode = 2e4, kThirdFlopsPerNode = 4e4;
+
 /// The graph of nodes that carry unknowns, as a lower-triangular pattern.
 struct NodeGraph {
   std::vector<int> first;     ///< graph node → its first unknown; one past the end last
@@ -93,13 +96,47 @@ std::vector<int> minimum_degree(cholmod_sparse& graph, std::vector<int>& member,
   return order;
 }
 
-std::vector<int> nested_dissection(cholmod_sparse& graph, std::vector<int>& member,
+/// The order without constraint, those of `member` then moved to its end.
+void move_last(const std::vector<int>& member, std::vector<int>& order) {
+  if (!member.empty())
+    std::stable_partition(order.begin(), order.end(), [&](int k) { return member[k] == 0; });
+}
+
+/// Of the graph without those of `member`, which then follow.
+std::vector<int> interior_minimum_degree(const NodeGraph& graph, const std::vector<int>& member, CholmodCommon& common) {
+  std::vector<int> inner, index(graph.size(), -1), none;
+  NodeGraph interior;
+  for (int k = 0; k < graph.size(); ++k)
+    if (member[k] == 0) index[k] = static_cast<int>(inner.size()), inner.push_back(k);
+  interior.first.resize(inner.size() + 1);
+  interior.start.push_back(0);
+  for (const int k : inner) {
+    for (int p = graph.start[k]; p < graph.start[k + 1]; ++p)
+      if (index[graph.neighbour[p]] >= 0) interior.neighbour.push_back(index[graph.neighbour[p]]);
+    interior.start.push_back(static_cast<int>(interior.neighbour.size()));
+  }
+  std::vector<int> order;
+  if (!inner.empty()) {
+    cholmod_sparse view = interior.view();
+    for (const int k : minimum_degree(view, none, common)) order.push_back(inner[k]);
+  }
+  for (int k = 0; k < graph.size(); ++k)
+    if (member[k] != 0) order.push_back(k);
+  return order;
+}
+
+std::vector<int> unconstrained_minimum_degree(cholmod_sparse& graph, const std::vector<int>& member, CholmodCommon& common) {
+  std::vector<int> none, order = minimum_degree(graph, none, common);
+  move_last(member, order);
+  return order;
+}
+
+std::vector<int> nested_dissection(cholmod_sparse& graph, const std::vector<int>& member,
                                    CholmodCommon& common) {
   std::vector<int> order(graph.nrow);
   cholmod_metis(&graph, nullptr, 0, true, order.data(), common.get());
   common.check("nested dissection");
-  if (!member.empty())
-    std::stable_partition(order.begin(), order.end(), [&](int k) { return member[k] == 0; });
+  move_last(member, order);
   return order;
 }
 
@@ -121,21 +158,24 @@ Permutation order(const SparseMatrix& lower, const std::vector<int>& node,
   const double block = graph.size() ? static_cast<double>(node.size()) / graph.size() : 1;
   Permutation result;
   std::vector<int> nodes;
+  const auto take_if_better = [&](std::vector<int> other, const char* method) {
+    const double flops = block * block * block * predict(view, other, common);
+    if (!nodes.empty() && flops >= result.flops) return;
+    nodes = std::move(other);
+    result.flops = flops;
+    result.method = method;
+  };
   if (choice != Ordering::nested_dissection) {
-    nodes = minimum_degree(view, member, common);
-    result.flops = block * block * block * predict(view, nodes, common);
-    result.method = last.empty() ? "AMD" : "CAMD";
+    take_if_better(minimum_degree(view, member, common), member.empty() ? "AMD" : "CAMD");
+    // With many nodes to come last, along all edges of a plate, CAMD fills up to twice as much as these on some meshes.
+    if (!member.empty() && result.flops > kSecondFlopsPerNode * graph.size())
+      take_if_better(interior_minimum_degree(graph, member, common), "AMD");
+    if (!member.empty() && result.flops > kThirdFlopsPerNode * graph.size())
+      take_if_better(unconstrained_minimum_degree(view, member, common), "AMD");
   }
   if (choice == Ordering::nested_dissection ||
-      (choice == Ordering::automatic && result.flops > kDissectionFlopsPerNode * graph.size())) {
-    auto other = nested_dissection(view, member, common);
-    const double flops = block * block * block * predict(view, other, common);
-    if (nodes.empty() || flops < result.flops) {
-      nodes = std::move(other);
-      result.flops = flops;
-      result.method = "METIS";
-    }
-  }
+      (choice == Ordering::automatic && result.flops > kDissectionFlopsPerNode * graph.size()))
+    take_if_better(nested_dissection(view, member, common), "METIS");
   result.order.reserve(node.size());
   for (int k : nodes)
     for (int i = graph.first[k]; i < graph.first[k + 1]; ++i) result.order.push_back(i);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -158,7 +159,7 @@ std::vector<NodePair> match(const Face& first, const Face& second) {
     }
     taken.insert(partner);
     if (&first.mesh == &second.mesh && partner == n.node) continue;  // the tip of a crack moves with itself
-    pairs.push_back({n.node, partner, dot(minus(second.mesh.point(partner), x), n.normal)});
+    pairs.push_back({n.node, partner});
   }
   if (pairs.empty())
     throw InputError(text(first.name, " and ", second.name, " do not face each other: no node of one has a node of "
@@ -172,32 +173,58 @@ std::vector<NodePair> match(const Face& first, const Face& second) {
   return pairs;
 }
 
+namespace {
+
+/// The row of a side whose partner is known.
+ContactRow row_of(const NodeSide& side, int partner, double added, const Face& first, const Face& second) {
+  const Point x = first.mesh.point(side.node);
+  const double gap = dot(minus(second.mesh.point(partner), x), side.normal) + added;
+  if (!std::isfinite(gap))
+    throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), first.mesh.dimension()),
+                          "; it must be a finite number"));
+  return {side.node, partner, side.normal, gap, side.weight, side.facets, added};
+}
+
+void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, const Face& second) {
+  double deepest = 0;
+  int node = -1;
+  for (const ContactRow& row : rows) {
+    const double overlap = std::max(row.gap, row.gap - row.added);  // a negative `added` is meant
+    if (overlap < deepest) deepest = overlap, node = row.node;
+  }
+  if (deepest < -1e-6 * first.mesh.size())
+    throw InputError(text(first.name, " and ", second.name, " overlap by ", -deepest, " at ",
+                          point_text(first.mesh.node(node), first.mesh.dimension()),
+                          " before any load; move one, or say interference = true if the overlap is meant"));
+}
+
+}  // namespace
+
 std::vector<ContactRow> between(const Face& first, const Face& second,
                                 const elasticity::ScalarField& added, bool interference) {
-  std::unordered_map<int, NodePair> partner;
-  for (const NodePair& p : match(first, second)) partner.emplace(p.first, p);
+  std::unordered_map<int, int> partner;
+  for (const NodePair& p : match(first, second)) partner.emplace(p.first, p.second);
   std::vector<ContactRow> rows;
-  const double rounding = 1e-6 * first.mesh.size();
-  double deepest = 0;
-  Point where{0, 0, 0};
   for (const NodeSide& side : sides(first.mesh, first.facets)) {
     const auto found = partner.find(side.node);
     if (found == partner.end()) continue;
-    const Point x = first.mesh.point(side.node);
-    double gap = dot(minus(second.mesh.point(found->second.second), x), side.normal);
-    const double overlap = gap;
-    if (added) gap += added(x);
-    if (std::max(gap, overlap) < deepest) deepest = std::max(gap, overlap), where = x;  // a negative `added` is meant
-    if (!std::isfinite(gap))
-      throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), first.mesh.dimension()),
-                            "; it must be a finite number"));
-    rows.push_back({side.node, found->second.second, side.normal, gap, side.weight, side.facets});
+    rows.push_back(row_of(side, found->second, added ? added(first.mesh.point(side.node)) : 0, first, second));
   }
-  if (!interference && deepest < -rounding)
-    throw InputError(text(first.name, " and ", second.name, " overlap by ", -deepest, " at ",
-                          point_text(where.data(), first.mesh.dimension()),
-                          " before any load; move one, or say interference = true if the overlap is meant"));
+  if (!interference) refuse_overlap(rows, first, second);
   return rows;
+}
+
+std::vector<ContactRow> moved_rows(const Mesh& before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
+                                   bool interference) {
+  std::vector<ContactRow> result;
+  for (const NodeSide& side : moved_sides(before, first.mesh, first.facets, first.name)) {
+    if (result.size() == rows.size()) break;
+    const ContactRow& row = rows[result.size()];  // rows are sides, those without partner left out
+    if (row.node == side.node && row.facets == side.facets) result.push_back(row_of(side, row.partner, row.added, first, second));
+  }
+  if (result.size() != rows.size()) throw std::logic_error("contact rows are not of this part");
+  if (!interference) refuse_overlap(result, first, second);
+  return result;
 }
 
 }  // namespace dotyk::contact

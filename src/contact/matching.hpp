@@ -19,7 +19,6 @@ struct Face {
 /// across the gap along either's normal. Tolerance: 1e-6 of the parts' size.
 struct NodePair {
   int first, second;
-  double distance;  ///< along the first's normal; negative where the parts overlap
 };
 
 /// Throws InputError where no node of `first` has a partner whose normal is opposed, and where a node
@@ -31,5 +30,10 @@ std::vector<NodePair> match(const Face& first, const Face& second);
 /// set for parts that overlap at rest (by more than 1e-6 of the first mesh's size; a negative `added` is no overlap).
 std::vector<ContactRow> between(const Face& first, const Face& second,
                                 const elasticity::ScalarField& added, bool interference = false);
+
+/// The rows that between() made of `first` on the mesh `before`, whose nodes have moved (as those of `second` may have): pairs and
+/// what was added to the gaps stay, normals, weights and gaps are made anew. Throws as between() for an overlap, and as moved_sides().
+std::vector<ContactRow> moved_rows(const mesh::Mesh& before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
+                                   bool interference);
 
 }  // namespace dotyk::contact

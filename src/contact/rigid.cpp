@@ -41,9 +41,12 @@ const char* name(const RigidShape& shape) {
   return names[shape.index()];
 }
 
-std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
-                                const RigidShape& shape, const elasticity::ScalarField& added,
-                                bool interference) {
+namespace {
+
+/// The rows; `added(k, x)` is added to the gap of node k, at x.
+template <class Added>
+std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const RigidShape& shape,
+                                  const Added& added, bool interference) {
   std::vector<ContactRow> rows;
   const bool geometric = !std::holds_alternative<RigidGap>(shape);
   const double rounding = 1e-9 * mesh.size();
@@ -52,7 +55,7 @@ std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::
   for (const NodeSide& side : nodes(mesh, facets)) {
     const Point x = mesh.point(side.node);
     const Distance d = std::visit([&](const auto& s) { return distance(s, x); }, shape);
-    const double gap = d.gap + (added ? added(x) : 0);
+    const double more = added(rows.size(), x), gap = d.gap + more;
     if (!std::isfinite(gap))
       throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), mesh.dimension()),
                             "; it must be a finite number"));
@@ -61,7 +64,7 @@ std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::
       nearest = gap, nearest_at = x;
       facing = d.normal[0] * side.normal[0] + d.normal[1] * side.normal[1] + d.normal[2] * side.normal[2];
     }
-    rows.push_back({side.node, -1, d.normal, gap, side.weight, side.facets});
+    rows.push_back({side.node, -1, d.normal, gap, side.weight, side.facets, more});
   }
   if (geometric && !interference && deepest < -rounding)
     throw InputError(text("the ", name(shape), " penetrates the part by ", -deepest, " at ",
@@ -75,6 +78,19 @@ std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::
     throw InputError(text("the rigid ball lies behind the part: at ", point_text(nearest_at.data(), mesh.dimension()),
                           ", where it is nearest, its centre is on the body's side; move it out of the body"));
   return rows;
+}
+
+}  // namespace
+
+std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
+                                const RigidShape& shape, const elasticity::ScalarField& added,
+                                bool interference) {
+  return make_rows(mesh, facets, shape, [&](std::size_t, const Point& x) { return added ? added(x) : 0; }, interference);
+}
+
+std::vector<ContactRow> moved_rows(const std::vector<ContactRow>& rows, const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
+                                   const RigidShape& shape, bool interference) {
+  return make_rows(mesh, facets, shape, [&](std::size_t k, const Point&) { return rows.at(k).added; }, interference);
 }
 
 }  // namespace dotyk::contact

@@ -40,4 +40,9 @@ std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::
                                 const RigidShape& shape, const elasticity::ScalarField& added,
                                 bool interference);
 
+/// The rows that against() made of a plane or a ball where the part's nodes have moved since: what was added to the gaps stays, the
+/// rest is made anew. Throws as against().
+std::vector<ContactRow> moved_rows(const std::vector<ContactRow>& rows, const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
+                                   const RigidShape& shape, bool interference);
+
 }  // namespace dotyk::contact

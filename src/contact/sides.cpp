@@ -1,9 +1,12 @@
 #include "contact/sides.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "elasticity/load.hpp"
 
 namespace dotyk::contact {
@@ -88,6 +91,23 @@ std::vector<NodeSide> nodes(const Mesh& mesh, const std::vector<Facet>& facets) 
   std::vector<NodeSide> result;
   for (const auto& [node, list] : shares(mesh, facets)) result.push_back(sum(node, list, -1));
   return result;
+}
+
+std::vector<NodeSide> moved_sides(const Mesh& before, const Mesh& after, const std::vector<Facet>& facets, const std::string& part) {
+  const std::vector<NodeSide> old = sides(before, facets);
+  std::vector<NodeSide> now = sides(after, facets);
+  for (std::size_t k = 0; k < std::min(old.size(), now.size()); ++k) {
+    if (old[k].node == now[k].node && old[k].facets == now[k].facets) continue;
+    const int node = std::min(old[k].node, now[k].node);
+    const auto count = [&](const std::vector<NodeSide>& list) {
+      return std::count_if(list.begin(), list.end(), [&](const NodeSide& side) { return side.node == node; });
+    };
+    throw InputError(text(part, ": where its nodes have moved to, the part has ", count(now), count(now) == 1 ? " side" : " sides", " at ",
+                          point_text(after.node(node), after.dimension()), ", where it had ", count(old), " at ",
+                          point_text(before.node(node), before.dimension()), ": facets meet in a corner from ", kCornerAngle,
+                          " degrees on; move the nodes less, or make parts of both sides of the corner"));
+  }
+  return now;
 }
 
 }  // namespace dotyk::contact

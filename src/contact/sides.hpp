@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -24,5 +25,10 @@ std::vector<NodeSide> sides(const mesh::Mesh& mesh, const std::vector<mesh::Face
 
 /// One entry a node, with all its facets' measure; the normal is their mean.
 std::vector<NodeSide> nodes(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets);
+
+/// sides() of a part whose nodes have moved from the mesh `before` to `after`. Throws InputError, naming the part and the place,
+/// where they are not, one for one, of the facets they were of: a corner has appeared, or gone.
+std::vector<NodeSide> moved_sides(const mesh::Mesh& before, const mesh::Mesh& after, const std::vector<mesh::Facet>& facets,
+                                  const std::string& part);
 
 }  // namespace dotyk::contact

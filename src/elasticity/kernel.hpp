@@ -2,6 +2,7 @@
 
 // Element matrices. Used inside this room only.
 
+#include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
 #include "elasticity/reference_element.hpp"
 #include "mesh/mesh.hpp"
@@ -15,7 +16,7 @@ void cell_coordinates(const mesh::Mesh& mesh, int cell, double x[][E::dim]) {
     for (int i = 0; i < E::dim; ++i) x[a][i] = mesh.node(n[a])[i];
 }
 
-/// Calls visit(cell, weight × measure, shape functions, their gradients, point) for each point of the cells' load rule.
+/// Calls visit(point, weight × measure, shape functions, their gradients) for each point of the cells' load rule.
 template <class E, class Visit>
 void for_each_load_point(const mesh::Mesh& mesh, Visit&& visit) {
   double x[E::nodes][E::dim], g[E::nodes][E::dim];
@@ -25,10 +26,10 @@ void for_each_load_point(const mesh::Mesh& mesh, Visit&& visit) {
       const auto xi = E::load_point(q);
       const double w = physical_gradient<E>(x, xi, g) * E::load_weight(q);
       const auto shape = E::shape(xi);
-      mesh::Point at{0, 0, 0};
+      CellPoint p{c, q, {0, 0, 0}};
       for (int a = 0; a < E::nodes; ++a)
-        for (int i = 0; i < E::dim; ++i) at[i] += shape[a] * x[a][i];
-      visit(c, w, shape, g, at);
+        for (int i = 0; i < E::dim; ++i) p.x[i] += shape[a] * x[a][i];
+      visit(p, w, shape, g);
     }
   }
 }

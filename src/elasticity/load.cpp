@@ -72,14 +72,22 @@ void for_each_facet_point(const Mesh& mesh, Facet facet,
   }
 }
 
-void add_body_force(const Mesh& mesh, const VectorField& f, std::vector<double>& nodal) {
+int cell_points(const Mesh& mesh) {
+  return dispatch(mesh.element, []<class E>() { return E::load_points; });
+}
+
+void add_body_force(const Mesh& mesh, const CellField& f, std::vector<double>& nodal) {
   dispatch(mesh.element, [&]<class E>() {
-    for_each_load_point<E>(mesh, [&](int c, double w, const auto& shape, const auto&, const Point& at) {
-      const Point value = f(at);
+    for_each_load_point<E>(mesh, [&](const CellPoint& p, double w, const auto& shape, const auto&) {
+      const Point value = f(p);
       for (int a = 0; a < E::nodes; ++a)
-        for (int i = 0; i < E::dim; ++i) nodal[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i] += w * shape[a] * value[i];
+        for (int i = 0; i < E::dim; ++i) nodal[static_cast<std::size_t>(mesh.cell(p.cell)[a]) * E::dim + i] += w * shape[a] * value[i];
     });
   });
+}
+
+void add_body_force(const Mesh& mesh, const VectorField& f, std::vector<double>& nodal) {
+  add_body_force(mesh, CellField([&](const CellPoint& p) { return f(p.x); }), nodal);
 }
 
 void add_traction(const Mesh& mesh, const std::vector<Facet>& facets,

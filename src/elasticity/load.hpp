@@ -25,7 +25,19 @@ int facet_points(const mesh::Mesh& mesh);
 void for_each_facet_point(const mesh::Mesh& mesh, mesh::Facet facet,
                           const std::function<void(const FacetPoint&)>& visit);
 
-/// Adds ∫ φ f over all cells to `nodal` (node × dimension); f is force per volume.
+/// A quadrature point of a cell, for loads.
+struct CellPoint {
+  int cell, index;  ///< index: 0 … cell_points − 1
+  mesh::Point x;    ///< where it is
+};
+
+int cell_points(const mesh::Mesh& mesh);
+
+/// Components at a quadrature point of a cell.
+using CellField = std::function<mesh::Point(const CellPoint&)>;
+
+/// Adds ∫ φ f over all cells to `nodal` (node × dimension); f is force per volume, asked for cell by cell, point by point.
+void add_body_force(const mesh::Mesh& mesh, const CellField& f, std::vector<double>& nodal);
 void add_body_force(const mesh::Mesh& mesh, const VectorField& f, std::vector<double>& nodal);
 
 /// Adds ∫ φ t over the facets; t is force per length (2-D) or area (3-D), asked for at each point.

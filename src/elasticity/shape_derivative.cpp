@@ -78,58 +78,78 @@ Point velocity(const Mesh& mesh, const std::vector<double>& V, int node) {
   return out;
 }
 
-/// How the measure of a facet's points changes as its nodes move: n·d(area vector), or along the line.
+Point cross(const Point& u, const Point& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// Derivatives of a facet's shape functions (in space) by its two coordinates where they have these values.
+void facet_gradients(int nodes, const double shape[4], double du[4], double dv[4]) {
+  if (nodes == 3) {
+    const double u[3] = {-1, 1, 0}, v[3] = {-1, 0, 1};
+    for (int a = 0; a < 3; ++a) du[a] = u[a], dv[a] = v[a];
+    return;
+  }
+  const double s = 2 * (shape[1] + shape[2]) - 1, t = 2 * (shape[2] + shape[3]) - 1;
+  const double u[4] = {-(1 - t), 1 - t, 1 + t, -(1 + t)}, v[4] = {-(1 - s), -(1 + s), 1 + s, 1 - s};
+  for (int a = 0; a < 4; ++a) du[a] = u[a] / 4, dv[a] = v[a] / 4;
+}
+
+/// How the area vector n ds at a facet's points changes as its nodes move.
 class FacetGrowth {
  public:
-  FacetGrowth(const Mesh& mesh, Facet facet, const std::vector<double>& V) : mesh_(mesh), facet_(facet) {
-    for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) v_.push_back(velocity(mesh, V, mesh.facet_node(facet, k)));
+  FacetGrowth(const Mesh& mesh, Facet facet, const std::vector<double>& V) : plane_(mesh.dimension() == 2) {
+    for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) {
+      x_.push_back(mesh.point(mesh.facet_node(facet, k)));
+      v_.push_back(velocity(mesh, V, mesh.facet_node(facet, k)));
+    }
   }
-  /// d(measure) / measure at a point: div_Γ V = Σ_k V_k·∇_Γ φ_k.
-  double at(const FacetPoint& p) const { return mesh_.dimension() == 2 ? along_line() : on_surface(p); }
+
+  /// d(n ds) / ds at a point; with tangents t_u, t_v there (ṫ_u × t_v + t_u × ṫ_v) / |t_u × t_v|; in the plane t_v = e_z.
+  Point vector(const FacetPoint& p) const {
+    const auto [u, v, du, dv] = tangents(p);
+    const Point area = cross(u, v), first = cross(du, v), second = cross(u, dv);
+    double size = 0;
+    for (int i = 0; i < 3; ++i) size += p.normal[i] * area[i];
+    return {(first[0] + second[0]) / size, (first[1] + second[1]) / size, (first[2] + second[2]) / size};
+  }
+
+  /// d(ds) / ds = div_Γ V, along the normal of vector().
+  double at(const FacetPoint& p) const {
+    const Point d = vector(p);
+    return p.normal[0] * d[0] + p.normal[1] * d[1] + p.normal[2] * d[2];
+  }
 
  private:
-  double along_line() const {
-    const Point a = mesh_.point(mesh_.facet_node(facet_, 0)), b = mesh_.point(mesh_.facet_node(facet_, 1));
-    double along = 0, square = 0;
-    for (int i = 0; i < 2; ++i) along += (b[i] - a[i]) * (v_[1][i] - v_[0][i]), square += (b[i] - a[i]) * (b[i] - a[i]);
-    return along / square;
-  }
-
-  /// With tangents t_u, t_v of the facet at the point: the change of |t_u × t_v|, by n·(ṫ_u × t_v + t_u × ṫ_v).
-  double on_surface(const FacetPoint& p) const {
-    Point tu{0, 0, 0}, tv{0, 0, 0}, du{0, 0, 0}, dv{0, 0, 0};
+  struct Tangents {
+    Point u, v, du, dv;
+  };
+  Tangents tangents(const FacetPoint& p) const {
+    Tangents t{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    if (plane_) {
+      for (int i = 0; i < 2; ++i) t.u[i] = x_[1][i] - x_[0][i], t.du[i] = v_[1][i] - v_[0][i];
+      t.v[2] = 1;
+      return t;
+    }
     double su[4], sv[4];
     facet_gradients(p.nodes, p.shape, su, sv);
-    for (int a = 0; a < p.nodes; ++a) {
-      const Point x = mesh_.point(mesh_.facet_node(facet_, a));
-      for (int i = 0; i < 3; ++i) tu[i] += su[a] * x[i], tv[i] += sv[a] * x[i], du[i] += su[a] * v_[a][i], dv[i] += sv[a] * v_[a][i];
-    }
-    const Point area = cross(tu, tv), first = cross(du, tv), second = cross(tu, dv);
-    double change = 0, size = 0;
-    for (int i = 0; i < 3; ++i) change += p.normal[i] * (first[i] + second[i]), size += p.normal[i] * area[i];
-    return change / size;
+    for (int a = 0; a < p.nodes; ++a)
+      for (int i = 0; i < 3; ++i)
+        t.u[i] += su[a] * x_[a][i], t.v[i] += sv[a] * x_[a][i], t.du[i] += su[a] * v_[a][i], t.dv[i] += sv[a] * v_[a][i];
+    return t;
   }
 
-  /// Derivatives of the facet's shape functions where they have these values.
-  static void facet_gradients(int nodes, const double shape[4], double du[4], double dv[4]) {
-    if (nodes == 3) {
-      const double u[3] = {-1, 1, 0}, v[3] = {-1, 0, 1};
-      for (int a = 0; a < 3; ++a) du[a] = u[a], dv[a] = v[a];
-      return;
-    }
-    const double s = 2 * (shape[1] + shape[2]) - 1, t = 2 * (shape[2] + shape[3]) - 1;
-    const double u[4] = {-(1 - t), 1 - t, 1 + t, -(1 + t)}, v[4] = {-(1 - s), -(1 + s), 1 + s, 1 - s};
-    for (int a = 0; a < 4; ++a) du[a] = u[a] / 4, dv[a] = v[a] / 4;
-  }
-
-  static Point cross(const Point& u, const Point& v) {
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  }
-
-  const Mesh& mesh_;
-  Facet facet_;
-  std::vector<Point> v_;
+  bool plane_;
+  std::vector<Point> x_, v_;
 };
+
+/// Adds ∫ φ t of one facet to `nodal`.
+void add_at(const Mesh& mesh, Facet facet, const FacetPoint& p, const Point& t, std::vector<double>& nodal) {
+  const int dim = mesh.dimension();
+  for (int a = 0; a < p.nodes; ++a)
+    for (int i = 0; i < dim; ++i) nodal[static_cast<std::size_t>(mesh.facet_node(facet, a)) * dim + i] += p.measure * p.shape[a] * t[i];
+}
+
+Point times(double factor, const Point& p) { return {factor * p[0], factor * p[1], factor * p[2]}; }
 
 }  // namespace
 
@@ -151,30 +171,47 @@ std::vector<double> internal_force_derivative(const Mesh& mesh, const MaterialFi
   return out;
 }
 
-void add_body_force_derivative(const Mesh& mesh, const VectorField& f, const std::vector<double>& V, std::vector<double>& nodal) {
+void add_body_force_derivative(const Mesh& mesh, const CellField& f, const std::vector<double>& V, std::vector<double>& nodal) {
   dispatch(mesh.element, [&]<class E>() {
-    for_each_load_point<E>(mesh, [&](int c, double w, const auto& shape, const auto& g, const Point& at) {
+    for_each_load_point<E>(mesh, [&](const CellPoint& p, double w, const auto& shape, const auto& g) {
       double v[E::nodes][E::dim], grad_v[E::dim][E::dim];
-      gather<E>(mesh, c, V, v);
+      gather<E>(mesh, p.cell, V, v);
       gradient_of<E>(v, g, grad_v);
-      const Point value = f(at);
+      const Point value = f(p);
       for (int a = 0; a < E::nodes; ++a)
         for (int i = 0; i < E::dim; ++i)
-          nodal[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i] += w * trace<E::dim>(grad_v) * shape[a] * value[i];
+          nodal[static_cast<std::size_t>(mesh.cell(p.cell)[a]) * E::dim + i] += w * trace<E::dim>(grad_v) * shape[a] * value[i];
     });
   });
 }
 
 void add_traction_derivative(const Mesh& mesh, const std::vector<Facet>& facets, const std::function<Point(const FacetPoint&)>& t,
                              const std::vector<double>& V, std::vector<double>& nodal) {
-  const int dim = mesh.dimension();
   for (const Facet facet : facets) {
     const FacetGrowth growth(mesh, facet, V);
-    for_each_facet_point(mesh, facet, [&](const FacetPoint& p) {
-      const Point value = t(p);
-      const double change = p.measure * growth.at(p);
+    for_each_facet_point(mesh, facet, [&](const FacetPoint& p) { add_at(mesh, facet, p, times(growth.at(p), t(p)), nodal); });
+  }
+}
+
+void add_pressure_derivative(const Mesh& mesh, const std::vector<Facet>& facets, const std::function<double(const FacetPoint&)>& pressure,
+                             const std::vector<double>& V, std::vector<double>& nodal) {
+  for (const Facet facet : facets) {
+    const FacetGrowth growth(mesh, facet, V);
+    for_each_facet_point(mesh, facet, [&](const FacetPoint& p) { add_at(mesh, facet, p, times(-pressure(p), growth.vector(p)), nodal); });
+  }
+}
+
+void add_spring_force_derivative(const Mesh& mesh, const std::vector<FacetSpring>& springs, const std::vector<double>& u,
+                                 const std::vector<double>& V, std::vector<double>& nodal) {
+  const int dim = mesh.dimension();
+  for (const FacetSpring& spring : springs) {
+    const FacetGrowth growth(mesh, spring.facet, V);
+    for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
+      Point force{0, 0, 0};
       for (int a = 0; a < p.nodes; ++a)
-        for (int i = 0; i < dim; ++i) nodal[static_cast<std::size_t>(mesh.facet_node(facet, a)) * dim + i] += change * p.shape[a] * value[i];
+        for (int i = 0; i < dim; ++i)
+          force[i] += spring.stiffness[p.index][i] * p.shape[a] * u[static_cast<std::size_t>(mesh.facet_node(spring.facet, a)) * dim + i];
+      add_at(mesh, spring.facet, p, times(growth.at(p), force), nodal);
     });
   }
 }

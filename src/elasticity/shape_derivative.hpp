@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "elasticity/assembly.hpp"
 #include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/mesh.hpp"
@@ -16,12 +17,21 @@ namespace dotyk::elasticity {
 std::vector<double> internal_force_derivative(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<double>& u,
                                               const std::vector<double>& V);
 
+/// d/dt of what springs add to internal_force(), added to `nodal`; stiffness per length or area stays with its facet point.
+void add_spring_force_derivative(const mesh::Mesh& mesh, const std::vector<FacetSpring>& springs, const std::vector<double>& u,
+                                 const std::vector<double>& V, std::vector<double>& nodal);
+
 /// d/dt of add_body_force(), added to `nodal`; f is asked for at the points at rest.
-void add_body_force_derivative(const mesh::Mesh& mesh, const VectorField& f, const std::vector<double>& V, std::vector<double>& nodal);
+void add_body_force_derivative(const mesh::Mesh& mesh, const CellField& f, const std::vector<double>& V, std::vector<double>& nodal);
 
 /// d/dt of add_traction(), added to `nodal`; t, per length or area, is asked for at the points at rest and keeps its direction.
 void add_traction_derivative(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
                              const std::function<mesh::Point(const FacetPoint&)>& t, const std::vector<double>& V, std::vector<double>& nodal);
+
+/// d/dt of add_traction() of t = −p n, n the outward normal, which turns with the facet: d(n ds) is that of the vector product of the
+/// facet's tangents (in the plane the tangent turned by −90°). p is asked for at the points at rest.
+void add_pressure_derivative(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
+                             const std::function<double(const FacetPoint&)>& p, const std::vector<double>& V, std::vector<double>& nodal);
 
 /// d/dt of a mesh's volume (area in the plane).
 double volume_derivative(const mesh::Mesh& mesh, const std::vector<double>& V);

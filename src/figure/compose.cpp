@@ -211,9 +211,10 @@ void add_supports(const Solution& s, int index, ScenePicture& picture) {
 
 void add_loads(const Solution& s, int index, ScenePicture& picture) {
   const Body& body = s.body(index);
-  const std::size_t step = std::max<std::size_t>(1, body.arrows.size() / 200);
-  for (std::size_t k = 0; k < body.arrows.size(); k += step)
-    picture.loads.push_back({body.arrows[k].at, s.displacement(index, body.arrows[k].at), body.arrows[k].value});
+  const std::vector<scene::LoadArrow> arrows = scene::load_arrows(body);
+  const std::size_t step = std::max<std::size_t>(1, arrows.size() / 200);
+  for (std::size_t k = 0; k < arrows.size(); k += step)
+    picture.loads.push_back({arrows[k].at, s.displacement(index, arrows[k].at), arrows[k].value});
 }
 
 double scene_size(const Solution& s) {

@@ -57,6 +57,27 @@ Point Mesh::facet_area_vector(Facet f) const {
           0.5 * (u[0] * v[1] - u[1] * v[0])};
 }
 
+Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f) {
+  const int dim = mesh.dimension(), nodes = mesh.topology().nodes_per_facet;
+  const auto difference = [&](const std::vector<double>& of, int from, int to) {  // between two of the facet's nodes
+    Point d{0, 0, 0};
+    for (int i = 0; i < dim; ++i)
+      d[i] = of[static_cast<std::size_t>(mesh.facet_node(f, to)) * dim + i] - of[static_cast<std::size_t>(mesh.facet_node(f, from)) * dim + i];
+    return d;
+  };
+  const Point first = difference(V, 0, nodes == 4 ? 2 : 1);
+  if (dim == 2) return {first[1], -first[0], 0};
+  const int corner = nodes == 4 ? 1 : 0, across = nodes - 1;  // the second diagonal, or the second edge
+  const Point u = difference(mesh.coordinates, 0, nodes == 4 ? 2 : 1), v = difference(mesh.coordinates, corner, across),
+              second = difference(V, corner, across);
+  Point change{0, 0, 0};
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    change[i] = 0.5 * (first[j] * v[k] - first[k] * v[j] + u[j] * second[k] - u[k] * second[j]);
+  }
+  return change;
+}
+
 void transform(Mesh& mesh, const std::function<Point(const Point&)>& map) {
   std::vector<double> old = mesh.coordinates;
   try {

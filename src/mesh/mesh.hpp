@@ -48,6 +48,9 @@ struct Mesh {
   Point facet_area_vector(Facet f) const;
 };
 
+/// d/dt of facet_area_vector() where nodes move with the velocity V (node × dimension).
+Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f);
+
 /// Cell × facets of a cell → the cell on the other side, or -1 on the boundary. Where more than two cells
 /// share a facet, each has one of the others.
 std::vector<int> facet_neighbours(const Mesh& mesh);

@@ -49,10 +49,7 @@ std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Me
   body->mesh = std::move(mesh);
   body->material = std::move(material);
   body->force.assign(body->mesh->coordinates.size(), 0.0);
-  if (force) {
-    elasticity::add_body_force(*body->mesh, force, body->force);
-    for (int c = 0; c < body->mesh->cell_count(); ++c) body->volume_force.push_back(force(body->mesh->cell_centre(c)));
-  }
+  if (force) load_volume(*body, force);
   return body;
 }
 

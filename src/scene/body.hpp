@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/matching.hpp"
 #include "contact/sides.hpp"
 #include "elasticity/assembly.hpp"
 #include "elasticity/load.hpp"
@@ -25,6 +26,9 @@ struct PartMark {
 
 enum class SupportKind { fix, slide, displace };
 
+/// A normal closer than this to an axis is taken as along it: a slide then eliminates the component.
+inline constexpr double kAlongAxis = 1e-9;
+
 /// Displacement components prescribed at nodes.
 struct Support {
   SupportKind kind;
@@ -34,6 +38,7 @@ struct Support {
   std::vector<mesh::Point> values;              ///< to what, one entry a node
   std::vector<mesh::Point> normals;             ///< outward, one entry a node
   std::string load_case = {};                   ///< of the values
+  std::vector<mesh::Facet> facets = {};         ///< the part's
 };
 
 /// Bilateral sliding u·normal = 0 at a node whose normal is along no axis: a row of B.
@@ -41,15 +46,37 @@ struct SlideRow {
   PartMark part;
   int node;
   mesh::Point normal;  ///< unit, outward
+  std::shared_ptr<const std::vector<mesh::Facet>> facets;  ///< the part's, one list for all its rows
+};
+
+/// A load per length or area on a part, kept as numbers where its points are: it stays with them if nodes move.
+struct FacetLoad {
+  PartMark part;
+  std::string load_case;
+  bool pressure;  ///< along the inward normal, wherever that turns; else a traction that keeps its direction
+  std::vector<mesh::Facet> facets;
+  std::vector<double> values;  ///< facet × quadrature point (elasticity::FacetPoint::index) × (pressure: 1, else dimension)
+
+  /// Of one of the facets, at one of its points.
+  mesh::Point traction(std::size_t facet, const elasticity::FacetPoint& point, int dimension) const;
+  double pressure_at(std::size_t facet, const elasticity::FacetPoint& point) const;  ///< of a pressure
+};
+
+/// A load per volume, kept as numbers at the cells' points for loads.
+struct VolumeLoad {
+  int points = 0;     ///< of a cell
+  bool uniform = true;
+  std::shared_ptr<const std::vector<double>> values;  ///< cell × point (elasticity::CellPoint::index) × dimension, or of one point: uniform
+  double factor = 1;  ///< of the values
+
+  mesh::Point at(int cell, int point, int dimension) const;
 };
 
 /// A load's mean over a facet (force per length or area), drawn at the facet's centre.
 struct LoadArrow {
-  PartMark part;
+  mesh::Facet facet;
   mesh::Point at;
   mesh::Point value;
-  std::string load_case = {};
-  mesh::Facet facet{};
 };
 
 /// Loads of one name, which the steps of a history scale apart from the others.
@@ -89,10 +116,12 @@ struct Body {
   std::vector<SlideRow> slides;
   std::vector<SpringPatch> springs;
   std::vector<LawSupport> laws;
-  std::vector<double> force;  ///< nodal loads of no case, node × dimension
-  std::vector<mesh::Point> volume_force;  ///< per volume, at each cell's centre; empty: none
+  std::optional<VolumeLoad> volume_load;  ///< of no case
+  std::vector<FacetLoad> facet_loads;
+  std::vector<double> force;  ///< nodal loads of no case, node × dimension: the sums of what these loads give (see sum_loads)
   std::vector<LoadCase> cases;
-  std::vector<LoadArrow> arrows;
+  /// The body that this one is another design of (its nodes moved), never one that is itself another's; null: of none.
+  std::shared_ptr<const Body> origin;
 
   int dimension() const { return mesh->dimension(); }
   std::vector<elasticity::FacetSpring> facet_springs() const;
@@ -105,6 +134,7 @@ struct Part {
   std::vector<mesh::Facet> facets;
   /// "'block' top", for messages.
   std::string label() const { return "'" + body->name + "' " + name; }
+  contact::Face face() const { return {*body->mesh, facets, label()}; }
   PartMark mark() const;
 };
 
@@ -130,10 +160,19 @@ void slide(Part& part);
 /// Prescribes the components given; a component left empty stays free.
 void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components, const std::string& load_case = {});
 
+/// Force per volume, of no case; a body takes one.
+void load_volume(Body& body, const elasticity::VectorField& force);
 /// Force per length (2-D) or area (3-D).
 void load(Part& part, const elasticity::VectorField& traction, const std::string& load_case = {});
 /// Positive along the inward normal.
 void pressure(Part& part, const elasticity::ScalarField& value, const std::string& load_case = {});
+/// Sums the nodal loads of all cases anew from the body's loads, on its mesh as it is.
+void sum_loads(Body& body);
+/// The loads on parts, facet by facet.
+std::vector<LoadArrow> load_arrows(const Body& body);
+/// The load per volume at each cell: its points' mean; empty: none.
+std::vector<mesh::Point> cell_forces(const Body& body);
+
 /// Elastic support per length or area; a component left empty has none. Throws InputError where negative.
 void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness);
 
@@ -148,6 +187,8 @@ void support(Part& part, const problem::SupportLaw& normal, const problem::Suppo
 void require_laws_free(const Body& body, const elasticity::Numbering& numbering);
 /// "normal elastic 100; tangential friction 2".
 std::string describe(const LawSupport& support);
+/// Sides of a law's part with a normal's components that are rounding made 0: no unknown may hang on them.
+std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides);
 /// Does a displacement component along this direction move at the node? Not along what a slide on no axis holds.
 bool moves(const Body& body, const elasticity::Numbering& numbering, int node, const mesh::Point& direction);
 

@@ -8,11 +8,25 @@
 
 namespace dotyk::scene {
 
-int Scene::index_of(const Body* body) const {
-  for (std::size_t k = 0; k < bodies.size(); ++k)
-    if (bodies[k].get() == body) return static_cast<int>(k);
+namespace {
+
+/// What all designs of a body or contact have in common.
+template <class T>
+const T* root(const T* one) {
+  return one && one->origin ? one->origin.get() : one;
+}
+
+template <class T>
+int find_root(const std::vector<T>& list, const void* wanted) {
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (root(&*list[k]) == wanted) return static_cast<int>(k);
   return -1;
 }
+
+}  // namespace
+
+int Scene::index_of(const Body* body) const { return find_root(bodies, root(body)); }
+int Scene::index_of(const Contact& contact) const { return find_root(contacts, root(&contact)); }
 
 std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies) {
   if (bodies.empty()) throw InputError("a scene needs at least one body");
@@ -36,14 +50,15 @@ std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies) {
 namespace {
 
 void require_member(const Scene& scene, const Part& part) {
-  if (scene.index_of(part.body.get()) >= 0) return;
+  const int index = scene.index_of(part.body.get());
+  if (index >= 0 && scene.bodies[index] == part.body) return;
+  if (index >= 0)
+    throw InputError(text("part '", part.name, "' belongs to another design of '", part.body->name, "' than this scene's"));
   std::string all;
   for (const auto& body : scene.bodies) all += (all.empty() ? "'" : ", '") + body->name + "'";
   throw InputError(text("part '", part.name, "' belongs to '", part.body->name,
                         "', which is not in this scene; its bodies are ", all));
 }
-
-contact::Face face(const Part& part) { return {*part.body->mesh, part.facets, part.label()}; }
 
 /// The (node, partner) pairs of a contact or a glue.
 std::set<std::pair<int, int>> pairs_of(const Contact& contact, bool swapped) {
@@ -103,19 +118,18 @@ void set_discretisation(Contact& contact, const Discretisation& discretisation) 
                      "must be finite, or infinite everywhere");
 }
 
-/// Nodes stand for their share of the contact boundary: of what overhangs the other part they have none.
-void set_weights(Contact& contact) {
-  const std::vector<double> measures = contact::measures(surface_of(contact));
-  for (std::size_t k = 0; k < measures.size(); ++k)
-    if (measures[k] > 0) contact.rows[k].weight = measures[k];
-}
-
 std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
   scene.contacts.push_back(std::make_shared<const Contact>(std::move(contact)));
   return scene.contacts.back();
 }
 
 }  // namespace
+
+void set_weights(Contact& contact) {
+  const std::vector<double> measures = contact::measures(surface_of(contact));
+  for (std::size_t k = 0; k < measures.size(); ++k)
+    if (measures[k] > 0) contact.rows[k].weight = measures[k];
+}
 
 contact::Surface surface_of(const Contact& contact) {
   const bool itself = contact.second.body && contact.first.body->mesh == contact.second.body->mesh;
@@ -132,7 +146,8 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   contact.name = "contact of " + first.label() + " with " + second.label();
   contact.first = first;
   contact.second = second;
-  contact.rows = contact::between(face(first), face(second), added_gap, interference);
+  contact.interference = interference;
+  contact.rows = contact::between(first.face(), second.face(), added_gap, interference);
   set_weights(contact);
   set_friction(contact, friction);
   set_discretisation(contact, discretisation);
@@ -147,6 +162,7 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const
   Contact contact;
   contact.name = text("contact of ", part.label(), " with a ", contact::name(shape));
   contact.first = part;
+  contact.interference = interference;
   contact.rows = contact::against(*part.body->mesh, part.facets, shape, added_gap, interference);
   set_friction(contact, friction);
   set_discretisation(contact, discretisation);
@@ -163,7 +179,7 @@ std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const P
   contact.name = "glue of " + first.label() + " to " + second.label();
   contact.first = first;
   contact.second = second;
-  contact.glued = contact::match(face(first), face(second));
+  contact.glued = contact::match(first.face(), second.face());
   refuse_repetition(scene, contact);
   return keep(scene, std::move(contact));
 }

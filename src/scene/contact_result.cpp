@@ -78,12 +78,11 @@ void count(const ContactNode& node, ContactResult& result) {
 
 }  // namespace
 
-ContactResult Solution::contact(const Contact& contact) const {
-  int index = -1;
-  for (std::size_t k = 0; k < scene_->contacts.size(); ++k)
-    if (scene_->contacts[k].get() == &contact) index = static_cast<int>(k);
+ContactResult Solution::contact(const Contact& asked) const {
+  const int index = scene_->index_of(asked);
   if (index < 0)
-    throw InputError(text("this contact (", contact.name, ") is not part of the scene that was solved"));
+    throw InputError(text("this contact (", asked.name, ") is not part of the scene that was solved"));
+  const Contact& contact = *scene_->contacts[index];  // as it is in this design
   if (contact.kind == Contact::Kind::glue)
     throw InputError(text(contact.name, " is a glue; only contacts have a pressure and a status"));
   const int first = scene_->index_of(contact.first.body.get());

@@ -22,7 +22,7 @@ class Boundary {
       index_[{f.cell, f.local}] = all_.size();
       all_.push_back({f});
     }
-    for (const LoadArrow& load : body.arrows)
+    for (const LoadArrow& load : load_arrows(body))
       if (FacetTraction* at = find(load.facet))
         for (Point& t : at->traction)
           for (int i = 0; i < 3; ++i) t[i] += load.value[i];
@@ -244,7 +244,7 @@ ErrorEstimate Solution::make_error_estimate() const {
     const Body& own = body(b);
     for (const LawSupport& on : own.laws)
       add_laws(*own.mesh, on, support({scene_->bodies[b], on.part.name, on.facets}), boundary[b]);
-    auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement_[b], own.volume_force, boundary[b].all(),
+    auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement_[b], cell_forces(own), boundary[b].all(),
                                               own.material.varies() ? nullptr : &stress(b));
     estimate.cells.push_back(std::move(of_body.cells));
     solution += of_body.solution_squared;

@@ -36,15 +36,6 @@ bool shares_facet(const LawSupport& a, const LawSupport& b) {
   return std::any_of(b.facets.begin(), b.facets.end(), [&](const mesh::Facet& f) { return of_a.count({f.cell, f.local}) > 0; });
 }
 
-/// The part's nodes and sides, a normal's components that are rounding made 0: no unknown may hang on them.
-std::vector<contact::NodeSide> sides_of(const Part& part) {
-  std::vector<contact::NodeSide> sides = contact::sides(*part.body->mesh, part.facets);
-  for (contact::NodeSide& side : sides)
-    for (double& n : side.normal)
-      if (std::abs(n) < 1e-12) n = 0;
-  return sides;
-}
-
 bool given(const SupportLaw& law) { return law.kind != Kind::free; }
 
 void require_no_other(const Body& body, const LawSupport& added) {
@@ -70,6 +61,13 @@ void require_free(const Body& body, const elasticity::Numbering& numbering, cons
 }
 
 }  // namespace
+
+std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides) {
+  for (contact::NodeSide& side : sides)
+    for (double& n : side.normal)
+      if (std::abs(n) < 1e-12) n = 0;
+  return sides;
+}
 
 bool moves(const Body& body, const elasticity::Numbering& numbering, int node, const Point& direction) {
   for (const SlideRow& slide : body.slides) {
@@ -102,7 +100,7 @@ void support(Part& part, const SupportLaw& normal, const SupportLaw& tangential)
   problem::require_valid(normal);
   problem::require_valid(tangential);
   require_tangential(tangential, body.dimension());
-  LawSupport added{part.mark(), part.facets, sides_of(part), normal, tangential};
+  LawSupport added{part.mark(), part.facets, law_sides(contact::sides(*part.body->mesh, part.facets)), normal, tangential};
   require_no_other(body, added);
   std::vector<LawSupport> before = body.laws;
   const auto same = std::find_if(body.laws.begin(), body.laws.end(), [&](const LawSupport& l) { return l.part == added.part; });

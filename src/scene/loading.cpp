@@ -20,13 +20,11 @@ void require_case(const Scene& scene, const std::string& name) {
 }
 
 int rigid_contact(const Scene& scene, const Contact& contact) {
-  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
-    if (scene.contacts[k].get() == &contact) {
-      if (contact.second.body || contact.kind == Contact::Kind::glue)
-        throw InputError(text("the ", contact.name, " has no rigid shape to move; displace a part of a body instead"));
-      return static_cast<int>(k);
-    }
-  throw InputError(text("the ", contact.name, " is not of this scene"));
+  const int index = scene.index_of(contact);
+  if (index < 0) throw InputError(text("the ", contact.name, " is not of this scene"));
+  if (contact.second.body || contact.kind == Contact::Kind::glue)
+    throw InputError(text("the ", contact.name, " has no rigid shape to move; displace a part of a body instead"));
+  return index;
 }
 
 }  // namespace
@@ -57,8 +55,7 @@ Body Loading::applied_to(const Body& body) const {
   Body scaled = body;
   const double rest = of("");
   for (double& f : scaled.force) f *= rest;
-  for (mesh::Point& f : scaled.volume_force)
-    for (double& v : f) v *= rest;
+  if (scaled.volume_load) scaled.volume_load->factor *= rest;
   for (const LoadCase& one : body.cases)
     for (std::size_t k = 0; k < one.force.size(); ++k) scaled.force[k] += of(one.name) * one.force[k];
   scaled.cases.clear();
@@ -69,8 +66,10 @@ Body Loading::applied_to(const Body& body) const {
     for (problem::SupportLaw* law : {&support.normal, &support.tangential})
       if (law->kind == problem::SupportLaw::Kind::prescribed || law->kind == problem::SupportLaw::Kind::load) law->value *= rest;
   add_law_loads(scaled);
-  for (LoadArrow& arrow : scaled.arrows)
-    for (double& v : arrow.value) v *= of(arrow.load_case);
+  for (FacetLoad& load : scaled.facet_loads) {
+    for (double& v : load.values) v *= of(load.load_case);
+    load.load_case.clear();
+  }
   return scaled;
 }
 

@@ -38,7 +38,10 @@ struct Contact {
   std::vector<double> friction_value;      ///< of each row: bound per length or area, or coefficient
   Discretisation discretisation;
   std::vector<contact::NodePair> glued;    ///< of a glue
-  contact::RigidShape shape;               ///< for drawing only; a gap function is not kept
+  contact::RigidShape shape;               ///< a gap function is not kept
+  bool interference = false;               ///< an overlap at rest is meant
+  /// The contact that this one is another design of (its nodes moved), never one that is itself another's; null: of none.
+  std::shared_ptr<const Contact> origin = nullptr;
 };
 
 /// Bodies and what joins them.
@@ -47,11 +50,17 @@ struct Scene {
   std::vector<std::shared_ptr<const Contact>> contacts;
 
   int dimension() const { return bodies.front()->dimension(); }
-  int index_of(const Body* body) const;  ///< -1 where it is not of this scene
+  /// Of a body of this scene, or of one that is another design of it; -1 for others and for null.
+  int index_of(const Body* body) const;
+  /// Of a contact, likewise.
+  int index_of(const Contact& contact) const;
 };
 
 /// Throws InputError for no bodies, a body twice, two of one name, or mixed dimensions.
 std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies);
+
+/// Nodes stand for their share of the contact boundary, ∫φ: sets the rows' weights. What overhangs the other part has none.
+void set_weights(Contact& contact);
 
 /// The contact boundary of a contact.
 contact::Surface surface_of(const Contact& contact);

@@ -126,7 +126,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
   mesh::Point displacement(int body, const mesh::Point& x) const;
   elasticity::Stress stress(int body, const mesh::Point& x) const;
 
-  /// Throws InputError for a contact that is not of the scene as it was solved.
+  /// Here and below a body, contact or part may be another design's. Throws InputError for a contact that is not of the scene as it
+  /// was solved.
   ContactResult contact(const Contact& contact) const;
   /// A part's support by laws, per node. Throws InputError where it has none, naming the parts that have.
   SupportResult support(const Part& part) const;

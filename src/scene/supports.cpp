@@ -8,12 +8,9 @@
 namespace dotyk::scene {
 namespace {
 
-/// A normal closer than this to an axis is taken as along it: the component is then eliminated.
-constexpr double kAlongAxis = 1e-9;
-
 /// A support of all the part's nodes, nothing prescribed yet.
 Support on_nodes(const Part& part, SupportKind kind) {
-  Support support{kind, part.mark(), {}, {}, {}, {}, {}};
+  Support support{kind, part.mark(), {}, {}, {}, {}, {}, part.facets};
   for (const contact::NodeSide& n : contact::nodes(*part.body->mesh, part.facets)) {
     support.nodes.push_back(n.node);
     support.normals.push_back(n.normal);
@@ -43,7 +40,8 @@ void fix(Part& part, const std::array<bool, 3>& components) {
 
 void slide(Part& part) {
   Body& body = *part.body;
-  Support support{SupportKind::slide, part.mark(), {}, {}, {}, {}, {}};
+  Support support{SupportKind::slide, part.mark(), {}, {}, {}, {}, {}, part.facets};
+  const auto facets = std::make_shared<const std::vector<mesh::Facet>>(part.facets);
   std::vector<SlideRow> oblique;
   for (const contact::NodeSide& side : contact::sides(*body.mesh, part.facets)) {
     std::array<bool, 3> along{false, false, false};
@@ -58,7 +56,7 @@ void slide(Part& part) {
       support.values.push_back({0, 0, 0});
       support.normals.push_back(side.normal);
     } else {
-      oblique.push_back({support.part, side.node, side.normal});
+      oblique.push_back({support.part, side.node, side.normal, facets});
     }
   }
   if (!support.nodes.empty()) hold(body, std::move(support));

@@ -93,7 +93,7 @@ TEST_CASE("so are those of body forces, tractions and the volume") {
       const Point force{1, -2, 3};
       const auto facets = mesh::boundary(m);
       std::vector<double> volume(m.coordinates.size(), 0.0), surface = volume;
-      elasticity::add_body_force_derivative(m, [&](const Point&) { return force; }, V, volume);
+      elasticity::add_body_force_derivative(m, [&](const elasticity::CellPoint&) { return force; }, V, volume);
       elasticity::add_traction_derivative(m, facets, [&](const elasticity::FacetPoint&) { return force; }, V, surface);
       const auto at_rest = [&](auto add) {
         return [&m, add](const Mesh& at) {

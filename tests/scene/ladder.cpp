@@ -100,7 +100,7 @@ TEST_CASE("a block between two walls is held up by given friction alone, up to 2
         const double g = 0.7;
         const auto block = test::block("block", dim, family, dim == 2 ? 8 : 4);
         const auto down = [=](const Point&) { return dim == 2 ? Point{0, -2 * g * part, 0} : Point{0, 0, -2 * g * part}; };
-        elasticity::add_body_force(*block->mesh, down, block->force);
+        scene::load_volume(*block, down);
         const auto scene = scene::make_scene({block});
         std::vector<std::shared_ptr<const scene::Contact>> walls;
         for (const double side : {-1.0, 1.0})

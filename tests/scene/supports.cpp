@@ -84,7 +84,7 @@ TEST_CASE("a load function that throws leaves the body as it was") {
   };
   CHECK_THROWS(scene::load(right, bad));
   CHECK(block->force == before);
-  CHECK(block->arrows.size() == 3);
+  CHECK(scene::load_arrows(*block).size() == 3);
 }
 
 TEST_CASE("springs refuse negative stiffness with its place, and take none where there is none") {

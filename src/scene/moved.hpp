@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace dotyk::scene {
+
+/// The scene with nodes at other points, as if it had been set up there: meshes, supports' normals and shares, loads, springs, rows of
+/// contact. `points`: a body each, node × dimension; empty where the body rests, which then is shared, as are contacts of such bodies.
+///
+/// What was given by functions stays with its material point: loads and stiffnesses per area and volume with the quadrature points,
+/// prescribed displacements, friction and what was added to gaps with the nodes. Contacts and glues keep their pairs of nodes. Bodies
+/// and contacts carry what they are another design of as `origin`: handles of any design go on working with solutions of another.
+///
+/// Throws InputError for points of another number, an inverted cell (mesh::check), bodies or rigid shapes that overlap unless that is
+/// meant, a part that gets or loses a corner where sides matter, a slide along an axis whose normal leaves the axis, a moving part
+/// against a rigid gap (a function of the place, which is not kept), and laws that other supports leave nothing to hold.
+std::shared_ptr<Scene> moved(const Scene& scene, const std::vector<std::vector<double>>& points);
+
+}  // namespace dotyk::scene
