@@ -7,8 +7,10 @@
 -- Bernstein profile along the beam), and the same of its width. First K u = f (Anal.), then K ∂u/∂α_i = -(∂K/∂α_i) u; the
 -- derivative of K is exact, the end's total force stays. Iterations and seconds of Cholesky, conjugate gradients alone (CG),
 -- started from the conjugate directions of the first system (SCG) and from its lowest Lanczos eigenvectors (CGLAN), and with all
--- six sensitivities at once (block CG), with SSOR by Eisenstat's trick and with incomplete Cholesky.
--- CELLS: across the section, 9.
+-- six sensitivities at once (block CG), with SSOR by Eisenstat's trick and with incomplete Cholesky. The line "paper" has the
+-- sums of the sensitivities there, four of them (two were zero), of variables of its own.
+-- CELLS: across the section, 9. What the chart says: with CG each system costs what the first did; once the first is solved, SCG
+-- and CGLAN have little left to do, the more so the slenderer the beam. At this size a Cholesky factor beats them all. images/iter.png.
 
 local cells <const> = tonumber(arg[1]) or 9
 local length <const>, tolerance <const> = 10, 1e-6
@@ -63,7 +65,7 @@ end
 
 -- 2. The tables.
 local function line(name, entries) print(("%-7s"):format(name) .. table.concat(entries)) end
-local function table_of(name, width)
+local function table_of(name, width, paper)
   local scene <const>, velocities <const> = beam(width)
   local results <const>, sums <const>, worst = {}, {}, 0
   for k, method in ipairs(methods) do
@@ -90,16 +92,19 @@ local function table_of(name, width)
   line("Sum1", each(function(k) return cell(results[k].setup_seconds + seconds(k), iterations(k)) end))
   line("Sum2", each(function(k) return cell(seconds(k), iterations(k)) end))
   line("Sum3", each(function(k) return cell(sums[k].seconds, k > 1 and sums[k].sensitivities) end))
+  if cells == 9 then line("paper", each(function(k) return paper[k] and cell(paper[k][1], paper[k][2]) or "" end)) end
   line("MB", each(function(k) return cell(results[k].bytes / 1e6) end))
   line("kept", each(function(k) return ("%8d     "):format(results[k].kept) end))
   print(("solutions within %.0e of Cholesky's"):format(worst))
   assert(worst < 1e-4)
-  return sums
+  return sums, results
 end
 print "Setup: factor or preconditioner. MB: of factor, preconditioner and vectors, at their greatest; kept: vectors for a next system."
 print "Sum1: all; Sum2: without setup; Sum3: the sensitivities. Block: its steps are common to the six."
-local slender <const> = table_of("ITER", 1)
-table_of("ITER2", 4)
+local slender <const>, slender_results <const> = table_of("ITER", 1,
+  { { 50 }, { 172, 823 }, { 237, 668 }, { 35, 42 }, { 31, 31 }, { 28, 112 }, { 42, 105 } })
+local _ <const>, wide_results <const> = table_of("ITER2", 4,
+  { { 50 }, { 64, 301 }, { 55, 151 }, { 21, 69 }, { 17, 31 }, { 20, 72 }, { 25, 63 } })
 
 -- 3. What earlier systems are worth.
 print ""
@@ -111,3 +116,40 @@ for k, method in ipairs(methods) do
     assert(share <= 1 / 3, method[1])
   end
 end
+
+-- 4. The chart: what a number of systems has cost. Block CG and Cholesky solve the last six together.
+local function curves(results, cost)
+  local series <const> = {}
+  for k, method in ipairs(methods) do
+    local together <const> = method[2] == "block_cg" or method[2] == "cholesky"
+    local spent <const> = cost(results[k], together)
+    local x <const> = together and { 1, #spent } or { 1, 2, 3, 4, 5, 6, 7 }
+    for i, system in ipairs(x) do spent[i] = spent[system] end
+    series[#series + 1] = { name = method[1], x = x, y = table.move(spent, 1, #x, 1, {}), twin = method[3] == "ic" }
+  end
+  table.insert(series, table.remove(series, 1)) -- Cholesky last: colours are the same without it
+  return series
+end
+local function seconds(r)
+  local sums <const>, sum = {}, r.setup_seconds
+  for system, s in ipairs(r.systems) do
+    sum = sum + s.seconds
+    sums[system] = sum
+  end
+  return sums
+end
+local function iterations(r, together)
+  local sums <const>, sum = {}, 0
+  for system, s in ipairs(r.systems) do
+    sum = (together and system > 2) and math.max(sum, sums[1] + s.iterations) or sum + s.iterations
+    sums[system] = sum
+  end
+  return sums
+end
+local panels <const> = {}
+for _, beam in ipairs{ { "ITER, 10 × 1 × 1", slender_results }, { "ITER2, 10 × 4 × 4", wide_results } } do
+  panels[#panels + 1] = { title = beam[1], y = "iterations so far", series = curves(beam[2], iterations) }
+  panels[#panels + 1] = { y = "seconds so far", series = curves(beam[2], seconds) }
+end
+for _, panel in ipairs{ panels[1], panels[3] } do table.remove(panel.series) end -- Cholesky has no iterations
+dotyk.chart{ file = "images/iter.png", x = "systems solved: the displacement, then its six sensitivities", panels = panels, size = { 1000, 1600 } }
