@@ -55,10 +55,11 @@ class Stepper {
   Step elastic(const ScaledDesign& at, double radius, double w, double nu) const {
     const Eigen::Index n = problem_.variables(), m = problem_.constraints();
     LinearProgram lp;
-    lp.g.resize(n + m);
-    lp.g << w * at.value.gradient, Vector::Constant(m, nu);
+    lp.g = Vector::Constant(n + m, nu);
+    lp.g.head(n) = w * at.value.gradient;
     lp.A.resize(m, n + m);
-    lp.A << at.value.jacobian, -DenseMatrix::Identity(m, m);
+    lp.A.leftCols(n) = at.value.jacobian;
+    lp.A.rightCols(m) = -DenseMatrix::Identity(m, m);
     lp.b = -at.value.constraints;
     lp.lower = Vector::Zero(n + m);
     lp.upper = Vector::Constant(n + m, INFINITY);
