@@ -216,6 +216,16 @@ void add_spring_force_derivative(const Mesh& mesh, const std::vector<FacetSpring
   }
 }
 
+std::array<double, 4> facet_weights_derivative(const Mesh& mesh, Facet facet, const std::vector<double>& V) {
+  std::array<double, 4> weights{};
+  const FacetGrowth growth(mesh, facet, V);
+  for_each_facet_point(mesh, facet, [&](const FacetPoint& p) {
+    const double change = p.measure * growth.at(p);
+    for (int a = 0; a < p.nodes; ++a) weights[a] += change * p.shape[a];
+  });
+  return weights;
+}
+
 double volume_derivative(const Mesh& mesh, const std::vector<double>& V) {
   double sum = 0;
   dispatch(mesh.element, [&]<class E>() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "elasticity/assembly.hpp"
@@ -32,6 +33,9 @@ void add_traction_derivative(const mesh::Mesh& mesh, const std::vector<mesh::Fac
 /// facet's tangents (in the plane the tangent turned by −90°). p is asked for at the points at rest.
 void add_pressure_derivative(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
                              const std::function<double(const FacetPoint&)>& p, const std::vector<double>& V, std::vector<double>& nodal);
+
+/// d/dt of ∫ φ over a facet, one for each of its nodes.
+std::array<double, 4> facet_weights_derivative(const mesh::Mesh& mesh, mesh::Facet facet, const std::vector<double>& V);
 
 /// d/dt of a mesh's volume (area in the plane).
 double volume_derivative(const mesh::Mesh& mesh, const std::vector<double>& V);

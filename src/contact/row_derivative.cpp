@@ -1,0 +1,157 @@
+#include "contact/row_derivative.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "contact/tangents.hpp"
+#include "elasticity/shape_derivative.hpp"
+
+namespace dotyk::contact {
+namespace {
+
+using mesh::Facet;
+using mesh::Mesh;
+using mesh::Point;
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double length(const Point& a) { return std::sqrt(dot(a, a)); }
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point cross(const Point& u, const Point& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+bool none(const Point& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+
+Point velocity(const Mesh& mesh, const std::vector<double>& V, int node) {
+  Point out{0, 0, 0};
+  if (V.empty()) return out;
+  for (int i = 0; i < mesh.dimension(); ++i) out[i] = V[static_cast<std::size_t>(node) * mesh.dimension() + i];
+  return out;
+}
+
+/// d/dt of m/|m|.
+Point unit_derivative(const Point& m, const Point& dm) {
+  const double size = length(m), along = dot(m, dm) / (size * size);
+  Point out;
+  for (int i = 0; i < 3; ++i) out[i] = (dm[i] - along * m[i]) / size;
+  return out;
+}
+
+/// What a facet gives to the sides at its nodes, and how that changes.
+struct Share {
+  Point normal, dnormal;  ///< unit
+  std::array<double, 4> weight{}, dweight{};
+};
+
+Share share(const Mesh& mesh, Facet f, const std::vector<double>& V) {
+  Share s;
+  const Point area = mesh.facet_area_vector(f);
+  const double size = length(area);
+  for (int i = 0; i < 3; ++i) s.normal[i] = area[i] / size;
+  s.dnormal = unit_derivative(area, mesh::facet_area_derivative(mesh, V, f));
+  elasticity::for_each_facet_point(mesh, f, [&](const elasticity::FacetPoint& p) {
+    for (int a = 0; a < p.nodes; ++a) s.weight[a] += p.measure * p.shape[a];
+  });
+  s.dweight = elasticity::facet_weights_derivative(mesh, f, V);
+  return s;
+}
+
+/// Mean normal and weight of the row's side; the gap is left 0.
+RowDerivative side_derivative(const Mesh& mesh, const std::vector<Facet>& facets, const ContactRow& row, const std::vector<Share>& shares) {
+  RowDerivative out;
+  Point m{0, 0, 0}, dm{0, 0, 0};
+  for (const int k : row.facets) {
+    const Share& s = shares[k];
+    for (int a = 0; a < mesh.topology().nodes_per_facet; ++a) {
+      if (mesh.facet_node(facets[k], a) != row.node) continue;
+      out.weight += s.dweight[a];
+      for (int i = 0; i < 3; ++i) {
+        m[i] += s.weight[a] * s.normal[i];
+        dm[i] += s.dweight[a] * s.normal[i] + s.weight[a] * s.dnormal[i];
+      }
+    }
+  }
+  out.normal = unit_derivative(m, dm);
+  return out;
+}
+
+std::vector<RowDerivative> side_derivatives(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<ContactRow>& rows,
+                                            const std::vector<double>& V) {
+  if (V.empty()) return std::vector<RowDerivative>(rows.size());
+  std::vector<Share> shares;
+  for (const Facet f : facets) shares.push_back(share(mesh, f, V));
+  std::vector<RowDerivative> out;
+  for (const ContactRow& row : rows) out.push_back(side_derivative(mesh, facets, row, shares));
+  return out;
+}
+
+/// d/dt of (normal, gap) for a node at x that moves with v; the weight is left as it is.
+void set_distance(const RigidGap&, const ContactRow&, const Point& x, const Point& v, RowDerivative& out) {
+  if (!none(v))
+    throw InputError(text("the node at ", point_text(x.data(), 3), " moves before a rigid obstacle that is given by a gap function, whose "
+                          "slope is not known; take a rigid plane or ball"));
+  out.normal = {0, 0, 0};
+}
+
+void set_distance(const RigidPlane&, const ContactRow& row, const Point&, const Point& v, RowDerivative& out) {
+  out.normal = {0, 0, 0};
+  out.gap = -dot(v, row.normal);
+}
+
+void set_distance(const RigidBall& shape, const ContactRow& row, const Point& x, const Point& v, RowDerivative& out) {
+  const double along = dot(v, row.normal), r = length(minus(shape.center, x));
+  for (int i = 0; i < 3; ++i) out.normal[i] = (along * row.normal[i] - v[i]) / r;
+  out.gap = -along;
+}
+
+}  // namespace
+
+std::vector<RowDerivative> row_derivatives(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<ContactRow>& rows,
+                                           const std::vector<double>& first, const Mesh& partners, const std::vector<double>& second) {
+  std::vector<RowDerivative> out = side_derivatives(mesh, facets, rows, first);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const ContactRow& row = rows[k];
+    const Point apart = minus(partners.point(row.partner), mesh.point(row.node));
+    const Point moving = minus(velocity(partners, second, row.partner), velocity(mesh, first, row.node));
+    out[k].gap = dot(moving, row.normal) + dot(apart, out[k].normal);
+  }
+  return out;
+}
+
+std::vector<RowDerivative> row_derivatives(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<ContactRow>& rows,
+                                           const RigidShape& shape, const std::vector<double>& V) {
+  std::vector<RowDerivative> out = side_derivatives(mesh, facets, rows, V);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Point x = mesh.point(rows[k].node), v = velocity(mesh, V, rows[k].node);
+    std::visit([&](const auto& s) { set_distance(s, rows[k], x, v, out[k]); }, shape);
+  }
+  return out;
+}
+
+std::vector<double> measure_derivatives(const Surface& surface, const std::vector<double>& V) {
+  std::vector<double> sum(surface.rows, 0);
+  if (V.empty()) return sum;
+  for (const SurfaceFacet& f : surface.facets) {
+    const auto weights = elasticity::facet_weights_derivative(surface.mesh, f.facet, V);
+    for (int a = 0; a < f.corners; ++a)
+      if (f.row[a] >= 0) sum[f.row[a]] += weights[a];
+  }
+  return sum;
+}
+
+std::vector<Point> tangent_derivatives(const Point& n, const Point& dn, int dimension) {
+  if (dimension == 2) return {{-dn[1], dn[0], 0}};
+  const Point t = tangents(n, dimension).front();  // w/|w|, w = e − n (n·e) with e along the axis
+  const int axis = tangent_axis(n);
+  Point w{0, 0, 0}, dw;
+  w[axis] = 1;
+  for (int i = 0; i < 3; ++i) {
+    w[i] -= n[axis] * n[i];
+    dw[i] = -dn[axis] * n[i] - n[axis] * dn[i];
+  }
+  const Point first = unit_derivative(w, dw), turned = cross(dn, t), along = cross(n, first);
+  return {first, {turned[0] + along[0], turned[1] + along[1], turned[2] + along[2]}};
+}
+
+}  // namespace dotyk::contact
