@@ -52,14 +52,23 @@ RigidMotions rigid_motions(const Problem& problem) {
     const int count = static_cast<int>(block.kernel.cols());
     if (count == 0) continue;
     rigid.N.middleCols(k, count) = problem.rows_of(block) * block.kernel;
-    rigid.e.segment(k, count) = resultants(block);
     k += count;
   }
   rigid.motions = body_motions(problem);
   split(rigid);
   rigid.noticed_N = rigid.N * rigid.noticed;
-  rigid.noticed_e = rigid.noticed.transpose() * rigid.e;
+  take_load(problem, rigid);
   return rigid;
+}
+
+void take_load(const Problem& problem, RigidMotions& rigid) {
+  Eigen::Index k = 0;
+  for (const Block& block : problem.blocks) {
+    const Eigen::Index count = block.kernel.cols();
+    if (count > 0) rigid.e.segment(k, count) = resultants(block);
+    k += count;
+  }
+  rigid.noticed_e = rigid.noticed.transpose() * rigid.e;
 }
 
 std::vector<BodyMotion> body_motions(const Problem& problem) {

@@ -28,6 +28,8 @@ struct RigidMotions {
   int count() const { return static_cast<int>(e.size()); }
 };
 RigidMotions rigid_motions(const Problem& problem);
+/// The same motions under another f: sets e and noticed_e.
+void take_load(const Problem& problem, RigidMotions& rigid);
 
 /// What the modes of all blocks' kernels are, block after block.
 std::vector<BodyMotion> body_motions(const Problem& problem);

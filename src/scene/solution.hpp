@@ -168,6 +168,9 @@ struct Start {
   std::optional<std::vector<int>> closed;
   /// The solution that this one follows: slip is measured from it, and its loading goes on.
   std::shared_ptr<const Solution> after = nullptr;
+  /// Where methods that condense leave what they factored, for other solves with the same K and B (see
+  /// shape::Sensitivity); empty: their own.
+  std::shared_ptr<problem::Condenser> condenser = nullptr;
 };
 
 /// Assembles and solves. No method named: PDAS, or Newton where there is friction.

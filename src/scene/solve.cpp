@@ -54,7 +54,7 @@ class History {
  public:
   History(std::shared_ptr<const Scene> scene, const solver::Method& method, const Start& start, Monitor& monitor)
       : scene_(std::make_shared<const Scene>(*scene)),  // on_iteration may run a script that adds to the scene
-        method_(method), start_(start), monitor_(monitor), last_(start.after) {
+        method_(method), start_(start), monitor_(monitor), condenser_(start.condenser), last_(start.after) {
     if (last_) loading_ = last_->loading();
     for (const auto& body : scene_->bodies) bodies_.push_back(*body);
     if (last_) take_broken(last_->model().bodies, bodies_);
@@ -63,7 +63,7 @@ class History {
 
   std::shared_ptr<Solution> run(const std::vector<Step>& steps) {
     if (steps.empty()) return advance({}, monitor_, true);
-    if (steps.size() > 1 || breaks_) condenser_ = std::make_shared<problem::Condenser>();
+    if (!condenser_ && (steps.size() > 1 || breaks_)) condenser_ = std::make_shared<problem::Condenser>();
     for (std::size_t k = 0;; ++k) try {
         StepMonitor monitor(monitor_, static_cast<int>(k) + 1, steps.size());
         const auto solution = advance(steps[k], monitor, k + 1 == steps.size());
