@@ -17,43 +17,68 @@ using scene::Contact;
 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// Do nodes of these facets move, beyond rounding of V's greatest?
+bool moves(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const std::vector<double>& V) {
+  double greatest = 0, here = 0;
+  for (const double v : V) greatest = std::max(greatest, std::abs(v));
+  if (greatest == 0) return false;
+  for (const mesh::Facet f : facets)
+    for (int a = 0; a < mesh.topology().nodes_per_facet; ++a)
+      for (int i = 0; i < mesh.dimension(); ++i)
+        here = std::max(here, std::abs(V[static_cast<std::size_t>(mesh.facet_node(f, a)) * mesh.dimension() + i]));
+  return here > 1e-12 * greatest;
+}
+
+/// A contact with what moves its two sides.
+struct Moving {
+  const Contact& contact;
+  int first, second;  ///< bodies; second is -1 against a rigid shape
+  const std::vector<double>&V, &W;
+
+  const mesh::Mesh& mesh() const { return *contact.first.body->mesh; }
+  bool any() const { return moves(mesh(), contact.first.facets, V) || (second >= 0 && moves(*contact.second.body->mesh, contact.second.facets, W)); }
+  std::vector<RowDerivative> derivatives() const {
+    if (second < 0) return contact::row_derivatives(mesh(), contact.first.facets, contact.rows, contact.shape, V);
+    return contact::row_derivatives(mesh(), contact.first.facets, contact.rows, V, *contact.second.body->mesh, W);
+  }
+};
+
+Moving moving(const scene::Solution& solution, int index, const Velocities& velocities) {
+  static const std::vector<double> rest;
+  const Contact& contact = *solution.scene().contacts[static_cast<std::size_t>(index)];
+  const int first = solution.scene().index_of(contact.first.body.get()), second = solution.scene().index_of(contact.second.body.get());
+  return {contact, first, second, velocities[static_cast<std::size_t>(first)], second < 0 ? rest : velocities[static_cast<std::size_t>(second)]};
+}
+
+/// What overhangs the other part is left out where there is a common surface.
+std::vector<double> weights(const Contact& contact, const std::vector<RowDerivative>& rows, const std::vector<double>& V) {
+  std::vector<double> out;
+  for (const RowDerivative& d : rows) out.push_back(d.weight);
+  if (!contact.second.body) return out;
+  const contact::Surface surface = scene::surface_of(contact);
+  const std::vector<double> measures = contact::measures(surface), change = contact::measure_derivatives(surface, V);
+  for (std::size_t k = 0; k < out.size(); ++k)
+    if (measures[k] > 0) out[k] = change[k];
+  return out;
+}
+
 /// One contact's share.
 class ContactChanges {
  public:
   ContactChanges(const scene::Solution& solution, int index, const Velocities& velocities, RowChanges& changes)
-      : solution_(solution), model_(solution.model()), contact_(*solution.scene().contacts[index]), index_(index),
-        dim_(solution.scene().dimension()), first_(solution.scene().index_of(contact_.first.body.get())),
-        second_(solution.scene().index_of(contact_.second.body.get())), V_(velocities[first_]),
-        W_(second_ < 0 ? none_ : velocities[second_]), changes_(changes) {}
+      : solution_(solution), model_(solution.model()), moving_(moving(solution, index, velocities)), contact_(moving_.contact), index_(index),
+        dim_(solution.scene().dimension()), first_(moving_.first), second_(moving_.second), changes_(changes) {}
 
   void add() {
-    if (contact_.kind == Contact::Kind::glue || !moves()) return;
+    if (contact_.kind == Contact::Kind::glue || !moving_.any()) return;
     require_nodal();
-    derivatives_ = second_ < 0 ? contact::row_derivatives(mesh(first_), contact_.first.facets, contact_.rows, contact_.shape, V_)
-                               : contact::row_derivatives(mesh(first_), contact_.first.facets, contact_.rows, V_, mesh(second_), W_);
+    derivatives_ = moving_.derivatives();
     for (std::size_t k = 0; k < contact_.rows.size(); ++k)
       if (const int r = model_.contact_row[index_][k]; r >= 0) turn(r, static_cast<int>(k), derivatives_[k].normal, derivatives_[k].gap);
     friction();
   }
 
  private:
-  const mesh::Mesh& mesh(int body) const { return *solution_.body(body).mesh; }
-
-  /// Beyond rounding of V's greatest.
-  static bool moves(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const std::vector<double>& V) {
-    double greatest = 0, here = 0;
-    for (const double v : V) greatest = std::max(greatest, std::abs(v));
-    if (greatest == 0) return false;
-    for (const mesh::Facet f : facets)
-      for (int a = 0; a < mesh.topology().nodes_per_facet; ++a)
-        for (int i = 0; i < mesh.dimension(); ++i)
-          here = std::max(here, std::abs(V[static_cast<std::size_t>(mesh.facet_node(f, a)) * mesh.dimension() + i]));
-    return here > 1e-12 * greatest;
-  }
-  bool moves() const {
-    return moves(mesh(first_), contact_.first.facets, V_) || (second_ >= 0 && moves(mesh(second_), contact_.second.facets, W_));
-  }
-
   void require_nodal() const {
     const bool plain = dim_ == 2 && contact_.friction == scene::Friction::Kind::none;  // p1_p0's rows are then the nodal ones
     if (contact_.discretisation.multipliers != contact::Multipliers::nodal && !plain)
@@ -88,7 +113,7 @@ class ContactChanges {
 
   void friction() {
     if (contact_.friction == scene::Friction::Kind::none) return;
-    const std::vector<double> weight = weights();
+    const std::vector<double> weight = weights(contact_, derivatives_, moving_.V);
     for (const scene::FrictionRows& rows : model_.friction[index_]) {
       const int k = rows.cell.jumps.front().row;  // nodal: a cell is a node's surroundings
       const auto t = contact::tangents(contact_.rows[k].normal, dim_);
@@ -102,24 +127,11 @@ class ContactChanges {
     }
   }
 
-  /// Of the rows' weights: against a rigid shape all facets count, else those of the common surface.
-  std::vector<double> weights() const {
-    std::vector<double> out;
-    for (const RowDerivative& d : derivatives_) out.push_back(d.weight);
-    if (second_ < 0) return out;
-    const contact::Surface surface = scene::surface_of(contact_);
-    const std::vector<double> measures = contact::measures(surface), change = contact::measure_derivatives(surface, V_);
-    for (std::size_t k = 0; k < out.size(); ++k)
-      if (measures[k] > 0) out[k] = change[k];
-    return out;
-  }
-
-  inline static const std::vector<double> none_;
   const scene::Solution& solution_;
   const scene::Model& model_;
+  Moving moving_;
   const Contact& contact_;
   int index_, dim_, first_, second_;
-  const std::vector<double>&V_, &W_;
   RowChanges& changes_;
   std::vector<RowDerivative> derivatives_;
 };
@@ -133,6 +145,12 @@ RowChanges row_changes(const scene::Solution& solution, const Velocities& veloci
   for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c)
     ContactChanges(solution, static_cast<int>(c), velocities, changes).add();
   return changes;
+}
+
+std::vector<double> weight_changes(const scene::Solution& solution, int contact, const Velocities& velocities) {
+  const Moving m = moving(solution, contact, velocities);
+  if (!m.any()) return std::vector<double>(m.contact.rows.size(), 0.0);
+  return weights(m.contact, m.derivatives(), m.V);
 }
 
 }  // namespace dotyk::shape

@@ -17,4 +17,8 @@ struct RowChanges {
 /// or before a RigidGap.
 RowChanges row_changes(const scene::Solution& solution, const Velocities& velocities);
 
+/// d/dt of the weights of a contact's rows (index in the scene): length or area, so that with a pressure p = λ/weight
+/// p' = (λ' − p weight')/weight. Against a rigid shape all facets of the part count, else those of the common surface.
+std::vector<double> weight_changes(const scene::Solution& solution, int contact, const Velocities& velocities);
+
 }  // namespace dotyk::shape

@@ -100,3 +100,18 @@ TEST_CASE("friction that is about to slip has no derivative, and the node is nam
   CHECK_NOTHROW(test::sensitivity(at_limit(1.001)));
   CHECK_NOTHROW(test::sensitivity(at_limit(0.999)));
 }
+
+TEST_CASE("solutions that have no derivative of their own are refused") {
+  Monitor quiet;
+  const auto scene = blocks(2, Family::q1, 4, given([](const Point& x) { return 0.4 * (1 + 3 * x[0]); }));
+  const scene::Step half{.all = 0.5, .factor = {}, .move = {}}, whole{.all = 1.0, .factor = {}, .move = {}};
+  const auto last = scene::solve(scene, solver::Newton{}, {}, quiet, {half, whole});
+  CHECK_THROWS_WITH_AS(test::sensitivity(last), doctest::Contains("its slip goes on from an earlier step"), InputError);
+  CHECK_THROWS_WITH_AS(test::sensitivity(last->steps().front()), doctest::Contains("the solution is an earlier step of a history"), InputError);
+  solver::Newton short_of_time;
+  short_of_time.max_iterations = 1;
+  CHECK_THROWS_WITH_AS(test::sensitivity(scene::solve(scene, short_of_time, {}, quiet)), doctest::Contains("the solution has not converged"), InputError);
+  // One step under half the load is a solution like any other.
+  const auto alone = scene::solve(scene, solver::Newton{}, {}, quiet, {half});
+  CHECK(test::sensitivity(alone).along(test::velocities(*scene, motion(2))).u.norm() > 0);
+}

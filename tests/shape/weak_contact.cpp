@@ -10,7 +10,7 @@ using mesh::Point;
 namespace {
 
 /// A pressed block over a rigid floor with this gap at the bottom's nodes, by x.
-test::ScenePtr block(Family family, const elasticity::ScalarField& gap, bool free = false) {
+test::ScenePtr block(Family family, const elasticity::ScalarField& gap, bool free, const scene::Friction& friction) {
   const auto body = test::block("block", 2, family, 8, 0, 1000);
   if (free) {
     test::fix(body, "left", {true, false, false});
@@ -21,7 +21,7 @@ test::ScenePtr block(Family family, const elasticity::ScalarField& gap, bool fre
     scene::displace(top, {elasticity::ScalarField(), [](const Point&) { return -0.02; }, elasticity::ScalarField()});
   }
   const auto scene = scene::make_scene({body});
-  scene::add_contact(*scene, test::part(body, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, gap, true);
+  scene::add_contact(*scene, test::part(body, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, gap, true, friction);
   return scene;
 }
 
@@ -29,17 +29,17 @@ double bowl(const Point& x) { return 0.08 * (x[0] - 0.5) * (x[0] - 0.5); }
 
 /// The block over a bowl, whose first `count` open nodes (by distance from the middle) have exactly the gap that they
 /// close: where contact does not notice them, they touch without force.
-test::ScenePtr touching(Family family, int count, bool free = false) {
-  const auto open = test::solved(block(family, bowl, free));
+test::ScenePtr touching(Family family, int count, bool free = false, const scene::Friction& friction = {}) {
+  const auto open = test::solved(block(family, bowl, free, friction));
   auto nodes = open->contact(*open->scene().contacts.front()).nodes;
-  std::erase_if(nodes, [](const scene::ContactNode& n) { return n.status != problem::Status::open; });
+  std::erase_if(nodes, [](const scene::ContactNode& n) { return n.gap < 1e-9; });
   std::sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return std::abs(a.x[0] - 0.5) < std::abs(b.x[0] - 0.5); });
   nodes.resize(static_cast<std::size_t>(count));
   return block(family, [=](const Point& x) {
     for (const scene::ContactNode& n : nodes)
       if (std::abs(x[0] - n.x[0]) < 1e-9) return -n.displacement[1];
     return bowl(x);
-  }, free);
+  }, free, friction);
 }
 
 test::Motion tilted() {
@@ -78,6 +78,18 @@ TEST_CASE("one node in weak contact: it closes one way and opens the other") {
 
 TEST_CASE("two nodes in weak contact, and a body that contact alone holds down") {
   for (const bool free : {false, true}) check_sides(touching(Family::q1, 2, free), tilted(), 2);
+}
+
+TEST_CASE("weak contact with given friction that sticks and slips elsewhere; with Coulomb's it is refused") {
+  const scene::Friction given{scene::Friction::Kind::tresca, [](const Point& x) { return 0.2 + 2 * x[0]; }};
+  const auto scene = touching(Family::q1, 1, false, given);
+  const auto c = test::solved(scene)->contact(*scene->contacts.front());
+  CHECK(c.stick > 0);
+  CHECK(c.slip > 0);
+  check_sides(scene, tilted(), 1);
+  const scene::Friction coulomb{scene::Friction::Kind::coulomb, [](const Point&) { return 0.2; }};
+  CHECK_THROWS_WITH_AS(test::sensitivity(test::solved(touching(Family::q1, 1, false, coulomb))),
+                       doctest::Contains("touches without force, where its friction begins"), InputError);
 }
 
 TEST_CASE("in weak contact there is no gradient, and the nodes are named") {
