@@ -102,4 +102,29 @@ core.describe{
   run = core.lazily("work_precision", "run"),
 }
 
+for name, what in pairs{ sqrt = "The square root", exp = "The exponential", log = "The natural logarithm", sin = "The sine", cos = "The cosine",
+                         atan = "The arc tangent", abs = "The absolute value" } do
+  core.describe{
+    name = "dotyk.dual." .. name,
+    help = what .. " of a number or of a dual number (a value and its gradient, see dotyk.shape), with its derivatives.",
+    example = ("print(dotyk.dual.%s(0.5))"):format(name),
+    arguments = { { name = "x", kind = "any", required = true, help = "a number or a dual number" } },
+    run = core.lazily("dual", name) }
+end
+for name, what in pairs{ max = "greater", min = "lesser" } do
+  core.describe{
+    name = "dotyk.dual." .. name,
+    help = ("The %s of two numbers or dual numbers; the first where they are equal."):format(what),
+    example = ("print(dotyk.dual.%s(0.5, 2))"):format(name),
+    arguments = { { name = "a", kind = "any", required = true, help = "a number or a dual number" },
+                  { name = "b", kind = "any", required = true, help = "another" } },
+    run = core.lazily("dual", name) }
+end
+core.describe{
+  name = "dotyk.dual.value",
+  help = "The number itself, or the value of a dual number without its derivatives.",
+  example = "print(dotyk.dual.value(0.5))",
+  arguments = { { name = "x", kind = "any", required = true, help = "a number or a dual number" } },
+  run = core.lazily("dual", "value") }
+
 return core

@@ -15,6 +15,7 @@ void bind_all(Library& library) {
   bind_solver(library);
   bind_all_solutions(library);
   bind_repeated(library);
+  bind_shape(library);
   bind_solution(library);
   bind_figure(library);
   bind_program(library);

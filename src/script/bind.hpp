@@ -10,6 +10,7 @@ void bind_material(Library& library);
 void bind_mesh(Library& library);
 void bind_refinement(Library& library);
 void bind_repeated(Library& library);
+void bind_shape(Library& library);
 void bind_body(Library& library);
 void bind_scene(Library& library);
 void bind_contact(Library& library);

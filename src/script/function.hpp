@@ -43,6 +43,14 @@ class Function {
     return finish(static_cast<int>(sizeof...(arguments)));
   }
 
+  // f(value) with anything push() knows -> one result, left on the stack.
+  template <class Argument>
+  void result(const Argument& argument) const {
+    begin(1);
+    push(L_, argument);
+    call(1, 1);
+  }
+
  private:
   void begin(int count) const;
   bool finish(int count) const;
