@@ -14,7 +14,7 @@ namespace dotyk::script {
 
 struct OptimumHandle {
   shape::Optimum optimum;
-  shape::Cost cost;
+  shape::EvaluatorCost cost;
   std::shared_ptr<Design> design;  // the best one
   double seconds = 0;
 };
@@ -199,10 +199,13 @@ std::vector<Record> history(const OptimumHandle& o) {
 }
 
 Record cost(const OptimumHandle& o) {
+  const auto count = [](auto value) { return static_cast<long long>(value); };
+  const shape::EvaluatorCost& c = o.cost;
   return {"cost",
-          {{"designs", static_cast<long long>(o.optimum.history.size())}, {"analyses", static_cast<long long>(o.cost.analyses)},
-           {"analysis_seconds", o.cost.analysis_seconds}, {"derivatives", static_cast<long long>(o.cost.derivatives)},
-           {"derivative_seconds", o.cost.derivative_seconds}, {"iterations", o.cost.iterations}, {"seconds", o.seconds}}};
+          {{"designs", count(o.optimum.history.size())}, {"seconds", o.seconds},
+           {"analyses", count(c.designs.analyses)}, {"analysis_seconds", c.analysis_seconds}, {"iterations", count(c.designs.iterations)},
+           {"derivatives", count(c.designs.derivatives + c.beside.analyses)}, {"derivative_seconds", c.derivative_seconds},
+           {"derivative_iterations", count(c.beside.iterations)}}};
 }
 
 std::vector<Key> keys() {
@@ -243,7 +246,8 @@ void bind_optimum(Library& library) {
       .field("converged", "did it end by itself, constraints kept", [](const OptimumHandle& o) { return o.optimum.converged; })
       .field("reason", "why it ended", [](const OptimumHandle& o) { return o.optimum.reason; })
       .field("history", "one entry a design: design alpha objective constraints admissible accepted radius gap seconds", history)
-      .field("cost", "designs analyses analysis_seconds derivatives derivative_seconds iterations (of the analyses) seconds", cost)
+      .field("cost", "designs, seconds; analyses, analysis_seconds and iterations (of the solver); derivatives (problems solved for them: adjoint and "
+                     "directional ones, of differences analyses beside), derivative_seconds and derivative_iterations (of differences)", cost)
       .field("design", "the best design", [](const OptimumHandle& o) { return o.design; })
       .field("solution", "its solution", [](const OptimumHandle& o) { return o.design->state->solution(); })
       .text([](const OptimumHandle& o) {

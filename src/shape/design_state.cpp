@@ -1,7 +1,5 @@
 #include "shape/design_state.hpp"
 
-#include "base/stopwatch.hpp"
-
 namespace dotyk::shape {
 namespace {
 
@@ -25,7 +23,6 @@ DesignState::DesignState(std::shared_ptr<const DesignSpace> space, algebra::Vect
                          Monitor& monitor)
     : space_(std::move(space)), alpha_(std::move(alpha)), cost_(std::move(cost)), condenser_(std::make_shared<problem::Condenser>()),
       change_(static_cast<std::size_t>(space_->variables())), derivative_(change_.size()) {
-  Stopwatch watch;
   scene_ = space_->at(alpha_);
   scene::Start start;
   if (near) start.closed = closed_rows(*near->solution_);
@@ -33,7 +30,6 @@ DesignState::DesignState(std::shared_ptr<const DesignSpace> space, algebra::Vect
   solution_ = scene::solve(scene_, method, start, monitor);
   ++cost_->analyses;
   cost_->iterations += solution_->result().iterations;
-  cost_->analysis_seconds += watch.lap();
 }
 
 DesignState::DesignState(const DesignState& state, const algebra::Vector& beta)
@@ -42,9 +38,7 @@ DesignState::DesignState(const DesignState& state, const algebra::Vector& beta)
 
 const Sensitivity& DesignState::sensitivity() const {
   if (sensitivity_) return *sensitivity_;
-  Stopwatch watch;
   sensitivity_ = std::make_shared<const Sensitivity>(solution_, condenser_, Sensitivity::Settings{}, idle_);
-  cost_->derivative_seconds += watch.lap();
   return *sensitivity_;
 }
 
@@ -52,9 +46,7 @@ const Change& DesignState::change(int variable) const {
   auto& known = change_[static_cast<std::size_t>(variable)];
   if (known) return *known;
   const Sensitivity& s = sensitivity();
-  Stopwatch watch;
   known = s.change(space_->variable(variable));
-  cost_->derivative_seconds += watch.lap();
   return *known;
 }
 
@@ -62,19 +54,15 @@ const Derivative& DesignState::derivative(int variable) const {
   auto& known = derivative_[static_cast<std::size_t>(variable)];
   if (known) return *known;
   const Change& along = change(variable);
-  Stopwatch watch;
   known = sensitivity().along(along);
   ++cost_->derivatives;
-  cost_->derivative_seconds += watch.lap();
   return *known;
 }
 
 Adjoint DesignState::adjoint(const algebra::Vector& du, const algebra::Vector& dlambda) const {
   const Sensitivity& s = sensitivity();
-  Stopwatch watch;
   Adjoint result = s.adjoint(du, dlambda);
   ++cost_->derivatives;
-  cost_->derivative_seconds += watch.lap();
   return result;
 }
 

@@ -10,13 +10,11 @@
 
 namespace dotyk::shape {
 
-/// What designs have cost so far.
+/// What states have cost so far.
 struct Cost {
-  int analyses = 0;                ///< scenes solved
-  double analysis_seconds = 0;
-  int derivatives = 0;             ///< linear or quadratic problems solved for derivatives
-  double derivative_seconds = 0;
-  long long iterations = 0;        ///< of the analyses
+  int analyses = 0;          ///< scenes solved
+  long long iterations = 0;  ///< of them
+  int derivatives = 0;       ///< linear and quadratic problems solved for derivatives, adjoint ones included
 };
 
 /// One design solved, and its derivatives by the variables, made when asked for.

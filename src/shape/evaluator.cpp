@@ -6,9 +6,9 @@
 
 namespace dotyk::shape {
 
-std::shared_ptr<const DesignState> Evaluator::solved(const Vector& alpha) try {
+std::shared_ptr<const DesignState> Evaluator::solved(const Vector& alpha, const std::shared_ptr<Cost>& cost) try {
   InnerMonitor inner(monitor_);
-  auto state = std::make_shared<const DesignState>(space_, alpha, method_, last_.get(), cost_, inner);
+  auto state = std::make_shared<const DesignState>(space_, alpha, method_, last_.get(), cost, inner);
   monitor_.check();
   if (state->solution()->result().converged) return state;
   refusal_ = "the solve did not converge: " + state->solution()->result().reason;
@@ -37,7 +37,7 @@ DenseMatrix Evaluator::differences(const DesignState& state, const Vector& at) {
   for (int i = 0; i < space_->variables(); ++i) {
     Vector alpha = state.alpha();
     alpha[i] += step_;
-    const auto beside = solved(alpha);
+    const auto beside = solved(alpha, beside_);
     if (!beside) throw InputError(text("the design at ", step_, " beside in variable ", i + 1, ", for a difference, is not admissible: ", refusal_));
     g.col(i) = (values(*beside) - at) / step_;
   }
@@ -46,11 +46,14 @@ DenseMatrix Evaluator::differences(const DesignState& state, const Vector& at) {
 
 std::optional<Evaluation> Evaluator::operator()(const Vector& alpha) {
   refusal_.clear();
-  const auto state = solved(alpha);
+  Stopwatch watch;
+  const auto state = solved(alpha, designs_);
+  analysis_seconds_ += watch.lap();
   if (!state) return std::nullopt;
   last_ = state;
   const Vector at = values(*state);
   const DenseMatrix g = step_ > 0 ? differences(*state, at) : exact(*state);
+  derivative_seconds_ += watch.lap();
   return Evaluation{at[0], g.row(0), at.tail(at.size() - 1), g.bottomRows(g.rows() - 1)};
 }
 

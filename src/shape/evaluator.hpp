@@ -16,6 +16,14 @@ struct DesignConstraint {
   double most;
 };
 
+/// What an optimisation has cost.
+struct EvaluatorCost {
+  Cost designs;               ///< of the designs themselves
+  double analysis_seconds = 0;
+  Cost beside;                ///< of the designs beside them, for differences
+  double derivative_seconds = 0;
+};
+
 /// Evaluates designs for an optimiser, each contact problem begun from the contacts of the last one.
 class Evaluator {
  public:
@@ -31,10 +39,10 @@ class Evaluator {
   const std::string& refusal() const { return refusal_; }
   /// Of the last design evaluated that was admissible; null before the first.
   const std::shared_ptr<const DesignState>& last() const { return last_; }
-  const Cost& cost() const { return *cost_; }
+  EvaluatorCost cost() const { return {*designs_, analysis_seconds_, *beside_, derivative_seconds_}; }
 
  private:
-  std::shared_ptr<const DesignState> solved(const Vector& alpha);
+  std::shared_ptr<const DesignState> solved(const Vector& alpha, const std::shared_ptr<Cost>& cost);
   Vector values(const DesignState& state) const;
   DenseMatrix exact(const DesignState& state) const;
   DenseMatrix differences(const DesignState& state, const Vector& at);
@@ -45,7 +53,8 @@ class Evaluator {
   std::vector<DesignConstraint> constraints_;
   double step_;
   Monitor& monitor_;
-  std::shared_ptr<Cost> cost_ = std::make_shared<Cost>();
+  std::shared_ptr<Cost> designs_ = std::make_shared<Cost>(), beside_ = std::make_shared<Cost>();
+  double analysis_seconds_ = 0, derivative_seconds_ = 0;
   std::shared_ptr<const DesignState> last_;
   std::string refusal_;
 };

@@ -24,7 +24,7 @@ struct Nothing {
   Vector force, gap;
 };
 
-Nothing nothing(const Problem& problem, const Vector& lambda, const Vector& x, double touching) {
+Nothing nothing(const Problem& problem, const Vector& lambda, const Vector& x, double touching, double force_error) {
   Vector stiffness = problem.row_stiffness();
   const double stiffest = stiffness.size() ? stiffness.maxCoeff() : 1;
   for (double& k : stiffness)
@@ -37,7 +37,7 @@ Nothing nothing(const Problem& problem, const Vector& lambda, const Vector& x, d
   Nothing n{Vector(x.size()), Vector(x.size())};
   for (int r = 0; r < x.size(); ++r) {
     const double c = std::abs(problem.c[r]) < 1e6 * moved ? std::abs(problem.c[r]) : 0;
-    n.force[r] = touching * (lambda.lpNorm<Eigen::Infinity>() + stiffness[r] * std::max(c, moved));
+    n.force[r] = std::max(force_error, touching * (lambda.lpNorm<Eigen::Infinity>() + stiffness[r] * std::max(c, moved)));
     n.gap[r] = n.force[r] / stiffness[r];
   }
   return n;
@@ -45,9 +45,9 @@ Nothing nothing(const Problem& problem, const Vector& lambda, const Vector& x, d
 
 class Branches {
  public:
-  Branches(const Problem& problem, const problem::State& state, double touching)
+  Branches(const Problem& problem, const problem::State& state, double touching, double force_error)
       : problem_(problem), lambda_(state.lambda), x_(problem.B * state.u - problem.c),
-        nothing_(nothing(problem, lambda_, x_, touching)), unknown_(problem.rows(), -1), weak_(problem.rows(), 0) {}
+        nothing_(nothing(problem, lambda_, x_, touching, force_error)), unknown_(problem.rows(), -1), weak_(problem.rows(), 0) {}
 
   LawDerivative operator()() {
     for (const RowGroup& group : problem_.groups)
@@ -142,8 +142,8 @@ class Branches {
 
 }  // namespace
 
-LawDerivative law_derivative(const Problem& problem, const problem::State& state, double touching) {
-  return Branches(problem, state, touching)();
+LawDerivative law_derivative(const Problem& problem, const problem::State& state, double touching, double force_error) {
+  return Branches(problem, state, touching, force_error)();
 }
 
 }  // namespace dotyk::shape

@@ -44,8 +44,8 @@ Sensitivity::Sensitivity(std::shared_ptr<const scene::Solution> solution, std::s
     : solution_(std::move(solution)), condenser_(std::move(condenser)), settings_(settings), monitor_(monitor) {
   require_differentiable();
   const Problem& problem = solution_->model().problem;
-  const double touching = std::max(settings.touching, kResiduals * solution_->residual().law);
-  law_ = law_derivative(problem, solution_->result().state, touching);
+  const problem::State& state = solution_->result().state;
+  law_ = law_derivative(problem, state, settings.touching, kResiduals * solution_->residual().law * state.lambda.norm());
   if (!condenser_) condenser_ = std::make_shared<problem::Condenser>();
   rigid_ = problem::rigid_motions(problem);
   const CondensedProblem& condensed = condenser_->condense(problem, rigid_, settings.ordering, clock_, monitor);

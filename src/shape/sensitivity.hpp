@@ -49,8 +49,8 @@ struct Adjoint {
 class Sensitivity {
  public:
   struct Settings {
-    /// What counts as no force and no gap, see law_derivative(); it is raised to ten times the solution's own residual of
-    /// its laws. 1e-9 is far above what exact methods leave (1e-13) and far below the pressures that meshes resolve.
+    /// What counts as no force and no gap, see law_derivative(); what ten times the solution's own residual of its laws
+    /// leaves of forces counts as nothing, too. 1e-9 is far above what exact methods leave (1e-13) and far below the pressures that meshes resolve.
     double touching = 1e-9;
     algebra::Ordering ordering = algebra::Ordering::automatic;
   };
