@@ -102,23 +102,23 @@ core.describe{
   run = core.lazily("work_precision", "run"),
 }
 
-for name, what in pairs{ sqrt = "The square root", exp = "The exponential", log = "The natural logarithm", sin = "The sine", cos = "The cosine",
-                         atan = "The arc tangent", abs = "The absolute value" } do
+for _, f in ipairs{ { "sqrt", "The square root" }, { "exp", "The exponential" }, { "log", "The natural logarithm" }, { "sin", "The sine" },
+                    { "cos", "The cosine" }, { "atan", "The arc tangent" }, { "abs", "The absolute value" } } do
   core.describe{
-    name = "dotyk.dual." .. name,
-    help = what .. " of a number or of a dual number (a value and its gradient, see dotyk.shape), with its derivatives.",
-    example = ("print(dotyk.dual.%s(0.5))"):format(name),
+    name = "dotyk.dual." .. f[1],
+    help = f[2] .. " of a number or of a dual number (a value and its gradient, see dotyk.shape), with its derivatives.",
+    example = ("print(dotyk.dual.%s(0.5))"):format(f[1]),
     arguments = { { name = "x", kind = "any", required = true, help = "a number or a dual number" } },
-    run = core.lazily("dual", name) }
+    run = core.lazily("dual", f[1]) }
 end
-for name, what in pairs{ max = "greater", min = "lesser" } do
+for _, f in ipairs{ { "max", "greater" }, { "min", "lesser" } } do
   core.describe{
-    name = "dotyk.dual." .. name,
-    help = ("The %s of two numbers or dual numbers; the first where they are equal."):format(what),
-    example = ("print(dotyk.dual.%s(0.5, 2))"):format(name),
+    name = "dotyk.dual." .. f[1],
+    help = ("The %s of two numbers or dual numbers; the first where they are equal."):format(f[2]),
+    example = ("print(dotyk.dual.%s(0.5, 2))"):format(f[1]),
     arguments = { { name = "a", kind = "any", required = true, help = "a number or a dual number" },
                   { name = "b", kind = "any", required = true, help = "another" } },
-    run = core.lazily("dual", name) }
+    run = core.lazily("dual", f[1]) }
 end
 core.describe{
   name = "dotyk.dual.value",
