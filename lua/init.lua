@@ -4,11 +4,27 @@
 local core <const> = ...
 
 -- The functions of lua/<file>.lua, loaded when the first of them is called.
+local place_of <const> = setmetatable({}, { __mode = "k" })
 function core.lazily(file, name)
-  return function(...)
-    return core.load(file)[name](...)
-  end
+  local function later(...) return core.load(file)[name](...) end
+  place_of[later] = { file = file, name = name }
+  return later
 end
+
+-- Callable → where it is written: file and name there.
+core.written_in_lua = {}
+local describe <const> = core.describe
+function core.describe(t)
+  core.written_in_lua[t.name] = place_of[t.run]
+  return describe(t)
+end
+
+core.describe{
+  name = "source",
+  help = "Prints the text of a function: of a script, or of one of dotyk's own that is written in Lua.",
+  example = "source(dotyk.adapt)",
+  arguments = { { name = "f", kind = "any", required = true, help = "a function" } },
+  run = core.lazily("source", "run") }
 
 core.describe{
   name = "dotyk.adapt",

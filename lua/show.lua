@@ -80,10 +80,13 @@ function show.text(value)
   return describe(value, 0, {})
 end
 
--- What the prompt does with results.
+-- What the prompt does with results. The name of a picture's file is also shown as the picture, where the terminal can.
 function show.print(...)
   local values = table.pack(...)
-  for i = 1, values.n do values[i] = show.text(values[i]) end
+  for i = 1, values.n do
+    if type(values[i]) == "string" and values[i]:find "%.png$" then core.load("picture").show(values[i]) end
+    values[i] = show.text(values[i])
+  end
   local several = table.concat(values, "\n"):find "\n" and "\n" or "  "
   io.write(table.concat(values, several), "\n")
 end

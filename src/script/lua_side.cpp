@@ -147,6 +147,8 @@ void load_lua_side(lua_State* L) {
       {"progress", progress}, {"clock", clock},       {"write", write},               {"type_name", type_name},
       {"describe", describe}, {"signature", signature},   {nullptr, nullptr}};
   luaL_setfuncs(L, functions, 0);
+  lua_pushstring(L, lua_folder());
+  lua_setfield(L, -2, "folder");
   lua_pushvalue(L, -1);
   lua_pushcclosure(L, load, 1);
   lua_pushvalue(L, -1);

@@ -12,6 +12,7 @@
 //   clock()         seconds, of a clock that never jumps
 //   lazily(f, name) a function that loads lua/<f>.lua when first called
 //   signature(f)    of a callable of dotyk's, else nil
+//   folder          where these files are
 //   type_name(v)    "body", "mesh", … or what type() says
 struct lua_State;
 

@@ -3,8 +3,11 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <ctime>
 #include <string>
+#include <string_view>
 
+#include "base/stopwatch.hpp"
 #include "script/complete.hpp"
 #include "script/history.hpp"
 #include "script/interpreter.hpp"
@@ -96,6 +99,21 @@ class Prompt {
 
   // Returns false when the input is the beginning of something longer.
   bool evaluate(const std::string& input, bool last) {
+    if (input.empty() || input[0] != '%') return evaluate_plain(input, last);
+    constexpr std::string_view time = "%time";
+    const auto start = input.find_first_not_of(" \t", time.size());
+    if (input.compare(0, time.size(), time) != 0 || start == std::string::npos || start == time.size()) {
+      report("prompt: after % comes time and an expression: %time dotyk.solve(scene)");
+      return true;
+    }
+    const Stopwatch watch;
+    const std::clock_t used = std::clock();
+    if (!evaluate_plain(input.substr(start), last)) return false;
+    if (!failed_) std::printf("%.3g s, %.3g s of processors\n", watch.seconds(), static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC);
+    return true;
+  }
+
+  bool evaluate_plain(const std::string& input, bool last) {
     failed_ = false;
     const auto text = plain(input);
     if (load("return " + text)) {

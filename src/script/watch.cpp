@@ -60,7 +60,12 @@ bool Watch::stop() {
 
 void Watch::answer() {
   const bool at_prompt = position(L_).rfind(std::string(prompt_chunk) + ":", 0) == 0;
-  if (at_prompt) clear_interrupt();
+  if (!at_prompt) return;
+  if (interrupted()) {
+    clear_progress();
+    std::fputs("stopped: the result is the state so far; look at it, go on from it with start = it, or leave it\n", stderr);
+  }
+  clear_interrupt();
 }
 
 }  // namespace dotyk::script

@@ -40,6 +40,9 @@ expect "an expression" '42' '6 * 7\n' &
 expect "several lines" '25' 'for i = 5, 5 do\n' 'print(i * i)\n' 'end\n' &
 expect "an error" "prompt:1: unknown variable 'prnit', did you mean 'print'?" 'prnit(1)\n' &
 expect "locals last" '41' 'local x = 40\n' 'x + 1\n' &
+expect "timing" 's of processors' '%time 6 * 7\n' &
+expect "timing of nothing" 'after % comes time' '%tine 6 * 7\n' &
+expect "source" 'local refinement <const>' 'source(dotyk.adapt)\n' &
 expect "completion of a field" '# dotyk: reference' 'print((dotyk.refe\t():sub(1, 18)))\n' &
 expect "Ctrl-C on an endless loop" 'still here' 'while true do end\n' '\003' 'print("still" .. " here")\n' &
 expect "Ctrl-C on an endless coroutine" 'still here' 'coroutine.wrap(function() while true do end end)()\n' '\003' 'print("still" .. " here")\n' &
@@ -49,4 +52,11 @@ expect "Ctrl-C clears the line" '12' 'error(' '\003' '3 * 4\n' &
   expect "history" 'ninety-9' 'print("nin\033[A\n'
 ) &
 wait
+
+# A picture is shown where the terminal can: by kitty's protocol the file's very bytes.
+picture=$folder/picture.png
+printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" |
+  DOTYK_PICTURES=kitty timeout 60 "$dotyk" | tr -d '\033\n' | sed 's/_G[^;]*;//g; s/\\//g; s/".*//' | base64 -d >"$folder/shown" 2>/dev/null
+cmp "$folder/shown" "$picture" ||
+  { echo "FAILED: a picture in the terminal"; echo >>"$folder/failures"; }
 [[ ! -e $folder/failures ]]
