@@ -104,7 +104,8 @@ local function difference(profile, z, drop, reach)
 end
 
 -- 4. The search. B-splines over the whole edge, the first control point held (all together they would move the roller as
--- a whole), and finer ones over the last tenth, which join smoothly because their first two are held.
+-- a whole), and finer ones over the last tenth, which join smoothly because their first two are held
+-- (these go both ways, within a tenth of the range: much farther down the straight roller would overlap the raceway).
 local function optimise(case, n, options)
   local p, moves = options.p or p0, {}
   local control, finer = options.control or 8, options.finer or 6

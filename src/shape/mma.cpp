@@ -51,7 +51,8 @@ class Answers {
 
   Optimum finish(nlopt_result code) {
     if (thrown_) std::rethrow_exception(thrown_);
-    if (!ended() && (code == NLOPT_XTOL_REACHED || code == NLOPT_SUCCESS)) end(true, "the design changes by less than tol_design");
+    if (!ended() && (code == NLOPT_XTOL_REACHED || code == NLOPT_SUCCESS))
+      end(!stepped_back_ && !refused_, stepped_back_ || refused_ ? "designs farther on are not admissible" : "the design changes by less than tol_design");
     if (!ended()) end(false, text("the method ended: ", nlopt_result_to_string(code)));
     return problem_.finish(best_, at_, 0, converged_, reason_);
   }
@@ -74,9 +75,12 @@ class Answers {
   void take(const Vector& x) {
     auto design = problem_.evaluate(x);
     const bool better = design && is_better(*design);
+    refused_ = refused_ || !design;
     if (better) {
       best_ = *design;
       at_ = stationarity(best_);
+      stepped_back_ = refused_;
+      refused_ = false;
     }
     if (design) greatest_ = std::max(greatest_, design->value.objective);
     last_ = design ? std::move(*design) : far(x);
@@ -113,6 +117,8 @@ class Answers {
   ScaledDesign last_, best_;
   Stationarity at_;
   double greatest_;
+  bool refused_ = false;       ///< a design asked since best_ was not admissible
+  bool stepped_back_ = false;  ///< one on the way to best_ was not: its short step is no convergence
   bool converged_ = false;
   std::string reason_;
   std::exception_ptr thrown_;

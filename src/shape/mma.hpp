@@ -17,7 +17,8 @@ struct Mma : Stopping {
 /// It ends, converged, where the gap or the change of design is below its tolerance and constraints are kept. A design counts
 /// as accepted where it keeps the constraints with the least objective so far (or violates them least, as long as
 /// none keeps them). A design that is not admissible is answered with an objective far above all seen and violated
-/// constraints, upon which these methods take shorter steps. Nothing but the design need be given to go on.
+/// constraints, upon which these methods take shorter steps; one that is short for that reason is no convergence. Nothing
+/// but the design need be given to go on.
 ///
 /// Throws InputError where `start` is outside its bounds or not admissible.
 Optimum minimise(const DesignProblem& problem, const Vector& start, const Mma& settings, Monitor& monitor);

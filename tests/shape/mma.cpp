@@ -63,6 +63,22 @@ TEST_CASE("designs that are not admissible are stepped back from, with constrain
   }
 }
 
+TEST_CASE("a step that is short because designs farther on are not admissible is no convergence") {
+  for (const auto method : kMethods) {
+    CAPTURE(static_cast<int>(method));
+    KnownDesign k = test::rosenbrock();
+    const auto valley = k.problem.evaluate;
+    k.problem.evaluate = [&](const Vector& x) { return distance(x, k.start) > 1e-5 ? std::nullopt : valley(x); };
+    Monitor nobody;
+    Mma s;
+    s.method = method, s.tol_design = 1e-4;
+    const Optimum o = shape::minimise(k.problem, k.start, s, nobody);
+    CHECK_FALSE(o.converged);
+    CHECK(o.gap > 1e-3);
+    CHECK(o.reason.rfind("designs farther on are not admissible", 0) == 0);
+  }
+}
+
 TEST_CASE("stopped, limited and failing runs leave NLopt in order") {
   const KnownDesign k = test::cantilever();
   for (const auto method : kMethods) {
