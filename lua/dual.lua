@@ -17,11 +17,14 @@ local function value(x)
   core.fail("expected a number or a dual number, got " .. core.type_name(x))
 end
 
+-- What does not change (d = 0) has no part in a derivative, though the slope be infinite.
+local function times(slope, d) return (slope == 0 or d == 0) and 0.0 or slope * d end
+
 -- f(x) with the derivative slope.
 local function chain(x, result, slope)
   if not is_dual(x) then return result end
   local g <const> = {}
-  for i, d in ipairs(x.gradient) do g[i] = slope == 0 and 0.0 or slope * d end
+  for i, d in ipairs(x.gradient) do g[i] = times(slope, d) end
   return make(result, g)
 end
 
@@ -30,7 +33,7 @@ local function combine(a, b, result, by_a, by_b)
   local ga <const>, gb <const> = is_dual(a) and a.gradient, is_dual(b) and b.gradient
   if ga and gb and #ga ~= #gb then core.fail("dual numbers of different designs do not mix") end
   local g <const> = {}
-  for i = 1, #(ga or gb) do g[i] = (ga and by_a * ga[i] or 0.0) + (gb and by_b * gb[i] or 0.0) end
+  for i = 1, #(ga or gb) do g[i] = (ga and times(by_a, ga[i]) or 0.0) + (gb and times(by_b, gb[i]) or 0.0) end
   return make(result, g)
 end
 
@@ -44,7 +47,7 @@ end
 function Dual.__pow(a, b)
   local x <const>, n <const> = value(a), value(b)
   local result <const> = x ^ n
-  return combine(a, b, result, n == 0 and 0 or n * x ^ (n - 1), is_dual(b) and result * math.log(x) or 0)
+  return combine(a, b, result, n == 0 and 0 or n * x ^ (n - 1), (is_dual(b) and result ~= 0) and result * math.log(x) or 0)
 end
 function Dual.__unm(a) return chain(a, -a.value, -1) end
 function Dual.__lt(a, b) return value(a) < value(b) end

@@ -1,4 +1,6 @@
 // One design: its numbers with their derivatives by the design variables.
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "script/bind_shape.hpp"
@@ -131,6 +133,7 @@ int along(Call& call) {
   const std::vector<double> beta = call.vector("direction");
   if (static_cast<int>(beta.size()) != d->state->space().variables())
     throw InputError(text("'direction' has ", beta.size(), " components; there are ", d->state->space().variables(), " design variables"));
+  if (std::all_of(beta.begin(), beta.end(), [](double b) { return b == 0; })) throw InputError("'direction' is zero; derivatives go along one that moves something");
   auto line = std::make_shared<Design>(*d);
   line->state = std::make_shared<const DesignState>(*d->state, Eigen::Map<const algebra::Vector>(beta.data(), static_cast<Eigen::Index>(beta.size())));
   line->derivatives = true;
@@ -145,7 +148,7 @@ std::vector<Key> point_keys() {
 
 std::vector<Dual> variables(const Design& d) {
   std::vector<Dual> duals;
-  for (Eigen::Index i = 0; i < d.state->alpha().size(); ++i) duals.push_back({d.state->alpha()[i], algebra::Vector::Unit(std::max<Eigen::Index>(size(d), 1), i).head(size(d))});
+  for (Eigen::Index i = 0; i < d.state->alpha().size(); ++i) duals.push_back({d.state->alpha()[i], d.derivatives ? d.state->alpha_gradient(i) : algebra::Vector(0)});
   return duals;
 }
 

@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "base/whole_file.hpp"
 #include "script/bind_shape.hpp"
+#include "script/interrupt.hpp"
 #include "script/library.hpp"
 #include "script/watch.hpp"
 #include "shape/mma.hpp"
@@ -15,6 +16,7 @@ namespace dotyk::script {
 struct OptimumHandle {
   shape::Optimum optimum;
   shape::EvaluatorCost cost;
+  std::vector<std::string> refusals;  // of each design of the history
   std::shared_ptr<Design> design;  // the best one
   double seconds = 0;
 };
@@ -71,7 +73,9 @@ void draw(lua_State* L, const std::shared_ptr<const scene::Solution>& solution, 
   lua_createtable(L, 0, 1);
   push(L, file);
   lua_setfield(L, -2, "file");
-  lua_call(L, 2, 0);
+  if (lua_pcall(L, 2, 0, 0) == LUA_OK) return;
+  if (interrupted()) throw Interrupted();
+  lua_error(L);
 }
 
 /// One run: what each design is told to.
@@ -88,13 +92,14 @@ class Run {
   std::shared_ptr<OptimumHandle> run() {
     if (start_.size() != static_cast<std::size_t>(shape_->space->variables()))
       throw InputError(text("'start' has ", start_.size(), " components; there are ", shape_->space->variables(), " design variables"));
-    const shape::DesignProblem problem{shape_->lower, shape_->upper, [this](const Vector& alpha) { return evaluator_(alpha); },
+    const shape::DesignProblem problem{shape_->lower, shape_->upper, [this](const Vector& alpha) { return evaluated(alpha); },
                                        [this](const DesignRecord& record) { tell(record); }};
     auto handle = std::make_shared<OptimumHandle>();
     const Vector start = Eigen::Map<const Vector>(start_.data(), static_cast<Eigen::Index>(start_.size()));
     handle->optimum = call_.choice("method") == 0 ? minimise(problem, start, slp(), stopping_) : minimise(problem, start, mma(), stopping_);
+    handle->refusals = refusals_;
     handle->cost = evaluator_.cost();
-    handle->design = best(handle->optimum.alpha);
+    handle->design = wrapped(best_);
     handle->seconds = handle->optimum.history.empty() ? 0 : handle->optimum.history.back().seconds;
     return handle;
   }
@@ -136,17 +141,17 @@ class Run {
     return design;
   }
 
-  std::shared_ptr<Design> best(const Vector& alpha) {
-    auto state = evaluator_.last();
-    if (!state || state->alpha() != alpha)
-      state = std::make_shared<const shape::DesignState>(shape_->space, alpha, shape_->method, state.get(), std::make_shared<shape::Cost>(), idle_);
-    return wrapped(std::move(state));
+  std::optional<shape::Evaluation> evaluated(const Vector& alpha) {
+    auto evaluation = evaluator_(alpha);
+    if (!evaluation && !evaluator_.last()) throw InputError("the first design is not admissible: " + evaluator_.refusal());
+    return evaluation;
   }
 
   void tell(const DesignRecord& record) {
     watch_.phase(record.admissible ? text("design ", record.design, ": ", sought_.objective->name(), " ", record.objective, record.accepted ? "" : ", not taken")
                                    : text("design ", record.design, " is not admissible: ", evaluator_.refusal()));
     refusals_.push_back(evaluator_.refusal());
+    if (record.accepted) best_ = evaluator_.last();
     if (record.accepted && call_.has("file")) save(record);
     if (record.admissible && call_.has("figures")) draw(call_.state(), evaluator_.last()->solution(), file_of(call_.text("figures"), record.design));
     if (on_design_.empty()) return;
@@ -167,10 +172,6 @@ class Run {
                                               record.radius > 0 ? text(", radius = ", number) : "", " }\n"));
   }
 
- public:
-  const std::vector<std::string>& refusals() const { return refusals_; }
-
- private:
   Call& call_;
   std::shared_ptr<Shape> shape_;
   Watch& watch_;
@@ -179,9 +180,9 @@ class Run {
   std::vector<double> start_;
   std::vector<Function> on_design_;
   std::vector<std::string> refusals_;
+  std::shared_ptr<const shape::DesignState> best_;  // the last one accepted
   bool refused_ = false;
   Stopping stopping_{*this};
-  Monitor idle_;
 };
 
 int optimise(Call& call) {
@@ -194,7 +195,7 @@ int optimise(Call& call) {
 
 std::vector<Record> history(const OptimumHandle& o) {
   std::vector<Record> records;
-  for (const DesignRecord& record : o.optimum.history) records.push_back(design_record(record, "not admissible"));
+  for (std::size_t k = 0; k < o.optimum.history.size(); ++k) records.push_back(design_record(o.optimum.history[k], o.refusals[k]));
   return records;
 }
 
@@ -215,7 +216,7 @@ std::vector<Key> keys() {
                       "programming (all three of NLopt)").fallback("slp"),
           key::vector("start", "the first design").count(1, 4096).unit("length").otherwise("as given to dotyk.shape"),
           key::number("radius", "of slp's first trust region, a share of the variables' ranges").above(0).within(0, 1).fallback(0.1),
-          key::number("tol_design", "ends where a step changes every variable by less, a share of its range").at_least(0).fallback(1e-4),
+          key::number("tol_design", "ends where a step changes every variable by less, a share of its range").above(0).fallback(1e-4),
           key::number("tol_gap", "ends where the linearised problem promises less over the whole box, relative to what it did at first").at_least(0).fallback(1e-6),
           key::integer("max_designs", "evaluated at most").within(1, 100000).fallback(100.0),
           key::function("on_design", "f(k, record, design), design only of admissible ones; false stops with the best so far"),

@@ -146,7 +146,7 @@ int design(Call& call) {
 Sought sought(const Call& call, const Shape& shape) {
   const auto take = [&](const QuantityChoice& choice) -> std::shared_ptr<const shape::Quantity> {
     if (choice.quantity) return choice.quantity;
-    return std::make_shared<FunctionQuantity>(call.kept_function(1, choice.kept).front(), call.state(), shape, "the function of the " + choice.kept);
+    return std::make_shared<FunctionQuantity>(call.kept_function(1, choice.kept).front(), call.state(), shape, "the function of " + (choice.kept == "objective" ? "the objective" : choice.kept));
   };
   Sought sought{take(shape.objective), {}};
   for (std::size_t j = 0; j < shape.constraints.size(); ++j) sought.constraints.push_back({take(shape.constraints[j]), shape.most[j]});

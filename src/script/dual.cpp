@@ -60,7 +60,10 @@ Dual take_dual(lua_State* L, Eigen::Index size, const std::string& what) {
   } else {
     fail(" returned " + describe_value(L, -1) + ", expected a number or a dual number (what the design's fields and methods give)");
   }
-  if (!std::isfinite(dual.value) || !dual.gradient.allFinite()) fail(text(" returned ", dual.value, " with a gradient that is", std::isfinite(dual.value) ? " not finite" : " of no use", "; it must be finite"));
+  if (!std::isfinite(dual.value)) fail(std::isnan(dual.value) ? std::string(" returned nan (not a number)") : text(" returned ", dual.value, "; it must be finite"));
+  for (Eigen::Index i = 0; i < size; ++i)
+    if (!std::isfinite(dual.gradient[i]))
+      fail(text(" returned ", dual.value, ", whose derivative by design variable ", i + 1, " is ", std::isnan(dual.gradient[i]) ? "not a number" : "infinite"));
   lua_pop(L, 1);
   return dual;
 }

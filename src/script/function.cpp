@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "script/descriptor.hpp"
 #include "script/interrupt.hpp"
@@ -32,7 +33,8 @@ Function::Function(lua_State* L, int slot, std::string key, std::string callee)
 // wrong; the place of the call that evaluated it is appended.
 void Function::call(int count, int results) const {
   if (lua_pcall(L_, count, results, 0) == LUA_OK) return;
-  if (lua_type(L_, -1) == LUA_TSTRING && !interrupted()) {
+  if (interrupted()) throw Interrupted();  // caught where a result so far can be given
+  if (lua_type(L_, -1) == LUA_TSTRING) {
     auto place = position(L_);
     if (!place.empty()) place = " at " + place.substr(0, place.size() - 2);
     const auto what =

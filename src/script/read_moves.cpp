@@ -1,4 +1,6 @@
 // moves = { … } of dotyk.shape: the design variables.
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "script/bind_shape.hpp"
@@ -14,8 +16,8 @@ using shape::Velocities;
 std::vector<Key> keys() {
   const Key bound = key::number("", "");
   return {key::object<scene::Part>("part", "a part that moves, by a B-spline").otherwise("body and velocity"),
-          key::either("control_points", {key::integer("", "").at_least(2), key::vector("", "").count(2)},
-                      "of the B-spline, a design variable each; in space two numbers, along the longest and the second longest extent of the part").fallback(6.0),
+          key::either("control_points", {key::integer("", "").at_least(2), key::list("", key::integer("", "").at_least(2), "").count(2)},
+                      "of the B-spline, a design variable each; in space also two numbers, along the longest and the second longest extent of the part").fallback(6.0),
           key::integer("degree", "of the B-spline").within(1, 3).fallback(3.0),
           key::vector("direction", "in which control points go; its length scales the variables").otherwise("along the outward normal"),
           key::boolean("symmetric", "control points mirrored at the middle of the part are one variable").fallback(false),
@@ -40,14 +42,18 @@ void append(const Arguments& move, const char* name, std::size_t count, double f
   values.insert(values.end(), each.begin(), each.end());
 }
 
+/// More than a part has nodes are refused later; this many fit an int.
+int counted(long long points) { return static_cast<int>(std::min(points, 1000000LL)); }
+
 std::vector<std::vector<double>> by_spline(const Arguments& move, const scene::Scene& scene) {
   const auto part = move.object<scene::Part>("part");
   shape::ControlPoints points;
   if (move.has("control_points") && !move.is("control_points", LUA_TNUMBER)) {
-    const auto counts = move.vector("control_points");
-    for (int k = 0; k < 2; ++k) points.count[k] = static_cast<int>(counts[static_cast<std::size_t>(k)]);
+    if (scene.dimension() == 2) throw InputError("'control_points' are two numbers, for parts in space; in the plane give one");
+    const auto counts = move.integers("control_points");
+    for (int k = 0; k < 2; ++k) points.count[k] = counted(counts[static_cast<std::size_t>(k)]);
   } else if (move.has("control_points")) {
-    points.count[0] = points.count[1] = static_cast<int>(move.integer("control_points"));
+    points.count[0] = points.count[1] = counted(move.integer("control_points"));
   }
   points.degree = static_cast<int>(move.integer("degree"));
   if (move.has("direction")) points.direction = point_of(move.vector("direction"), scene.dimension(), "direction");
@@ -95,7 +101,15 @@ Key moves_key() {
 
 Variables read_moves(const Call& call, const scene::Scene& scene) {
   Variables variables;
-  for (const Arguments& move : call.tables("moves")) read(move, scene, variables);
+  const std::vector<Arguments> moves = call.tables("moves");
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    try {
+      read(moves[k], scene, variables);
+    } catch (const InputError& error) {
+      if (moves.size() == 1) throw;
+      throw InputError(text("'moves': entry ", k + 1, ": ", error.what()));
+    }
+  }
   for (std::size_t i = 0; i < variables.lower.size(); ++i)
     if (!(variables.lower[i] <= variables.upper[i]))
       throw InputError(text("design variable ", i + 1, " has lower = ", variables.lower[i], " above upper = ", variables.upper[i]));

@@ -14,6 +14,8 @@ namespace {
 using algebra::DenseMatrix;
 using mesh::Point;
 
+constexpr int kMostPoints = 4096;
+
 double length(const Point& p) { return std::hypot(p[0], p[1], p[2]); }
 
 std::vector<int> nodes_of(const scene::Part& part) {
@@ -92,7 +94,12 @@ Point BoundaryMotion::velocity(std::size_t node, int variable) const {
 BoundaryMotion bspline_motion(const scene::Part& part, const ControlPoints& points) {
   BoundaryMotion motion{part, nodes_of(part), {}, {}};
   const int dimension = part.body->dimension();
+  const long long asked = points.count[0] * (dimension == 2 ? 1LL : points.count[1]);
+  if (asked > kMostPoints) throw InputError(text(asked, " control points of ", part.label(), "; at most ", kMostPoints, " are taken"));
   motion.weight = dimension == 2 ? along_chain(part, motion.nodes, points) : over_surface(part, motion.nodes, points);
+  for (Eigen::Index j = 0; j < motion.weight.cols(); ++j)
+    if ((motion.weight.col(j).array() == 0).all())
+      throw InputError(text("control point ", j + 1, " of ", asked, " moves none of the ", motion.nodes.size(), " nodes of ", part.label(), "; take fewer, or a finer mesh"));
   if (!points.direction) {
     motion.direction = normals(part, motion.nodes);
     return motion;

@@ -32,7 +32,7 @@ struct BoundaryMotion {
 /// open one, periodic on a closed one. In space t and s run along the two coordinate axes in which the part extends
 /// farthest, from least to greatest coordinate, N_i(t, s) = N_j(t) N_k(s) with i = j + count[0] k.
 ///
-/// Throws InputError for a part that is no chain, B-splines that do not exist (see BSplines), a direction
+/// Throws InputError for more than 4096 control points, those that move no node, a part that is no chain, B-splines that do not exist (see BSplines), a direction
 /// that is zero or not finite, and normals of a node that cancel.
 BoundaryMotion bspline_motion(const scene::Part& part, const ControlPoints& points);
 

@@ -33,8 +33,14 @@ DesignState::DesignState(std::shared_ptr<const DesignSpace> space, algebra::Vect
 }
 
 DesignState::DesignState(const DesignState& state, const algebra::Vector& beta)
-    : space_(std::make_shared<const DesignSpace>(state.space_->line(beta))), alpha_(algebra::Vector::Zero(1)), cost_(state.cost_),
+    : space_(std::make_shared<const DesignSpace>(state.space_->line(beta))), alpha_(state.alpha_),
+      beta_(state.beta_.size() > 0 ? algebra::Vector(state.beta_ * beta[0]) : beta), cost_(state.cost_),
       condenser_(state.condenser_), scene_(state.scene_), solution_(state.solution_), change_(1), derivative_(1) {}
+
+algebra::Vector DesignState::alpha_gradient(Eigen::Index k) const {
+  if (beta_.size() > 0) return algebra::Vector::Constant(1, beta_[k]);
+  return algebra::Vector::Unit(alpha_.size(), k);
+}
 
 const Sensitivity& DesignState::sensitivity() const {
   if (sensitivity_) return *sensitivity_;

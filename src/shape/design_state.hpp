@@ -24,11 +24,15 @@ class DesignState {
   DesignState(std::shared_ptr<const DesignSpace> space, algebra::Vector alpha, const solver::Method& method, const DesignState* near, std::shared_ptr<Cost> cost,
               Monitor& monitor);
 
-  /// The same state with one variable t, that of the designs α + tβ: its derivatives are those along β. Throws InputError where β moves nothing.
+  /// The same state with one variable t, that of the designs α + tβ: its derivatives are those along β (components: the variables of
+  /// `state`). Throws InputError where β moves nothing.
   DesignState(const DesignState& state, const algebra::Vector& beta);
 
   const DesignSpace& space() const { return *space_; }
+  /// The design variables, also where derivatives are along β.
   const algebra::Vector& alpha() const { return alpha_; }
+  /// ∂α_k by the variables of space(): a unit vector, or β_k.
+  algebra::Vector alpha_gradient(Eigen::Index k) const;
   const scene::Scene& scene() const { return *scene_; }
   const std::shared_ptr<const scene::Solution>& solution() const { return solution_; }
 
@@ -43,7 +47,7 @@ class DesignState {
 
  private:
   std::shared_ptr<const DesignSpace> space_;
-  algebra::Vector alpha_;
+  algebra::Vector alpha_, beta_;  ///< β: empty where the variables are α
   std::shared_ptr<Cost> cost_;
   mutable Monitor idle_;  ///< of derivatives, which may be asked for when whoever watched the solve is gone
   std::shared_ptr<problem::Condenser> condenser_;

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "scene/load_derivative.hpp"
 #include "shape/row_changes.hpp"
+#include "shape/sensitivity.hpp"
 
 namespace dotyk::shape {
 namespace {
@@ -27,6 +28,7 @@ double friction(const problem::Problem& problem, const algebra::Vector& x, const
 
 double energy_derivative(const scene::Solution& solution, const Velocities& velocities) {
   const problem::Problem& problem = solution.model().problem;
+  require_solution(solution);
   require_given(problem);
   scene::require_differentiable(solution.scene(), velocities);
   const RowChanges rows = row_changes(solution, velocities);

@@ -84,7 +84,7 @@ class Answers {
     }
     if (design) greatest_ = std::max(greatest_, design->value.objective);
     last_ = design ? std::move(*design) : far(x);
-    problem_.judge(better, 0, at_.gap);
+    if (!problem_.interrupted()) problem_.judge(better, 0, at_.gap);
     settle();
   }
 

@@ -91,7 +91,13 @@ ScaledDesign ScaledProblem::scaled(Vector x, Vector alpha, Evaluation given) con
 std::optional<ScaledDesign> ScaledProblem::evaluate(const Vector& x) {
   DesignRecord record{.design = static_cast<int>(history_.size()) + 1, .alpha = unscaled(x), .constraints = {}};
   monitor_.phase(text("design ", record.design));
-  const auto given = problem_.evaluate(record.alpha);
+  std::optional<Evaluation> given;
+  try {
+    given = problem_.evaluate(record.alpha);
+  } catch (const Interrupted&) {
+    interrupted_ = true;
+    return std::nullopt;
+  }
   std::optional<ScaledDesign> design;
   if (given) {
     design = scaled(x, record.alpha, checked(record.alpha, *given));
@@ -111,11 +117,15 @@ void ScaledProblem::judge(bool accepted, double radius, double gap) {
   r.gap = gap;
   monitor_.phase(text("design ", r.design, r.admissible ? text(", objective ", r.objective) : ", not admissible",
                       radius > 0 ? text(", radius ", radius) : "", accepted ? text(", gap ", gap) : ", not taken"));
-  if (problem_.each) problem_.each(r);
+  try {
+    if (problem_.each) problem_.each(r);
+  } catch (const Interrupted&) {
+    interrupted_ = true;
+  }
 }
 
 std::string ScaledProblem::must_end() {
-  if (monitor_.stop()) return "stopped";
+  if (interrupted_ || monitor_.stop()) return "stopped";
   if (static_cast<int>(history_.size()) >= stopping_.max_designs) return text("no more than ", stopping_.max_designs, " designs were allowed");
   return "";
 }

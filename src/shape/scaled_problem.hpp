@@ -34,8 +34,10 @@ class ScaledProblem {
   Eigen::Index constraints() const { return constraint_scale_.size(); }
   bool is_free(Eigen::Index i) const { return range_[i] > 0; }
 
-  /// One more design; nothing where it is not admissible. Throws InputError for an evaluation of wrong sizes or numbers.
+  /// One more design; nothing where it is not admissible, or where its evaluation was interrupted: then it is not counted, nor to be
+  /// judged. Throws InputError for an evaluation of wrong sizes or numbers.
   std::optional<ScaledDesign> evaluate(const Vector& x);
+  bool interrupted() const { return interrupted_; }
   /// Records the last design evaluated and tells of it.
   void judge(bool accepted, double radius, double gap);
   /// Why no further design may be evaluated; empty: it may.
@@ -57,6 +59,7 @@ class ScaledProblem {
   Vector range_, constraint_scale_;
   double objective_scale_ = 1;
   ScaledDesign first_;
+  bool interrupted_ = false;
   std::vector<DesignRecord> history_;
 };
 

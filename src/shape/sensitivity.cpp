@@ -39,6 +39,12 @@ void require_finite(const scene::Solution& solution, const Velocities& velocitie
 
 }  // namespace
 
+void require_solution(const scene::Solution& solution) {
+  const solver::Result& result = solution.result();
+  if (!result.converged) throw InputError("the solution has not converged; derivatives are those of a solution (" + result.reason + ")");
+  if (result.penalty) throw InputError("the solution is one of a penalised problem; solve by a method without penalty, pdas or newton");
+}
+
 Sensitivity::Sensitivity(std::shared_ptr<const scene::Solution> solution, std::shared_ptr<problem::Condenser> condenser,
                          const Settings& settings, Monitor& monitor)
     : solution_(std::move(solution)), condenser_(std::move(condenser)), settings_(settings), monitor_(monitor) {
@@ -58,9 +64,8 @@ Sensitivity::Sensitivity(std::shared_ptr<const scene::Solution> solution, std::s
 }
 
 void Sensitivity::require_differentiable() const {
+  require_solution(*solution_);
   const solver::Result& result = solution_->result();
-  if (!result.converged) throw InputError("the solution has not converged; derivatives are those of a solution (" + result.reason + ")");
-  if (result.penalty) throw InputError("the solution is one of a penalised problem; solve by a method without penalty, pdas or newton");
   const Problem& problem = solution_->model().problem;
   for (const problem::Block& block : problem.blocks)
     if (block.K.rows() != block.size())

@@ -33,6 +33,9 @@ struct Adjoint {
   double along(const Change& change) const { return f.dot(change.f) + c.dot(change.c) + bound.dot(change.bound); }
 };
 
+/// Throws InputError where a solution has not converged, or is one of a penalised problem.
+void require_solution(const scene::Solution& solution);
+
 /// The derivatives of the solution of a scene,
 ///   K u + Bᵀλ = f,   λ_r ∈ ∂φ_r((Bu − c)_r),
 /// when its nodes move with a velocity V. Along V the directional derivative z = u', μ = λ' solves (P7 (15)–(17))

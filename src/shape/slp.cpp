@@ -107,6 +107,7 @@ class Iteration {
     if (step.predicted <= kRounding) return end(true, "the first order promises no more");
     const double length = size(step.d), sought = radius_;
     auto trial = problem_.evaluate(best_.x + step.d);
+    if (problem_.interrupted()) return;
     const double ratio = trial ? (stepper_.merit(best_) - stepper_.merit(*trial)) / step.predicted : -INFINITY;
     if (ratio < kPoor) radius_ = length / 2;
     else if (ratio > kGood && length > 0.99 * radius_) radius_ = std::min(1.0, 2 * radius_);

@@ -47,6 +47,23 @@ expect "completion of a field" '# dotyk: reference' 'print((dotyk.refe\t():sub(1
 expect "Ctrl-C on an endless loop" 'still here' 'while true do end\n' '\003' 'print("still" .. " here")\n' &
 expect "Ctrl-C on an endless coroutine" 'still here' 'coroutine.wrap(function() while true do end end)()\n' '\003' 'print("still" .. " here")\n' &
 expect "Ctrl-C clears the line" '12' 'error(' '\003' '3 * 4\n' &
+cat >"$folder/shape.lua" <<'END'
+local block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = { -1, 0 }, to = { 1, 1 }, cells = { 8, 4 } }, material = dotyk.material{ E = 1000, nu = 0.3 } }
+block:part "top":load{ 0, -1 }
+block:part "left":fix "x"
+local scene = dotyk.scene{ block }
+scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }
+shape = dotyk.shape{ scene = scene, moves = { { part = block:part "bottom", control_points = 4, lower = -0.005, upper = 0, start = { -0.003, -0.001, -0.002, -0.003 } } },
+  objective = function(design)
+    local q = 0
+    for _ = 1, 15000 do
+      for k, a in ipairs(design.alpha) do q = q + (a + 0.0007 * k)^2 end
+    end
+    return q
+  end }
+END
+expect "Ctrl-C in an optimisation" 'ended: stopped, 4 variables' "dofile \"$folder/shape.lua\"\n" 'best = shape:optimise{ max_designs = 100000, tol_design = 1e-300, tol_gap = 0 }\n' '' '' '' '' '' '' \
+  '\003' '' 'print(("ended: %s, %d variables"):format(best.reason, #best.alpha))\n' &
 (
   expect "history" 'ninety-9' 'print("ninety" .. "-" .. 9)\n'
   expect "history" 'ninety-9' 'print("nin\033[A\n'

@@ -94,6 +94,12 @@ TEST_CASE("stopped, limited and failing runs leave NLopt in order") {
     failing.problem.evaluate = [&](const Vector& x) { return ++asked < 4 ? k.problem.evaluate(x) : throw std::logic_error("mine"); };
     CHECK_THROWS_WITH_AS(run(failing, method), "mine", std::logic_error);
     CHECK(asked == 4);
+    asked = 0;
+    failing.problem.evaluate = [&](const Vector& x) { return ++asked < 7 ? k.problem.evaluate(x) : throw Interrupted(); };
+    const Optimum interrupted = run(failing, method);
+    CHECK(interrupted.reason.rfind("stopped", 0) == 0);
+    CHECK(interrupted.history.size() == 6);
+    CHECK(interrupted.alpha == stopped.alpha);
     failing.problem.evaluate = [](const Vector&) { return std::nullopt; };
     CHECK_THROWS_AS(run(failing, method), InputError);
   }

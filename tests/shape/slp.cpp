@@ -153,6 +153,17 @@ TEST_CASE("stopped runs return the best design, and go on from there to the same
   const Optimum second = run(rest, settings);
   CHECK(second.converged);
   CHECK(distance(second.alpha, k.solution) < 1e-4);
+  KnownDesign interrupted = k;  // within a design
+  int asked = 0;
+  interrupted.problem.evaluate = [&](const Vector& x) { return ++asked < 7 ? k.problem.evaluate(x) : throw Interrupted(); };
+  const Optimum until = run(interrupted, fine());
+  CHECK(until.history.size() == 6);
+  CHECK(until.reason.rfind("stopped", 0) == 0);
+  CHECK(until.alpha == first.alpha);
+  CHECK(until.radius == first.radius);
+  interrupted.problem.evaluate = k.problem.evaluate;
+  interrupted.problem.each = [](const shape::DesignRecord& d) { if (d.design == 6) throw Interrupted(); };
+  CHECK(run(interrupted, fine()).alpha == first.alpha);
   const Optimum few = run(k, [] { Slp s; s.max_designs = 4; return s; }());
   CHECK_FALSE(few.converged);
   CHECK(few.history.size() == 4);
