@@ -1,0 +1,29 @@
+-- Tutorial 8: three dimensions, symmetry, and files for other programs.
+--
+--   ./dotyk scripts/tutorial/08_space.lua
+
+-- A quarter of a block under a rigid ball: what is symmetric slides along the planes of symmetry. Cells get smaller towards the ball:
+-- a grading maps [0, 1] onto itself.
+local function towards_start(s) return s^2 end
+local function towards_end(s) return 1 - (1 - s)^2 end
+local block <const> = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
+  mesh = dotyk.mesh.box{ from = { 0, 0, -1 }, to = { 1, 1, 0 }, cells = { 10, 10, 10 }, element = "Q1",
+                         grading = { x = towards_start, y = towards_start, z = towards_end } } }
+block:part"bottom":fix()
+block:part"left":slide()
+block:part"front":slide()
+local scene <const> = dotyk.scene{ block }
+local contact <const> = scene:contact{ block:part"top", rigid = dotyk.rigid.ball{ center = { 0, 0, 1.97 }, radius = 2 }, interference = true }
+local s <const> = dotyk.solve(scene)
+
+-- Hertz: F = 4/3 E* √R d^{3/2}, of which the quarter bears a fourth; the block is no half-space, and the mesh is coarse.
+local force <const>, d <const> = -4 * s:contact(contact).force[3], 0.03
+local hertz <const> = 4 / 3 * 1000 / (1 - 0.3^2) * math.sqrt(2) * d^1.5
+print(("force %.2f, by Hertz %.2f: a block 1 thick on a rigid base is %.0f %% stiffer than a half-space"):format(force, hertz, 100 * (force / hertz - 1)))
+assert(force > hertz and force < 2 * hertz)
+
+print("wrote", s:render{ file = "images/tutorial_08.png", title = "A quarter of a block under a ball", view = { 2, -3, 2 } })
+local vtu <const> = os.tmpname() .. ".vtu"
+s:write(vtu) -- for ParaView
+print "wrote a .vtu file for ParaView"
+os.remove(vtu)
