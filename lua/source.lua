@@ -3,27 +3,28 @@ local core <const> = ...
 
 local source = {}
 
--- Lines first to last of a file; nil where it cannot be read.
-local function lines(path, first, last)
-  local file <const> = io.open(path, "r")
-  if not file then return nil end
+-- Lines first to last of a text.
+local function lines(whole, first, last)
   local text <const>, number = {}, 0
-  for line in file:lines() do
+  for line in whole:gmatch "([^\n]*)\n?" do
     number = number + 1
     if number >= first then text[#text + 1] = line end
     if number == last then break end
   end
-  file:close()
   return table.concat(text, "\n")
 end
 
-local function text_of(f, path)
-  local info <const> = debug.getinfo(f, "S")
+local function whole_text(path)
+  local file <close> = io.open(path, "r") or core.fail(("source: %s, where the function is written, cannot be read"):format(path))
+  return file:read "a"
+end
+
+-- Of a function that whole, a file's text, holds.
+local function text_of(f, path, whole)
+  local info <const> = core.getinfo(f, "S")
   path = path or info.source:match "^@(.*)"
   if not path then return nil end
-  local text <const> = lines(path, info.linedefined, info.lastlinedefined)
-  if not text then core.fail(("source: %s, where the function is written, cannot be read"):format(path)) end
-  return ("-- %s:%d\n%s"):format(path, info.linedefined, text)
+  return ("-- %s:%d\n%s"):format(path, info.linedefined, lines(whole or whole_text(path), info.linedefined, info.lastlinedefined))
 end
 
 -- Of a callable of dotyk's.
@@ -31,14 +32,14 @@ local function own(signature)
   local name <const> = signature:match "^[%w_.:]+"
   local at <const> = core.written_in_lua[name]
   if not at then return ("%s is written in C++; help(%s) describes it"):format(name, name:find ":" and ('"%s"'):format(name) or name) end
-  return text_of(core.load(at.file)[at.name], ("%s/%s.lua"):format(core.folder, at.file))
+  return text_of(core.load(at.file)[at.name], ("%s/%s.lua"):format(core.folder, at.file), core.read_own(at.file))
 end
 
 function source.run(x)
   if type(x) ~= "function" then core.fail("source: expected a function, got " .. core.type_name(x)) end
   local signature <const> = core.signature(x)
   local text = signature and own(signature)
-  if not text and debug.getinfo(x, "S").what == "C" then text = "this function is Lua's own, written in C" end
+  if not text and core.getinfo(x, "S").what == "C" then text = "this function is Lua's own, written in C" end
   print(text or text_of(x) or "this function was typed at the prompt or given as a text; the up key brings its lines back")
 end
 

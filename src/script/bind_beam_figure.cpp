@@ -24,7 +24,7 @@ const std::vector<std::string> kSides = {"deflection", "rotation", "displacement
 std::vector<std::string> first(const std::vector<std::string>& names, int count) { return {names.begin(), names.begin() + count}; }
 
 std::vector<Key> page_keys(std::vector<Key> keys, const char* size, bool heat = false) {
-  keys.insert(keys.begin(), key::string("file", "where to; ends in .png, its folder must exist").required());
+  keys.insert(keys.begin(), key::file("file", "where to; ends in .png, its folder must exist").written().required());
   keys.push_back(key::string("title", "above the figure").otherwise("none"));
   keys.push_back(units_key(heat));
   keys.push_back(size_key(size));
@@ -150,7 +150,7 @@ void bind_beam_figure(Library& library) {
                     .help = "Draws rows of solved beams, the law of one support each with the working point, and its superpotential, into a PNG file, "
                             "and returns its name.",
                     .example = "dotyk.support_gallery{ file = \"images/a.png\", rows = { { solution = s, support = \"right\", title = \"A stop\" } } }",
-                    .arguments = {key::table({key::string("file", "where to; ends in .png, its folder must exist").required(),
+                    .arguments = {key::table({key::file("file", "where to; ends in .png, its folder must exist").written().required(),
                                               key::list("rows", key::table("", {key::object<BeamResult>("solution", "a solved beam").required(), support_key("support").required(), of_key(),
                                                                                 key::string("title", "above the row").otherwise("none")}, ""),
                                                         "from above").count(1, 12).required(),

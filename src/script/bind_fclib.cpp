@@ -115,7 +115,7 @@ void bind_fclib(Library& library) {
                "plain text that siconos prints. Global problems, M v = Hr + f with u = H'v + w, come condensed to u = Wr + q. "
                "Rolling friction is refused.",
        .example = "local p = dotyk.fclib \"box.hdf5\"\nlocal r = p:solve(dotyk.solver.newton{})\nprint(r.residual, r.open, r.stick, r.slip)",
-       .arguments = {key::string("file", "the file's name").required()},
+       .arguments = {key::file("file", "the file's name").required()},
        .returns = Wrapped<ContactProblem>::name,
        .run = read});
   bind_problem(library);

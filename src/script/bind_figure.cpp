@@ -177,7 +177,7 @@ std::vector<Key> chart_keys(Key series) {
 
 std::vector<Key> figure_keys() {
   std::vector<Key> keys = chart_keys(series_key());
-  keys.insert(keys.begin(), key::string("file", "where to; ends in .png, its folder must exist").required());
+  keys.insert(keys.begin(), key::file("file", "where to; ends in .png, its folder must exist").written().required());
   keys.push_back(key::list("panels", key::table("", chart_keys(series_key().required()), ""),
                            "instead of series, y, log and slopes: charts one below the other; an x beside them is one axis for all").count(1, 12));
   keys.push_back(size_key("{1000, 750}; with panels {1000, 60 and 260 for each}"));
@@ -200,7 +200,7 @@ void bind_figure(Library& library) {
                "gap, so that what touches is seen to touch.",
        .example = "s:render{ file = \"images/a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
        .arguments = {key::table(
-           {key::string("file", "where to; ends in .png, its folder must exist").required(),
+           {key::file("file", "where to; ends in .png, its folder must exist").written().required(),
             key::choice("field", kFields, "what the colours show").fallback("von_mises"),
             key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")},
                         "factor on the displacement; auto: such that it can be seen").otherwise("\"auto\", with a window 1"),

@@ -73,7 +73,7 @@ void bind_lcp(Library& library) {
        .example = "local r = dotyk.lcp{ M = {{1, 0, 2}, {2, 1, 0}, {0, 2, 1}}, q = {1, 1, 1}, start = {1} }\n"
                   "print(r.status, #r.cycle, r.method)\nprint(dotyk.lcp \"murty.dat\".status)",
        .arguments = {key::table(
-           {key::string("file", "a file in the text format of siconos, instead of M and q").otherwise("none"),
+           {key::file("file", "a file in the text format of siconos, instead of M and q").otherwise("none"),
             key::matrix("M", "n x n"), key::vector("q", "n"),
             key::choice("method", {"automatic", "newton_min", "lemke", "enumeration"}, "one method alone, or one after the other")
                 .fallback("automatic"),

@@ -220,8 +220,8 @@ std::vector<Key> keys() {
           key::number("tol_gap", "ends where the linearised problem promises less over the whole box, relative to what it did at first").at_least(0).fallback(1e-6),
           key::integer("max_designs", "evaluated at most").within(1, 100000).fallback(100.0),
           key::function("on_design", "f(k, record, design), design only of admissible ones; false stops with the best so far"),
-          key::string("figures", "a file for a figure of each design, with a place for its number: images/shape_%03d.png"),
-          key::string("file", "written after each better design: shape:optimise(dofile(file)) goes on from there")};
+          key::file("figures", "a file for a figure of each design, with a place for its number: images/shape_%03d.png"),
+          key::file("file", "written after each better design: shape:optimise(dofile(file)) goes on from there")};
 }
 
 }  // namespace

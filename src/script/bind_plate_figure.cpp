@@ -53,7 +53,7 @@ void bind_plate_figure(Library& library) {
                "and point supports as dots with their numbers. Both show the status of edges, point supports, and hatched what bears on the obstacle.",
        .example = "s:render{ file = \"images/a.png\", view = \"plan\", field = \"von_mises\", units = { length = \"m\", force = \"kN\" } }",
        .arguments = {key::table(
-           {key::string("file", "where to; ends in .png, its folder must exist").required(),
+           {key::file("file", "where to; ends in .png, its folder must exist").written().required(),
             key::choice("view", kViews, "the deflected surface, or the plan").fallback("surface"),
             key::choice("field", kFields, "what the colours show: deflection, moments per length, the principal ones m1 >= m2, von Mises' of them").fallback("deflection"),
             key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")}, "surface: factor on the deflection; auto: such that it can be seen").fallback("auto"),

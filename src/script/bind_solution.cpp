@@ -270,7 +270,7 @@ void bind_solution(Library& library) {
                .help = "Writes the contact nodes of all contacts as comma-separated values: contact, node, coordinates, gap, "
                        "pressure, force, weight, components of shear and slip, status.",
                .example = "s:write_contact \"contact.csv\"",
-               .arguments = {key::string("file", "where to").required()},
+               .arguments = {key::file("file", "where to").written().required()},
                .run = [](Call& call) {
                  scene::write_contact(*call.self<Solution>(), call.text("file"));
                  return 0;

@@ -13,7 +13,7 @@ int write(Call& call) {
   return call.give(call.text("file"));
 }
 
-Key file_key() { return key::string("file", "where to; ends in .vtu, its folder must exist").required(); }
+Key file_key() { return key::file("file", "where to; ends in .vtu, its folder must exist").written().required(); }
 
 }  // namespace
 

@@ -22,12 +22,12 @@ void Call::open_table(int first) {
     throw ArgumentError("takes one table of keys, got " + std::to_string(lua_gettop(L) - first + 1) +
                         " arguments");
   if (lua_gettop(L) < first) lua_newtable(L);
-  // A string alone stands for the key 'file' where that comes first: dotyk.qp "name.qps".
+  // A string alone stands for a file name where that comes first: dotyk.qp "name.qps".
   const auto& table = descriptor_.arguments[0].keys;
-  if (lua_type(L, first) == LUA_TSTRING && !table.empty() && table.front().name == "file") {
+  if (lua_type(L, first) == LUA_TSTRING && !table.empty() && table.front().kind == Kind::file) {
     lua_createtable(L, 0, 1);
     lua_insert(L, first);
-    lua_setfield(L, first, "file");
+    lua_setfield(L, first, table.front().name.c_str());
   }
   if (lua_type(L, first) != LUA_TTABLE) {
     const auto& keys = descriptor_.arguments[0].keys;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "script/arguments.hpp"
+#include "script/library.hpp"
 #include "script/nearest.hpp"
 #include "script/position.hpp"
 
@@ -39,6 +40,16 @@ void check_number(lua_State* L, int index, const Key& key, const std::string& wh
     lua_tointegerx(L, index, &exact);
     if (!exact) wrong(L, index, key, what);
   }
+}
+
+// A name that C would cut short at a zero byte, or of a file that --safe keeps from scripts, is refused.
+void check_file(lua_State* L, int index, const Key& key, const std::string& what) {
+  if (lua_type(L, index) != LUA_TSTRING) wrong(L, index, key, what);
+  std::size_t length = 0;
+  const char* start = lua_tolstring(L, index, &length);
+  const std::string name(start, length);
+  if (name.find('\0') != std::string::npos) throw ArgumentError(what + " must be the name of a file, it has a zero byte");
+  if (const auto& folder = Library::of(L).folder) folder->require(name);
 }
 
 void check_choice(lua_State* L, int index, const Key& key, const std::string& what) {
@@ -138,6 +149,8 @@ void check_value(lua_State* L, int index, const Key& key, const std::string& wha
       return type == LUA_TBOOLEAN ? void() : wrong(L, index, key, what);
     case Kind::string:
       return type == LUA_TSTRING ? void() : wrong(L, index, key, what);
+    case Kind::file:
+      return check_file(L, index, key, what);
     case Kind::choice:
       return check_choice(L, index, key, what);
     case Kind::vector:

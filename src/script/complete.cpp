@@ -157,12 +157,19 @@ std::vector<std::string> choices_of(const Key& key) {
   return words;
 }
 
+bool takes_file(const Key& key) {
+  return key.kind == Kind::file || key.kind == Kind::any || std::any_of(key.keys.begin(), key.keys.end(), takes_file);
+}
+
 Completion in_string(lua_State* L, const Library& library, const Context& context) {
   Completion result;
   result.start = context.start;
+  bool files = true;  // what is not dotyk's to know may be one
   const auto* table = table_around(L, library, context.brackets);
   for (std::size_t i = 0; table && i < table->keys.size(); ++i) {
-    if (table->keys[i].name == context.value_of) result.words = choices_of(table->keys[i]);
+    if (table->keys[i].name != context.value_of) continue;
+    result.words = choices_of(table->keys[i]);
+    files = takes_file(table->keys[i]);
   }
   const bool bracketed =
       context.chain.empty() && !context.brackets.empty() && context.brackets.back().sign == '(';
@@ -170,10 +177,12 @@ Completion in_string(lua_State* L, const Library& library, const Context& contex
   const auto called = resolve(L, library, callee);
   if (called.callable && called.callable->name == "help") result.words = library.names();
   if (called.callable && !called.callable->arguments.empty()) {
-    const auto words = choices_of(called.callable->arguments.front());
+    const auto& first = called.callable->arguments.front();
+    const auto words = choices_of(first);
+    files = takes_file(first.kind == Kind::table && !first.keys.empty() ? first.keys.front() : first);
     result.words.insert(result.words.end(), words.begin(), words.end());
   }
-  result.file_names = result.words.empty();
+  result.file_names = files && result.words.empty();
   return result;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::pair<const char*, Kind> kinds[] = {
     {"number", Kind::number}, {"integer", Kind::integer}, {"boolean", Kind::boolean},
-    {"string", Kind::string}, {"choice", Kind::choice},   {"vector", Kind::vector},
+    {"string", Kind::string}, {"file", Kind::file},     {"choice", Kind::choice},   {"vector", Kind::vector},
     {"matrix", Kind::matrix}, {"field", Kind::field},     {"function", Kind::function},
     {"object", Kind::object}, {"list", Kind::list},       {"table", Kind::table},
     {"either", Kind::either}, {"any", Kind::any}};
@@ -76,7 +76,9 @@ Key read_key(lua_State* L, int index) {
   key.default_text = key.default_text.empty() ? text_field(L, index, "otherwise") : key.default_text;
   lua_getfield(L, index, "required");
   key.needed = lua_toboolean(L, -1);
-  lua_pop(L, 1);
+  lua_getfield(L, index, "written");
+  key.output = lua_toboolean(L, -1);
+  lua_pop(L, 2);
   number_field(L, index, "above", [&](double value) { key.above(value); });
   number_field(L, index, "at_least", [&](double value) { key.at_least(value); });
   number_field(L, index, "at_most", [&](double value) { key.greatest = value; });

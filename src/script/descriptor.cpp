@@ -85,6 +85,10 @@ Key& Key::count(std::size_t fewest_count, std::size_t most_count) {
   most = most_count;
   return *this;
 }
+Key& Key::written() {
+  output = true;
+  return *this;
+}
 Key& Key::with(Key item) {
   items = {std::move(item)};
   return *this;
@@ -123,6 +127,7 @@ std::string Key::expected() const {
     case Kind::boolean:
       return "true or false";
     case Kind::string:
+    case Kind::file:
       return "a string";
     case Kind::choice:
       return join(choices, "or", "\"");
@@ -216,6 +221,7 @@ Key boolean(std::string name, std::string help) {
 Key string(std::string name, std::string help) {
   return make(std::move(name), Kind::string, std::move(help));
 }
+Key file(std::string name, std::string help) { return make(std::move(name), Kind::file, std::move(help)); }
 Key vector(std::string name, std::string help) {
   return make(std::move(name), Kind::vector, std::move(help));
 }

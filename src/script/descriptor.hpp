@@ -18,6 +18,7 @@ enum class Kind {
   integer,  // a number without a fraction
   boolean,
   string,
+  file,    // the name of a file: under --safe one below the folder given
   choice,  // one of a few strings
   vector,  // a table of numbers
   matrix,  // a table of tables of numbers
@@ -45,6 +46,7 @@ struct Key {
   double greatest = std::numeric_limits<double>::infinity();
   bool least_excluded = false, greatest_excluded = false;
   bool infinite = false;   // math.huge is a value
+  bool output = false;     // a file that the call writes
   std::size_t fewest = 0;  // entries of a vector, items of a list or table
   std::size_t most = std::numeric_limits<std::size_t>::max();
   std::vector<std::string> choices;
@@ -65,6 +67,7 @@ struct Key {
   Key& or_infinite();               // math.huge as well
   Key& count(std::size_t exactly);  // entries or items
   Key& count(std::size_t fewest_count, std::size_t most_count);
+  Key& written();       // the call writes this file
   Key& with(Key item);  // a table that takes items as well as keys
 
   // "a positive number", "one of "strain" or "stress"", "a body": completes "expected …".
@@ -95,6 +98,7 @@ Key positive(std::string name, std::string help);  // a number above 0
 Key integer(std::string name, std::string help);
 Key boolean(std::string name, std::string help);
 Key string(std::string name, std::string help);
+Key file(std::string name, std::string help);
 Key choice(std::string name, std::vector<std::string> choices, std::string help);
 Key vector(std::string name, std::string help);
 Key matrix(std::string name, std::string help);

@@ -1,5 +1,6 @@
 #include "script/interrupt.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <ctime>
@@ -15,18 +16,35 @@ std::atomic<bool> pending{false};
 std::atomic<lua_State*> running{nullptr};
 std::atomic<double> asked_at{0};
 
-// Raises in whatever code runs next, again and again until the request is
-// answered, so that a pcall in a loop cannot swallow it.
-void stop_here(lua_State* L, lua_Debug*) {
-  if (!pending) {
-    lua_sethook(L, nullptr, 0, 0);
-    return;
-  }
-  raise(L, "", "interrupted");
-}
+// Instructions of Lua that may run (0: any number), that ran, and that run between two looks at them.
+long long allowed = 0, used = 0;
+int interval = 0;
+
+bool spent() { return allowed > 0 && used >= allowed; }
+
+void stop_here(lua_State* L, lua_Debug* event);
 
 void arm(lua_State* L) {
   if (L) lua_sethook(L, stop_here, LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT, 1);
+}
+
+void disarm(lua_State* L) {
+  if (allowed > 0) lua_sethook(L, stop_here, LUA_MASKCOUNT, interval);
+  else lua_sethook(L, nullptr, 0, 0);
+}
+
+// Raises in whatever code runs next, again and again until the request is
+// answered, so that a pcall in a loop cannot swallow it.
+void stop_here(lua_State* L, lua_Debug* event) {
+  const bool counting = lua_gethookmask(L) == LUA_MASKCOUNT;
+  if (counting && event->event == LUA_HOOKCOUNT) used += interval;
+  if (pending) raise(L, "", "interrupted");
+  if (!spent()) {
+    if (!counting) disarm(L);
+    return;
+  }
+  if (counting) arm(L);
+  raise(L, "", "the limit of " + std::to_string(allowed) + " instructions is reached (--instructions)");
 }
 
 double now() {
@@ -52,12 +70,12 @@ void on_signal(int signal) {
 int resumed(lua_State* L, lua_State* thread) {
   lua_State* const caller = running;
   running = thread;
-  if (pending) arm(thread);
+  if (pending || spent()) arm(thread);
   lua_pushvalue(L, lua_upvalueindex(1));
   lua_insert(L, 1);
   const int status = lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0);
   running = caller;
-  if (pending) arm(caller);
+  if (pending || spent()) arm(caller);
   if (status != LUA_OK) return lua_error(L);
   return lua_gettop(L);
 }
@@ -69,14 +87,47 @@ int resume(lua_State* L) {
 
 int call_wrapped(lua_State* L) { return resumed(L, lua_tothread(L, lua_upvalueindex(2))); }
 
+// A coroutine begins to count afresh: what it might do before the first look is counted at once.
+int create(lua_State* L) {
+  used += interval;
+  return lua_tocfunction(L, lua_upvalueindex(1))(L);
+}
+
 // coroutine.wrap: the function Lua makes has its thread as first upvalue.
 int wrap(lua_State* L) {
+  used += interval;
   lua_pushvalue(L, lua_upvalueindex(1));
   lua_insert(L, 1);
   lua_call(L, lua_gettop(L) - 1, 1);
   lua_getupvalue(L, -1, 1);
   lua_pushcclosure(L, call_wrapped, 2);
   return 1;
+}
+
+// The message handler of xpcall, upvalue 1, runs without hooks after a hook's error: then it is left out.
+int handle(lua_State* L) {
+  if (pending || spent()) return 1;
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, lua_gettop(L) - 1, 1);
+  return 1;
+}
+
+int protected_call(lua_State* L) {
+  luaL_checktype(L, 2, LUA_TFUNCTION);
+  lua_pushvalue(L, 2);
+  lua_pushcclosure(L, handle, 1);
+  lua_replace(L, 2);
+  return lua_tocfunction(L, lua_upvalueindex(1))(L);
+}
+
+int set_metatable(lua_State* L) {
+  if (lua_istable(L, 2)) {
+    lua_pushliteral(L, "__gc");
+    if (lua_rawget(L, 2) != LUA_TNIL) raise(L, "setmetatable", "no __gc where instructions are counted (--instructions)");
+    lua_pop(L, 1);
+  }
+  return lua_tocfunction(L, lua_upvalueindex(1))(L);
 }
 
 void replace_field(lua_State* L, const char* name, lua_CFunction function) {
@@ -88,7 +139,10 @@ void replace_field(lua_State* L, const char* name, lua_CFunction function) {
 }  // namespace
 
 bool interrupted() { return pending; }
-void clear_interrupt() { pending = false; }
+void clear_interrupt() {
+  pending = false;
+  used = 0;
+}
 
 void request_interrupt() {
   asked_at = now();
@@ -96,11 +150,22 @@ void request_interrupt() {
   arm(running);
 }
 
+void limit_instructions(lua_State* L, long long count) {
+  allowed = count;
+  interval = static_cast<int>(std::clamp(count, 1LL, 1000LL));
+  lua_pushglobaltable(L);
+  replace_field(L, "setmetatable", set_metatable);
+  replace_field(L, "xpcall", protected_call);
+  lua_pop(L, 1);
+  disarm(L);
+}
+
 void watch_interrupts(lua_State* L) {
   running = L;
   lua_getglobal(L, "coroutine");
   replace_field(L, "resume", resume);
   replace_field(L, "wrap", wrap);
+  replace_field(L, "create", create);
   lua_pop(L, 1);
   struct sigaction action {};
   action.sa_handler = on_signal;

@@ -9,11 +9,16 @@ namespace dotyk::script {
 // Has the user asked to stop? Stays true until the request is answered.
 bool interrupted();
 
-// The request was answered.
+// The request was answered. Instructions are counted anew.
 void clear_interrupt();
 
 // Asks to stop, as Ctrl-C does.
 void request_interrupt();
+
+// From now on at most `count` instructions of Lua: then every one raises, in every coroutine, so that
+// no pcall, xpcall or __close of the script goes on. As Lua runs __gc without hooks, setmetatable refuses
+// it. What C++ does meanwhile (a solve, a pattern search) counts for nothing. After watch_interrupts.
+void limit_instructions(lua_State* L, long long count);
 
 // From now on Ctrl-C interrupts what runs in this state (and in its
 // coroutines). Called once a program.

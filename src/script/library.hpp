@@ -4,11 +4,13 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "script/call.hpp"
 #include "script/descriptor.hpp"
+#include "script/folder.hpp"
 #include "script/object.hpp"
 
 namespace dotyk::script {
@@ -106,6 +108,9 @@ class Library {
   const Descriptor* find(const std::string& name) const;
   // Every name find() and find_type() know.
   std::vector<std::string> names() const;
+
+  // Where the script's files must be (--safe); none: anywhere.
+  std::optional<Folder> folder;
 
   // The class of the object at index, null for any other value.
   const Type* type_at(lua_State* L, int index) const;

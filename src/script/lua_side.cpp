@@ -57,7 +57,9 @@ int progress(lua_State* L) {
 
 int write(lua_State* L) {
   return guarded(L, "", [L] {
-    write_whole_file(luaL_checkstring(L, 1), luaL_checkstring(L, 2));
+    const std::string file = luaL_checkstring(L, 1);
+    if (const auto& folder = Library::of(L).folder) folder->require(file);
+    write_whole_file(file, luaL_checkstring(L, 2));
     return 0;
   });
 }
@@ -95,16 +97,25 @@ int describe(lua_State* L) {
   });
 }
 
+std::string own_text(lua_State* L, const std::string& name) {
+  const auto path = std::string(lua_folder()) + "/" + name + ".lua";
+  std::ifstream file(path, std::ios::binary);
+  if (!file) luaL_error(L, "cannot read %s", path.c_str());
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+int read_own(lua_State* L) {
+  push(L, own_text(L, luaL_checkstring(L, 1)));
+  return 1;
+}
+
 // Loads lua/<name>.lua and calls it with the core table, upvalue 1 here.
 int load(lua_State* L) {
   const std::string name = luaL_checkstring(L, 1);
   lua_getfield(L, LUA_REGISTRYINDEX, "dotyk.loaded");
   if (lua_getfield(L, -1, name.c_str()) != LUA_TNIL) return 1;
   lua_pop(L, 1);
-  const auto path = std::string(lua_folder()) + "/" + name + ".lua";
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return luaL_error(L, "cannot read %s", path.c_str());
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto text = own_text(L, name);
   const auto chunk = std::string(own_chunk) + " " + name + ".lua";
   if (luaL_loadbufferx(L, text.data(), text.size(), chunk.c_str(), "t") != LUA_OK) return lua_error(L);
   lua_pushvalue(L, lua_upvalueindex(1));
@@ -145,8 +156,12 @@ void load_lua_side(lua_State* L) {
   static const luaL_Reg functions[] = {
       {"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
       {"progress", progress}, {"clock", clock},       {"write", write},               {"type_name", type_name},
-      {"describe", describe}, {"signature", signature},   {nullptr, nullptr}};
+      {"describe", describe}, {"signature", signature},   {"read_own", read_own},     {nullptr, nullptr}};
   luaL_setfuncs(L, functions, 0);
+  lua_getglobal(L, "debug");
+  lua_getfield(L, -1, "getinfo");
+  lua_setfield(L, -3, "getinfo");
+  lua_pop(L, 1);
   lua_pushstring(L, lua_folder());
   lua_setfield(L, -2, "folder");
   lua_pushvalue(L, -1);

@@ -11,6 +11,8 @@
 //   write(f, text)  writes a file whole or not at all
 //   clock()         seconds, of a clock that never jumps
 //   lazily(f, name) a function that loads lua/<f>.lua when first called
+//   getinfo(…)      debug.getinfo, which scripts lack under --safe
+//   read_own(name)  the text of lua/<name>.lua
 //   signature(f)    of a callable of dotyk's, else nil
 //   folder          where these files are
 //   type_name(v)    "body", "mesh", … or what type() says

@@ -1,19 +1,25 @@
 // The program dotyk: a script, or the prompt.
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <locale>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "script/interpreter.hpp"
 #include "script/interrupt.hpp"
 #include "script/prompt.hpp"
+#include "script/safe.hpp"
 
 namespace {
 
@@ -26,6 +32,11 @@ constexpr char usage[] =
     "  dotyk -i FILE.lua ARGS…    run a script, then the prompt\n"
     "  dotyk - ARGS…              run a script from standard input\n"
     "  dotyk --traceback …        errors with the stack of calls (also DOTYK_TRACEBACK=1)\n"
+    "  dotyk --safe FOLDER …      a script from a stranger: files below FOLDER only, no other programs, no\n"
+    "                             environment, text only to load, 1e9 instructions unless said otherwise\n"
+    "  dotyk --instructions N …   at most N instructions of Lua (what dotyk computes meanwhile counts for none)\n"
+    "  dotyk --seconds N …        at most N seconds of processors' time, whatever runs\n"
+    "  dotyk --memory SIZE …      at most this address space: 500M, 2G\n"
     "  dotyk --version\n"
     "  dotyk --help\n"
     "\n"
@@ -34,12 +45,40 @@ constexpr char usage[] =
 struct Command {
   std::optional<std::string> file, code;
   std::vector<std::string> arguments;
+  std::optional<std::string> safe;
+  std::optional<double> instructions, seconds, memory;
   bool prompt = false, traceback = std::getenv("DOTYK_TRACEBACK") != nullptr;
 };
 
 int misuse(const std::string& what) {
   std::fprintf(stderr, "dotyk: %s (dotyk --help tells more)\n", what.c_str());
   return 2;
+}
+
+// A number of at least 1, for memory in bytes with the letter K, M or G of powers of 1000 behind it.
+std::optional<double> read_limit(const std::string& word, bool letters) {
+  std::istringstream in(word);
+  in.imbue(std::locale::classic());
+  double value = 0;
+  if (!(in >> value)) return std::nullopt;
+  const char letter = static_cast<char>(in.get());
+  if (letters && in) value *= letter == 'K' ? 1e3 : letter == 'M' ? 1e6 : letter == 'G' ? 1e9 : 0;
+  const bool whole = in.eof() || (letters && in.peek() == std::char_traits<char>::eof());
+  return whole && value >= 1 && value <= 1e18 ? std::optional(value) : std::nullopt;
+}
+
+// --safe, --instructions, --seconds, --memory and the word after them; returns an exit status where they are wrong.
+std::optional<int> read_limits(const std::string& option, const std::string* next, Command& command) {
+  const bool memory = option == "--memory";
+  if (!next) return misuse(option + (option == "--safe" ? " needs a folder" : " needs a number"));
+  if (option == "--safe") {
+    command.safe = *next;
+    return std::nullopt;
+  }
+  const auto value = read_limit(*next, memory);
+  if (!value) return misuse(option + " needs a number of at least 1" + (memory ? ", as 500M or 2G" : "") + ", got '" + *next + "'");
+  (memory ? command.memory : option == "--seconds" ? command.seconds : command.instructions) = value;
+  return std::nullopt;
 }
 
 // Reads the command line; returns an exit status when there is nothing to run.
@@ -55,6 +94,10 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
     } else if (word == "--version" || word == "-v") {
       std::printf("dotyk %s\n", DOTYK_VERSION);
       return 0;
+    } else if (word == "--safe" || word == "--instructions" || word == "--seconds" || word == "--memory") {
+      const auto status = read_limits(word, i + 1 < words.size() ? &words[i + 1] : nullptr, command);
+      if (status) return status;
+      ++i;
     } else if (word == "-i") {
       command.prompt = true;
     } else if (word == "-e") {
@@ -83,15 +126,39 @@ int after_printing(int status) {
   return status == 0 ? 1 : status;
 }
 
+void time_is_up(int) {
+  constexpr char message[] = "dotyk: the limit of processors' time is reached (--seconds)\n";
+  const auto written = write(STDERR_FILENO, message, sizeof message - 1);
+  _exit(written > 0 ? 1 : 3);
+}
+
+void limit(int resource, double value) {
+  rlimit limits{};
+  getrlimit(resource, &limits);
+  limits.rlim_cur = std::min(static_cast<rlim_t>(value), limits.rlim_max);
+  setrlimit(resource, &limits);
+}
+
+void set_limits(const Command& command) {
+  if (command.memory) limit(RLIMIT_AS, *command.memory);
+  if (!command.seconds) return;
+  std::signal(SIGXCPU, time_is_up);
+  limit(RLIMIT_CPU, std::ceil(*command.seconds));
+}
+
 int run(const Command& command) {
   if (command.file && *command.file != "-" && access(command.file->c_str(), R_OK) != 0) {
     std::fprintf(stderr, "dotyk: cannot open %s: %s\n", command.file->c_str(), std::strerror(errno));
     return 2;
   }
+  set_limits(command);
   dotyk::script::Interpreter interpreter;
   interpreter.trace(command.traceback);
   interpreter.set_arguments(command.file.value_or(command.code ? "-e" : "dotyk"), command.arguments);
   dotyk::script::watch_interrupts(interpreter.state());
+  if (command.safe) dotyk::script::make_safe(interpreter.state(), dotyk::script::Folder(*command.safe));
+  if (command.safe || command.instructions)
+    dotyk::script::limit_instructions(interpreter.state(), static_cast<long long>(command.instructions.value_or(1e9)));
 
   std::optional<std::string> error;
   if (command.code) error = interpreter.run_text(*command.code, "-e");

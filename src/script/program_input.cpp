@@ -153,7 +153,7 @@ Key matrix_key(std::string name, std::string help) {
 }
 
 std::vector<Key> program_keys() {
-  return {key::string("file", "a program in a .qps, .mps or .mat file, instead of the matrices").otherwise("none"),
+  return {key::file("file", "a program in a .qps, .mps or .mat file, instead of the matrices").otherwise("none"),
           matrix_key("B", "quadratic term, symmetric"), key::vector("c", "linear term: the objective has -c'x"),
           matrix_key("D", "rows of the equalities Dx = d"), key::vector("d", "their right-hand sides").otherwise("zeros"),
           matrix_key("A", "rows of the inequalities low <= Ax <= high"),

@@ -47,7 +47,9 @@ TEST_CASE("completion inside a table argument") {
   CHECK(words("help 'toy:") == Words{"toy:grow"});
   CHECK(words("help(\"dotyk.refe") == Words{"dotyk.reference"});
   CHECK(complete(bench.interpreter.state(), "io.open('/et").file_names);
-  CHECK(complete(bench.interpreter.state(), "dotyk.test.toy{ name = 'x").file_names);
+  CHECK(complete(bench.interpreter.state(), "dotyk.qp{ file = 'x").file_names);
+  CHECK(complete(bench.interpreter.state(), "dotyk.qp 'x").file_names);
+  CHECK(!complete(bench.interpreter.state(), "dotyk.test.toy{ name = 'x").file_names);
 }
 
 TEST_CASE("reading unfinished code never stumbles") {

@@ -1,0 +1,155 @@
+#!/bin/bash
+# dotyk --safe: what a stranger's script tries, and is refused; what an honest one does, unchanged. And the
+# limits of instructions, of processors' time and of memory.
+set -u
+dotyk=$1
+scripts=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+mkdir below below/images outside
+echo 'a secret' >outside/secret.txt
+echo 'return "honest"' >below/module.lua
+echo 'return "stranger"' >outside/module2.lua
+ln -s ../outside below/link
+ln -s ../outside/secret.txt below/file_link
+ln -s ../outside/new.txt below/dangling
+ln -s /etc below/etc
+failures=0
+fail() {
+  printf 'FAILED: %s\n' "$1"
+  failures=$((failures + 1))
+}
+
+# refused NAME TEXT CODE: the script ends with the line "-e:1: …TEXT…" and nothing else; nothing outside has changed.
+refused() {
+  local got status
+  got=$(timeout 20 "$dotyk" --safe below -e "$3" 2>&1)
+  status=$?
+  [[ $status == 1 && $got == "dotyk: -e:1: "*"$2"* && $(grep -vc "^$(printf "\t")" <<<"$got") == 1 ]] || fail "$1: status $status, $got"
+  [[ $(ls outside) == $'module2.lua\nsecret.txt' && $(<outside/secret.txt) == 'a secret' ]] || fail "$1: something outside has changed"
+  [[ $got != *'a secret'* ]] || fail "$1: the secret is out"
+}
+# allowed NAME OUTPUT CODE
+allowed() {
+  local got
+  got=$(timeout 20 "$dotyk" --safe below -e "$3" 2>&1)
+  [[ $got == "$2" ]] || fail "$1: got $got"
+}
+
+no="not for scripts run with --safe"
+out="is not below 'below', the folder of this run (--safe)"
+refused "a program" "os.execute: $no" 'os.execute "touch outside/x"'
+refused "a pipe" "io.popen: $no" 'io.popen "touch outside/x"'
+refused "a temporary name" "os.tmpname: $no" 'os.tmpname()'
+refused "a temporary file" "io.tmpfile: $no" 'io.tmpfile()'
+refused "machine code" "package.loadlib: $no" 'package.loadlib("/lib/x86_64-linux-gnu/libc.so.6", "system")'
+refused "machine code by require" "module 'libc' not found" 'package.cpath = "/lib/x86_64-linux-gnu/?.so.6" require "libc"'
+refused "a search for files" "package.searchpath: $no" 'package.searchpath("passwd", "/etc/?")'
+refused "reading by .." "open: 'below/../outside/secret.txt' $out" 'io.write(io.open("below/../outside/secret.txt"):read "a")'
+refused "reading by an absolute path" "open: '/etc/passwd' $out" 'io.open "/etc/passwd"'
+refused "reading lines" "lines: 'outside/secret.txt' $out" 'for l in io.lines "outside/secret.txt" do print(l) end'
+refused "io.input" "input: 'outside/secret.txt' $out" 'io.input "outside/secret.txt" print(io.read())'
+refused "io.output" "output: 'outside/x' $out" 'io.output "outside/x"'
+refused "a link to a folder" "open: 'below/link/secret.txt' $out" 'io.open "below/link/secret.txt"'
+refused "a link to a file" "open: 'below/file_link' $out" 'io.open "below/file_link"'
+refused "a link to nothing yet" "open: 'below/dangling' $out" 'io.open("below/dangling", "w")'
+refused "a link to the system" "open: 'below/etc/passwd' $out" 'io.open "below/etc/passwd"'
+refused "a process's own root" "open: '/proc/self/root/etc/passwd' $out" 'io.open "/proc/self/root/etc/passwd"'
+refused "the folder itself" "remove: 'below' $out" 'os.remove "below"'
+refused "a folder that begins alike" "open: 'below2/x' $out" 'io.open("below2/x", "w")'
+refused "renaming out" "rename: 'outside/x' $out" 'os.rename("below/module.lua", "outside/x")'
+refused "renaming in" "rename: 'outside/secret.txt' $out" 'os.rename("outside/secret.txt", "below/x")'
+refused "removing" "remove: 'outside/secret.txt' $out" 'os.remove "outside/secret.txt"'
+refused "dofile" "dofile: 'outside/module2.lua' $out" 'dofile "outside/module2.lua"'
+refused "loadfile" "loadfile: 'outside/module2.lua' $out" 'loadfile "outside/module2.lua"'
+refused "require of a file outside" "module 'module2' not found" 'package.path = "outside/?.lua;/?" require "module2"'
+refused "searchers kept from before" "attempt to call a nil value" 'package.searchers[3] "x"'
+refused "a compiled chunk" "attempt to load a binary chunk (mode is 't')" 'error(select(2, load(string.dump(function() end), "x", "b")), 0 + 1)'
+refused "a compiled chunk from a file" "attempt to load a binary chunk" 'local f = io.open("below/b", "wb") f:write(string.dump(function() end)) f:close() error(select(2, loadfile("below/b", "b")), 1)'
+refused "the registry" "debug.getregistry: $no" 'debug.getregistry()'
+refused "upvalues" "debug.getupvalue: $no" 'debug.getupvalue(dotyk.adapt, 2)'
+refused "upvalues of io.open" "debug.getupvalue: $no" 'print(debug.getupvalue(io.open, 1))'
+refused "a hook" "debug.sethook: $no" 'coroutine.wrap(function() debug.sethook() end)()'
+refused "metatables by debug" "debug.setmetatable: $no" 'debug.setmetatable("", {})'
+refused "debug by require" "debug.getmetatable: $no" 'require "debug".getmetatable(io.stdout)'
+refused "debug by package.loaded" "debug.getinfo: $no" 'package.loaded.debug.getinfo(1)'
+refused "metatables of files" "attempt to index a nil value" 'getmetatable(io.stdout).__gc.x = 1'
+refused "metatables of dotyk's objects" "attempt to" 'getmetatable(dotyk.material{ E = 1 }).__gc = print'
+refused "metatables of strings" "attempt to index a nil value" 'getmetatable("").__index = function() end; ("x").rep.y = 1'
+refused "a figure" "chart: '/tmp/x.png' $out" 'dotyk.chart{ file = "/tmp/x.png", series = { { x = {0,1}, y = {0,1} } } }'
+refused "a figure by a link" "chart: 'below/link/x.png' $out" 'dotyk.chart{ file = "below/link/x.png", series = { { x = {0,1}, y = {0,1} } } }'
+refused "a name with a zero byte" "chart: 'file' must be the name of a file, it has a zero byte" 'dotyk.chart{ file = "outside/x.png\0below/x.png", series = { { x = {0,1}, y = {0,1} } } }'
+refused "a program's file" "qp: 'outside/x.qps' $out" 'dotyk.qp "outside/x.qps"'
+refused "an LCP's file" "lcp: 'outside/x' $out" 'dotyk.lcp{ file = "outside/x" }'
+refused "the table of work_precision" "is not below" 'dotyk.work_precision{ file = "below/x.png", csv = "outside/x.csv", scene = function() end }'
+refused "source of another file" "open: 'outside/secret.txt' $out" 'source(load("return 1", "@outside/secret.txt"))'
+solved='local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} }, material = dotyk.material{ E = 1 } }
+  b:part "bottom":fix() b:part "top":load{ 0, -1 } local s = dotyk.solve(dotyk.scene{ b })'
+solved=${solved//$'\n'/ }
+refused "a solution's file" "write: 'outside/s.vtu' $out" "$solved s:write 'outside/s.vtu'"
+refused "a table of contact" "write_contact: 'outside/s.csv' $out" "$solved s:write_contact 'outside/s.csv'"
+refused "a picture" "render: 'below/../s.png' $out" "$solved s:render{ file = 'below/../s.png' }"
+refused "the argument by position within a pattern" "is not below" "local x = dotyk.shape; $solved s:render{ file = ('below/%03d/../../x.png'):format(1) }"
+
+allowed "the environment" 'nil' 'print(os.getenv "HOME")'
+got=$("$dotyk" --safe below -e 'package.path = "outside/?.lua;below/?.lua" local f = io.open("below/new.txt", "w") f:write "text" f:close()
+  print(require "module", dofile "below/module.lua", loadfile "below/module.lua"(), load "return 7"(), io.open("below/images/../new.txt"):read "a", os.remove "below/new.txt", #debug.traceback() > 0)' 2>&1)
+[[ $got == $'honest\thonest\thonest\t7\ttext\ttrue\ttrue' ]] || fail "files below: $got"
+allowed "figures below" 'below/images/x.png' 'print(dotyk.chart{ file = "below/images/x.png", series = { { x = {0,1}, y = {0,1} } } })'
+allowed "source of dotyk's own" 'true' 'local p, t = print, "" print = function(x) t = t .. x end source(dotyk.adapt) p(#t > 100)'
+allowed "errors of files as ever" $'nil\tbelow/none: No such file or directory\t2' 'print(io.open "below/none")'
+allowed "an honest script" "$("$dotyk" -e 'for i = 1, 3 do print(pcall(error, i), coroutine.wrap(function() coroutine.yield(i) end)()) end')" \
+  'for i = 1, 3 do print(pcall(error, i), coroutine.wrap(function() coroutine.yield(i) end)()) end'
+
+# The first script writes what it writes without --safe.
+mkdir plain plain/images
+(cd plain && "$dotyk" "$scripts/first.lua" >../plain.txt 2>&1) || fail "first.lua: $(<plain.txt)"
+(cd below && "$dotyk" --safe . "$scripts/first.lua" >../safe.txt 2>&1) || fail "first.lua under --safe: $(<safe.txt)"
+[[ $(ls plain/images) == "$(ls below/images | grep -vx x.png)" && -n $(ls plain/images) ]] || fail "first.lua: other figures"
+for picture in plain/images/*; do cmp "$picture" "below/images/${picture##*/}" || fail "another $picture"; done
+
+# Instructions: nothing swallows the limit. Each script would run for ever.
+spent() {
+  local got
+  got=$(timeout 20 "$dotyk" --instructions 3e6 -e "$2" 2>&1)
+  [[ $? == 1 && $got == *'the limit of 3000000 instructions is reached (--instructions)' ]] || fail "$1: $got"
+}
+spent "a loop" 'while true do end'
+spent "a loop of pcalls" 'while true do pcall(function() while true do end end) end'
+spent "a message handler" 'xpcall(function() while true do end end, function() while true do end end)'
+spent "coroutines" 'while true do coroutine.wrap(function() for i = 1, 1e4 do end end)() end'
+spent "many short coroutines" 'local function f() for i = 1, 100 do end end while true do local c = coroutine.create(f) coroutine.resume(c) end'
+spent "coroutines within coroutines" 'local function f() pcall(function() while true do end end) coroutine.wrap(f)() end while true do pcall(f) end'
+spent "to-be-closed variables" 'local function again() local x <close> = setmetatable({}, { __close = function() while true do end end }) error "x" end while true do pcall(again) end'
+spent "a comparison" 'table.sort({ 3, 1, 2 }, function() while true do end end)'
+spent "a field of a scene" 'while true do pcall(dotyk.mesh.rectangle, { from = {0,0}, to = {1,1}, cells = {1,1}, map = function() while true do end end }) end'
+got=$("$dotyk" --instructions 1e6 -e 'setmetatable({}, { __gc = function() while true do end end })' 2>&1)
+[[ $got == 'dotyk: -e:1: setmetatable: no __gc where instructions are counted (--instructions)' ]] || fail "finalizers: $got"
+got=$("$dotyk" --instructions 1e6 -e 'local n = 0 for i = 1, 1e4 do n = n + i end print(n)' 2>&1)
+[[ $got == 50005000 ]] || fail "within the limit: $got"
+"$dotyk" --instructions 1e12 -e 'while true do pcall(function() while true do end end) end' 2>err.txt &
+sleep 0.5
+kill -INT $!
+wait $!
+[[ $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || fail "Ctrl-C beside the limit: $(<err.txt)"
+
+# Processors' time: also of what runs in C for ever.
+got=$(timeout 20 "$dotyk" --seconds 1 -e 'table.move({}, 1, 1 << 60, 2)' 2>&1)
+[[ $? == 1 && $got == "dotyk: the limit of processors' time is reached (--seconds)" ]] || fail "--seconds: $got"
+
+# Memory.
+if [[ $("$dotyk" --memory 2G -e 'print(1)' 2>&1) == 1 ]]; then # a sanitized program takes more for itself
+  got=$("$dotyk" --memory 600M -e 'local t = {} while true do t[#t + 1] = ("x"):rep(1e6 + #t) end' 2>&1)
+  [[ $got == *'not enough memory' ]] || fail "--memory: $got"
+  got=$("$dotyk" --memory 2G -e 'dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {10000,10000} }' 2>&1)
+  [[ $got == 'dotyk: -e:1: rectangle: a mesh of 1e+08 cells needs'* ]] || fail "--memory and a mesh: $got"
+fi
+
+# Wrong use.
+[[ $("$dotyk" --safe 2>&1) == 'dotyk: --safe needs a folder (dotyk --help tells more)' ]] || fail "--safe alone"
+[[ $("$dotyk" --safe nowhere -e '' 2>&1) == "dotyk: 'nowhere' is not a folder" ]] || fail "--safe nowhere"
+[[ $("$dotyk" --memory 5X -e '' 2>&1) == "dotyk: --memory needs a number of at least 1, as 500M or 2G, got '5X' (dotyk --help tells more)" ]] || fail "--memory 5X"
+[[ $("$dotyk" --instructions many -e '' 2>&1) == "dotyk: --instructions needs a number of at least 1, got 'many' (dotyk --help tells more)" ]] || fail "--instructions many"
+
+exit $((failures > 0))
