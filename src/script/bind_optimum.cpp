@@ -84,7 +84,14 @@ class Run {
   Run(Call& call, std::shared_ptr<Shape> shape, Watch& watch)
       : call_(call), shape_(std::move(shape)), watch_(watch), sought_(sought(call, *shape_)),
         evaluator_(shape_->space, shape_->method, sought_.objective, sought_.constraints, shape_->step, watch),
-        start_(call.has("start") ? call.vector("start") : list(shape_->start)) {
+        start_(list(shape_->start)), radius_(call.number("radius")) {
+    if (call.holds<OptimumHandle>("start")) {
+      const auto before = call.object<OptimumHandle>("start");
+      start_ = list(before->optimum.alpha);
+      if (!call.has("radius") && before->optimum.radius > 0) radius_ = before->optimum.radius;
+    } else if (call.has("start")) {
+      start_ = call.vector("start");
+    }
     if (call.has("figures")) file_of(call.text("figures"), 1);
     if (call.has("on_design")) on_design_.push_back(call.function("on_design"));
   }
@@ -123,7 +130,7 @@ class Run {
   shape::Slp slp() const {
     shape::Slp settings;
     common(settings);
-    settings.radius = call_.number("radius");
+    settings.radius = radius_;
     return settings;
   }
   shape::Mma mma() const {
@@ -178,6 +185,7 @@ class Run {
   Sought sought_;
   shape::Evaluator evaluator_;
   std::vector<double> start_;
+  double radius_;
   std::vector<Function> on_design_;
   std::vector<std::string> refusals_;
   std::shared_ptr<const shape::DesignState> best_;  // the last one accepted
@@ -214,8 +222,9 @@ std::vector<Key> keys() {
                       "slp: sequential linear programming with a trust region (simplex method of GLPK), quadratically convergent where bounds and "
                       "constraints settle the design. mma: moving asymptotes, ccsaq: the same with quadratic models, slsqp: sequential quadratic "
                       "programming (all three of NLopt)").fallback("slp"),
-          key::vector("start", "the first design").count(1, 4096).unit("length").otherwise("as given to dotyk.shape"),
-          key::number("radius", "of slp's first trust region, a share of the variables' ranges").above(0).within(0, 1).fallback(0.1),
+          key::either("start", {key::vector("", "").count(1, 4096), key::object<OptimumHandle>("", "")},
+                      "the first design, or where an earlier run ended: slp goes on with its radius").unit("length").otherwise("as given to dotyk.shape"),
+          key::number("radius", "of slp's first trust region, a share of the variables' ranges; of an optimum as start its own").above(0).within(0, 1).fallback(0.1),
           key::number("tol_design", "ends where a step changes every variable by less, a share of its range").above(0).fallback(1e-4),
           key::number("tol_gap", "ends where the linearised problem promises less over the whole box, relative to what it did at first").at_least(0).fallback(1e-6),
           key::integer("max_designs", "evaluated at most").within(1, 100000).fallback(100.0),
@@ -230,10 +239,10 @@ void bind_optimum(Library& library) {
   library.extend<Shape>().method(
       {.name = "shape:optimise",
        .help = "Seeks the least objective within bounds and constraints. Designs that cannot be solved (cells inverted, bodies overlapping, no "
-               "solution) are answered by shorter steps. Ctrl-C at the prompt, or on_design returning false, ends with the best design so far; start "
-               "and radius of the result go on from there.",
+               "solution) are answered by shorter steps. Ctrl-C at the prompt, or on_design returning false, ends with the best design so far; as "
+               "start of another run it goes on from there.",
        .example = "local best = shape:optimise{ max_designs = 30, on_design = function(k, d) print(k, d.objective) end }\n"
-                  "print(best.objective, best.reason)\nlocal better = shape:optimise{ start = best.alpha, radius = best.radius > 0 and best.radius or nil }",
+                  "print(best.objective, best.reason)\nlocal better = shape:optimise{ start = best }",
        .arguments = {key::table(keys())},
        .returns = "optimum",
        .run = optimise});

@@ -74,8 +74,11 @@ void push(lua_State* L, const Record& record) {
   if (record.name.empty()) return;
   make_strict(L, record.name);
   if (record.absent.empty()) return;
-  lua_getmetatable(L, -1);
-  lua_createtable(L, 0, static_cast<int>(record.absent.size()));
+  lua_getmetatable(L, -1);  // of all records of this name
+  if (lua_getfield(L, -1, "__absent") == LUA_TNIL) {
+    lua_pop(L, 1);
+    lua_createtable(L, 0, static_cast<int>(record.absent.size()));
+  }
   for (const auto& name : record.absent) {
     push(L, true);
     lua_setfield(L, -2, name.c_str());

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -28,9 +29,10 @@ class PeakPressure final : public Quantity {
   }
 
   Vector gradient(const DesignState& state) const override {
-    const Sum s = sum(state);
+    const std::vector<int>& weak = state.sensitivity().weak();
+    const Sum s = sum(state, weak);
+    if (s.peak == 0) return from_rest(state);
     Vector gradient = Vector::Zero(state.space().variables());
-    if (s.peak == 0) return gradient;
     // P = p̂ (S/|Γ|)^{1/q},  dP = P/S Σ (p/p̂)^{q−1} (dλ/p̂ + (1/q − 1) (p/p̂) dw)
     const double factor = value(state) / s.value;
     const scene::Solution& solution = *state.solution();
@@ -66,13 +68,18 @@ class PeakPressure final : public Quantity {
     return length;
   }
 
-  Sum sum(const DesignState& state) const {
+  /// Of forces in these rows nothing counts: they are rounding.
+  Sum sum(const DesignState& state, const std::vector<int>& without = {}) const {
     const scene::Solution& solution = *state.solution();
     Sum s;
     for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c) {
       const bool glue = solution.scene().contacts[c]->kind != scene::Contact::Kind::contact;
       s.nodes.push_back(glue ? std::vector<ContactValue>{} : contact_values(solution, static_cast<int>(c)));
-      for (const ContactValue& node : s.nodes.back()) s.peak = std::max(s.peak, node.pressure());
+      for (std::size_t k = 0; k < s.nodes.back().size(); ++k) {
+        ContactValue& node = s.nodes.back()[k];
+        if (std::find(without.begin(), without.end(), solution.model().contact_row[c][k]) != without.end()) node.force = 0;
+        s.peak = std::max(s.peak, node.pressure());
+      }
     }
     if (s.peak == 0) return s;
     for (const auto& list : s.nodes)
@@ -81,13 +88,38 @@ class PeakPressure final : public Quantity {
     return s;
   }
 
-  /// visit(contact, node, row of B, p/p̂) for every node that presses.
+  /// Where nothing presses, P' along a variable is the P of the pressures' derivatives λ'/w ≥ 0 (not linear in the direction).
+  Vector from_rest(const DesignState& state) const {
+    Vector gradient = Vector::Zero(state.space().variables());
+    if (state.sensitivity().smooth()) return gradient;
+    const scene::Solution& solution = *state.solution();
+    const double length = contact_length(state.space().first());
+    for (int i = 0; i < gradient.size(); ++i) {
+      const Vector& lambda = state.derivative(i).lambda;
+      double most = 0, sum = 0;
+      const auto each = [&](auto&& visit) {
+        for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c)
+          if (solution.scene().contacts[c]->kind == scene::Contact::Kind::contact)
+            for (std::size_t k = 0; k < solution.model().contact_row[c].size(); ++k) {
+              const int row = solution.model().contact_row[c][k];
+              const double weight = solution.scene().contacts[c]->rows[k].weight;
+              if (row >= 0 && weight > 0) visit(weight, std::max(0.0, lambda[row] / weight));
+            }
+      };
+      each([&](double, double slope) { most = std::max(most, slope); });
+      if (most > 0) each([&](double weight, double slope) { sum += weight * std::pow(slope / most, q_); });
+      gradient[i] = most * std::pow(sum / length, 1 / q_);
+    }
+    return gradient;
+  }
+
+  /// visit(contact, node, row of B, p/p̂) for every node that presses; for q = 1, which is linear, for all.
   template <class Visit>
   void for_each(const Sum& s, const scene::Solution& solution, Visit&& visit) const {
     for (std::size_t c = 0; c < s.nodes.size(); ++c)
       for (std::size_t k = 0; k < s.nodes[c].size(); ++k) {
         const ContactValue& node = s.nodes[c][k];
-        const int row = node.force > 0 ? solution.model().contact_row[c][k] : -1;
+        const int row = node.force > 0 || q_ == 1 ? solution.model().contact_row[c][k] : -1;
         if (row >= 0 && node.weight > 0) visit(static_cast<int>(c), k, row, node.pressure() / s.peak);
       }
   }
