@@ -107,7 +107,7 @@ core.describe{
     { name = "repeats", kind = "integer", at_least = 1, default = 3, help = "runs of each; fewer where they would last longer than the budget" },
     { name = "budget", kind = "number", above = 0, default = 30, unit = "s",
       help = "a run that lasts longer is stopped, and its method goes no further up the levels" },
-    { name = "file", kind = "file", written = true, otherwise = "no figure", help = "of the figure; ends in .png" },
+    { name = "file", kind = "file", otherwise = "no figure", help = "of the figure; ends in .png" },
     { name = "csv", kind = "either", otherwise = "beside the figure", help = "where the rows go as comma-separated values; false: nowhere",
       keys = { { kind = "file" }, { kind = "boolean" } } },
     { name = "slopes", kind = "vector", otherwise = "none", help = "guides of these slopes" },

@@ -230,7 +230,7 @@ std::vector<Key> keys() {
           key::integer("max_designs", "evaluated at most").within(1, 100000).fallback(100.0),
           key::function("on_design", "f(k, record, design), design only of admissible ones; false stops with the best so far"),
           key::file("figures", "a file for a figure of each design, with a place for its number: images/shape_%03d.png"),
-          key::file("file", "written after each better design: shape:optimise(dofile(file)) goes on from there")};
+          key::file("file", "written after each better design: shape:optimise(dofile(file)) goes on from there").written()};
 }
 
 }  // namespace

@@ -92,6 +92,13 @@ int solve_with(Call& call) {
   return run(call, call.object<Scene>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
 }
 
+// The result knows the method and its options.
+int solve_and_tell(Call& call) {
+  const int results = solve_with(call);
+  call.keep(lua_gettop(call.state()), "solver", 1);
+  return results;
+}
+
 int solve(Call& call) {
   if (call.holds<Scene>("scene")) return run(call, call.object<Scene>("scene"), {}, {}, false);
   require_no_options(call);
@@ -145,7 +152,7 @@ void bind_solver(Library& library) {
                           "local h = solver:solve(scene, { steps = { { load = 1 }, { load = 0 } } })",
                .arguments = solve_keys(scene_or_problem_key()),
                .returns = "solution",
-               .run = solve_with})
+               .run = solve_and_tell})
       .method({.name = "solver:with",
                .help = "The same method with another tol; this one stays as it is.",
                .example = "local rough = solver:with{ tol = 1e-3 }",

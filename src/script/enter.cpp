@@ -1,7 +1,10 @@
 #include "script/enter.hpp"
 
+#include <filesystem>
+
 #include "script/guard.hpp"
 #include "script/library.hpp"
+#include "script/manifest.hpp"
 #include "script/nearest.hpp"
 
 namespace dotyk::script {
@@ -48,12 +51,24 @@ int run_lua(lua_State* L, const Descriptor& descriptor) {
   return lua_gettop(L);
 }
 
+// Beside every file that the call has written.
+void write_manifests(const Call& call) {
+  const auto& descriptor = call.descriptor();
+  for (const auto& key : descriptor.takes_table() ? descriptor.arguments[0].keys : descriptor.arguments) {
+    if (!key.output || !call.has(key.name) || !std::filesystem::exists(call.text(key.name))) continue;
+    const auto& manifest = *Library::of(call.state()).manifest;
+    manifest.write(call.state(), call.text(key.name), descriptor.name, descriptor.owner().empty() ? 0 : 1);
+  }
+}
+
 int enter(lua_State* L) {
   const auto& descriptor = *static_cast<const Descriptor*>(lua_touserdata(L, lua_upvalueindex(1)));
   return guarded(L, descriptor.short_name(), [&] {
     if (!descriptor.run) return run_lua(L, descriptor);
     Call call(L, descriptor);
-    return descriptor.run(call);
+    const int results = descriptor.run(call);
+    if (Library::of(L).manifest) write_manifests(call);
+    return results;
   });
 }
 

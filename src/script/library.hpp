@@ -40,6 +40,7 @@ struct Module {
 };
 
 class Library;
+class Manifest;
 
 // Describes the members of a class, one call each.
 template <class T>
@@ -111,6 +112,9 @@ class Library {
 
   // Where the script's files must be (--safe); none: anywhere.
   std::optional<Folder> folder;
+
+  // What is written beside every file that a call writes (--manifest), or null.
+  std::shared_ptr<const Manifest> manifest;
 
   // The class of the object at index, null for any other value.
   const Type* type_at(lua_State* L, int index) const;

@@ -14,6 +14,7 @@
 #include "script/enter.hpp"
 #include "script/guard.hpp"
 #include "script/library.hpp"
+#include "script/manifest.hpp"
 #include "script/nearest.hpp"
 #include "script/progress.hpp"
 
@@ -60,6 +61,7 @@ int write(lua_State* L) {
     const std::string file = luaL_checkstring(L, 1);
     if (const auto& folder = Library::of(L).folder) folder->require(file);
     write_whole_file(file, luaL_checkstring(L, 2));
+    if (const auto& manifest = Library::of(L).manifest) manifest->write(L, file, "dotyk.work_precision", 0);
     return 0;
   });
 }

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -18,6 +20,8 @@
 
 #include "script/interpreter.hpp"
 #include "script/interrupt.hpp"
+#include "script/library.hpp"
+#include "script/manifest.hpp"
 #include "script/prompt.hpp"
 #include "script/safe.hpp"
 
@@ -37,6 +41,8 @@ constexpr char usage[] =
     "  dotyk --instructions N …   at most N instructions of Lua (what dotyk computes meanwhile counts for none)\n"
     "  dotyk --seconds N …        at most N seconds of processors' time, whatever runs\n"
     "  dotyk --memory SIZE …      at most this address space: 500M, 2G\n"
+    "  dotyk --manifest …         beside every figure and result FILE, FILE.manifest: script and its hash,\n"
+    "                             arguments, method, version, machine, date, seconds\n"
     "  dotyk --version\n"
     "  dotyk --help\n"
     "\n"
@@ -47,7 +53,7 @@ struct Command {
   std::vector<std::string> arguments;
   std::optional<std::string> safe;
   std::optional<double> instructions, seconds, memory;
-  bool prompt = false, traceback = std::getenv("DOTYK_TRACEBACK") != nullptr;
+  bool prompt = false, manifest = false, traceback = std::getenv("DOTYK_TRACEBACK") != nullptr;
 };
 
 int misuse(const std::string& what) {
@@ -88,6 +94,8 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
     const auto& word = words[i];
     if (word == "--traceback") {
       command.traceback = true;
+    } else if (word == "--manifest") {
+      command.manifest = true;
     } else if (word == "--help" || word == "-h") {
       std::fputs(usage, stdout);
       return 0;
@@ -146,6 +154,16 @@ void set_limits(const Command& command) {
   limit(RLIMIT_CPU, std::ceil(*command.seconds));
 }
 
+dotyk::script::Manifest manifest_of(const Command& command) {
+  auto text = command.code;
+  if (command.file && *command.file != "-") {
+    std::ifstream in(*command.file, std::ios::binary);
+    text = std::string{std::istreambuf_iterator<char>(in), {}};
+  }
+  const std::string name = !command.file ? (command.code ? "-e" : "prompt") : *command.file == "-" ? "standard input" : *command.file;
+  return {name, text, command.arguments};
+}
+
 int run(const Command& command) {
   if (command.file && *command.file != "-" && access(command.file->c_str(), R_OK) != 0) {
     std::fprintf(stderr, "dotyk: cannot open %s: %s\n", command.file->c_str(), std::strerror(errno));
@@ -159,6 +177,8 @@ int run(const Command& command) {
   if (command.safe) dotyk::script::make_safe(interpreter.state(), dotyk::script::Folder(*command.safe));
   if (command.safe || command.instructions)
     dotyk::script::limit_instructions(interpreter.state(), static_cast<long long>(command.instructions.value_or(1e9)));
+
+  if (command.manifest) interpreter.library().manifest = std::make_shared<dotyk::script::Manifest>(manifest_of(command));
 
   std::optional<std::string> error;
   if (command.code) error = interpreter.run_text(*command.code, "-e");

@@ -1,0 +1,58 @@
+#!/bin/bash
+# dotyk --manifest: beside every figure and result the lines that tell where it comes from; nothing without it.
+set -u
+dotyk=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+cat >block.lua <<'LUA'
+local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {4,4} }, material = dotyk.material{ E = 1 } }
+b:part "left":fix()
+b:part "top":load{ 0, -0.1 }
+local scene = dotyk.scene{ b }
+scene:contact{ b:part "bottom", rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} } }
+local s = dotyk.solver.pdas{ rho = 2, tol = 1e-9 }:solve(scene)
+s:render{ file = "block.png" }
+s:write "block.vtu"
+s:write_contact "block.csv"
+dotyk.chart{ file = "chart.png", series = { { x = {0,1}, y = {0,1} } } }
+LUA
+"$dotyk" block.lua || fail "without"
+[[ $(ls) == $'block.csv\nblock.lua\nblock.png\nblock.vtu\nchart.png' ]] || fail "unasked: $(ls)"
+"$dotyk" --manifest block.lua 7 'two words' || fail "with"
+[[ $(ls | grep -v manifest) == $'block.csv\nblock.lua\nblock.png\nblock.vtu\nchart.png' ]] || fail "$(ls)"
+for file in block.csv block.png block.vtu chart.png; do
+  m=$file.manifest
+  [[ -f $m ]] || { fail "no $m"; continue; }
+  grep -qx "file: $file" "$m" || fail "$m: file"
+  grep -qx 'script: block.lua' "$m" || fail "$m: script"
+  grep -qx "script sha256: $(sha256sum <block.lua | cut -d' ' -f1)" "$m" || fail "$m: hash"
+  [[ $(grep -x 'argument: .*' "$m") == $'argument: 7\nargument: two words' ]] || fail "$m: arguments"
+  grep -qx "dotyk: $("$dotyk" --version | cut -d' ' -f2)" "$m" || fail "$m: version"
+  grep -qEx 'commit: ([0-9a-f]{40}(-dirty)?|not built from a checkout)' "$m" || fail "$m: commit"
+  grep -qEx "cores: $(nproc --all)" "$m" || grep -qEx 'cores: [1-9][0-9]*' "$m" || fail "$m: cores"
+  grep -qEx 'processor: .+' "$m" || fail "$m: processor"
+  grep -qEx "date: $(date -u +%Y-%m-%d)T[0-9:]{8}Z" "$m" || fail "$m: date"
+  grep -qEx 'seconds: [0-9.e-]+' "$m" || fail "$m: seconds"
+done
+grep -qx 'call: solution:render' block.png.manifest || fail "call"
+grep -qx 'solver: .*pdas.*rho = 2.*tol = 1e-09.*' block.png.manifest || fail "solver: $(<block.png.manifest)"
+grep -qx 'solution converged: true' block.vtu.manifest || fail "solution: $(<block.vtu.manifest)"
+grep -q '^sol' chart.png.manifest && fail "a chart has no solution"
+
+# Where it cannot be written the script's line says so.
+mkdir chart.png.manifest.d && rm chart.png.manifest && mv chart.png.manifest.d chart.png.manifest
+got=$("$dotyk" --manifest block.lua 2>&1)
+[[ $? == 1 && $got == "dotyk: block.lua:10: chart: cannot write 'chart.png.manifest': "* ]] || fail "a folder in its place: $got"
+
+# A manifest is below the folder too, as its file is; a link in its place leads nowhere: it is replaced.
+mkdir below && echo kept >outside.txt && ln -s ../outside.txt below/x.png.manifest
+"$dotyk" --manifest --safe below -e 'dotyk.chart{ file = "below/x.png", series = { { x = {0,1}, y = {0,1} } } }' || fail "--safe"
+[[ $(<outside.txt) == kept ]] && grep -q '^call: dotyk.chart$' below/x.png.manifest || fail "a link in its place"
+
+exit $((failures > 0))
