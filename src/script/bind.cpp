@@ -9,6 +9,7 @@ void bind_all(Library& library) {
   bind_help(library);
   bind_material(library);
   bind_mesh(library);
+  bind_mesh_file(library);
   bind_refinement(library);
   bind_body(library);
   bind_scene(library);

@@ -8,6 +8,7 @@ void bind_all(Library& library);
 
 void bind_material(Library& library);
 void bind_mesh(Library& library);
+void bind_mesh_file(Library& library);
 void bind_refinement(Library& library);
 void bind_repeated(Library& library);
 void bind_shape(Library& library);

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <optional>
 
 #include "base/memory.hpp"
 #include "mesh/generators.hpp"
+#include "mesh/submesh.hpp"
 #include "script/bind.hpp"
 #include "script/wrapped.hpp"
 #include "script/library.hpp"
@@ -101,6 +103,13 @@ int transform(Call& call) {
   return call.give_self();
 }
 
+int pieces(Call& call) {
+  std::vector<std::shared_ptr<MeshHandle>> handles;
+  for (mesh::Mesh& piece : mesh::split(*call.self<MeshHandle>()->mesh))
+    handles.push_back(std::make_shared<MeshHandle>(MeshHandle{std::make_shared<mesh::Mesh>(std::move(piece))}));
+  return call.give(handles);
+}
+
 int keep(Call& call) {
   const MeshHandle& handle = *call.self<MeshHandle>();
   const Function chosen = call.function("chosen");
@@ -115,17 +124,26 @@ std::vector<std::string> part_names(const MeshHandle& m) {
   return names;
 }
 
+/// " a b c", no more than a dozen.
+std::string shown(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 12); ++i) out += names[i].find(' ') == std::string::npos ? " " + names[i] : " '" + names[i] + "'";
+  return names.size() > 12 ? text(out, " and ", names.size() - 12, " more") : out;
+}
+
 std::string show(const MeshHandle& m) {
-  std::string parts;
-  for (const auto& name : part_names(m)) parts += " " + name;
+  const std::string parts = shown(part_names(m));
+  std::string more = m.regions.empty() ? "" : ", regions" + shown(m.regions);
+  for (std::size_t i = 0; i < std::min<std::size_t>(m.notes.size(), 3); ++i) more += "\n  " + m.notes[i];
+  if (m.notes.size() > 3) more += text("\n  and ", m.notes.size() - 3, " more notes: mesh.notes");
   return text("mesh: ", m.mesh->topology().name, " ", m.mesh->topology().shapes, ", ", m.mesh->node_count(),
-              " nodes, ", m.mesh->cell_count(), " cells, parts", parts.empty() ? " none" : parts);
+              " nodes, ", m.mesh->cell_count(), " cells, parts", parts.empty() ? " none" : parts, more);
 }
 
 }  // namespace
 
 void bind_mesh(Library& library) {
-  library.module("dotyk.mesh", "Meshes: made here, moved by mesh:transform.");
+  library.module("dotyk.mesh", "Meshes: made here or by Gmsh, read from files, moved by mesh:transform.");
   library.function({.name = "dotyk.mesh.rectangle",
                     .help = "A rectangle of cells; with P1 each is cut from its lower left to its upper right "
                             "corner. Parts: left right bottom top.",
@@ -160,6 +178,8 @@ void bind_mesh(Library& library) {
       .field("cell_count", "number of cells", [](const MeshHandle& m) { return m.mesh->cell_count(); })
       .field("element", "\"P1\" or \"Q1\"", [](const MeshHandle& m) { return std::string(m.mesh->topology().name); })
       .field("parts", "names of the boundary parts", part_names)
+      .field("regions", "of a mesh from a file: names of the regions that its cells are of", [](const MeshHandle& m) { return m.regions; })
+      .field("notes", "of a mesh from a file: what the file has and the mesh has not, sentences", [](const MeshHandle& m) { return m.notes; })
       .method({.name = "mesh:transform",
                .help = "Moves every node to map(x, y[, z]). Bodies made before keep the mesh as it was. A map that "
                        "inverts a cell is an error and changes nothing.",
@@ -175,6 +195,12 @@ void bind_mesh(Library& library) {
                              key::string("part", "name of the facets laid bare").fallback("cut")},
                .returns = "mesh",
                .run = keep})
+      .method({.name = "mesh:pieces",
+               .help = "The pieces that are connected through facets (edges in the plane), each a mesh of its own with "
+                       "its share of the boundary parts: the bodies of a file that holds several.",
+               .example = "for _, piece in ipairs(m:pieces()) do print(piece) end",
+               .returns = "list of meshes",
+               .run = pieces})
       .text(show);
 }
 

@@ -3,6 +3,7 @@
 // that is not a class of the numerical rooms itself.
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "contact/rigid.hpp"
@@ -27,6 +28,7 @@ struct Material {
 // Moving the nodes of a mesh that a body uses makes the handle's own copy.
 struct MeshHandle {
   std::shared_ptr<mesh::Mesh> mesh;
+  std::vector<std::string> regions = {}, notes = {};  // of one from a file, see meshfile::Loaded
 };
 
 // A rigid shape; the function of a rigid gap is kept with the object.

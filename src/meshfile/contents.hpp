@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dotyk::meshfile {
+
+enum class Shape { segment, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid };
+
+struct ShapeKind {
+  const char* plural;
+  int dimension;
+  int nodes;  ///< corners
+};
+
+const ShapeKind& kind(Shape shape);
+
+/// A named set of elements of one dimension: a region, where that is the dimension of the cells, or part of a boundary.
+struct Group {
+  int dimension;
+  std::string name;  ///< as the file has it; its number where it has no name
+};
+
+/// Elements of one shape and of the same groups.
+struct Block {
+  Shape shape;
+  std::vector<int> groups;  ///< places in Contents::groups
+  std::vector<int> nodes;   ///< corners, element by element, in the order of mesh::ElementTopology and of VTK
+};
+
+/// What a mesh file holds, whatever its format, before it is a mesh of one kind of cell.
+struct Contents {
+  std::vector<double> points;  ///< 3 × number of nodes; the file's length unit
+  std::vector<Group> groups;
+  std::vector<Block> blocks;
+  int order = 1;  ///< greatest of the elements in the file; only their corners are above
+};
+
+/// To and from a reader that runs in a process of its own. The numbers are this machine's.
+void write(std::FILE* out, const Contents& contents);
+/// Throws std::runtime_error where `bytes` are not whole.
+Contents read(std::string_view bytes);
+
+}  // namespace dotyk::meshfile

@@ -1,0 +1,177 @@
+// Reads Gmsh files, and lets Gmsh mesh geometries, with its own library.
+//   dotyk_gmsh load FILE.msh
+//   dotyk_gmsh mesh FILE DIMENSION SIZE     DIMENSION 0: that of the geometry; SIZE 0: as the geometry says
+#include <gmsh.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "reader_main.hpp"
+
+namespace {
+
+using namespace dotyk::meshfile;
+
+/// The first error that Gmsh had to report; its exceptions name only the last.
+std::string complaint() {
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  for (const std::string& line : log)
+    if (line.rfind("Error", 0) == 0) return line.substr(line.find_first_not_of(" :", 5));
+  return {};
+}
+
+void start() {
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.AbortOnError", 0);
+  gmsh::option::setNumber("General.NumThreads", 1);
+  gmsh::logger::start();
+}
+
+/// Runs a step of Gmsh's; what it reports as an error is one, whether it throws or not.
+template <class Step>
+void run(Step step) {
+  std::string thrown;
+  try {
+    step();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    thrown = e.what();
+    if (thrown.empty()) thrown = "it failed for an unknown reason";
+  } catch (...) {  // Gmsh throws numbers, too
+    thrown = "it failed for an unknown reason";
+  }
+  const std::string logged = complaint();
+  if (!logged.empty()) throw std::runtime_error("Gmsh: " + logged);
+  if (!thrown.empty()) throw std::runtime_error("Gmsh: " + thrown);
+}
+
+struct Type {
+  Shape shape{};
+  bool known = false;
+  int order = 1, nodes = 0, corners = 0;
+};
+
+Type type_of(int element) {
+  std::string name;
+  int dimension = 0;
+  Type type;
+  std::vector<double> local;
+  gmsh::model::mesh::getElementProperties(element, name, dimension, type.order, type.nodes, local, type.corners);
+  static const std::pair<const char*, Shape> shapes[] = {
+      {"Line", Shape::segment},           {"Triangle", Shape::triangle},     {"Quadrilateral", Shape::quadrilateral},
+      {"Tetrahedron", Shape::tetrahedron}, {"Hexahedron", Shape::hexahedron}, {"Prism", Shape::prism},
+      {"Pyramid", Shape::pyramid}};
+  for (const auto& [start, shape] : shapes)
+    if (name.rfind(start, 0) == 0 && type.corners == kind(shape).nodes) type.shape = shape, type.known = true;
+  return type;
+}
+
+class Reader {
+ public:
+  Contents read() {
+    read_nodes();
+    read_groups();
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities);
+    for (const auto& [dimension, tag] : entities)
+      if (dimension > 0) read_entity(dimension, tag);
+    return std::move(contents_);
+  }
+
+ private:
+  void read_nodes() {
+    std::vector<std::size_t> tags;
+    std::vector<double> x, unused;
+    gmsh::model::mesh::getNodes(tags, x, unused, -1, -1, false, false);
+    if (x.size() != 3 * tags.size()) throw std::runtime_error("its nodes are damaged");
+    if (tags.size() > 2'000'000'000) throw std::runtime_error("it has more nodes than this program can number");
+    place_.reserve(tags.size());
+    for (std::size_t i = 0; i < tags.size(); ++i) place_.emplace(tags[i], static_cast<int>(i));
+    contents_.points = std::move(x);
+  }
+
+  void read_groups() {
+    gmsh::vectorpair groups;
+    gmsh::model::getPhysicalGroups(groups);
+    for (const auto& [dimension, tag] : groups) {
+      std::string name;
+      gmsh::model::getPhysicalName(dimension, tag, name);
+      std::vector<int> entities;
+      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
+      for (const int e : entities) groups_[{dimension, e}].push_back(static_cast<int>(contents_.groups.size()));
+      contents_.groups.push_back({dimension, name.empty() ? std::to_string(tag) : name});
+    }
+  }
+
+  void read_entity(int dimension, int tag) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> elements, nodes;
+    gmsh::model::mesh::getElements(types, elements, nodes, dimension, tag);
+    for (std::size_t t = 0; t < types.size(); ++t) {
+      const Type type = type_of(types[t]);
+      if (!type.known || type.nodes < 1) throw std::runtime_error("it has elements of an unknown type");
+      contents_.order = std::max(contents_.order, type.order);
+      Block block{type.shape, groups_[{dimension, tag}], {}};
+      block.nodes.reserve(nodes[t].size() / type.nodes * type.corners);
+      for (std::size_t i = 0; i + type.nodes <= nodes[t].size(); i += type.nodes)
+        for (int k = 0; k < type.corners; ++k) {
+          const auto at = place_.find(nodes[t][i + k]);
+          if (at == place_.end()) throw std::runtime_error("node " + std::to_string(nodes[t][i + k]) + " is used and not there");
+          block.nodes.push_back(at->second);
+        }
+      contents_.blocks.push_back(std::move(block));
+    }
+  }
+
+  Contents contents_;
+  std::unordered_map<std::size_t, int> place_;
+  std::map<std::pair<int, int>, std::vector<int>> groups_;
+};
+
+Contents load(const std::string& file) {
+  start();
+  run([&] { gmsh::merge(file); });
+  Contents result;
+  run([&] { result = Reader().read(); });
+  return result;
+}
+
+int geometry_dimension() {
+  for (const int dimension : {3, 2}) {
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities, dimension);
+    if (!entities.empty()) return dimension;
+  }
+  throw std::runtime_error("the geometry has no surface and no volume to mesh");
+}
+
+Contents generate(const std::string& file, int dimension, double size) {
+  start();
+  run([&] { gmsh::merge(file); });
+  if (dimension == 0) dimension = geometry_dimension();
+  if (size > 0) gmsh::option::setNumber("Mesh.MeshSizeMax", size);
+  run([&] { gmsh::model::mesh::generate(dimension); });
+  Contents result;
+  run([&] { result = Reader().read(); });
+  return result;
+}
+
+}  // namespace
+
+int main(int count, char** argument) {
+  const std::string verb = count > 1 ? argument[1] : "";
+  if (verb == "load" && count == 3) {
+    limit_reader(reading_seconds(argument[2]));
+    return answer([&] { return load(argument[2]); });
+  }
+  if (verb == "mesh" && count == 5) {
+    limit_reader(0);
+    return answer([&] { return generate(argument[2], std::stoi(argument[3]), std::stod(argument[4])); });
+  }
+  return 2;
+}

@@ -1,0 +1,159 @@
+#include "meshfile/load.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/text.hpp"
+#include "meshfile/mfem.hpp"
+#include "meshfile/process.hpp"
+
+namespace dotyk::meshfile {
+namespace {
+
+std::string ending(const std::string& file) {
+  const auto dot = file.rfind('.');
+  std::string result = dot == std::string::npos || file.find('/', dot) != std::string::npos ? "" : file.substr(dot);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// A regular file that can be read and holds something. Opening anything else (a pipe) could wait for ever.
+void require_file(const std::string& file) {
+  if (file.find('\0') != std::string::npos) throw InputError("the file name has a zero byte in it");
+  struct stat info {};
+  const auto fail = [&](const std::string& why) { throw InputError("cannot read '" + file + "': " + why); };
+  if (stat(file.c_str(), &info) != 0) fail(std::strerror(errno));
+  if (S_ISDIR(info.st_mode)) fail("it is a folder");
+  if (!S_ISREG(info.st_mode)) fail("it is not a file");
+  if (access(file.c_str(), R_OK) != 0) fail(std::strerror(errno));
+  if (info.st_size == 0) fail("it is empty");
+}
+
+std::string content(const std::string& file) {
+  struct stat info {};
+  if (stat(file.c_str(), &info) == 0) require_memory(3.0 * static_cast<double>(info.st_size), "reading '" + file + "'");
+  std::ifstream in(file, std::ios::binary);
+  std::string all{std::istreambuf_iterator<char>(in), {}};
+  if (!in && !in.eof()) throw InputError("cannot read '" + file + "'");
+  return all;
+}
+
+/// "$MeshFormat", version, 0 (text) or 1 (binary): checked here, because Gmsh takes what it does not know for a script.
+void check_gmsh_header(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string word;
+  in >> std::ws;
+  if (in.peek() != '$') throw InputError(file + ": this is no Gmsh mesh: it does not begin with $MeshFormat");
+  in >> word;
+  while (in && word != "$MeshFormat" && word != "$NOD") in >> word;  // comments may come first
+  if (word == "$NOD") throw InputError(file + ": this is a Gmsh mesh of version 1; save it as version 4.1 or 2.2");
+  if (!in) throw InputError(file + ": this is no Gmsh mesh: it has no $MeshFormat");
+  std::string version;
+  in >> version;
+  double number = 0;
+  const auto [end, error] = std::from_chars(version.data(), version.data() + version.size(), number);
+  if (error != std::errc() || end != version.data() + version.size())
+    throw InputError(text(file, ": '", version.substr(0, 20), "' where the version of the Gmsh mesh should be"));
+  if (!(number >= 2 && number < 2.3) && !(number >= 4 && number < 4.2))
+    throw InputError(text(file, ": this is a Gmsh mesh of version ", version.substr(0, 20), "; 2.0 to 2.2, 4.0 and 4.1 are read: save it as one of these"));
+}
+
+std::string gmsh_program() {
+  const std::string program = find_program("dotyk_gmsh");
+  if (program.empty())
+    throw InputError("this dotyk was built without Gmsh's library: install it (apt-get install --no-install-recommends libgmsh-dev) "
+                     "and build again; meshes in .mesh (MFEM) and .vtu (VTK) files are read without it");
+  return program;
+}
+
+/// A name that Gmsh and VTK cannot take for an option.
+std::string plain(const std::string& file) { return file[0] == '/' ? file : "./" + file; }
+
+Contents contents(const std::string& file, Monitor& monitor) {
+  const std::string end = ending(file);
+  if (end == ".mesh") return read_mfem(content(file), file);
+  if (end == ".msh") {
+    check_gmsh_header(file);
+    return read(output_of(gmsh_program(), {"load", plain(file)}, file, monitor));
+  }
+  const std::string program = find_program("dotyk_vtu");
+  if (program.empty()) throw InputError("the program dotyk_vtu, which reads .vtu files, is not beside dotyk or in its library folder");
+  return read(output_of(program, {plain(file)}, file, monitor));
+}
+
+/// With all its digits.
+std::string exact(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+Loaded mesh_file(const std::string& file, const Meshing& meshing, const std::vector<std::string>& regions, const std::string& what, Monitor& monitor) {
+  const std::vector<std::string> arguments{"mesh", plain(file), std::to_string(meshing.dimension), exact(meshing.size)};
+  return assemble(read(output_of(gmsh_program(), arguments, what, monitor)), regions, what);
+}
+
+/// A file in the folder for temporary files, gone at the end.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& content) {
+    const char* folder = std::getenv("TMPDIR");
+    name_ = std::string(folder && *folder ? folder : "/tmp") + "/dotyk-XXXXXX.geo";
+    const int file = mkstemps(name_.data(), 4);
+    if (file < 0) throw std::runtime_error("cannot write '" + name_ + "': " + std::strerror(errno));
+    const ssize_t n = ::write(file, content.data(), content.size());
+    ::close(file);
+    if (n == static_cast<ssize_t>(content.size())) return;
+    ::unlink(name_.c_str());
+    throw std::runtime_error("cannot write '" + name_ + "'");
+  }
+  ~TemporaryFile() { ::unlink(name_.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+}  // namespace
+
+Loaded load(const std::string& file, const std::vector<std::string>& regions, Monitor& monitor) {
+  const std::string end = ending(file);
+  if (end == ".geo") throw InputError("'" + file + "' is a geometry: dotyk.mesh.gmsh{ file = \"" + file + "\" } meshes it");
+  if (end != ".msh" && end != ".mesh" && end != ".vtu")
+    throw InputError("'" + file + "' does not end in .msh (Gmsh), .mesh (MFEM) or .vtu (VTK)");
+  require_file(file);
+  return assemble(contents(file, monitor), regions, file);
+}
+
+Loaded mesh_geometry(const std::string& file, const Meshing& meshing, const std::vector<std::string>& regions, Monitor& monitor) {
+  static const std::string known[] = {".geo", ".step", ".stp", ".brep", ".iges", ".igs"};
+  if (std::find(std::begin(known), std::end(known), ending(file)) == std::end(known))
+    throw InputError("'" + file + "' does not end in .geo, .step, .stp, .brep, .iges or .igs");
+  require_file(file);
+  return mesh_file(file, meshing, regions, file, monitor);
+}
+
+Loaded mesh_text(const std::string& geometry, const Meshing& meshing, const std::vector<std::string>& regions, Monitor& monitor) {
+  const TemporaryFile file(geometry);
+  try {
+    return mesh_file(file.name(), meshing, regions, "geometry", monitor);
+  } catch (const InputError& e) {
+    std::string message = e.what();
+    const std::string name = "'" + file.name() + "'";
+    for (std::size_t at; (at = message.find(name)) != std::string::npos;) message.replace(at, name.size(), "the text");
+    throw InputError(message);
+  }
+}
+
+}  // namespace dotyk::meshfile

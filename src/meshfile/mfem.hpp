@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "meshfile/contents.hpp"
+
+namespace dotyk::meshfile {
+
+/// A mesh in MFEM's text format "MFEM mesh v1.0" (mfem.org, "Mesh formats"): sections dimension, elements, boundary,
+/// vertices; lines "attribute type vertices…". Attributes of elements become regions, those of the boundary parts,
+/// named by their numbers. Throws InputError, beginning with `what`, where that is not what the text is; curved
+/// meshes (section nodes) are refused.
+Contents read_mfem(std::string_view text, const std::string& what);
+
+}  // namespace dotyk::meshfile

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/monitor.hpp"
+
+namespace dotyk::meshfile {
+
+/// The program of this name beside dotyk, in its library folder or in the build tree; empty where it was not built.
+std::string find_program(const std::string& name);
+
+/// What the program writes to its standard output. It runs in a process of its own, so that a damaged file that
+/// makes a library crash or take all memory ends that process and no more. Its standard error is not shown.
+///
+/// Throws InputError, beginning with `what`: the program's own message (its output, where it ends with status 1),
+/// or that it crashed or took too long; Interrupted where the monitor asks to stop; std::runtime_error where it
+/// cannot start.
+std::string output_of(const std::string& program, const std::vector<std::string>& arguments, const std::string& what,
+                      Monitor& monitor);
+
+}  // namespace dotyk::meshfile

@@ -1,0 +1,78 @@
+#include "meshfile/load.hpp"
+#include "script/bind.hpp"
+#include "script/library.hpp"
+#include "script/watch.hpp"
+#include "script/wrapped.hpp"
+
+namespace dotyk::script {
+namespace {
+
+Key region_key() {
+  return key::either("region", {key::string("", ""), key::list("", key::string("", ""), "")},
+                     "the physical group of cells to take, or a list of them")
+      .otherwise("all cells");
+}
+
+std::vector<std::string> regions(const Arguments& given) {
+  if (!given.has("region")) return {};
+  if (given.is("region", LUA_TTABLE)) return given.texts("region");
+  return {given.text("region")};
+}
+
+int give(const Call& call, meshfile::Loaded loaded) {
+  return call.give(std::make_shared<MeshHandle>(
+      MeshHandle{std::make_shared<mesh::Mesh>(std::move(loaded.mesh)), std::move(loaded.regions), std::move(loaded.notes)}));
+}
+
+int load(Call& call) {
+  Watch watch(call.state(), "reading");
+  const auto wanted = call.has("options") ? regions(call.table("options")) : std::vector<std::string>();
+  return give(call, meshfile::load(call.text("file"), wanted, watch));
+}
+
+int gmsh(Call& call) {
+  if (call.has("file") == call.has("text")) throw ArgumentError("one of 'file' and 'text' is needed");
+  const meshfile::Meshing meshing{.dimension = call.has("dimension") ? static_cast<int>(call.integer("dimension")) : 0,
+                                  .size = call.has("size") ? call.number("size") : 0};
+  Watch watch(call.state(), "meshing");
+  if (call.has("file")) return give(call, meshfile::mesh_geometry(call.text("file"), meshing, regions(call), watch));
+  return give(call, meshfile::mesh_text(call.text("text"), meshing, regions(call), watch));
+}
+
+}  // namespace
+
+void bind_mesh_file(Library& library) {
+  library.function(
+      {.name = "dotyk.mesh.load",
+       .help = "Reads a mesh of triangles, quadrilaterals, tetrahedra or hexahedra: .msh (Gmsh 2 and 4, text or binary), "
+               ".mesh (MFEM mesh v1.0) or .vtu (VTK; cell data \"region\", or \"body\" as s:write has it, tell regions apart). Physical "
+               "groups of cells are its regions, those of one dimension less its boundary parts; a group without a name "
+               "goes by its number. Elements of higher order are reduced to their corners, facets of a part that lie "
+               "between cells are left out: mesh.notes says so. A file of several bodies: one load for each region, or "
+               "mesh:pieces().",
+       .example = "local g = dotyk.mesh.load(\"gears.msh\", { region = \"gear 1\" })\nprint(g)",
+       .arguments = {key::string("file", "ends in .msh, .mesh or .vtu").required(), key::table("options", {region_key()}, "what of it").otherwise("all of it")},
+       .returns = "mesh",
+       .run = load});
+  library.function(
+      {.name = "dotyk.mesh.gmsh",
+       .help = "Has Gmsh mesh a geometry: a file of its own language (.geo) or from a CAD program (.step, .stp, .brep, "
+               ".iges, .igs), or a text in that language. Physical groups become regions and boundary parts as in "
+               "dotyk.mesh.load; nodes of curved boundaries lie on them. A .geo file is a program and can start others: "
+               "run only what you trust. In a text, files to be included need full paths.",
+       .example = "local m = dotyk.mesh.gmsh{ size = 0.1, text = [[\n"
+                  "  SetFactory(\"OpenCASCADE\");\n"
+                  "  Rectangle(1) = {-1, -1, 0, 2, 2};\n"
+                  "  Disk(2) = {0, 0, 0, 0.4};\n"
+                  "  BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };\n"
+                  "  Physical Surface(\"plate\") = {3}; Physical Curve(\"hole\") = {5};\n"
+                  "]] }",
+       .arguments = {key::table({key::string("file", "the geometry; or text"), key::string("text", "the geometry, in Gmsh's language; or file"),
+                                 key::positive("size", "greatest length of an edge").unit("length").otherwise("as the geometry says"),
+                                 key::integer("dimension", "of the cells").within(2, 3).otherwise("3 where there is a volume, else 2"),
+                                 region_key()})},
+       .returns = "mesh",
+       .run = gmsh});
+}
+
+}  // namespace dotyk::script
