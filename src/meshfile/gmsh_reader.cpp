@@ -166,11 +166,11 @@ Contents generate(const std::string& file, int dimension, double size) {
 int main(int count, char** argument) {
   const std::string verb = count > 1 ? argument[1] : "";
   if (verb == "load" && count == 3) {
-    limit_reader(reading_seconds(argument[2]));
+    limit_reader(argument[2]);
     return answer([&] { return load(argument[2]); });
   }
   if (verb == "mesh" && count == 5) {
-    limit_reader(0);
+    limit_reader();
     return answer([&] { return generate(argument[2], std::stoi(argument[3]), std::stod(argument[4])); });
   }
   return 2;

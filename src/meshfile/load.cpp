@@ -141,11 +141,13 @@ Loaded mesh_geometry(const std::string& file, const Meshing& meshing, const std:
   if (std::find(std::begin(known), std::end(known), ending(file)) == std::end(known))
     throw InputError("'" + file + "' does not end in .geo, .step, .stp, .brep, .iges or .igs");
   require_file(file);
+  if (ending(file) == ".geo" && content(file).back() != '\n')
+    throw InputError(file + ": its last line does not end; without a newline there, Gmsh leaves out the last statements");
   return mesh_file(file, meshing, regions, file, monitor);
 }
 
 Loaded mesh_text(const std::string& geometry, const Meshing& meshing, const std::vector<std::string>& regions, Monitor& monitor) {
-  const TemporaryFile file(geometry);
+  const TemporaryFile file(geometry + "\n");  // without a last newline Gmsh leaves out what comes last
   try {
     return mesh_file(file.name(), meshing, regions, "geometry", monitor);
   } catch (const InputError& e) {

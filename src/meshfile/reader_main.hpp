@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -19,26 +20,27 @@
 
 namespace dotyk::meshfile {
 
-/// No more memory than there is, an end when dotyk ends, no core files. `seconds` of processor time; 0: as many as it takes.
-inline void limit_reader(double seconds) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const rlimit none{0, 0};
-  setrlimit(RLIMIT_CORE, &none);
-  const double memory = 0.9 * available_memory();
-  if (std::isfinite(memory)) {
-    const rlimit limit{static_cast<rlim_t>(memory), static_cast<rlim_t>(memory)};
-    setrlimit(RLIMIT_DATA, &limit);
-  }
-  if (seconds > 0) {
-    const rlimit limit{static_cast<rlim_t>(seconds), static_cast<rlim_t>(seconds) + 1};
-    setrlimit(RLIMIT_CPU, &limit);
-  }
+inline void limit(int resource, double most) {
+  const rlimit value{static_cast<rlim_t>(most), static_cast<rlim_t>(most)};
+  setrlimit(resource, &value);
 }
 
-/// Processor time that reading a file may take: far more than it does, so that only an endless loop meets it.
-inline double reading_seconds(const std::string& file) {
+/// An end when dotyk ends, no core files, no more memory than there is.
+inline void limit_reader() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  limit(RLIMIT_CORE, 0);
+  const double memory = 0.9 * available_memory();
+  if (std::isfinite(memory)) limit(RLIMIT_DATA, memory);
+}
+
+/// The same for reading a file, with no more memory and processor time than a hundred times what it takes: only damaged
+/// files, with counts of theirs in billions or endless loops, meet that.
+inline void limit_reader(const std::string& file) {
+  limit_reader();
   std::error_code none;
-  return 20 + 1e-6 * static_cast<double>(std::filesystem::file_size(file, none));
+  const auto bytes = static_cast<double>(std::filesystem::file_size(file, none));
+  limit(RLIMIT_DATA, std::min(0.9 * available_memory(), 512e6 + 100 * bytes));
+  limit(RLIMIT_CPU, 20 + 1e-6 * bytes);
 }
 
 /// Writes what `contents` returns, status 0, or the message of what it throws, status 1. Libraries that write to

@@ -158,6 +158,6 @@ Contents load(const std::string& file) {
 
 int main(int count, char** argument) {
   if (count != 2) return 2;
-  limit_reader(reading_seconds(argument[1]));
+  limit_reader(argument[1]);
   return answer([&] { return load(argument[1]); });
 }

@@ -1,0 +1,70 @@
+-- Files that are no meshes, or broken ones: one line that names the file, at the user's line, and nothing else happens.
+local check <const> = require "check"
+local refused <const> = require "refused"
+local folder <const> = debug.getinfo(1, "S").source:match "^@(.*)/" .. "/files/"
+
+local it <const> = refused.pressed_block()
+refused.intact = it.solve
+
+local function file(name, content)
+  local f <const> = assert(io.open(name, "wb"))
+  f:write(content)
+  f:close()
+  return name
+end
+local function expect(name, content, ...)
+  if content then file(name, content) end
+  local message <const> = refused(function() dotyk.mesh.load(name) end, "load: ", ...)
+  check.that(not message:find "\n", message)
+  if content then os.remove(name) end
+end
+
+expect("nothing.msh", nil, "cannot read 'nothing.msh': No such file or directory")
+expect("nothing.mesh", nil, "cannot read 'nothing.mesh': No such file or directory")
+expect("nothing.vtu", nil, "cannot read 'nothing.vtu': No such file or directory")
+expect("mesh.stl", nil, "'mesh.stl' does not end in .msh (Gmsh), .mesh (MFEM) or .vtu (VTK)")
+expect("", nil, "'' does not end in")
+expect("a\0.msh", nil, "zero byte")
+expect("part.geo", nil, 'dotyk.mesh.gmsh{ file = "part.geo" }')
+for _, ending in ipairs{ ".msh", ".mesh", ".vtu" } do
+  expect("empty" .. ending, "", "it is empty")
+  expect("noise" .. ending, string.rep("\1\200\0x", 99), "noise" .. ending .. ": ")
+  os.execute("mkdir -p folder" .. ending)
+  expect("folder" .. ending, nil, "it is a folder")
+  os.execute("rmdir folder" .. ending)
+  os.execute("mkfifo pipe" .. ending)  -- opening it would wait for ever
+  expect("pipe" .. ending, nil, "it is not a file")
+  os.remove("pipe" .. ending)
+end
+refused(function() dotyk.mesh.load() end, "file")
+refused(function() dotyk.mesh.load(3) end, "file")
+refused(function() dotyk.mesh.load("a.msh", { regoin = "a" }) end, "unknown key 'regoin', did you mean 'region'?")
+refused(function() dotyk.mesh.load("a.msh", { region = 3 }) end, "region")
+refused(function() dotyk.mesh.load("a.msh", { region = { 3 } }) end, "region")
+
+-- A Gmsh file is one before Gmsh sees it: what it does not know it would run as a script.
+expect("script.msh", 'SystemCall "touch ran";\n', "it does not begin with $MeshFormat")
+check.that(not io.open "ran")
+expect("header.msh", "$Nodes\n", "it has no $MeshFormat")
+expect("old.msh", "$NOD\n1\n1 0 0 0\n$ENDNOD\n", "version 1; save it as version 4.1 or 2.2")
+for _, version in ipairs{ "1", "2.3", "3", "4.2", "5", "-2.2", "1e9" } do
+  expect("version.msh", "$MeshFormat\n" .. version .. " 0 8\n$EndMeshFormat\n", "mesh of version " .. version, "2.0 to 2.2, 4.0 and 4.1 are read")
+end
+expect("version.msh", "$MeshFormat\nx 0 8\n$EndMeshFormat\n", "'x' where the version of the Gmsh mesh should be")
+
+if require "without_gmsh" then return end
+expect("header.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "it holds no cells")
+local f <const> = assert(io.open(folder .. "triangles_41.msh"))
+local text <const> = f:read "a"
+f:close()
+refused(function() dotyk.mesh.load(folder .. "triangles_41.msh", { region = "top" }) end,
+        "there is no region 'top' (a boundary part has that name); regions: 'left half', 'right half'")
+refused(function() dotyk.mesh.load(folder .. "triangles_41.msh", { region = { "left half", "both" } }) end, "there is no region 'both'")
+expect("cut.msh", text:sub(1, 700), "cut.msh: ")
+expect("cut.msh", text:sub(1, 1200), "cut.msh: ")
+expect("nan.msh", (text:gsub("0.5", "nan")), "nan.msh: ")
+-- Counts that no file of this length can hold end in an error, not in all memory being used.
+local clock <const> = os.time()
+expect("huge.msh", (text:gsub("%$Elements\n%d+ %d+ ", "$Elements\n4000000000 4000000000 ")), "huge.msh: ")
+expect("huge.msh", (text:gsub("%$Nodes\n%d+ %d+ ", "$Nodes\n9999999999 9999999999 ")), "huge.msh: ")
+check.that(os.time() - clock < 20)
