@@ -48,16 +48,17 @@ std::string content(const std::string& file) {
   return all;
 }
 
-/// "$MeshFormat", version, 0 (text) or 1 (binary): checked here, because Gmsh takes what it does not know for a script.
+/// "$MeshFormat" as the very first word, or after comments, then the version. Checked here, because Gmsh takes what does
+/// not begin so for a script in its language, and runs it.
 void check_gmsh_header(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::string word;
-  in >> std::ws;
   if (in.peek() != '$') throw InputError(file + ": this is no Gmsh mesh: it does not begin with $MeshFormat");
   in >> word;
-  while (in && word != "$MeshFormat" && word != "$NOD") in >> word;  // comments may come first
+  if (word == "$Comments")
+    while (in && word != "$MeshFormat") in >> word;
   if (word == "$NOD") throw InputError(file + ": this is a Gmsh mesh of version 1; save it as version 4.1 or 2.2");
-  if (!in) throw InputError(file + ": this is no Gmsh mesh: it has no $MeshFormat");
+  if (!in || word != "$MeshFormat") throw InputError(file + ": this is no Gmsh mesh: it does not begin with $MeshFormat");
   std::string version;
   in >> version;
   double number = 0;

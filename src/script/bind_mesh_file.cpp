@@ -31,6 +31,7 @@ int load(Call& call) {
 }
 
 int gmsh(Call& call) {
+  if (Library::of(call.state()).folder) throw ArgumentError("not for scripts run with --safe: a geometry can start programs");
   if (call.has("file") == call.has("text")) throw ArgumentError("one of 'file' and 'text' is needed");
   const meshfile::Meshing meshing{.dimension = call.has("dimension") ? static_cast<int>(call.integer("dimension")) : 0,
                                   .size = call.has("size") ? call.number("size") : 0};
@@ -51,7 +52,7 @@ void bind_mesh_file(Library& library) {
                "between cells are left out: mesh.notes says so. A file of several bodies: one load for each region, or "
                "mesh:pieces().",
        .example = "local g = dotyk.mesh.load(\"gears.msh\", { region = \"gear 1\" })\nprint(g)",
-       .arguments = {key::string("file", "ends in .msh, .mesh or .vtu").required(), key::table("options", {region_key()}, "what of it").otherwise("all of it")},
+       .arguments = {key::file("file", "ends in .msh, .mesh or .vtu").required(), key::table("options", {region_key()}, "what of it").otherwise("all of it")},
        .returns = "mesh",
        .run = load});
   library.function(
@@ -67,7 +68,7 @@ void bind_mesh_file(Library& library) {
                   "  BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };\n"
                   "  Physical Surface(\"plate\") = {3}; Physical Curve(\"hole\") = {5};\n"
                   "]] }",
-       .arguments = {key::table({key::string("file", "the geometry; or text"), key::string("text", "the geometry, in Gmsh's language; or file"),
+       .arguments = {key::table({key::file("file", "the geometry; or text"), key::string("text", "the geometry, in Gmsh's language; or file"),
                                  key::positive("size", "greatest length of an edge").unit("length").otherwise("as the geometry says"),
                                  key::integer("dimension", "of the cells").within(2, 3).otherwise("3 where there is a volume, else 2"),
                                  region_key()})},

@@ -44,8 +44,10 @@ refused(function() dotyk.mesh.load("a.msh", { region = { 3 } }) end, "region")
 
 -- A Gmsh file is one before Gmsh sees it: what it does not know it would run as a script.
 expect("script.msh", 'SystemCall "touch ran";\n', "it does not begin with $MeshFormat")
+expect("script.msh", '$Script\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\nSystemCall "touch ran";\n', "it does not begin with $MeshFormat")
+expect("script.msh", ' $MeshFormat\n2.2 0 8\n$EndMeshFormat\nSystemCall "touch ran";\n', "it does not begin with $MeshFormat")
 check.that(not io.open "ran")
-expect("header.msh", "$Nodes\n", "it has no $MeshFormat")
+expect("header.msh", "$Nodes\n", "it does not begin with $MeshFormat")
 expect("old.msh", "$NOD\n1\n1 0 0 0\n$ENDNOD\n", "version 1; save it as version 4.1 or 2.2")
 for _, version in ipairs{ "1", "2.3", "3", "4.2", "5", "-2.2", "1e9" } do
   expect("version.msh", "$MeshFormat\n" .. version .. " 0 8\n$EndMeshFormat\n", "mesh of version " .. version, "2.0 to 2.2, 4.0 and 4.1 are read")
