@@ -80,6 +80,8 @@ refused "metatables of strings" "attempt to index a nil value" 'getmetatable("")
 refused "a figure" "chart: '/tmp/x.png' $out" 'dotyk.chart{ file = "/tmp/x.png", series = { { x = {0,1}, y = {0,1} } } }'
 refused "a figure by a link" "chart: 'below/link/x.png' $out" 'dotyk.chart{ file = "below/link/x.png", series = { { x = {0,1}, y = {0,1} } } }'
 refused "a name with a zero byte" "chart: 'file' must be the name of a file, it has a zero byte" 'dotyk.chart{ file = "outside/x.png\0below/x.png", series = { { x = {0,1}, y = {0,1} } } }'
+refused "a mesh" "load: 'outside/x.msh' $out" 'dotyk.mesh.load "outside/x.msh"'
+refused "a geometry" "gmsh: $no" 'dotyk.mesh.gmsh{ text = "" }'
 refused "a program's file" "qp: 'outside/x.qps' $out" 'dotyk.qp "outside/x.qps"'
 refused "an LCP's file" "lcp: 'outside/x' $out" 'dotyk.lcp{ file = "outside/x" }'
 refused "the table of work_precision" "is not below" 'dotyk.work_precision{ file = "below/x.png", csv = "outside/x.csv", scene = function() end }'
