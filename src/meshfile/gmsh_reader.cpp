@@ -46,6 +46,7 @@ void run(Step step) {
     thrown = "it failed for an unknown reason";
   }
   const std::string logged = complaint();
+  if (logged.rfind("Error loading", 0) == 0) throw std::runtime_error("it is damaged or cut off");
   if (!logged.empty()) throw std::runtime_error("Gmsh: " + logged);
   if (!thrown.empty()) throw std::runtime_error("Gmsh: " + thrown);
 }

@@ -16,6 +16,7 @@
 #include "base/text.hpp"
 #include "meshfile/mfem.hpp"
 #include "meshfile/process.hpp"
+#include "meshfile/quoted.hpp"
 
 namespace dotyk::meshfile {
 namespace {
@@ -64,7 +65,7 @@ void check_gmsh_header(const std::string& file) {
   double number = 0;
   const auto [end, error] = std::from_chars(version.data(), version.data() + version.size(), number);
   if (error != std::errc() || end != version.data() + version.size())
-    throw InputError(text(file, ": '", version.substr(0, 20), "' where the version of the Gmsh mesh should be"));
+    throw InputError(text(file, ": ", quoted(version), " where the version of the Gmsh mesh should be"));
   if (!(number >= 2 && number < 2.3) && !(number >= 4 && number < 4.2))
     throw InputError(text(file, ": this is a Gmsh mesh of version ", version.substr(0, 20), "; 2.0 to 2.2, 4.0 and 4.1 are read: save it as one of these"));
 }

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "meshfile/quoted.hpp"
 
 namespace dotyk::meshfile {
 namespace {
@@ -34,7 +35,7 @@ class Words {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty()) fail(text("it ends where ", of, " should be"));
     if (error != std::errc() || end != word.data() + word.size())
-      fail(text("'", std::string(word.substr(0, 40)), "' where ", of, " should be"));
+      fail(text(quoted(word), " where ", of, " should be"));
     return value;
   }
 
@@ -87,7 +88,7 @@ void read_vertices(Words& words, Contents& contents) {
   const int n = words.count("the number of vertices");
   const std::string_view dimension = words.next();
   if (dimension == "nodes") words.fail("a curved mesh (section nodes); only straight ones, with vertices, are read");
-  if (dimension != "2" && dimension != "3") words.fail(text("vertices of dimension '", std::string(dimension.substr(0, 40)), "'; 2 or 3 is expected"));
+  if (dimension != "2" && dimension != "3") words.fail(text("vertices of dimension ", quoted(dimension), "; 2 or 3 is expected"));
   contents.points.reserve(3 * static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k) contents.points.push_back(k < 2 || dimension == "3" ? words.number<double>("a coordinate") : 0);
@@ -97,7 +98,7 @@ void read_vertices(Words& words, Contents& contents) {
 
 Contents read_mfem(std::string_view all, const std::string& what) {
   const std::string_view first = all.substr(0, all.find_first_of("\r\n"));
-  if (first != "MFEM mesh v1.0") throw InputError(text(what, ": its first line is '", std::string(first.substr(0, 40)), "'; 'MFEM mesh v1.0' is expected"));
+  if (first != "MFEM mesh v1.0") throw InputError(text(what, ": its first line is ", quoted(first), "; 'MFEM mesh v1.0' is expected"));
   all.remove_prefix(std::min(first.size() + (all.substr(first.size(), 2) == "\r\n" ? 2 : 1), all.size()));
   Words words(all, what);
   Contents contents;
@@ -108,7 +109,7 @@ Contents read_mfem(std::string_view all, const std::string& what) {
     else if (section == "boundary") read_elements(words, contents, dimension - 1);
     else if (section == "vertices") read_vertices(words, contents);
     else if (section == "nodes") words.fail("a curved mesh (section nodes); only straight ones are read");
-    else words.fail(text("unknown section '", std::string(section.substr(0, 40)), "'; 'dimension', 'elements', 'boundary' or 'vertices' is expected"));
+    else words.fail(text("unknown section ", quoted(section), "; 'dimension', 'elements', 'boundary' or 'vertices' is expected"));
     if (dimension != 2 && dimension != 3) words.fail(text("dimension ", dimension, "; 2 or 3 is expected"));
   }
   return contents;
