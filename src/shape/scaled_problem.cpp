@@ -9,6 +9,9 @@
 namespace dotyk::shape {
 namespace {
 
+/// A design that moves no more with a gap above this is not what its linearised problem would have.
+constexpr double kGapWorthTelling = 1e-3;
+
 void check(const DesignProblem& problem, const Vector& start) {
   const Eigen::Index n = start.size();
   if (problem.lower.size() != n || problem.upper.size() != n)
@@ -139,6 +142,7 @@ Optimum ScaledProblem::finish(const ScaledDesign& best, const Stationarity& at, 
   o.radius = radius;
   o.converged = converged && feasible(best);
   o.reason = std::move(reason);
+  if (converged && at.gap > kGapWorthTelling) o.reason += text("; over the whole box the first order still promises ", at.gap, " of what it did at first");
   if (!feasible(best)) o.reason += text("; constraints are violated (", best.violation, " of their changes over the box)");
   o.history = std::move(history_);
   return o;

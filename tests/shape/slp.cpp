@@ -135,7 +135,7 @@ TEST_CASE("a kink with one-sided gradients is found by the shrinking box") {
   };
   const Optimum o = run(k, fine(200));
   CHECK(o.converged);
-  CHECK(o.reason == "the design changes by less than tol_design");
+  CHECK(o.reason.starts_with("the design changes by less than tol_design"));
   CHECK(distance(o.alpha, k.solution) < 1e-5);
 }
 
