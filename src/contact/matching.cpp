@@ -111,9 +111,9 @@ bool faces(const Mesh& mesh, mesh::Facet f, const Point& x, const Point& x_norma
   return true;
 }
 
-/// Throws InputError where a node without partner nevertheless faces the other part.
-void refuse_lonely(const Face& face, const std::vector<NodeSide>& lonely, const Face& other) {
-  if (lonely.empty()) return;
+/// Says which node without partner nevertheless faces the other part; empty: none.
+std::string mismatch(const Face& face, const std::vector<NodeSide>& lonely, const Face& other) {
+  if (lonely.empty()) return "";
   const auto list = nodes(other.mesh, other.facets);
   const double tolerance = 1e-6 * extent(other.mesh, list);
   Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
@@ -133,20 +133,21 @@ void refuse_lonely(const Face& face, const std::vector<NodeSide>& lonely, const 
     if (!near) continue;
     for (const mesh::Facet f : other.facets)
       if (faces(other.mesh, f, x, n.normal, tolerance))
-        throw InputError(text("the nodes of ", face.name, " and ", other.name, " do not match: the node at ",
-                              point_text(x.data(), face.mesh.dimension()), " of ", face.name,
-                              " has no partner on the other side; use meshes with matching nodes on the contact"));
+        return text("the nodes of ", face.name, " and ", other.name, " do not match: the node at ",
+                    point_text(x.data(), face.mesh.dimension()), " of ", face.name, " has no partner on the other side; use "
+                    "meshes with matching nodes on the contact, or pairing = \"mortar\"");
   }
+  return "";
 }
 
 }  // namespace
 
-std::vector<NodePair> match(const Face& first, const Face& second) {
+Matching find_matching(const Face& first, const Face& second) {
   const auto from = nodes(first.mesh, first.facets), to = nodes(second.mesh, second.facets);
   const double size = std::max(extent(first.mesh, from), extent(second.mesh, to));
   const double tolerance = 1e-6 * size;
   const CoincidentSearch coincident(second.mesh, to, tolerance);
-  std::vector<NodePair> pairs;
+  Matching result;
   std::vector<NodeSide> lonely;
   std::unordered_set<int> taken;
   for (const NodeSide& n : from) {
@@ -159,30 +160,39 @@ std::vector<NodePair> match(const Face& first, const Face& second) {
     }
     taken.insert(partner);
     if (&first.mesh == &second.mesh && partner == n.node) continue;  // the tip of a crack moves with itself
-    pairs.push_back({n.node, partner});
+    result.pairs.push_back({n.node, partner});
   }
-  if (pairs.empty())
-    throw InputError(text(first.name, " and ", second.name, " do not face each other: no node of one has a node of "
-                          "the other across from it, normals opposed"));
+  if (result.pairs.empty()) {
+    result.mismatch = text(first.name, " and ", second.name, " do not face each other: no node of one has a node of "
+                           "the other across from it, normals opposed");
+    return result;
+  }
   // Parts may overhang each other, but where they face each other every node must have its partner.
-  refuse_lonely(first, lonely, second);
+  result.mismatch = mismatch(first, lonely, second);
+  if (!result.mismatch.empty()) return result;
   lonely.clear();
   for (const NodeSide& n : to)
     if (!taken.count(n.node)) lonely.push_back(n);
-  refuse_lonely(second, lonely, first);
-  return pairs;
+  result.mismatch = mismatch(second, lonely, first);
+  return result;
 }
 
-namespace {
+std::vector<NodePair> match(const Face& first, const Face& second) {
+  Matching found = find_matching(first, second);
+  if (!found.mismatch.empty()) throw InputError(found.mismatch);
+  return std::move(found.pairs);
+}
 
-/// The row of a side whose partner is known.
-ContactRow row_of(const NodeSide& side, int partner, double added, const Face& first, const Face& second) {
+ContactRow row_of(const NodeSide& side, std::vector<Partner> partners, double added, const Face& first, const Face& second) {
   const Point x = first.mesh.point(side.node);
-  const double gap = dot(minus(second.mesh.point(partner), x), side.normal) + added;
+  Point across{0, 0, 0};
+  for (const Partner& p : partners)
+    for (int i = 0; i < 3; ++i) across[i] += p.weight * second.mesh.point(p.node)[i];
+  const double gap = dot(minus(across, x), side.normal) + added;
   if (!std::isfinite(gap))
     throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), first.mesh.dimension()),
                           "; it must be a finite number"));
-  return {side.node, partner, side.normal, gap, side.weight, side.facets, added};
+  return {side.node, std::move(partners), side.normal, gap, side.weight, side.facets, added};
 }
 
 void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, const Face& second) {
@@ -192,26 +202,29 @@ void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, cons
     const double overlap = std::max(row.gap, row.gap - row.added);  // a negative `added` is meant
     if (overlap < deepest) deepest = overlap, node = row.node;
   }
-  if (deepest < -1e-6 * first.mesh.size())
+  if (deepest < -kTouching * first.mesh.size())
     throw InputError(text(first.name, " and ", second.name, " overlap by ", -deepest, " at ",
                           point_text(first.mesh.node(node), first.mesh.dimension()),
                           " before any load; move one, or say interference = true if the overlap is meant"));
 }
 
-}  // namespace
-
-std::vector<ContactRow> between(const Face& first, const Face& second,
-                                const elasticity::ScalarField& added, bool interference) {
+std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const Face& first, const Face& second,
+                                      const elasticity::ScalarField& added, bool interference) {
   std::unordered_map<int, int> partner;
-  for (const NodePair& p : match(first, second)) partner.emplace(p.first, p.second);
+  for (const NodePair& p : pairs) partner.emplace(p.first, p.second);
   std::vector<ContactRow> rows;
   for (const NodeSide& side : sides(first.mesh, first.facets)) {
     const auto found = partner.find(side.node);
     if (found == partner.end()) continue;
-    rows.push_back(row_of(side, found->second, added ? added(first.mesh.point(side.node)) : 0, first, second));
+    rows.push_back(row_of(side, {{found->second, 1}}, added ? added(first.mesh.point(side.node)) : 0, first, second));
   }
   if (!interference) refuse_overlap(rows, first, second);
   return rows;
+}
+
+std::vector<ContactRow> between(const Face& first, const Face& second,
+                                const elasticity::ScalarField& added, bool interference) {
+  return matching_rows(match(first, second), first, second, added, interference);
 }
 
 std::vector<ContactRow> moved_rows(const Mesh& before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
@@ -220,7 +233,7 @@ std::vector<ContactRow> moved_rows(const Mesh& before, const std::vector<Contact
   for (const NodeSide& side : moved_sides(before, first.mesh, first.facets, first.name)) {
     if (result.size() == rows.size()) break;
     const ContactRow& row = rows[result.size()];  // rows are sides, those without partner left out
-    if (row.node == side.node && row.facets == side.facets) result.push_back(row_of(side, row.partner, row.added, first, second));
+    if (row.node == side.node && row.facets == side.facets) result.push_back(row_of(side, row.partners, row.added, first, second));
   }
   if (result.size() != rows.size()) throw std::logic_error("contact rows are not of this part");
   if (!interference) refuse_overlap(result, first, second);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/contact_row.hpp"
+#include "contact/sides.hpp"
 #include "elasticity/load.hpp"
 
 namespace dotyk::contact {
@@ -21,9 +22,28 @@ struct NodePair {
   int first, second;
 };
 
-/// Throws InputError where no node of `first` has a partner whose normal is opposed, and where a node
+struct Matching {
+  std::vector<NodePair> pairs;
+  std::string mismatch;  ///< why nodes do not match, or parts do not face each other; empty: they do
+};
+Matching find_matching(const Face& first, const Face& second);
+
+/// The pairs. Throws InputError where no node of `first` has a partner whose normal is opposed, and where a node
 /// of either part has none though it lies before a facet of the other, naming the first such node.
 std::vector<NodePair> match(const Face& first, const Face& second);
+
+/// Overlap at rest that is rounding of coordinates, relative to the first mesh's size.
+inline constexpr double kTouching = 1e-6;
+
+/// The row of a side whose partners are known: the gap is (Σ weight x_partner − x)·normal + added. Throws InputError
+/// for a gap that is not finite.
+ContactRow row_of(const NodeSide& side, std::vector<Partner> partners, double added, const Face& first, const Face& second);
+/// Throws InputError where rows overlap at rest by more than kTouching; a negative `added` is no overlap.
+void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, const Face& second);
+
+/// Rows at these pairs, one a side of the first part at each. Throws as row_of() and, unless `interference`, as refuse_overlap().
+std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const Face& first, const Face& second,
+                                      const elasticity::ScalarField& added, bool interference);
 
 /// Rows at the matching nodes, one a side of the first part at each; `added` (may be empty) is added
 /// to the geometric gap. Throws as match(), for a gap that is not finite, and unless `interference` is

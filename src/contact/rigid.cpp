@@ -64,7 +64,7 @@ std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh
       nearest = gap, nearest_at = x;
       facing = d.normal[0] * side.normal[0] + d.normal[1] * side.normal[1] + d.normal[2] * side.normal[2];
     }
-    rows.push_back({side.node, -1, d.normal, gap, side.weight, side.facets, more});
+    rows.push_back({side.node, {}, d.normal, gap, side.weight, side.facets, more});
   }
   if (geometric && !interference && deepest < -rounding)
     throw InputError(text("the ", name(shape), " penetrates the part by ", -deepest, " at ",

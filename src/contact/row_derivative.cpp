@@ -112,8 +112,9 @@ std::vector<RowDerivative> row_derivatives(const Mesh& mesh, const std::vector<F
   std::vector<RowDerivative> out = side_derivatives(mesh, facets, rows, first);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const ContactRow& row = rows[k];
-    const Point apart = minus(partners.point(row.partner), mesh.point(row.node));
-    const Point moving = minus(velocity(partners, second, row.partner), velocity(mesh, first, row.node));
+    const int partner = row.partners.front().node;
+    const Point apart = minus(partners.point(partner), mesh.point(row.node));
+    const Point moving = minus(velocity(partners, second, partner), velocity(mesh, first, row.node));
     out[k].gap = dot(moving, row.normal) + dot(apart, out[k].normal);
   }
   return out;

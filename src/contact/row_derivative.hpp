@@ -13,7 +13,7 @@ struct RowDerivative {
   double weight = 0;  ///< of ∫φ over the row's facets
 };
 
-/// Of the rows of between(): the normal is m/|m|, m = Σ ∫φ n over the row's facets, the gap (x₂ − x₁)·normal + added.
+/// Of the rows of between(), whose nodes match: the normal is m/|m|, m = Σ ∫φ n over the row's facets, the gap (x₂ − x₁)·normal + added.
 /// `first` is the velocity of the first part's mesh, `second` that of the partners' mesh.
 std::vector<RowDerivative> row_derivatives(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
                                            const std::vector<ContactRow>& rows, const std::vector<double>& first,

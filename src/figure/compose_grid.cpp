@@ -72,7 +72,8 @@ void add_contacts(const Solution& s, const std::vector<std::size_t>& first, Grid
     const int other = s.scene().index_of(contact->second.body.get());
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       show(first[one] + nodes[k].node, nodes[k]);
-      if (other >= 0) show(first[other] + contact->rows[k].partner, nodes[k]);
+      if (other >= 0 && contact->pairing == contact::Pairing::matching)
+        show(first[other] + contact->rows[k].partners.front().node, nodes[k]);
     }
   }
   if (!any) return;

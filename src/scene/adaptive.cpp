@@ -27,15 +27,15 @@ std::vector<mesh::Joint> Adaptive::joints(const Solution& solution) const {
   const Scene& scene = solution.scene();
   std::vector<mesh::Joint> result;
   for (const auto& contact : scene.contacts) {
-    if (!contact->second.body) continue;
+    if (!contact->second.body || contact->pairing != contact::Pairing::matching) continue;
     const int first = mesh_of(*contact->first.body), second = mesh_of(*contact->second.body);
     if (first < 0 && second < 0) continue;
     if (first < 0 || second < 0)
       throw InputError(text("the ", contact->name, " needs matching nodes, but only the mesh of '",
                             (first < 0 ? contact->second : contact->first).body->name, "' is refined; refine both"));
     mesh::Joint joint{first, second, {}};
-    for (const auto& row : contact->rows) joint.nodes.emplace_back(row.node, row.partner);
-    for (const auto& pair : contact->glued) joint.nodes.emplace_back(pair.first, pair.second);
+    for (const auto& row : contact->rows) joint.nodes.emplace_back(row.node, row.partners.front().node);
+    for (const auto& tie : contact->glued) joint.nodes.emplace_back(tie.node, tie.partners.front().node);
     result.push_back(std::move(joint));
   }
   return result;

@@ -64,8 +64,11 @@ void require_member(const Scene& scene, const Part& part) {
 std::set<std::pair<int, int>> pairs_of(const Contact& contact, bool swapped) {
   std::set<std::pair<int, int>> pairs;
   const auto add = [&](int a, int b) { swapped ? pairs.emplace(b, a) : pairs.emplace(a, b); };
-  for (const contact::ContactRow& row : contact.rows) add(row.node, row.partner);
-  for (const contact::NodePair& pair : contact.glued) add(pair.first, pair.second);
+  const auto add_all = [&](int node, const std::vector<contact::Partner>& partners) {
+    for (const contact::Partner& partner : partners) add(node, partner.node);
+  };
+  for (const contact::ContactRow& row : contact.rows) add_all(row.node, row.partners);
+  for (const contact::Tie& tie : contact.glued) add_all(tie.node, tie.partners);
   return pairs;
 }
 
@@ -108,6 +111,8 @@ void set_discretisation(Contact& contact, const Discretisation& discretisation) 
     throw InputError("'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"; it is given "
                      "without them");
   if (discretisation.multipliers == contact::Multipliers::nodal) return;
+  if (contact.pairing != contact::Pairing::matching)
+    throw InputError("multipliers = \"P1-P0\" are for matching nodes; with nodes that do not match take \"nodal\"");
   if (contact.friction == Friction::Kind::coulomb)
     throw InputError("Coulomb friction does not go with multipliers = \"P1-P0\": their friction rows are weighted "
                      "with the bound, which here follows from the pressure sought; take \"nodal\"");
@@ -139,7 +144,8 @@ contact::Surface surface_of(const Contact& contact) {
 
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
                                            const elasticity::ScalarField& added_gap, const Friction& friction,
-                                           bool interference, const Discretisation& discretisation) {
+                                           bool interference, const Discretisation& discretisation,
+                                           std::optional<contact::Pairing> pairing) {
   require_member(scene, first);
   require_member(scene, second);
   Contact contact;
@@ -147,8 +153,10 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   contact.first = first;
   contact.second = second;
   contact.interference = interference;
-  contact.rows = contact::between(first.face(), second.face(), added_gap, interference);
-  set_weights(contact);
+  contact::PairedRows paired = contact::pair_rows(first.face(), second.face(), pairing, added_gap, interference);
+  contact.pairing = paired.pairing;
+  contact.rows = std::move(paired.rows);
+  if (contact.pairing != contact::Pairing::mortar) set_weights(contact);
   set_friction(contact, friction);
   set_discretisation(contact, discretisation);
   refuse_repetition(scene, contact);
@@ -171,7 +179,8 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const
   return keep(scene, std::move(contact));
 }
 
-std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second) {
+std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second,
+                                        std::optional<contact::Pairing> pairing) {
   require_member(scene, first);
   require_member(scene, second);
   Contact contact;
@@ -179,7 +188,9 @@ std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const P
   contact.name = "glue of " + first.label() + " to " + second.label();
   contact.first = first;
   contact.second = second;
-  contact.glued = contact::match(first.face(), second.face());
+  contact::PairedTies paired = contact::pair_ties(first.face(), second.face(), pairing);
+  contact.pairing = paired.pairing;
+  contact.glued = std::move(paired.ties);
   refuse_repetition(scene, contact);
   return keep(scene, std::move(contact));
 }

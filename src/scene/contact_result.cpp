@@ -103,7 +103,10 @@ ContactResult Solution::contact(const Contact& asked) const {
     node.displacement = at_node(displacement_[first], row.node, dim);
     node.normal = row.normal;
     node.weight = row.weight;
-    const Point other = second >= 0 ? at_node(displacement_[second], row.partner, dim) : model_.move[index];
+    Point other = second >= 0 ? Point{0, 0, 0} : model_.move[index];
+    for (const contact::Partner& partner : row.partners)
+      for (int i = 0; i < dim; ++i)
+        other[i] += partner.weight * displacement_[second][static_cast<std::size_t>(partner.node) * dim + i];
     Point jump;
     double normal_jump = 0;
     for (int i = 0; i < 3; ++i) {

@@ -25,22 +25,25 @@ class Rows {
 
   void normal() {
     builder_.open_group(contact_.name, problem::unilateral());
-    std::vector<char> moves;
-    for (const contact::ContactRow& row : contact_.rows) moves.push_back(this->moves(row, row.normal));
-    for (std::size_t k = 0; k < moves.size(); ++k)
-      if (!moves[k]) require_apart(contact_.rows[k]);
+    std::vector<char> moves, held;
+    for (const contact::ContactRow& row : contact_.rows) {
+      moves.push_back(this->moves(row, row.normal));
+      held.push_back(!moves.back());
+      if (held.back()) require_apart(row);
+    }
     if (!contact_.discretisation.share_fixed) moves.assign(moves.size(), 1);
     model_.normal.back() = nodal(contact_) || dim_ == 2
                                ? contact::nodal_normal_rows(contact_.rows)
                                : contact::gram_normal_rows(surface_of(contact_), contact_.rows, moves);
-    for (const contact::NormalRow& row : model_.normal.back()) {
+    for (std::size_t k = 0; k < model_.normal.back().size(); ++k) {
+      const contact::NormalRow& row = model_.normal.back()[k];
       std::vector<Pull> pulls;
       double gap = 0;
       for (const contact::Term& jump : row.jumps) {
         pulls.push_back(pull(jump, contact_.rows[jump.row].normal));
         gap += jump.weight * contact_.rows[jump.row].gap;
       }
-      model_.contact_row.back().push_back(pulls.empty() ? -1 : builder_.add(first_, second_, pulls, gap));
+      model_.contact_row.back().push_back(pulls.empty() || (held[k] && nodal(contact_)) ? -1 : builder_.add(first_, second_, pulls, gap));
     }
   }
 
@@ -62,17 +65,19 @@ class Rows {
 
   Pull pull(const contact::Term& term, const Point& direction) const {
     const contact::ContactRow& row = contact_.rows[term.row];
-    return {row.node, row.partner,
+    return {row.node, row.partners,
             {term.weight * direction[0], term.weight * direction[1], term.weight * direction[2]}};
   }
+  /// Has the jump an unknown along the direction, at the node or across from it? See facing().
   bool moves(const contact::ContactRow& row, const Point& direction) const {
-    return builder_.moves(first_, row.node, direction) ||
-           (second_ >= 0 && builder_.moves(second_, row.partner, direction));
+    return builder_.moves(first_, row.node, direction) || (second_ >= 0 && builder_.moves(second_, facing(contact_, row.node, row.partners), direction));
   }
 
   void require_apart(const contact::ContactRow& row) {
+    for (const contact::Partner& partner : row.partners)
+      if (builder_.moves(second_, partner.node, row.normal)) return;
     double gap = row.gap;
-    builder_.add(first_, row.node, second_, row.partner, row.normal, gap);
+    builder_.add(first_, second_, {{row.node, row.partners, row.normal}}, gap);
     // Rounding of coordinates may leave a fixed node this far inside.
     if (gap < -1e-9 * contact_.first.body->mesh->size())
       throw InputError(text(contact_.name, ": the node at ",
@@ -178,6 +183,19 @@ class Rows {
 };
 
 }  // namespace
+
+int facing(const Contact& contact, int node, const std::vector<contact::Partner>& partners) {
+  if (partners.size() == 1) return partners.front().node;
+  const Point x = contact.first.body->mesh->point(node);
+  int nearest = -1;
+  double least = INFINITY;
+  for (const contact::Partner& partner : partners) {
+    const Point y = contact.second.body->mesh->point(partner.node);
+    const double distance = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+    if (distance < least) least = distance, nearest = partner.node;
+  }
+  return nearest;
+}
 
 Point FrictionRows::at(int i, const contact::ContactRow& row, int dimension) const {
   const Point& n = row.normal;

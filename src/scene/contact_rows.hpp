@@ -14,4 +14,8 @@ void add_normal_rows(const Scene& scene, const Contact& contact, RowBuilder& bui
 /// not depend on it) that of the node with most weight in it.
 void add_friction_rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model);
 
+/// The nearest of a node's partners. Where nodes do not match and supports hold both, as on a plane of symmetry, there is no row
+/// (as between matching nodes), though partners further in may move: multipliers there would hold the second part alone.
+int facing(const Contact& contact, int node, const std::vector<contact::Partner>& partners);
+
 }  // namespace dotyk::scene

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "scene/solution.hpp"
+#include "scene/boundary_tractions.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -13,127 +13,6 @@ using mesh::Facet;
 using mesh::Point;
 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/// What is known of the tractions on a body's boundary.
-class Boundary {
- public:
-  Boundary(const Body& body, const elasticity::Numbering& numbering, const std::vector<double>& u) : mesh_(*body.mesh) {
-    for (const Facet f : mesh::boundary(mesh_)) {
-      index_[{f.cell, f.local}] = all_.size();
-      all_.push_back({f});
-    }
-    for (const LoadArrow& load : load_arrows(body))
-      if (FacetTraction* at = find(load.facet))
-        for (Point& t : at->traction)
-          for (int i = 0; i < 3; ++i) t[i] += load.value[i];
-    for (const SpringPatch& patch : body.springs) add_spring(patch.spring, u);
-    forget_held(body, numbering);
-  }
-
-  /// Null where the facet is not on the boundary.
-  FacetTraction* find(Facet f) {
-    const auto found = index_.find({f.cell, f.local});
-    return found == index_.end() ? nullptr : &all_[found->second];
-  }
-  const std::vector<FacetTraction>& all() const { return all_; }
-
- private:
-  /// −k u at the nodes, k the facet's mean.
-  void add_spring(const elasticity::FacetSpring& spring, const std::vector<double>& u) {
-    FacetTraction* at = find(spring.facet);
-    if (!at || spring.stiffness.empty()) return;
-    for (int k = 0; k < corners(); ++k)
-      for (int i = 0; i < mesh_.dimension(); ++i)
-        for (const auto& stiffness : spring.stiffness)
-          at->traction[k][i] -= stiffness[i] / static_cast<double>(spring.stiffness.size()) *
-                                u[static_cast<std::size_t>(mesh_.facet_node(spring.facet, k)) * mesh_.dimension() + i];
-  }
-
-  /// Directions in which all nodes of a facet are held.
-  void forget_held(const Body& body, const elasticity::Numbering& numbering) {
-    std::map<int, std::vector<Point>> slides;
-    for (const SlideRow& slide : body.slides) slides[slide.node].push_back(slide.normal);
-    for (FacetTraction& facet : all_) {
-      for (int i = 0; i < mesh_.dimension(); ++i) {
-        bool held = true;
-        for (int k = 0; k < corners(); ++k)
-          held = held && numbering.unknown[static_cast<std::size_t>(mesh_.facet_node(facet.facet, k)) * mesh_.dimension() + i] < 0;
-        Point axis{0, 0, 0};
-        axis[i] = 1;
-        if (held) facet.forget(axis);
-      }
-      if (slides.empty()) continue;
-      const Point n = unit_normal(facet.facet);
-      bool slides_all = true;
-      for (int k = 0; k < corners(); ++k) {
-        const auto found = slides.find(mesh_.facet_node(facet.facet, k));
-        slides_all = slides_all && found != slides.end() &&
-                     std::any_of(found->second.begin(), found->second.end(), [&](const Point& m) { return dot(m, n) > 0.9; });
-      }
-      if (slides_all) facet.forget(n);
-    }
-  }
-
-  int corners() const { return mesh_.topology().nodes_per_facet; }
-  Point unit_normal(Facet f) const {
-    Point n = mesh_.facet_area_vector(f);
-    const double area = std::sqrt(dot(n, n));
-    for (double& v : n) v /= area;
-    return n;
-  }
-
-  const mesh::Mesh& mesh_;
-  std::map<std::pair<int, int>, std::size_t> index_;
-  std::vector<FacetTraction> all_;
-};
-
-/// Traction on the first body at a contact node.
-Point traction(const ContactNode& node) {
-  Point t = node.shear;
-  for (int i = 0; i < 3; ++i) t[i] -= node.pressure * node.normal[i];
-  return t;
-}
-
-/// Adds the tractions of a contact to the first body's facets.
-void add_first(const contact::Surface& surface, const ContactResult& result, Boundary& boundary) {
-  for (const contact::SurfaceFacet& f : surface.facets) {
-    FacetTraction* at = boundary.find(f.facet);
-    if (!at) continue;
-    at->contact = true;
-    for (int a = 0; a < f.corners; ++a)
-      for (int i = 0; i < 3 && f.row[a] >= 0; ++i) at->traction[a][i] += traction(result.nodes[f.row[a]])[i];
-  }
-}
-
-/// The opposite tractions on the second body's facets all of whose nodes are partners, on the side that looks their way.
-void add_second(const Contact& contact, const ContactResult& result, Boundary& boundary) {
-  const mesh::Mesh& mesh = *contact.second.body->mesh;
-  const bool itself = contact.first.body == contact.second.body;
-  std::map<int, std::vector<std::size_t>> rows;
-  for (std::size_t k = 0; k < contact.rows.size(); ++k) rows[contact.rows[k].partner].push_back(k);
-  for (const Facet f : contact.second.facets) {
-    FacetTraction* at = boundary.find(f);
-    const Point n = mesh.facet_area_vector(f);
-    std::array<Point, 4> opposite{};
-    bool all = at != nullptr, any = false;
-    for (int a = 0; all && a < mesh.topology().nodes_per_facet; ++a) {
-      const auto found = rows.find(mesh.facet_node(f, a));
-      if (itself && found == rows.end()) continue;  // the tip of a crack
-      all = found != rows.end();
-      if (!all) break;
-      any = true;
-      const std::size_t row = *std::min_element(found->second.begin(), found->second.end(), [&](std::size_t i, std::size_t j) {
-        return dot(contact.rows[i].normal, n) < dot(contact.rows[j].normal, n);
-      });
-      const Point t = traction(result.nodes[row]);
-      for (int i = 0; i < 3; ++i) opposite[a][i] = -t[i];
-    }
-    if (!all || !any) continue;
-    at->contact = true;
-    for (int a = 0; a < 4; ++a)
-      for (int i = 0; i < 3; ++i) at->traction[a][i] += opposite[a][i];
-  }
-}
 
 /// Glued facets: nothing is known of the traction.
 void forget_glued(const mesh::Mesh& mesh, const std::vector<Facet>& facets, std::vector<int> nodes, Boundary& boundary) {
@@ -234,7 +113,10 @@ ErrorEstimate Solution::make_error_estimate() const {
       continue;
     }
     std::vector<int> ours, theirs;
-    for (const auto& pair : contact->glued) ours.push_back(pair.first), theirs.push_back(pair.second);
+    for (const auto& tie : contact->glued) {
+      ours.push_back(tie.node);
+      for (const contact::Partner& partner : tie.partners) theirs.push_back(partner.node);
+    }
     forget_glued(*contact->first.body->mesh, contact->first.facets, ours, boundary[first]);
     forget_glued(*contact->second.body->mesh, contact->second.facets, theirs, boundary[second]);
   }

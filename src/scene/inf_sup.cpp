@@ -92,7 +92,8 @@ std::vector<char> moving(const Scene& scene, const Contact& contact, const Model
   };
   std::vector<char> result;
   for (const contact::ContactRow& row : contact.rows)
-    result.push_back(moves(first, row.node, row.normal) || (second >= 0 && moves(second, row.partner, row.normal)));
+    result.push_back(moves(first, row.node, row.normal) || std::any_of(row.partners.begin(), row.partners.end(),
+                                 [&](const contact::Partner& partner) { return moves(second, partner.node, row.normal); }));
   return result;
 }
 
@@ -160,6 +161,8 @@ Basis join(Basis a, const Basis& b) {
 
 InfSup inf_sup(const Contact& given, MultiplierPart part, bool share_fixed) {
   if (given.kind == Contact::Kind::glue) throw InputError(given.name + " is a glue; only contacts have multipliers");
+  if (given.pairing != contact::Pairing::matching)
+    throw InputError(given.name + " has nodes that do not match; inf-sup constants are computed for matching nodes");
   Contact contact = given;
   contact.discretisation.share_fixed = share_fixed;
   Scene scene;

@@ -23,7 +23,7 @@ struct InfSup {
 };
 
 /// With `share_fixed` false multipliers stay at nodes that supports hold on both sides. Throws InputError for a
-/// glue, and where the contact has no multiplier of that part (no friction).
+/// glue, for nodes that do not match, and where the contact has no multiplier of that part (no friction).
 InfSup inf_sup(const Contact& contact, MultiplierPart part, bool share_fixed);
 
 }  // namespace dotyk::scene

@@ -72,15 +72,17 @@ void add_glue_rows(const Scene& scene, const Contact& contact, RowBuilder& build
   const int first = scene.index_of(contact.first.body.get());
   const int second = scene.index_of(contact.second.body.get());
   builder.open_group(contact.name, problem::bilateral());
-  for (const contact::NodePair& pair : contact.glued)
+  for (const contact::Tie& tie : contact.glued)
     for (int i = 0; i < scene.dimension(); ++i) {
       Point direction{0, 0, 0};
       direction[i] = 1;
       double jump = 0;
-      row_of.push_back(builder.add(first, pair.first, second, pair.second, direction, jump));
+      const bool moves = tie.partners.size() == 1 || builder.moves(first, tie.node, direction) ||
+                         builder.moves(second, facing(contact, tie.node, tie.partners), direction);
+      row_of.push_back(moves ? builder.add(first, second, {{tie.node, tie.partners, direction}}, jump) : -1);
       if (row_of.back() < 0 && std::abs(jump) > 1e-12 * contact.first.body->mesh->size())
         throw InputError(text(contact.name, ": at ",
-                              point_text(contact.first.body->mesh->node(pair.first), scene.dimension()),
+                              point_text(contact.first.body->mesh->node(tie.node), scene.dimension()),
                               " the two sides are prescribed displacements that differ by ", std::abs(jump)));
     }
 }
@@ -144,7 +146,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
     for (const SlideRow& slide : body.slides) {
       double jump = 0;
       model.slide_row.back().push_back(
-          builder.add(static_cast<int>(b), slide.node, -1, -1, slide.normal, jump));
+          builder.add(static_cast<int>(b), slide.node, slide.normal, jump));
       const mesh::Mesh& mesh = *body.mesh;
       if (model.slide_row.back().back() < 0 && std::abs(jump) > 1e-12 * mesh.size())
         throw InputError(text("contradictory supports on '", body.name, "': at the node ",

@@ -113,6 +113,9 @@ std::shared_ptr<const Contact> moved_contact(const std::shared_ptr<const Contact
   const int first = before.index_of(from->first.body.get()), second = before.index_of(from->second.body.get());
   const auto rests = [&](int body) { return body < 0 || before.bodies[body] == after.bodies[body]; };
   if (rests(first) && rests(second)) return from;
+  if (from->pairing != contact::Pairing::matching)
+    throw InputError(text("the ", from->name, " cannot follow nodes that move: only where nodes match is it known how its rows change; "
+                          "make it with matching nodes, or keep both parts' bodies at rest"));
   auto contact = std::make_shared<Contact>(*from);
   contact->origin = from->origin ? from->origin : from;
   contact->first.body = after.bodies[first];

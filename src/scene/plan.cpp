@@ -14,15 +14,17 @@ std::string describe_body(const Body& body) {
 }
 
 std::string describe_contact(const Contact& contact) {
+  static const char* pairing[] = {" node pairs", " nodes, node to segment", " nodes, mortar"};
+  static const char* how[] = {"", ", node to segment", ", mortar"};
   if (contact.kind == Contact::Kind::glue)
-    return text("  ", contact.name, ": ", contact.glued.size(), " node pairs");
+    return text("  ", contact.name, ": ", contact.glued.size(), pairing[static_cast<int>(contact.pairing)]);
   const char* multipliers =
       contact.discretisation.multipliers == contact::Multipliers::p1_p0 ? ", multipliers P1-P0" : "";
   return text("  ", contact.name, ": ", contact.rows.size(),
               contact.friction == Friction::Kind::tresca    ? " rows, given friction"
               : contact.friction == Friction::Kind::coulomb ? " rows, Coulomb friction"
                                                             : " rows, frictionless",
-              multipliers);
+              how[static_cast<int>(contact.pairing)], multipliers);
 }
 
 /// Whether the load can be carried, and by supports worth the name; needs everything assembled.

@@ -24,17 +24,19 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
       const std::vector<Point> pushed = model.contact_force(contact, static_cast<int>(c), lambda);
       for (std::size_t k = 0; k < pushed.size(); ++k) {
         if (first == body) push(contact.rows[k].node, pushed[k], 1);
-        if (second == body) push(contact.rows[k].partner, pushed[k], -1);
+        if (second != body) continue;
+        for (const contact::Partner& partner : contact.rows[k].partners) push(partner.node, pushed[k], -partner.weight);
       }
     }
     for (std::size_t k = 0; k < model.glue_row[c].size(); ++k) {
       const int r = model.glue_row[c][k];
       if (r < 0) continue;
-      const contact::NodePair& pair = contact.glued[k / dim];
+      const contact::Tie& tie = contact.glued[k / dim];
       Point direction{0, 0, 0};
       direction[k % dim] = 1;
-      if (first == body) push(pair.first, direction, -lambda[r]);
-      if (second == body) push(pair.second, direction, lambda[r]);
+      if (first == body) push(tie.node, direction, -lambda[r]);
+      if (second != body) continue;
+      for (const contact::Partner& partner : tie.partners) push(partner.node, direction, partner.weight * lambda[r]);
     }
   }
   for (std::size_t s = 0; s < model.support_row[body].size(); ++s)

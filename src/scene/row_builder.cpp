@@ -24,8 +24,8 @@ int RowBuilder::open_friction() {
   return count_;
 }
 
-int RowBuilder::add(int body, int node, int other_body, int other_node, const Point& direction, double& gap) {
-  return add(body, other_body, {{node, other_node, direction}}, gap);
+int RowBuilder::add(int body, int node, const Point& direction, double& gap) {
+  return add(body, -1, {{node, {}, direction}}, gap);
 }
 
 int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, double& gap) {
@@ -34,7 +34,7 @@ int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, do
   for (const Pull& pull : pulls) {
     collect(body, pull.node, pull.direction, 1, gap);
     if (other_body >= 0)
-      collect(other_body, pull.other_node, pull.direction, -1, gap);
+      for (const contact::Partner& partner : pull.partners) collect(other_body, partner.node, pull.direction, -partner.weight, gap);
     else
       for (int i = 0; i < 3; ++i) gap += pull.direction[i] * move_[i];
     if (squared(pull.direction) > squared(main->direction)) main = &pull;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,10 @@
 
 namespace dotyk::scene {
 
-/// What a pair of nodes gives to a row: direction·(u_node − u_other_node), a weight in the direction's length.
+/// What a node and its partners give to a row: direction·(u_node − Σ weight u_partner), a weight in the direction's length.
 struct Pull {
-  int node, other_node;
+  int node;
+  std::span<const contact::Partner> partners;  ///< not kept
   mesh::Point direction;
 };
 
@@ -26,11 +28,11 @@ class RowBuilder {
   /// Rows added from now on are tangential, under a law set later; returns the next row.
   int open_friction();
 
-  /// Σ ± direction·u at one or two nodes = jump; returns the row, or -1 where nothing is unknown.
+  /// direction·u at a node = jump; returns the row, or -1 where nothing is unknown.
   /// `gap` is reduced by what prescribed components contribute and left so.
-  int add(int body, int node, int other_body, int other_node, const mesh::Point& direction, double& gap);
+  int add(int body, int node, const mesh::Point& direction, double& gap);
 
-  /// The same of several pairs (at least one) of two bodies, or of one and a rigid shape (other_body -1).
+  /// The same of several pulls (at least one) of two bodies, or of one and a rigid shape (other_body -1).
   int add(int body, int other_body, const std::vector<Pull>& pulls, double& gap);
   /// Has the node an unknown along the direction?
   bool moves(int body, int node, const mesh::Point& direction) const;

@@ -6,6 +6,7 @@
 
 #include "contact/matching.hpp"
 #include "contact/multipliers.hpp"
+#include "contact/pairing.hpp"
 #include "contact/rigid.hpp"
 #include "scene/body.hpp"
 
@@ -37,7 +38,8 @@ struct Contact {
   Friction::Kind friction = Friction::Kind::none;
   std::vector<double> friction_value;      ///< of each row: bound per length or area, or coefficient
   Discretisation discretisation;
-  std::vector<contact::NodePair> glued;    ///< of a glue
+  contact::Pairing pairing = contact::Pairing::matching;  ///< of two parts
+  std::vector<contact::Tie> glued;         ///< of a glue
   contact::RigidShape shape;               ///< a gap function is not kept
   bool interference = false;               ///< an overlap at rest is meant
   /// The contact that this one is another design of (its nodes moved), never one that is itself another's; null: of none.
@@ -65,20 +67,23 @@ void set_weights(Contact& contact);
 /// The contact boundary of a contact.
 contact::Surface surface_of(const Contact& contact);
 
-/// Contact of two parts with matching nodes. Throws as contact::between, for a part whose body is not
+/// Contact of two parts by the pairing asked for, else as their nodes are. Throws as contact::pair_rows, for a part whose body is not
 /// in the scene, and for a friction value that is negative or not a number (an infinite bound of
 /// given friction is allowed: the parts then do not slip at all). Multipliers p1_p0 refuse Coulomb friction
-/// (the bound is in the rows' weights, before the pressure is known) and a bound infinite in places only.
+/// (the bound is in the rows' weights, before the pressure is known), a bound infinite in places only, and nodes that
+/// do not match.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
                                            const elasticity::ScalarField& added_gap, const Friction& friction = {},
-                                           bool interference = false, const Discretisation& discretisation = {});
+                                           bool interference = false, const Discretisation& discretisation = {},
+                                           std::optional<contact::Pairing> pairing = {});
 /// Contact of a part with a rigid shape. Throws as contact::against, and for friction as above.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
                                            const elasticity::ScalarField& added_gap, bool interference,
                                            const Friction& friction = {},
                                            const Discretisation& discretisation = {});
-/// Ties two parts with matching nodes together: no jump of the displacement.
-std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second);
+/// Ties two parts together: no jump of the displacement, at nodes of the first part or in the mortar mean. Throws as contact::pair_ties.
+std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second,
+                                        std::optional<contact::Pairing> pairing = {});
 
 /// What will be modelled, what is free to move, whether a solution exists, which method and why.
 std::string plan(const Scene& scene);

@@ -88,8 +88,8 @@ class Rows {
 
   /// The row direction·u = gap, or -1 where nothing moves.
   int add(const contact::NodeSide& side, const Point& direction, const SupportLaw& law, double gap) {
-    if (moves(on_, model_.numbering[body_], side.node, direction)) return builder_.add(body_, side.node, -1, -1, direction, gap);
-    if (!builder_.moves(body_, side.node, direction)) builder_.add(body_, side.node, -1, -1, direction, gap);  // no row; gap changes
+    if (moves(on_, model_.numbering[body_], side.node, direction)) return builder_.add(body_, side.node, direction, gap);
+    if (!builder_.moves(body_, side.node, direction)) builder_.add(body_, side.node, direction, gap);  // no row; gap changes
     const double rounding = 1e-12 * on_.mesh->size();
     if (law.kind == Kind::prescribed ? std::abs(gap) > rounding : law.kind == Kind::signorini && gap < -rounding)
       throw InputError(text("contradictory supports on '", on_.name, "': at the node ",

@@ -34,6 +34,12 @@ scene::Friction friction(Call& call, const Scene& scene, std::optional<Field>& f
   return {law->kind, scalar_field(*field, scene.dimension())};
 }
 
+/// None where nodes decide.
+std::optional<contact::Pairing> pairing(Call& call) {
+  if (!call.has("pairing")) return {};
+  return static_cast<contact::Pairing>(call.choice("pairing"));
+}
+
 scene::Discretisation discretisation(Call& call) {
   scene::Discretisation d;
   d.multipliers = static_cast<contact::Multipliers>(call.choice("multipliers"));
@@ -72,17 +78,18 @@ int add_contact(Call& call) {
   if (call.has("rigid")) {
     if (parts.size() != 1)
       throw InputError("give one part with 'rigid', or two parts without it");
+    if (call.has("pairing")) throw InputError("'pairing' is for two parts; it is given with 'rigid'");
     return against_rigid(call, *scene, *parts[0], added, law);
   }
   if (parts.size() != 2)
     throw InputError("give two parts, or one part and 'rigid'");
   return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, law, call.boolean("interference"),
-                                      discretisation(call)));
+                                      discretisation(call), pairing(call)));
 }
 
 int add_glue(Call& call) {
   const auto parts = call.items<Part>();
-  return call.give(scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1]));
+  return call.give(scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1], pairing(call)));
 }
 
 int balance(Call& call) {
@@ -186,6 +193,17 @@ void bind_rigid(Library& library) {
 
 }  // namespace
 
+namespace {
+
+Key pairing_key() {
+  return key::choice("pairing", {"matching", "node_to_segment", "mortar"},
+                     "matching: nodes across from each other, refused where one has none. mortar: displacements of the second part in the mean over "
+                     "a node's surroundings, weighted with dual multipliers; a uniform pressure is exact. node_to_segment: at the "
+                     "node's foot; a uniform pressure is not exact").otherwise("matching where nodes match, else mortar");
+}
+
+}  // namespace
+
 void bind_scene(Library& library) {
   library.function({.name = "dotyk.scene",
                     .help = "Bodies that are solved together. Add contacts with scene:contact and scene:glue.",
@@ -198,14 +216,17 @@ void bind_scene(Library& library) {
       .field("contacts", "its contacts and glues, in order", [](const Scene& s) { return s.contacts; })
       .field("dimension", "2 or 3", [](const Scene& s) { return s.dimension(); })
       .method({.name = "scene:contact",
-               .help = "Unilateral contact of two parts with matching nodes, or of a part with a rigid obstacle, "
-                       "frictionless unless a friction law is given. At a corner of the (first) part there is one condition for each adjoining side.",
+               .help = "Unilateral contact of two parts, or of a part with a rigid obstacle, "
+                       "frictionless unless a friction law is given. At a corner of the (first) part there is one condition for each adjoining side. "
+                       "Conditions, pressures and statuses are those of the first part's nodes: where nodes do not match, let the first be the "
+                       "part that the other covers and whose nodes supports leave free.",
                .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\" }\n"
+                          "local m = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }\n"
                           "local r = scene:contact{ top, rigid = punch }",
                .arguments = {key::table({key::object<FrictionLaw>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu)").otherwise("none"),
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
                                          key::field("gap", "added to the geometric gap; a number or a function of the coordinates").unit("length").otherwise("0"),
-                                         key::choice("pairing", {"matching"}, "how nodes of the two parts are paired").fallback("matching"),
+                                         pairing_key(),
                                          key::choice("multipliers", {"nodal", "P1-P0"},
                                                      "nodal: a normal and a tangential force at each node. P1-P0: pressure continuous and piecewise "
                                                      "linear; friction piecewise constant times its given bound, in the plane on the dual cells between "
@@ -217,9 +238,9 @@ void bind_scene(Library& library) {
                .returns = "contact",
                .run = add_contact})
       .method({.name = "scene:glue",
-               .help = "Ties two parts with matching nodes together: no jump of the displacement.",
+               .help = "Ties two parts together: no jump of the displacement at the first part's nodes, or in their surroundings' mean.",
                .example = "scene:glue{ a:part \"right\", b:part \"left\" }",
-               .arguments = {key::table({}).with(key::object<Part>("parts", "the two parts").count(2))},
+               .arguments = {key::table({pairing_key()}).with(key::object<Part>("parts", "the two parts").count(2))},
                .returns = "contact",
                .run = add_glue})
       .method({.name = "scene:plan",

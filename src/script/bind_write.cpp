@@ -23,7 +23,7 @@ void bind_write(Library& library) {
        .help = "Writes the whole solution for ParaView and returns the file's name: all bodies at rest, their cells "
                "numbered by \"body\", with displacement, stress, von_mises and, where there is contact, "
                "contact_pressure, contact_gap and contact_status (0 open, 1 closed, 2 stick, 3 slip, -1 no contact) "
-               "at the nodes.",
+               "at the nodes; of contacts whose nodes do not match at the first part's alone.",
        .example = "s:write \"a.vtu\"",
        .arguments = {file_key()},
        .run = write<scene::Solution>});

@@ -70,7 +70,9 @@ class ContactChanges {
         dim_(solution.scene().dimension()), first_(moving_.first), second_(moving_.second), changes_(changes) {}
 
   void add() {
-    if (contact_.kind == Contact::Kind::glue || !moving_.any()) return;
+    if (!moving_.any()) return;
+    require_matching();
+    if (contact_.kind == Contact::Kind::glue) return;
     require_nodal();
     derivatives_ = moving_.derivatives();
     for (std::size_t k = 0; k < contact_.rows.size(); ++k)
@@ -79,6 +81,12 @@ class ContactChanges {
   }
 
  private:
+  void require_matching() const {
+    if (contact_.pairing != contact::Pairing::matching)
+      throw InputError(contact_.name + " has nodes that do not match, and moves: how its rows, means over facets cut, change is not "
+                                       "known; make it with matching nodes, or keep its nodes at rest");
+  }
+
   void require_nodal() const {
     const bool plain = dim_ == 2 && contact_.friction == scene::Friction::Kind::none;  // p1_p0's rows are then the nodal ones
     if (contact_.discretisation.multipliers != contact::Multipliers::nodal && !plain)
@@ -95,7 +103,7 @@ class ContactChanges {
   /// u₁ − u₂ at a contact row, or less the rigid shape's displacement.
   Point jump(const ContactRow& row) const {
     Point j = displacement(first_, row.node);
-    const Point other = second_ < 0 ? model_.move[index_] : displacement(second_, row.partner);
+    const Point other = second_ < 0 ? model_.move[index_] : displacement(second_, row.partners.front().node);
     for (int i = 0; i < 3; ++i) j[i] -= other[i];
     return j;
   }
@@ -107,7 +115,7 @@ class ContactChanges {
     const double lambda = solution_.result().state.lambda[r];
     for (int i = 0; i < dim_; ++i) {
       changes_.force[first_][static_cast<std::size_t>(row.node) * dim_ + i] += lambda * direction[i];
-      if (second_ >= 0) changes_.force[second_][static_cast<std::size_t>(row.partner) * dim_ + i] -= lambda * direction[i];
+      if (second_ >= 0) changes_.force[second_][static_cast<std::size_t>(row.partners.front().node) * dim_ + i] -= lambda * direction[i];
     }
   }
 

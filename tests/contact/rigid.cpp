@@ -19,7 +19,7 @@ TEST_CASE("a rigid gap: its own normal and value at every node, one row a node")
   for (const auto& r : rows) {
     const double x = m.node(r.node)[0];
     CHECK(r.gap == doctest::Approx(x * x + 1.9));
-    CHECK(r.partner == -1);
+    CHECK(r.partners.empty());
     CHECK(r.normal == Point{0, 1, 0});
     weight += r.weight;
   }

@@ -92,7 +92,7 @@ std::vector<ContactRow> again(std::vector<ContactRow> rows, const Mesh& first, c
   for (ContactRow& row : rows)
     for (const contact::NodeSide& side : sides) {
       if (side.node != row.node || side.facets != row.facets) continue;
-      const Point a = first.point(row.node), b = second.point(row.partner);
+      const Point a = first.point(row.node), b = second.point(row.partners.front().node);
       row.normal = side.normal;
       row.weight = side.weight;
       row.gap = 0;
@@ -116,7 +116,7 @@ TEST_CASE("rows between two parts: normal, gap and weight, both sides moving") {
           const Point a = lower.point(side.node), b = upper.point(other.node);
           double off = 0;
           for (int i = 0; i < dimension - 1; ++i) off += std::abs(a[i] - b[i]);
-          if (off < 1e-12) rows.push_back({side.node, other.node, side.normal, 0, side.weight, side.facets, 0});
+          if (off < 1e-12) rows.push_back({side.node, {{other.node, 1}}, side.normal, 0, side.weight, side.facets, 0});
         }
       REQUIRE(rows.size() >= 5);
       rows = again(rows, lower, upper, facets);

@@ -96,7 +96,7 @@ void check_same(const scene::Scene& a, const scene::Scene& b) {
     CHECK(one.friction_value == other.friction_value);
     for (std::size_t k = 0; k < one.rows.size(); ++k) {
       CHECK(one.rows[k].node == other.rows[k].node);
-      CHECK(one.rows[k].partner == other.rows[k].partner);
+      CHECK(one.rows[k].partners == other.rows[k].partners);
       CHECK(one.rows[k].normal == other.rows[k].normal);
       CHECK(one.rows[k].gap == other.rows[k].gap);
       CHECK(one.rows[k].added == other.rows[k].added);
@@ -257,7 +257,7 @@ TEST_CASE("glue keeps its pairs") {
   const auto there = scene::moved(*scene, points(*scene, bend(2)));
   REQUIRE(there->contacts[0]->glued.size() == 4);
   for (const auto& pair : there->contacts[0]->glued)
-    CHECK(there->bodies[0]->mesh->point(pair.first) == there->bodies[1]->mesh->point(pair.second));
+    CHECK(there->bodies[0]->mesh->point(pair.node) == there->bodies[1]->mesh->point(pair.partners.front().node));
   CHECK(there->contacts[0]->first.body == there->bodies[0]);
 }
 

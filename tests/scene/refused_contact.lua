@@ -44,8 +44,8 @@ local face <const> = base:part "top"
 local two <const> = dotyk.scene{ base, on_top("upper", { 2, 1 }), on_top("three", { 3, 1 }), on_top("four", { 4, 1 }) }
 local upper <const>, three <const>, four <const> = two.bodies[2], two.bodies[3], two.bodies[4]
 for _, way in ipairs{ "contact", "glue" } do
-  refused(function() two[way](two, { face, three:part "bottom" }) end, way .. ": the nodes of 'base' top and 'three' bottom do not match: the node at (0.5, 1)")
-  refused(function() two[way](two, { face, four:part "bottom" }) end, "the node at (0.25, 1) of 'four' bottom has no partner on the other side")
+  refused(function() two[way](two, { face, three:part "bottom", pairing = "matching" }) end, way .. ": the nodes of 'base' top and 'three' bottom do not match: the node at (0.5, 1)")
+  refused(function() two[way](two, { face, four:part "bottom", pairing = "matching" }) end, "the node at (0.25, 1) of 'four' bottom has no partner on the other side")
   refused(function() two[way](two, { face, upper:part "top" }) end, "do not face each other", "normals opposed")
   refused(function() two[way](two, { face, upper:part "left" }) end, "do not face each other")
 end

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "contact/matching.hpp"
+
+namespace dotyk::contact {
+
+/// What lies across from a node side of the first part.
+struct Across {
+  std::vector<Partner> partners;  ///< weights 1 in sum; empty: nothing
+  double weight = 0;              ///< length or area that the side stands for
+  double widest = 0;              ///< of the facets met, and its own
+};
+
+/// Node to segment: the foot of each node on the second part along the node's normal, the nearest one of facets whose normal
+/// is opposed; weights are the facet's hats there. The forces λ_k of a uniform pressure, p∫φ_k, then meet the second part
+/// as Σ λ_k φ_j(foot), which is not p∫φ_j unless nodes match: no uniform stress state is a solution, however fine the meshes.
+std::vector<Across> node_to_segment(const Face& first, const Face& second, const std::vector<NodeSide>& sides);
+
+/// Mortar with dual multipliers (Wohlmuth 2000; Popp, Gee and Wall 2009; in space Puso and Laursen 2004, Popp et al. 2010).
+/// The contact pressure is p = Σ p_k ψ_k, where on each facet of the first part ψ_k is the linear (bilinear) function with
+///   ∫ψ_k φ_l = δ_kl ∫φ_k     (ψ = D G⁻¹ φ, G_kl = ∫φ_kφ_l, D = diag ∫φ_k;  Σψ_k = 1),
+/// and non-penetration is asked for in the mean: ∫ψ_k (u₁ − u₂∘P)·n_k ≤ ∫ψ_k gap. Because ψ is dual to φ, the first part gives
+/// the row one node alone,
+///   n_k·(u₁_k − Σ_j M_kj/D_k u₂_j) ≤ n_k·(Σ_j M_kj/D_k x₂_j − x₁_k),   M_kj = ∫ψ_k φ_j∘P,  D_k = ∫φ_k = Σ_j M_kj,
+/// and the multiplier λ_k = p_k D_k is that node's force. P goes along the facet's normal: facets of both parts are projected
+/// onto the plane of the first one's and cut (in the plane intervals, in space convex polygons), and all integrals are
+/// taken on the cut pieces by a rule exact for straight edges, triangles and parallelograms; for other quadrilaterals, whose
+/// hats are rational, by one of degree 11. Forces balance whatever the rule, since both sides' integrals are the same ones.
+/// A uniform pressure gives Σ_k M_kj p = p∫φ_j: the patch test is passed. Matching nodes: M_kj = δ_kj D_k, the nodal rows.
+/// Where the first part's facets are covered by the second in part, φ, ψ and D are those of the covered part (Cichosz and
+/// Bischoff 2011), and ψ stays dual. What is covered in less than kSliver of a facet counts as not covered.
+std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides);
+
+/// Below it a cut is rounding of coordinates, relative to the facet's length or area.
+inline constexpr double kSliver = 1e-10;
+
+}  // namespace dotyk::contact

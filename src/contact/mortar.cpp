@@ -1,0 +1,147 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "contact/across.hpp"
+#include "contact/second_facets.hpp"
+
+namespace dotyk::contact {
+namespace {
+
+/// Where a facet of the first part and one of the second lie above each other.
+struct Cut {
+  int facet;  ///< of the second part
+  Shadow shadow;
+  std::vector<Flat> polygon;
+};
+
+/// What a corner of a first part's facet gets from it.
+struct Corner {
+  double weight = 0;               ///< ∫φ over what is covered
+  std::map<int, double> partners;  ///< ∫ψ φ_j∘P
+};
+
+class Mortar {
+ public:
+  Mortar(const Face& first, const Face& second)
+      : first_(first), second_(second), all_(second), corners_(first.mesh.topology().nodes_per_facet) {}
+
+  /// One entry a corner; `widest` grows to the width of the facets met.
+  std::array<Corner, 4> of(mesh::Facet facet, double& widest) const {
+    mesh::Point normal = first_.mesh.facet_area_vector(facet);
+    const double area = std::hypot(normal[0], normal[1], normal[2]);
+    for (double& v : normal) v /= area;
+    const View view(first_.mesh.facet_centre(facet), normal, first_.mesh.dimension());
+    const Shadow own(first_.mesh, facet, view);
+    std::vector<Cut> cuts = cut(view, own, widest);
+    double covered = 0;
+    for (const Cut& c : cuts) covered += size(c.polygon);
+    if (covered > (1 + kSliver) * own.size()) keep_nearest(cuts);
+    if (covered < kSliver * own.size()) return {};
+    return integrate(own, cuts);
+  }
+
+ private:
+  std::vector<Cut> cut(const View& view, const Shadow& own, double& widest) const {
+    double radius = 0;
+    for (int a = 0; a < corners_; ++a) radius = std::max(radius, std::hypot(own.at[a][0], own.at[a][1]));
+    widest = std::max(widest, 2 * radius);
+    std::vector<Cut> cuts;
+    all_.for_each_near(view, {0, 0}, radius, [&](int f, double width) {
+      Cut c{f, Shadow(second_.mesh, second_.facets[f], view), {}};
+      c.polygon = common(own, c.shadow);
+      if (!(size(c.polygon) > 1e-3 * kSliver * own.size())) return;
+      widest = std::max(widest, width);
+      cuts.push_back(std::move(c));
+    });
+    return cuts;
+  }
+
+  /// Where the second part lies above itself the nearest sheet counts.
+  static void keep_nearest(std::vector<Cut>& cuts) {
+    std::vector<char> hidden(cuts.size(), 0);
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const Flat x = centre(cuts[k].polygon);
+      const double distance = std::abs(cuts[k].shadow.height_at(x));
+      for (std::size_t j = 0; j < cuts.size() && !hidden[k]; ++j)
+        hidden[k] = j != k && cuts[j].shadow.holds(x, -kSliver) && std::abs(cuts[j].shadow.height_at(x)) < (1 - 1e-9) * distance;
+    }
+    std::size_t k = 0;
+    std::erase_if(cuts, [&](const Cut&) { return hidden[k++]; });
+  }
+
+  /// Enough Gauss points for ψ_k φ_j: products of linear functions, of bilinear ones (degree 4), or of rational ones.
+  const FlatQuadrature& rule(const Shadow& own, const Shadow& other) const {
+    if (own.corners < 4 && other.corners < 4) return linear_;
+    return own.polynomial() && other.polynomial() ? bilinear_ : rational_;
+  }
+
+  std::array<Corner, 4> integrate(const Shadow& own, const std::vector<Cut>& cuts) const {
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(corners_, corners_);  // ∫φ_kφ_l
+    std::map<int, Eigen::VectorXd> mixed;                              // j → ∫φ_k φ_j∘P
+    for (const Cut& c : cuts)
+      for (const FlatQuadrature::At& q : rule(own, c.shadow).points(c.polygon)) {
+        const auto phi = own.shape(q.x), other = c.shadow.shape(q.x);
+        const Eigen::Map<const Eigen::VectorXd> hats(phi.data(), corners_);
+        gram += q.measure * hats * hats.transpose();
+        for (int a = 0; a < c.shadow.corners; ++a) {
+          const auto at = mixed.try_emplace(second_.mesh.facet_node(second_.facets[c.facet], a), Eigen::VectorXd::Zero(corners_)).first;
+          at->second += q.measure * other[a] * hats;
+        }
+      }
+    // Σφ = 1, so that rows of the Gram matrix sum to ∫φ. Scaled: a narrow strip along an edge has small hats.
+    const Eigen::VectorXd weight = gram.rowwise().sum(), scale = gram.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::LDLT<Eigen::MatrixXd> factor(scale.asDiagonal() * gram * scale.asDiagonal());
+    std::array<Corner, 4> result;
+    for (int a = 0; a < corners_; ++a) result[a].weight = weight[a];
+    for (const auto& [j, moments] : mixed) {
+      const Eigen::VectorXd dual = weight.asDiagonal() * (scale.asDiagonal() * factor.solve(scale.asDiagonal() * moments));
+      for (int a = 0; a < corners_; ++a) result[a].partners[j] = dual[a];
+    }
+    return result;
+  }
+
+  const Face &first_, &second_;
+  SecondFacets all_;
+  int corners_;
+  FlatQuadrature linear_{2}, bilinear_{3}, rational_{6};
+};
+
+/// Shares of which nothing but rounding is left are dropped; the rest is made 1 in sum.
+std::vector<Partner> partners_of(const std::map<int, double>& shares) {
+  double sum = 0, rest = 0;
+  for (const auto& [node, share] : shares) sum += share;
+  std::vector<Partner> partners;
+  for (const auto& [node, share] : shares)
+    if (std::abs(share) > 1e-13 * sum) partners.push_back({node, share}), rest += share;
+  for (Partner& p : partners) p.weight /= rest;
+  return partners;
+}
+
+}  // namespace
+
+std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides) {
+  const Mortar facets(first, second);
+  std::vector<std::vector<std::pair<std::size_t, int>>> sides_of(first.facets.size());  // side, corner
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    for (const int f : sides[s].facets)
+      for (int a = 0; a < first.mesh.topology().nodes_per_facet; ++a)
+        if (first.mesh.facet_node(first.facets[f], a) == sides[s].node) sides_of[f].emplace_back(s, a);
+  std::vector<Across> result(sides.size());
+  std::vector<std::map<int, double>> shares(sides.size());
+  for (std::size_t f = 0; f < first.facets.size(); ++f) {
+    double widest = 0;
+    const std::array<Corner, 4> corner = facets.of(first.facets[f], widest);
+    for (const auto& [s, a] : sides_of[f]) {
+      result[s].weight += corner[a].weight;
+      result[s].widest = std::max(result[s].widest, widest);
+      for (const auto& [j, share] : corner[a].partners) shares[s][j] += share;
+    }
+  }
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    if (result[s].weight > 0) result[s].partners = partners_of(shares[s]);
+  return result;
+}
+
+}  // namespace dotyk::contact

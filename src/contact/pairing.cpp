@@ -1,0 +1,91 @@
+#include "contact/pairing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::contact {
+namespace {
+
+using mesh::Point;
+
+/// What lies across; throws InputError where that is nothing.
+std::vector<Across> across(const Face& first, const Face& second, Pairing pairing, const std::vector<NodeSide>& sides) {
+  auto all = pairing == Pairing::mortar ? mortar(first, second, sides) : node_to_segment(first, second, sides);
+  // A crack's tip that would be its own partner moves with itself.
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (&first.mesh == &second.mesh && all[k].partners.size() == 1 && all[k].partners.front().node == sides[k].node)
+      all[k].partners.clear();
+  if (std::all_of(all.begin(), all.end(), [](const Across& a) { return a.partners.empty(); }))
+    throw InputError(text(first.name, " and ", second.name, " do not face each other: no facet of one has a facet of "
+                          "the other across from it, normals opposed"));
+  return all;
+}
+
+/// Height of the chords that facets `width` wide are of the curve through the side's facets.
+double chord_height(const Face& face, const NodeSide& side, double width) {
+  double curvature = 0;
+  for (const int f : side.facets) {
+    Point n = face.mesh.facet_area_vector(face.facets[f]);
+    const double size = std::hypot(n[0], n[1], n[2]);
+    double along = 0;
+    for (int i = 0; i < 3; ++i) along += n[i] / size * side.normal[i];
+    const double turn = std::sqrt(std::max(0.0, 2 - 2 * along));  // half the angle between neighbours
+    curvature = std::max(curvature, 2 * turn / (face.mesh.dimension() == 2 ? size : std::sqrt(size)));
+  }
+  return curvature * width * width / 8;
+}
+
+/// Rows with partners found by `pairing`; of chords that overlap no more than they must the gap is 0.
+std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pairing, const elasticity::ScalarField& added,
+                               bool interference) {
+  std::vector<NodeSide> list = sides(first.mesh, first.facets);
+  std::vector<Across> all = across(first, second, pairing, list);
+  std::vector<ContactRow> rows;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (all[k].partners.empty()) continue;
+    const double chord = interference ? 0 : chord_height(first, list[k], all[k].widest);
+    list[k].weight = all[k].weight;
+    rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, first, second));
+    ContactRow& row = rows.back();
+    const double own = row.gap - row.added;
+    if (own < 0 && own >= -chord) row.gap = row.added;
+  }
+  if (!interference) refuse_overlap(rows, first, second);
+  return rows;
+}
+
+}  // namespace
+
+PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairing> pairing,
+                     const elasticity::ScalarField& added, bool interference) {
+  if (pairing.value_or(Pairing::matching) == Pairing::matching) {
+    const Matching found = find_matching(first, second);
+    if (found.mismatch.empty()) return {Pairing::matching, matching_rows(found.pairs, first, second, added, interference)};
+    if (pairing) throw InputError(found.mismatch);
+  }
+  const Pairing used = pairing.value_or(Pairing::mortar);
+  return {used, paired(first, second, used, added, interference)};
+}
+
+PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing) {
+  PairedTies result{pairing.value_or(Pairing::mortar), {}};
+  if (pairing.value_or(Pairing::matching) == Pairing::matching) {
+    const Matching found = find_matching(first, second);
+    if (found.mismatch.empty()) {
+      for (const NodePair& pair : found.pairs) result.ties.push_back({pair.first, {{pair.second, 1}}});
+      result.pairing = Pairing::matching;
+      return result;
+    }
+    if (pairing) throw InputError(found.mismatch);
+  }
+  const std::vector<NodeSide> list = nodes(first.mesh, first.facets);
+  std::vector<Across> all = across(first, second, result.pairing, list);
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (!all[k].partners.empty()) result.ties.push_back({list[k].node, std::move(all[k].partners)});
+  return result;
+}
+
+}  // namespace dotyk::contact

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "contact/across.hpp"
+
+namespace dotyk::contact {
+
+/// How points of the second part are found across from nodes of the first: at matching nodes; at the nodes' feet; or in the mean
+/// over the multipliers' surroundings. See matching.hpp and across.hpp.
+enum class Pairing { matching, node_to_segment, mortar };
+
+struct PairedRows {
+  Pairing pairing;
+  std::vector<ContactRow> rows;
+};
+
+/// Rows of contact by the pairing asked for; none asked for: at nodes where all match, else mortar. Throws InputError
+/// where nodes do not match though that was asked for, where parts do not face each other, and as matching_rows().
+/// A mortar row's weight is the covered part's alone. Facets of curved parts that fit each other are chords of different
+/// places: without `interference` an overlap of their height is taken as touching.
+PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairing> pairing,
+                     const elasticity::ScalarField& added, bool interference);
+
+struct PairedTies {
+  Pairing pairing;
+  std::vector<Tie> ties;
+};
+
+/// The same to tie parts together, one entry a node of the first part.
+PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing);
+
+}  // namespace dotyk::contact

@@ -1,0 +1,54 @@
+-- Contact and glue of parts whose nodes do not match, as a script sees them.
+local is <const>, refused <const> = require("check").that, require "refused"
+
+local steel <const> = dotyk.material{ E = 1000, nu = 0.3 }
+local function block(name, base, cells)
+  local body = dotyk.body{ name = name, material = steel,
+    mesh = dotyk.mesh.rectangle{ from = {0, base}, to = {1, base + 1}, cells = {cells, 4} } }
+  body:part"left":slide()
+  return body
+end
+local lower <const>, upper <const> = block("lower", 0, 5), block("upper", 1, 7)
+lower:part"bottom":slide()
+upper:part"top":pressure(10)
+
+-- 1. Nodes decide, or the script; the report says which.
+local function solved(pairing)
+  local scene = dotyk.scene{ lower, upper }
+  local contact = scene:contact{ upper:part"bottom", lower:part"top", pairing = pairing }
+  return dotyk.solve(scene), contact, scene
+end
+local s, contact, scene = solved()
+is(tostring(scene):find("8 rows, frictionless, mortar", 1, true), tostring(scene))
+local c = s:contact(contact)
+is(c.closed == 8 and math.abs(c.force[2] - 10) < 1e-11)
+for _, node in ipairs(c.nodes) do is(math.abs(node.pressure - 10) < 1e-10 and math.abs(node.gap) < 1e-12) end
+local feet, uneven, other = solved "node_to_segment"
+is(tostring(other):find("node to segment", 1, true), tostring(other))
+local least = math.huge
+for _, node in ipairs(feet:contact(uneven).nodes) do least = math.min(least, node.pressure) end
+is(math.abs(feet:contact(uneven).force[2] - 10) < 1e-11 and least < 9.5, least)
+-- 2. What goes with matching nodes only says so.
+local two <const> = dotyk.scene{ lower, upper }
+local bottom <const>, top <const> = upper:part"bottom", lower:part"top"
+refused(function() two:contact{ bottom, top, pairing = "matching" } end, "do not match", 'pairing = "mortar"')
+refused(function() two:contact{ bottom, top, pairing = "mortars" } end, 'did you mean "mortar"')
+refused(function() two:contact{ bottom, top, multipliers = "P1-P0" } end, "for matching nodes")
+refused(function() two:contact{ bottom, rigid = dotyk.rigid.plane{ point = {0, 1}, normal = {0, 1} }, pairing = "mortar" } end, "'pairing' is for two parts")
+local again <const> = two:contact{ bottom, top }
+refused(function() two:contact{ bottom, top } end, "already joined")
+refused(function() again:inf_sup{ part = "normal" } end, "inf-sup constants are computed for matching nodes")
+
+-- 3. Results go where others do.
+is(s:error_estimate() < 1e-5)
+s:write "mortar.vtu"
+s:write_contact "mortar.csv"
+is(dotyk.solve(scene, { start = s }).converged)
+
+-- 4. Glue.
+local glued <const> = dotyk.scene{ lower, upper }
+local tie <const> = glued:glue{ bottom, top }
+is(tostring(glued):find("8 nodes, mortar", 1, true), tostring(glued))
+local t <const> = dotyk.solve(glued)
+is(math.abs(t:stress(upper, 0.4, 1.5).yy + 10) < 1e-9)
+is(tie.name:find "glue")
