@@ -219,7 +219,7 @@ void bind_scene(Library& library) {
                .help = "Unilateral contact of two parts, or of a part with a rigid obstacle, "
                        "frictionless unless a friction law is given. At a corner of the (first) part there is one condition for each adjoining side. "
                        "Conditions, pressures and statuses are those of the first part's nodes: where nodes do not match, let the first be the "
-                       "part that the other covers and whose nodes supports leave free.",
+                       "part that the other covers and whose nodes supports leave free, and of two meshes the coarser.",
                .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\" }\n"
                           "local m = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }\n"
                           "local r = scene:contact{ top, rigid = punch }",
