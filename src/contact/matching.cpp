@@ -227,6 +227,27 @@ std::vector<ContactRow> between(const Face& first, const Face& second,
   return matching_rows(match(first, second), first, second, added, interference);
 }
 
+namespace {
+
+/// Throws InputError where a pair of nodes is no longer one: neither lies across from the other, by more than half of what the
+/// first stands for.
+void refuse_slid(const std::vector<ContactRow>& rows, const Face& first, const Face& second) {
+  std::unordered_map<int, Point> normal;
+  for (const NodeSide& n : nodes(second.mesh, second.facets)) normal.emplace(n.node, n.normal);
+  for (const ContactRow& row : rows) {
+    if (row.partners.size() != 1) continue;
+    const int partner = row.partners.front().node;
+    const Point d = minus(second.mesh.point(partner), first.mesh.point(row.node));
+    const double slid = std::min(off_line(d, row.normal), off_line(d, normal.at(partner)));
+    const double width = first.mesh.dimension() == 2 ? row.weight : std::sqrt(row.weight);
+    if (slid > width / 2)
+      throw InputError(text(first.name, " has moved along ", second.name, " by ", slid, " at ", point_text(first.mesh.node(row.node), first.mesh.dimension()),
+                            ": pairs of nodes no longer lie across from each other; move parts towards or away from their partners"));
+  }
+}
+
+}  // namespace
+
 std::vector<ContactRow> moved_rows(const Mesh& before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
                                    bool interference) {
   std::vector<ContactRow> result;
@@ -236,6 +257,7 @@ std::vector<ContactRow> moved_rows(const Mesh& before, const std::vector<Contact
     if (row.node == side.node && row.facets == side.facets) result.push_back(row_of(side, row.partners, row.added, first, second));
   }
   if (result.size() != rows.size()) throw std::logic_error("contact rows are not of this part");
+  refuse_slid(result, first, second);
   if (!interference) refuse_overlap(result, first, second);
   return result;
 }

@@ -109,6 +109,15 @@ std::vector<contact::ContactRow> moved_rows(const Contact& from, const Contact& 
                         "once; take a rigid plane or ball, or a second body"));
 }
 
+/// The contact, as it is, of another design's bodies.
+std::shared_ptr<Contact> of_bodies(const std::shared_ptr<const Contact>& from, const Scene& after, int first, int second) {
+  auto contact = std::make_shared<Contact>(*from);
+  contact->origin = from->origin ? from->origin : from;
+  contact->first.body = after.bodies[first];
+  if (second >= 0) contact->second.body = after.bodies[second];
+  return contact;
+}
+
 std::shared_ptr<const Contact> moved_contact(const std::shared_ptr<const Contact>& from, const Scene& before, const Scene& after) {
   const int first = before.index_of(from->first.body.get()), second = before.index_of(from->second.body.get());
   const auto rests = [&](int body) { return body < 0 || before.bodies[body] == after.bodies[body]; };
@@ -116,10 +125,7 @@ std::shared_ptr<const Contact> moved_contact(const std::shared_ptr<const Contact
   if (from->pairing != contact::Pairing::matching)
     throw InputError(text("the ", from->name, " cannot follow nodes that move: only where nodes match is it known how its rows change; "
                           "make it with matching nodes, or keep both parts' bodies at rest"));
-  auto contact = std::make_shared<Contact>(*from);
-  contact->origin = from->origin ? from->origin : from;
-  contact->first.body = after.bodies[first];
-  if (second >= 0) contact->second.body = after.bodies[second];
+  auto contact = of_bodies(from, after, first, second);
   if (contact->kind == Contact::Kind::glue) return contact;
   contact->rows = moved_rows(*from, *contact);
   if (second >= 0) set_weights(*contact);
@@ -127,6 +133,17 @@ std::shared_ptr<const Contact> moved_contact(const std::shared_ptr<const Contact
 }
 
 }  // namespace
+
+std::shared_ptr<Scene> copy(const Scene& scene) {
+  auto result = std::make_shared<Scene>();
+  for (const auto& body : scene.bodies) {
+    result->bodies.push_back(std::make_shared<Body>(*body));
+    result->bodies.back()->origin = body->origin ? body->origin : body;
+  }
+  for (const auto& contact : scene.contacts)
+    result->contacts.push_back(of_bodies(contact, *result, scene.index_of(contact->first.body.get()), scene.index_of(contact->second.body.get())));
+  return result;
+}
 
 std::shared_ptr<Scene> moved(const Scene& scene, const std::vector<std::vector<double>>& points) {
   if (points.size() != scene.bodies.size())

@@ -15,8 +15,11 @@ namespace dotyk::scene {
 /// and contacts carry what they are another design of as `origin`: handles of any design go on working with solutions of another.
 ///
 /// Throws InputError for points of another number, an inverted cell (mesh::check), bodies or rigid shapes that overlap unless that is
-/// meant, a part that gets or loses a corner where sides matter, a slide along an axis whose normal leaves the axis, a moving part
-/// against a rigid gap (a function of the place, which is not kept), and laws that other supports leave nothing to hold.
+/// meant, pairs of nodes that slide away from each other (by more than half a facet), a part that gets or loses a corner where sides
+/// matter, a slide along an axis whose normal leaves the axis, a moving part against a rigid gap (a function of the place, which is not kept), and laws that other supports leave nothing to hold.
 std::shared_ptr<Scene> moved(const Scene& scene, const std::vector<std::vector<double>>& points);
+
+/// The scene as it is now, a design of its own: what is given to its bodies or added to it later is not in the copy.
+std::shared_ptr<Scene> copy(const Scene& scene);
 
 }  // namespace dotyk::scene

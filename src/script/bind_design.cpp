@@ -123,6 +123,7 @@ int contact(Call& call) {
           return n.weight > 0 ? (v.force - n.pressure * v.weight) / n.weight : 0.0;
         }));
     set("status", std::string(problem::status_name(n.status)));
+    make_strict(L, "contact node of a design");
     lua_rawseti(L, -2, static_cast<lua_Integer>(k) + 1);
   }
   return 1;
@@ -160,7 +161,7 @@ void bind_design(Library& library) {
       .field("alpha", "the design variables", variables, "length")
       .field("compliance", "minus the least energy, f'u - u'Ku/2", [](const Design& d) { return d.dual(*shape::compliance()); }, "force·length")
       .field("volume", "of all bodies; area in the plane", [](const Design& d) { return d.dual(*shape::volume()); })
-      .field("peak_pressure", "smoothed: (mean of p^q over the contacts)^(1/q), q the exponent of dotyk.shape; at most the peak", [](const Design& d) { return d.dual(*shape::peak_pressure(d.exponent)); }, "force per area")
+      .field("peak_pressure", "smoothed: (mean of p^q over the contacts)^(1/q), q the exponent of dotyk.shape; the mean is by the first design's length or area", [](const Design& d) { return d.dual(*shape::peak_pressure(d.exponent)); }, "force per area")
       .field("solution", "the solution, for everything else", [](const Design& d) { return d.state->solution(); })
       .field("smooth", "are derivatives linear in the direction? Not where something touches without force", [](const Design& d) { return d.state->sensitivity().smooth(); })
       .field("weak", "the nodes that touch without force, in words; empty where smooth", [](const Design& d) { return d.state->sensitivity().weak_text(); })
@@ -189,7 +190,9 @@ void bind_design(Library& library) {
       .text([](const Design& d) {
         std::string alpha;
         for (const double a : d.state->alpha()) alpha += (alpha.empty() ? "" : ", ") + text(a);
-        return text("design: alpha = (", alpha, "), compliance ", shape::compliance()->value(*d.state), ", volume ", shape::volume()->value(*d.state));
+        const solver::Result& result = d.state->solution()->result();
+        return text("design: alpha = (", alpha, "), volume ", shape::volume()->value(*d.state), ", energy ", d.state->solution()->energy(),
+                    result.converged ? "" : ", NOT CONVERGED: " + result.reason);
       });
 }
 

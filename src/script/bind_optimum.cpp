@@ -19,6 +19,7 @@ struct OptimumHandle {
   std::vector<std::string> refusals;  // of each design of the history
   std::shared_ptr<Design> design;  // the best one
   double seconds = 0;
+  std::size_t method = 0;
 };
 template <>
 struct Wrapped<OptimumHandle> {
@@ -84,11 +85,12 @@ class Run {
   Run(Call& call, std::shared_ptr<Shape> shape, Watch& watch)
       : call_(call), shape_(std::move(shape)), watch_(watch), sought_(sought(call, *shape_)),
         evaluator_(shape_->space, shape_->method, sought_.objective, sought_.constraints, shape_->step, watch),
-        start_(list(shape_->start)), radius_(call.number("radius")) {
+        start_(list(shape_->start)), radius_(call.number("radius")), method_(call.choice("method")) {
     if (call.holds<OptimumHandle>("start")) {
       const auto before = call.object<OptimumHandle>("start");
       start_ = list(before->optimum.alpha);
       if (!call.has("radius") && before->optimum.radius > 0) radius_ = before->optimum.radius;
+      if (!call.has("method")) method_ = before->method;
     } else if (call.has("start")) {
       start_ = call.vector("start");
     }
@@ -103,8 +105,9 @@ class Run {
                                        [this](const DesignRecord& record) { tell(record); }};
     auto handle = std::make_shared<OptimumHandle>();
     const Vector start = Eigen::Map<const Vector>(start_.data(), static_cast<Eigen::Index>(start_.size()));
-    handle->optimum = call_.choice("method") == 0 ? minimise(problem, start, slp(), stopping_) : minimise(problem, start, mma(), stopping_);
+    handle->optimum = method_ == 0 ? minimise(problem, start, slp(), stopping_) : minimise(problem, start, mma(), stopping_);
     handle->refusals = refusals_;
+    handle->method = method_;
     handle->cost = evaluator_.cost();
     handle->design = wrapped(best_);
     handle->seconds = handle->optimum.history.empty() ? 0 : handle->optimum.history.back().seconds;
@@ -136,7 +139,7 @@ class Run {
   shape::Mma mma() const {
     shape::Mma settings;
     common(settings);
-    settings.method = static_cast<shape::Mma::Method>(call_.choice("method") - 1);
+    settings.method = static_cast<shape::Mma::Method>(method_ - 1);
     return settings;
   }
 
@@ -155,7 +158,7 @@ class Run {
   }
 
   void tell(const DesignRecord& record) {
-    watch_.phase(record.admissible ? text("design ", record.design, ": ", sought_.objective->name(), " ", record.objective, record.accepted ? "" : ", not taken")
+    watch_.phase(record.admissible ? text("design ", record.design, ": ", sought_.objective->name(), " ", record.objective, record.radius > 0 ? text(", radius ", record.radius) : "", record.accepted ? text(", gap ", record.gap) : ", not taken")
                                    : text("design ", record.design, " is not admissible: ", evaluator_.refusal()));
     refusals_.push_back(evaluator_.refusal());
     if (record.accepted) best_ = evaluator_.last();
@@ -175,7 +178,7 @@ class Run {
       start += (start.empty() ? "" : ", ") + std::string(number);
     }
     std::snprintf(number, sizeof number, "%.17g", record.radius);
-    write_whole_file(call_.text("file"), text("-- design ", record.design, "; to go on: shape:optimise(dofile \"", call_.text("file"), "\")\nreturn { start = { ", start, " }",
+    write_whole_file(call_.text("file"), text("-- design ", record.design, "; shape:optimise(dofile(this file)) goes on\nreturn { method = \"", kMethods[method_], "\", start = { ", start, " }",
                                               record.radius > 0 ? text(", radius = ", number) : "", " }\n"));
   }
 
@@ -186,6 +189,7 @@ class Run {
   shape::Evaluator evaluator_;
   std::vector<double> start_;
   double radius_;
+  std::size_t method_;  ///< of kMethods
   std::vector<Function> on_design_;
   std::vector<std::string> refusals_;
   std::shared_ptr<const shape::DesignState> best_;  // the last one accepted
@@ -221,7 +225,7 @@ std::vector<Key> keys() {
   return {key::choice("method", kMethods,
                       "slp: sequential linear programming with a trust region (simplex method of GLPK), quadratically convergent where bounds and "
                       "constraints settle the design. mma: moving asymptotes, ccsaq: the same with quadratic models, slsqp: sequential quadratic "
-                      "programming (all three of NLopt)").fallback("slp"),
+                      "programming, best where the optimum lies inside the bounds, as that of peak_pressure mostly does (all three of NLopt)").fallback("slp"),
           key::either("start", {key::vector("", "").count(1, 4096), key::object<OptimumHandle>("", "")},
                       "the first design, or where an earlier run ended: slp goes on with its radius").unit("length").otherwise("as given to dotyk.shape"),
           key::number("radius", "of slp's first trust region, a share of the variables' ranges; of an optimum as start its own").above(0).within(0, 1).fallback(0.1),
@@ -253,7 +257,7 @@ void bind_optimum(Library& library) {
       .field("multipliers", "of the constraints", [](const OptimumHandle& o) { return list(o.optimum.multipliers); })
       .field("gap", "what the first order still promises over the whole box, relative to what it did at first", [](const OptimumHandle& o) { return o.optimum.gap; })
       .field("radius", "of slp's next trust region; 0 of others", [](const OptimumHandle& o) { return o.optimum.radius; })
-      .field("converged", "did it end by itself, constraints kept", [](const OptimumHandle& o) { return o.optimum.converged; })
+      .field("converged", "did it end by itself, constraints kept, gap at most 1e-3", [](const OptimumHandle& o) { return o.optimum.converged; })
       .field("reason", "why it ended", [](const OptimumHandle& o) { return o.optimum.reason; })
       .field("history", "one entry a design: design alpha objective constraints admissible accepted radius gap seconds", history)
       .field("cost", "designs, seconds; analyses, analysis_seconds and iterations (of the solver); derivatives (problems solved for them: adjoint and "

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "scene/moved.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/watch.hpp"
@@ -33,7 +34,7 @@ class FunctionQuantity final : public shape::Quantity {
   const Dual& at(const shape::DesignState& state) const {
     if (known_of_ == state.solution()) return known_;
     const auto design = std::make_shared<Design>();
-    design->state = std::make_shared<const shape::DesignState>(state);
+    design->state = state.shared_from_this();
     design->places = places_;
     design->exponent = exponent_;
     design->derivatives = exact_;
@@ -97,8 +98,8 @@ void take_constraints(Call& call, Shape& shape, const shape::DesignSpace& space)
 
 int make(Call& call) {
   auto shape = std::make_shared<Shape>();
-  // A scene may be added to later; designs are of this one.
-  const auto first = std::make_shared<const scene::Scene>(*call.object<scene::Scene>("scene"));
+  // The scene and its bodies may be added to later; designs are of them as they are now.
+  const auto first = std::shared_ptr<const scene::Scene>(scene::copy(*call.object<scene::Scene>("scene")));
   Variables variables = read_moves(call, *first);
   shape->lower = vector_of(variables.lower);
   shape->upper = vector_of(variables.upper);

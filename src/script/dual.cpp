@@ -41,6 +41,9 @@ double number_field(lua_State* L, const char* name) {
 }  // namespace
 
 Dual take_dual(lua_State* L, Eigen::Index size, const std::string& what) {
+  if (size > 0 && lua_type(L, -1) == LUA_TNUMBER && std::isfinite(lua_tonumber(L, -1)))
+    throw std::runtime_error(what + " returned the number " + number_text(lua_tonumber(L, -1)) + ", which has no derivatives: compute with the design's dual numbers, "
+                             "not with what .value and design.solution give, or let dotyk.shape take differences");
   const auto fail = [&](const std::string& why) { throw std::runtime_error(what + why); };
   Dual dual{0, algebra::Vector::Zero(size)};
   if (lua_type(L, -1) == LUA_TNUMBER) {

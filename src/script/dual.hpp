@@ -12,8 +12,8 @@ struct Dual {
 
 void push(lua_State* L, const Dual& dual);
 
-// The number or dual number on top of the stack, which is taken off; a number has a gradient of `size` zeros. Throws
-// std::runtime_error, beginning with `what`, for anything else, another size, and numbers that are not finite.
+// The dual number on top of the stack, which is taken off; where `size` is 0, also a number. Throws std::runtime_error,
+// beginning with `what`, for anything else, another size, and numbers that are not finite.
 Dual take_dual(lua_State* L, Eigen::Index size, const std::string& what);
 
 }  // namespace dotyk::script

@@ -81,6 +81,9 @@ void read(const Arguments& move, const scene::Scene& scene, Variables& variables
   if (move.has("part") == move.has("velocity") || move.has("body") != move.has("velocity"))
     throw InputError("an entry of 'moves' has either part, moved by a B-spline, or body and velocity");
   const scene::Body* body = move.has("part") ? move.object<scene::Part>("part")->body.get() : move.object<scene::Body>("body").get();
+  if (move.has("velocity"))
+    for (const char* name : {"control_points", "degree", "direction", "symmetric", "extension", "fixed"})
+      if (move.has(name)) throw InputError(text("'", name, "' belongs to part, which a B-spline moves, not to velocity"));
   const int index = scene.index_of(body);
   if (index < 0) throw InputError(text("'", body->name, "' is not of the scene"));
   const auto fields = move.has("part") ? by_spline(move, scene) : std::vector<std::vector<double>>{by_function(move, *body)};

@@ -18,7 +18,7 @@ struct Cost {
 };
 
 /// One design solved, and its derivatives by the variables, made when asked for.
-class DesignState {
+class DesignState : public std::enable_shared_from_this<DesignState> {
  public:
   /// Moves and solves; contacts begin as those of `near` ended, if given. Throws InputError as DesignSpace::at and scene::solve do.
   DesignState(std::shared_ptr<const DesignSpace> space, algebra::Vector alpha, const solver::Method& method, const DesignState* near, std::shared_ptr<Cost> cost,

@@ -50,11 +50,16 @@ std::optional<Evaluation> Evaluator::operator()(const Vector& alpha) {
   const auto state = solved(alpha, designs_);
   analysis_seconds_ += watch.lap();
   if (!state) return std::nullopt;
-  last_ = state;
-  const Vector at = values(*state);
-  const DenseMatrix g = step_ > 0 ? differences(*state, at) : exact(*state);
-  derivative_seconds_ += watch.lap();
-  return Evaluation{at[0], g.row(0), at.tail(at.size() - 1), g.bottomRows(g.rows() - 1)};
+  try {
+    const Vector at = values(*state);
+    const DenseMatrix g = step_ > 0 ? differences(*state, at) : exact(*state);
+    derivative_seconds_ += watch.lap();
+    last_ = state;
+    return Evaluation{at[0], g.row(0), at.tail(at.size() - 1), g.bottomRows(g.rows() - 1)};
+  } catch (const InputError& error) {  // at friction's kinks, say: a step that ends elsewhere may do
+    refusal_ = error.what();
+    return std::nullopt;
+  }
 }
 
 }  // namespace dotyk::shape

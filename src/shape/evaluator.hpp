@@ -33,8 +33,8 @@ class Evaluator {
       : space_(std::move(space)), method_(std::move(method)), objective_(std::move(objective)), constraints_(std::move(constraints)), step_(step),
         monitor_(monitor) {}
 
-  /// Nothing where the design is not admissible: cells inverted, bodies that overlap, no solution, none found; refusal() says why. Throws
-  /// InputError where its derivatives do not exist, and Interrupted.
+  /// Nothing where the design is not admissible: cells inverted, bodies that overlap, no solution, none found, no
+  /// derivatives; refusal() says why. Throws Interrupted.
   std::optional<Evaluation> operator()(const Vector& alpha);
   const std::string& refusal() const { return refusal_; }
   /// Of the last design evaluated that was admissible; null before the first.

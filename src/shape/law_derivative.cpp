@@ -19,9 +19,9 @@ using problem::RowGroup;
 
 std::string place(const Problem& problem, int row) { return problem.row_name ? problem.row_name(row) : text("row ", row + 1); }
 
-/// What is nothing, row by row.
+/// What is nothing, row by row; and what were nothing but for the multipliers' errors.
 struct Nothing {
-  Vector force, gap;
+  Vector force, gap, exact_force;
 };
 
 Nothing nothing(const Problem& problem, const Vector& lambda, const Vector& x, double touching, double force_error) {
@@ -34,10 +34,11 @@ Nothing nothing(const Problem& problem, const Vector& lambda, const Vector& x, d
     const double jump = std::abs(x[r] + problem.c[r]);
     if (std::abs(problem.c[r]) < 1e6 * jump) moved = std::max(moved, jump);  // a gap that says "never" is no measure
   }
-  Nothing n{Vector(x.size()), Vector(x.size())};
+  Nothing n{Vector(x.size()), Vector(x.size()), Vector(x.size())};
   for (int r = 0; r < x.size(); ++r) {
     const double c = std::abs(problem.c[r]) < 1e6 * moved ? std::abs(problem.c[r]) : 0;
-    n.force[r] = std::max(force_error, touching * (lambda.lpNorm<Eigen::Infinity>() + stiffness[r] * std::max(c, moved)));
+    n.exact_force[r] = touching * (lambda.lpNorm<Eigen::Infinity>() + stiffness[r] * std::max(c, moved));
+    n.force[r] = std::max(force_error, n.exact_force[r]);
     n.gap[r] = n.force[r] / stiffness[r];
   }
   return n;
@@ -93,10 +94,19 @@ class Branches {
     }
     const auto [from, to] = law.following(i);
     if (at_low ? x_[r] < from - nothing_.gap[r] : x_[r] > to + nothing_.gap[r]) return;
+    require_precise(r, at_low ? lambda_[r] - low : high - lambda_[r], at_low ? from - x_[r] : x_[r] - to);
     weak_[r] = 1;
     unknown_[r] = at_low ? add(r, 1, springs.above) : add(r, -1, springs.below);
     result_.weak.push_back(unknown_[r]);
     result_.weak_row.push_back(r);
+  }
+
+  /// Is it the solution, and not its error, that makes force and gap nothing?
+  void require_precise(int r, double force, double gap) const {
+    const double ratio = nothing_.exact_force[r] / nothing_.force[r];
+    if (force <= nothing_.exact_force[r] && gap <= ratio * nothing_.gap[r]) return;
+    throw InputError(text("the solution is not precise enough to tell whether ", place(problem_, r), " presses: force ", force, ", multipliers are wrong by up to ",
+                          nothing_.force[r], "; solve with a smaller tol, or by pdas or newton"));
   }
 
   void friction(const FrictionGroup& group, int p) {
@@ -112,6 +122,9 @@ class Branches {
       for (int i = 0; i < m; ++i) add(r + i, 1, Law::kUnbounded);
       return;
     }
+    if (slip.norm() <= gap && slip.norm() > gap * nothing_.exact_force[r] / nothing_.force[r])
+      throw InputError(text("the solution is not precise enough to tell whether ", place(problem_, r), " slips: slip ", slip.norm(),
+                            "; solve with a smaller tol, or by newton"));
     if (slip.norm() <= gap)
       throw InputError(text(group.name, ": ", place(problem_, r), " bears all its friction bound ", bound, " and does not slip: "
                             "to one side it sticks, to the other it slips; the solution has no derivative there"));

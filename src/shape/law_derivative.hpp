@@ -32,7 +32,7 @@ struct LawDerivative {
 /// stiffness and `moved` the greatest |Bu|; of a gap or slip that over k_r; but at
 /// least force_error, by which multipliers may be wrong. A row that touches with no force is in weak
 /// contact. So are rows of other laws at the end of what they can bear.
-/// Throws InputError, naming the node, where friction is about to slip or stick (‖λ_t‖ is the bound, the slip nothing; of
+/// Throws InputError, naming the node, where force_error alone makes nothing of a force, gap or slip, where friction is about to slip or stick (‖λ_t‖ is the bound, the slip nothing; of
 /// Coulomb's also weak contact), and where a spring with two stiffnesses bears nothing: the derivative is then not one of
 /// a quadratic program.
 LawDerivative law_derivative(const problem::Problem& problem, const problem::State& state, double touching, double force_error);

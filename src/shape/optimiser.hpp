@@ -46,7 +46,7 @@ struct DesignProblem {
 struct Stopping {
   double tol_design = 1e-4;  ///< greatest change of a variable by a step
   /// −min ∇J·d over the whole box, linearised constraints kept: what the first order still promises (the gap of Frank
-  /// and Wolfe), relative to the greater of |J| and Σ |∂J/∂α_i| (upper_i − lower_i) at the first design. It is zero at
+  /// and Wolfe), relative to Σ |∂J/∂α_i| (upper_i − lower_i) at the first design (|J| where that is 0). It is zero at
   /// Karush–Kuhn–Tucker points, there alone, and bounds J − min J from above for convex problems.
   double tol_gap = 1e-6;
   double tol_violation = 1e-6;  ///< Σ max(0, c_j), each relative to Σ |∂c_j/∂α_i| (upper_i − lower_i) at the first design

@@ -61,7 +61,7 @@ class PeakPressure final : public Quantity {
     for (const auto& contact : scene.contacts) {
       if (contact->kind != scene::Contact::Kind::contact) continue;
       if (contact->discretisation.multipliers != contact::Multipliers::nodal)
-        throw InputError("peak_pressure is for nodal multipliers; the contact " + contact->name + " has others");
+        throw InputError("peak_pressure is for nodal multipliers; " + contact->name + " has others");
       for (const contact::ContactRow& row : contact->rows) length += row.weight;
     }
     if (!(length > 0)) throw InputError("peak_pressure needs a contact, and the scene has none");

@@ -26,8 +26,8 @@ double volume_of(const scene::Scene& scene);
 std::shared_ptr<const Quantity> volume();
 
 /// (∫ p^q ds / |Γ|)^{1/q} over the contacts' nodes, p the pressure there (force over ∫φ) where it is positive, |Γ| the length or area of the first
-/// design's nodes in contact or able to be: at most the peak, to which it tends as q grows. 0 where nothing touches. Throws
-/// InputError without contacts, or with p1_p0 multipliers. `exponent` q ≥ 1.
+/// design's nodes in contact or able to be. It tends to the peak as q grows, and is at most the peak while contacts do not get longer. 0 where
+/// nothing touches. Throws InputError without contacts, or with p1_p0 multipliers. `exponent` q ≥ 1.
 std::shared_ptr<const Quantity> peak_pressure(double exponent);
 
 }  // namespace dotyk::shape

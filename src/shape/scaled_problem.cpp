@@ -9,8 +9,8 @@
 namespace dotyk::shape {
 namespace {
 
-/// A design that moves no more with a gap above this is not what its linearised problem would have.
-constexpr double kGapWorthTelling = 1e-3;
+/// A design that moves no more with a gap above this is stuck, at a kink say, and not converged.
+constexpr double kStuck = 1e-3;
 
 void check(const DesignProblem& problem, const Vector& start) {
   const Eigen::Index n = start.size();
@@ -50,8 +50,8 @@ ScaledProblem::ScaledProblem(const DesignProblem& problem, const Vector& start, 
   const auto given = problem.evaluate(start);
   if (!given) throw InputError("the first design is not admissible: start from one that is");
   const Evaluation value = checked(start, *given);
-  objective_scale_ = std::max(std::abs(value.objective), value.gradient.cwiseAbs().dot(range_));
-  if (objective_scale_ == 0) objective_scale_ = 1;
+  objective_scale_ = value.gradient.cwiseAbs().dot(range_);  // not |J|: a constant added to J changes nothing
+  if (objective_scale_ == 0) objective_scale_ = std::max(std::abs(value.objective), 1e-300);
   constraint_scale_ = value.constraints.size() > 0 ? Vector(value.jacobian.cwiseAbs() * range_) : Vector();
   for (Eigen::Index j = 0; j < constraints(); ++j)
     if (constraint_scale_[j] == 0) constraint_scale_[j] = std::max(std::abs(value.constraints[j]), 1e-300);
@@ -93,7 +93,6 @@ ScaledDesign ScaledProblem::scaled(Vector x, Vector alpha, Evaluation given) con
 
 std::optional<ScaledDesign> ScaledProblem::evaluate(const Vector& x) {
   DesignRecord record{.design = static_cast<int>(history_.size()) + 1, .alpha = unscaled(x), .constraints = {}};
-  monitor_.phase(text("design ", record.design));
   std::optional<Evaluation> given;
   try {
     given = problem_.evaluate(record.alpha);
@@ -118,8 +117,6 @@ void ScaledProblem::judge(bool accepted, double radius, double gap) {
   r.accepted = accepted;
   r.radius = radius;
   r.gap = gap;
-  monitor_.phase(text("design ", r.design, r.admissible ? text(", objective ", r.objective) : ", not admissible",
-                      radius > 0 ? text(", radius ", radius) : "", accepted ? text(", gap ", gap) : ", not taken"));
   try {
     if (problem_.each) problem_.each(r);
   } catch (const Interrupted&) {
@@ -140,9 +137,10 @@ Optimum ScaledProblem::finish(const ScaledDesign& best, const Stationarity& at, 
   o.multipliers = at.multipliers.cwiseQuotient(constraint_scale_) * objective_scale_;
   o.gap = at.gap;
   o.radius = radius;
-  o.converged = converged && feasible(best);
+  const bool stuck = converged && at.gap > std::max(kStuck, stopping_.tol_gap);
+  o.converged = converged && !stuck && feasible(best);
   o.reason = std::move(reason);
-  if (converged && at.gap > kGapWorthTelling) o.reason += text("; over the whole box the first order still promises ", at.gap, " of what it did at first");
+  if (stuck) o.reason += text("; but over the whole box the first order still promises ", at.gap, " of what it did at first: the steps are too short, as at kinks");
   if (!feasible(best)) o.reason += text("; constraints are violated (", best.violation, " of their changes over the box)");
   o.history = std::move(history_);
   return o;

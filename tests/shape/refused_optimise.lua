@@ -64,6 +64,7 @@ for _, method in ipairs{ "slp", "mma", "ccsaq", "slsqp" } do
     refused(function() least(function() return returned end):optimise{ method = method } end, "the function of the objective returned", "a number or a dual number")
     refused(function() least(after(2, function() return returned end)):optimise{ method = method } end, "the function of the objective returned", "a number or a dual number")
   end
+  refused(function() least(function(d) return d.compliance.value end):optimise{ method = method } end, "which has no derivatives")
   refused(function() least(function() end):optimise{ method = method } end, "the function of the objective returned nil")
   refused(function() least(function() return nan end):optimise{ method = method } end, "the function of the objective returned nan (not a number)")
   refused(function() least(function() return 1/0 end):optimise{ method = method } end, "the function of the objective returned inf")

@@ -70,7 +70,11 @@ for _, value in ipairs{ nan, inf, -inf } do refused(function() dotyk.shape(one{ 
 refused(function() dotyk.shape(one{ upper = {0, 0, 0, 0, nan} }) end, "'upper': entry 5", "nan")
 
 -- Velocities.
-local function by(velocity, body) return one{ part = none, body = body or block, velocity = velocity } end
+local function by(velocity, body) return one{ part = none, control_points = none, direction = none, body = body or block, velocity = velocity } end
+for _, key in ipairs{ "control_points", "degree", "symmetric" } do
+  refused(function() dotyk.shape(one{ part = none, control_points = none, direction = none, body = block, velocity = print, [key] = key ~= "symmetric" and 3 or true }) end,
+    ("'%s' belongs to part"):format(key))
+end
 refused(function() dotyk.shape(by(function() return 1 end)) end, "'velocity' returned 1 number, expected 2", "at (-1, 0)")
 refused(function() dotyk.shape(by(function() return 0, nan end)) end, "'velocity' returned nan", "at (-1, 0)")
 refused(function() dotyk.shape(by(function() end)) end, "'velocity' returned nothing")

@@ -134,8 +134,8 @@ TEST_CASE("a kink with one-sided gradients is found by the shrinking box") {
     return shape::Evaluation{std::abs(x) + 3 * std::abs(y), vec({x < 0 ? -1. : 1., y < 0 ? -3. : 3.}), Vector(), shape::DenseMatrix(0, 2)};
   };
   const Optimum o = run(k, fine(200));
-  CHECK(o.converged);
-  CHECK(o.reason.starts_with("the design changes by less than tol_design"));
+  CHECK_FALSE(o.converged);  // the gap is that of one side
+  CHECK(o.reason.starts_with("the design changes by less than tol_design; but"));
   CHECK(distance(o.alpha, k.solution) < 1e-5);
 }
 
