@@ -69,10 +69,10 @@ void bind_material(Library& library) {
        .returns = "material",
        .run = make_material});
   library.type<Material>("An elastic material.")
-      .field("E", "Young's modulus; nan where it is a function or the material is general",
-             [](const Material& m) { return m.E_varies || m.stiffness ? NAN : m.E; }, "stress")
-      .field("nu", "Poisson's ratio; nan where it is a function or the material is general",
-             [](const Material& m) { return m.nu_varies || m.stiffness ? NAN : m.nu; })
+      .field("E", "Young's modulus; nil where it is a function or the material is general",
+             [](const Material& m) { return m.E_varies || m.stiffness ? std::nullopt : std::optional(m.E); }, "stress")
+      .field("nu", "Poisson's ratio; nil where it is a function or the material is general",
+             [](const Material& m) { return m.nu_varies || m.stiffness ? std::nullopt : std::optional(m.nu); })
       .field("density", "mass per volume, 0 if none was given",
              [](const Material& m) { return m.density.value_or(0); }, "mass/volume")
       .text(show);

@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "program/mat_file.hpp"
 #include "program/qps_file.hpp"
+#include "script/position.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -101,6 +102,8 @@ class Rows {
 Vector limits(const Arguments& given, const std::string& name, int count, double otherwise) {
   if (!given.has(name)) return Vector::Constant(count, otherwise);
   if (given.is(name, LUA_TNUMBER)) return Vector::Constant(count, lua_tonumber(given.state(), given.slot(name)));
+  if (!given.is(name, LUA_TTABLE))
+    throw InputError(text("'", name, "' must be a number or a table of numbers, got ", describe_value(given.state(), given.slot(name))));
   const int table = given.slot(name);
   const auto size = static_cast<int>(lua_rawlen(given.state(), table));
   if (size != count) throw InputError(text("'", name, "' has ", size, " entries; it must have ", count));

@@ -22,7 +22,7 @@ struct Stepping::Group {
   algebra::Vector entropy;
   std::optional<Rates> rates;  ///< at the end of the last step
 
-  double stored() const;
+  double stored(const Fields& fields) const;
 };
 
 /// The end of a step, and what it put in and dissipated.

@@ -32,14 +32,19 @@ const char* name(Effect::Kind kind) { return kind == Effect::Kind::bending ? "be
 /// Steps whose lengths differ by less share a factor.
 constexpr double kSameStep = 1e-10;
 
+void require_finite(const Fields& fields, double energies, double t) {
+  if (fields.u.allFinite() && fields.theta.allFinite() && std::isfinite(energies)) return;
+  throw InputError(text("at t = ", t, " values are beyond the range of numbers; choose units in which loads, stiffnesses and temperatures are moderate"));
+}
+
 }  // namespace
 
-double Stepping::Group::stored() const {
-  double sum = 0.5 * now.u.dot(model.K * now.u) + 0.5 * now.theta.dot(model.capacity * now.theta);
+double Stepping::Group::stored(const Fields& fields) const {
+  double sum = 0.5 * fields.u.dot(model.K * fields.u) + 0.5 * fields.theta.dot(model.capacity * fields.theta);
   for (const Part& part : model.parts)
     for (const Held& held : part.held) {
       const double given = held.law.kind == problem::SupportLaw::Kind::prescribed ? held.law.value * held.unit : 0;
-      sum += problem::row_law(held.law, held.unit)->energy(0, given - held.turn * now.u[held.unknown]);
+      sum += problem::row_law(held.law, held.unit)->energy(0, given - held.turn * fields.u[held.unknown]);
     }
   return sum;
 }
@@ -61,7 +66,9 @@ Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& schem
     group->forces = group->model.forces(loads, 0);
     group->now = at_rest(group->model, group->forces, group->model.initial(initial), 0, scheme_.method, work_, monitor);
     group->entropy = group->model.entropy(group->now.u, group->now.theta);
-    at_first_ += group->stored();
+    const double stored = group->stored(group->now);
+    require_finite(group->now, stored, 0);
+    at_first_ += stored;
     groups_.push_back(std::move(group));
   }
 }
@@ -130,10 +137,7 @@ Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, 
   const Vector moved = out.fields.u - group.now.u;
   out.put_in += scheme_.order == Order::one ? out.forces.f.dot(moved) : 0.5 * (group.forces.f + out.forces.f).dot(moved);
   out.rates = std::move(stages.back());
-  if (!out.fields.u.allFinite() || !out.fields.theta.allFinite() || !std::isfinite(out.put_in) || !std::isfinite(out.dissipated))
-    throw InputError(
-        text("at t = ", time_ + tau,
-             " values are beyond the range of numbers; choose units in which loads, stiffnesses and temperatures are moderate"));
+  require_finite(out.fields, out.put_in + out.dissipated + group.stored(out.fields), time_ + tau);
   return out;
 }
 
@@ -162,7 +166,7 @@ std::vector<std::string> Stepping::decomposed() const {
 
 Energy Stepping::energy() const {
   Energy out = energy_;
-  for (const auto& group : groups_) out.stored += group->stored();
+  for (const auto& group : groups_) out.stored += group->stored(group->now);
   out.defect = out.stored + out.dissipated - out.put_in - at_first_;
   return out;
 }

@@ -1,0 +1,137 @@
+// fuzz_lua SECONDS SEED [FOLDER]: random calls of everything a script can call. Each program begins with a
+// small scene or with nothing, then calls random functions and methods with random arguments, made from
+// their descriptions; most fit, some do not. A failure is a crash, more than 10 s, a number that is none
+// (NaN) in a result, or an error that is not one line at the user's line. Its script is saved in FOLDER
+// (here) and runs by dotyk alone.
+#include <cstdlib>
+
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+#include "machine.hpp"
+#include "script/lua.hpp"
+#include "values.hpp"
+
+namespace {
+
+using namespace dotyk;
+using fuzz::Machine;
+using fuzz::Pool;
+using fuzz::Values;
+
+// Draws pictures, prints, or solves many times over: seldom, or never. Functions of numbers, as math's, may be none.
+int rarity(const std::string& name) {
+  if (name.starts_with("dotyk.dual.")) return 0;
+  for (const char* never : {"help", "source", "dotyk.work_precision"})
+    if (name == never) return 0;
+  for (const char* rare : {"render", "chart", "show_law", "optimise", "adapt", "all_solutions"})
+    if (name.find(rare) != std::string::npos) return 60;
+  return 1;
+}
+
+class Program {
+ public:
+  // Counts in made_of the objects that calls gave, by class.
+  Program(Machine& machine, unsigned seed, std::map<std::string, long>& made_of) : machine_(machine), made_of_(made_of), values_(seed, pool_) {}
+
+  void run() {
+    if (!values_.once_in(3)) begin_with_scene();
+    for (int calls = 3 + values_.below(15); calls > 0; --calls) call_something();
+  }
+
+ private:
+  // Runs "V[n] = try(…)" and notes what it made.
+  void make(const std::string& expression) {
+    const std::string name = text("V[", ++made_, "]");
+    machine_.run(text(name, " = try(function() return ", expression, " end)"));
+    lua_State* L = machine_.state();
+    lua_getglobal(L, "V");
+    lua_rawgeti(L, -1, made_);
+    const auto* type = machine_.library().type_at(L, -1);
+    lua_pop(L, 2);
+    if (!type) return;
+    pool_[type->name].push_back(name);
+    ++made_of_[type->name];
+    if (!type->fields.empty() && values_.once_in(3)) look(name, *type);
+  }
+
+  void look(const std::string& name, const script::Type& type) {
+    std::string fields;
+    for (const auto& field : type.fields) fields += ", '" + field.name + "'";
+    machine_.run("look(" + name + fields + ")");
+  }
+
+  // What most methods need: a body on a rigid floor, and often its solution.
+  void begin_with_scene() {
+    const bool space = values_.once_in(4);
+    const auto count = [&] { return std::to_string(1 + values_.below(space ? 3 : 5)); };
+    const std::string element = values_.of(space ? std::vector<std::string>{"P1", "Q1"} : std::vector<std::string>{"P1", "Q1"});
+    make(space ? text("dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {", count(), ",", count(), ",", count(), "}, element = '", element, "' }")
+               : text("dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {", count(), ",", count(), "}, element = '", element, "' }"));
+    make("dotyk.material{ E = 100, nu = 0.3 }");
+    make("dotyk.body{ mesh = V[1], material = V[2] }");
+    make(values_.once_in(3) ? "V[3]:part 'left'" : "V[3]:part 'bottom'");
+    make("V[3]:part 'top'");
+    make(space ? "V[5]:load{ 0, 0, -1 }" : "V[5]:load{ 0, -1 }");
+    if (!values_.once_in(3)) make(values_.once_in(2) ? "V[3]:part 'left':fix()" : "V[3]:part 'left':fix 'x'");
+    make("dotyk.scene{ V[3] }");
+    const auto& scenes = pool_["scene"];
+    if (scenes.empty()) {
+      pool_.erase("scene");
+      return;
+    }
+    make(space ? "dotyk.rigid.plane{ point = {0,0,0}, normal = {0,0,1} }" : "dotyk.rigid.plane{ point = {0,0}, normal = {0,1} }");
+    if (pool_.count("rigid")) make(text(scenes.back(), ":contact{ V[4], rigid = ", pool_["rigid"].back(), values_.once_in(3) ? ", friction = dotyk.friction.coulomb(0.3)" : "", " }"));
+    if (values_.once_in(2)) make(text("dotyk.solve(", scenes.back(), ")"));
+  }
+
+  void call_something() {
+    const auto& library = machine_.library();
+    if (pool_.empty() || values_.once_in(2)) {
+      const auto& functions = library.functions();
+      const auto& one = functions[static_cast<std::size_t>(values_.below(static_cast<int>(functions.size())))];
+      if (wanted(one.name)) make(one.name + "(" + values_.arguments(one) + ")");
+      return;
+    }
+    auto some = pool_.begin();
+    std::advance(some, values_.below(static_cast<int>(pool_.size())));
+    const auto* type = library.find_type(some->first);
+    const std::string object = values_.of(some->second);
+    if (type->methods.empty()) return;
+    const auto& one = type->methods[static_cast<std::size_t>(values_.below(static_cast<int>(type->methods.size())))];
+    if (wanted(one.name)) make(object + (values_.once_in(60) ? "." : ":") + one.short_name() + "(" + values_.arguments(one) + ")");
+  }
+
+  bool wanted(const std::string& name) {
+    const int rare = rarity(name);
+    return rare > 0 && values_.once_in(rare);
+  }
+
+  Machine& machine_;
+  std::map<std::string, long>& made_of_;
+  Pool pool_;
+  Values values_;
+  int made_ = 0;
+};
+
+}  // namespace
+
+int main(int count, char** words) {
+  const double seconds = count > 1 ? std::atof(words[1]) : 5;
+  const auto first = static_cast<unsigned>(count > 2 ? std::atoll(words[2]) : 1);
+  Machine machine(count > 3 ? words[3] : ".");
+  const Stopwatch clock;
+  double before = 0;
+  std::map<std::string, long> made_of;
+  unsigned seed = first;
+  for (; clock.seconds() < seconds; ++seed) {
+    machine.begin(text("seed_", seed));
+    Program(machine, seed, made_of).run();
+    if (seed - first == 400) before = fuzz::resident();
+  }
+  std::string objects;
+  for (const auto& [type, number] : made_of) objects += text(objects.empty() ? "" : ", ", number, " ", script::plural(type));
+  machine.say("made: " + objects);
+  machine.say(text(machine.executions(), " executions of ", seed - first, " programs (seeds ", first, " to ", seed - 1, ") in ", clock.seconds(), " s, ",
+                   machine.failures(), " failures; memory ", fuzz::resident(), " MB", before > 0 ? text(", after 400 programs ", before, " MB") : ""));
+  return machine.failures() > 0;
+}
