@@ -7,16 +7,14 @@
 #include "base/text.hpp"
 #include "script/nearest.hpp"
 #include "script/space.hpp"
-#include "script/position.hpp"
 #include "script/wrapped.hpp"
 
 namespace dotyk::script {
 namespace {
 
-/// Calls read() for every entry of the table at index, its key at -2 and its value at -1; throws InputError where there is none.
+/// Calls read() for every entry of the table at index, its key at -2 and its value at -1.
 template <class Read>
-void for_each_entry(lua_State* L, int index, const char* expected, Read&& read) {
-  if (lua_type(L, index) != LUA_TTABLE) throw InputError(text(expected, ", got ", describe_value(L, index)));
+void for_each_entry(lua_State* L, int index, Read&& read) {
   lua_pushnil(L);
   while (lua_next(L, index)) {
     read();
@@ -39,9 +37,9 @@ void read_load(const Arguments& given, const scene::Scene& scene, scene::Step& s
     step.all = lua_tonumber(L, at);
     return;
   }
-  constexpr const char* expected = "'load' must be a factor, or a table of factors by the names of load cases: { shear = 0.5 }";
-  for_each_entry(L, at, expected, [&] {
-    if (lua_type(L, -2) != LUA_TSTRING) throw InputError(expected);
+  for_each_entry(L, at, [&] {
+    if (lua_type(L, -2) != LUA_TSTRING)
+      throw InputError("'load' must be a factor, or a table of factors by the names of load cases: { shear = 0.5 }");
     const std::string name = lua_tostring(L, -2);
     if (lua_type(L, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(L, -1)))
       throw InputError(text("'load': the factor of '", name, "' must be a finite number"));
@@ -53,9 +51,9 @@ void read_load(const Arguments& given, const scene::Scene& scene, scene::Step& s
 /// move = { [contact] = { dx, dy }, … }.
 void read_move(const Arguments& given, const scene::Scene& scene, scene::Step& step) {
   lua_State* L = given.state();
-  constexpr const char* expected = "'move' must be a table of displacements by contact: { [contact] = { 0.1, 0 } }";
-  for_each_entry(L, given.slot("move"), expected, [&] {
-    if (!object_at(L, -2, Wrapped<scene::Contact>::name)) throw InputError(expected);
+  for_each_entry(L, given.slot("move"), [&] {
+    if (!object_at(L, -2, Wrapped<scene::Contact>::name))
+      throw InputError("'move' must be a table of displacements by contact: { [contact] = { 0.1, 0 } }");
     std::vector<double> by;
     const int value = lua_gettop(L);
     bool numbers = lua_type(L, value) == LUA_TTABLE;

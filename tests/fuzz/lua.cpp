@@ -28,13 +28,42 @@ int rarity(const std::string& name) {
   return 1;
 }
 
+// Problems other than a body on a floor: V[n] is the n-th expression's.
+const std::vector<std::vector<std::string>> openings = {
+    {"dotyk.law.signorini()", "dotyk.beam{ cells = 4, load = -1, left = { deflection = V[1] }, right = { deflection = V[1], rotation = dotyk.law.elastic(2) } }",
+     "dotyk.solve(V[2])"},
+    {"dotyk.beam{ cells = 3, load = -1, left = { deflection = dotyk.law.breaking{ k = 2, g = 1 } }, right = { deflection = dotyk.law.elastic(2) } }",
+     "dotyk.solve(V[1])"},
+    {"dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {3,3} }", "dotyk.plate{ mesh = V[1], load = -1, edge = { deflection = dotyk.law.signorini() } }",
+     "dotyk.solve(V[2])"},
+    {"dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,3} }",
+     "dotyk.plate{ mesh = V[1], load = -1, element = 'HCT', edge = { deflection = dotyk.law.prescribed(0), rotation = dotyk.law.friction(0.1) } }", "dotyk.solve(V[2])"},
+    {"dotyk.qp{ B = {{2,0},{0,2}}, c = {2,5}, D = {{1,1}}, d = {1}, x_low = 0 }", "V[1]:solve{}"},
+    {"dotyk.lcp{ M = {{1,0,2},{2,1,0},{0,2,1}}, q = {1,-1,1} }"},
+    {"dotyk.thermoelastic_beam{ height = 0.1, E = 100, expansion = 1e-3, conductivity = 1, heat_capacity = 1, cells = 4, load = -1, step = 1, "
+     "left = { deflection = dotyk.law.signorini(), displacement = dotyk.law.prescribed(0) }, right = { deflection = dotyk.law.signorini() } }",
+     "V[1]:run(2)"},
+    {"dotyk.channel{ half_width = 1e-3, density = 13546, viscosity = 1.55e-3, conductivity = 1.04e6, E0 = 0.1, B0 = 0.2, pressure_gradient = -2e4, omega = 6.28, u0 = 1 }"},
+    {"dotyk.mesh.rectangle{ from = {0,0}, to = {2,1}, cells = {3,2} }", "dotyk.mesh.rectangle{ from = {0,1}, to = {2,2}, cells = {3,2} }",
+     "dotyk.material{ E = 10, nu = 0.3 }", "dotyk.body{ mesh = V[1], material = V[3] }", "dotyk.body{ mesh = V[2], material = V[3] }",
+     "V[4]:part 'bottom':fix()", "V[5]:part 'top':load{ 0.02, -0.1 }", "dotyk.scene{ V[4], V[5] }",
+     "V[8]:contact{ V[4]:part 'top', V[5]:part 'bottom', friction = dotyk.friction.coulomb(0.4) }",
+     "dotyk.solve(V[8], { steps = { { load = 0.5 }, { load = 1 } } })"},
+    {"dotyk.mesh.rectangle{ from = {-1,0}, to = {1,1}, cells = {4,2} }", "dotyk.body{ mesh = V[1], material = dotyk.material{ E = 100, nu = 0.3 } }",
+     "V[2]:part 'top':load{ 0, -1 }", "V[2]:part 'left':fix 'x'", "V[2]:part 'bottom'", "dotyk.scene{ V[2] }",
+     "V[6]:contact{ V[5], rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} } }",
+     "dotyk.shape{ scene = V[6], moves = { { part = V[5], control_points = 3, direction = {0,1}, lower = 0, upper = 0.05 } } }", "V[8]:design{ 0.01, 0, 0.01 }"},
+    {"dotyk.refinement{ dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} } }", "V[1]:refine()"}};
+
 class Program {
  public:
   // Counts in made_of the objects that calls gave, by class.
   Program(Machine& machine, unsigned seed, std::map<std::string, long>& made_of) : machine_(machine), made_of_(made_of), values_(seed, pool_) {}
 
   void run() {
-    if (!values_.once_in(3)) begin_with_scene();
+    if (values_.once_in(2)) begin_with_scene();
+    else if (!values_.once_in(4))
+      for (const auto& expression : openings[static_cast<std::size_t>(values_.below(static_cast<int>(openings.size())))]) make(expression);
     for (int calls = 3 + values_.below(15); calls > 0; --calls) call_something();
   }
 

@@ -88,8 +88,8 @@ void Machine::begin(const std::string& name) {
   if (begun_ % 20 == 0) lua_gc(state(), LUA_GCCOLLECT);
 }
 
-void Machine::run(const std::string& statement) {
-  script_ += statement + "\n";
+void Machine::run(const std::string& statement, const std::string& before) {
+  script_ += before + statement + "\n";
   ++executions_;
   alarm(too_long);
   const auto error = interpreter_->run_text(statement, "fuzz");

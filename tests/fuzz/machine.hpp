@@ -20,7 +20,8 @@ class Machine {
   // A new program: an empty script, every object of the last one released.
   void begin(const std::string& name);
   // Runs one statement; a failure saves the script as failures/<name>.lua, says so and counts.
-  void run(const std::string& statement);
+  // `before` is written into the script alone.
+  void run(const std::string& statement, const std::string& before = "");
 
   long executions() const { return executions_; }
   int failures() const { return failures_; }

@@ -32,6 +32,20 @@ const std::vector<std::string> functions = {
     "function(x) return 1e300 * (x or 1) end",
     "function(x) return x.y.z end"};
 
+// Objects that need no others.
+const std::map<std::string, std::vector<std::string>> makers = {
+    {"law", {"dotyk.law.signorini()", "dotyk.law.elastic(2)", "dotyk.law.prescribed(0)", "dotyk.law.friction(0.5)", "dotyk.law.free()",
+             "dotyk.law.one_sided_friction(1)", "dotyk.law.breaking{ k = 1, g = 1 }", "dotyk.law.capped_elastic{ k = 1, g = 1 }"}},
+    {"solver", {"dotyk.solver.pdas{}", "dotyk.solver.newton{}", "dotyk.solver.uzawa{}", "dotyk.solver.uzawa_pdas{}", "dotyk.solver.psor{}",
+                "dotyk.solver.projected_cg{}", "dotyk.solver.proximal{}", "dotyk.solver.coulomb_loop{}", "dotyk.solver.feti{ subdomains = 2 }",
+                "dotyk.solver.active_set{}", "dotyk.solver.interior_point{}", "dotyk.solver.penalty{}"}},
+    {"friction", {"dotyk.friction.coulomb(0.3)", "dotyk.friction.tresca(0.1)"}},
+    {"rigid", {"dotyk.rigid.plane{ point = {0,0}, normal = {0,1} }", "dotyk.rigid.ball{ center = {0.5,-1}, radius = 1 }",
+               "dotyk.rigid.gap{ normal = {0,1}, gap = function(x) return x^2 end }"}},
+    {"material", {"dotyk.material{ E = 10, nu = 0.25 }", "dotyk.material{ E = function(x) return 1 + x^2 end, nu = 0.3 }"}},
+    {"mesh", {"dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} }", "dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {1,2,1} }",
+              "dotyk.mesh.disc{ center = {0,0}, radius = 1, cells = 3 }"}}};
+
 const std::vector<std::string> wrongs = {
     "nil", "true", "0/0", "1/0", "-1/0", "1e308", "-1e308", "5e-324", "-0.0", "1 << 62", "math.mininteger", "0.5", "''", "'text'",
     "('x'):rep(1000)", "'a\\0b'", "'\\xff%s'", "{}", "{{}}", "{{{1}}}", "{ 0/0 }", "{ [2] = 1 }", "{ x = 1 }", "{ 1, 'a' }", "{ 1, nil, 3 }",
@@ -148,6 +162,9 @@ std::string Values::function() { return of(functions); }
 
 std::string Values::object(const std::string& type) {
   const auto found = pool_.find(type);
+  if (found != pool_.end() && !once_in(4)) return of(found->second);
+  const auto made = makers.find(type);
+  if (made != makers.end()) return of(made->second);
   return found == pool_.end() ? "nil" : of(found->second);
 }
 
