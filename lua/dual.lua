@@ -52,7 +52,7 @@ end
 function Dual.__unm(a) return chain(a, -a.value, -1) end
 function Dual.__lt(a, b) return value(a) < value(b) end
 function Dual.__le(a, b) return value(a) <= value(b) end
-function Dual.__eq(a, b) return rawequal(a, b) or a.value == b.value end
+function Dual.__eq(a, b) return rawequal(a, b) or is_dual(a) and is_dual(b) and a.value == b.value end
 function Dual.__tostring(a)
   local parts <const> = {}
   for i, d in ipairs(a.gradient) do parts[i] = ("%.6g"):format(d) end

@@ -21,7 +21,7 @@ using fuzz::Values;
 // Draws pictures, prints, or solves many times over: seldom, or never. Functions of numbers, as math's, may be none.
 int rarity(const std::string& name) {
   if (name.starts_with("dotyk.dual.")) return 0;
-  for (const char* never : {"help", "source", "dotyk.work_precision"})
+  for (const char* never : {"help", "source", "dotyk.work_precision", "dotyk.mesh.gmsh"})
     if (name == never) return 0;
   for (const char* rare : {"render", "chart", "show_law", "optimise", "adapt", "all_solutions"})
     if (name.find(rare) != std::string::npos) return 60;
@@ -52,7 +52,7 @@ const std::vector<std::vector<std::string>> openings = {
     {"dotyk.mesh.rectangle{ from = {-1,0}, to = {1,1}, cells = {4,2} }", "dotyk.body{ mesh = V[1], material = dotyk.material{ E = 100, nu = 0.3 } }",
      "V[2]:part 'top':load{ 0, -1 }", "V[2]:part 'left':fix 'x'", "V[2]:part 'bottom'", "dotyk.scene{ V[2] }",
      "V[6]:contact{ V[5], rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} } }",
-     "dotyk.shape{ scene = V[6], moves = { { part = V[5], control_points = 3, direction = {0,1}, lower = 0, upper = 0.05 } } }", "V[8]:design{ 0.01, 0, 0.01 }"},
+     "dotyk.shape{ scene = V[6], moves = { { part = V[5], control_points = 4, direction = {0,1}, lower = 0, upper = 0.05 } } }", "V[8]:design{ 0.01, 0, 0, 0.01 }"},
     {"dotyk.refinement{ dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} } }", "V[1]:refine()"}};
 
 class Program {
@@ -161,6 +161,6 @@ int main(int count, char** words) {
   for (const auto& [type, number] : made_of) objects += text(objects.empty() ? "" : ", ", number, " ", script::plural(type));
   machine.say("made: " + objects);
   machine.say(text(machine.executions(), " executions of ", seed - first, " programs (seeds ", first, " to ", seed - 1, ") in ", clock.seconds(), " s, ",
-                   machine.failures(), " failures; memory ", fuzz::resident(), " MB", before > 0 ? text(", after 400 programs ", before, " MB") : ""));
+                   machine.failures(), " failures, ", machine.slowest(), "; memory ", fuzz::resident(), " MB", before > 0 ? text(", after 400 programs ", before, " MB") : ""));
   return machine.failures() > 0;
 }

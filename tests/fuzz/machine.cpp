@@ -10,6 +10,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
 #include "base/whole_file.hpp"
 #include "script/interrupt.hpp"
 #include "script/lua.hpp"
@@ -92,10 +94,14 @@ void Machine::run(const std::string& statement, const std::string& before) {
   script_ += before + statement + "\n";
   ++executions_;
   alarm(too_long);
+  const Stopwatch clock;
   const auto error = interpreter_->run_text(statement, "fuzz");
   alarm(0);
+  if (clock.seconds() > longest_) longest_ = clock.seconds(), longest_in_ = name_;
   if (error && error->find("(--instructions)") == std::string::npos) fail(*error);
 }
+
+std::string Machine::slowest() const { return text("the slowest ", longest_, " s in ", longest_in_); }
 
 void Machine::fail(const std::string& what) {
   ++failures_;

@@ -25,6 +25,8 @@ class Machine {
 
   long executions() const { return executions_; }
   int failures() const { return failures_; }
+  // "0.3 s in seed_17": the longest statement.
+  std::string slowest() const;
   void say(const std::string& line) const;
 
  private:
@@ -35,6 +37,8 @@ class Machine {
   std::string folder_, name_, script_;
   long executions_ = 0, begun_ = 0;
   int failures_ = 0;
+  double longest_ = 0;
+  std::string longest_in_;
 };
 
 // Megabytes of memory in use.

@@ -4,7 +4,7 @@ V = {}
 -- Numbers that are none, in what a call gave back.
 local function sound(value, depth, place)
   if value ~= value then error("FUZZ: not a number handed out: " .. place, 0) end
-  if type(value) ~= "table" or depth > 4 or value == dotyk then return end
+  if type(value) ~= "table" or depth > 4 or rawequal(value, dotyk) then return end
   local seen = 0
   for key, inner in next, value do
     seen = seen + 1

@@ -111,6 +111,7 @@ std::string Values::fitting(const Key& key) {
 
 std::string Values::number(const Key& key) {
   static const std::vector<std::string> usual = {"0", "1", "-1", "0.3", "0.5", "2", "10", "1e-3", "-0.1", "1e-10", "1000", "0.25", "1/3"};
+  if (key.units == "time") return of({"0.1", "1", "2"});  // steps up to it, which may be short
   const bool low = std::isfinite(key.least), high = std::isfinite(key.greatest);
   if (once_in(8) && low) return script::number_text(key.least);
   if (once_in(8) && high) return script::number_text(key.greatest);
