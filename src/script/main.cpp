@@ -169,6 +169,7 @@ int run(const Command& command) {
     std::fprintf(stderr, "dotyk: cannot open %s: %s\n", command.file->c_str(), std::strerror(errno));
     return 2;
   }
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond ulimit -f is an error where it is written
   set_limits(command);
   dotyk::script::Interpreter interpreter;
   interpreter.trace(command.traceback);
