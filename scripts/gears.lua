@@ -2,11 +2,12 @@
 --
 --   ./dotyk scripts/gears.lua
 --
--- Reads gear1_2D.msh and gear2_2D.msh (two teeth each, quadrilaterals; from the GetFEM project) in
--- ../shared/reference/meshes/getfem_gears, and does nothing where that folder is not. The hub of the lower gear is turned, the
--- upper one's held; two pairs of flanks may touch. There is no result to compare with, but the torque T must be three times the
--- same: of the contact's forces about the lower axis, of the energy (dE/dθ, by a central difference), and by node to
--- segment in place of mortar, nearly. Units: N, mm. images/gears.png.
+-- Reads gear1_2D.msh and gear2_2D.msh (two teeth each, quadrilaterals), gear1.msh and gear2.msh (helical, a tooth each,
+-- hexahedra; all from the GetFEM project) in ../shared/reference/meshes/getfem_gears, and does nothing where that folder is
+-- not. The hub of the lower gear is turned, the upper one's held; two pairs of flanks may touch. There is no result to compare
+-- with, but the torque of the contact's forces about the lower axis must be what turns the hub, the energy's derivative dE/dθ
+-- (by a central difference). Node to segment stands beside mortar: little apart in the plane, up to a fifth on the helical
+-- gears' coarse flanks. Units: N, mm. images/gears.png.
 
 local folder <const> = (arg[0]:match "^(.*)/[^/]*$" or ".") .. "/../../shared/reference/meshes/getfem_gears/"
 local there <const> = io.open(folder .. "gear1_2D.msh")
@@ -69,5 +70,36 @@ for _, angle in ipairs{ 0.25e-3, 0.5e-3, 1e-3, 2e-3 } do
   last = s
 end
 
+-- 3. Helical gears. As they lie in the files teeth overlap by 0.05 mm: the lower one is turned back before it is loaded.
+local back <const> = 5e-4
+local helical <const> = dotyk.mesh.load(folder .. "gear1.msh"):transform(function(x, y, z)
+  return math.cos(back) * x - math.sin(back) * y, math.sin(back) * x + math.cos(back) * y, z
+end)
+local opposite <const> = dotyk.mesh.load(folder .. "gear2.msh")
+local function turned_helical(angle, pairing)
+  local one <const> = dotyk.body{ name = "gear 1", mesh = helical, material = steel }
+  local two <const> = dotyk.body{ name = "gear 2", mesh = opposite, material = steel }
+  for _, name in ipairs{ "133", "142", "143", "173", "182", "183" } do
+    one:part(name):displace{ x = function(_, y) return angle * y end, y = function(x) return -angle * x end, z = 0 }
+    two:part(name):fix()
+  end
+  local scene <const> = dotyk.scene{ one, two }
+  local contact <const> = scene:contact{ one:part "113", two:part "113", pairing = pairing }
+  return dotyk.solve(scene), { contact }
+end
+
+print "\nhelical gears\nangle    force [N]: radial      across       along   peak pressure   torque [N mm]: mortar   dE/dtheta   node to segment"
+for _, angle in ipairs{ 1e-3, 2e-3 } do
+  local s <const>, contacts <const> = turned_helical(angle)
+  local step <const> = 1e-4 * angle
+  local work <const> = (turned_helical(angle + step).energy - turned_helical(angle - step).energy) / (2 * step)
+  local feet <const>, feet_contacts <const> = turned_helical(angle, "node_to_segment")
+  local T <const>, c <const> = torque(s, contacts, 0), s:contact(contacts[1])
+  print(("%5g %21.4g %11.4g %11.4g %15.0f %23.5g %11.5g %17.5g"):format(
+    1e3 * angle, c.force[2], c.force[1], c.force[3], c.max_pressure, T, work, torque(feet, feet_contacts, 0)))
+  assert(s.converged and math.abs(T / work - 1) < 1e-5, "the torque of contact is what turns the hub")
+end
+
+-- 4. The figure.
 last:render{ file = "images/gears.png", field = "von_mises", unit = "MPa", deform = 4, window = { -35, 125, 60, 195 }, range = { 0, 700 } }
 print "images/gears.png"
