@@ -77,7 +77,7 @@ core.describe{
     .. "what the scene's function returned after the scene: without a reference it returns the error itself, with one a value "
     .. "to be compared with the number or with its value for the reference solution. The finest reference is one level beyond the "
     .. "last, solved by dotyk.solve: where the error halves with each level, that of the last is shown 13 % too small.",
-  example = "dotyk.work_precision{ methods = { dotyk.solver.pdas{}, dotyk.solver.interior_point{} }, scene = function(level)\n"
+  example = "dotyk.work_precision{ levels = 3, methods = { dotyk.solver.pdas{}, dotyk.solver.interior_point{} }, scene = function(level)\n"
     .. "  local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = { 8 << level, 8 << level } },\n"
     .. "    material = dotyk.material{ E = 1000, nu = 0.3 } }\n"
     .. "  b:part \"left\":fix()\n  b:part \"top\":load{ 0, -10 }\n  local scene = dotyk.scene{ b }\n"

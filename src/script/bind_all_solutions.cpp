@@ -1,6 +1,7 @@
 #include "scene/all_solutions.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 #include "script/watch.hpp"
 #include "script/wrapped.hpp"
 
@@ -23,6 +24,7 @@ void bind_all_solutions(Library& library) {
                "stick and slip to either side, up to 2^20 of them (ten nodes with Coulomb friction): a list of "
                "solutions, empty where there is none, and what was tried in words. With a great coefficient of "
                "friction there may be several; a method finds at most one of them.",
+       .setup = setup::few_nodes(),
        .example = "local all, tried = dotyk.all_solutions(scene)\nprint(#all, tried)\n"
                   "for k, s in ipairs(all) do print(k, s.energy, s.reason) end",
        .arguments = {key::object<scene::Scene>("scene", "what to solve").required()},

@@ -7,6 +7,7 @@
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/result_records.hpp"
+#include "script/setups.hpp"
 #include "script/watch.hpp"
 
 namespace dotyk::script {
@@ -112,7 +113,7 @@ std::string show_result(const BeamResult& r) {
 }
 
 void bind_beam_solution(Library& library) {
-  library.type<BeamResult>("A solved beam: what it does, how it ended, and its other branches.")
+  library.type<BeamResult>("A solved beam: what it does, how it ended, and its other branches.").setup(setup::solved_beam())
       .field("converged", "did the method end as it should", [](const BeamResult& r) { return r.solution().result().converged; })
       .field("method", "which method", [](const BeamResult& r) { return r.solution().result().method; })
       .field("iterations", "how many", [](const BeamResult& r) { return r.solution().result().iterations; })

@@ -9,6 +9,7 @@
 #include "script/bind_thermoelastic.hpp"
 #include "script/figure_size.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -149,6 +150,7 @@ void bind_beam_figure(Library& library) {
   library.function({.name = "dotyk.support_gallery",
                     .help = "Draws rows of solved beams, the law of one support each with the working point, and its superpotential, into a PNG file, "
                             "and returns its name.",
+                    .setup = setup::solved_beam(),
                     .example = "dotyk.support_gallery{ file = \"images/a.png\", rows = { { solution = s, support = \"right\", title = \"A stop\" } } }",
                     .arguments = {key::table({key::file("file", "where to; ends in .png, its folder must exist").written().required(),
                                               key::list("rows", key::table("", {key::object<BeamResult>("solution", "a solved beam").required(), support_key("support").required(), of_key(),

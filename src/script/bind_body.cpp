@@ -6,6 +6,7 @@
 #include "script/wrapped.hpp"
 #include "script/library.hpp"
 #include "script/nearest.hpp"
+#include "script/setups.hpp"
 #include "script/space.hpp"
 
 namespace dotyk::script {
@@ -175,6 +176,7 @@ Key displacement_table() {
 
 void bind_part(Library& library) {
   library.type<Part>("Some boundary facets of a body, to hold, load or put in contact.")
+      .setup(setup::block() + "local top = block:part \"top\"\n")
       .field("name", "its name", [](const Part& p) { return p.name; })
       .field("body", "the body it is of", [](const Part& p) { return p.body; })
       .field("facet_count", "number of facets", [](const Part& p) { return p.facets.size(); })
@@ -241,6 +243,7 @@ void bind_part(Library& library) {
 void bind_body(Library& library) {
   library.function({.name = "dotyk.body",
                     .help = "An elastic body: a mesh with a material, perhaps a force per volume.",
+                    .setup = setup::mesh() + "local steel = dotyk.material{ E = 210e3, nu = 0.3 }\n",
                     .example = "local block = dotyk.body{ name = \"block\", mesh = m, material = steel }",
                     .arguments = {key::table(
                         {key::string("name", "what messages and figures call it").fallback("body"),
@@ -250,6 +253,7 @@ void bind_body(Library& library) {
                     .returns = "body",
                     .run = make_body});
   library.type<Body>("An elastic body with its supports and loads.")
+      .setup(setup::block())
       .field("name", "its name", [](const Body& b) { return b.name; })
       .field("dimension", "2 or 3", [](const Body& b) { return b.dimension(); })
       .field("node_count", "number of nodes", [](const Body& b) { return b.mesh->node_count(); })

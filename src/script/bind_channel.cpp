@@ -80,8 +80,6 @@ const char* kFlow =
     "local c = dotyk.channel{ half_width = 1e-3, density = 13546, viscosity = 1.55e-3, conductivity = 1.04e6,\n"
     "                         E0 = 0.1, B0 = 0.2, pressure_gradient = -2e4, omega = 6.28, u0 = 1 }\n";
 
-std::string example(const char* use) { return std::string(kFlow) + use; }
-
 Key y_key() { return key::number("y", "distance from the axis, |y| <= half_width").required().unit("length"); }
 Key y_key_or_axis() { return key::number("y", "distance from the axis, |y| <= half_width").fallback(0.0).unit("length"); }
 Key t_key() { return key::number("t", "time, not negative").required().unit("time"); }
@@ -98,7 +96,8 @@ Descriptor constructor() {
           "d = -pressure_gradient/s, s = conductivity E0 B0, drive = 1 (s = 1 and drive = 0 where E0 or B0 is 0). Or the reduced "
           "data a, b, c, d, drive themselves. It starts from u0 (1 - (|y|/half_width)^p), p = log10(Re + 1), "
           "Re = sqrt(2) half_width u0 a/b.",
-      .example = example("print(c:velocity(0, 0.5), c:stationary(0), c:amplitude())"),
+      .setup = kFlow,
+      .example = "print(c:velocity(0, 0.5), c:stationary(0), c:amplitude())",
       .arguments = {key::table(
           {key::positive("half_width", "half the distance of the walls").required().unit("m"),
            key::positive("density", "of the liquid").unit("kg/m^3"), key::positive("viscosity", "dynamic").unit("Pa s"),
@@ -142,30 +141,30 @@ void add_states(TypeOf<ChannelFlow>& type) {
   type.method({.name = "channel:velocity",
                .help = "u(y, t): the periodic state in closed form and the transient as a series in cos((2k+1) pi y/(2 half_width)), "
                        "summed to rounding where the terms suffice (error_bound says).",
-               .example = example("for i = 0, 10 do print(i/10, c:velocity(0, i/10)) end"),
+               .example = "for i = 0, 10 do print(i/10, c:velocity(0, i/10)) end",
                .arguments = {y_key(), t_key()},
                .run = [at](Call& call) { return call.give(at(call).velocity(call.number("y"), call.number("t"))); }})
       .method({.name = "channel:periodic",
                .help = "What velocity(y, t) tends to: the periodic state at time t, in closed form.",
-               .example = example("print(c:velocity(0, 20) - c:periodic(0, 20))"),
+               .example = "print(c:velocity(0, 20) - c:periodic(0, 20))",
                .arguments = {y_key(), t_key()},
                .run = [at](Call& call) { return call.give(at(call).periodic(call.number("y"), call.number("t"))); }})
       .method({.name = "channel:stationary",
                .help = "Hartmann's profile d/c (1 - cosh(M y/half_width)/cosh M) of the steady channel -b u'' + c u = d, M Hartmann's "
                        "number; d (half_width^2 - y^2)/(2b) for c = 0. The magnetic field is taken at its amplitude.",
-               .example = "local c = dotyk.channel{ half_width = 1, a = 1, b = 1, c = 25, d = 1 }\nprint(c:stationary(0), c:stationary(0.9))",
+               .example = "print(c:stationary(0), c:stationary(0.9e-3))",
                .arguments = {y_key()},
                .run = [](Call& call) { return call.give(channel::stationary(call.self<ChannelFlow>()->data, call.number("y"))); }})
       .method({.name = "channel:amplitude",
                .help = "Amplitude of the velocity's fluctuation at omega in the periodic state: of the part that varies as "
                        "cos(omega t + phase). Tends to drive/(a omega) away from the walls as omega grows.",
-               .example = example("print(c:amplitude(), c:amplitude(0.9e-3), 1/(c.a*c.omega))"),
+               .example = "print(c:amplitude(), c:amplitude(0.9e-3), 1/(c.a*c.omega))",
                .arguments = {y_key_or_axis()},
                .run = [at](Call& call) { return call.give(at(call).amplitude(call.number("y"))); }})
       .method({.name = "channel:error_bound",
                .help = "A bound, for all y, of what the terms left out of velocity(y, t) could add; rounding is not in it. Large only "
                        "for times so short that all the terms do not suffice.",
-               .example = example("print(c:error_bound(1e-6), c:error_bound(1e-2))"),
+               .example = "print(c:error_bound(1e-6), c:error_bound(1e-2))",
                .arguments = {t_key().above(0)},
                .run = [at](Call& call) { return call.give(at(call).truncation_bound(call.number("t"))); }});
 }
@@ -177,13 +176,13 @@ int advance(Call& call) {
 }
 
 void bind_stepping(Library& library) {
-  static const std::string start = example("local s = c:stepping{ step = 0.01 }\n");
   library.type<Stepping>("A channel's flow stepped in time by finite elements.")
+      .setup(std::string(kFlow) + "local s = c:stepping{ step = 0.01 }\n")
       .field("time", "now", [](const Stepping& s) { return s.time(); }, "time")
       .field("steps", "steps done", [](const Stepping& s) { return s.steps(); })
       .method({.name = "channel_stepping:step",
                .help = "Steps by one step; gives the object again.",
-               .example = start + "s:step():step()\nprint(s.time)",
+               .example = "s:step():step()\nprint(s.time)",
                .returns = Wrapped<Stepping>::name,
                .run = [](Call& call) {
                  call.self<Stepping>()->step();
@@ -191,13 +190,13 @@ void bind_stepping(Library& library) {
                }})
       .method({.name = "channel_stepping:run",
                .help = "Steps to a time by equal steps, none longer than the step; gives the object again.",
-               .example = start + "print(s:run(0.5):velocity(0))",
+               .example = "print(s:run(0.5):velocity(0))",
                .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")},
                .returns = Wrapped<Stepping>::name,
                .run = advance})
       .method({.name = "channel_stepping:velocity",
                .help = "u(y) now.",
-               .example = start + "s:step()\nprint(s:velocity(0) - c:velocity(0, s.time))",
+               .example = "s:step()\nprint(s:velocity(0) - c:velocity(0, s.time))",
                .arguments = {y_key()},
                .run = [](Call& call) { return call.give(call.self<Stepping>()->velocity(call.number("y"))); }})
       .text([](const Stepping& s) { return text("channel_stepping: time ", s.time(), " after ", s.steps(), " steps"); });
@@ -207,7 +206,7 @@ Descriptor stepping() {
   return {.name = "channel:stepping",
           .help = "The same flow from t = 0 on, stepped in time independently of the series: finite elements of any degree on half the "
                   "channel, cells crowded at the wall, and Radau IIA of order 5.",
-          .example = example("local s = c:stepping{ step = 0.01 }:run(0.5)\nprint(s:velocity(0) - c:velocity(0, 0.5))"),
+          .example = "local s = c:stepping{ step = 0.01 }:run(0.5)\nprint(s:velocity(0) - c:velocity(0, 0.5))",
           .arguments = {key::table({key::positive("step", "longest step").required().unit("time"),
                                     key::integer("cells", "on half the channel").within(1, 4096).fallback(16.0),
                                     key::integer("degree", "of the elements").within(1, 16).fallback(8.0)})},
@@ -222,7 +221,7 @@ Descriptor stepping() {
 
 void bind_channel(Library& library) {
   library.function(constructor());
-  auto type = library.type<ChannelFlow>("Oscillating flow in a magnetohydrodynamic channel.");
+  auto type = library.type<ChannelFlow>("Oscillating flow in a magnetohydrodynamic channel.").setup(kFlow);
   add_fields(type);
   add_states(type);
   type.method(stepping());

@@ -1,6 +1,7 @@
 #include "scene/inf_sup.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 #include "script/wrapped.hpp"
 
 namespace dotyk::script {
@@ -24,6 +25,7 @@ int inf_sup(Call& call) {
 
 void bind_contact(Library& library) {
   library.type<Contact>("A contact or a glue of a scene.")
+      .setup(setup::pressed_block())
       .field("name", "what messages call it", [](const Contact& c) { return c.name; })
       .field("rows", "number of contact conditions", [](const Contact& c) { return c.rows.size(); })
       .method({.name = "contact:inf_sup",

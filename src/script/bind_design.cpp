@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "script/bind_shape.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 #include "script/space.hpp"
 #include "shape/contact_derivative.hpp"
 
@@ -158,6 +159,7 @@ std::vector<Dual> variables(const Design& d) {
 void bind_design(Library& library) {
   library.type<Design>("A design of dotyk.shape, solved. Its numbers are dual numbers: value, and gradient by the design variables (at a "
                        "kink one-sided derivatives, as each variable grows); arithmetic with them and dotyk.dual.sqrt and the like go on differentiating.")
+      .setup(setup::shape() + "local design = shape:design{ 0.01, 0, 0, 0, 0.01 }\n")
       .field("alpha", "the design variables", variables, "length")
       .field("compliance", "minus the least energy, f'u - u'Ku/2", [](const Design& d) { return d.dual(*shape::compliance()); }, "force·length")
       .field("volume", "of all bodies; area in the plane", [](const Design& d) { return d.dual(*shape::volume()); })
@@ -183,7 +185,7 @@ void bind_design(Library& library) {
       .method({.name = "design:along",
                .help = "The same design with derivatives along one direction: gradients have one entry, the one-sided derivative as "
                        "the design moves that way. At a kink it is not the negative of that along the opposite direction.",
-               .example = "local forward, backward = design:along{ 1, 0 }, design:along{ -1, 0 }\nprint(forward.peak_pressure.gradient[1])",
+               .example = "local forward, backward = design:along{ 1, 0, 0, 0, 0 }, design:along{ -1, 0, 0, 0, 0 }\nprint(forward.peak_pressure.gradient[1])",
                .arguments = {key::vector("direction", "an entry a design variable").count(1, 4096).required()},
                .returns = "design",
                .run = along})

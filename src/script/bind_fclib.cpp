@@ -5,6 +5,7 @@
 #include "fclib/read.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 #include "script/watch.hpp"
 
 namespace dotyk::script {
@@ -62,7 +63,8 @@ void bind_problem(Library& library) {
       .field("W", "a table of its rows, computed when read", rows_of_W)
       .method({.name = "contact_problem:solve",
                .help = "Solves the problem by a method that works on rows alone; solver:solve(problem) is the same.",
-               .example = "local r = dotyk.fclib(\"box.hdf5\"):solve(dotyk.solver.newton{ tol = 1e-12 })\nprint(r.residual, r.stick)",
+               .setup = setup::contact_problem(),
+               .example = "local r = p:solve(dotyk.solver.newton{ tol = 1e-12 })\nprint(r.residual, r.stick)",
                .arguments = {key::object<Solver>("solver", "the method").required()},
                .returns = Wrapped<ContactProblemResult>::name,
                .run = [](Call& call) {
@@ -114,7 +116,8 @@ void bind_fclib(Library& library) {
        .help = "Reads a frictional contact problem: an HDF5 file of the FCLIB collection (fclib_local, fclib_global) or the "
                "plain text that siconos prints. Global problems, M v = Hr + f with u = H'v + w, come condensed to u = Wr + q. "
                "Rolling friction is refused.",
-       .example = "local p = dotyk.fclib \"box.hdf5\"\nlocal r = p:solve(dotyk.solver.newton{})\nprint(r.residual, r.open, r.stick, r.slip)",
+       .setup = setup::contact_problem(),
+       .example = "local r = p:solve(dotyk.solver.newton{})\nprint(r.residual, r.open, r.stick, r.slip)",
        .arguments = {key::file("file", "the file's name").required()},
        .returns = Wrapped<ContactProblem>::name,
        .run = read});

@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
+#include "script/setups.hpp"
 #include "script/wrapped.hpp"
 #include "solver/feti.hpp"
 
@@ -59,6 +60,7 @@ void bind_feti(Library& library) {
                "Coulomb's by an outer loop. tol: on |projected gradient| / |P d| and on |G lambda - e| / |f|, rows "
                "scaled by the stiffness of what they join, and on what a subdomain's forces leave unbalanced. An iteration is an outer step; s.history[k].inner counts the steps of the inner method so far, "
                "s.feti tells what the decomposition was like.",
+       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.feti{ subdomains = 64, tol = 1e-8 }:solve(scene)\n"
                   "local t = dotyk.solver.feti{ subdomains = {4, 4, 4}, preconditioner = \"lumped\" }:solve(scene)",
        .arguments = {key::table(method_keys(

@@ -189,7 +189,7 @@ std::vector<Key> figure_keys() {
 void bind_figure(Library& library) {
   library.function({.name = "dotyk.chart",
                     .help = "Draws curves into a PNG file, in one chart or in panels one below the other, and returns its name.",
-                    .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
+                    .example = "dotyk.chart{ file = \"images/a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
                                "  series = { { name = \"P1\", x = { 1, 0.5 }, y = { 0.1, 0.03 } } } }",
                     .arguments = {key::table(figure_keys())},
                     .run = chart});

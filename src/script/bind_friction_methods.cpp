@@ -2,6 +2,7 @@
 #include "base/text.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
+#include "script/setups.hpp"
 #include "script/wrapped.hpp"
 #include "solver/coulomb_loop.hpp"
 #include "solver/newton.hpp"
@@ -70,6 +71,7 @@ void bind_friction_methods(Library& library) {
       {.name = "dotyk.solver.uzawa",
        .help = "Uzawa's method: projected gradient steps on the multipliers, contact with given or Coulomb friction. The "
                "step is measured by the bound 2/λ_max, which is estimated (from above) and told in s.reason.",
+       .setup = setup::pressed_block(", friction = dotyk.friction.tresca(2)"),
        .example = "local s = dotyk.solver.uzawa{ rho = 0.9 }:solve(scene)",
        .arguments = {key::table(method_keys(
            {key::positive("rho", "length of the steps as a part of the bound 2/λ_max; from 1 on convergence is not certain")
@@ -82,6 +84,7 @@ void bind_friction_methods(Library& library) {
                "friction frozen, then friction with contact frozen, with projected steps of length rho before each. "
                "It need not converge for rho beyond Uzawa's bound; s.reason tells a cycle from a stall. For Coulomb friction the bound "
                "is that of the normal forces at hand.",
+       .setup = setup::pressed_block(", friction = dotyk.friction.tresca(2)"),
        .example = "local s = dotyk.solver.uzawa_pdas{ rho = 1 }:solve(scene)",
        .arguments = {key::table(method_keys(
            {key::positive("rho", "length of the projected steps, and weight of the jumps where sets are chosen").fallback(0.5),
@@ -92,6 +95,7 @@ void bind_friction_methods(Library& library) {
   library.function(
       {.name = "dotyk.solver.psor",
        .help = "Projected over-relaxation, node by node: the normal force, then its friction, given or Coulomb.",
+       .setup = setup::pressed_block(", friction = dotyk.friction.tresca(2)"),
        .example = "local s = dotyk.solver.psor{ omega = 1.2 }:solve(scene)",
        .arguments = {key::table(method_keys(
            {key::number("omega", "relaxation, 1 for Gauss-Seidel").above(0).below(2).fallback(1.0)}, kMany))},
@@ -101,6 +105,7 @@ void bind_friction_methods(Library& library) {
       {.name = "dotyk.solver.projected_cg",
        .help = "Projected conjugate gradients: contact with given friction, and Coulomb's by an outer loop over given "
                "friction.",
+       .setup = setup::pressed_block(", friction = dotyk.friction.tresca(2)"),
        .example = "local s = dotyk.solver.projected_cg{ tol = 1e-8 }:solve(scene)",
        .arguments = {key::table(method_keys({}, kMany))},
        .returns = "solver",
@@ -111,7 +116,8 @@ void bind_friction_methods(Library& library) {
                "goes to zero (the proximal point method): contact with given or Coulomb friction, also where there are more "
                "contact forces than motions, so that the forces are not unique (hyperstatic problems). An iteration takes one or "
                "several Newton steps; s.reason tells how many in all.",
-       .example = "local r = dotyk.solver.proximal{ tol = 1e-12 }:solve(dotyk.fclib \"stack.hdf5\")",
+       .setup = setup::contact_problem(),
+       .example = "local r = dotyk.solver.proximal{ tol = 1e-12 }:solve(p)\nprint(r)",
        .arguments = {key::table(method_keys(
            {key::positive("sigma", "compliance of the springs at the start, as a part of that of the rows themselves")
                 .fallback(0.1)}))},
@@ -122,6 +128,7 @@ void bind_friction_methods(Library& library) {
        .help = "Coulomb friction by the outer loop over given friction: bounds mu times the normal force of the last "
                "step, by any method that treats given friction. An iteration is a step of the loop; s.history[k].contraction "
                "is the change of the bounds against the change before, below 1 where the loop converges.",
+       .setup = setup::pressed_block(", friction = dotyk.friction.coulomb(0.3)"),
        .example = "local s = dotyk.solver.coulomb_loop{ inner = dotyk.solver.projected_cg{} }:solve(scene)",
        .arguments = {key::table(method_keys(
            {key::object<Solver>("inner", "what solves with given friction, made by one of dotyk.solver's")

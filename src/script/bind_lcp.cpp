@@ -71,7 +71,7 @@ void bind_lcp(Library& library) {
                "circles, or meets a singular matrix, Lemke's method; up to 16 unknowns enumeration says whether there "
                "is no solution, or more than one.",
        .example = "local r = dotyk.lcp{ M = {{1, 0, 2}, {2, 1, 0}, {0, 2, 1}}, q = {1, 1, 1}, start = {1} }\n"
-                  "print(r.status, #r.cycle, r.method)\nprint(dotyk.lcp \"murty.dat\".status)",
+                  "print(r.status, #r.cycle, r.method)\nio.open(\"two.dat\", \"w\"):write \"2  0 2 2 2 2  2 1  1 2  -1 -1\":close()\nprint(dotyk.lcp \"two.dat\")",
        .arguments = {key::table(
            {key::file("file", "a file in the text format of siconos, instead of M and q").otherwise("none"),
             key::matrix("M", "n x n"), key::vector("q", "n"),

@@ -7,6 +7,7 @@
 #include "script/bind.hpp"
 #include "script/wrapped.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 #include "script/space.hpp"
 
 namespace dotyk::script {
@@ -173,6 +174,7 @@ void bind_mesh(Library& library) {
                     .returns = "mesh",
                     .run = disc});
   library.type<MeshHandle>("A mesh of one kind of cell, with named boundary parts.")
+      .setup(setup::mesh())
       .field("dimension", "2 or 3", [](const MeshHandle& m) { return m.mesh->dimension(); })
       .field("node_count", "number of nodes", [](const MeshHandle& m) { return m.mesh->node_count(); })
       .field("cell_count", "number of cells", [](const MeshHandle& m) { return m.mesh->cell_count(); })
@@ -190,7 +192,7 @@ void bind_mesh(Library& library) {
       .method({.name = "mesh:keep",
                .help = "A new mesh of the cells whose centre chosen(x, y[, z]) accepts, with what is left of the parts; the "
                        "facets laid bare become a part of their own.",
-               .example = "local frame = m:keep(function(x, y) return math.max(math.abs(x), math.abs(y)) > 0.5 end, \"hole\")",
+               .example = "local frame = m:keep(function(x, y) return math.max(math.abs(x), math.abs(y - 0.5)) > 0.25 end, \"hole\")",
                .arguments = {key::function("chosen", "coordinates of a cell's centre to true or false").required(),
                              key::string("part", "name of the facets laid bare").fallback("cut")},
                .returns = "mesh",

@@ -1,6 +1,7 @@
 #include "meshfile/load.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 #include "script/watch.hpp"
 #include "script/wrapped.hpp"
 
@@ -51,7 +52,8 @@ void bind_mesh_file(Library& library) {
                "goes by its number. Elements of higher order are reduced to their corners, facets of a part that lie "
                "between cells are left out: mesh.notes says so. A file of several bodies: one load for each region, or "
                "mesh:pieces().",
-       .example = "local g = dotyk.mesh.load(\"gears.msh\", { region = \"gear 1\" })\nprint(g)",
+       .setup = setup::solved_block(),
+       .example = "s:write \"block.vtu\"\nprint(dotyk.mesh.load \"block.vtu\")\nprint(dotyk.mesh.load(\"block.vtu\", { region = \"block\" }))",
        .arguments = {key::file("file", "ends in .msh, .mesh or .vtu").required(), key::table("options", {region_key()}, "what of it").otherwise("all of it")},
        .returns = "mesh",
        .run = load});

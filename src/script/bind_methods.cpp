@@ -1,6 +1,7 @@
 #include "base/text.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
+#include "script/setups.hpp"
 #include "solver/newton.hpp"
 #include "solver/pdas.hpp"
 
@@ -40,6 +41,7 @@ void bind_methods(Library& library) {
       {.name = "dotyk.solver.pdas",
        .help = "The primal-dual active set method, which is Newton's method on the contact conditions: "
                "finite, exact, usually a handful of iterations.",
+       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.pdas{ reduced = true }:solve(scene)",
        .arguments = {key::table(method_keys(
            {key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
@@ -57,6 +59,7 @@ void bind_methods(Library& library) {
       {.name = "dotyk.solver.newton",
        .help = "The generalised Newton method on normal and tangential part together: contact with given "
                "or Coulomb friction, in the plane and in space, on the contact boundary alone.",
+       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.newton{ tol = 1e-10 }:solve(scene)",
        .arguments = {key::table(method_keys(
            {key::positive("rho", "weight of slip and gap against force in the projections; multiplies the stiffness "

@@ -245,8 +245,8 @@ void bind_optimum(Library& library) {
        .help = "Seeks the least objective within bounds and constraints. Designs that cannot be solved (cells inverted, bodies overlapping, no "
                "solution) are answered by shorter steps. Ctrl-C at the prompt, or on_design returning false, ends with the best design so far; as "
                "start of another run it goes on from there.",
-       .example = "local best = shape:optimise{ max_designs = 30, on_design = function(k, d) print(k, d.objective) end }\n"
-                  "print(best.objective, best.reason)\nlocal better = shape:optimise{ start = best }",
+       .example = "local best = shape:optimise{ max_designs = 5, on_design = function(k, d) print(k, d.objective) end }\n"
+                  "print(best.objective, best.reason)\nlocal better = shape:optimise{ start = best, max_designs = 5 }",
        .arguments = {key::table(keys())},
        .returns = "optimum",
        .run = optimise});

@@ -5,6 +5,7 @@
 #include "script/bind_plate.hpp"
 #include "script/library.hpp"
 #include "script/result_records.hpp"
+#include "script/setups.hpp"
 #include "script/watch.hpp"
 
 namespace dotyk::script {
@@ -110,7 +111,7 @@ std::string show(const Solution& s) {
 }  // namespace
 
 void bind_plate_solution(Library& library) {
-  library.type<Solution>("A solved plate: what it does, and how it ended.")
+  library.type<Solution>("A solved plate: what it does, and how it ended.").setup(setup::solved_plate())
       .field("converged", "did the method end as it should", [](const Solution& s) { return s.result().converged; })
       .field("method", "which method", [](const Solution& s) { return s.result().method; })
       .field("iterations", "how many", [](const Solution& s) { return s.result().iterations; })
@@ -139,7 +140,7 @@ void bind_plate_solution(Library& library) {
       .method({.name = "plate_solution:distance",
                .help = "How far this solution is from another one of the same plate, on another mesh or with the other element, relative to the other: energy, of the curvatures, weighted "
                        "by the bending stiffness; displacement, of the deflection in L2.",
-               .example = "print(s:distance(fine).energy)",
+               .example = "print(s:distance(dotyk.solve(plate(24))).energy)",
                .arguments = {key::object<Solution>("other", "a solution, as a rule a finer one").required()}, .run = distance})
       .method({.name = "plate_solution:corners",
                .help = "The forces that the supports concentrate at the corners of the edge (x, y, force, upwards): what a corner bears beyond the reaction per length of the nodes next to it.",

@@ -7,6 +7,7 @@
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/program_input.hpp"
+#include "script/setups.hpp"
 #include "script/watch.hpp"
 
 namespace dotyk::script {
@@ -135,11 +136,14 @@ void bind_program(Library& library) {
                "x_low <= x <= x_high; or one from a file, dotyk.qp \"name.qps\". Returns the program, to be solved by "
                "its method solve; with the key method, solves at once and returns the result.",
        .example = "local r = dotyk.qp{ B = {{2, 0}, {0, 2}}, c = {2, 5}, D = {{1, 1}}, d = {1}, x_low = 0, method = "
-                  "\"active_set\" }\nlocal p = dotyk.qp \"hs21.qps\"\nprint(p:solve{ change = \"many\" }.objective)",
+                  "\"active_set\" }\nprint(r)\nio.open(\"small.qps\", \"w\"):write(\n"
+                  "  \"NAME small\\nROWS\\n N cost\\n G sum\\nCOLUMNS\\n x cost 1 sum 1\\n y cost 2 sum 1\\n\",\n"
+                  "  \"RHS\\n rhs sum 1\\nQUADOBJ\\n x x 2\\n y y 2\\nENDATA\\n\"):close()\nprint(dotyk.qp \"small.qps\":solve{ change = \"many\" })",
        .arguments = {key::table(keys)},
        .returns = "program",
        .run = make});
   library.type<QuadraticProgram>("A quadratic program: minimise 1/2 x'Px + q'x + r, low <= Ax <= high.")
+      .setup("local program = dotyk.qp{ B = {{2, 0}, {0, 2}}, c = {2, 5}, D = {{1, 1}}, d = {1}, x_low = 0 }\n")
       .field("name", "its name, from a file", [](const QuadraticProgram& p) { return p.name; })
       .field("unknowns", "how many x there are", [](const QuadraticProgram& p) { return p.unknowns(); })
       .field("rows", "of A, bounds included", [](const QuadraticProgram& p) { return p.rows(); })
@@ -147,7 +151,7 @@ void bind_program(Library& library) {
       .field("bounds", "rows with a single entry", bounds)
       .method({.name = "program:solve",
                .help = "Solves the program. A program without a solution, or not convex, gives a result whose status says so.",
-               .example = "local r = program:solve{ method = \"active_set\", change = \"many\" }",
+               .example = "local r = program:solve{ method = \"active_set\", change = \"many\" }\nprint(r)",
                .arguments = {key::table(solve_keys())},
                .returns = "program_result",
                .run = [](Call& call) { return solve_with(call, call.self<QuadraticProgram>()); }})

@@ -1,6 +1,7 @@
 #include "base/text.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
+#include "script/setups.hpp"
 #include "solver/active_set.hpp"
 #include "solver/interior_point.hpp"
 #include "solver/penalty.hpp"
@@ -43,6 +44,7 @@ void bind_program_methods(Library& library) {
                "bodies held or free. Rows enter the working set as the bodies meet them and leave where they would pull. "
                "The solution's working_set counts rows added and dropped, singular KKT systems met and survived, "
                "factorisations, and times that zigzagging was noticed (repeats).",
+       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.active_set{ change = \"many\" }:solve(scene)\nprint(s.iterations, s.working_set.singular)",
        .arguments = {key::table(method_keys({key::choice("change", {"one", "many"}, "rows that enter or leave in a step")
                                                  .fallback("one"),
@@ -54,6 +56,7 @@ void bind_program_methods(Library& library) {
       {.name = "dotyk.solver.interior_point",
        .help = "Mehrotra's interior-point method on the quadratic program of frictionless contact. At its end every "
                "force and every gap is a little positive; nodes are closed where the force is the larger one, scaled.",
+       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.interior_point{ tol = 1e-10 }:solve(scene)",
        .arguments = {key::table(method_keys({reduced_key(kBoundary)}))},
        .returns = "solver",
@@ -64,6 +67,7 @@ void bind_program_methods(Library& library) {
                "The bodies overlap, energy and force are off by O(1/factor). The solution's penalty says by how much: "
                "penetration (length), energy (force·length, what the energy is too low by); residual shows it as well. "
                "converged is said of the problem with springs.",
+       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.penalty{ factor = 1e3 }:solve(scene)\nprint(s.penalty.penetration, s.reason)",
        .arguments = {key::table(method_keys(
            {key::positive("factor", "stiffness of the springs over the stiffness that a contact node sees").fallback(1000.0),

@@ -3,6 +3,7 @@
 #include "scene/repeated.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 #include "script/space.hpp"
 #include "script/watch.hpp"
 #include "script/wrapped.hpp"
@@ -149,8 +150,10 @@ void bind_repeated(Library& library) {
       .field("kept", "vectors kept for a next system", [](const RepeatedSolution& s) { return s.kept; })
       .method({.name = "repeated_systems:nodes",
                .help = "The solution of one system: for every node its coordinates and its displacement, or the displacement's derivative.",
-               .example = "local r = dotyk.repeated_systems{ scene = scene, loads = { \"wind\", \"snow\" } }\n"
-                          "for _, n in ipairs(r:nodes(1)) do print(table.unpack(n)) end",
+               .setup = setup::block() + "block:part \"bottom\":fix()\n"
+                        "block:part \"left\":load({ 1, 0 }, \"wind\")\nblock:part \"top\":load({ 0, -1 }, \"snow\")\n",
+               .example = "local r = dotyk.repeated_systems{ scene = dotyk.scene{ block }, loads = { \"wind\", \"snow\" } }\n"
+                          "local corner = r:nodes(1)[153]\nprint(table.unpack(corner))",
                .arguments = {key::integer("system", "its number, from 1").required()},
                .run = nodes})
       .text([](const RepeatedSolution& s) {

@@ -2,6 +2,7 @@
 
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 #include "problem/solvability.hpp"
 #include "scene/model.hpp"
 #include "script/space.hpp"
@@ -143,6 +144,7 @@ void bind_friction(Library& library) {
   library.module("dotyk.friction", "Friction laws for scene:contact. A normal and a tangential force at each contact node, or, for given friction, multipliers = \"P1-P0\" of scene:contact.");
   library.function({.name = "dotyk.friction.tresca",
                     .help = "Given friction (Tresca): the shear is at most g, whatever the pressure. math.huge: no slip at all.",
+                    .setup = setup::two_blocks(),
                     .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.tresca(2.5) }",
                     .arguments = {key::either("value", {key::number("", "").at_least(0).or_infinite(), key::function("", "")},
                                               "bound, a number or a function of the coordinates").unit("force/length (2-D), force/area (3-D)").required()},
@@ -150,6 +152,7 @@ void bind_friction(Library& library) {
                     .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::tresca); }});
   library.function({.name = "dotyk.friction.coulomb",
                     .help = "Coulomb friction: the shear is at most mu times the pressure.",
+                    .setup = setup::two_blocks(),
                     .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.coulomb(0.3) }",
                     .arguments = {key::either("value", {key::number("", "").at_least(0), key::function("", "")},
                                               "coefficient, a number or a function of the coordinates").required()},
@@ -207,11 +210,13 @@ Key pairing_key() {
 void bind_scene(Library& library) {
   library.function({.name = "dotyk.scene",
                     .help = "Bodies that are solved together. Add contacts with scene:contact and scene:glue.",
-                    .example = "local scene = dotyk.scene{ block, other }",
+                    .setup = setup::block(),
+                    .example = "local scene = dotyk.scene{ block }\nprint(scene)",
                     .arguments = {key::table({}).with(key::object<scene::Body>("bodies", "the bodies"))},
                     .returns = "scene",
                     .run = make_scene});
   library.type<Scene>("Bodies and what joins them.")
+      .setup(setup::two_blocks())
       .field("bodies", "its bodies", [](const Scene& s) { return s.bodies; })
       .field("contacts", "its contacts and glues, in order", [](const Scene& s) { return s.contacts; })
       .field("dimension", "2 or 3", [](const Scene& s) { return s.dimension(); })
@@ -220,9 +225,9 @@ void bind_scene(Library& library) {
                        "frictionless unless a friction law is given. At a corner of the (first) part there is one condition for each adjoining side. "
                        "Conditions, pressures and statuses are those of the first part's nodes: where nodes do not match, let the first be the "
                        "part that the other covers and whose nodes supports leave free, and of two meshes the coarser.",
-               .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\" }\n"
-                          "local m = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }\n"
-                          "local r = scene:contact{ top, rigid = punch }",
+               .example = "local wall = dotyk.rigid.plane{ point = {1,0}, normal = {-1,0} }\n"
+                          "local w = scene:contact{ upper:part \"right\", rigid = wall }\n"
+                          "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }",
                .arguments = {key::table({key::object<FrictionLaw>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu)").otherwise("none"),
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
                                          key::field("gap", "added to the geometric gap; a number or a function of the coordinates").unit("length").otherwise("0"),
@@ -239,7 +244,7 @@ void bind_scene(Library& library) {
                .run = add_contact})
       .method({.name = "scene:glue",
                .help = "Ties two parts together: no jump of the displacement at the first part's nodes, or in their surroundings' mean.",
-               .example = "scene:glue{ a:part \"right\", b:part \"left\" }",
+               .example = "scene:glue{ upper:part \"bottom\", lower:part \"top\" }",
                .arguments = {key::table({pairing_key()}).with(key::object<Part>("parts", "the two parts").count(2))},
                .returns = "contact",
                .run = add_glue})

@@ -6,6 +6,7 @@
 #include "scene/moved.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/setups.hpp"
 #include "script/watch.hpp"
 
 namespace dotyk::script {
@@ -164,19 +165,14 @@ void bind_shape(Library& library) {
                "prescribed displacements, friction and gaps given go with their material points, contacts keep their pairs of nodes.\n"
                "Where all contact is with force, derivatives are linear in the direction (and cost an adjoint solve); where nodes touch without "
                "force they solve a quadratic program, one for each direction. Friction at the edge of slip has none and is refused.",
-       .example = "local m = dotyk.material{ E = 1000, nu = 0.3 }\n"
-                  "local block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {-1,0}, to = {1,1}, cells = {16,8} }, material = m }\n"
-                  "block:part \"top\":load{ 0, -1 }\nblock:part \"left\":fix \"x\"\n"
-                  "local scene = dotyk.scene{ block }\n"
-                  "scene:contact{ block:part \"bottom\", rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} } }\n"
-                  "local shape = dotyk.shape{ scene = scene, objective = \"peak_pressure\",\n"
-                  "  moves = { { part = block:part \"bottom\", control_points = 5, direction = {0,1}, lower = 0, upper = 0.05 } } }\n"
-                  "local design = shape:design{ 0.01, 0, 0, 0, 0.01 }\n"
+       .setup = setup::shape(),
+       .example = "local design = shape:design{ 0.01, 0, 0, 0, 0.01 }\n"
                   "print(design.peak_pressure.value, design.peak_pressure.gradient[1])",
        .arguments = {key::table(keys())},
        .returns = "shape",
        .run = make});
   library.type<Shape>("A scene whose parts may move, and what is sought.")
+      .setup(setup::shape())
       .field("variables", "how many design variables there are", [](const Shape& s) { return s.space->variables(); })
       .field("lower", "their least values", [](const Shape& s) { return std::vector<double>(s.lower.begin(), s.lower.end()); }, "length")
       .field("upper", "their greatest values", [](const Shape& s) { return std::vector<double>(s.upper.begin(), s.upper.end()); }, "length")

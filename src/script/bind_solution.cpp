@@ -4,6 +4,7 @@
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/result_records.hpp"
+#include "script/setups.hpp"
 #include "script/space.hpp"
 #include "script/watch.hpp"
 #include "script/wrapped.hpp"
@@ -190,7 +191,7 @@ int error_estimate(Call& call) {
 }  // namespace
 
 void bind_solution(Library& library) {
-  auto type = library.type<Solution>("What a solve gives: the state, how it ended, how far to trust it, what it cost.");
+  auto type = library.type<Solution>("What a solve gives: the state, how it ended, how far to trust it, what it cost.").setup(setup::solved_block());
   type.field("converged", "did the method end as it should", [](const Solution& s) { return s.result().converged; })
       .field("method", "which method", [](const Solution& s) { return s.result().method; })
       .field("iterations", "how many", [](const Solution& s) { return s.result().iterations; })
@@ -217,12 +218,12 @@ void bind_solution(Library& library) {
       .field("factor_bytes", "size of the sparse factors", [](const Solution& s) { return s.result().factor_bytes; }, "bytes");
   type.method({.name = "solution:displacement",
                .help = "Components of the displacement at a point of a body at rest.",
-               .example = "local ux, uy = s:displacement(block, 0, -0.5)",
+               .example = "local ux, uy = s:displacement(block, 0, 0.5)",
                .arguments = point_keys(),
                .run = displacement})
       .method({.name = "solution:stress",
                .help = "Recovered stress at a point of a body at rest: xx yy xy zz (yz xz), von_mises, principal.",
-               .example = "print(s:stress(block, 0, -0.5).von_mises)",
+               .example = "print(s:stress(block, 0, 0.5).von_mises)",
                .arguments = point_keys(),
                .run = stress})
       .method({.name = "solution:contact",
@@ -242,12 +243,13 @@ void bind_solution(Library& library) {
                        "the tangential displacement, and of the reaction on the body per length or area), status (along the normal: "
                        "open where it bears nothing, closed; stick or slip where the law has a greatest force), tangential (the "
                        "same of the tangents), broken, weight, normal.",
+               .setup = setup::supported_block(),
                .example = "local r = s:support(block:part \"bottom\")\nprint(r.max_pressure, r.nodes[1].status)",
                .arguments = {key::object<scene::Part>("part", "a part with part:support").required()},
                .run = support})
       .method({.name = "solution:reaction",
                .help = "Components of the force that the supports of a part, laws included, exert on its body.",
-               .example = "local fx, fy = s:reaction(block:part \"bottom\")",
+               .example = "local fx, fy = s:reaction(block:part \"left\")",
                .arguments = {key::object<scene::Part>("part", "a supported part").required()},
                .run = reaction})
       .method({.name = "solution:error_estimate",
@@ -263,7 +265,7 @@ void bind_solution(Library& library) {
                .help = "How far it is from another solution of the same bodies and contacts, taken for exact (usually of a finer "
                        "mesh), relative to that: energy (norm of the difference), displacement (L2 over the bodies), and with "
                        "contact pressure (L2 over the contacts, at this solution's nodes) and peak_pressure.",
-               .example = "local coarse, fine = dotyk.solve(scene), dotyk.solve(fine_scene)\nprint(coarse:distance(fine).energy)",
+               .example = "local soft = dotyk.solver.penalty{ factor = 100 }:solve(scene)\nprint(soft:distance(s).energy)",
                .arguments = {key::object<Solution>("reference", "what is taken for exact").required()},
                .run = [](Call& call) { return call.give(distance_record(scene::distance(*call.self<Solution>(), *call.object<Solution>("reference")))); }})
       .method({.name = "solution:write_contact",

@@ -9,6 +9,7 @@
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
 #include "script/read_steps.hpp"
+#include "script/setups.hpp"
 #include "script/watch.hpp"
 #include "script/wrapped.hpp"
 
@@ -139,12 +140,14 @@ void bind_solver(Library& library) {
   bind_program_methods(library);
   library.function({.name = "dotyk.solve",
                     .help = std::string("Solves a scene by the method its plan names, without contact by one linear solve, or a beam. ") + kSteps,
-                    .example = "local s = dotyk.solve(scene)\nlocal finer = dotyk.solve(fine_scene, { start = s })\n"
-                               "local h = dotyk.solve(scene, { steps = { { load = { shear = 0 } }, { load = { shear = 1 } } } })",
+                    .setup = setup::pressed_block(),
+                    .example = "local s = dotyk.solve(scene)\nlocal again = dotyk.solve(scene, { start = s })\n"
+                               "local h = dotyk.solve(scene, { steps = { { load = 0.5 }, { load = 1 } } })\nprint(s)",
                     .arguments = solve_keys(scene_or_beam_key()),
                     .returns = "solution",
                     .run = solve});
   library.type<Solver>("A method with its options.")
+      .setup(setup::pressed_block() + "local solver = dotyk.solver.pdas{}\n")
       .method({.name = "solver:solve",
                .help = std::string("Solves a scene, or a frictional contact problem from a file (see dotyk.fclib): then a "
                                    "contact_problem_result is returned. ") + kSteps,
@@ -155,7 +158,7 @@ void bind_solver(Library& library) {
                .run = solve_and_tell})
       .method({.name = "solver:with",
                .help = "The same method with another tol; this one stays as it is.",
-               .example = "local rough = solver:with{ tol = 1e-3 }",
+               .example = "local rough = solver:with{ tol = 1e-3 }:solve(scene)",
                .arguments = {key::table({key::positive("tol", "relative natural residual at which it stops").required()})},
                .returns = "solver",
                .run = with_tol})

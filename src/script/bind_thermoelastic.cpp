@@ -218,8 +218,6 @@ const char* kBeam =
     "  left = { deflection = l.signorini(), displacement = l.prescribed(0) }, right = { deflection = l.signorini() },\n"
     "  load = -100, step = 1 }\n";
 
-std::string example(const char* use) { return std::string(kBeam) + use; }
-
 Key varying(const char* name, const char* help) { return key::either(name, {key::number("", ""), key::function("", "")}, help); }
 
 std::vector<Key> laws() { return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")}; }
@@ -267,7 +265,7 @@ std::vector<Key> x_key() { return {key::number("x", "from the left end").unit("l
 
 void add_values(TypeOf<ThermoelasticBeam>& type) {
   const auto add = [&](const char* name, const char* help, int (*run)(Call&), const char* use) {
-    type.method({.name = std::string("thermoelastic_beam:") + name, .help = help, .example = example(use), .arguments = x_key(), .run = run});
+    type.method({.name = std::string("thermoelastic_beam:") + name, .help = help, .example = use, .arguments = x_key(), .run = run});
   };
   add("deflection", "The deflection now, positive upwards.", at<&Stepping::deflection>, "print(b:run(60):deflection(0.5))");
   add("rotation", "The slope of the deflection now.", at<&Stepping::rotation>, "print(b:run(60):rotation(0))");
@@ -277,12 +275,12 @@ void add_values(TypeOf<ThermoelasticBeam>& type) {
   add("shear", "The shear force now, the derivative of the moment.", at<&Stepping::shear>, "print(b:run(60):shear(0))");
   add("normal", "The normal force now; a pull is positive.", at<&Stepping::normal>, "print(b:run(60):normal(0.5))");
   type.method({.name = "thermoelastic_beam:temperature", .help = "The temperature now, over the reference, at x and the height z over the axis.",
-               .example = example("print(b:run(60):temperature(0.5), b:temperature(0.5, 0.01))"),
+               .example = "print(b:run(60):temperature(0.5), b:temperature(0.5, 0.01))",
                .arguments = {x_key()[0], key::number("z", "over the axis").unit("length").fallback(0.0)},
                .run = [](Call& call) { return call.give(call.self<ThermoelasticBeam>()->stepping->temperature(call.number("x"), call.number("z"))); }});
   type.method({.name = "thermoelastic_beam:reaction",
                .help = "What a support does now: force (up), moment (anticlockwise) and axial force on the beam, and the deflection, rotation and displacement there.",
-               .example = example("print(b:run(60):reaction(\"left\").force)"),
+               .example = "print(b:run(60):reaction(\"left\").force)",
                .arguments = {key::either("at", {key::choice("", {"left", "right"}, ""), key::number("", "the x of a support")}, "an end, or the x of a support").required()},
                .run = reaction});
 }
@@ -303,9 +301,9 @@ Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
 }
 
 void bind_thermoelastic(Library& library) {
-  library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .example = example("print(b:run(60):deflection(0.5))"), .arguments = {key::table(keys())},
+  library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .setup = kBeam, .example = "print(b:run(60):deflection(0.5))", .arguments = {key::table(keys())},
                     .returns = Wrapped<ThermoelasticBeam>::name, .run = make});
-  auto type = library.type<ThermoelasticBeam>("A thermoelastic beam at a time.");
+  auto type = library.type<ThermoelasticBeam>("A thermoelastic beam at a time.").setup(kBeam);
   using B = ThermoelasticBeam;
   type.field("time", "now", [](const B& b) { return b.stepping->time(); }, "time")
       .field("steps", "steps done", [](const B& b) { return b.stepping->steps(); })
@@ -316,8 +314,8 @@ void bind_thermoelastic(Library& library) {
       .field("problems", "contact problems solved", [](const B& b) { return b.stepping->work().problems; })
       .field("iterations", "of the method, in all", [](const B& b) { return b.stepping->work().iterations; })
       .text(show);
-  type.method({.name = "thermoelastic_beam:step", .help = "One step; gives the beam again.", .example = example("print(b:step().time)"), .returns = Wrapped<B>::name, .run = step})
-      .method({.name = "thermoelastic_beam:run", .help = "To a time by equal steps, none longer than the step; gives the beam again.", .example = example("print(b:run(60).steps)"),
+  type.method({.name = "thermoelastic_beam:step", .help = "One step; gives the beam again.", .example = "print(b:step().time)", .returns = Wrapped<B>::name, .run = step})
+      .method({.name = "thermoelastic_beam:run", .help = "To a time by equal steps, none longer than the step; gives the beam again.", .example = "print(b:run(60).steps)",
                .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")}, .returns = Wrapped<B>::name, .run = run});
   add_values(type);
 }

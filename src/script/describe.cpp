@@ -95,6 +95,7 @@ Descriptor read_descriptor(lua_State* L, int index) {
   Descriptor descriptor;
   descriptor.name = text_field(L, index, "name");
   descriptor.help = text_field(L, index, "help");
+  descriptor.setup = text_field(L, index, "setup");
   descriptor.example = text_field(L, index, "example");
   descriptor.returns = text_field(L, index, "returns");
   if (descriptor.name.empty()) throw std::runtime_error("a description needs a name");

@@ -6,7 +6,7 @@ struct lua_State;
 
 namespace dotyk::script {
 
-// Reads { name =, help =, example =, returns =, arguments = {…} } where each
+// Reads { name =, help =, setup =, example =, returns =, arguments = {…} } where each
 // argument is { name =, kind =, help =, unit =, default =, required =, choices =,
 // type =, above =, at_least =, count = {fewest, most}, keys = {…}, item = {…} };
 // `keys` (and `item`) in place of `arguments` describe a single table argument.

@@ -174,6 +174,10 @@ bool Descriptor::takes_table() const {
   return arguments.size() == 1 && arguments[0].kind == Kind::table && arguments[0].name.empty();
 }
 
+std::string Descriptor::whole_example() const {
+  return setup.empty() || setup.back() == '\n' ? setup + example : setup + "\n" + example;
+}
+
 std::string Descriptor::signature() const {
   std::string text;
   const auto add = [&text](const Key& key) {

@@ -78,7 +78,8 @@ struct Key {
 struct Descriptor {
   std::string name = {};               // "dotyk.material", or "body:part" for a method
   std::string help = {};               // a paragraph
-  std::string example = {};            // Lua that compiles
+  std::string setup = {};              // Lua that makes what the example starts from; shown with it
+  std::string example = {};            // Lua that runs after the setup, in a folder that has a folder images
   std::vector<Key> arguments = {};     // in order; or a single unnamed table
   std::string returns = {};            // type of the result, for completion after a call, and for help
   std::function<int(Call&)> run = {};  // returns the number of results pushed
@@ -87,6 +88,7 @@ struct Descriptor {
   std::string owner() const;       // "body" for "body:part", else empty
   bool takes_table() const;        // called with one table of keys
   std::string signature() const;   // "dotyk.material{ E, nu = 0.3 }"
+  std::string whole_example() const;  // setup and example: a script
 };
 
 template <class T>

@@ -77,7 +77,7 @@ std::string help_text(const Descriptor& descriptor) {
   out += wrapped(descriptor.help, "  ");
   if (!descriptor.arguments.empty()) out += "\n";
   list_arguments(out, descriptor);
-  if (!descriptor.example.empty()) out += "\n  Example:\n" + indented(descriptor.example, "    ");
+  if (!descriptor.example.empty()) out += "\n  Example:\n" + indented(descriptor.whole_example(), "    ");
   return out;
 }
 

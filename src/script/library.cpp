@@ -99,7 +99,8 @@ Type& Library::known_type(const std::string& name) {
 }
 
 void Library::add_method(Type& type, Descriptor descriptor) {
-  const auto& kept = type.methods.emplace_back(std::move(descriptor));
+  auto& kept = type.methods.emplace_back(std::move(descriptor));
+  if (kept.setup.empty()) kept.setup = type.setup;
   push_function(L_, kept);
   add_method_to_metatable(L_, type.name.c_str(), kept.short_name().c_str());
 }

@@ -25,6 +25,7 @@ struct TypeField {
 // A class of objects as scripts see it.
 struct Type {
   std::string name, help;
+  std::string setup;  // Lua that makes what the methods' examples start from, where they have no setup of their own
   std::deque<TypeField> fields;
   std::deque<Descriptor> methods;
   std::function<std::string(const void*)> text;  // for print(); "<name>" if empty
@@ -51,6 +52,12 @@ class TypeOf {
   // `get` takes a const T& and returns anything push() knows.
   template <class Get>
   TypeOf& field(std::string name, std::string help, Get get, std::string units = "");
+
+  // What the examples of the methods described from here on start from.
+  TypeOf& setup(std::string text) {
+    type_.setup = std::move(text);
+    return *this;
+  }
 
   // The descriptor's name is "type:method".
   TypeOf& method(Descriptor descriptor);

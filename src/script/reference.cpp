@@ -36,7 +36,7 @@ std::string entry(const Descriptor& one) {
     add_rows(out, keys, "");
     out += "\n";
   }
-  return one.example.empty() ? out : out + "```lua\n" + one.example + "\n```\n\n";
+  return one.example.empty() ? out : out + "```lua\n" + one.whole_example() + "\n```\n\n";
 }
 
 }  // namespace

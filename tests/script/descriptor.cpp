@@ -15,7 +15,7 @@ TEST_CASE("every example compiles") {
   Interpreter interpreter;
   const auto check = [&](const Descriptor& one) {
     INFO(one.name);
-    const int status = luaL_loadstring(interpreter.state(), one.example.c_str());
+    const int status = luaL_loadstring(interpreter.state(), one.whole_example().c_str());
     const std::string message = status == LUA_OK ? "" : lua_tostring(interpreter.state(), -1);
     INFO(message);
     CHECK(status == LUA_OK);
