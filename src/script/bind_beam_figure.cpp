@@ -112,14 +112,14 @@ void add_thermoelastic(Library& library) {
                .help = "Draws the beam as it is now: the deflection line (exaggerated) with supports as symbols and loads as arrows, moment, shear and normal "
                        "force, temperature on the axis and its slope over the height, displacement along the axis, over one x axis into a PNG file, and "
                        "returns its name. Supports are coloured by what they do about deflection and rotation.",
-               .example = "b:run(60):render{ file = \"images/a.png\", panels = { \"deflection\", \"temperature\" }, units = { length = \"m\", temperature = \"K\" } }",
+               .example = "b:run(60):render{ file = \"a.png\", panels = { \"deflection\", \"temperature\" }, units = { length = \"m\", temperature = \"K\" } }",
                .arguments = {key::table(page_keys({panels_key(7, "deflection, moment, temperature and gradient")},
                                                   "{1000, 60 and 250 for each diagram and 400 for the deflection}", true))},
                .run = render_thermoelastic})
       .method({.name = "thermoelastic_beam:render_law",
                .help = "Draws the law of a support with where it is on it now, its reaction against its displacement, and the superpotential beside it, "
                        "into a PNG file, and returns its name. Displacements that the law forbids are grey.",
-               .example = "b:run(60):render_law{ file = \"images/a.png\", support = \"left\", of = \"displacement\" }",
+               .example = "b:run(60):render_law{ file = \"a.png\", support = \"left\", of = \"displacement\" }",
                .arguments = {key::table(page_keys({support_key("support").required(), of_key(3)}, "{1100, 480}"))},
                .run = render_thermoelastic_law});
 }
@@ -131,27 +131,27 @@ void bind_beam_figure(Library& library) {
       .method({.name = "beam_solution:render",
                .help = "Draws the deflection line (exaggerated) with supports as symbols and loads as arrows, the bending moment and the shear force "
                        "over one x axis into a PNG file, and returns its name. Supports are coloured by what they do.",
-               .example = "s:render{ file = \"images/a.png\", panels = { \"deflection\", \"moment\" }, units = { length = \"m\", force = \"kN\" } }",
+               .example = "s:render{ file = \"a.png\", panels = { \"deflection\", \"moment\" }, units = { length = \"m\", force = \"kN\" } }",
                .arguments = {key::table(page_keys({panels_key(3, "all three")}, "{1000, 60 and 250 for each diagram and 400 for the deflection}"))},
                .run = render})
       .method({.name = "beam_solution:render_law",
                .help = "Draws the law of a support with the working point on it, its reaction against its displacement, and the superpotential beside it, "
                        "into a PNG file, and returns its name. Displacements that the law forbids are grey.",
-               .example = "s:render_law{ file = \"images/a.png\", support = \"right\", of = \"deflection\" }",
+               .example = "s:render_law{ file = \"a.png\", support = \"right\", of = \"deflection\" }",
                .arguments = {key::table(page_keys({support_key("support").required(), of_key()}, "{1100, 480}"))},
                .run = render_law});
   library.extend<SupportLaw>().method(
       {.name = "law:render",
        .help = "Draws the law, its reaction against the displacement, and its superpotential into a PNG file, and returns its name. "
                "One-sided laws of a rotation resist slopes above zero.",
-       .example = "dotyk.law.capped_elastic(100, 2):render{ file = \"images/a.png\" }",
+       .example = "dotyk.law.capped_elastic(100, 2):render{ file = \"a.png\" }",
        .arguments = {key::table(page_keys({of_key()}, "{1100, 480}"))},
        .run = render_support_law});
   library.function({.name = "dotyk.support_gallery",
                     .help = "Draws rows of solved beams, the law of one support each with the working point, and its superpotential, into a PNG file, "
                             "and returns its name.",
                     .setup = setup::solved_beam(),
-                    .example = "dotyk.support_gallery{ file = \"images/a.png\", rows = { { solution = s, support = \"right\", title = \"A stop\" } } }",
+                    .example = "dotyk.support_gallery{ file = \"a.png\", rows = { { solution = s, support = \"right\", title = \"A stop\" } } }",
                     .arguments = {key::table({key::file("file", "where to; ends in .png, its folder must exist").written().required(),
                                               key::list("rows", key::table("", {key::object<BeamResult>("solution", "a solved beam").required(), support_key("support").required(), of_key(),
                                                                                 key::string("title", "above the row").otherwise("none")}, ""),

@@ -189,7 +189,7 @@ std::vector<Key> figure_keys() {
 void bind_figure(Library& library) {
   library.function({.name = "dotyk.chart",
                     .help = "Draws curves into a PNG file, in one chart or in panels one below the other, and returns its name.",
-                    .example = "dotyk.chart{ file = \"images/a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
+                    .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
                                "  series = { { name = \"P1\", x = { 1, 0.5 }, y = { 0.1, 0.03 } } } }",
                     .arguments = {key::table(figure_keys())},
                     .run = chart});
@@ -198,7 +198,7 @@ void bind_figure(Library& library) {
        .help = "Draws the deformed bodies coloured by a field, with contact status and pressure, into a PNG file and "
                "returns its name. With a deformation factor other than 1 a rigid obstacle is drawn at the magnified "
                "gap, so that what touches is seen to touch.",
-       .example = "s:render{ file = \"images/a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
+       .example = "s:render{ file = \"a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
        .arguments = {key::table(
            {key::file("file", "where to; ends in .png, its folder must exist").written().required(),
             key::choice("field", kFields, "what the colours show").fallback("von_mises"),

@@ -51,7 +51,7 @@ void bind_plate_figure(Library& library) {
        .help = "Draws the plate into a PNG file and returns its name. surface: in space, its deflection magnified, over the outline at rest; edges that have "
                "left their support show the gap. plan: from above, with contour lines, reactions per length as areas along the edges and those at corners "
                "and point supports as dots with their numbers. Both show the status of edges, point supports, and hatched what bears on the obstacle.",
-       .example = "s:render{ file = \"images/a.png\", view = \"plan\", field = \"von_mises\", units = { length = \"m\", force = \"kN\" } }",
+       .example = "s:render{ file = \"a.png\", view = \"plan\", field = \"von_mises\", units = { length = \"m\", force = \"kN\" } }",
        .arguments = {key::table(
            {key::file("file", "where to; ends in .png, its folder must exist").written().required(),
             key::choice("view", kViews, "the deflected surface, or the plan").fallback("surface"),

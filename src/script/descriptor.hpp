@@ -79,7 +79,7 @@ struct Descriptor {
   std::string name = {};               // "dotyk.material", or "body:part" for a method
   std::string help = {};               // a paragraph
   std::string setup = {};              // Lua that makes what the example starts from; shown with it
-  std::string example = {};            // Lua that runs after the setup, in a folder that has a folder images
+  std::string example = {};            // Lua that runs after the setup, in any folder that can be written to
   std::vector<Key> arguments = {};     // in order; or a single unnamed table
   std::string returns = {};            // type of the result, for completion after a call, and for help
   std::function<int(Call&)> run = {};  // returns the number of results pushed

@@ -19,7 +19,7 @@ std::string solved_block();
 // scene: two triangles pressed and pushed on a rigid base with friction, two contact nodes.
 std::string few_nodes();
 
-// block, supported by laws; scene; s, the solution.
+// block, on a support by laws; s, the solution.
 std::string supported_block();
 
 // lower and upper, one block on another, pressed together by a displacement; scene has no contact yet.

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Every example of the reference, which are those of help(), runs as it stands, indented as help shows it: each in a
-# folder of its own that holds a folder images. Arguments: the program, and words of the names of those to run (all).
+# folder of its own, empty. Arguments: the program, and words of the names of those to run (all).
 set -u
 dotyk=$(realpath "$1")
 chosen=${2-}
@@ -32,7 +32,7 @@ EOF
 failures=0 skipped=0 ran=0
 while read -r number name; do
   [[ $name == *"$chosen"* ]] || continue
-  mkdir -p "in$number/images" && cd "in$number" || exit 1
+  mkdir "in$number" && cd "in$number" || exit 1
   start=$EPOCHREALTIME
   timeout 30 "$dotyk" "../$number.lua" >../output 2>&1 </dev/null
   status=$?
