@@ -14,6 +14,7 @@ namespace dotyk::algebra {
 namespace {
 
 constexpr double kDependent = 1e-10;
+constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
 
 /// An orthonormal basis of the span of the columns, dependent ones left out; none for zero columns.
 DenseMatrix orth(const DenseMatrix& columns) {
@@ -30,6 +31,7 @@ class BlockRun {
 
   /// Adds to `x` the solution for the residuals b; false where it was stopped or has used all its steps.
   bool solve(const DenseMatrix& b, DenseMatrix& x) {
+    floor_ = kRounding * b.colwise().norm().transpose();
     DenseMatrix r = C_.forward(b), y = DenseMatrix::Zero(r.rows(), r.cols()), p = orth(r);
     bool going = true;
     while (note(r) && p.cols() > 0) {
@@ -55,14 +57,14 @@ class BlockRun {
     p = orth(r - p * curvature.solve(w.transpose() * r));
   }
 
-  /// Notes which columns have met the goal; false where all have.
+  /// Notes which columns have met the goal, or are as near as rounding lets a run come; false where all are.
   bool note(const DenseMatrix& r) {
     const DenseMatrix lifted = C_.lift(r);
     double worst = 0;
     bool open = false;
     for (Eigen::Index k = 0; k < r.cols(); ++k) {
-      const double residual = size_[k] > 0 ? lifted.col(k).norm() / size_[k] : 0;
-      const bool met = residual <= settings_.tolerance;
+      const double distance = lifted.col(k).stableNorm(), residual = size_[k] > 0 ? distance / size_[k] : 0;
+      const bool met = residual <= settings_.tolerance || distance <= floor_[k];
       int& settled = result_.settled[static_cast<std::size_t>(k)];
       if (!met) settled = -1;
       else if (settled < 0) settled = result_.iterations;
@@ -83,16 +85,19 @@ class BlockRun {
   const Vector& size_;
   BlockCgResult& result_;
   Stopwatch watch_;
+  Vector floor_;
 };
 
-/// ‖b − K x‖ / ‖b‖ of every column, from x; the greatest.
-double residuals(const DenseMatrix& r, const Vector& size, BlockCgResult& result) {
-  double worst = 0;
-  for (Eigen::Index k = 0; k < r.cols(); ++k) {
-    result.residual[static_cast<std::size_t>(k)] = size[k] > 0 ? r.col(k).norm() / size[k] : 0;
-    worst = std::max(worst, result.residual[static_cast<std::size_t>(k)]);
-  }
-  return worst;
+/// The columns' norms, also of numbers whose squares vanish or overflow.
+Vector sizes(const DenseMatrix& B) {
+  Vector size(B.cols());
+  for (Eigen::Index k = 0; k < B.cols(); ++k) size[k] = B.col(k).stableNorm();
+  return size;
+}
+
+/// ‖r‖ / ‖b‖ of every column, 0 for b = 0.
+Vector relative(const DenseMatrix& r, const Vector& size) {
+  return sizes(r).cwiseQuotient(size.unaryExpr([](double s) { return s > 0 ? s : 1; }));
 }
 
 }  // namespace
@@ -100,23 +105,34 @@ double residuals(const DenseMatrix& r, const Vector& size, BlockCgResult& result
 BlockCgResult block_cg(const Preconditioner& C, const DenseMatrix& B, const CgSettings& settings, Monitor& monitor) {
   if (!B.allFinite()) throw InputError("block conjugate gradients: a right-hand side is not finite");
   BlockCgResult result;
-  const Vector size = B.colwise().norm().transpose();
+  Vector size = sizes(B);
+  const double unit = size.size() > 0 && size.maxCoeff() > 0 ? size.maxCoeff() : 1;
+  const DenseMatrix scaled = B / unit;
+  size /= unit;
   result.x = DenseMatrix::Zero(B.rows(), B.cols());
   result.settled.assign(static_cast<std::size_t>(B.cols()), -1);
   result.residual.assign(static_cast<std::size_t>(B.cols()), 0);
-  DenseMatrix r = B;
+  DenseMatrix r = scaled;
   for (double before = std::numeric_limits<double>::infinity();;) {
-    const bool finished = BlockRun(C, settings, monitor, size, result).solve(r, result.x);
-    r = B - C.times(result.x);
-    const double worst = residuals(r, size, result);
-    result.converged = worst <= settings.tolerance;
-    if (result.converged) result.reason = text("residuals at most ", worst, " after ", result.iterations, " block steps");
-    else if (!finished) result.reason = text("ended after ", result.iterations, " block steps, greatest residual ", worst);
-    else if (!(worst <= before / 2)) result.reason = text("rounding: a residual stays at ", worst);
+    DenseMatrix x = result.x;
+    const bool finished = BlockRun(C, settings, monitor, size, result).solve(r, x);
+    r = scaled - C.times(x);
+    const Vector norms = relative(r, size);
+    const double worst = norms.size() > 0 ? norms.maxCoeff() : 0;
+    if (worst < before) {
+      result.x = x;
+      std::copy(norms.begin(), norms.end(), result.residual.begin());
+    }
+    const double least = std::min(worst, before);
+    result.converged = least <= settings.tolerance;
+    if (result.converged) result.reason = text("residuals at most ", least, " after ", result.iterations, " block steps");
+    else if (!finished) result.reason = text("ended after ", result.iterations, " block steps, greatest residual ", least);
+    else if (!(worst <= before / 2)) result.reason = text("rounding: a residual stays at ", least);
     else {
       before = worst;
       continue;
     }
+    result.x *= unit;
     return result;
   }
 }

@@ -23,7 +23,7 @@ struct BlockCgResult {
 /// Dependent directions (equal or dependent right-hand sides, systems that are solved) would make PᵀÂP singular:
 /// orth, a QR factorisation with column pivoting, leaves out those below 1e-10 of the greatest (Ji and Li 2017).
 /// Residuals are those of K x = b, formed each step, and at the end from X; as in conjugate_gradient, X is corrected
-/// by a further run where that misses the goal.
+/// by a further run where that misses the goal; no run goes further than by 32 ε.
 BlockCgResult block_cg(const Preconditioner& preconditioner, const DenseMatrix& B, const CgSettings& settings,
                        Monitor& monitor);
 

@@ -40,7 +40,7 @@ void Cglan::keep_lowest(const LanczosRecord& record) {
   const DenseMatrix ritz = record.vectors() * lowest.vectors.leftCols(count);
   for (int i = 0; i < count; ++i) {
     Vector y = ritz.col(i);
-    basis_.conjugate(y);
+    if (!basis_.conjugate(y)) continue;
     const Vector w = preconditioner_.apply(y);
     if (y.dot(w) > 0) basis_.add(y, w);
   }

@@ -14,12 +14,13 @@ void grow(DenseMatrix& columns, Eigen::Index rows, Eigen::Index count) {
   columns.conservativeResize(rows, room);
 }
 
-void ConjugateBasis::conjugate(Vector& p) const {
+bool ConjugateBasis::conjugate(Vector& p) const {
   for (int twice = 0; twice < 2 && count_ > 0; ++twice) {
     const double before = p.norm();
     p -= directions() * (products().transpose() * p);
-    if (p.norm() > before / 2) return;
+    if (p.norm() > before / 2) return true;
   }
+  return count_ == 0;
 }
 
 Vector ConjugateBasis::solve(Vector& r) const {

@@ -13,11 +13,12 @@ class ConjugateBasis {
   auto directions() const { return p_.leftCols(count_); }
   auto products() const { return w_.leftCols(count_); }
 
-  /// p − P Wᵀ p: conjugate to all of them; twice where that takes away half of p, so that rounding leaves nothing.
-  void conjugate(Vector& p) const;
+  /// p − P Wᵀ p: conjugate to all of them; twice where that takes away half of p. False where the second time takes away
+  /// half again (Kahan and Parlett's criterion): p was in their span, what is left is rounding, conjugate to nothing.
+  bool conjugate(Vector& p) const;
   /// The solution within the span, x = P Pᵀ r, for the residual r, which becomes r − Â x = r − W Pᵀ r.
   Vector solve(Vector& r) const;
-  /// Takes one more, conjugate to the others; `w` = Â p. Throws InputError where memory does not suffice.
+  /// Takes one more, conjugate to the others; `w` = Â p, pᵀw > 0. Throws InputError where memory does not suffice.
   void add(const Vector& p, const Vector& w);
 
  private:

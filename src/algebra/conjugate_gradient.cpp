@@ -1,5 +1,6 @@
 #include "algebra/conjugate_gradient.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,27 +11,30 @@
 namespace dotyk::algebra {
 namespace {
 
+constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
+
 enum class End { met, most, stopped };
 
 class Run {
  public:
-  Run(const Preconditioner& C, double size, const CgSettings& settings, Monitor& monitor, const CgMemory& memory)
-      : C_(C), monitor_(monitor), memory_(memory), size_(size), goal_(settings.tolerance * size),
-        most_(settings.limit(C.size())) {}
+  Run(const Preconditioner& C, const CgSettings& settings, Monitor& monitor, const CgMemory& memory)
+      : C_(C), monitor_(monitor), memory_(memory), tolerance_(settings.tolerance), most_(settings.limit(C.size())) {}
 
-  /// x̂ for the residual b of K x = b; a first run of a system is what a record is of.
+  /// x̂ for the residual b of K x = b; a first run of a system is what a record is of. Ends at the tolerance, where rounding
+  /// lets this run go no further (b by 32 ε), and where no direction is left.
   End solve(const Vector& b, Vector& x, bool first) {
     Vector r = C_.forward(b);
     x = memory_.basis ? memory_.basis->solve(r) : Vector::Zero(r.size());
     LanczosRecord* record = first ? memory_.record : nullptr;
     if (record) record->start(r);
     ratio_ = 0;
+    goal_ = std::max(tolerance_, kRounding * b.norm());
     Vector p = r;
     double rho = r.squaredNorm();
     while (!near(r)) {
       if (iterations_ >= most_) return End::most;
       if (monitor_.stop()) return End::stopped;
-      conjugate(p);
+      if (!conjugate(p)) return End::met;
       const double alpha = step(p, x, r);
       if (record) record->advance(alpha, r);
       const double next = r.squaredNorm();
@@ -43,8 +47,9 @@ class Run {
   int iterations() const { return iterations_; }
 
  private:
-  void conjugate(Vector& p) const {
-    if (memory_.basis && (memory_.conjugate || memory_.store)) memory_.basis->conjugate(p);
+  /// False where p is in the basis's span.
+  bool conjugate(Vector& p) const {
+    return !memory_.basis || !(memory_.conjugate || memory_.store) || memory_.basis->conjugate(p);
   }
 
   double step(const Vector& p, Vector& x, Vector& r) {
@@ -58,7 +63,7 @@ class Run {
     if (memory_.store) memory_.basis->add(p, w);
     IterationInfo info;
     info.iteration = ++iterations_;
-    info.residual = ratio_ * r.norm() / size_;
+    info.residual = ratio_ * r.norm();
     info.seconds = watch_.seconds();
     monitor_.iteration(info);
     return alpha;
@@ -78,7 +83,7 @@ class Run {
   Monitor& monitor_;
   const CgMemory& memory_;
   Stopwatch watch_;
-  double size_, goal_;
+  double tolerance_, goal_ = 0;
   int most_, iterations_ = 0;
   double ratio_ = 0;  ///< ‖C r̂‖/‖r̂‖ where it was last formed; 0: not yet
 };
@@ -94,20 +99,24 @@ std::string reason(End end, int iterations, double residual, double tolerance) {
 
 CgResult conjugate_gradient(const Preconditioner& C, const Vector& b, const CgSettings& settings, Monitor& monitor,
                             const CgMemory& memory) {
-  const double size = b.norm();
+  const double size = b.stableNorm();
   if (!std::isfinite(size)) throw InputError("conjugate gradients: the right-hand side is not finite");
   CgResult result{.x = Vector::Zero(b.size()), .converged = true, .reason = "the right-hand side is zero"};
   if (size == 0) return result;
-  Run run(C, size, settings, monitor, memory);
-  Vector r = b, x;
-  bool first = true;
-  for (double before = std::numeric_limits<double>::infinity();; before = result.residual, first = false) {
+  Run run(C, settings, monitor, memory);
+  const Vector unit = b / size;  // whose squares neither vanish nor overflow
+  Vector r = unit, x;
+  result.residual = 1;
+  for (bool first = true;; first = false) {
     const End end = run.solve(r, x, first);
-    result.x += C.backward(x);
-    r = b - Vector(C.times(result.x));
-    result.residual = r.norm() / size;
+    const Vector corrected = result.x + Vector(C.backward(x));
+    r = unit - Vector(C.times(corrected));
+    const double residual = r.norm();
+    const bool halved = residual <= result.residual / 2;
+    if (residual < result.residual) result.x = corrected, result.residual = residual;
     result.converged = result.residual <= settings.tolerance;
-    if (result.converged || end != End::met || !(result.residual <= before / 2)) {
+    if (result.converged || end != End::met || !halved) {
+      result.x *= size;
       result.iterations = run.iterations();
       result.reason = reason(end, result.iterations, result.residual, settings.tolerance);
       return result;

@@ -34,7 +34,8 @@ struct CgMemory {
 /// Preconditioned conjugate gradients for K x = b: on Â x̂ = b̂ (see Preconditioner), from x = 0 or from what the
 /// basis gives. ‖r‖ = ‖C r̂‖, half a product with K, is formed in each eighth step and wherever its last ratio
 /// to ‖r̂‖ says that the goal is within a factor 4. Where b − K x formed from x misses the goal that the recurrence
-/// met, x is corrected by a further run; where that does not halve it the reason is rounding. Nothing to do for b = 0.
+/// met, x is corrected by a further run; where that does not halve it the reason is rounding. No run goes further than by 32 ε,
+/// nor on where the next direction is in the basis's span but for rounding. Nothing to do for b = 0.
 /// After a stop (Monitor), or `most` iterations, the iterate reached is returned with converged = false. Throws
 /// InputError where b is not finite and where a direction shows that K is not positive definite.
 CgResult conjugate_gradient(const Preconditioner& preconditioner, const Vector& b, const CgSettings& settings,

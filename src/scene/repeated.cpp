@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "elasticity/shape_derivative.hpp"
+#include "scene/load_derivative.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -95,8 +95,7 @@ RepeatedSolution solve_load_cases(const Scene& scene, const std::vector<std::str
 RepeatedSolution solve_sensitivities(const Scene& scene, const std::vector<std::vector<double>>& velocities,
                                      const algebra::RepeatedSettings& settings, Monitor& monitor) {
   const Body& body = only_body(scene);
-  if (!body.springs.empty())
-    throw InputError(text("'", body.name, "' has elastic supports, whose derivatives are not known here; fix it instead"));
+  for (const auto& V : velocities) require_differentiable(scene, {V});
   problem::Clock clock;
   const Model model = build(scene, clock, monitor);
   const problem::Block& block = held_block(model);
@@ -109,8 +108,8 @@ RepeatedSolution solve_sensitivities(const Scene& scene, const std::vector<std::
   solution.energies.push_back(u.dot(block.f));
   DenseMatrix B(block.size(), velocities.size());
   for (std::size_t k = 0; k < velocities.size(); ++k)
-    B.col(static_cast<Eigen::Index>(k)) =
-        -gather(numbering, elasticity::internal_force_derivative(*body.mesh, body.material, solution.solutions.front(), velocities[k]));
+    B.col(static_cast<Eigen::Index>(k)) = gather(numbering, load_derivative(body, {}, velocities[k])) -
+                                          gather(numbering, internal_force_derivative(body, solution.solutions.front(), velocities[k]));
   monitor.phase(text("solving for ", velocities.size(), " sensitivities"));
   const DenseMatrix X = systems.solve(B, monitor);
   for (Eigen::Index k = 0; k < X.cols(); ++k) {

@@ -29,8 +29,10 @@ RepeatedSolution solve_load_cases(const Scene& scene, const std::vector<std::str
 
 /// The displacement u under all loads, and its derivatives with respect to design variables α_i that move the nodes with
 /// the velocities V_i (node × dimension each), P7 (6):
-///   K ∂u/∂α_i = ∂f/∂α_i − (∂K/∂α_i) u,   ∂f/∂α_i = 0: nodal loads and prescribed displacements stay as they are.
-/// (∂K/∂α_i) u is exact (elasticity::internal_force_derivative). Throws as above, and for elastic supports.
+///   K ∂u/∂α_i = ∂f/∂α_i − (∂K/∂α_i) u,
+/// both exact, see scene/load_derivative.hpp: tractions and body forces are given per area and volume and keep their directions,
+/// pressures follow the normal, springs are per area, prescribed displacements stay as they are. Throws as above, and what
+/// require_differentiable() throws.
 RepeatedSolution solve_sensitivities(const Scene& scene, const std::vector<std::vector<double>>& velocities,
                                      const algebra::RepeatedSettings& settings, Monitor& monitor);
 

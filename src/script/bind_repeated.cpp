@@ -129,8 +129,9 @@ void bind_repeated(Library& library) {
   library.function(
       {.name = "dotyk.repeated_systems",
        .help = "Solves many linear systems K x = b with the stiffness K of one body: its load cases, or its displacement u and the "
-               "derivatives of u by design variables that move the nodes, K du/da = -(dK/da) u, dK/da exact, nodal loads and prescribed "
-               "displacements unchanged. Compares the ways to profit from earlier systems: time and iterations of each.",
+               "derivatives of u by design variables that move the nodes, K du/da = df/da - (dK/da) u, both exact: loads, given per area or "
+               "volume, and springs stay with their points, tractions keep their directions, pressures follow the normal, prescribed "
+               "displacements stay. Compares the ways to profit from earlier systems: time and iterations of each.",
        .example = "local m = dotyk.mesh.box{ from = {0,0,0}, to = {8,1,1}, cells = {16,2,2}, element = \"Q1\" }\n"
                   "local beam = dotyk.body{ name = \"beam\", mesh = m, material = dotyk.material{ E = 1, nu = 0.3 } }\n"
                   "beam:part \"left\":fix()\nbeam:part \"right\":load{ 0, 0, -1e-4 }\n"

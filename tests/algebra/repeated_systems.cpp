@@ -191,3 +191,48 @@ TEST_CASE("zero takes no iteration, a stop ends all systems, and indefinite matr
   for (const Method method : kMethods)
     CHECK_THROWS_AS(algebra::RepeatedSystems(indefinite, {0, 1}, {.method = method, .cg = {}}).solve(DenseMatrix{{1}, {-1}}, monitor), InputError);
 }
+
+TEST_CASE("tolerances below rounding: every method ends by rounding as near as the direct solution, or meets them") {
+  const SparseMatrix lower = test::laplacian(30, 4, 4, 1e4);
+  const DenseMatrix K = test::full(lower);
+  DenseMatrix B(480, 3);
+  B << smooth(30, 4, 4, 2), smooth(30, 4, 4, 2) * Vector{{2, -1}};
+  const DenseMatrix exact = K.llt().solve(B);
+  Monitor monitor;
+  for (const double scale : {1.0, 1e-180, 1e200})  // squares of such loads vanish or overflow
+    for (const Method method : kMethods)
+      for (const auto kind : kAll)
+        for (const bool more : {false, true})
+          for (const double tolerance : {1e-12, 1e-16, 1e-300}) {
+            if (method == Method::cholesky) continue;
+            RepeatedSettings settings{.method = method, .preconditioning = kind, .cg = {.tolerance = tolerance}, .extend = more, .deflate = more};
+            algebra::RepeatedSystems systems(lower, test::each_its_own(480), settings);
+            const DenseMatrix x = systems.solve(scale * B, monitor) / scale;
+            REQUIRE(x.allFinite());
+            // ε times the condition number, some 1e6
+            CHECK(test::relative(x, exact) < 1e-9);
+            for (const auto& r : systems.results()) {
+              INFO(r.reason);
+              CHECK(r.residual < 1e-9);
+              CHECK(r.converged == (r.residual <= tolerance));
+              CHECK((r.converged || r.reason.find("rounding") == 0));
+            }
+          }
+}
+
+TEST_CASE("what a conjugate basis lets pass is conjugate to it, also where rounding is all that is left of a direction") {
+  test::Random random(3);
+  const SparseMatrix lower = test::laplacian(9, 7, 5, 100);
+  const auto C = algebra::make_preconditioner(Preconditioning::ssor, lower);
+  Monitor monitor;
+  algebra::ConjugateBasis basis;
+  algebra::conjugate_gradient(*C, random.vector(315), {.tolerance = 1e-8}, monitor, {.basis = &basis, .store = true});
+  Vector inside = basis.directions() * random.vector(static_cast<int>(basis.count())), outside = random.vector(315);
+  const double whole = inside.norm();
+  CHECK((!basis.conjugate(inside) || (basis.products().transpose() * inside).norm() < 1e-12 * inside.norm()));
+  CHECK(inside.norm() < 1e-12 * whole);
+  CHECK(basis.conjugate(outside));
+  CHECK((basis.products().transpose() * outside).norm() < 1e-12 * outside.norm());
+  Vector zero = Vector::Zero(315);
+  CHECK_FALSE(basis.conjugate(zero));
+}
