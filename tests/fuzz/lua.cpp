@@ -1,8 +1,8 @@
 // fuzz_lua SECONDS SEED [FOLDER]: random calls of everything a script can call. Each program begins with a
-// small scene or with nothing, then calls random functions and methods with random arguments, made from
-// their descriptions; most fit, some do not. A failure is a crash, more than 10 s, a number that is none
-// (NaN) in a result, or an error that is not one line at the user's line. Its script is saved in FOLDER
-// (here) and runs by dotyk alone.
+// small problem or with nothing, then calls random functions and methods with random arguments, made from
+// their descriptions; most fit, some do not. A failure is a crash, a statement that goes on for 10 s though
+// asked to stop, as by Ctrl-C, after 5, a number that is none (NaN) in a result, or an error that is not one
+// line at the user's line. Its script is saved in FOLDER (here) and runs by dotyk alone.
 #include <cstdlib>
 
 #include "base/stopwatch.hpp"
@@ -53,12 +53,23 @@ const std::vector<std::vector<std::string>> openings = {
      "V[2]:part 'top':load{ 0, -1 }", "V[2]:part 'left':fix 'x'", "V[2]:part 'bottom'", "dotyk.scene{ V[2] }",
      "V[6]:contact{ V[5], rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} } }",
      "dotyk.shape{ scene = V[6], moves = { { part = V[5], control_points = 4, direction = {0,1}, lower = 0, upper = 0.05 } } }", "V[8]:design{ 0.01, 0, 0, 0.01 }"},
+    {"dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {2,1}, cells = {3,2} }, material = dotyk.material{ E = 10, nu = 0.3 } }", "V[1]:part 'bottom'",
+     "V[1]:part 'top':load{ 0.1, -1 }", "V[1]:part 'left':fix 'x'", "V[2]:support{ normal = dotyk.law.signorini(), tangential = dotyk.law.friction(0.1) }",
+     "dotyk.scene{ V[1] }", "dotyk.solve(V[6])", "V[7]:support(V[2])"},
+    {"dotyk.body{ mesh = dotyk.mesh.box{ from = {0,0,0}, to = {4,1,1}, cells = {3,1,1}, element = 'Q1' }, material = dotyk.material{ E = 1, nu = 0.3 } }",
+     "V[1]:part 'left':fix()", "V[1]:part 'right':load{ 0, 0, -1e-4 }",
+     "dotyk.repeated_systems{ scene = dotyk.scene{ V[1] }, method = 'scg', velocities = { function(x, y, z) return 0, 0, z * (1 - x/8) end } }"},
     {"dotyk.refinement{ dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} } }", "V[1]:refine()"}};
+
+// What a run reached.
+struct Reached {
+  std::map<std::string, long> made;    // objects that calls gave, by class
+  std::map<std::string, long> called;  // random calls by callable that gave a result, which may be nothing
+};
 
 class Program {
  public:
-  // Counts in made_of the objects that calls gave, by class.
-  Program(Machine& machine, unsigned seed, std::map<std::string, long>& made_of) : machine_(machine), made_of_(made_of), values_(seed, pool_) {}
+  Program(Machine& machine, unsigned seed, Reached& reached) : machine_(machine), reached_(reached), values_(seed, pool_) {}
 
   void run() {
     if (values_.once_in(2)) begin_with_scene();
@@ -79,7 +90,7 @@ class Program {
     lua_pop(L, 2);
     if (!type) return;
     pool_[type->name].push_back(name);
-    ++made_of_[type->name];
+    ++reached_.made[type->name];
     if (!type->fields.empty() && values_.once_in(3)) look(name, *type);
   }
 
@@ -118,7 +129,7 @@ class Program {
     if (pool_.empty() || values_.once_in(2)) {
       const auto& functions = library.functions();
       const auto& one = functions[static_cast<std::size_t>(values_.below(static_cast<int>(functions.size())))];
-      if (wanted(one.name)) make(one.name + "(" + values_.arguments(one) + ")");
+      if (wanted(one.name)) call(one, one.name + "(" + values_.arguments(one) + ")");
       return;
     }
     auto some = pool_.begin();
@@ -127,7 +138,14 @@ class Program {
     const std::string object = values_.of(some->second);
     if (type->methods.empty()) return;
     const auto& one = type->methods[static_cast<std::size_t>(values_.below(static_cast<int>(type->methods.size())))];
-    if (wanted(one.name)) make(object + (values_.once_in(60) ? "." : ":") + one.short_name() + "(" + values_.arguments(one) + ")");
+    if (wanted(one.name)) call(one, object + (values_.once_in(60) ? "." : ":") + one.short_name() + "(" + values_.arguments(one) + ")");
+  }
+
+  void call(const script::Descriptor& one, const std::string& expression) {
+    make(expression);
+    lua_State* L = machine_.state();
+    reached_.called[one.name] += lua_getglobal(L, "failed") != LUA_TBOOLEAN || !lua_toboolean(L, -1);
+    lua_pop(L, 1);
   }
 
   bool wanted(const std::string& name) {
@@ -136,7 +154,7 @@ class Program {
   }
 
   Machine& machine_;
-  std::map<std::string, long>& made_of_;
+  Reached& reached_;
   Pool pool_;
   Values values_;
   int made_ = 0;
@@ -150,16 +168,20 @@ int main(int count, char** words) {
   Machine machine(count > 3 ? words[3] : ".");
   const Stopwatch clock;
   double before = 0;
-  std::map<std::string, long> made_of;
+  Reached reached;
   unsigned seed = first;
   for (; clock.seconds() < seconds; ++seed) {
     machine.begin(text("seed_", seed));
-    Program(machine, seed, made_of).run();
+    Program(machine, seed, reached).run();
     if (seed - first == 400) before = fuzz::resident();
   }
   std::string objects;
-  for (const auto& [type, number] : made_of) objects += text(objects.empty() ? "" : ", ", number, " ", script::plural(type));
+  for (const auto& [type, number] : reached.made) objects += text(objects.empty() ? "" : ", ", number, " ", script::plural(type));
   machine.say("made: " + objects);
+  std::string never;
+  for (const auto& [name, times] : reached.called)
+    if (times == 0) never += (never.empty() ? "" : ", ") + name;
+  machine.say("called, but always refused: " + (never.empty() ? "none" : never));
   machine.say(text(machine.executions(), " executions of ", seed - first, " programs (seeds ", first, " to ", seed - 1, ") in ", clock.seconds(), " s, ",
                    machine.failures(), " failures, ", machine.slowest(), "; memory ", fuzz::resident(), " MB", before > 0 ? text(", after 400 programs ", before, " MB") : ""));
   return machine.failures() > 0;

@@ -19,7 +19,7 @@
 namespace dotyk::fuzz {
 namespace {
 
-constexpr unsigned too_long = 10;  // seconds of one statement
+constexpr unsigned long_enough = 5, too_long = 10;  // seconds of one statement: it is asked to stop, it hangs
 
 // For the signal handler, which may allocate nothing.
 const std::string* running = nullptr;
@@ -56,6 +56,16 @@ void save_and_leave(int signal) {
   _exit(1);
 }
 
+volatile std::sig_atomic_t asked = 0;
+
+// What is just long heeds Ctrl-C.
+void ask_or_leave(int signal) {
+  if (asked) save_and_leave(signal);
+  asked = 1;
+  script::request_interrupt();
+  alarm(too_long - long_enough);
+}
+
 }  // namespace
 
 Machine::Machine(std::string failures) : folder_(std::move(failures)) {
@@ -64,7 +74,8 @@ Machine::Machine(std::string failures) : folder_(std::move(failures)) {
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
   prelude();
-  for (const int signal : {SIGALRM, SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) std::signal(signal, save_and_leave);
+  std::signal(SIGALRM, ask_or_leave);
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) std::signal(signal, save_and_leave);
   renew();
 }
 
@@ -93,12 +104,14 @@ void Machine::begin(const std::string& name) {
 void Machine::run(const std::string& statement, const std::string& before) {
   script_ += before + statement + "\n";
   ++executions_;
-  alarm(too_long);
+  asked = 0;
+  alarm(long_enough);
   const Stopwatch clock;
   const auto error = interpreter_->run_text(statement, "fuzz");
   alarm(0);
   if (clock.seconds() > longest_) longest_ = clock.seconds(), longest_in_ = name_;
-  if (error && error->find("(--instructions)") == std::string::npos) fail(*error);
+  if (asked) script::clear_interrupt();
+  if (error && !asked && error->find("(--instructions)") == std::string::npos) fail(*error);
 }
 
 std::string Machine::slowest() const { return text("the slowest ", longest_, " s in ", longest_in_); }

@@ -1,5 +1,6 @@
 -- What every script of the fuzzer begins with; with it a saved script runs by dotyk alone. V holds the objects made.
 V = {}
+failed = false
 
 -- Numbers that are none, in what a call gave back.
 local function sound(value, depth, place)
@@ -14,6 +15,7 @@ local function sound(value, depth, place)
 end
 
 local function answer(ok, first, ...)
+  failed = not ok
   if ok then
     sound(first, 0, "result")
     for _, value in ipairs{ ... } do sound(value, 0, "later result") end

@@ -80,7 +80,7 @@ std::string Values::fitting(const Key& key) {
     case Kind::choice:
       return "'" + of(key.choices) + "'";
     case Kind::vector:
-      return list(key, 2 + static_cast<std::size_t>(below(2)), nullptr);
+      return list(key, 2 + static_cast<std::size_t>(below(3)), nullptr);
     case Kind::matrix: {
       const int size = 1 + below(3);
       std::string rows;
