@@ -10,6 +10,10 @@
 #include <cstring>
 #include <fstream>
 
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/common_interface_defs.h>
+#endif
+
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "base/whole_file.hpp"
@@ -43,11 +47,15 @@ void put(int file, const char* text, std::size_t length) {
   }
 }
 
-void save_and_leave(int signal) {
+void save_script() {
   const int file = open(crash_file, O_WRONLY | O_CREAT | O_TRUNC, 0644);
   put(file, prelude(), std::strlen(prelude()));
   if (running) put(file, running->data(), running->size());
   close(file);
+}
+
+void save_and_leave(int signal) {
+  save_script();
   char line[700];
   const int length = std::snprintf(line, sizeof line, "FAILED: %s: %s\n", signal == SIGALRM ? "hangs" : strsignal(signal), crash_file);
   put(terminal, line, static_cast<std::size_t>(length));
@@ -75,7 +83,12 @@ Machine::Machine(std::string failures) : folder_(std::move(failures)) {
   dup2(nowhere, STDERR_FILENO);
   prelude();
   std::signal(SIGALRM, ask_or_leave);
+#ifdef __SANITIZE_ADDRESS__
+  __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(terminal)));
+  __sanitizer_set_death_callback(save_script);
+#else
   for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) std::signal(signal, save_and_leave);
+#endif
   renew();
 }
 
