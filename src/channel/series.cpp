@@ -98,6 +98,8 @@ double Series::truncation_bound(double t, int n) const {
   return bound * std::exp(-logarithm(t));
 }
 
+double Series::truncation_bound(double t) const { return t == 0 ? 0 : in_range(truncation_bound(t, terms_used(t))); }
+
 int Series::terms_used(double t) const {
   int enough = static_cast<int>(alpha_.size()), few = -1;  // enough: all there are, or within the bound
   while (enough - few > 1) {

@@ -42,7 +42,7 @@ class Series {
   /// each power summed as its first term times min(1 + alpha_n/((q - 1) pi), 1/(1 - r)), the integral or
   /// the geometric majorant, r = e^{-2 pi alpha_n b t/(a y0^2)}. Rounding is not in it.
   double truncation_bound(double t, int n) const;
-  double truncation_bound(double t) const { return t == 0 ? 0 : truncation_bound(t, terms_used(t)); }
+  double truncation_bound(double t) const;
 
   const Data& data() const { return data_; }
 
