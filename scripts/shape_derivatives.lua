@@ -131,6 +131,7 @@ for _, smooth in ipairs{ { "Two bodies in the plane", cantilever }, { "A block o
   local series <const> = curves(title, central, case)
   panels[#panels + 1] = { title = title, y = "relative error", log = "xy", series = series }
   if panels[2] then for _, one in ipairs(series) do one.name = nil end end -- one legend for all
+  series[#series + 1] = { name = not panels[2] and "1e-6" or nil, reference = true, x = { 1e-10, 1e-1 }, y = { 1e-6, 1e-6 } }
 end
 dotyk.chart{ file = "images/shape_derivatives.png", x = "h", panels = panels, size = { 1000, 1800 } }
 
@@ -198,9 +199,10 @@ local function slope(side)
 end
 local differences <const> = {}
 for k, s in ipairs(forth) do
-  back[k].twin, back[k].name = true, k == #forth and "dashed: as the variable falls" or nil
+  back[k].twin, back[k].name = true, nil
   differences[#differences + 1], differences[#differences + 2] = s, back[k]
 end
+differences[#differences + 1] = { name = "dashed: as the variable falls", reference = true, x = {}, y = {} } -- the legend alone
 dotyk.chart{ file = "images/shape_kink.png", size = { 1000, 1600 }, panels = {
   { title = "A node begins to touch", x = "design variable", y = "pressure", series = pressures },
   { x = "design variable", y = "derivative of the smoothed peak", series = { curve("the node touches", -steps, 0, slope(-1)), curve("it is open", 0, steps, slope(1)) } },

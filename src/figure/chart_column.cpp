@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <vector>
 
 #include "chart_layout.hpp"
 #include "figures.hpp"
@@ -33,28 +34,40 @@ double draw_title(Canvas& canvas, const ChartColumn& picture, double em) {
   return 1.9 * em;
 }
 
-}  // namespace
-
-void draw_charts(const ChartColumn& picture) {
-  const auto n = static_cast<double>(picture.panels.size());
-  const double em = std::min(0.022 * picture.width, 0.075 * picture.height / n);
-  Canvas canvas(oversampling(picture.width, picture.height));
-  // The last panel has the numbers and the name of a shared axis beside an equal share.
-  const double top = draw_title(canvas, picture, em), below = picture.shared_x ? 3.15 * em : 0, share = (picture.height - top - below) / n;
-  std::vector<ChartPicture> panels = picture.panels;
-  std::vector<ChartFrame> frames(panels.size(), {em, {}, !picture.shared_x});
-  for (ChartPicture& panel : panels) {
-    panel.width = picture.width, panel.height = static_cast<int>(share);
-    if (picture.shared_x) panel.x_range = common_x(picture.panels);
-  }
-  panels.back().height += static_cast<int>(below);
-  frames.back().x_labels = true;
+// Gives the panels heights with which their plots are equally high, whatever stands above and below; the margins left and
+// right that suffice for all.
+ChartMargins share(std::vector<ChartPicture>& panels, const std::vector<ChartFrame>& frames, double height) {
   ChartMargins least;
+  std::vector<double> beside;
+  double plots = height;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     Canvas tried(1);
     const ChartMargins margins = draw_on(tried, panels[i], frames[i]);
-    least = {std::max(least.left, margins.left), std::max(least.right, margins.right)};
+    least.left = std::max(least.left, margins.left), least.right = std::max(least.right, margins.right);
+    beside.push_back(margins.above + margins.below);
+    plots -= beside.back();
   }
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    panels[i].height = static_cast<int>(beside[i] + std::max(2.0, plots / static_cast<double>(panels.size())));
+  return least;
+}
+
+}  // namespace
+
+void draw_charts(const ChartColumn& picture) {
+  const std::size_t n = picture.panels.size();
+  const double em = std::min(0.022 * picture.width, 0.075 * picture.height / static_cast<double>(n));
+  Canvas canvas(oversampling(picture.width, picture.height));
+  const double height = picture.height - draw_title(canvas, picture, em);
+  std::vector<ChartPicture> panels = picture.panels;
+  std::vector<ChartFrame> frames(panels.size(), {em, {}, !picture.shared_x});
+  for (ChartPicture& panel : panels) {
+    panel.width = picture.width, panel.height = static_cast<int>(height / static_cast<double>(n));
+    if (picture.shared_x) panel.x_range = common_x(picture.panels);
+  }
+  frames.back().x_labels = true;
+  ChartMargins least;
+  for (int round = 0; round < 2; ++round) least = share(panels, frames, height);
   double bottom = 0;
   for (std::size_t i = panels.size(); i-- > 0;) {
     canvas.origin({0, bottom});

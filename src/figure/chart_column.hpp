@@ -7,12 +7,12 @@ namespace dotyk::figure {
 
 // Pixels beside the plot.
 struct ChartMargins {
-  double left = 0, right = 0;
+  double left = 0, right = 0, below = 0, above = 0;
 };
 
 struct ChartFrame {
   double em = 20;
-  ChartMargins least;
+  ChartMargins least;   // left and right
   bool x_labels = true;
 };
 

@@ -58,7 +58,7 @@ public:
     for (const SlopeGuide& guide : picture.slopes) draw_guide(guide);
   }
 
-  ChartMargins margins() const { return {room_.left, picture_.width - room_.right}; }
+  ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top}; }
 
 private:
   double line_width() const { return std::max(1.5, em_ / 9); }

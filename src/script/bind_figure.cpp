@@ -98,10 +98,21 @@ std::string not_shown(const figure::ChartPicture& picture) {
   return out;
 }
 
+std::array<double, 2> range_of(const Arguments& given, const char* name) {
+  const std::vector<double> ends = given.vector(name);
+  if (!(ends[0] < ends[1])) throw InputError(text("'", name, "' goes from ", ends[0], " to ", ends[1], "; the first must be the lesser"));
+  const char axis = name[0];
+  if (ends[0] <= 0 && given.text("log").find(axis) != std::string::npos)
+    throw InputError(text("'", name, "' begins at ", ends[0], ", which has no place on a logarithmic axis"));
+  return {ends[0], ends[1]};
+}
+
 void read_chart(const Arguments& given, figure::ChartPicture& chart) {
   chart.title = given.has("title") ? given.text("title") : "";
   chart.x_label = given.has("x") ? given.text("x") : "";
   chart.y_label = given.has("y") ? given.text("y") : "";
+  if (given.has("x_range")) chart.x_range = range_of(given, "x_range");
+  if (given.has("y_range")) chart.y_range = range_of(given, "y_range");
   const std::string log = given.text("log");
   chart.log_x = log.find('x') != std::string::npos;
   chart.log_y = log.find('y') != std::string::npos;
@@ -172,6 +183,8 @@ std::vector<Key> chart_keys(Key series) {
           key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
                       "are left out, and counted on standard error").fallback(""),
           std::move(series),
+          key::vector("x_range", "ends of the x axis").count(2).otherwise("the data with a margin"),
+          key::vector("y_range", "ends of the y axis").count(2).otherwise("the data with a margin"),
           key::vector("slopes", "guides of these slopes, each beside the curve of nearest slope").otherwise("none")};
 }
 

@@ -1,0 +1,12 @@
+-- Ends of a chart's axes: taken where they can be, refused where not.
+local refused <const> = require "refused"
+
+local series <const> = { { name = "a", x = { 1, 2 }, y = { 1, 2 } } }
+local file <const> = os.tmpname() .. ".png"
+dotyk.chart{ file = file, series = series, x_range = { 0, 3 }, y_range = { -1, 3 } }
+dotyk.chart{ file = file, x = "x", panels = { { series = series, x_range = { 0, 3 } }, { series = series, y_range = { 0.5, 2.5 }, log = "y" } } }
+os.remove(file)
+refused(function() dotyk.chart{ file = file, series = series, x_range = { 2, 1 } } end, "'x_range' goes from 2 to 1", "must be the lesser")
+refused(function() dotyk.chart{ file = file, series = series, y_range = { 0, 1 }, log = "y" } end, "'y_range' begins at 0", "logarithmic")
+refused(function() dotyk.chart{ file = file, series = series, x_range = { 1 } } end, "2 numbers")
+refused(function() dotyk.chart{ file = file, series = series, panels = { { series = series } }, x_range = { 0, 1 } } end, "panels")
