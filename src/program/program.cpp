@@ -65,6 +65,7 @@ Residuals residuals(const QuadraticProgram& p, const Vector& x, const Vector& y)
   if (out.stationarity > 0) out.stationarity /= out.stationarity_scale;
   if (out.feasibility > 0) out.feasibility /= out.feasibility_scale;
   out.complementarity /= out.complementarity_scale;
+  if (std::isnan(out.complementarity)) out.complementarity = INFINITY;  // both overflow: nothing is known of it
   return out;
 }
 
