@@ -61,16 +61,16 @@ int misuse(const std::string& what) {
   return 2;
 }
 
-// A number of at least 1, for memory in bytes with the letter K, M or G of powers of 1000 behind it.
-std::optional<double> read_limit(const std::string& word, bool letters) {
+// A number of at least 1, for memory in bytes with the letter K, M or G of powers of 1000 behind it; 0 where it is none.
+double read_limit(const std::string& word, bool letters) {
   std::istringstream in(word);
   in.imbue(std::locale::classic());
   double value = 0;
-  if (!(in >> value)) return std::nullopt;
+  if (!(in >> value)) return 0;
   const char letter = static_cast<char>(in.get());
   if (letters && in) value *= letter == 'K' ? 1e3 : letter == 'M' ? 1e6 : letter == 'G' ? 1e9 : 0;
   const bool whole = in.eof() || (letters && in.peek() == std::char_traits<char>::eof());
-  return whole && value >= 1 && value <= 1e18 ? std::optional(value) : std::nullopt;
+  return whole && value >= 1 && value <= 1e18 ? value : 0;
 }
 
 // --safe, --instructions, --seconds, --memory and the word after them; returns an exit status where they are wrong.
@@ -81,8 +81,8 @@ std::optional<int> read_limits(const std::string& option, const std::string* nex
     command.safe = *next;
     return std::nullopt;
   }
-  const auto value = read_limit(*next, memory);
-  if (!value) return misuse(option + " needs a number of at least 1" + (memory ? ", as 500M or 2G" : "") + ", got '" + *next + "'");
+  const double value = read_limit(*next, memory);
+  if (value == 0) return misuse(option + " needs a number of at least 1" + (memory ? ", as 500M or 2G" : "") + ", got '" + *next + "'");
   (memory ? command.memory : option == "--seconds" ? command.seconds : command.instructions) = value;
   return std::nullopt;
 }
