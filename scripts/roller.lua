@@ -1,4 +1,4 @@
--- The profile of a roller that spreads its load evenly: no peaks of pressure at its ends.
+-- The profile of a roller that spreads its load evenly: peaks of 1.02 times the mean at its ends, not infinite ones.
 --
 --   ./dotyk scripts/roller.lua [CELLS]       CELLS: along half the roller, 16 or more; below 32 without the tables of section 7
 --
@@ -20,7 +20,14 @@
 -- compared, A fitted; so is its kind with a finite end, A ln(1/(1 − κξ²)) (Johns and Gohar).
 --
 -- Found without knowing it: the least (mean of p^8)^(1/8) over control points of B-splines. Of all pressures with one
--- mean the constant one has the least mean of p^q, whatever q > 1: smoothing the peak does not shift the optimum.
+-- mean the constant one has the least mean of p^q, whatever q > 1: smoothing the peak does not shift the optimum. Splines end
+-- with a finite slope, the profile sought does not: with splines alone a weak singularity of the pressure is left, and its peak
+-- over the mean grows with each refinement. So one variable more is the amplitude of the infinite slope, (1 − ξ) ln(1 − ξ) + ξ,
+-- and a second search with q = 40 follows: the mean of p^8 hardly feels a peak that is one node wide.
+-- What is left: on 16, 24 and 48 cells peaks of 1.01, 1.01, 1.02 embedded and 1.01, 1.02, 1.02 between free sides, the closed
+-- form's being below 1.003; and between free sides the last node but one dips to 0.8 of the mean: the terms of second order below
+-- ask for a drop like ln(1 − ξ), which neither splines nor that variable have. At a tenth of the load no node
+-- has less than 0.96 of the mean, embedded 0.93.
 -- Draws images/roller.png and images/roller_scene.png. Units: N, mm.
 
 local cells <const> = tonumber(arg[1]) or 48
@@ -106,6 +113,9 @@ end
 -- 4. The search. B-splines over the whole edge, the first control point held (all together they would move the roller as
 -- a whole), and finer ones over the last tenth, which join smoothly because their first two are held
 -- (these go both ways, within a tenth of the range: much farther down the straight roller would overlap the raceway).
+-- A variable of its own moves the nodes as end_drop, less towards the far side; options.splines: without it, and q = 8 alone.
+local function end_drop(x) return x < a and xlnx(1 - x / a) + x / a or 1 end
+local function depth_of(case) return case == "free" and 2 * a or far * a end
 local function optimise(case, n, options)
   local p, moves = options.p or p0, {}
   local control, finer = options.control or 8, options.finer or 6
@@ -118,10 +128,19 @@ local function optimise(case, n, options)
   local most <const> = 0.25 * p / p0
   move(edge(m.roller, 0), control, 1, 0, most)
   if finer > 0 then move(edge(m.roller, 0.9 * a), finer, 2, -most / 10, most / 10) end
-  local shape = dotyk.shape{ scene = m.scene, moves = moves, objective = "peak_pressure", exponent = 8 }
-  local o = shape:optimise{ method = options.method or "slsqp", max_designs = 150 }
+  if not options.splines then
+    moves[#moves + 1] = { body = m.roller, velocity = function(x, y) return 0, end_drop(x) * (1 - y / depth_of(case)) end, lower = -0.4 * most, upper = most }
+  end
+  local o, designs, seconds = nil, 0, 0
+  for _, q in ipairs(options.splines and { 8 } or { 8, 40 }) do
+    local shape, start = dotyk.shape{ scene = m.scene, moves = moves, objective = "peak_pressure", exponent = q }, o and {}
+    for i, variable in ipairs(o and o.design.alpha or {}) do start[i] = variable.value end
+    o = shape:optimise{ method = options.method or "slsqp", max_designs = 150, start = start }
+    designs, seconds = designs + o.cost.designs, seconds + o.cost.seconds
+  end
   local r = judge(o.solution, m.contact, p)
-  r.optimum, r.variables, r.profile = o, control - 1 + math.max(0, finer - 2), { x = {}, z = {}, weight = {} }
+  r.designs, r.seconds = designs, seconds
+  r.optimum, r.variables, r.profile = o, control - 1 + math.max(0, finer - 2) + (options.splines and 0 or 1), { x = {}, z = {}, weight = {} }
   for k, node in ipairs(o.design:contact(m.contact)) do
     r.profile.x[k], r.profile.z[k], r.profile.weight[k] = node.x.value, node.y.value, node.weight.value
   end
@@ -158,7 +177,7 @@ print "case      profile                    [mm]    peak   least  (p^8)^1/8  |x|
 local function row(case, name, r, drop)
   local o = r.optimum
   print(("%-9s %-22s %9s %7.3f %7.4f %10.4f%s"):format(case, name, drop and ("%.5f"):format(drop) or "–", r.peak, r.least, r.norm,
-    o and ("  %7.2f%% %6.2f%%    %4d   %7.2f"):format(r.inner, r.whole, o.cost.designs, o.cost.seconds) or ""))
+    o and ("  %7.2f%% %6.2f%%    %4d   %7.2f"):format(r.inner, r.whole, r.designs, r.seconds) or ""))
 end
 local function check_straight(case, nodes)
   local x, y, worst = {}, {}, 0
@@ -191,7 +210,7 @@ for _, case in ipairs{ "free", "embedded" } do
     A, 100 * difference(r.best.profile, r.lundberg, z(a), 0.9), J.A, J.kappa, 100 * difference(r.best.profile, r.with_end, z(a), 1)))
   print(("%10s%s"):format("", r.best.optimum))
   assert(math.abs(r.known.peak - 1) < 0.01 and r.known.least > 0.98, "the closed form does not press evenly")
-  assert(r.straight.peak > 4 and r.best.peak < 1.2 and r.best.norm < 1.003, "the peak of pressure is not gone")
+  assert(r.straight.peak > 4 and r.best.peak < 1.03 and r.best.norm < 1.003, "the peak of pressure is not gone")
   results[case] = r
 end
 -- What is left between free sides is of second order in p0/E. Even pressure shortens the roller less where it is lower, by
@@ -204,6 +223,13 @@ local function second_order(x)
 end
 local light <const> = optimise("free", cells, { p = p0 / 10 })
 row("free", "optimised, p0/10", light, light.drop)
+local function dip(r) -- of all nodes
+  local least = math.huge
+  for _, node in ipairs(r.nodes) do least = math.min(least, node.pressure) end
+  return least
+end
+print(("%10sleast pressure of all nodes by the mean: embedded %.3f, free %.3f, at p0/10 %.3f"):format("", dip(results.embedded.best) / p0,
+  dip(results.free.best) / p0, dip(light) / (p0 / 10)))
 local left <const> = 100 * difference(results.free.best.profile, second_order, z_free(a), 0.9)
 print(("%10sat p0 from the closed form with terms of second order: %.2f%% over |x| < 0.9a"):format("", left))
 assert(results.embedded.best.inner < 0.5 and light.inner < 0.5 and left < 1, "the optimised profile is not the known one")
@@ -213,20 +239,31 @@ assert(results.free.best.inner < 3 and light.inner < results.free.best.inner / 4
 local function table_row(name, case, r)
   local o = r.optimum
   print(("%-9s %-8s %6d %8d  %6.3f %7.4f %10.5f  %7.2f%% %6.2f%%    %4d   %7.2f   %.0e"):format(name, case, r.variables, r.solution.unknowns,
-    r.peak, r.least, r.norm, r.inner, r.whole, o.cost.designs, o.cost.seconds, o.gap))
+    r.peak, r.least, r.norm, r.inner, r.whole, r.designs, r.seconds, o.gap))
 end
 if cells >= 32 then
   local n <const> = cells // 2
-  print "\ncontrol points of the whole edge and its last tenth; cells; methods"
+  print "\nsplines alone: control points of the whole edge and its last tenth, methods; then with the end's variable and q = 40, too"
   print "          case  variables unknowns   peak   least  (p^8)^1/8  |x|<0.9a     all   designs  seconds   gap"
-  for _, points in ipairs{ { 4, 0 }, { 6, 0 }, { 8, 0 }, { 12, 0 }, { 6, 5 }, { 8, 6 }, { 12, 8 } } do
-    table_row(points[1] .. " + " .. points[2], "embedded", optimise("embedded", n, { control = points[1], finer = points[2] }))
+  for _, points in ipairs{ { 4, 0 }, { 8, 0 }, { 12, 0 }, { 8, 6 }, { 12, 8 } } do
+    table_row(points[1] .. " + " .. points[2], "embedded", optimise("embedded", n, { control = points[1], finer = points[2], splines = true }))
   end
+  for _, method in ipairs{ "slsqp", "slp", "mma", "ccsaq" } do table_row(method, "free", optimise("free", n, { method = method, splines = true })) end
+  local spread <const> = {}
+  for _, k in ipairs{ cells // 3, n, cells } do
+    local r <const> = optimise("free", k, { splines = true })
+    table_row(k .. " cells", "free", r)
+    spread[#spread + 1] = r.peak
+  end
+  assert(spread[1] < spread[2] and spread[2] < spread[3], "splines alone leave no singularity")
+  print "with the end's variable"
   for _, case in ipairs{ "free", "embedded" } do
-    for _, k in ipairs{ cells // 3, n } do table_row(k .. " cells", case, optimise(case, k, {})) end
-    table_row(cells .. " cells", case, results[case].best)
+    for _, k in ipairs{ cells // 3, n, cells } do
+      local r <const> = k == cells and results[case].best or optimise(case, k, {})
+      table_row(k .. " cells", case, r)
+      assert(r.peak < 1.03, "a peak of pressure is left")
+    end
   end
-  for _, method in ipairs{ "slsqp", "slp", "mma", "ccsaq" } do table_row(method, "free", optimise("free", n, { method = method })) end
 end
 
 -- 8. Figures. One scene of two halves that share nothing but their plane of symmetry: a straight roller on the left, on
@@ -247,7 +284,7 @@ local s <const> = dotyk.solve(both)
 -- Nodes within the body lie otherwise than the search moved them.
 assert(math.abs(judge(s, again, p0).peak - free.best.peak) < 1e-4, "the optimised roller, set up anew, is another one")
 s:render{ file = "images/roller_scene.png", field = "von_mises", unit = "MPa", window = { -1.6 * a, -1.3 * a, 1.6 * a, 0.8 * a }, range = { 0, 2000 },
-          edges = false, title = "straight on the left, optimised on the right" }
+          edges = false, title = "Straight on the left, optimised on the right" }
 
 local function pressures(r)
   local x, p = {}, {}
@@ -267,11 +304,22 @@ local function sampled(f, to)
   return x, y
 end
 local function series(name, style, x, y) return { name = name, style = style, x = x, y = y, reference = not style } end
-dotyk.chart{ file = "images/roller.png", x = "x [mm]", size = { 1000, 840 }, panels = {
-  { y = "contact pressure [MPa]", series = {
+local function over_mean(r)
+  local x, p = {}, {}
+  for k, node in ipairs(r.nodes) do
+    if node.x >= 0.9 * a then x[#x + 1], p[#p + 1] = node.x / a, node.pressure / p0 end
+  end
+  return x, p
+end
+local alone <const> = optimise("free", cells, { splines = true })
+dotyk.chart{ file = "images/roller.png", size = { 1000, 1250 }, panels = {
+  { x = "x [mm]", y = "contact pressure [MPa]", series = {
     series("straight", "line", pressures(free.straight)), series("optimised", "line", pressures(free.best)),
     series("Lundberg's, fitted", "line", pressures(free.rounded)) } },
-  { y = "drop of the profile [µm]", series = {
+  { x = "x/a", y = "pressure / mean", x_range = { 0.9, 1.002 }, y_range = { 0.8, 1.2 }, series = {
+    series(nil, "line", over_mean(free.straight)), series("optimised", "line", over_mean(free.best)),
+    series("Lundberg's, fitted", "line", over_mean(free.rounded)), series("optimised, splines alone", "line", over_mean(alone)) } },
+  { x = "x [mm]", y = "drop of the profile [µm]", series = {
     series("optimised, embedded", "points", markers(embedded.best.profile)), series("optimised, free sides", "points", markers(free.best.profile)),
     series("Lundberg's, fitted to the latter", "line", sampled(free.lundberg, 0.96 * a)),
     series("closed forms", nil, sampled(embedded.z, a)), series(nil, nil, sampled(free.z, a)) } } } }
