@@ -113,7 +113,7 @@ for i = 0, 100 do hx[#hx + 1], hy[#hy + 1] = i / 100, math.sqrt(1 - (i / 100)^2)
 local flat, flat_contact = blocks(2, { "Q1", "Q1" }, 7, 5, "mortar")
 local uneven, uneven_contact = blocks(2, { "Q1", "Q1" }, 7, 5, "node_to_segment")
 dotyk.chart{ file = "images/mortar.png", size = {1000, 1250}, panels = {
-  { title = "patch test, 7 edges on 5", x = "x", y = "p / exact",
+  { title = "Patch test, 7 edges on 5", x = "x", y = "p / exact",
     series = { series("mortar", flat:contact(flat_contact).nodes, 1, p),
                series("node to segment", uneven:contact(uneven_contact).nodes, 1, p) } },
   { title = ("Hertz, %d cells on %d"):format(finest, 7 * finest // 5), x = "x / a", y = "p / p0",

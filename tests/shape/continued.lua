@@ -2,14 +2,19 @@
 local check <const> = require "check"
 local png_size <const> = require "png_size"
 
--- A pressed block whose lower edge is to bear evenly.
-local function uneven(objective)
+local function pressed_block()
   local block <const> = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
     mesh = dotyk.mesh.rectangle{ from = {-1, 0}, to = {1, 1}, cells = {16, 8} } }
   block:part "top":load{ 0, -1 }
   block:part "left":fix "x"
   local scene <const> = dotyk.scene{ block }
   scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} } }
+  return scene, block
+end
+
+-- Its lower edge is to bear evenly.
+local function uneven(objective)
+  local scene <const>, block <const> = pressed_block()
   return dotyk.shape{ scene = scene, objective = objective, constraints = { { quantity = "volume", most = 1.9965 } },
     moves = { { part = block:part "bottom", control_points = 5, direction = {0, 1}, lower = 0, upper = 0.005, start = { 0.003, 0.001, 0.001, 0.002, 0.003 } } } }
 end
@@ -63,12 +68,7 @@ for i, x in ipairs(whole.alpha) do check.near(part.alpha[i], x, 1e-12) end
 
 -- Designs that are not admissible are told of with the reason, and answered by shorter steps.
 local reasons <const> = {}
-local block <const> = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
-  mesh = dotyk.mesh.rectangle{ from = {-1, 0}, to = {1, 1}, cells = {16, 8} } }
-block:part "top":load{ 0, -1 }
-block:part "left":fix "x"
-local scene <const> = dotyk.scene{ block }
-scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} } }
+local scene <const>, block <const> = pressed_block()
 local lower <const> = dotyk.shape{ scene = scene, objective = function(d) return -d.volume end,
   moves = { { part = block:part "bottom", control_points = 4, direction = {0, 1}, lower = -1, upper = 0.1, start = 0.1 } } }
 local o <const> = lower:optimise{ on_design = function(k, record, design)

@@ -8,6 +8,7 @@ using namespace dotyk;
 using mesh::Family;
 using mesh::Point;
 
+// Prints timings, which depend on the machine, and asserts nothing about them: run by name (test_shape -ns -tc="what derivatives cost").
 TEST_CASE("what derivatives cost" * doctest::skip()) {
   constexpr int kVariables = 6;
   for (const int n : {1, 2, 4}) {
