@@ -144,8 +144,7 @@ void add(const Share& share, const std::vector<double>& g, Sum& sum) {
 double facet_width(const Surface& surface) {
   double width = 0;
   for (const SurfaceFacet& f : surface.facets) {
-    const Point v = surface.mesh.facet_area_vector(f.facet);
-    const double measure = std::hypot(v[0], v[1], v[2]);
+    const double measure = mesh::length(surface.mesh.facet_area_vector(f.facet));
     width = std::max(width, f.corners == 2 ? measure : std::sqrt(f.corners == 3 ? 2 * measure : measure));
   }
   return width;

@@ -15,10 +15,9 @@ namespace {
 
 using mesh::Mesh;
 using mesh::Point;
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
+using mesh::dot;
+using mesh::length;
+using mesh::minus;
 
 double extent(const Mesh& mesh, const std::vector<NodeSide>& list) {
   double size = 0;
@@ -68,7 +67,7 @@ class CoincidentSearch {
 /// How far d leads off the line along `normal`.
 double off_line(const Point& d, const Point& normal) {
   const double along = dot(d, normal);
-  return length({d[0] - along * normal[0], d[1] - along * normal[1], d[2] - along * normal[2]});
+  return length(minus(d, mesh::times(along, normal)));
 }
 
 /// The nearest node of the second part across the gap from x: on the line through x along x's normal,
@@ -103,9 +102,7 @@ bool faces(const Mesh& mesh, mesh::Facet f, const Point& x, const Point& x_norma
     if (mesh.dimension() == 2) {
       if (dot(edge, d) < 0) return false;  // both ends are seen as a: the foot lies between them
     } else {
-      const Point inward{normal[1] * edge[2] - normal[2] * edge[1], normal[2] * edge[0] - normal[0] * edge[2],
-                         normal[0] * edge[1] - normal[1] * edge[0]};
-      if (dot(inward, d) < -tolerance * length(edge)) return false;
+      if (dot(mesh::cross(normal, edge), d) < -tolerance * length(edge)) return false;
     }
   }
   return true;

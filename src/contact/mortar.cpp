@@ -29,10 +29,7 @@ class Mortar {
 
   /// One entry a corner; `widest` grows to the width of the facets met.
   std::array<Corner, 4> of(mesh::Facet facet, double& widest) const {
-    mesh::Point normal = first_.mesh.facet_area_vector(facet);
-    const double area = std::hypot(normal[0], normal[1], normal[2]);
-    for (double& v : normal) v /= area;
-    const View view(first_.mesh.facet_centre(facet), normal, first_.mesh.dimension());
+    const View view(first_.mesh.facet_centre(facet), mesh::unit(first_.mesh.facet_area_vector(facet)), first_.mesh.dimension());
     const Shadow own(first_.mesh, facet, view);
     std::vector<Cut> cuts = cut(view, own, widest);
     double covered = 0;

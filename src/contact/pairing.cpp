@@ -28,8 +28,8 @@ std::vector<Across> across(const Face& first, const Face& second, Pairing pairin
 double chord_height(const Face& face, const NodeSide& side, double width) {
   double curvature = 0;
   for (const int f : side.facets) {
-    Point n = face.mesh.facet_area_vector(face.facets[f]);
-    const double size = std::hypot(n[0], n[1], n[2]);
+    const Point n = face.mesh.facet_area_vector(face.facets[f]);
+    const double size = mesh::length(n);
     double along = 0;
     for (int i = 0; i < 3; ++i) along += n[i] / size * side.normal[i];
     const double turn = std::sqrt(std::max(0.0, 2 - 2 * along));  // half the angle between neighbours

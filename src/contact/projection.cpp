@@ -9,8 +9,9 @@ namespace dotyk::contact {
 namespace {
 
 using mesh::Point;
+using mesh::dot;
+using mesh::minus;
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Flat minus(const Flat& a, const Flat& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double cross(const Flat& a, const Flat& b) { return a[0] * b[1] - a[1] * b[0]; }
 double length(const Flat& a) { return std::hypot(a[0], a[1]); }
@@ -51,12 +52,12 @@ View::View(const Point& o, const Point& n, int dimension) : origin(o), normal(n)
 }
 
 Flat View::flat(const Point& x) const {
-  const Point d{x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]};
+  const Point d = minus(x, origin);
   return {dot(d, axis[0]), dot(d, axis[1])};
 }
 
 double View::height(const Point& x) const {
-  return dot({x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]}, normal);
+  return dot(minus(x, origin), normal);
 }
 
 Shadow::Shadow(const mesh::Mesh& mesh, mesh::Facet facet, const View& view) : corners(mesh.topology().nodes_per_facet) {

@@ -20,14 +20,12 @@ struct Distance {
 Distance distance(const RigidGap& shape, const Point& x) { return {shape.normal, shape.gap(x)}; }
 
 Distance distance(const RigidPlane& shape, const Point& x) {
-  double d = 0;
-  for (int i = 0; i < 3; ++i) d += (x[i] - shape.point[i]) * shape.normal[i];
-  return {{-shape.normal[0], -shape.normal[1], -shape.normal[2]}, d};
+  return {mesh::times(-1, shape.normal), mesh::dot(mesh::minus(x, shape.point), shape.normal)};
 }
 
 Distance distance(const RigidBall& shape, const Point& x) {
-  Point n{shape.center[0] - x[0], shape.center[1] - x[1], shape.center[2] - x[2]};
-  const double r = std::hypot(n[0], n[1], n[2]);
+  Point n = mesh::minus(shape.center, x);
+  const double r = mesh::length(n);
   if (!(r > 1e-9 * shape.radius))
     throw InputError("the centre of the rigid ball lies on the contact part; move the ball out of the body");
   for (double& v : n) v /= r;
@@ -62,7 +60,7 @@ std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh
     if (gap < deepest) deepest = gap, where = x;
     if (gap < nearest) {
       nearest = gap, nearest_at = x;
-      facing = d.normal[0] * side.normal[0] + d.normal[1] * side.normal[1] + d.normal[2] * side.normal[2];
+      facing = mesh::dot(d.normal, side.normal);
     }
     rows.push_back({side.node, {}, d.normal, gap, side.weight, side.facets, more});
   }

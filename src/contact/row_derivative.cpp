@@ -1,7 +1,6 @@
 #include "contact/row_derivative.hpp"
 
 #include <array>
-#include <cmath>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -14,13 +13,11 @@ namespace {
 using mesh::Facet;
 using mesh::Mesh;
 using mesh::Point;
+using mesh::cross;
+using mesh::dot;
+using mesh::length;
+using mesh::minus;
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross(const Point& u, const Point& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 bool none(const Point& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
 Point velocity(const Mesh& mesh, const std::vector<double>& V, int node) {
@@ -151,8 +148,8 @@ std::vector<Point> tangent_derivatives(const Point& n, const Point& dn, int dime
     w[i] -= n[axis] * n[i];
     dw[i] = -dn[axis] * n[i] - n[axis] * dn[i];
   }
-  const Point first = unit_derivative(w, dw), turned = cross(dn, t), along = cross(n, first);
-  return {first, {turned[0] + along[0], turned[1] + along[1], turned[2] + along[2]}};
+  const Point first = unit_derivative(w, dw);
+  return {first, mesh::plus(cross(dn, t), cross(n, first))};
 }
 
 }  // namespace dotyk::contact

@@ -14,13 +14,9 @@ class SecondFacets {
   explicit SecondFacets(const Face& face) {
     const int corners = face.mesh.topology().nodes_per_facet;
     for (const mesh::Facet f : face.facets) {
-      One one{face.mesh.facet_centre(f), face.mesh.facet_area_vector(f), 0};
-      const double size = std::hypot(one.normal[0], one.normal[1], one.normal[2]);
-      for (double& v : one.normal) v /= size;
-      for (int a = 0; a < corners; ++a) {
-        const mesh::Point x = face.mesh.point(face.mesh.facet_node(f, a));
-        one.radius = std::max(one.radius, std::hypot(x[0] - one.centre[0], x[1] - one.centre[1], x[2] - one.centre[2]));
-      }
+      One one{face.mesh.facet_centre(f), mesh::unit(face.mesh.facet_area_vector(f)), 0};
+      for (int a = 0; a < corners; ++a)
+        one.radius = std::max(one.radius, mesh::length(mesh::minus(face.mesh.point(face.mesh.facet_node(f, a)), one.centre)));
       all_.push_back(one);
     }
   }
@@ -31,8 +27,7 @@ class SecondFacets {
   void for_each_near(const View& view, const Flat& place, double radius, Visit&& visit) const {
     for (std::size_t f = 0; f < all_.size(); ++f) {
       const One& one = all_[f];
-      const double along = one.normal[0] * view.normal[0] + one.normal[1] * view.normal[1] + one.normal[2] * view.normal[2];
-      if (along > kOpposed) continue;
+      if (mesh::dot(one.normal, view.normal) > kOpposed) continue;
       const Flat at = view.flat(one.centre);
       if (std::hypot(at[0] - place[0], at[1] - place[1]) <= (1 + 1e-6) * (radius + one.radius)) visit(static_cast<int>(f), 2 * one.radius);
     }

@@ -15,6 +15,7 @@ namespace {
 using mesh::Facet;
 using mesh::Mesh;
 using mesh::Point;
+using mesh::dot;
 
 /// What one facet gives to one of its nodes.
 struct Share {
@@ -23,8 +24,6 @@ struct Share {
   int facet;
   int side = -1;
 };
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 std::map<int, std::vector<Share>> shares(const Mesh& mesh, const std::vector<Facet>& facets) {
   std::map<int, std::vector<Share>> by_node;

@@ -5,6 +5,8 @@
 namespace dotyk::contact {
 
 using mesh::Point;
+using mesh::cross;
+using mesh::length;
 
 int tangent_axis(const Point& n) {
   int least = 0;  // axes stay axes where they can
@@ -19,9 +21,9 @@ std::vector<Point> tangents(const Point& n, int dimension) {
   Point t{0, 0, 0};
   t[least] = 1;
   for (int i = 0; i < 3; ++i) t[i] -= n[least] * n[i];
-  const double length = std::hypot(t[0], t[1], t[2]);
-  for (double& v : t) v = std::abs(v) < 1e-15 ? 0 : v / length;
-  return {t, {n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]}};
+  const double size = length(t);
+  for (double& v : t) v = std::abs(v) < 1e-15 ? 0 : v / size;
+  return {t, cross(n, t)};
 }
 
 }  // namespace dotyk::contact

@@ -15,6 +15,8 @@ namespace {
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using mesh::Point;
+using mesh::dot;
+using mesh::minus;
 
 /// A segment or triangle of the refined surface.
 struct Simplex {
@@ -78,9 +80,6 @@ class Refined {
     places.size() == 2 ? measure_segment(x, s) : measure_triangle(x, s);
     simplices_.push_back(s);
   }
-
-  static double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  static Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
   static void measure_segment(const Point x[3], Simplex& s) {
     const Point e = minus(x[1], x[0]);

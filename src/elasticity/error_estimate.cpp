@@ -16,6 +16,9 @@ namespace {
 using mesh::Facet;
 using mesh::Mesh;
 using mesh::Point;
+using mesh::dot;
+using mesh::length;
+using mesh::minus;
 
 /// Greatest difference of two tensors of Hooke, relative to the greater one's greatest entry.
 double difference(const Hooke& a, const Hooke& b) {
@@ -107,7 +110,7 @@ double longest_edge(const Mesh& mesh, int c) {
   for (int l = 0; l < t.facets; ++l)
     for (int k = 0; k < t.nodes_per_facet; ++k) {
       const Point p = mesh.point(mesh.facet_node({c, l}, k)), q = mesh.point(mesh.facet_node({c, l}, (k + 1) % t.nodes_per_facet));
-      longest = std::max(longest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+      longest = std::max(longest, length(minus(p, q)));
     }
   return longest;
 }
@@ -179,7 +182,7 @@ Mismatch mismatch(const Mesh& mesh, const TractionWeight& weight, Facet facet, R
       const Point at = residual(a, p.normal);
       for (int i = 0; i < mesh.dimension(); ++i) r[i] += p.shape[a] * at[i];
     }
-    const double along = r[0] * p.normal[0] + r[1] * p.normal[1] + r[2] * p.normal[2];
+    const double along = dot(r, p.normal);
     double normal = 0, whole = 0;
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) {
@@ -214,8 +217,7 @@ void across(const Mesh& mesh, const MaterialField& material, Facet facet, const 
             ErrorParts& parts) {
   const auto jump = [&](int corner, const Point& n) {
     const int node = mesh.facet_node(facet, corner);
-    const Point a = traction_of(near.at(node), n), b = traction_of(far.at(node), n);
-    return Point{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return minus(traction_of(near.at(node), n), traction_of(far.at(node), n));
   };
   const Mismatch m = mismatch(mesh, traction_weight(mesh, material.at(facet.cell), facet), facet, jump);
   parts.jump += m.normal + m.tangential;
@@ -238,7 +240,7 @@ void FacetTraction::forget(const Point& direction) {
   Point d{0, 0, 0};  // what of it is still known
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) d[i] += known[i][k] * direction[k];
-  const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  const double square = dot(d, d);
   if (square < 1e-6) return;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) known[i][k] -= d[i] * d[k] / square;
@@ -247,7 +249,7 @@ void FacetTraction::forget(const Point& direction) {
 TractionWeight traction_weight(const Mesh& mesh, const Hooke& hooke, Facet facet) {
   const int dim = mesh.dimension();
   const Point v = mesh.facet_area_vector(facet);
-  const double area = std::hypot(v[0], v[1], v[2]);
+  const double area = length(v);
   Eigen::Matrix3d q = Eigen::Matrix3d::Identity();
   for (int i = 0; i < dim; ++i)
     for (int k = 0; k < dim; ++k) {

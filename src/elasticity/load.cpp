@@ -1,7 +1,5 @@
 #include "elasticity/load.hpp"
 
-#include <cmath>
-
 #include "elasticity/kernel.hpp"
 
 namespace dotyk::elasticity {
@@ -10,10 +8,8 @@ namespace {
 using mesh::Facet;
 using mesh::Mesh;
 using mesh::Point;
-
-Point cross(const Point& u, const Point& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
+using mesh::cross;
+using mesh::length;
 
 /// Shape functions and their two reference derivatives on a facet at point q; the weight is returned.
 double facet_rule(int dimension, int nodes, int q, double n[4], double du[4], double dv[4]) {
@@ -65,7 +61,7 @@ void for_each_facet_point(const Mesh& mesh, Facet facet,
       }
     }
     p.normal = mesh.dimension() == 2 ? Point{tu[1], -tu[0], 0} : cross(tu, tv);
-    const double area = std::hypot(p.normal[0], p.normal[1], p.normal[2]);
+    const double area = length(p.normal);
     for (double& n : p.normal) n /= area;
     p.measure = weight * area;
     visit(p);

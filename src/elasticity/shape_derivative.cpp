@@ -8,6 +8,9 @@ namespace {
 using mesh::Facet;
 using mesh::Mesh;
 using mesh::Point;
+using mesh::cross;
+using mesh::dot;
+using mesh::times;
 
 /// Values at the nodes of a cell.
 template <class E>
@@ -78,10 +81,6 @@ Point velocity(const Mesh& mesh, const std::vector<double>& V, int node) {
   return out;
 }
 
-Point cross(const Point& u, const Point& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
 /// Derivatives of a facet's shape functions (in space) by its two coordinates where they have these values.
 void facet_gradients(int nodes, const double shape[4], double du[4], double dv[4]) {
   if (nodes == 3) {
@@ -108,15 +107,13 @@ class FacetGrowth {
   Point vector(const FacetPoint& p) const {
     const auto [u, v, du, dv] = tangents(p);
     const Point area = cross(u, v), first = cross(du, v), second = cross(u, dv);
-    double size = 0;
-    for (int i = 0; i < 3; ++i) size += p.normal[i] * area[i];
+    const double size = dot(p.normal, area);
     return {(first[0] + second[0]) / size, (first[1] + second[1]) / size, (first[2] + second[2]) / size};
   }
 
   /// d(ds) / ds = div_Γ V, along the normal of vector().
   double at(const FacetPoint& p) const {
-    const Point d = vector(p);
-    return p.normal[0] * d[0] + p.normal[1] * d[1] + p.normal[2] * d[2];
+    return dot(p.normal, vector(p));
   }
 
  private:
@@ -148,8 +145,6 @@ void add_at(const Mesh& mesh, Facet facet, const FacetPoint& p, const Point& t, 
   for (int a = 0; a < p.nodes; ++a)
     for (int i = 0; i < dim; ++i) nodal[static_cast<std::size_t>(mesh.facet_node(facet, a)) * dim + i] += p.measure * p.shape[a] * t[i];
 }
-
-Point times(double factor, const Point& p) { return {factor * p[0], factor * p[1], factor * p[2]}; }
 
 }  // namespace
 

@@ -86,8 +86,7 @@ std::vector<int> contact_facets(const Contact& contact, const std::vector<scene:
       int best = -1;
       double most = -INFINITY;
       for (auto it = first; it != last; ++it) {
-        double along = 0;
-        for (int i = 0; i < 3; ++i) along += normal[i] * nodes[it->second].normal[i];
+        const double along = mesh::dot(normal, nodes[it->second].normal);
         if (along > most) most = along, best = it->second;
       }
       if (best >= 0) found.push_back(best);
@@ -130,9 +129,7 @@ RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult
     place[k] = static_cast<int>(picture.points.size()) / 3;
     picture.points.insert(picture.points.end(), x.begin(), x.end());
   }
-  const double length = std::hypot(outward[0], outward[1], outward[2]);
-  if (length > 0)
-    for (double& v : outward) v /= length;
+  if (mesh::length(outward) > 0) outward = mesh::unit(outward);
   picture.into_solid = outward;
   const auto facets = contact_facets(contact, result.nodes);
   if (contact.first.body->dimension() == 3) {
@@ -199,9 +196,7 @@ void add_supports(const Solution& s, int index, ScenePicture& picture) {
                                 {true, true, true}, SupportKind::slide});
   for (const scene::SpringPatch& patch : body.springs) {
     const mesh::Point centre = body.mesh->facet_centre(patch.spring.facet);
-    Vec3 normal = body.mesh->facet_area_vector(patch.spring.facet);
-    const double area = std::hypot(normal[0], normal[1], normal[2]);
-    for (double& n : normal) n /= area;
+    const Vec3 normal = mesh::unit(body.mesh->facet_area_vector(patch.spring.facet));
     const auto& k = patch.spring.stiffness.front();
     picture.supports.push_back({centre, s.displacement(index, centre), normal,
                                 {k[0] > 0, k[1] > 0, k[2] > 0}, SupportKind::spring});

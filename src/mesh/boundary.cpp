@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <climits>
-#include <cmath>
 
 #include "mesh/mesh.hpp"
 
@@ -60,12 +59,8 @@ std::vector<Facet> boundary(const Mesh& mesh) {
 std::vector<Facet> select(const Mesh& mesh,
                           const std::function<bool(const Point&, const Point&)>& chosen) {
   std::vector<Facet> result;
-  for (const Facet f : boundary(mesh)) {
-    Point normal = mesh.facet_area_vector(f);
-    const double area = std::hypot(normal[0], normal[1], normal[2]);
-    for (double& n : normal) n /= area;
-    if (chosen(mesh.facet_centre(f), normal)) result.push_back(f);
-  }
+  for (const Facet f : boundary(mesh))
+    if (chosen(mesh.facet_centre(f), unit(mesh.facet_area_vector(f)))) result.push_back(f);
   return result;
 }
 

@@ -15,10 +15,6 @@ double determinant(const Point& u, const Point& v, const Point& w) {
          u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-Point difference(const Point& a, const Point& b) {
-  return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-}
-
 /// The three (two) neighbours along edges of each corner, right-handed.
 constexpr int kQuadCorner[4][2] = {{1, 3}, {2, 0}, {3, 1}, {0, 2}};
 constexpr int kHexCorner[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
@@ -27,10 +23,7 @@ constexpr int kHexCorner[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
 double edge_scale(const Mesh& mesh, int c) {
   const Point a = mesh.point(mesh.cell(c)[0]);
   double h = 0;
-  for (int k = 1; k < mesh.topology().nodes; ++k) {
-    const Point d = difference(a, mesh.point(mesh.cell(c)[k]));
-    h = std::max(h, std::hypot(d[0], d[1], d[2]));
-  }
+  for (int k = 1; k < mesh.topology().nodes; ++k) h = std::max(h, length(minus(mesh.point(mesh.cell(c)[k]), a)));
   return h;
 }
 
@@ -66,7 +59,7 @@ void refuse_stray_nodes(const Mesh& mesh, const std::string& what) {
 
 double least_jacobian(const Mesh& mesh, int c) {
   const int* n = mesh.cell(c);
-  const auto edge = [&](int a, int b) { return difference(mesh.point(n[a]), mesh.point(n[b])); };
+  const auto edge = [&](int a, int b) { return minus(mesh.point(n[b]), mesh.point(n[a])); };
   const Point up{0, 0, 1};
   double least = INFINITY;
   switch (mesh.element) {

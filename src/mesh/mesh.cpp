@@ -46,15 +46,9 @@ Point Mesh::facet_area_vector(Facet f) const {
   const Point a = point(facet_node(f, 0)), b = point(facet_node(f, 1));
   if (dimension() == 2) return {b[1] - a[1], a[0] - b[0], 0};
   const Point c = point(facet_node(f, 2));
-  Point u, v;
-  if (topology().nodes_per_facet == 4) {  // half the cross product of the diagonals
-    const Point d = point(facet_node(f, 3));
-    for (int i = 0; i < 3; ++i) u[i] = c[i] - a[i], v[i] = d[i] - b[i];
-  } else {
-    for (int i = 0; i < 3; ++i) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
-  }
-  return {0.5 * (u[1] * v[2] - u[2] * v[1]), 0.5 * (u[2] * v[0] - u[0] * v[2]),
-          0.5 * (u[0] * v[1] - u[1] * v[0])};
+  if (topology().nodes_per_facet == 3) return times(0.5, cross(minus(b, a), minus(c, a)));
+  const Point d = point(facet_node(f, 3));
+  return times(0.5, cross(minus(c, a), minus(d, b)));  // of the diagonals
 }
 
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f) {

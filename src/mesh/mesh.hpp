@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "mesh/element.hpp"
+#include "mesh/point.hpp"
 
 namespace dotyk::mesh {
 
@@ -16,9 +16,6 @@ struct Facet {
   int local;  ///< which facet of the cell, as in ElementTopology::facet_nodes
   bool operator==(const Facet&) const = default;
 };
-
-/// A point of the plane or of space; z = 0 in the plane.
-using Point = std::array<double, 3>;
 
 /// A conforming mesh of one cell type, with named boundary parts.
 struct Mesh {

@@ -8,12 +8,7 @@ namespace dotyk::scene {
 using elasticity::FacetTraction;
 using mesh::Facet;
 using mesh::Point;
-
-namespace {
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-}  // namespace
+using mesh::dot;
 
 Boundary::Boundary(const Body& body, const elasticity::Numbering& numbering, const std::vector<double>& u) : mesh_(*body.mesh) {
   for (const Facet f : mesh::boundary(mesh_)) {

@@ -122,9 +122,7 @@ class Rows {
         const int n = model_.contact_row.back()[jump.row];
         if (n >= 0 && jump.weight > most) most = jump.weight, point.normal = n;
       }
-      const double length = std::hypot(mean[0], mean[1], mean[2]);
-      for (double& v : mean) v /= length;
-      point.tangents = free_tangents(point.cell, mean);
+      point.tangents = free_tangents(point.cell, mesh::unit(mean));
       if (point.normal >= 0) points.push_back(std::move(point));
     }
     return points;
@@ -190,8 +188,7 @@ int facing(const Contact& contact, int node, const std::vector<contact::Partner>
   int nearest = -1;
   double least = INFINITY;
   for (const contact::Partner& partner : partners) {
-    const Point y = contact.second.body->mesh->point(partner.node);
-    const double distance = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+    const double distance = mesh::length(mesh::minus(x, contact.second.body->mesh->point(partner.node)));
     if (distance < least) least = distance, nearest = partner.node;
   }
   return nearest;

@@ -99,13 +99,11 @@ void add_body(const Solution& s, const Solution& reference, int index, Squares& 
   }
 }
 
-double along(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// The pressure of these nodes at another node, from those that look the same way; 0 where there are none.
 double pressure_at(const std::vector<ContactNode>& nodes, const ContactNode& at, int dimension) {
   std::vector<std::pair<double, const ContactNode*>> near;
   for (const ContactNode& n : nodes)
-    if (along(n.normal, at.normal) > 0.5) near.emplace_back(squared_distance(n.x, at.x), &n);
+    if (mesh::dot(n.normal, at.normal) > 0.5) near.emplace_back(squared_distance(n.x, at.x), &n);
   if (near.empty()) return 0;
   const auto keep = near.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(dimension == 2 ? 8 : 4, near.size()));
   std::partial_sort(near.begin(), keep, near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -119,7 +117,7 @@ double pressure_at(const std::vector<ContactNode>& nodes, const ContactNode& at,
   }
   for (const auto& [squared, n] : near) {
     const Point a{first.x[0] - at.x[0], first.x[1] - at.x[1], 0}, b{n->x[0] - at.x[0], n->x[1] - at.x[1], 0};
-    if (along(a, b) >= 0) continue;
+    if (mesh::dot(a, b) >= 0) continue;
     const double da = std::sqrt(near[0].first), db = std::sqrt(squared);
     return (first.pressure * db + n->pressure * da) / (da + db);
   }

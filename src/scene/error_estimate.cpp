@@ -11,8 +11,7 @@ using elasticity::ErrorParts;
 using elasticity::FacetTraction;
 using mesh::Facet;
 using mesh::Point;
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+using mesh::dot;
 
 /// Glued facets: nothing is known of the traction.
 void forget_glued(const mesh::Mesh& mesh, const std::vector<Facet>& facets, std::vector<int> nodes, Boundary& boundary) {

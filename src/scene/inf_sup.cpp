@@ -100,10 +100,7 @@ std::vector<char> moving(const Scene& scene, const Contact& contact, const Model
 DenseMatrix gram(const Basis& basis, const contact::Surface& surface, const std::vector<char>& moves, double length) {
   DenseMatrix N = contact::trace_gram(surface, moves, basis.densities, length);
   for (Eigen::Index j = 0; j < N.cols(); ++j)
-    for (Eigen::Index i = 0; i < N.rows(); ++i) {
-      const Point &a = basis.directions[i], &b = basis.directions[j];
-      N(i, j) *= a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
+    for (Eigen::Index i = 0; i < N.rows(); ++i) N(i, j) *= mesh::dot(basis.directions[i], basis.directions[j]);
   return N;
 }
 
@@ -136,7 +133,7 @@ double diagonal(const Contact& contact) {
     const Point x = contact.first.body->mesh->point(row.node);
     for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], x[i]), high[i] = std::max(high[i], x[i]);
   }
-  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  return mesh::length(mesh::minus(high, low));
 }
 
 /// Square roots of the eigenvalues of W μ = β² N μ, ascending.

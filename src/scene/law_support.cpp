@@ -72,9 +72,7 @@ std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides) {
 bool moves(const Body& body, const elasticity::Numbering& numbering, int node, const Point& direction) {
   for (const SlideRow& slide : body.slides) {
     if (slide.node != node) continue;
-    double along = 0;
-    for (int i = 0; i < 3; ++i) along += slide.normal[i] * direction[i];
-    if (std::abs(along) > 1 - 1e-9) return false;
+    if (std::abs(mesh::dot(slide.normal, direction)) > 1 - 1e-9) return false;
   }
   for (int i = 0; i < body.dimension(); ++i)
     if (direction[i] != 0 && numbering.unknown[static_cast<std::size_t>(node) * body.dimension() + i] >= 0) return true;

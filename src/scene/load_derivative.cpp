@@ -12,9 +12,8 @@ namespace {
 
 using mesh::Facet;
 using mesh::Point;
-
-double norm(const Point& p) { return std::hypot(p[0], p[1], p[2]); }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+using mesh::dot;
+using mesh::length;
 
 /// A body's velocity, what is rounding left out.
 class Velocity {
@@ -47,11 +46,11 @@ class Velocity {
       for (const int k : side.facets) {
         const Point d = mesh::facet_area_derivative(mesh_, V_, facets[k]);
         for (int i = 0; i < 3; ++i) change[i] += d[i];
-        scale += of(facets[k]) * (mesh_.dimension() == 2 ? 1 : std::sqrt(norm(mesh_.facet_area_vector(facets[k]))));
+        scale += of(facets[k]) * (mesh_.dimension() == 2 ? 1 : std::sqrt(length(mesh_.facet_area_vector(facets[k]))));
       }
       const double along = dot(change, side.normal);
       for (int i = 0; i < 3; ++i) change[i] -= along * side.normal[i];
-      if (norm(change) > 1e-9 * scale)
+      if (length(change) > 1e-9 * scale)
         throw InputError(text("'", body_.name, "' ", part, " slides, and its nodes move so that its normal turns at ",
                               point_text(mesh_.node(side.node), mesh_.dimension()),
                               ", of which there is no derivative; keep them, move them along the part, or fix it"));

@@ -1,18 +1,11 @@
 #include "scene/row_builder.hpp"
 
-#include <cmath>
-
 #include "base/text.hpp"
 
 namespace dotyk::scene {
 
 using mesh::Point;
-
-namespace {
-
-double squared(const Point& p) { return p[0] * p[0] + p[1] * p[1] + p[2] * p[2]; }
-
-}  // namespace
+using mesh::dot;
 
 void RowBuilder::open_group(const std::string& name, std::shared_ptr<const problem::Law> law) {
   scalar_ = true;
@@ -37,7 +30,7 @@ int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, do
       for (const contact::Partner& partner : pull.partners) collect(other_body, partner.node, pull.direction, -partner.weight, gap);
     else
       for (int i = 0; i < 3; ++i) gap += pull.direction[i] * move_[i];
-    if (squared(pull.direction) > squared(main->direction)) main = &pull;
+    if (dot(pull.direction, pull.direction) > dot(main->direction, main->direction)) main = &pull;
   }
   if (entries_.size() == before) return -1;
   gaps_.push_back(gap);

@@ -9,11 +9,10 @@ namespace dotyk::scene {
 namespace {
 
 using mesh::Point;
+using mesh::dot;
 using problem::Status;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Of a law at a node: `follows` while its λ follows the displacement (or is any), `bears` while λ is not 0.
 Status status_of(Kind kind, bool follows, bool bears) {
@@ -82,7 +81,7 @@ SupportNode Solution::support_node(const LawSupport& support, std::size_t k, con
   node.away = -dot(u, side.normal);
   const Point load = law_load(support, side, body.dimension()), force = law_force(side, rows, lambda);
   for (int i = 0; i < 3; ++i) node.slip[i] = u[i] + node.away * side.normal[i];
-  const Point sum{load[0] + force[0], load[1] + force[1], load[2] + force[2]};
+  const Point sum = mesh::plus(load, force);
   node.pressure = -dot(sum, side.normal) / side.weight;
   for (int i = 0; i < 3; ++i) node.shear[i] = (sum[i] + node.pressure * side.weight * side.normal[i]) / side.weight;
   node.broken = support.breaks(k);

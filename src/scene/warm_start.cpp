@@ -13,8 +13,8 @@ bool closed_nearby(const ContactResult& known, const mesh::Point& x) {
   double nearest = INFINITY;
   bool closed = false;
   for (const ContactNode& node : known.nodes) {
-    double d = 0;
-    for (int i = 0; i < 3; ++i) d += (x[i] - node.x[i]) * (x[i] - node.x[i]);
+    const mesh::Point off = mesh::minus(x, node.x);
+    const double d = mesh::dot(off, off);
     if (d < nearest) {
       nearest = d;
       closed = node.status != problem::Status::open;

@@ -13,10 +13,9 @@ namespace {
 
 using algebra::DenseMatrix;
 using mesh::Point;
+using mesh::length;
 
 constexpr int kMostPoints = 4096;
-
-double length(const Point& p) { return std::hypot(p[0], p[1], p[2]); }
 
 std::vector<int> nodes_of(const scene::Part& part) {
   const mesh::Mesh& mesh = *part.body->mesh;

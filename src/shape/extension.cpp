@@ -16,16 +16,11 @@ namespace {
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using mesh::Point;
+using mesh::cross;
+using mesh::dot;
+using mesh::unit;
 
 constexpr double kStraight = 1e-6;  ///< sine of the angle between normals that count as one
-
-Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point unit(const Point& a) {
-  const double size = std::sqrt(dot(a, a));
-  return {a[0] / size, a[1] / size, a[2] / size};
-}
 
 /// Directions held at a node: orthonormal.
 struct Held {
@@ -39,7 +34,7 @@ struct Held {
         const double share = dot(rest, direction[k]);
         for (int i = 0; i < 3; ++i) rest[i] -= share * direction[k][i];
       }
-    if (count < 3 && std::sqrt(dot(rest, rest)) > kStraight) direction[count++] = unit(rest);
+    if (count < 3 && mesh::length(rest) > kStraight) direction[count++] = unit(rest);
   }
 
   /// The directions left free, orthonormal.

@@ -13,9 +13,8 @@ namespace {
 using contact::ContactRow;
 using contact::RowDerivative;
 using mesh::Point;
+using mesh::dot;
 using scene::Contact;
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Do nodes of these facets move, beyond rounding of V's greatest?
 bool moves(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const std::vector<double>& V) {

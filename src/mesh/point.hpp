@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+namespace dotyk::mesh {
+
+/// A point of the plane or of space, or a vector; z = 0 in the plane.
+using Point = std::array<double, 3>;
+
+/// a·b
+inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// a + b
+inline Point plus(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+/// a − b
+inline Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+/// factor a
+inline Point times(double factor, const Point& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
+
+/// a × b
+inline Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// |a|, squares out of the range of numbers avoided.
+inline double length(const Point& a) { return std::hypot(a[0], a[1], a[2]); }
+
+/// a/|a|; a is not zero.
+inline Point unit(const Point& a) {
+  const double size = length(a);
+  return {a[0] / size, a[1] / size, a[2] / size};
+}
+
+}  // namespace dotyk::mesh
