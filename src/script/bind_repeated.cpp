@@ -40,17 +40,6 @@ RepeatedSettings settings(const Call& call) {
   return s;
 }
 
-/// A function of the coordinates at every node of the mesh: node × dimension.
-std::vector<double> at_nodes(const Field& field, const mesh::Mesh& mesh) {
-  const auto dimension = static_cast<std::size_t>(mesh.dimension());
-  std::vector<double> values(mesh.coordinates.size());
-  for (int n = 0; n < mesh.node_count(); ++n) {
-    const std::size_t first = static_cast<std::size_t>(n) * dimension;
-    field.at({mesh.node(n), dimension}, {&values[first], dimension});
-  }
-  return values;
-}
-
 std::vector<std::vector<double>> velocities(const Call& call, const scene::Scene& scene) {
   std::vector<std::vector<double>> all;
   lua_State* L = call.state();

@@ -69,12 +69,7 @@ std::vector<std::vector<double>> by_spline(const Arguments& move, const scene::S
 }
 
 std::vector<double> by_function(const Arguments& move, const scene::Body& body) {
-  const auto dimension = static_cast<std::size_t>(body.dimension());
-  const Field field(move.function("velocity"), dimension);
-  std::vector<double> V(body.mesh->coordinates.size());
-  for (int n = 0; n < body.mesh->node_count(); ++n)
-    field.at({body.mesh->node(n), dimension}, {&V[static_cast<std::size_t>(n) * dimension], dimension});
-  return V;
+  return at_nodes(Field(move.function("velocity"), static_cast<std::size_t>(body.dimension())), *body.mesh);
 }
 
 void read(const Arguments& move, const scene::Scene& scene, Variables& variables) {

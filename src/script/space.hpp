@@ -32,10 +32,8 @@ inline mesh::Point unit_vector(const std::vector<double>& v, const std::string& 
   const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
   if (largest > 0)
     for (double& x : p) x /= largest;  // squares of the rest are then in range
-  const double length = std::hypot(p[0], p[1], p[2]);
-  if (!(length > 0)) throw InputError(text("'", what, "' is zero; it must have a direction"));
-  for (double& x : p) x /= length;
-  return p;
+  if (!(mesh::length(p) > 0)) throw InputError(text("'", what, "' is zero; it must have a direction"));
+  return mesh::unit(p);
 }
 
 // The fields below refer to Lua values: they are for use during the call only.
@@ -54,6 +52,15 @@ inline elasticity::VectorField vector_field(const Field& field, int dimension) {
     field.at({x.data(), n}, {value.data(), n});
     return value;
   };
+}
+
+// The field at every node: node × dimension.
+inline std::vector<double> at_nodes(const Field& field, const mesh::Mesh& mesh) {
+  const auto dimension = static_cast<std::size_t>(mesh.dimension());
+  std::vector<double> values(mesh.coordinates.size());
+  for (int n = 0; n < mesh.node_count(); ++n)
+    field.at({mesh.node(n), dimension}, {&values[static_cast<std::size_t>(n) * dimension], dimension});
+  return values;
 }
 
 }  // namespace dotyk::script
