@@ -1,11 +1,6 @@
 #!/bin/bash
 # The program from the outside: ways to start it, what it prints where, exit status.
-set -u
-dotyk=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
+. "$(dirname "$0")/scratch.sh"
 
 # expect NAME STATUS STDOUT STDERR COMMAND…: standard input is empty.
 expect() {
@@ -14,10 +9,9 @@ expect() {
   "$@" >out.txt 2>err.txt </dev/null
   local got=$?
   [[ $got == "$status" && $(<out.txt) == "$out" && $(<err.txt) == "$err" ]] && return
-  echo "FAILED: $name: status $got (expected $status)"
+  fail "$name: status $got (expected $status)"
   diff <(echo "$out") out.txt
   diff <(echo "$err") err.txt
-  failures=$((failures + 1))
 }
 
 echo 'print("hello", arg[0], ...) return 3' >hello.lua
@@ -52,22 +46,22 @@ expect "a closed output" 1 '' 'dotyk: standard output could not be written: Bad 
 expect "a broken Lua folder" 1 '' "dotyk: the Lua files of dotyk, in /nowhere, cannot be loaded: cannot read /nowhere/init.lua" \
   env DOTYK_LUA=/nowhere "$dotyk" -e ''
 
-"$dotyk" --version | grep -qx 'dotyk [0-9.]*' || { echo "FAILED: --version"; failures=$((failures + 1)); }
-"$dotyk" --help | grep -q 'Exit status' || { echo "FAILED: --help"; failures=$((failures + 1)); }
+"$dotyk" --version | grep -qx 'dotyk [0-9.]*' || fail "--version"
+"$dotyk" --help | grep -q 'Exit status' || fail "--help"
 # What a logarithmic axis leaves out is said, once a chart.
 expect "a logarithmic axis" 0 'a.png' "dotyk: a.png: zero and negative values have no place on a logarithmic axis; left out: 2 of 3 points of 'error', 1 of 2 points of series 3" \
   "$dotyk" -e 'print(dotyk.chart{ file = "a.png", log = "y", series = { { name = "error", x = {1,2,3}, y = {1,0,-1} }, { x = {0,1}, y = {1,2} }, { x = {0,1}, y = {0,2} } } })'
 expect "a linear axis" 0 '' '' "$dotyk" -e 'dotyk.chart{ file = "a.png", series = { { x = {1,2}, y = {0,-1} } } }'
 
-"$dotyk" --traceback wrong.lua 2>&1 >/dev/null | grep -q 'stack traceback' || { echo "FAILED: --traceback"; failures=$((failures + 1)); }
-[[ $(ldd "$dotyk" | grep -c 'liblua') == 1 ]] || { echo "FAILED: linked with other than one Lua library"; failures=$((failures + 1)); }
-if ldd "$dotyk" | grep -q vtk; then echo "FAILED: linked with VTK"; failures=$((failures + 1)); fi
+"$dotyk" --traceback wrong.lua 2>&1 >/dev/null | grep -q 'stack traceback' || fail "--traceback"
+[[ $(ldd "$dotyk" | grep -c 'liblua') == 1 ]] || fail "linked with other than one Lua library"
+if ldd "$dotyk" | grep -q vtk; then fail "linked with VTK"; fi
 
 # Ctrl-C ends a script.
 "$dotyk" -e 'while true do end' 2>err.txt &
 sleep 0.3
 kill -INT $!
 wait $!
-[[ $? == 1 && $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || { echo "FAILED: interrupt: $(<err.txt)"; failures=$((failures + 1)); }
+[[ $? == 1 && $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || fail "interrupt: $(<err.txt)"
 
 exit $((failures > 0))

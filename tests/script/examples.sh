@@ -1,12 +1,8 @@
 #!/bin/bash
 # Every example of the reference, which are those of help(), runs as it stands, indented as help shows it: each in a
 # folder of its own, empty. Arguments: the program, and words of the names of those to run (all).
-set -u
-dotyk=$(realpath "$1")
+. "$(dirname "$0")/scratch.sh"
 chosen=${2-}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
 
 # One script and one line of its name for each callable; a callable without an example ends this.
 cat >split.lua <<'EOF'
@@ -29,7 +25,7 @@ check("dotyk", dotyk)
 EOF
 "$dotyk" split.lua >names || { cat names; exit 1; }
 
-failures=0 skipped=0 ran=0
+skipped=0 ran=0
 while read -r number name; do
   [[ $name == *"$chosen"* ]] || continue
   mkdir "in$number" && cd "in$number" || exit 1
@@ -43,10 +39,9 @@ while read -r number name; do
     echo "skipped: $name: $(grep -m1 -o 'built without.*' output)"
     skipped=$((skipped + 1))
   elif ((status != 0)); then
-    printf 'FAILED: %s, status %s:\n' "$name" "$status"
+    fail "$name, status $status:"
     sed 's/^/  | /' "$number.lua"
     tail -n 5 output
-    failures=$((failures + 1))
   else
     ran=$((ran + 1))
   fi

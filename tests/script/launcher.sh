@@ -2,17 +2,12 @@
 # What the launcher promises beyond building: found through a symbolic link and
 # from another folder, quick when nothing changed, one build at a time. A copy
 # of it runs here on a small project of its own.
-set -u
-launcher=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/scratch.sh"
 unset DOTYK_BUILD
-failures=0
-fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 
 project=$folder/project
 mkdir -p "$project/src/script" "$folder/elsewhere"
-cp "$launcher" "$project/dotyk"
+cp "$dotyk" "$project/dotyk"
 cat >"$project/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)

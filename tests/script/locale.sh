@@ -1,11 +1,7 @@
 #!/bin/bash
 # Where numbers are written with a comma (LC_ALL=cs_CZ.UTF-8), dotyk reads and writes them with a point: scripts,
 # files, the prompt. Skipped where that locale cannot be made.
-set -u
-dotyk=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
+. "$(dirname "$0")/scratch.sh"
 command -v localedef >/dev/null && localedef -i cs_CZ -f UTF-8 "$folder/cs_CZ.UTF-8" 2>/dev/null && export LOCPATH=$folder
 { export LC_ALL=cs_CZ.UTF-8; } 2>/dev/null # this shell itself may be too late for it
 export HOME=$folder TERM=xterm

@@ -1,15 +1,6 @@
 #!/bin/bash
 # dotyk --manifest: beside every figure and result the lines that tell where it comes from; nothing without it.
-set -u
-dotyk=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+. "$(dirname "$0")/scratch.sh"
 cat >block.lua <<'LUA'
 local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {4,4} }, material = dotyk.material{ E = 1 } }
 b:part "left":fix()

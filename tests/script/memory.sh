@@ -1,8 +1,6 @@
 #!/bin/bash
 # What does not fit into memory is refused before it is made, and nothing is lost by it.
-set -u
-dotyk=$1
-failures=0
+. "$(dirname "$0")/scratch.sh"
 ulimit -v 2000000  # KB
 # A sanitized program takes more address space than that for itself.
 [[ $("$dotyk" -e 'print(1)' 2>&1) == 1 ]] || exit 77
@@ -12,8 +10,7 @@ expect() {
   local got
   got=$("$dotyk" -e "$3" 2>&1)
   [[ $got =~ ^$2$ ]] && return
-  printf 'FAILED: %s\n  got: %s\n' "$1" "$got"
-  failures=$((failures + 1))
+  fail "$1, got: $got"
 }
 
 expect "a mesh" "dotyk: -e:1: rectangle: a mesh of 1e\+08 cells needs 4 GB of memory, [0-9.]+ GB are available.*" \
@@ -40,8 +37,7 @@ for megabytes in 250 220 190 160 140; do
      b:part "top":load{ 0, -1 }
      print(dotyk.solve(dotyk.scene{ b }).converged)' 2>&1) )
   [[ $? != 124 ]] && continue
-  printf 'FAILED: %d MB: hangs\n  got: %s\n' $megabytes "$got"
-  failures=$((failures + 1))
+  fail "$megabytes MB: hangs, got: $got"
 done
 
 exit $((failures > 0))

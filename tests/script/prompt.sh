@@ -1,11 +1,8 @@
 #!/bin/bash
 # The prompt on a pseudo-terminal: editing, several lines, completion, Ctrl-C,
 # history. Needs script(1).
-set -u
-dotyk=$1
+. "$(dirname "$0")/scratch.sh"
 command -v script >/dev/null || exit 77
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 export TERM=xterm
 unset XDG_STATE_HOME
 
@@ -31,9 +28,9 @@ expect() {
   mkdir -p "$HOME"
   screen=$(session "$@")
   grep -qF -- "$text" <<<"$screen" && return
-  echo "FAILED: $name: no '$text' in"
+  fail "$name: no '$text' in"
   echo "$screen"
-  echo >>"$folder/failures"
+  echo >>"$folder/failed" # this shell is not the one that counts
 }
 
 expect "an expression" '42' '6 * 7\n' &
@@ -74,6 +71,5 @@ wait
 picture=$folder/picture.png
 printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" |
   DOTYK_PICTURES=kitty timeout 60 "$dotyk" | tr -d '\033\n' | sed 's/_G[^;]*;//g; s/\\//g; s/".*//' | base64 -d >"$folder/shown" 2>/dev/null
-cmp "$folder/shown" "$picture" ||
-  { echo "FAILED: a picture in the terminal"; echo >>"$folder/failures"; }
-[[ ! -e $folder/failures ]]
+cmp "$folder/shown" "$picture" || fail "a picture in the terminal"
+[[ $failures == 0 && ! -e $folder/failed ]]

@@ -1,12 +1,8 @@
 #!/bin/bash
 # dotyk --safe: what a stranger's script tries, and is refused; what an honest one does, unchanged. And the
 # limits of instructions, of processors' time and of memory.
-set -u
-dotyk=$1
+. "$(dirname "$0")/scratch.sh"
 scripts=$2
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
 mkdir below below/images outside
 echo 'a secret' >outside/secret.txt
 echo 'return "honest"' >below/module.lua
@@ -15,11 +11,6 @@ ln -s ../outside below/link
 ln -s ../outside/secret.txt below/file_link
 ln -s ../outside/new.txt below/dangling
 ln -s /etc below/etc
-failures=0
-fail() {
-  printf 'FAILED: %s\n' "$1"
-  failures=$((failures + 1))
-}
 
 # refused NAME TEXT CODE: the script ends with the line "-e:1: …TEXT…" and nothing else; nothing outside has changed.
 refused() {

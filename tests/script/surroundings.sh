@@ -2,16 +2,7 @@
 # A full disk, a folder that is read only, no fonts, no home, no terminal, a program killed while it writes: each is
 # answered in one line or does not matter, and a file once written stays whole. What needs mounts runs where a
 # namespace of mounts can be had (as root), and says so where not.
-set -u
-dotyk=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+. "$(dirname "$0")/scratch.sh"
 
 cat >solved.lua <<'LUA'
 local function solved(load)
