@@ -264,7 +264,7 @@ void bind_body(Library& library) {
                        "centre and outward normal accepts: f(x, y, nx, ny), f(x, y, z, nx, ny, nz) in space.",
                .example = "local top = block:part \"top\"\n"
                           "local patch = block:part(\"patch\", function(x, y, nx, ny) return ny > 0.9 and x < 0 end)",
-               .arguments = {key::string("name", "its name").required(),
+               .arguments = {key::string("name", "its name").required().of<Body>(scene::part_names),
                              key::function("chosen", "accepts a facet or not")},
                .returns = "part",
                .run = make_part})

@@ -34,6 +34,12 @@ Record point_record(const plate::EdgePoint& p, std::size_t piece) {
                          {"corner", p.corner}}};
 }
 
+std::vector<std::string> edge_names(const Solution& s) {
+  std::vector<std::string> names;
+  for (const auto& edge : s.plate().edges) names.push_back(edge.part);
+  return names;
+}
+
 int edge_reaction(Call& call, const Solution& s, const std::string& part) {
   const plate::EdgeReaction r = plate::reaction(s, find_edge(s.plate(), part));
   std::vector<Record> points;
@@ -135,7 +141,8 @@ void bind_plate_solution(Library& library) {
                .help = "What a part of the edge does to the plate: force (upwards), length, how much of it is open, and points in order along the edge: x, y, at (along the edge), piece, "
                        "length, deflection, slope (outwards), force, reaction (per length), moment (per length), status (open, closed, stick, slip), corner. Of a point support, by its number: force.",
                .example = "print(s:reaction(\"edge\").force)",
-               .arguments = {key::either("part", {key::string("", "a part of the edge that has laws; \"edge\" where all has the same"), key::integer("", "which of the point supports")}, "which support").required()},
+               .arguments = {key::either("part", {key::string("", "a part of the edge that has laws; \"edge\" where all has the same").of<Solution>(edge_names),
+                                                key::integer("", "which of the point supports")}, "which support").required()},
                .run = reaction})
       .method({.name = "plate_solution:distance",
                .help = "How far this solution is from another one of the same plate, on another mesh or with the other element, relative to the other: energy, of the curvatures, weighted "

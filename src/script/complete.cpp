@@ -1,109 +1,13 @@
 #include "script/complete.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "script/complete_context.hpp"
-#include "script/enter.hpp"
+#include "script/complete_meaning.hpp"
 #include "script/library.hpp"
 
 namespace dotyk::script {
 namespace {
-
-// What a chain stands for: a value on top of the Lua stack, or, behind a call,
-// only the class that the call returns.
-struct Meaning {
-  bool value = false;
-  const Type* type = nullptr;
-  const Descriptor* callable = nullptr;
-};
-
-void push_member(lua_State* L, const std::string& name) {
-  push(L, name);
-  lua_rawget(L, -2);
-  if (!lua_isnil(L, -1)) return;
-  if (luaL_getmetafield(L, -2, "__index") == LUA_TNIL) return;
-  if (lua_istable(L, -1)) {
-    push(L, name);
-    lua_rawget(L, -2);
-  } else {
-    lua_pushnil(L);
-  }
-}
-
-Meaning of_value(lua_State* L, const Library& library) {
-  Meaning meaning;
-  meaning.value = !lua_isnil(L, -1);
-  meaning.type = library.type_at(L, -1);
-  meaning.callable = descriptor_at(L, -1);
-  return meaning;
-}
-
-Meaning of_type(const Type* type) {
-  Meaning meaning;
-  meaning.type = type;
-  return meaning;
-}
-
-Meaning of_method(const Type* type, const std::string& name) {
-  Meaning meaning;
-  meaning.callable = type ? type->method(name) : nullptr;
-  return meaning;
-}
-
-Meaning advance(lua_State* L, const Library& library, const Meaning& from, const Step& step) {
-  if (step.kind == Step::call)
-    return of_type(from.callable ? library.find_type(from.callable->returns) : nullptr);
-  if (step.kind == Step::method && from.type) return of_method(from.type, step.text);
-  if (from.type) {
-    const auto* field = from.type->field(step.text);
-    if (!field) return of_method(from.type, step.text);
-    if (!from.value) return of_type(library.find_type(field->type));
-    field->read(L, checked_object(L, -1, from.type->name.c_str()));
-    return of_value(L, library);
-  }
-  if (!from.value || !lua_istable(L, -1)) return {};
-  push_member(L, step.text);
-  return of_value(L, library);
-}
-
-Meaning resolve(lua_State* L, const Library& library, const Chain& chain) {
-  luaL_checkstack(L, 4 * static_cast<int>(chain.size()) + 8, nullptr);
-  if (chain.empty()) return {};
-  lua_pushglobaltable(L);
-  push_member(L, chain.front().text);
-  auto meaning = of_value(L, library);
-  for (std::size_t i = 1; i < chain.size(); ++i) meaning = advance(L, library, meaning, chain[i]);
-  return meaning;
-}
-
-// The table description the cursor stands in, or null.
-const Key* table_around(lua_State* L, const Library& library, const std::vector<Bracket>& brackets) {
-  std::vector<std::string> path;
-  auto bracket = brackets.rbegin();
-  if (bracket == brackets.rend() || bracket->sign != '{') return nullptr;
-  while (bracket != brackets.rend() && bracket->callee.empty()) {
-    path.push_back(bracket->key);
-    ++bracket;
-  }
-  if (bracket == brackets.rend()) return nullptr;
-  const auto meaning = resolve(L, library, bracket->callee);
-  if (!meaning.callable) return nullptr;
-  const Key* table = nullptr;
-  for (const auto& argument : meaning.callable->arguments) {
-    if (argument.kind == Kind::table && !table) table = &argument;
-  }
-  if (bracket->sign == '(' && !path.empty()) path.pop_back();
-  for (auto name = path.rbegin(); table && name != path.rend(); ++name) {
-    const Key* inner = nullptr;
-    if (name->empty() && !table->items.empty()) inner = &table->items.front();
-    for (const auto& key : table->keys) {
-      if (key.name == *name && !name->empty()) inner = &key;
-    }
-    table = inner;
-  }
-  return table;
-}
 
 void add_table_members(lua_State* L, std::vector<std::string>& words, bool functions_only) {
   const auto add = [&] {
@@ -120,10 +24,10 @@ void add_table_members(lua_State* L, std::vector<std::string>& words, bool funct
   lua_pop(L, 1);
 }
 
-std::vector<std::string> members(lua_State* L, const Library& library, const Context& context) {
+std::vector<std::string> members(lua_State* L, const Library& library, const Chain& chain, Step::Kind joint) {
   std::vector<std::string> words;
-  const auto meaning = resolve(L, library, context.chain);
-  const bool methods = context.joint == Step::method;
+  const auto meaning = resolve(L, library, chain);
+  const bool methods = joint == Step::method;
   if (meaning.type) {
     for (const auto& field : meaning.type->fields) {
       if (!methods) words.push_back(field.name);
@@ -149,56 +53,98 @@ std::vector<std::string> free_names(lua_State* L) {
   return words;
 }
 
-std::vector<std::string> choices_of(const Key& key) {
-  auto words = key.choices;
-  if (key.kind == Kind::either) {
-    for (const auto& one : key.keys) words.insert(words.end(), one.choices.begin(), one.choices.end());
-  }
-  return words;
-}
-
 bool takes_file(const Key& key) {
   return key.kind == Kind::file || key.kind == Kind::any || std::any_of(key.keys.begin(), key.keys.end(), takes_file);
 }
 
+// What a string given here may be; either one of several kinds, or of one.
+void add_strings(lua_State* L, const Place& place, const Key& key, std::vector<std::string>& words) {
+  words.insert(words.end(), key.choices.begin(), key.choices.end());
+  if (const int self = place.callee.self; key.names && self) {
+    const auto* type = Library::of(L).type_at(L, self);
+    const auto names = key.names(checked_object(L, self, type->name.c_str()).get());
+    words.insert(words.end(), names.begin(), names.end());
+  }
+  if (key.kind != Kind::either) return;
+  for (const auto& one : key.keys) add_strings(L, place, one, words);
+}
+
 Completion in_string(lua_State* L, const Library& library, const Context& context) {
   Completion result;
-  result.start = context.start;
-  bool files = true;  // what is not dotyk's to know may be one
-  const auto* table = table_around(L, library, context.brackets);
-  for (std::size_t i = 0; table && i < table->keys.size(); ++i) {
-    if (table->keys[i].name != context.value_of) continue;
-    result.words = choices_of(table->keys[i]);
-    files = takes_file(table->keys[i]);
+  const bool index = context.chain.empty() && !context.brackets.empty() && context.brackets.back().sign == '[';
+  if (index) {
+    result.words = members(L, library, context.brackets.back().callee, Step::field);
+    return result;
   }
-  const bool bracketed =
-      context.chain.empty() && !context.brackets.empty() && context.brackets.back().sign == '(';
-  const auto& callee = bracketed ? context.brackets.back().callee : context.chain;  // fix "x, fix("x
-  const auto called = resolve(L, library, callee);
-  if (called.callable && called.callable->name == "help") result.words = library.names();
-  if (called.callable && !called.callable->arguments.empty()) {
-    const auto& first = called.callable->arguments.front();
-    const auto words = choices_of(first);
-    files = takes_file(first.kind == Kind::table && !first.keys.empty() ? first.keys.front() : first);
-    result.words.insert(result.words.end(), words.begin(), words.end());
+  const auto place = value_at(L, library, context);
+  bool files = true;  // what is not dotyk's to know may be one
+  if (place.callee.callable && place.callee.callable->name == "help") result.words = library.names();
+  else if (place.key) {
+    const auto& key = place.key->kind == Kind::table && !place.key->keys.empty() ? place.key->keys.front() : *place.key;
+    add_strings(L, place, key, result.words);
+    files = takes_file(key);
   }
   result.file_names = files && result.words.empty();
   return result;
 }
 
+bool is_of(const Key& key, const std::string& type) {
+  if (key.kind == Kind::object) return key.type == type;
+  return key.kind == Kind::either &&
+         std::any_of(key.keys.begin(), key.keys.end(), [&](const Key& one) { return is_of(one, type); });
+}
+
+// The variables that hold what is asked for; else the functions that make it, and
+// the methods of what the variables hold.
+std::vector<std::string> objects(lua_State* L, const Library& library, const Key& key) {
+  std::vector<std::string> held, makers;
+  for (const auto& one : library.functions()) {
+    if (is_of(key, one.returns)) makers.push_back(one.name);
+  }
+  lua_pushglobaltable(L);
+  for (const auto& name : string_keys(L, -1)) {
+    push(L, name);
+    lua_rawget(L, -2);
+    const auto* type = library.type_at(L, -1);
+    lua_pop(L, 1);
+    if (!type || name == "_") continue;
+    if (is_of(key, type->name)) held.push_back(name);
+    for (const auto& method : type->methods) {
+      if (is_of(key, method.returns)) makers.push_back(name + ":" + method.short_name());
+    }
+  }
+  return held.empty() ? makers : held;
+}
+
+// What may begin at the cursor where a value is wanted and nothing of it typed.
+std::vector<std::string> values(lua_State* L, const Library& library, const Context& context) {
+  const auto place = value_at(L, library, context);
+  if (!place.key) return {};
+  if (place.key->kind == Kind::boolean) return {"true", "false"};
+  std::vector<std::string> words;
+  add_strings(L, place, *place.key, words);
+  for (auto& word : words) word = '"' + word + '"';
+  const auto more = objects(L, library, *place.key);
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 Completion candidates(lua_State* L, const Library& library, const Context& context) {
   if (context.in_string) return in_string(L, library, context);
   Completion result;
-  result.start = context.start;
   if (context.joint != Step::name) {
-    result.words = members(L, library, context);
+    result.words = members(L, library, context.chain, context.joint);
     return result;
   }
-  const auto* table = context.key_position ? table_around(L, library, context.brackets) : nullptr;
+  const auto* table = context.key_position ? table_around(L, library, context).key : nullptr;
   for (std::size_t i = 0; table && i < table->keys.size(); ++i)
     result.words.push_back(table->keys[i].name + " = ");
-  const bool keys_only = table && (table->items.empty() || context.word.empty());
-  if (keys_only && !result.words.empty()) return result;
+  if (context.word.empty() && (context.value_position || context.key_position)) {
+    const auto fitting = values(L, library, context);
+    result.words.insert(result.words.end(), fitting.begin(), fitting.end());
+  }
+  const bool chosen = context.word.empty() || (table && table->items.empty());
+  if (chosen && !result.words.empty()) return result;
   const auto names = free_names(L);
   result.words.insert(result.words.end(), names.begin(), names.end());
   return result;
@@ -219,6 +165,7 @@ int run(lua_State* L) {
   }
   request.result.start = context.start;
   request.result.in_string = context.in_string;
+  if (context.in_string && !request.result.file_names) request.result.quote = request.text[context.start - 1];
   auto& words = request.result.words;
   std::erase_if(words, [&](const std::string& word) { return word.rfind(context.word, 0) != 0; });
   std::sort(words.begin(), words.end());

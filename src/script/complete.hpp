@@ -1,6 +1,8 @@
 #pragma once
 // Completion at the prompt: globals, fields, methods after a colon, keys inside
-// the table argument of a known callable and their choices, file names in strings.
+// the table argument of a known callable, what a key or an argument may be
+// (choices, names that the object knows, variables that hold such an object),
+// file names in strings.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -13,6 +15,7 @@ struct Completion {
   std::size_t start = 0;           // the words replace the text from here on
   std::vector<std::string> words;  // sorted
   bool in_string = false;          // the cursor stands in a string
+  char quote = 0;                  // that begins the string, where words are all it may hold
   bool file_names = false;         // file names fit instead
 };
 

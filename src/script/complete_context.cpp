@@ -23,11 +23,8 @@ class Reader {
 
   Context read() {
     while (at_ < text_.size() && !context_.in_string) step();
-    if (context_.in_string) {
-      context_.value_of = key_;
-      return context_;
-    }
-    finish();
+    context_.value_of = key_;
+    if (!context_.in_string) finish();
     return context_;
   }
 
@@ -65,8 +62,9 @@ class Reader {
       fresh_ = after_opening_;
       chain_ = {{Step::name, word}};
     }
+    fresh_value_ = after_value_opening_;
     joined_ = false;
-    after_opening_ = false;
+    after_opening_ = after_value_opening_ = false;
     last_name_began_ = start;
     last_name_ended_ = at_;
   }
@@ -107,43 +105,56 @@ class Reader {
   }
 
   void join(char c) {
-    joined_ = !chain_.empty();
+    joined_ = true;  // to nothing that is known, where the chain is empty
     joint_ = c == '.' ? Step::field : Step::method;
     ++at_;
   }
 
   void open(char c) {
-    context_.brackets.push_back({c, c == '[' ? Chain{} : chain_, key_});
+    ++at_;
+    context_.brackets.push_back({c, chain_, key_, at_, 0});
     chain_.clear();
     key_.clear();
     joined_ = false;
     after_opening_ = c == '{';
-    ++at_;
+    after_value_opening_ = c == '(' && !context_.brackets.back().callee.empty();
   }
 
   void close(char c) {
     ++at_;
-    joined_ = after_opening_ = false;
+    joined_ = after_opening_ = after_value_opening_ = false;
     chain_.clear();
     if (context_.brackets.empty()) return;
     const auto bracket = context_.brackets.back();
     context_.brackets.pop_back();
     key_ = bracket.key;
-    if (c == ']') return;
     chain_ = bracket.callee;
-    called();
+    if (c != ']') return called();
+    if (!chain_.empty()) chain_.push_back(item(text_.substr(bracket.begin, at_ - 1 - bracket.begin)));
+  }
+
+  static Step item(const std::string& index) {
+    const auto size = index.size();
+    const bool quoted = size > 2 && (index[0] == '"' || index[0] == '\'') && index.find(index[0], 1) == size - 1;
+    if (quoted && index.find('\\') == std::string::npos) return {Step::field, index.substr(1, size - 2)};
+    const bool plain = size > 0 && size < 10 && index.find_first_not_of("0123456789") == std::string::npos;
+    return {Step::item, plain ? index : ""};
   }
 
   // A string or a closed bracket after something calls it.
   void called() {
     if (!chain_.empty()) chain_.push_back({Step::call, ""});
-    after_opening_ = joined_ = false;
+    after_opening_ = after_value_opening_ = joined_ = false;
   }
 
   void separator() {
     operation(1);
     key_.clear();
-    after_opening_ = !context_.brackets.empty() && context_.brackets.back().sign == '{';
+    if (context_.brackets.empty()) return;
+    auto& bracket = context_.brackets.back();
+    ++bracket.finished;
+    after_opening_ = bracket.sign == '{';
+    after_value_opening_ = bracket.sign == '(' && !bracket.callee.empty();
   }
 
   void equals() {
@@ -152,18 +163,18 @@ class Reader {
     const auto key = is_key ? chain_.front().text : "";
     operation(1);
     key_ = key;
+    after_value_opening_ = is_key;
   }
 
   void operation(std::size_t length) {
     at_ += length;
     chain_.clear();
-    joined_ = after_opening_ = false;
+    joined_ = after_opening_ = after_value_opening_ = false;
   }
 
   void finish() {
     const bool touching = last_name_ended_ == text_.size() && !text_.empty();
     context_.start = text_.size();
-    context_.value_of = key_;
     if (commented_) return;
     if (touching && !chain_.empty()) {
       const auto last = chain_.back();
@@ -173,6 +184,7 @@ class Reader {
       context_.joint = last.kind;
       context_.chain = chain_;
       context_.key_position = last.kind == Step::name && fresh_;
+      context_.value_position = last.kind == Step::name && fresh_value_;
     } else if (touching) {  // a keyword, or the beginning of a longer name
       context_.start = last_name_began_;
       context_.word = text_.substr(last_name_began_);
@@ -181,6 +193,7 @@ class Reader {
       context_.chain = chain_;
     } else {
       context_.key_position = after_opening_;
+      context_.value_position = after_value_opening_;
     }
   }
 
@@ -193,6 +206,8 @@ class Reader {
   Step::Kind joint_ = Step::field;
   bool after_opening_ = false;  // a key may follow
   bool fresh_ = false;          // the chain began where a key may stand
+  bool after_value_opening_ = false;  // a value, or an argument, begins
+  bool fresh_value_ = false;          // the chain began there
   bool commented_ = false;
   std::size_t last_name_began_ = 0;
   std::size_t last_name_ended_ = std::string::npos;

@@ -7,19 +7,22 @@
 
 namespace dotyk::script {
 
-// One step of `scene:contact{…}.force`: a name, or a call.
+// One step of `scene:contact{…}.force`, a name or a call, or of `t[3]`: an item,
+// its number (empty where it is anything but a plain one).
 struct Step {
-  enum Kind { name, field, method, call } kind;
+  enum Kind { name, field, method, call, item } kind;
   std::string text;
 };
 using Chain = std::vector<Step>;
 
-// An open bracket: what is called with it, if anything, and the key it is the
-// value of, if any ("left" in beam{ left = { ).
+// An open bracket: what is called with it (or, after a [, indexed), if anything,
+// and the key it is the value of, if any ("left" in beam{ left = { ).
 struct Bracket {
   char sign = 0;
   Chain callee;
   std::string key;
+  std::size_t begin = 0;     // of what stands in it
+  std::size_t finished = 0;  // entries before the cursor's
 };
 
 struct Context {
@@ -31,6 +34,7 @@ struct Context {
   bool in_string = false;         // the cursor stands in a string, which begins at start
   bool key_position = false;      // the word may be a key: after { or ,
   std::string value_of;           // the key whose value is being written
+  bool value_position = false;    // nothing of that value, or of an argument, is there yet but the word
 };
 
 Context read_context(const std::string& text);

@@ -53,6 +53,7 @@ struct Key {
   std::string type;        // of an object
   std::vector<Key> keys;   // of a table; the kinds of an either
   std::vector<Key> items;  // one entry describing each item of a list or table
+  std::function<std::vector<std::string>(const void* object)> names;  // strings that mean something to a method's object; see of()
 
   Key& required();              // absent is an error
   Key& unit(std::string text);  // "stress", "length"
@@ -69,6 +70,12 @@ struct Key {
   Key& count(std::size_t fewest_count, std::size_t most_count);
   Key& written();       // the call writes this file
   Key& with(Key item);  // a table that takes items as well as keys
+  // Names that the method's object, a T, brings: completion offers them.
+  template <class T, class Names>
+  Key& of(Names found) {
+    names = [found](const void* object) { return found(*static_cast<const T*>(object)); };
+    return *this;
+  }
 
   // "a positive number", "one of "strain" or "stress"", "a body": completes "expected …".
   std::string expected() const;

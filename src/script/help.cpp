@@ -1,24 +1,55 @@
 #include "script/help.hpp"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <sstream>
 
 namespace dotyk::script {
 namespace {
 
-// Text broken into lines of at most `width` letters, each after `indent`.
-std::string wrapped(const std::string& text, const std::string& indent, std::size_t width = 96) {
-  std::istringstream words(text);
-  std::string word, line, all;
-  while (words >> word) {
-    if (!line.empty() && indent.size() + line.size() + 1 + word.size() > width) {
-      all += indent + line + "\n";
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + word;
-  }
-  return line.empty() ? all : all + indent + line + "\n";
+// Letters in a line: no more than a person likes to read, or the terminal has.
+std::size_t line_width() {
+  constexpr std::size_t pleasant = 96, least = 40;
+  winsize terminal{};
+  if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &terminal) != 0 || terminal.ws_col == 0) return pleasant;
+  return std::clamp<std::size_t>(terminal.ws_col - 1u, least, pleasant);
 }
+
+// Letters, where bytes 10xxxxxx go on with one.
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+// Text broken into lines: the first begins with `start`, the others with `indent`.
+std::string wrapped(const std::string& text, const std::string& start, const std::string& indent) {
+  const std::size_t width = line_width();
+  std::istringstream words(text);
+  std::string word, all, line = start;
+  bool empty = true;
+  while (words >> word) {
+    if (!empty && letters(line) + 1 + letters(word) > width) {
+      all += line + "\n";
+      line = indent;
+      empty = true;
+    }
+    line += (empty ? "" : " ") + word;
+    empty = false;
+  }
+  return empty && start == indent ? all : all + line + "\n";
+}
+
+// "name = value" stays together.
+std::string wrapped_signature(std::string text) {
+  constexpr char held = '\x1f';
+  for (std::size_t at; (at = text.find(" = ")) != std::string::npos;) text[at] = text[at + 2] = held;
+  text = wrapped(text, "", "    ");
+  std::replace(text.begin(), text.end(), held, ' ');
+  return text;
+}
+
+std::string wrapped(const std::string& text, const std::string& indent) { return wrapped(text, indent, indent); }
 
 std::string first_sentence(const std::string& text) {
   const auto end = text.find(". ");
@@ -35,11 +66,11 @@ std::string facts(const Key& key) {
 }
 
 void list_key(std::string& out, const Key& key, const std::string& indent) {
+  constexpr std::size_t column = 16;
   const auto name = key.name.empty() ? "…" : key.name;
-  auto line = name + std::string(name.size() < 14 ? 14 - name.size() : 1, ' ');
-  line += key.help;
-  const auto wide = wrapped("(" + facts(key) + ")", indent + std::string(14, ' '));
-  out += indent + line + "\n" + wide;
+  const auto pad = std::string(letters(name) < column ? column - letters(name) : 1, ' ');
+  const auto further = indent + std::string(column, ' ');
+  out += wrapped(key.help, indent + name + pad, further) + wrapped("(" + facts(key) + ")", further);
   for (const auto& item : key.items) {
     for (const auto& inner : item.keys) list_key(out, inner, indent + "    ");
   }
@@ -67,13 +98,13 @@ std::string indented(const std::string& text, const std::string& indent) {
 
 std::string summary_line(const std::string& name, const std::string& help) {
   const auto pad = name.size() < 28 ? 28 - name.size() : 1;
-  return "  " + name + std::string(pad, ' ') + first_sentence(help) + "\n";
+  return wrapped(first_sentence(help), "  " + name + std::string(pad, ' '), std::string(30, ' '));
 }
 
 }  // namespace
 
 std::string help_text(const Descriptor& descriptor) {
-  auto out = descriptor.signature() + (descriptor.returns.empty() ? "" : " → " + descriptor.returns) + "\n";
+  auto out = wrapped_signature(descriptor.signature() + (descriptor.returns.empty() ? "" : " → " + descriptor.returns));
   out += wrapped(descriptor.help, "  ");
   if (!descriptor.arguments.empty()) out += "\n";
   list_arguments(out, descriptor);

@@ -5,6 +5,7 @@
 #include <readline/history.h>
 
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 
 namespace dotyk::script {
@@ -25,21 +26,23 @@ std::string history_file() {
 
 void load_history() {
   using_history();
+  history_comment_char = '#';  // "#1700000000" before each entry: it may have several lines
+  history_write_timestamps = 1;
   stifle_history(most_lines);
   const auto file = history_file();
   if (file.empty() || read_history(file.c_str()) != 0) return;
   if (history_length >= most_lines) history_truncate_file(file.c_str(), most_lines / 2);
 }
 
-void add_to_history(const std::string& line) {
-  const bool blank = line.find_first_not_of(" \t") == std::string::npos;
+void add_to_history(const std::string& input) {
+  const bool blank = input.find_first_not_of(" \t\n") == std::string::npos;
   const auto* last = history_length > 0 ? history_get(history_base + history_length - 1) : nullptr;
-  if (blank || (last && line == last->line)) return;
-  add_history(line.c_str());
+  if (blank || (last && input == last->line)) return;
+  add_history(input.c_str());
   const auto path = history_file();
   if (path.empty()) return;
   if (FILE* file = std::fopen(path.c_str(), "a")) {
-    std::fprintf(file, "%s\n", line.c_str());
+    std::fprintf(file, "#%lld\n%s\n", static_cast<long long>(std::time(nullptr)), input.c_str());
     std::fclose(file);
   }
 }

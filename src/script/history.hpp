@@ -1,5 +1,5 @@
 #pragma once
-// The lines typed at earlier prompts.
+// What was typed at earlier prompts; an input of several lines is one entry.
 #include <string>
 
 namespace dotyk::script {
@@ -10,8 +10,8 @@ std::string history_file();
 // Reads the file into readline's history; a missing one is no error.
 void load_history();
 
-// Adds a line, to the file as well: a crash loses nothing. Repeats are skipped;
+// Adds an input, to the file as well: a crash loses nothing. Repeats are skipped;
 // a file that cannot be written is no error.
-void add_to_history(const std::string& line);
+void add_to_history(const std::string& input);
 
 }  // namespace dotyk::script

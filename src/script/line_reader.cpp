@@ -51,6 +51,7 @@ char** attempt(const char* text, int, int) {
     return nullptr;  // readline's own file names
   }
   rl_attempted_completion_over = 1;
+  if (session.found.quote) rl_completion_append_character = session.found.quote;
   return rl_completion_matches(text, next_word);
 }
 
@@ -71,6 +72,7 @@ void set_up() {
   rl_persistent_signal_handlers = 1;
   rl_attempted_completion_function = attempt;
   rl_completion_word_break_hook = word_breaks;
+  rl_variable_bind("show-all-if-ambiguous", "on");  // the first Tab lists; an inputrc may say otherwise
   // What was typed so far selects from the history; an inputrc may say otherwise.
   rl_bind_keyseq("\\e[A", rl_history_search_backward);
   rl_bind_keyseq("\\e[B", rl_history_search_forward);
@@ -82,6 +84,8 @@ void abandon() {
   clear_interrupt();
   rl_free_line_state();
   rl_callback_sigcleanup();
+  rl_point = rl_end;
+  rl_redisplay();
   std::fputs("^C\n", stdout);
   rl_callback_handler_remove();
 }

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <ctime>
+#include <deque>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,7 @@
 #include "script/lua.hpp"
 #include "script/lua_side.hpp"
 #include "script/position.hpp"
+#include "script/prompt_input.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -40,37 +42,50 @@ class Prompt {
       const auto read = next_line(input);
       if (read == Read::end && input.empty()) break;
       if (read == Read::cleared) {
+        remember(input);  // a slip in a long input is mended there
         input.clear();
         continue;
       }
       if (wants_out(input)) break;
+      if (read == Read::end && terminal_) std::putchar('\n');
       if (!evaluate(input, read == Read::end)) continue;  // wants more lines
       failed = failed || failed_;
       input.clear();
-      if (read == Read::end) break;
+      if (read == Read::end && !terminal_) break;  // a person's Ctrl-D ends what was begun
     }
     if (terminal_) std::putchar('\n');
     return failed && !terminal_ ? 1 : 0;
   }
 
  private:
+  // Adds a line to the input, of those pasted together one after the other.
   Read next_line(std::string& input) {
-    std::string line;
+    if (!pending_.empty()) {
+      add_line(input);
+      return Read::line;
+    }
+    std::string typed;
     const auto complete_line = [&](const std::string& text) {
-      auto found = complete(L_, input.empty() ? text : input + "\n" + text);
-      return found;
+      return complete(L_, input.empty() ? text : input + "\n" + text);
     };
     std::fflush(stdout);
     const auto read =
-        terminal_ ? read_edited(input.empty() ? "> " : ">> ", line, complete_line) : read_plain(line);
+        terminal_ ? read_edited(input.empty() ? "> " : ">> ", typed, complete_line) : read_plain(typed);
     if (read != Read::line) return read;
-    if (terminal_) add_to_history(line);
-    input += (input.empty() ? "" : "\n") + line;
+    pending_ = lines_of(typed);
+    add_line(input);
     return read;
   }
 
-  static bool wants_out(const std::string& input) {
-    return input == "exit" || input == "quit" || input == "exit()" || input == "quit()";
+  void add_line(std::string& input) {
+    do {
+      input += (input.empty() ? "" : "\n") + pending_.front();
+      pending_.pop_front();
+    } while (!pending_.empty() && goes_on_with(pending_.front()));
+  }
+
+  void remember(const std::string& input) const {
+    if (terminal_) add_to_history(input);
   }
 
   static bool ends_early(const std::string& message) {
@@ -97,39 +112,58 @@ class Prompt {
     return fits ? global : input;
   }
 
+  bool is_variable(const std::string& name) {
+    lua_pushglobaltable(L_);
+    lua_pushstring(L_, name.c_str());
+    const bool is = lua_rawget(L_, -2) != LUA_TNIL;
+    lua_pop(L_, 2);
+    return is;
+  }
+
   // Returns false when the input is the beginning of something longer.
   bool evaluate(const std::string& input, bool last) {
-    if (input.empty() || input[0] != '%') return evaluate_plain(input, last);
+    if (input.empty() || input[0] != '%') return run_input(input, input, last, false);
     constexpr std::string_view time = "%time";
     const auto start = input.find_first_not_of(" \t", time.size());
     if (input.compare(0, time.size(), time) != 0 || start == std::string::npos || start == time.size()) {
+      remember(input);
       report("prompt: after % comes time and an expression: %time dotyk.solve(scene)");
+      return true;
+    }
+    return run_input(input, input.substr(start), last, true);
+  }
+
+  enum class Compiled { expression, statement, not_yet, wrong };
+
+  // Leaves the function, or the message of what is wrong, on the stack.
+  Compiled compile(const std::string& text, bool last) {
+    if (load("return " + text)) return Compiled::expression;
+    const std::string as_expression = lua_tostring(L_, -1);
+    lua_pop(L_, 1);
+    if (load(text)) return Compiled::statement;
+    const std::string message = lua_tostring(L_, -1);
+    return !last && (ends_early(message) || ends_early(as_expression)) ? Compiled::not_yet : Compiled::wrong;
+  }
+
+  bool run_input(const std::string& typed, const std::string& input, bool last, bool timed) {
+    failed_ = false;
+    const auto asked = question(input, [&](const std::string& name) { return is_variable(name); });
+    const auto compiled = compile(asked.empty() ? plain(input) : asked, last);
+    if (compiled == Compiled::not_yet) {
+      lua_pop(L_, 1);
+      return false;
+    }
+    remember(typed);
+    if (compiled == Compiled::wrong) {
+      report(lua_tostring(L_, -1));
+      lua_pop(L_, 1);
       return true;
     }
     const Stopwatch watch;
     const std::clock_t used = std::clock();
-    if (!evaluate_plain(input.substr(start), last)) return false;
-    if (!failed_) std::printf("%.3g s, %.3g s of processors\n", watch.seconds(), static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC);
-    return true;
-  }
-
-  bool evaluate_plain(const std::string& input, bool last) {
-    failed_ = false;
-    const auto text = plain(input);
-    if (load("return " + text)) {
-      run_function(true);
-      return true;
-    }
-    const std::string as_expression = lua_tostring(L_, -1);
-    lua_pop(L_, 1);
-    if (load(text)) {
-      run_function(false);
-      return true;
-    }
-    const std::string message = lua_tostring(L_, -1);
-    lua_pop(L_, 1);
-    if (!last && (ends_early(message) || ends_early(as_expression))) return false;
-    report(message);
+    run_function(compiled == Compiled::expression);
+    if (timed && !failed_)
+      std::printf("%.3g s, %.3g s of processors\n", watch.seconds(), static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC);
     return true;
   }
 
@@ -158,12 +192,14 @@ class Prompt {
 
   void report(const std::string& message) {
     failed_ = true;
+    pending_.clear();
     std::fflush(stdout);
     std::fprintf(stderr, "%s\n", message.c_str());
   }
 
   Interpreter& interpreter_;
   lua_State* L_;
+  std::deque<std::string> pending_;  // lines that came with those being evaluated
   bool terminal_, failed_ = false;
 };
 

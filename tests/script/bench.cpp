@@ -23,6 +23,14 @@ Bench::Bench() {
                      call.self<Toy>()->size *= call.number("factor");
                      return call.give_self();
                    }})
+      .method({.name = "toy:part",
+               .help = "Gives its argument back.",
+               .example = "toy:part \"head\"",
+               .arguments = {key::string("name", "which").required().of<Toy>([](const Toy& toy) {
+                               return std::vector<std::string>{toy.name + "'s head", toy.name + "'s tail"};
+                             }),
+                             key::choice("end", {"near", "far"}, "which end")},
+               .run = [](Call& call) { return call.give(call.text("name")); }})
       .text([](const Toy& toy) { return "toy '" + toy.name + "'"; });
   library.function({.name = "dotyk.test.other",
                     .help = "Makes an other.",

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The prompt on a pseudo-terminal: editing, several lines, completion, Ctrl-C,
-# history. Needs script(1).
+# The prompt on a pseudo-terminal: editing, several lines, completion, questions,
+# Ctrl-C, Ctrl-D, pasting, history. Needs script(1).
 . "$(dirname "$0")/scratch.sh"
 command -v script >/dev/null || exit 77
 export TERM=xterm
@@ -44,6 +44,15 @@ expect "completion of a field" '# dotyk: reference' 'print((dotyk.refe\t():sub(1
 expect "Ctrl-C on an endless loop" 'still here' 'while true do end\n' '\003' 'print("still" .. " here")\n' &
 expect "Ctrl-C on an endless coroutine" 'still here' 'coroutine.wrap(function() while true do end end)()\n' '\003' 'print("still" .. " here")\n' &
 expect "Ctrl-C clears the line" '12' 'error(' '\003' '3 * 4\n' &
+block='block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} }, material = dotyk.material{ E = 1, nu = 0.3 } }\n'
+expect "completion of a part" 'bottom: 2 facets' "$block" 'block:part "bo\t:fix()\n' &
+expect "all completions at the first Tab" 'bottom  left    right   top' "$block" 'block:part("\t' '\003' &
+expect "completion of what a key may be" '"P1"  "Q1"' 'dotyk.mesh.rectangle{ element = \t' '\003' &
+expect "a question" 'Made by dotyk.body' "$block" 'block?\n' &
+expect "Ctrl-D in an unfinished input" 'still here' 'if true then\n' '\004' 'print("still" .. " here")\n' &
+expect "an unfinished input left is recalled" 'seven-7' 'print(("seven-" .. 7\n' '\003' '\033[A' '))\n' &
+expect "an input of several lines is recalled as one" '8-8' 'for i = 7, 8 do\n' 'local x = i .. "-" .. i\n' 'if i == 8 then print(x) end end\n' 'print "else"\n' 'for\033[A\n' &
+expect "pasted lines are inputs of their own" 'sum 42' '\033[200~local a = 40\nlocal b = a\n  + 2\nprint("sum " .. b)\033[201~\n' &
 cat >"$folder/shape.lua" <<'END'
 local block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = { -1, 0 }, to = { 1, 1 }, cells = { 8, 4 } }, material = dotyk.material{ E = 1000, nu = 0.3 } }
 block:part "top":load{ 0, -1 }
@@ -64,6 +73,8 @@ expect "Ctrl-C in an optimisation" 'ended: stopped, 4 variables' "dofile \"$fold
 (
   expect "history" 'ninety-9' 'print("ninety" .. "-" .. 9)\n'
   expect "history" 'ninety-9' 'print("nin\033[A\n'
+  expect "history" '3-3' 'for i = 3, 3 do\n' 'print(i .. "-" .. i) end\n'
+  expect "history" '3-3' '\022i = 3\r'
 ) &
 wait
 
