@@ -1,9 +1,12 @@
 // Reads Gmsh files, and lets Gmsh mesh geometries, with its own library.
 //   dotyk_gmsh load FILE.msh
 //   dotyk_gmsh mesh FILE DIMENSION SIZE     DIMENSION 0: that of the geometry; SIZE 0: as the geometry says
+#include <fcntl.h>
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <map>
 #include <stdexcept>
 #include <unordered_map>
@@ -134,9 +137,17 @@ class Reader {
   std::map<std::pair<int, int>, std::vector<int>> groups_;
 };
 
+/// Another name of the file, one without neighbours: beside FILE Gmsh looks for FILE.opt, and does what that says.
+std::string lone_name(const std::string& file) {
+  const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC);  // as long as this program runs
+  if (opened < 0) throw std::runtime_error(std::string("cannot read it: ") + std::strerror(errno));
+  return "/proc/self/fd/" + std::to_string(opened);
+}
+
 Contents load(const std::string& file) {
+  const std::string name = lone_name(file);
   start();
-  run([&] { gmsh::merge(file); });
+  run([&] { gmsh::merge(name); });
   Contents result;
   run([&] { result = Reader().read(); });
   return result;

@@ -17,6 +17,7 @@
 
 #include "base/memory.hpp"
 #include "contents.hpp"
+#include "wall.hpp"
 
 namespace dotyk::meshfile {
 
@@ -25,12 +26,13 @@ inline void limit(int resource, double most) {
   setrlimit(resource, &value);
 }
 
-/// An end when dotyk ends, no core files, no more memory than there is.
+/// An end when dotyk ends, no core files, no more memory than there is, no program started and no file written.
 inline void limit_reader() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_CORE, 0);
   const double memory = 0.9 * available_memory();
   if (std::isfinite(memory)) limit(RLIMIT_DATA, memory);
+  wall_in();
 }
 
 /// The same for reading a file, with no more memory and processor time than a hundred times what it takes: only damaged

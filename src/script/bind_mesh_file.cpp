@@ -32,7 +32,7 @@ int load(Call& call) {
 }
 
 int gmsh(Call& call) {
-  if (Library::of(call.state()).folder) throw ArgumentError("not for scripts run with --safe: a geometry can start programs");
+  if (Library::of(call.state()).folder) throw ArgumentError("not for scripts run with --safe: a geometry can read any file");
   if (call.has("file") == call.has("text")) throw ArgumentError("one of 'file' and 'text' is needed");
   const meshfile::Meshing meshing{.dimension = call.has("dimension") ? static_cast<int>(call.integer("dimension")) : 0,
                                   .size = call.has("size") ? call.number("size") : 0};
@@ -61,8 +61,8 @@ void bind_mesh_file(Library& library) {
       {.name = "dotyk.mesh.gmsh",
        .help = "Has Gmsh mesh a geometry: a file of its own language (.geo) or from a CAD program (.step, .stp, .brep, "
                ".iges, .igs), or a text in that language. Physical groups become regions and boundary parts as in "
-               "dotyk.mesh.load; nodes of curved boundaries lie on them. A .geo file is a program and can start others: "
-               "run only what you trust. In a text, files to be included need full paths.",
+               "dotyk.mesh.load; nodes of curved boundaries lie on them. A .geo file is a program that can read any file, but "
+               "start no other program and write none. In a text, files to be included need full paths.",
        .example = "local m = dotyk.mesh.gmsh{ size = 0.1, text = [[\n"
                   "  SetFactory(\"OpenCASCADE\");\n"
                   "  Rectangle(1) = {-1, -1, 0, 2, 2};\n"

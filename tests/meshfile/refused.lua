@@ -56,6 +56,19 @@ expect("version.msh", "$MeshFormat\nx 0 8\n$EndMeshFormat\n", "'x' where the ver
 
 if require "without_gmsh" then return end
 expect("header.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "it holds no cells")
+
+-- What lies beside a mesh is not read: Gmsh takes FILE.opt for commands. And a geometry, which is a script, describes no more.
+local commands <const> = 'SystemCall "touch ran";\nPrintf("x") > "written";\nSave "saved.msh";\nMesh.MeshSizeMax = 1e-3;\n'
+local triangle <const> = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n"
+file("x.msh.opt", commands)
+check.equal(dotyk.mesh.load(file("x.msh", triangle)).cell_count, 1)
+expect("x.msh", triangle:gsub("1 2 3\n", "1 2 4\n"), "x.msh: ")
+os.remove "x.msh.opt"
+local square <const> = "Point(1) = {0,0,0}; Point(2) = {1,0,0}; Point(3) = {0,1,0}; Line(1) = {1,2}; Line(2) = {2,3}; Line(3) = {3,1}; Curve Loop(1) = {1,2,3}; Plane Surface(1) = {1};\n"
+check.that(dotyk.mesh.gmsh{ text = square, size = 1 }.cell_count > 0)
+refused(function() dotyk.mesh.gmsh{ text = square .. 'SystemCall "touch ran";\n', size = 1 } end, "gmsh: geometry: Gmsh: ")
+for _, command in ipairs{ 'Printf("x") > "written";\n', 'Save "saved.msh";\n' } do pcall(dotyk.mesh.gmsh, { text = square .. command, size = 1 }) end
+check.that(not io.open "ran" and not io.open "written" and not io.open "saved.msh")
 local f <const> = assert(io.open(folder .. "triangles_41.msh"))
 local text <const> = f:read "a"
 f:close()

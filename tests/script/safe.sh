@@ -85,6 +85,28 @@ refused "a table of contact" "write_contact: 'outside/s.csv' $out" "$solved s:wr
 refused "a picture" "render: 'below/../s.png' $out" "$solved s:render{ file = 'below/../s.png' }"
 refused "the argument by position within a pattern" "is not below" "local x = dotyk.shape; $solved s:render{ file = ('below/%03d/../../x.png'):format(1) }"
 
+# A mesh is read, and nothing that lies beside it: Gmsh takes x.msh.opt for commands.
+cat >below/x.msh <<'MSH'
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+3
+1 0 0 0
+2 1 0 0
+3 0 1 0
+$EndNodes
+$Elements
+1
+1 2 2 1 1 1 2 3
+$EndElements
+MSH
+echo 'SystemCall "touch outside/ran"; Printf("x") > "outside/written";' >below/x.msh.opt
+got=$("$dotyk" --safe below -e 'print(dotyk.mesh.load "below/x.msh".cell_count)' 2>&1)
+[[ $got == 1 || $got == *'built without Gmsh'* ]] || fail "a mesh below: $got"
+[[ $(ls outside) == $'module2.lua\nsecret.txt' ]] || fail "a mesh below: something outside has changed"
+rm below/x.msh*
+
 allowed "the environment" 'nil' 'print(os.getenv "HOME")'
 got=$("$dotyk" --safe below -e 'package.path = "outside/?.lua;below/?.lua" local f = io.open("below/new.txt", "w") f:write "text" f:close()
   print(require "module", dofile "below/module.lua", loadfile "below/module.lua"(), load "return 7"(), io.open("below/images/../new.txt"):read "a", os.remove "below/new.txt", #debug.traceback() > 0)' 2>&1)
