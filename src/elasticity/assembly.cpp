@@ -135,9 +135,20 @@ void add_springs(const Mesh& mesh, const std::vector<FacetSpring>& springs, Scat
 }  // namespace
 
 double matrix_bytes(const Mesh& mesh) {
-  const double dim = mesh.dimension(), neighbours = dim == 2 ? (mesh.topology().nodes == 3 ? 7 : 9)
-                                                             : (mesh.topology().nodes == 4 ? 15 : 27);
-  return 12 * 0.5 * mesh.node_count() * dim * (dim * neighbours + 1);
+  const auto neighbours = [&] {  // of a node, itself too, in the mean over a regular mesh
+    switch (mesh.element) {
+      case mesh::Element::triangle_p1: return 7.0;
+      case mesh::Element::quadrilateral_q1: return 9.0;
+      case mesh::Element::tetrahedron_p1: return 15.0;
+      case mesh::Element::hexahedron_q1: return 27.0;
+      case mesh::Element::triangle_p2: return 11.5;
+      case mesh::Element::quadrilateral_q2: return 16.0;
+      case mesh::Element::tetrahedron_p2: return 29.0;
+      default: return 64.0;
+    }
+  };
+  const double dim = mesh.dimension();
+  return 12 * 0.5 * mesh.node_count() * dim * (dim * neighbours() + 1);
 }
 
 System assemble(const Mesh& mesh, const MaterialField& material,

@@ -7,13 +7,12 @@
 namespace dotyk::elasticity {
 namespace {
 
-/// Reference coordinates of x, by Newton's method (one step for simplices).
+/// Reference coordinates of x, by Newton's method (one step for straight simplices).
 template <class E>
 bool reference_point(const double nodes[][E::dim], const mesh::Point& x,
                      std::array<double, E::dim>& xi) {
   constexpr int steps = E::nodes == E::dim + 1 ? 1 : 20;
-  xi = E::point(0);
-  if constexpr (steps > 1) xi.fill(0);
+  xi = E::centre();
   for (int step = 0; step < steps; ++step) {
     double g[E::nodes][E::dim];
     E::gradient(xi, g);
@@ -41,15 +40,15 @@ bool inside(const std::array<double, E::dim>& xi, double slack) {
   double sum = 0;
   for (double v : xi) {
     sum += v;
-    if (E::nodes == E::dim + 1 ? v < -slack : std::abs(v) > 1 + slack) return false;
+    if (E::simplex ? v < -slack : std::abs(v) > 1 + slack) return false;
   }
-  return E::nodes != E::dim + 1 || sum <= 1 + slack;
+  return !E::simplex || sum <= 1 + slack;
 }
 
 }  // namespace
 
 bool shape_at(const mesh::Mesh& mesh, int cell, const mesh::Point& x, double slack,
-              std::array<double, 8>& shape) {
+              std::array<double, mesh::kMostNodes>& shape) {
   return dispatch(mesh.element, [&]<class E>() {
     double nodes[E::nodes][E::dim];
     cell_coordinates<E>(mesh, cell, nodes);

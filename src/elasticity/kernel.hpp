@@ -4,7 +4,7 @@
 
 #include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
-#include "elasticity/reference_element.hpp"
+#include "elasticity/dispatch.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::elasticity {

@@ -1,5 +1,7 @@
 #include "elasticity/load.hpp"
 
+#include <algorithm>
+
 #include "elasticity/kernel.hpp"
 
 namespace dotyk::elasticity {
@@ -11,35 +13,52 @@ using mesh::Point;
 using mesh::cross;
 using mesh::length;
 
-/// Shape functions and their two reference derivatives on a facet at point q; the weight is returned.
-double facet_rule(int dimension, int nodes, int q, double n[4], double du[4], double dv[4]) {
-  if (dimension == 2) {
+/// Shape functions of a facet and their derivatives by its two reference coordinates.
+struct FacetShape {
+  double n[mesh::kMostFacetNodes], du[mesh::kMostFacetNodes], dv[mesh::kMostFacetNodes];
+};
+
+/// An edge's point q, its weight returned: two Gauss points, or three of order 2.
+double edge_rule(int order, int q, FacetShape& f) {
+  f.dv[0] = f.dv[1] = f.dv[2] = 0;
+  if (order == 1) {
     const double s = q == 0 ? -kGauss : kGauss;
-    n[0] = 0.5 * (1 - s), n[1] = 0.5 * (1 + s);
-    du[0] = -0.5, du[1] = 0.5;
-    dv[0] = dv[1] = 0;
+    f.n[0] = 0.5 * (1 - s), f.n[1] = 0.5 * (1 + s);
+    f.du[0] = -0.5, f.du[1] = 0.5;
     return 1;
   }
-  if (nodes == 3) {
-    const auto x = TriangleP1::load_point(q);
-    const auto shape = TriangleP1::shape(x);
-    double g[3][2];
-    TriangleP1::gradient(x, g);
-    for (int a = 0; a < 3; ++a) n[a] = shape[a], du[a] = g[a][0], dv[a] = g[a][1];
-    return TriangleP1::load_weight(q);
+  const double s = (q - 1) * 0.77459666924148337704;  // √(3/5)
+  f.n[0] = 0.5 * s * (s - 1), f.n[1] = 0.5 * s * (s + 1), f.n[2] = 1 - s * s;
+  f.du[0] = s - 0.5, f.du[1] = s + 0.5, f.du[2] = -2 * s;
+  return q == 1 ? 8.0 / 9 : 5.0 / 9;
+}
+
+/// Point q of a face, which is a cell of the plane.
+template <class E>
+double face_rule(int q, FacetShape& f) {
+  const auto x = E::load_point(q);
+  const auto shape = E::shape(x);
+  double g[E::nodes][2];
+  E::gradient(x, g);
+  for (int a = 0; a < E::nodes; ++a) f.n[a] = shape[a], f.du[a] = g[a][0], f.dv[a] = g[a][1];
+  return E::load_weight(q);
+}
+
+double facet_rule(const mesh::ElementTopology& t, int q, FacetShape& f) {
+  switch (t.nodes_per_facet) {
+    case 3: return t.dimension == 2 ? edge_rule(2, q, f) : face_rule<TriangleP1>(q, f);
+    case 4: return face_rule<QuadrilateralQ1>(q, f);
+    case 6: return face_rule<TriangleP2>(q, f);
+    case 9: return face_rule<QuadrilateralQ2>(q, f);
+    default: return edge_rule(1, q, f);
   }
-  const auto x = QuadrilateralQ1::load_point(q);
-  const auto shape = QuadrilateralQ1::shape(x);
-  double g[4][2];
-  QuadrilateralQ1::gradient(x, g);
-  for (int a = 0; a < 4; ++a) n[a] = shape[a], du[a] = g[a][0], dv[a] = g[a][1];
-  return 1;
 }
 
 }  // namespace
 
 int facet_points(const Mesh& mesh) {
-  return mesh.dimension() == 2 ? 2 : mesh.topology().nodes_per_facet == 3 ? 3 : 4;
+  const mesh::ElementTopology& t = mesh.topology();
+  return t.dimension == 2 ? t.order + 1 : t.nodes_per_facet;
 }
 
 void for_each_facet_point(const Mesh& mesh, Facet facet,
@@ -47,8 +66,9 @@ void for_each_facet_point(const Mesh& mesh, Facet facet,
   FacetPoint p;
   p.nodes = mesh.topology().nodes_per_facet;
   for (p.index = 0; p.index < facet_points(mesh); ++p.index) {
-    double du[4], dv[4];
-    const double weight = facet_rule(mesh.dimension(), p.nodes, p.index, p.shape, du, dv);
+    FacetShape f;
+    const double weight = facet_rule(mesh.topology(), p.index, f);
+    std::copy_n(f.n, p.nodes, p.shape);
     Point tu{0, 0, 0}, tv{0, 0, 0};
     p.x = {0, 0, 0};
     const Point first = mesh.point(mesh.facet_node(facet, 0));
@@ -56,8 +76,8 @@ void for_each_facet_point(const Mesh& mesh, Facet facet,
       const Point x = mesh.point(mesh.facet_node(facet, a));
       for (int i = 0; i < 3; ++i) {
         p.x[i] += p.shape[a] * x[i];
-        tu[i] += du[a] * (x[i] - first[i]);
-        tv[i] += dv[a] * (x[i] - first[i]);
+        tu[i] += f.du[a] * (x[i] - first[i]);
+        tv[i] += f.dv[a] * (x[i] - first[i]);
       }
     }
     p.normal = mesh.dimension() == 2 ? Point{tu[1], -tu[0], 0} : cross(tu, tv);

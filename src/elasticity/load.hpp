@@ -11,11 +11,12 @@ namespace dotyk::elasticity {
 using VectorField = std::function<mesh::Point(const mesh::Point&)>;
 using ScalarField = std::function<double(const mesh::Point&)>;
 
-/// A quadrature point of a facet: exact for quadratic integrands on straight facets.
+/// A quadrature point of a facet: exact for quadratic integrands on straight facets, for those of degree 4 where cells are of
+/// order 2.
 struct FacetPoint {
   int index;           ///< 0 … facet_points − 1
   int nodes;           ///< nodes of the facet
-  double shape[4];     ///< their shape functions
+  double shape[mesh::kMostFacetNodes];  ///< their shape functions
   double measure;      ///< weight × length (2-D) or area (3-D)
   mesh::Point x;       ///< where it is
   mesh::Point normal;  ///< unit, outward

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "elasticity/adjacency.hpp"
-#include "elasticity/stress.hpp"
+#include "elasticity/strain.hpp"
 
 namespace dotyk::elasticity {
 namespace {
@@ -67,6 +67,39 @@ Stress fit(const std::vector<int>& patch, const std::vector<std::array<double, 3
 }
 
 }  // namespace
+
+namespace {
+
+/// Of cells of order 2: the mean of the stresses that a node's cells have there, by their Jacobians.
+std::vector<Stress> mean_stress(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u) {
+  std::vector<Stress> sum(mesh.node_count(), Stress{});
+  std::vector<double> weight(mesh.node_count(), 0);
+  dispatch(mesh.element, [&]<class E>() {
+    if constexpr (requires { E::node(0); }) {
+      double x[E::nodes][E::dim], measure;
+      Hooke hooke = material.at(0);
+      for (int c = 0; c < mesh.cell_count(); ++c) {
+        if (material.varies()) hooke = material.at(c);
+        cell_coordinates<E>(mesh, c, x);
+        for (int a = 0; a < E::nodes; ++a) {
+          const Stress s = stress_at<E>(mesh, hooke, u, c, x, E::node(a), &measure);
+          const int n = mesh.cell(c)[a];
+          weight[n] += measure;
+          for (int v = 0; v < 6; ++v) sum[n][v] += measure * s[v];
+        }
+      }
+    }
+  });
+  for (int n = 0; n < mesh.node_count(); ++n)
+    for (double& v : sum[n]) v /= weight[n];
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Stress> nodal_stress(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u) {
+  return mesh.topology().order == 2 ? mean_stress(mesh, material, u) : recover_stress(mesh, cell_stress(mesh, material, u));
+}
 
 std::vector<Stress> recover_stress(const Mesh& mesh, const std::vector<Stress>& at_centres) {
   const NodeCells around = cells_of_nodes(mesh);

@@ -1,7 +1,7 @@
 #pragma once
 
 // Shape functions, gradients and quadrature of the reference cells and facets,
-// as compile-time types so that element kernels unroll. Used inside this room only.
+// as compile-time types so that element kernels unroll. Elements of order 2: second_order_element.hpp. Used inside this room only.
 
 #include <array>
 #include <cmath>
@@ -16,6 +16,8 @@ inline constexpr double kGauss = 0.57735026918962576451;  // 1/√3
 /// stiffness; three (exact for quadratics) for loads.
 struct TriangleP1 {
   static constexpr int dim = 2, nodes = 3, points = 1, load_points = 3;
+  static constexpr bool simplex = true;
+  static std::array<double, 2> centre() { return {1.0 / 3, 1.0 / 3}; }
   static constexpr double weight(int) { return 0.5; }
   static constexpr double load_weight(int) { return 1.0 / 6; }
   static std::array<double, 2> point(int) { return {1.0 / 3, 1.0 / 3}; }
@@ -35,6 +37,8 @@ struct TriangleP1 {
 /// Linear tetrahedron on the unit simplex.
 struct TetrahedronP1 {
   static constexpr int dim = 3, nodes = 4, points = 1, load_points = 4;
+  static constexpr bool simplex = true;
+  static std::array<double, 3> centre() { return {0.25, 0.25, 0.25}; }
   static constexpr double weight(int) { return 1.0 / 6; }
   static constexpr double load_weight(int) { return 1.0 / 24; }
   static std::array<double, 3> point(int) { return {0.25, 0.25, 0.25}; }
@@ -54,6 +58,8 @@ struct TetrahedronP1 {
 /// Bilinear quadrilateral on [-1,1]², 2×2 Gauss points.
 struct QuadrilateralQ1 {
   static constexpr int dim = 2, nodes = 4, points = 4, load_points = 4;
+  static constexpr bool simplex = false;
+  static std::array<double, 2> centre() { return {0, 0}; }
   static constexpr double s[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   static constexpr double weight(int) { return 1; }
   static constexpr double load_weight(int) { return 1; }
@@ -75,6 +81,8 @@ struct QuadrilateralQ1 {
 /// Trilinear hexahedron on [-1,1]³, 2×2×2 Gauss points.
 struct HexahedronQ1 {
   static constexpr int dim = 3, nodes = 8, points = 8, load_points = 8;
+  static constexpr bool simplex = false;
+  static std::array<double, 3> centre() { return {0, 0, 0}; }
   static constexpr double s[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                      {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   static constexpr double weight(int) { return 1; }
@@ -98,44 +106,5 @@ struct HexahedronQ1 {
     }
   }
 };
-
-/// Gradients in the cell's own coordinates at `xi`, and the Jacobian there.
-/// x: nodes × dim coordinates of the cell. Only their differences enter: far from the origin, too,
-/// rigid motions then strain nothing.
-template <class E>
-double physical_gradient(const double x[][E::dim], const std::array<double, E::dim>& xi,
-                         double g[][E::dim]) {
-  double r[E::nodes][E::dim], j[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  E::gradient(xi, r);
-  for (int i = 0; i < E::dim; ++i)
-    for (int k = 0; k < E::dim; ++k) {
-      j[i][k] = 0;
-      for (int a = 1; a < E::nodes; ++a) j[i][k] += (x[a][i] - x[0][i]) * r[a][k];
-    }
-  double inverse[3][3];
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) {  // cofactors; in the plane j[2][2] = 1
-      const int p = (i + 1) % 3, q = (i + 2) % 3, s = (k + 1) % 3, t = (k + 2) % 3;
-      inverse[k][i] = j[p][s] * j[q][t] - j[p][t] * j[q][s];
-    }
-  const double det = j[0][0] * inverse[0][0] + j[0][1] * inverse[1][0] + j[0][2] * inverse[2][0];
-  for (int a = 0; a < E::nodes; ++a)
-    for (int i = 0; i < E::dim; ++i) {
-      g[a][i] = 0;
-      for (int k = 0; k < E::dim; ++k) g[a][i] += r[a][k] * inverse[k][i] / det;
-    }
-  return det;
-}
-
-/// Calls `body.template operator()<E>()` with the reference element of `element`.
-template <class Body>
-auto dispatch(mesh::Element element, Body&& body) {
-  switch (element) {
-    case mesh::Element::triangle_p1: return body.template operator()<TriangleP1>();
-    case mesh::Element::quadrilateral_q1: return body.template operator()<QuadrilateralQ1>();
-    case mesh::Element::tetrahedron_p1: return body.template operator()<TetrahedronP1>();
-    default: return body.template operator()<HexahedronQ1>();
-  }
-}
 
 }  // namespace dotyk::elasticity

@@ -51,8 +51,7 @@ std::vector<Stress> cell_stress(const mesh::Mesh& mesh, const MaterialField& mat
   std::vector<Stress> result(mesh.cell_count());
   dispatch(mesh.element, [&]<class E>() {
     double x[E::nodes][E::dim], measure;
-    std::array<double, E::dim> centre{};
-    if constexpr (E::points == 1) centre = E::point(0);
+    const auto centre = E::centre();
     Hooke hooke = material.at(0);
     for (int c = 0; c < mesh.cell_count(); ++c) {
       if (material.varies()) hooke = material.at(c);

@@ -21,7 +21,11 @@ std::array<double, 3> principal(const Stress& s);
 std::vector<Stress> cell_stress(const mesh::Mesh& mesh, const MaterialField& material,
                                 const std::vector<double>& u);
 
-/// Nodal stress by superconvergent patch recovery (Zienkiewicz and Zhu 1992): the stress at cell
+/// Nodal stress of the nodal displacement u (node × dimension). First order: recovered, see recover_stress(). Second order: the
+/// mean of what the node's cells have there, of order 2 (superconvergent recovery would need each cell's own points; Zienkiewicz and Zhu 1992).
+std::vector<Stress> nodal_stress(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<double>& u);
+
+/// Nodal stress of cells of order 1 by superconvergent patch recovery (Zienkiewicz and Zhu 1992): the stress at cell
 /// centres around a node, fitted by a linear polynomial; patches with too few cells (at the
 /// boundary) take in the neighbours' cells. Reproduces linear stress exactly.
 std::vector<Stress> recover_stress(const mesh::Mesh& mesh, const std::vector<Stress>& at_centres);

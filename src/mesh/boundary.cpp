@@ -6,7 +6,7 @@
 namespace dotyk::mesh {
 namespace {
 
-/// A facet with its sorted nodes, so that the two sides of an inner facet compare equal.
+/// A facet with its sorted corners, so that the two sides of an inner facet compare equal.
 struct Key {
   std::array<int, 4> nodes;
   Facet facet;
@@ -22,7 +22,7 @@ std::vector<int> facet_neighbours(const Mesh& mesh) {
   std::vector<int> start(mesh.node_count() + 1, 0);
   auto least = [&](Facet f) {
     int n = mesh.facet_node(f, 0);
-    for (int k = 1; k < t.nodes_per_facet; ++k) n = std::min(n, mesh.facet_node(f, k));
+    for (int k = 1; k < t.facet_corners; ++k) n = std::min(n, mesh.facet_node(f, k));
     return n;
   };
   for (int c = 0; c < mesh.cell_count(); ++c)
@@ -33,7 +33,7 @@ std::vector<int> facet_neighbours(const Mesh& mesh) {
   for (int c = 0; c < mesh.cell_count(); ++c)
     for (int l = 0; l < t.facets; ++l) {
       Key key{{INT_MAX, INT_MAX, INT_MAX, INT_MAX}, {c, l}};
-      for (int k = 0; k < t.nodes_per_facet; ++k) key.nodes[k] = mesh.facet_node({c, l}, k);
+      for (int k = 0; k < t.facet_corners; ++k) key.nodes[k] = mesh.facet_node({c, l}, k);
       std::sort(key.nodes.begin(), key.nodes.end());
       keys[fill[key.nodes[0]]++] = key;
     }

@@ -1,4 +1,5 @@
 #include "mesh/generators.hpp"
+#include "mesh/second_order.hpp"
 
 namespace dotyk::mesh {
 namespace {
@@ -35,7 +36,7 @@ Mesh box(const double from[3], const double to[3], const int cells[3], Family fa
   const auto y = ticks(from[1], to[1], cells[1], grading[1], "y");
   const auto z = ticks(from[2], to[2], cells[2], grading[2], "z");
   Mesh mesh;
-  mesh.element = family == Family::p1 ? Element::tetrahedron_p1 : Element::hexahedron_q1;
+  mesh.element = simplices(family) ? Element::tetrahedron_p1 : Element::hexahedron_q1;
   mesh.coordinates.reserve(3 * x.size() * y.size() * z.size());
   for (double zk : z)
     for (double yj : y)
@@ -56,12 +57,12 @@ Mesh box(const double from[3], const double to[3], const int cells[3], Family fa
           }
           name_facets(mesh, mesh.cell_count() - 1, bits, at, cells);
         };
-        if (family == Family::q1)
-          add(hex_bits, 8);
-        else
+        if (simplices(family))
           for (const auto& path : kKuhn) add(path, 4);
+        else
+          add(hex_bits, 8);
       }
-  return mesh;
+  return of_family(std::move(mesh), family);
 }
 
 }  // namespace dotyk::mesh

@@ -20,6 +20,11 @@ void extend(Box& box, const Point& p) {
 Box box_of(const Mesh& mesh, int cell) {
   Box box{mesh.point(mesh.cell(cell)[0]), mesh.point(mesh.cell(cell)[0])};
   for (int k = 1; k < mesh.topology().nodes; ++k) extend(box, mesh.point(mesh.cell(cell)[k]));
+  // A curved side bulges beyond its nodes, by less than half its height.
+  for (int i = 0; mesh.topology().order == 2 && i < 3; ++i) {
+    const double margin = (box.high[i] - box.low[i]) / 4;
+    box.low[i] -= margin, box.high[i] += margin;
+  }
   return box;
 }
 

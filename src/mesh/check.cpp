@@ -10,16 +10,6 @@
 namespace dotyk::mesh {
 namespace {
 
-double determinant(const Point& u, const Point& v, const Point& w) {
-  return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
-         u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
-
-/// The three (two) neighbours along edges of each corner, right-handed.
-constexpr int kQuadCorner[4][2] = {{1, 3}, {2, 0}, {3, 1}, {0, 2}};
-constexpr int kHexCorner[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
-                                  {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-
 double edge_scale(const Mesh& mesh, int c) {
   const Point a = mesh.point(mesh.cell(c)[0]);
   double h = 0;
@@ -56,26 +46,6 @@ void refuse_stray_nodes(const Mesh& mesh, const std::string& what) {
 }
 
 }  // namespace
-
-double least_jacobian(const Mesh& mesh, int c) {
-  const int* n = mesh.cell(c);
-  const auto edge = [&](int a, int b) { return minus(mesh.point(n[b]), mesh.point(n[a])); };
-  const Point up{0, 0, 1};
-  double least = INFINITY;
-  switch (mesh.element) {
-    case Element::triangle_p1: return determinant(edge(0, 1), edge(0, 2), up);
-    case Element::tetrahedron_p1: return determinant(edge(0, 1), edge(0, 2), edge(0, 3));
-    case Element::quadrilateral_q1:
-      for (int k = 0; k < 4; ++k)
-        least = std::min(least, determinant(edge(k, kQuadCorner[k][0]), edge(k, kQuadCorner[k][1]), up));
-      return least;
-    default:
-      for (int k = 0; k < 8; ++k)
-        least = std::min(least, determinant(edge(k, kHexCorner[k][0]), edge(k, kHexCorner[k][1]),
-                                            edge(k, kHexCorner[k][2])));
-      return least;
-  }
-}
 
 void check(const Mesh& mesh, const std::string& what) {
   for (int i = 0; i < mesh.node_count(); ++i)

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "mesh/generators.hpp"
+#include "mesh/second_order.hpp"
 
 namespace dotyk::mesh {
 namespace {
@@ -84,14 +85,28 @@ Mesh core_and_ring(const double center[2], double radius, int n) {
   return mesh;
 }
 
+/// Puts the outer edges' nodes on the circle; a quadrilateral's centre follows by half (transfinite interpolation).
+void bend(Mesh& mesh, const double center[2], double radius) {
+  const ElementTopology& t = mesh.topology();
+  for (const Facet f : mesh.parts.at("boundary")) {
+    double* x = &mesh.coordinates[2 * static_cast<std::size_t>(mesh.facet_node(f, 2))];
+    const double dx = x[0] - center[0], dy = x[1] - center[1], outwards = radius / std::hypot(dx, dy) - 1;
+    x[0] += outwards * dx, x[1] += outwards * dy;
+    if (t.corners == 3) continue;
+    double* middle = &mesh.coordinates[2 * static_cast<std::size_t>(mesh.cell(f.cell)[t.nodes - 1])];
+    middle[0] += outwards * dx / 2, middle[1] += outwards * dy / 2;
+  }
+}
+
 }  // namespace
 
 Mesh disc(const double center[2], double radius, int cells, Family family) {
   if (cells < 1) throw InputError(text("cells is ", cells, "; it must be at least 1"));
   if (!(radius > 0) || !std::isfinite(radius))
     throw InputError(text("radius is ", radius, "; it must be positive"));
-  return family == Family::p1 ? rings(center, radius, cells)
-                              : core_and_ring(center, radius, cells);
+  Mesh mesh = of_family(simplices(family) ? rings(center, radius, cells) : core_and_ring(center, radius, cells), family);
+  if (mesh.topology().order == 2) bend(mesh, center, radius);
+  return mesh;
 }
 
 }  // namespace dotyk::mesh

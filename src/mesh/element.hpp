@@ -1,29 +1,46 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace dotyk::mesh {
 
 /// A cell type: its shape and the order of its displacement.
-enum class Element { triangle_p1, quadrilateral_q1, tetrahedron_p1, hexahedron_q1 };
+enum class Element {
+  triangle_p1, quadrilateral_q1, tetrahedron_p1, hexahedron_q1,
+  triangle_p2, quadrilateral_q2, tetrahedron_p2, hexahedron_q2
+};
+
+/// Of any cell type, and of its facets.
+inline constexpr int kMostNodes = 27, kMostFacetNodes = 9;
 
 /// The combinatorics of a cell type. Nodes of a cell are numbered so that a
 /// positively oriented cell has positive Jacobian: triangles and quadrilaterals
 /// counter-clockwise; a tetrahedron's node 3 on the side of face (0,1,2) that
 /// its right-hand normal points to; a hexahedron's nodes 0-3 counter-clockwise
-/// below, 4-7 above them (VTK's order).
+/// below, 4-7 above them (VTK's order). Second-order cells have these corners first; then a node on each edge, in
+/// each quadrilateral face and, of tensor cells, inside: VTK's biquadratic and triquadratic order, see `between`.
 struct ElementTopology {
-  const char* name;       ///< "P1", "Q1"
+  const char* name;       ///< "P1", "Q1", "P2", "Q2"
   const char* shape;      ///< "triangle", …
   const char* shapes;     ///< "triangles", …
   int dimension;
   int nodes;              ///< per cell
   int facets;             ///< per cell
   int nodes_per_facet;
-  int facet_nodes[6][4];  ///< local nodes of each facet, outward by the right-hand rule (3-D),
-                          ///< or with the outward normal on the right of the edge (2-D)
+  int facet_nodes[6][kMostFacetNodes];  ///< local nodes of each facet, corners first: outward by the right-hand rule (3-D),
+                                        ///< or with the outward normal on the right of the edge (2-D); then those on the
+                                        ///< edges, in that order, then the centre
+  int order = 1;
+  int corners = nodes;
+  int facet_corners = nodes_per_facet;
+  std::vector<std::vector<int>> between = {};  ///< node corners + k of a straight cell is the mean of these corners
 };
 
 const ElementTopology& topology(Element element);
+
+/// The cell of the same shape of order 1, or of order 2.
+Element first_order(Element element);
+Element second_order(Element element);
 
 }  // namespace dotyk::mesh

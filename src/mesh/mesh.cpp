@@ -42,9 +42,28 @@ Point Mesh::facet_centre(Facet f) const {
   return p;
 }
 
+namespace {
+
+/// ½∮ x × dx along a face's quadratic edges, which alone decide ∫n.
+Point curved_area_vector(const Mesh& mesh, Facet f) {
+  const int corners = mesh.topology().facet_corners;
+  const Point origin = mesh.point(mesh.facet_node(f, 0));
+  const auto at = [&](int k) { return minus(mesh.point(mesh.facet_node(f, k)), origin); };
+  Point sum{0, 0, 0};
+  for (int k = 0; k < corners; ++k) {
+    const Point a = at(k), b = at((k + 1) % corners), middle = at(corners + k);
+    const Point in = cross(a, middle), out = cross(middle, b), chord = cross(a, b);
+    for (int i = 0; i < 3; ++i) sum[i] += 2.0 / 3 * (in[i] + out[i]) - chord[i] / 6;
+  }
+  return sum;
+}
+
+}  // namespace
+
 Point Mesh::facet_area_vector(Facet f) const {
   const Point a = point(facet_node(f, 0)), b = point(facet_node(f, 1));
   if (dimension() == 2) return {b[1] - a[1], a[0] - b[0], 0};
+  if (topology().order == 2) return curved_area_vector(*this, f);
   const Point c = point(facet_node(f, 2));
   if (topology().nodes_per_facet == 3) return times(0.5, cross(minus(b, a), minus(c, a)));
   const Point d = point(facet_node(f, 3));

@@ -41,11 +41,12 @@ struct Mesh {
     return cell(f.cell)[topology().facet_nodes[f.local][k]];
   }
   Point facet_centre(Facet f) const;
-  /// Outward normal times length (2-D) or area (3-D; of the mean plane for quadrilaterals).
+  /// ∫n, the outward normal times length (2-D) or area (3-D; of the mean plane for quadrilaterals); of a curved facet that is
+  /// less than its length or area.
   Point facet_area_vector(Facet f) const;
 };
 
-/// d/dt of facet_area_vector() where nodes move with the velocity V (node × dimension).
+/// d/dt of facet_area_vector() of a facet of order 1 where nodes move with the velocity V (node × dimension).
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f);
 
 /// Cell × facets of a cell → the cell on the other side, or -1 on the boundary. Where more than two cells
@@ -64,7 +65,7 @@ std::vector<Facet> select(const Mesh& mesh,
 void check(const Mesh& mesh, const std::string& what);
 
 /// Twice the area (triangle), the volume times six (tetrahedron), or the least
-/// corner Jacobian (quadrilateral, hexahedron): positive for a valid cell.
+/// corner Jacobian (quadrilateral, hexahedron), of second order the least one at a node: positive for a valid cell.
 double least_jacobian(const Mesh& mesh, int cell);
 
 /// Moves every node to `map(x)`. Throws InputError where a cell inverts or a

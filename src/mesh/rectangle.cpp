@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "mesh/generators.hpp"
+#include "mesh/second_order.hpp"
 
 namespace dotyk::mesh {
 
@@ -33,23 +34,23 @@ Mesh rectangle(const double from[2], const double to[2], const int cells[2], Fam
   const auto y = ticks(from[1], to[1], cells[1], grading[1], "y");
   const int nx = cells[0], ny = cells[1];
   Mesh mesh;
-  mesh.element = family == Family::p1 ? Element::triangle_p1 : Element::quadrilateral_q1;
+  const bool p1 = simplices(family);
+  mesh.element = p1 ? Element::triangle_p1 : Element::quadrilateral_q1;
   mesh.coordinates.reserve(2 * x.size() * y.size());
   for (double yj : y)
     for (double xi : x) mesh.coordinates.insert(mesh.coordinates.end(), {xi, yj});
-  const int per_cell = family == Family::p1 ? 2 : 1;
-  mesh.cells.reserve(static_cast<std::size_t>(nx) * ny * (family == Family::p1 ? 6 : 4));
+  const int per_cell = p1 ? 2 : 1;
+  mesh.cells.reserve(static_cast<std::size_t>(nx) * ny * (p1 ? 6 : 4));
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i) {
       const int a = j * (nx + 1) + i, b = a + 1, d = a + nx + 1, c = d + 1;
-      if (family == Family::p1)
+      if (p1)
         mesh.cells.insert(mesh.cells.end(), {a, b, c, a, c, d});
       else
         mesh.cells.insert(mesh.cells.end(), {a, b, c, d});
     }
   // Local facets: lower triangle (bottom 0, right 1), upper triangle (top 1, left 2);
   // quadrilateral bottom 0, right 1, top 2, left 3.
-  const bool p1 = family == Family::p1;
   const auto cell_at = [&](int i, int j) { return per_cell * (j * nx + i); };
   for (int i = 0; i < nx; ++i) {
     mesh.parts["bottom"].push_back({cell_at(i, 0), 0});
@@ -59,7 +60,7 @@ Mesh rectangle(const double from[2], const double to[2], const int cells[2], Fam
     mesh.parts["left"].push_back({cell_at(0, j) + (p1 ? 1 : 0), p1 ? 2 : 3});
     mesh.parts["right"].push_back({cell_at(nx - 1, j), 1});
   }
-  return mesh;
+  return of_family(std::move(mesh), family);
 }
 
 }  // namespace dotyk::mesh

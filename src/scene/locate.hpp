@@ -10,7 +10,7 @@ namespace dotyk::scene {
 /// A cell and the shape functions of its nodes at a point.
 struct Place {
   int cell;
-  std::array<double, 8> shape;
+  std::array<double, mesh::kMostNodes> shape;
 };
 
 /// Finds the cell that contains a point.

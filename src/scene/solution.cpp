@@ -109,8 +109,7 @@ const std::vector<elasticity::Stress>& Solution::stress(int body) const {
   if (stress_[body].empty()) {
     Stopwatch watch;
     const Body& b = this->body(body);
-    stress_[body] = elasticity::recover_stress(
-        *b.mesh, elasticity::cell_stress(*b.mesh, b.material, displacement_[body]));
+    stress_[body] = elasticity::nodal_stress(*b.mesh, b.material, displacement_[body]);
     result_.clock.recover += watch.seconds();
     result_.clock.total += watch.seconds();
   }

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesh/mesh.hpp"
+
+namespace dotyk::mesh {
+namespace {
+
+double determinant(const Point& u, const Point& v, const Point& w) {
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
+         u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+constexpr Point kUp{0, 0, 1};
+
+/// The three (two) neighbours along edges of each corner, right-handed.
+constexpr int kQuadCorner[4][2] = {{1, 3}, {2, 0}, {3, 1}, {0, 2}};
+constexpr int kHexCorner[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                  {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+
+double first_order_jacobian(const Mesh& mesh, const int* n) {
+  const auto edge = [&](int a, int b) { return minus(mesh.point(n[b]), mesh.point(n[a])); };
+  double least = INFINITY;
+  switch (mesh.element) {
+    case Element::triangle_p1: return determinant(edge(0, 1), edge(0, 2), kUp);
+    case Element::tetrahedron_p1: return determinant(edge(0, 1), edge(0, 2), edge(0, 3));
+    case Element::quadrilateral_q1:
+      for (int k = 0; k < 4; ++k)
+        least = std::min(least, determinant(edge(k, kQuadCorner[k][0]), edge(k, kQuadCorner[k][1]), kUp));
+      return least;
+    default:
+      for (int k = 0; k < 8; ++k)
+        least = std::min(least, determinant(edge(k, kHexCorner[k][0]), edge(k, kHexCorner[k][1]),
+                                            edge(k, kHexCorner[k][2])));
+      return least;
+  }
+}
+
+void add(Point& sum, double weight, const Point& x) {
+  for (int i = 0; i < 3; ++i) sum[i] += weight * x[i];
+}
+
+/// How much of each corner there is in a node of a straight cell.
+std::array<double, 8> shares(const ElementTopology& t, int node) {
+  std::array<double, 8> share{};
+  if (node < t.corners) {
+    share[node] = 1;
+  } else {
+    const std::vector<int>& corners = t.between[node - t.corners];
+    for (const int k : corners) share[k] = 1.0 / static_cast<double>(corners.size());
+  }
+  return share;
+}
+
+/// ∂x/∂λ_i of Σ λ_i(2λ_i − 1) x_i + Σ 4λ_iλ_j x_ij.
+Point simplex_derivative(const Mesh& mesh, const int* n, const std::array<double, 8>& lambda, int i) {
+  const ElementTopology& t = mesh.topology();
+  Point d{0, 0, 0};
+  add(d, 4 * lambda[i] - 1, mesh.point(n[i]));
+  for (std::size_t k = 0; k < t.between.size(); ++k) {
+    const int a = t.between[k][0], b = t.between[k][1];
+    if (a == i || b == i) add(d, 4 * lambda[a == i ? b : a], mesh.point(n[t.corners + k]));
+  }
+  return d;
+}
+
+double simplex_jacobian(const Mesh& mesh, const int* n) {
+  const ElementTopology& t = mesh.topology();
+  double least = INFINITY;
+  for (int node = 0; node < t.nodes; ++node) {
+    const auto lambda = shares(t, node);
+    const Point first = simplex_derivative(mesh, n, lambda, 0);
+    Point d[3] = {{}, {}, kUp};
+    for (int i = 1; i <= t.dimension; ++i) d[i - 1] = minus(simplex_derivative(mesh, n, lambda, i), first);
+    least = std::min(least, determinant(d[0], d[1], d[2]));
+  }
+  return least;
+}
+
+/// Of a tensor cell of order 2: node at x + 3y + 9z of its 3 × 3 (× 3) lattice.
+std::array<int, 27> lattice(const ElementTopology& t) {
+  constexpr int corner[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
+  std::array<int, 27> node{};
+  for (int a = 0; a < t.nodes; ++a) {
+    const auto share = shares(t, a);
+    double at[3] = {0, 0, 0};
+    for (int k = 0; k < t.corners; ++k)
+      for (int i = 0; i < 3; ++i) at[i] += share[k] * corner[k][i];
+    node[static_cast<int>(at[0] + 3 * at[1] + 9 * at[2])] = a;
+  }
+  return node;
+}
+
+double tensor_jacobian(const Mesh& mesh, const int* n) {
+  // Derivatives at the three nodes of a line of unit length.
+  constexpr double weight[3][3] = {{-3, 4, -1}, {-1, 0, 1}, {1, -4, 3}};
+  constexpr int stride[3] = {1, 3, 9};
+  const ElementTopology& t = mesh.topology();
+  const auto node = lattice(t);
+  double least = INFINITY;
+  for (int a = 0; a < t.nodes; ++a) {
+    Point d[3] = {{0, 0, 0}, {0, 0, 0}, kUp};
+    for (int i = 0; i < t.dimension; ++i) {
+      const int along = a / stride[i] % 3;
+      d[i] = {0, 0, 0};
+      for (int k = 0; k < 3; ++k) add(d[i], weight[along][k], mesh.point(n[node[a + (k - along) * stride[i]]]));
+    }
+    least = std::min(least, determinant(d[0], d[1], d[2]));
+  }
+  return least;
+}
+
+}  // namespace
+
+double least_jacobian(const Mesh& mesh, int c) {
+  const ElementTopology& t = mesh.topology();
+  if (t.order == 1) return first_order_jacobian(mesh, mesh.cell(c));
+  return t.corners == t.dimension + 1 ? simplex_jacobian(mesh, mesh.cell(c)) : tensor_jacobian(mesh, mesh.cell(c));
+}
+
+}  // namespace dotyk::mesh
