@@ -6,18 +6,23 @@
 
 namespace dotyk::contact {
 
-/// A node of the second body's mesh, and its share of what lies across from a node of the first part.
-struct Partner {
+/// A node, and its share in a mean over nodes.
+struct NodeWeight {
   int node;
   double weight;
-  bool operator==(const Partner&) const = default;
+  bool operator==(const NodeWeight&) const = default;
 };
 
-/// One condition of non-penetration at a node of the first part:
-///   normal·(u₁ − Σ weight u_partner) ≤ gap        (no partners against a rigid shape)
+/// One condition of non-penetration at a corner of the first part's facets:
+///   normal·(Σ weight u_own − Σ weight u_partner) ≤ gap        (no partners against a rigid shape)
+/// Cells of order 1: a node is its own alone. Order 2: the condition is asked for in the mean with the corner's linear hat ψ,
+/// own weights are ∫ψφ_k/∫ψ, so that the pressure is continuous and piecewise linear: one order less than the displacement,
+/// as is stable (Hild and Laborde 2002; in space Wohlmuth, Popp, Gee and Wall 2012). Nodal conditions would not do: on
+/// quadratic triangles ∫φ of a corner is 0.
 struct ContactRow {
   int node;                         ///< of the first body's mesh
-  std::vector<Partner> partners{};  ///< their weights are 1 in sum; matching nodes: one. See pairing.hpp
+  std::vector<NodeWeight> own;       ///< of the first body, 1 in sum; `node` first
+  std::vector<NodeWeight> partners{};  ///< of the second body, 1 in sum; matching nodes of order 1: one. See pairing.hpp
   mesh::Point normal;   ///< unit, out of the first body
   double gap = 0;       ///< at rest, positive when open; `added` included
   double weight = 0;    ///< length or area that the node stands for
@@ -25,10 +30,12 @@ struct ContactRow {
   double added = 0;         ///< what was added to the geometric gap
 };
 
-/// A node of the first part that moves with what lies across from it: u₁ = Σ weight u_partner.
+/// A node of the first part that moves with what lies across from it: Σ weight u_own = Σ weight u_partner; `own` is the node
+/// alone but in a mortar mean of order 2.
 struct Tie {
   int node;
-  std::vector<Partner> partners;
+  std::vector<NodeWeight> own;
+  std::vector<NodeWeight> partners;
 };
 
 }  // namespace dotyk::contact

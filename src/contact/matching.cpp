@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
@@ -93,7 +94,7 @@ bool faces(const Mesh& mesh, mesh::Facet f, const Point& x, const Point& x_norma
   const double area = length(normal);
   for (double& v : normal) v /= area;
   if (dot(normal, x_normal) > -0.8) return false;
-  const int corners = mesh.topology().nodes_per_facet;
+  const int corners = mesh.topology().facet_corners;
   const double width = mesh.dimension() == 2 ? area : std::sqrt(area);
   for (int k = 0; k < corners; ++k) {
     const Point a = mesh.point(mesh.facet_node(f, k)), b = mesh.point(mesh.facet_node(f, (k + 1) % corners));
@@ -180,16 +181,45 @@ std::vector<NodePair> match(const Face& first, const Face& second) {
   return std::move(found.pairs);
 }
 
-ContactRow row_of(const NodeSide& side, std::vector<Partner> partners, double added, const Face& first, const Face& second) {
+ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Face& first, const Face& second) {
   const Point x = first.mesh.point(side.node);
-  Point across{0, 0, 0};
-  for (const Partner& p : partners)
+  Point own{0, 0, 0}, across{0, 0, 0};
+  for (const NodeWeight& p : side.own)
+    for (int i = 0; i < 3; ++i) own[i] += p.weight * first.mesh.point(p.node)[i];
+  for (const NodeWeight& p : partners)
     for (int i = 0; i < 3; ++i) across[i] += p.weight * second.mesh.point(p.node)[i];
-  const double gap = dot(minus(across, x), side.normal) + added;
+  const double gap = dot(minus(across, own), side.normal) + added;
   if (!std::isfinite(gap))
     throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), first.mesh.dimension()),
                           "; it must be a finite number"));
-  return {side.node, std::move(partners), side.normal, gap, side.weight, side.facets, added};
+  return {side.node, side.own, std::move(partners), side.normal, gap, side.weight, side.facets, added};
+}
+
+std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,
+                                  const elasticity::ScalarField& added) {
+  if (&first.mesh == &second.mesh)  // a crack's tip is its own partner: no jump there
+    for (const NodeSide& n : nodes(second.mesh, second.facets)) partner.emplace(n.node, std::vector<NodeWeight>{{n.node, 1}});
+  std::vector<char> used;
+  for (const mesh::Facet f : first.facets) {
+    bool all = true;
+    for (int k = 0; k < first.mesh.topology().nodes_per_facet; ++k) all = all && partner.count(first.mesh.facet_node(f, k)) > 0;
+    used.push_back(all);
+  }
+  std::vector<ContactRow> rows;
+  for (NodeSide& side : corner_sides(first.mesh, first.facets)) {
+    take_mean(first.mesh, first.facets, used, side);
+    if (!(side.weight > 0)) continue;
+    double more = 0;
+    std::map<int, double> across;
+    for (const NodeWeight& own : side.own) {
+      if (added) more += own.weight * added(first.mesh.point(own.node));
+      for (const NodeWeight& p : partner.at(own.node)) across[p.node] += own.weight * p.weight;
+    }
+    std::vector<NodeWeight> partners;
+    for (const auto& [node, weight] : across) partners.push_back({node, weight});
+    rows.push_back(row_of(side, std::move(partners), more, first, second));
+  }
+  return rows;
 }
 
 void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, const Face& second) {
@@ -207,14 +237,17 @@ void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, cons
 
 std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const Face& first, const Face& second,
                                       const elasticity::ScalarField& added, bool interference) {
-  std::unordered_map<int, int> partner;
-  for (const NodePair& p : pairs) partner.emplace(p.first, p.second);
-  std::vector<ContactRow> rows;
-  for (const NodeSide& side : sides(first.mesh, first.facets)) {
-    const auto found = partner.find(side.node);
-    if (found == partner.end()) continue;
-    rows.push_back(row_of(side, {{found->second, 1}}, added ? added(first.mesh.point(side.node)) : 0, first, second));
-  }
+  std::unordered_map<int, std::vector<NodeWeight>> partner;
+  for (const NodePair& p : pairs) partner.emplace(p.first, std::vector<NodeWeight>{{p.second, 1}});
+  std::vector<ContactRow> rows = first.mesh.topology().order == 2
+                                     ? mean_rows(first, second, partner, added)
+                                     : std::vector<ContactRow>();
+  if (first.mesh.topology().order == 1)
+    for (const NodeSide& side : sides(first.mesh, first.facets)) {
+      const auto found = partner.find(side.node);
+      if (found == partner.end()) continue;
+      rows.push_back(row_of(side, found->second, added ? added(first.mesh.point(side.node)) : 0, first, second));
+    }
   if (!interference) refuse_overlap(rows, first, second);
   return rows;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "contact/contact_row.hpp"
@@ -37,7 +38,11 @@ inline constexpr double kTouching = 1e-6;
 
 /// The row of a side whose partners are known: the gap is (Σ weight x_partner − x)·normal + added. Throws InputError
 /// for a gap that is not finite.
-ContactRow row_of(const NodeSide& side, std::vector<Partner> partners, double added, const Face& first, const Face& second);
+ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Face& first, const Face& second);
+/// Rows of a first part of order 2, one a side at each corner, each the mean of its own nodes' conditions; `partner`: what lies across
+/// from a node. Facets that have a node without are left out.
+std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,
+                                  const elasticity::ScalarField& added);
 /// Throws InputError where rows overlap at rest by more than kTouching; a negative `added` is no overlap.
 void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, const Face& second);
 

@@ -19,13 +19,14 @@ struct Cut {
 /// What a corner of a first part's facet gets from it.
 struct Corner {
   double weight = 0;               ///< ∫φ over what is covered
+  std::map<int, double> own;       ///< of order 2: ∫ψ φ_l
   std::map<int, double> partners;  ///< ∫ψ φ_j∘P
 };
 
 class Mortar {
  public:
   Mortar(const Face& first, const Face& second)
-      : first_(first), second_(second), all_(second), corners_(first.mesh.topology().nodes_per_facet) {}
+      : first_(first), second_(second), all_(second), corners_(first.mesh.topology().facet_corners) {}
 
   /// One entry a corner; `widest` grows to the width of the facets met.
   std::array<Corner, 4> of(mesh::Facet facet, double& widest) const {
@@ -36,7 +37,7 @@ class Mortar {
     for (const Cut& c : cuts) covered += size(c.polygon);
     if (covered > (1 + kSliver) * own.size()) keep_nearest(cuts);
     if (covered < kSliver * own.size()) return {};
-    return integrate(own, cuts);
+    return first_.mesh.topology().order == 2 ? integrate_means(facet, own, cuts) : integrate(own, cuts);
   }
 
  private:
@@ -68,10 +69,30 @@ class Mortar {
     std::erase_if(cuts, [&](const Cut&) { return hidden[k++]; });
   }
 
-  /// Enough Gauss points for ψ_k φ_j: products of linear functions, of bilinear ones (degree 4), or of rational ones.
+  /// Enough Gauss points for ψ_k φ_j: products of linear functions, of bilinear ones (degree 4), of order 2 (degree 6: bilinear
+  /// times biquadratic), or of rational ones.
   const FlatQuadrature& rule(const Shadow& own, const Shadow& other) const {
-    if (own.corners < 4 && other.corners < 4) return linear_;
-    return own.polynomial() && other.polynomial() ? bilinear_ : rational_;
+    const bool quadratic = own.nodes > own.corners || other.nodes > other.corners;
+    if (own.corners < 4 && other.corners < 4) return quadratic ? bilinear_ : linear_;
+    if (!own.polynomial() || !other.polynomial()) return rational_;
+    return quadratic ? biquadratic_ : bilinear_;
+  }
+
+  std::array<Corner, 4> integrate_means(mesh::Facet facet, const Shadow& own, const std::vector<Cut>& cuts) const {
+    std::array<Corner, 4> result;
+    for (const Cut& c : cuts)
+      for (const FlatQuadrature::At& q : rule(own, c.shadow).points(c.polygon)) {
+        const auto psi = own.hats(q.x);
+        const auto phi = own.shape(q.x), other = c.shadow.shape(q.x);
+        for (int k = 0; k < corners_; ++k) {
+          Corner& corner = result[k];
+          corner.weight += q.measure * psi[k];
+          for (int a = 0; a < own.nodes; ++a) corner.own[first_.mesh.facet_node(facet, a)] += q.measure * psi[k] * phi[a];
+          for (int a = 0; a < c.shadow.nodes; ++a)
+            corner.partners[second_.mesh.facet_node(second_.facets[c.facet], a)] += q.measure * psi[k] * other[a];
+        }
+      }
+    return result;
   }
 
   std::array<Corner, 4> integrate(const Shadow& own, const std::vector<Cut>& cuts) const {
@@ -79,10 +100,11 @@ class Mortar {
     std::map<int, Eigen::VectorXd> mixed;                              // j → ∫φ_k φ_j∘P
     for (const Cut& c : cuts)
       for (const FlatQuadrature::At& q : rule(own, c.shadow).points(c.polygon)) {
-        const auto phi = own.shape(q.x), other = c.shadow.shape(q.x);
+        const auto phi = own.hats(q.x);
+        const auto other = c.shadow.shape(q.x);
         const Eigen::Map<const Eigen::VectorXd> hats(phi.data(), corners_);
         gram += q.measure * hats * hats.transpose();
-        for (int a = 0; a < c.shadow.corners; ++a) {
+        for (int a = 0; a < c.shadow.nodes; ++a) {
           const auto at = mixed.try_emplace(second_.mesh.facet_node(second_.facets[c.facet], a), Eigen::VectorXd::Zero(corners_)).first;
           at->second += q.measure * other[a] * hats;
         }
@@ -102,17 +124,17 @@ class Mortar {
   const Face &first_, &second_;
   SecondFacets all_;
   int corners_;
-  FlatQuadrature linear_{2}, bilinear_{3}, rational_{6};
+  FlatQuadrature linear_{2}, bilinear_{3}, biquadratic_{4}, rational_{6};
 };
 
 /// Shares of which nothing but rounding is left are dropped; the rest is made 1 in sum.
-std::vector<Partner> partners_of(const std::map<int, double>& shares) {
+std::vector<NodeWeight> mean_over(const std::map<int, double>& shares) {
   double sum = 0, rest = 0;
   for (const auto& [node, share] : shares) sum += share;
-  std::vector<Partner> partners;
+  std::vector<NodeWeight> partners;
   for (const auto& [node, share] : shares)
     if (std::abs(share) > 1e-13 * sum) partners.push_back({node, share}), rest += share;
-  for (Partner& p : partners) p.weight /= rest;
+  for (NodeWeight& p : partners) p.weight /= rest;
   return partners;
 }
 
@@ -123,10 +145,10 @@ std::vector<Across> mortar(const Face& first, const Face& second, const std::vec
   std::vector<std::vector<std::pair<std::size_t, int>>> sides_of(first.facets.size());  // side, corner
   for (std::size_t s = 0; s < sides.size(); ++s)
     for (const int f : sides[s].facets)
-      for (int a = 0; a < first.mesh.topology().nodes_per_facet; ++a)
+      for (int a = 0; a < first.mesh.topology().facet_corners; ++a)
         if (first.mesh.facet_node(first.facets[f], a) == sides[s].node) sides_of[f].emplace_back(s, a);
   std::vector<Across> result(sides.size());
-  std::vector<std::map<int, double>> shares(sides.size());
+  std::vector<std::map<int, double>> shares(sides.size()), own(sides.size());
   for (std::size_t f = 0; f < first.facets.size(); ++f) {
     double widest = 0;
     const std::array<Corner, 4> corner = facets.of(first.facets[f], widest);
@@ -134,10 +156,16 @@ std::vector<Across> mortar(const Face& first, const Face& second, const std::vec
       result[s].weight += corner[a].weight;
       result[s].widest = std::max(result[s].widest, widest);
       for (const auto& [j, share] : corner[a].partners) shares[s][j] += share;
+      for (const auto& [l, share] : corner[a].own) own[s][l] += share;
     }
   }
-  for (std::size_t s = 0; s < sides.size(); ++s)
-    if (result[s].weight > 0) result[s].partners = partners_of(shares[s]);
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (!(result[s].weight > 0)) continue;
+    result[s].partners = mean_over(shares[s]);
+    if (own[s].empty()) continue;
+    result[s].own = mean_over(own[s]);
+    std::partition(result[s].own.begin(), result[s].own.end(), [&](const NodeWeight& n) { return n.node == sides[s].node; });
+  }
   return result;
 }
 

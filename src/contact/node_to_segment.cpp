@@ -21,7 +21,7 @@ std::vector<Across> node_to_segment(const Face& first, const Face& second, const
       nearest = distance;
       const auto shape = shadow.shape({0, 0});
       result[k] = {{}, sides[k].weight, width};
-      for (int a = 0; a < shadow.corners; ++a)
+      for (int a = 0; a < shadow.nodes; ++a)
         if (std::abs(shape[a]) > 1e-14) result[k].partners.push_back({second.mesh.facet_node(second.facets[f], a), shape[a]});
     });
   }

@@ -41,13 +41,24 @@ double chord_height(const Face& face, const NodeSide& side, double width) {
 /// Rows with partners found by `pairing`; of chords that overlap no more than they must the gap is 0.
 std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pairing, const elasticity::ScalarField& added,
                                bool interference) {
-  std::vector<NodeSide> list = sides(first.mesh, first.facets);
+  const bool means = first.mesh.topology().order == 2;
+  std::vector<NodeSide> list = means && pairing == Pairing::node_to_segment ? nodes(first.mesh, first.facets)
+                                                                          : corner_sides(first.mesh, first.facets);
   std::vector<Across> all = across(first, second, pairing, list);
   std::vector<ContactRow> rows;
+  if (means && pairing == Pairing::node_to_segment) {
+    std::unordered_map<int, std::vector<NodeWeight>> feet;
+    for (std::size_t k = 0; k < list.size(); ++k)
+      if (!all[k].partners.empty()) feet.emplace(list[k].node, std::move(all[k].partners));
+    rows = mean_rows(first, second, std::move(feet), added);
+    if (!interference) refuse_overlap(rows, first, second);
+    return rows;
+  }
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (all[k].partners.empty()) continue;
     const double chord = interference ? 0 : chord_height(first, list[k], all[k].widest);
     list[k].weight = all[k].weight;
+    if (means) list[k].own = std::move(all[k].own);
     rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, first, second));
     ContactRow& row = rows.back();
     const double own = row.gap - row.added;
@@ -75,16 +86,18 @@ PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairin
   if (pairing.value_or(Pairing::matching) == Pairing::matching) {
     const Matching found = find_matching(first, second);
     if (found.mismatch.empty()) {
-      for (const NodePair& pair : found.pairs) result.ties.push_back({pair.first, {{pair.second, 1}}});
+      for (const NodePair& pair : found.pairs) result.ties.push_back({pair.first, {{pair.first, 1}}, {{pair.second, 1}}});
       result.pairing = Pairing::matching;
       return result;
     }
     if (pairing) throw InputError(found.mismatch);
   }
-  const std::vector<NodeSide> list = nodes(first.mesh, first.facets);
+  const bool means = first.mesh.topology().order == 2 && result.pairing == Pairing::mortar;
+  const std::vector<NodeSide> list = means ? corner_nodes(first.mesh, first.facets) : nodes(first.mesh, first.facets);
   std::vector<Across> all = across(first, second, result.pairing, list);
   for (std::size_t k = 0; k < list.size(); ++k)
-    if (!all[k].partners.empty()) result.ties.push_back({list[k].node, std::move(all[k].partners)});
+    if (!all[k].partners.empty())
+      result.ties.push_back({list[k].node, means ? std::move(all[k].own) : list[k].own, std::move(all[k].partners)});
   return result;
 }
 

@@ -60,7 +60,8 @@ double View::height(const Point& x) const {
   return dot(minus(x, origin), normal);
 }
 
-Shadow::Shadow(const mesh::Mesh& mesh, mesh::Facet facet, const View& view) : corners(mesh.topology().nodes_per_facet) {
+Shadow::Shadow(const mesh::Mesh& mesh, mesh::Facet facet, const View& view)
+    : corners(mesh.topology().facet_corners), nodes(mesh.topology().nodes_per_facet) {
   for (int a = 0; a < corners; ++a) {
     const Point x = mesh.point(mesh.facet_node(facet, a));
     at[a] = view.flat(x);
@@ -74,7 +75,7 @@ Shadow::Shadow(const mesh::Mesh& mesh, mesh::Facet facet, const View& view) : co
   std::reverse(height.begin(), height.begin() + corners);
 }
 
-std::array<double, 4> Shadow::shape(const Flat& x) const {
+std::array<double, 4> Shadow::hats(const Flat& x) const {
   std::array<double, 4> s{};
   if (corners == 2) {
     s[1] = (x[0] - at[0][0]) / (at[1][0] - at[0][0]);
@@ -94,6 +95,23 @@ std::array<double, 4> Shadow::shape(const Flat& x) const {
   return s;
 }
 
+std::array<double, mesh::kMostFacetNodes> Shadow::shape(const Flat& x) const {
+  std::array<double, mesh::kMostFacetNodes> s{};
+  const std::array<double, 4> l = hats(x);
+  if (nodes == corners) {
+    std::copy(l.begin(), l.end(), s.begin());
+  } else if (corners == 4) {
+    // Products of quadratic functions of r, t in [0, 1], values at 0, 1 and 1/2; the corners are (0,0) (1,0) (1,1) (0,1).
+    const double r = l[1] + l[2], t = l[2] + l[3];
+    const double u[3] = {(1 - r) * (1 - 2 * r), r * (2 * r - 1), 4 * r * (1 - r)}, v[3] = {(1 - t) * (1 - 2 * t), t * (2 * t - 1), 4 * t * (1 - t)};
+    s = {u[0] * v[0], u[1] * v[0], u[1] * v[1], u[0] * v[1], u[2] * v[0], u[1] * v[2], u[2] * v[1], u[0] * v[2], u[2] * v[2]};
+  } else {
+    for (int a = 0; a < corners; ++a) s[a] = l[a] * (2 * l[a] - 1);
+    for (int k = corners; k < nodes; ++k) s[k] = 4 * l[k - corners] * l[(k - corners + 1) % corners];
+  }
+  return s;
+}
+
 bool Shadow::holds(const Flat& x, double tolerance) const {
   if (corners == 2) {
     const auto [low, high] = std::minmax(at[0][0], at[1][0]);
@@ -109,7 +127,7 @@ bool Shadow::holds(const Flat& x, double tolerance) const {
 }
 
 double Shadow::height_at(const Flat& x) const {
-  const std::array<double, 4> s = shape(x);
+  const std::array<double, 4> s = hats(x);
   double sum = 0;
   for (int a = 0; a < corners; ++a) sum += s[a] * height[reversed ? corners - 1 - a : a];
   return sum;

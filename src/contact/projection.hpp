@@ -24,14 +24,16 @@ struct View {
 /// A facet's projection onto the plane of a view, along its normal.
 struct Shadow {
   Shadow(const mesh::Mesh& mesh, mesh::Facet facet, const View& view);
-  /// The facet's hats at its point above x: of triangles and quadrilaterals linear and bilinear there; x should be inside.
-  std::array<double, 4> shape(const Flat& x) const;
+  /// The corners' hats at the facet's point above x: of triangles and quadrilaterals linear and bilinear there; x should be inside.
+  std::array<double, 4> hats(const Flat& x) const;
+  /// The facet's shape functions there: of order 1 its hats.
+  std::array<double, mesh::kMostFacetNodes> shape(const Flat& x) const;
   bool holds(const Flat& x, double tolerance) const;  ///< `tolerance` relative to the facet's width
   double height_at(const Flat& x) const;
   double size() const;             ///< length or area
   bool polynomial() const;         ///< are its hats? Not of a quadrilateral that is no parallelogram
 
-  int corners;
+  int corners, nodes;
   std::array<Flat, 4> at{};        ///< anticlockwise
   std::array<double, 4> height{};  ///< above the plane
   bool reversed = false;           ///< corner a is the facet's corner (corners − 1 − a): it looks against the view's normal

@@ -1,6 +1,7 @@
 #include "contact/rigid.hpp"
 
 #include <cmath>
+#include <map>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -41,28 +42,33 @@ const char* name(const RigidShape& shape) {
 
 namespace {
 
-/// The rows; `added(k, x)` is added to the gap of node k, at x.
+/// The rows; `added(k, x)` is added to the gap of the part's node k, at x.
 template <class Added>
 std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const RigidShape& shape,
                                   const Added& added, bool interference) {
-  std::vector<ContactRow> rows;
   const bool geometric = !std::holds_alternative<RigidGap>(shape);
   const double rounding = 1e-9 * mesh.size();
   double deepest = 0, nearest = INFINITY, facing = 1;
   Point where{0, 0, 0}, nearest_at{0, 0, 0};
+  struct At {
+    Distance distance;
+    double added;
+  };
+  std::map<int, At> at;
   for (const NodeSide& side : nodes(mesh, facets)) {
     const Point x = mesh.point(side.node);
-    const Distance d = std::visit([&](const auto& s) { return distance(s, x); }, shape);
-    const double more = added(rows.size(), x), gap = d.gap + more;
-    if (!std::isfinite(gap))
-      throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), mesh.dimension()),
+    Distance d = std::visit([&](const auto& s) { return distance(s, x); }, shape);
+    const double more = added(at.size(), x);
+    d.gap += more;
+    if (!std::isfinite(d.gap))
+      throw InputError(text("the gap is ", d.gap, " at ", point_text(x.data(), mesh.dimension()),
                             "; it must be a finite number"));
-    if (gap < deepest) deepest = gap, where = x;
-    if (gap < nearest) {
-      nearest = gap, nearest_at = x;
+    if (d.gap < deepest) deepest = d.gap, where = x;
+    if (d.gap < nearest) {
+      nearest = d.gap, nearest_at = x;
       facing = mesh::dot(d.normal, side.normal);
     }
-    rows.push_back({side.node, {}, d.normal, gap, side.weight, side.facets, more});
+    at.emplace(side.node, At{d, more});
   }
   if (geometric && !interference && deepest < -rounding)
     throw InputError(text("the ", name(shape), " penetrates the part by ", -deepest, " at ",
@@ -75,6 +81,15 @@ std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh
   if (std::holds_alternative<RigidBall>(shape) && facing < 0)
     throw InputError(text("the rigid ball lies behind the part: at ", point_text(nearest_at.data(), mesh.dimension()),
                           ", where it is nearest, its centre is on the body's side; move it out of the body"));
+  std::vector<ContactRow> rows;
+  for (NodeSide& side : corner_nodes(mesh, facets)) {
+    ContactRow row{side.node, std::move(side.own), {}, at.at(side.node).distance.normal, 0, side.weight, std::move(side.facets), 0};
+    for (const NodeWeight& own : row.own) {
+      row.gap += own.weight * at.at(own.node).distance.gap;
+      row.added += own.weight * at.at(own.node).added;
+    }
+    rows.push_back(std::move(row));
+  }
   return rows;
 }
 

@@ -32,7 +32,7 @@ using RigidShape = std::variant<RigidGap, RigidPlane, RigidBall>;
 /// "rigid gap", "rigid plane", "rigid ball".
 const char* name(const RigidShape& shape);
 
-/// One row a node of the part. The condition of a ball is linearised about the nodes at rest: the
+/// One row a corner of the part's facets. The condition of a ball is linearised about the nodes at rest: the
 /// gap is measured along the line to its centre. `added` (may be empty) is added to the gap.
 /// Throws InputError for a gap that is not finite, and for a plane or ball that overlaps the part
 /// at rest by more than rounding, unless `interference` says that this is meant.

@@ -12,7 +12,7 @@ namespace dotyk::contact {
 class SecondFacets {
  public:
   explicit SecondFacets(const Face& face) {
-    const int corners = face.mesh.topology().nodes_per_facet;
+    const int corners = face.mesh.topology().facet_corners;
     for (const mesh::Facet f : face.facets) {
       One one{face.mesh.facet_centre(f), mesh::unit(face.mesh.facet_area_vector(f)), 0};
       for (int a = 0; a < corners; ++a)

@@ -11,7 +11,7 @@ using mesh::Mesh;
 
 Surface surface(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<ContactRow>& rows,
                 const std::vector<Facet>& second) {
-  const int corners = mesh.topology().nodes_per_facet;
+  const int corners = mesh.topology().facet_corners;
   std::vector<SurfaceFacet> all;
   for (const Facet f : facets) all.push_back({f, corners, {-1, -1, -1, -1}});
   for (std::size_t r = 0; r < rows.size(); ++r)

@@ -25,11 +25,11 @@ struct Surface {
 Surface surface(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const std::vector<ContactRow>& rows,
                 const std::vector<mesh::Facet>& second);
 
-/// ∫ φ_a φ_b over a facet; exact for segments, triangles and parallelograms.
+/// ∫ φ_a φ_b over a facet of order 1; exact for segments, triangles and parallelograms.
 using Gram = std::array<std::array<double, 4>, 4>;
 Gram gram(const mesh::Mesh& mesh, mesh::Facet facet);
 
-/// ∫ φ over the surface, a contact row each: κ of TR965 (2.16); 0 where a row touches no facet.
+/// ∫ φ over the surface of order 1, a contact row each: κ of TR965 (2.16); 0 where a row touches no facet.
 std::vector<double> measures(const Surface& surface);
 
 /// Which pieces of the surface hang together, one number a contact row (-1 off the surface). Rows of different

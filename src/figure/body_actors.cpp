@@ -123,7 +123,7 @@ void draw_bodies(Stage& stage, vtkRenderer* renderer) {
     const vtkSmartPointer<vtkPolyData> surface = poly_data(at, facets.nodes, facets.each);
     add_surface(stage, renderer, surface, body, k);
     if (stage.picture.edges != MeshEdges::off) {
-      const std::vector<int> edges = unique_edges(facets.nodes, facets.each);
+      const std::vector<int> edges = body.edges.empty() ? unique_edges(facets.nodes, facets.each) : body.edges;
       if (edges_wanted(stage, at, edges))
         add_plain(renderer, poly_data(pixels(stage, body, f, 0.5), edges, 2), {0, 0, 0}, 0.6 * stage.factor, 0.32);
     }

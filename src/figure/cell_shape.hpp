@@ -1,4 +1,4 @@
-// How an element looks.
+// How an element looks: that of order 2 as its pieces do.
 #pragma once
 
 #include "figure/picture.hpp"
@@ -7,7 +7,7 @@
 namespace dotyk::figure {
 
 inline CellShape cell_shape(mesh::Element element) {
-  switch (element) {
+  switch (mesh::first_order(element)) {
     case mesh::Element::triangle_p1: return CellShape::triangle;
     case mesh::Element::quadrilateral_q1: return CellShape::quad;
     case mesh::Element::tetrahedron_p1: return CellShape::tetrahedron;

@@ -83,7 +83,8 @@ void check_body(const BodyPicture& body, int dimension) {
   require(finite(body.displacement), who + ": a displacement is not finite");
   require(dimension == 2 ? body.nodes_per_facet == 2 : body.nodes_per_facet == 3 || body.nodes_per_facet == 4,
           who + ": a facet has 2 nodes in the plane, 3 or 4 in space");
-  check_nodes(body.cells, nodes_per_cell(body.shape), n, who + ", cells");
+  check_nodes(body.cells, nodes_per_cell(body.shape, 1), n, who + ", cells");
+  check_nodes(body.edges, 2, n, who + ", edges");
   check_nodes(body.facets, body.nodes_per_facet, n, who + ", facets");
 }
 
@@ -238,7 +239,7 @@ void check(const GridFile& g) {
   require(finite(g.points), g.file + ": a coordinate is not finite");
   const std::size_t n = g.points.size() / 3;
   for (const GridBody& body : g.bodies)
-    check_nodes(body.cells, nodes_per_cell(body.shape), n, "body \"" + body.name + "\", cells");
+    check_nodes(body.cells, nodes_per_cell(body.shape, body.order), n, "body \"" + body.name + "\", cells");
   for (const GridArray& a : g.arrays)
     require(!a.components.empty() && a.values.size() == a.components.size() * n,
             "array \"" + a.name + "\": " + count(a.values.size()) + " values for " + count(n) + " nodes of " +

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "figure/cell_shape.hpp"
+#include "mesh/second_order.hpp"
 
 namespace dotyk::figure {
 namespace {
@@ -46,9 +47,24 @@ Vec3 at_node(const std::vector<double>& values, int node, int dim) {
   return v;
 }
 
+/// The edges of cells of order 2 (in space of the facets drawn, as others are behind), cut in two at their nodes.
+std::vector<int> second_order_edges(const mesh::Mesh& mesh) {
+  const mesh::ElementTopology& t = mesh.topology();
+  std::vector<int> edges;
+  const auto add = [&](int from, int middle, int to) { edges.insert(edges.end(), {from, middle, middle, to}); };
+  if (t.dimension == 2)
+    for (int c = 0; c < mesh.cell_count(); ++c)
+      for (int l = 0; l < t.facets; ++l) add(mesh.facet_node({c, l}, 0), mesh.facet_node({c, l}, 2), mesh.facet_node({c, l}, 1));
+  else
+    for (const mesh::Facet f : mesh::boundary(mesh))
+      for (int k = 0; k < t.facet_corners; ++k)
+        add(mesh.facet_node(f, k), mesh.facet_node(f, t.facet_corners + k), mesh.facet_node(f, (k + 1) % t.facet_corners));
+  return edges;
+}
+
 BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
   const Body& body = s.body(index);
-  const mesh::Mesh& mesh = *body.mesh;
+  const mesh::Mesh mesh = mesh::cut_at_nodes(*body.mesh);
   const int dim = body.dimension();
   BodyPicture picture;
   picture.name = body.name;
@@ -56,6 +72,7 @@ BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
   picture.shape = cell_shape(mesh.element);
   picture.cells = mesh.cells;
   picture.nodes_per_facet = mesh.topology().nodes_per_facet;
+  if (body.mesh->topology().order == 2) picture.edges = second_order_edges(*body.mesh);
   for (const mesh::Facet f : mesh::boundary(mesh))
     for (int k = 0; k < picture.nodes_per_facet; ++k) picture.facets.push_back(mesh.facet_node(f, k));
   const auto& u = s.displacement(index);
@@ -81,7 +98,7 @@ std::vector<int> contact_facets(const Contact& contact, const std::vector<scene:
   for (const mesh::Facet f : contact.first.facets) {
     const mesh::Point normal = mesh.facet_area_vector(f);
     std::vector<int> found;
-    for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) {
+    for (int k = 0; k < mesh.topology().facet_corners; ++k) {
       const auto [first, last] = entries.equal_range(mesh.facet_node(f, k));
       int best = -1;
       double most = -INFINITY;
@@ -91,7 +108,7 @@ std::vector<int> contact_facets(const Contact& contact, const std::vector<scene:
       }
       if (best >= 0) found.push_back(best);
     }
-    if (static_cast<int>(found.size()) == mesh.topology().nodes_per_facet)
+    if (static_cast<int>(found.size()) == mesh.topology().facet_corners)
       result.insert(result.end(), found.begin(), found.end());
   }
   return result;
@@ -100,7 +117,7 @@ std::vector<int> contact_facets(const Contact& contact, const std::vector<scene:
 ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result) {
   ContactPicture picture;
   picture.name = contact.first.body->name + " " + contact.first.name;
-  picture.nodes_per_facet = contact.first.body->mesh->topology().nodes_per_facet;
+  picture.nodes_per_facet = contact.first.body->mesh->topology().facet_corners;
   picture.facets = contact_facets(contact, result.nodes);
   for (const scene::ContactNode& n : result.nodes)
     picture.nodes.push_back({n.x, n.displacement, n.normal, n.pressure, n.weight,
@@ -133,7 +150,7 @@ RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult
   picture.into_solid = outward;
   const auto facets = contact_facets(contact, result.nodes);
   if (contact.first.body->dimension() == 3) {
-    const int per_facet = contact.first.body->mesh->topology().nodes_per_facet;
+    const int per_facet = contact.first.body->mesh->topology().facet_corners;
     for (std::size_t f = 0; f + per_facet <= facets.size(); f += per_facet)
       for (int t = 0; t + 2 < per_facet; ++t) {
         const int corner[3] = {place[facets[f]], place[facets[f + t + 1]], place[facets[f + t + 2]]};

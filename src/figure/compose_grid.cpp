@@ -20,7 +20,7 @@ std::vector<std::size_t> first_nodes(const scene::Scene& scene) {
 
 void add_body(const Solution& s, int index, std::size_t first, GridFile& file) {
   const mesh::Mesh& mesh = *s.scene().bodies[index]->mesh;
-  GridBody body{s.scene().bodies[index]->name, cell_shape(mesh.element), mesh.cells};
+  GridBody body{s.scene().bodies[index]->name, cell_shape(mesh.element), mesh.cells, mesh.topology().order};
   for (int& node : body.cells) node += static_cast<int>(first);
   file.bodies.push_back(std::move(body));
   for (int n = 0; n < mesh.node_count(); ++n) {

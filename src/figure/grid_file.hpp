@@ -20,11 +20,17 @@ struct GridArray {
 struct GridBody {
   std::string name;
   CellShape shape = CellShape::triangle;
-  std::vector<int> cells;               // 3, 4, 4 or 8 nodes each, VTK order
+  std::vector<int> cells;               // 3, 4, 4 or 8 nodes each, of order 2 6, 9, 10 or 27; VTK order
+  int order = 1;
 };
 
-inline int nodes_per_cell(CellShape shape) {
-  return shape == CellShape::triangle ? 3 : shape == CellShape::hexahedron ? 8 : 4;
+inline int nodes_per_cell(CellShape shape, int order) {
+  switch (shape) {
+    case CellShape::triangle: return order == 1 ? 3 : 6;
+    case CellShape::quad: return order == 1 ? 4 : 9;
+    case CellShape::tetrahedron: return order == 1 ? 4 : 10;
+    default: return order == 1 ? 8 : 27;
+  }
 }
 
 struct GridFile {

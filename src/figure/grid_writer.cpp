@@ -34,12 +34,12 @@ void look_at(vtkDoubleArray* array, const std::vector<double>& values, int compo
   array->SetArray(const_cast<double*>(values.data()), static_cast<vtkIdType>(values.size()), 1);
 }
 
-int cell_type(CellShape shape) {
+int cell_type(CellShape shape, int order) {
   switch (shape) {
-    case CellShape::triangle: return VTK_TRIANGLE;
-    case CellShape::quad: return VTK_QUAD;
-    case CellShape::tetrahedron: return VTK_TETRA;
-    default: return VTK_HEXAHEDRON;
+    case CellShape::triangle: return order == 1 ? VTK_TRIANGLE : VTK_QUADRATIC_TRIANGLE;
+    case CellShape::quad: return order == 1 ? VTK_QUAD : VTK_BIQUADRATIC_QUAD;
+    case CellShape::tetrahedron: return order == 1 ? VTK_TETRA : VTK_QUADRATIC_TETRA;
+    default: return order == 1 ? VTK_HEXAHEDRON : VTK_TRIQUADRATIC_HEXAHEDRON;
   }
 }
 
@@ -52,11 +52,11 @@ void add_cells(const GridFile& file, vtkUnstructuredGrid* grid) {
   names->SetName("body_names");
   for (std::size_t b = 0; b < file.bodies.size(); ++b) {
     const GridBody& part = file.bodies[b];
-    const int each = nodes_per_cell(part.shape);
+    const int each = nodes_per_cell(part.shape, part.order);
     for (std::size_t k = 0; k < part.cells.size(); k += each) {
       cells->InsertNextCell(each);
       for (int i = 0; i < each; ++i) cells->InsertCellPoint(part.cells[k + i]);
-      types->InsertNextValue(static_cast<unsigned char>(cell_type(part.shape)));
+      types->InsertNextValue(static_cast<unsigned char>(cell_type(part.shape, part.order)));
       body->InsertNextValue(static_cast<int>(b) + 1);
     }
     names->InsertNextValue(part.name);

@@ -53,6 +53,7 @@ struct BodyPicture {
   std::vector<double> values;               // n: the field at the nodes, or empty: plain colour
   std::vector<int> facets;                  // nodes of the boundary facets, flat
   int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
+  std::vector<int> edges;                   // mesh lines, two nodes each; empty: the edges of the cells
 };
 
 // A rigid obstacle, drawn in neutral grey, never deformed.

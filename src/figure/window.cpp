@@ -48,7 +48,7 @@ double area(const Polygon& polygon) {
 }  // namespace
 
 std::vector<int> cells_near(const BodyPicture& body, double factor, const Window& w) {
-  const auto each = static_cast<std::size_t>(nodes_per_cell(body.shape));
+  const auto each = static_cast<std::size_t>(nodes_per_cell(body.shape, 1));
   std::vector<int> near;
   for (std::size_t c = 0; c + each <= body.cells.size(); c += each) {
     double left = 1e300, bottom = 1e300, right = -1e300, top = -1e300;
@@ -67,7 +67,7 @@ std::vector<int> cells_near(const BodyPicture& body, double factor, const Window
 Seen seen(const ScenePicture& picture, const Window& w) {
   Seen out;
   for (const BodyPicture& body : picture.bodies) {
-    const auto each = static_cast<std::size_t>(nodes_per_cell(body.shape));
+    const auto each = static_cast<std::size_t>(nodes_per_cell(body.shape, 1));
     const std::vector<int> cells = cells_near(body, picture.deformation, w);
     for (std::size_t c = 0; c < cells.size(); c += each) {
       Polygon rest;

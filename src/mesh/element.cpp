@@ -65,6 +65,14 @@ const ElementTopology& topology(Element element) {
   }
 }
 
+double corner_hat(const ElementTopology& t, int corner, int k) {
+  const int corners = t.facet_corners, edge = k - corners;
+  if (edge < 0) return k == corner;
+  if (t.dimension == 2) return 0.5;
+  if (edge == corners) return 1.0 / corners;
+  return corner == edge || corner == (edge + 1) % corners ? 0.5 : 0;
+}
+
 Element first_order(Element element) {
   switch (element) {
     case Element::triangle_p2: return Element::triangle_p1;

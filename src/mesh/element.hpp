@@ -39,6 +39,9 @@ struct ElementTopology {
 
 const ElementTopology& topology(Element element);
 
+/// The linear (bilinear) hat of a facet's corner at the facet's node k.
+double corner_hat(const ElementTopology& topology, int corner, int k);
+
 /// The cell of the same shape of order 1, or of order 2.
 Element first_order(Element element);
 Element second_order(Element element);

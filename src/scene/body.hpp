@@ -191,6 +191,7 @@ std::string describe(const LawSupport& support);
 std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides);
 /// Does a displacement component along this direction move at the node? Not along what a slide on no axis holds.
 bool moves(const Body& body, const elasticity::Numbering& numbering, int node, const mesh::Point& direction);
+bool moves(const Body& body, const elasticity::Numbering& numbering, const contact::NodeSide& side, const mesh::Point& direction);  ///< one of its own
 
 /// Numbers the body's free components. Throws InputError where supports contradict each other at a
 /// node, naming both parts.

@@ -118,7 +118,7 @@ void add_second_means(const Contact& contact, const ContactResult& result, Bound
   std::map<int, std::pair<Point, double>> reached;
   for (std::size_t k = 0; k < contact.rows.size(); ++k) {
     const Point t = traction(result.nodes[k]);
-    for (const contact::Partner& partner : contact.rows[k].partners) {
+    for (const contact::NodeWeight& partner : contact.rows[k].partners) {
       const double share = partner.weight * contact.rows[k].weight;
       auto& [sum, measure] = reached[partner.node];
       for (int i = 0; i < 3; ++i) sum[i] -= share * t[i];

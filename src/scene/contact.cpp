@@ -64,8 +64,8 @@ void require_member(const Scene& scene, const Part& part) {
 std::set<std::pair<int, int>> pairs_of(const Contact& contact, bool swapped) {
   std::set<std::pair<int, int>> pairs;
   const auto add = [&](int a, int b) { swapped ? pairs.emplace(b, a) : pairs.emplace(a, b); };
-  const auto add_all = [&](int node, const std::vector<contact::Partner>& partners) {
-    for (const contact::Partner& partner : partners) add(node, partner.node);
+  const auto add_all = [&](int node, const std::vector<contact::NodeWeight>& partners) {
+    for (const contact::NodeWeight& partner : partners) add(node, partner.node);
   };
   for (const contact::ContactRow& row : contact.rows) add_all(row.node, row.partners);
   for (const contact::Tie& tie : contact.glued) add_all(tie.node, tie.partners);
@@ -111,6 +111,10 @@ void set_discretisation(Contact& contact, const Discretisation& discretisation) 
     throw InputError("'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"; it is given "
                      "without them");
   if (discretisation.multipliers == contact::Multipliers::nodal) return;
+  for (const Part* part : {&contact.first, &contact.second})
+    if (part->body && part->body->mesh->topology().order == 2)
+      throw InputError(text("multipliers = \"P1-P0\" are for cells of order 1; '", part->body->name, "' is of ", part->body->mesh->topology().name,
+                            ", whose pressure is P1 as it is"));
   if (contact.pairing != contact::Pairing::matching)
     throw InputError("multipliers = \"P1-P0\" are for matching nodes; with nodes that do not match take \"nodal\"");
   if (contact.friction == Friction::Kind::coulomb)
@@ -156,7 +160,7 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   contact::PairedRows paired = contact::pair_rows(first.face(), second.face(), pairing, added_gap, interference);
   contact.pairing = paired.pairing;
   contact.rows = std::move(paired.rows);
-  if (contact.pairing != contact::Pairing::mortar) set_weights(contact);
+  if (contact.pairing != contact::Pairing::mortar && first.body->mesh->topology().order == 1) set_weights(contact);
   set_friction(contact, friction);
   set_discretisation(contact, discretisation);
   refuse_repetition(scene, contact);

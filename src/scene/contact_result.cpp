@@ -103,14 +103,17 @@ ContactResult Solution::contact(const Contact& asked) const {
     node.displacement = at_node(displacement_[first], row.node, dim);
     node.normal = row.normal;
     node.weight = row.weight;
+    Point own{0, 0, 0};
+    for (const contact::NodeWeight& n : row.own)
+      for (int i = 0; i < dim; ++i) own[i] += n.weight * displacement_[first][static_cast<std::size_t>(n.node) * dim + i];
     Point other = second >= 0 ? Point{0, 0, 0} : model_.move[index];
-    for (const contact::Partner& partner : row.partners)
+    for (const contact::NodeWeight& partner : row.partners)
       for (int i = 0; i < dim; ++i)
         other[i] += partner.weight * displacement_[second][static_cast<std::size_t>(partner.node) * dim + i];
     Point jump;
     double normal_jump = 0;
     for (int i = 0; i < 3; ++i) {
-      jump[i] = node.displacement[i] - other[i];
+      jump[i] = own[i] - other[i];
       normal_jump += row.normal[i] * jump[i];
     }
     node.gap = row.gap - normal_jump;

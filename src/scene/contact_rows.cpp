@@ -65,19 +65,19 @@ class Rows {
 
   Pull pull(const contact::Term& term, const Point& direction) const {
     const contact::ContactRow& row = contact_.rows[term.row];
-    return {row.node, row.partners,
+    return {row.own, row.partners,
             {term.weight * direction[0], term.weight * direction[1], term.weight * direction[2]}};
   }
   /// Has the jump an unknown along the direction, at the node or across from it? See facing().
   bool moves(const contact::ContactRow& row, const Point& direction) const {
-    return builder_.moves(first_, row.node, direction) || (second_ >= 0 && builder_.moves(second_, facing(contact_, row.node, row.partners), direction));
+    return builder_.moves(first_, row.own, direction) || (second_ >= 0 && builder_.moves(second_, facing(contact_, row.node, row.partners), direction));
   }
 
   void require_apart(const contact::ContactRow& row) {
-    for (const contact::Partner& partner : row.partners)
+    for (const contact::NodeWeight& partner : row.partners)
       if (builder_.moves(second_, partner.node, row.normal)) return;
     double gap = row.gap;
-    builder_.add(first_, second_, {{row.node, row.partners, row.normal}}, gap);
+    builder_.add(first_, second_, {{row.own, row.partners, row.normal}}, gap);
     // Rounding of coordinates may leave a fixed node this far inside.
     if (gap < -1e-9 * contact_.first.body->mesh->size())
       throw InputError(text(contact_.name, ": the node at ",
@@ -182,12 +182,12 @@ class Rows {
 
 }  // namespace
 
-int facing(const Contact& contact, int node, const std::vector<contact::Partner>& partners) {
+int facing(const Contact& contact, int node, const std::vector<contact::NodeWeight>& partners) {
   if (partners.size() == 1) return partners.front().node;
   const Point x = contact.first.body->mesh->point(node);
   int nearest = -1;
   double least = INFINITY;
-  for (const contact::Partner& partner : partners) {
+  for (const contact::NodeWeight& partner : partners) {
     const double distance = mesh::length(mesh::minus(x, contact.second.body->mesh->point(partner.node)));
     if (distance < least) least = distance, nearest = partner.node;
   }

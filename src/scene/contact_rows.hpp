@@ -16,6 +16,6 @@ void add_friction_rows(const Scene& scene, const Contact& contact, RowBuilder& b
 
 /// The nearest of a node's partners. Where nodes do not match and supports hold both, as on a plane of symmetry, there is no row
 /// (as between matching nodes), though partners further in may move: multipliers there would hold the second part alone.
-int facing(const Contact& contact, int node, const std::vector<contact::Partner>& partners);
+int facing(const Contact& contact, int node, const std::vector<contact::NodeWeight>& partners);
 
 }  // namespace dotyk::scene

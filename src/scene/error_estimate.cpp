@@ -2,6 +2,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "scene/boundary_tractions.hpp"
 
 namespace dotyk::scene {
@@ -98,6 +100,10 @@ const ErrorEstimate& Solution::error_estimate() const {
 }
 
 ErrorEstimate Solution::make_error_estimate() const {
+  for (const auto& body : scene_->bodies)
+    if (body->mesh->topology().order == 2)
+      throw InputError(text("'", body->name, "' is of ", body->mesh->topology().name, "; errors are estimated for cells of order 1, whose stresses have "
+                            "points of superconvergence to recover better ones from: compare with a finer mesh (solution:distance)"));
   const auto count = static_cast<int>(scene_->bodies.size());
   std::vector<Boundary> boundary;
   for (int b = 0; b < count; ++b) boundary.emplace_back(body(b), model_.numbering[b], displacement_[b]);
@@ -114,7 +120,7 @@ ErrorEstimate Solution::make_error_estimate() const {
     std::vector<int> ours, theirs;
     for (const auto& tie : contact->glued) {
       ours.push_back(tie.node);
-      for (const contact::Partner& partner : tie.partners) theirs.push_back(partner.node);
+      for (const contact::NodeWeight& partner : tie.partners) theirs.push_back(partner.node);
     }
     forget_glued(*contact->first.body->mesh, contact->first.facets, ours, boundary[first]);
     forget_glued(*contact->second.body->mesh, contact->second.facets, theirs, boundary[second]);

@@ -92,8 +92,9 @@ std::vector<char> moving(const Scene& scene, const Contact& contact, const Model
   };
   std::vector<char> result;
   for (const contact::ContactRow& row : contact.rows)
-    result.push_back(moves(first, row.node, row.normal) || std::any_of(row.partners.begin(), row.partners.end(),
-                                 [&](const contact::Partner& partner) { return moves(second, partner.node, row.normal); }));
+    result.push_back(std::any_of(row.own.begin(), row.own.end(), [&](const contact::NodeWeight& own) { return moves(first, own.node, row.normal); }) ||
+                     std::any_of(row.partners.begin(), row.partners.end(),
+                                 [&](const contact::NodeWeight& partner) { return moves(second, partner.node, row.normal); }));
   return result;
 }
 

@@ -55,7 +55,7 @@ void require_free(const Body& body, const elasticity::Numbering& numbering, cons
   if (!given(law)) return;
   for (const contact::NodeSide& side : on.nodes)
     for (const Point& d : directions(side))
-      if (moves(body, numbering, side.node, d)) return;
+      if (moves(body, numbering, side, d)) return;
   throw InputError(text("contradictory supports on '", body.name, "': the ", which, " displacement of part '", on.part.name,
                         "' is held at each of its nodes, and has the law ", problem::support_name(law.kind), " as well"));
 }
@@ -79,6 +79,10 @@ bool moves(const Body& body, const elasticity::Numbering& numbering, int node, c
   return false;
 }
 
+bool moves(const Body& body, const elasticity::Numbering& numbering, const contact::NodeSide& side, const Point& direction) {
+  return std::any_of(side.own.begin(), side.own.end(), [&](const contact::NodeWeight& own) { return moves(body, numbering, own.node, direction); });
+}
+
 void require_laws_free(const Body& body, const elasticity::Numbering& numbering) {
   for (const LawSupport& on : body.laws) {
     require_free(body, numbering, on, "normal", on.normal, [](const contact::NodeSide& s) { return std::vector<Point>{s.normal}; });
@@ -98,7 +102,7 @@ void support(Part& part, const SupportLaw& normal, const SupportLaw& tangential)
   problem::require_valid(normal);
   problem::require_valid(tangential);
   require_tangential(tangential, body.dimension());
-  LawSupport added{part.mark(), part.facets, law_sides(contact::sides(*part.body->mesh, part.facets)), normal, tangential};
+  LawSupport added{part.mark(), part.facets, law_sides(contact::corner_sides(*part.body->mesh, part.facets)), normal, tangential};
   require_no_other(body, added);
   std::vector<LawSupport> before = body.laws;
   const auto same = std::find_if(body.laws.begin(), body.laws.end(), [&](const LawSupport& l) { return l.part == added.part; });

@@ -77,9 +77,9 @@ void add_glue_rows(const Scene& scene, const Contact& contact, RowBuilder& build
       Point direction{0, 0, 0};
       direction[i] = 1;
       double jump = 0;
-      const bool moves = tie.partners.size() == 1 || builder.moves(first, tie.node, direction) ||
+      const bool moves = tie.partners.size() == 1 || builder.moves(first, tie.own, direction) ||
                          builder.moves(second, facing(contact, tie.node, tie.partners), direction);
-      row_of.push_back(moves ? builder.add(first, second, {{tie.node, tie.partners, direction}}, jump) : -1);
+      row_of.push_back(moves ? builder.add(first, second, {{tie.own, tie.partners, direction}}, jump) : -1);
       if (row_of.back() < 0 && std::abs(jump) > 1e-12 * contact.first.body->mesh->size())
         throw InputError(text(contact.name, ": at ",
                               point_text(contact.first.body->mesh->node(tie.node), scene.dimension()),

@@ -23,9 +23,10 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
     if (contact.kind == Contact::Kind::contact && (first == body || second == body)) {
       const std::vector<Point> pushed = model.contact_force(contact, static_cast<int>(c), lambda);
       for (std::size_t k = 0; k < pushed.size(); ++k) {
-        if (first == body) push(contact.rows[k].node, pushed[k], 1);
+        if (first == body)
+          for (const contact::NodeWeight& own : contact.rows[k].own) push(own.node, pushed[k], own.weight);
         if (second != body) continue;
-        for (const contact::Partner& partner : contact.rows[k].partners) push(partner.node, pushed[k], -partner.weight);
+        for (const contact::NodeWeight& partner : contact.rows[k].partners) push(partner.node, pushed[k], -partner.weight);
       }
     }
     for (std::size_t k = 0; k < model.glue_row[c].size(); ++k) {
@@ -34,15 +35,17 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
       const contact::Tie& tie = contact.glued[k / dim];
       Point direction{0, 0, 0};
       direction[k % dim] = 1;
-      if (first == body) push(tie.node, direction, -lambda[r]);
+      if (first == body)
+        for (const contact::NodeWeight& own : tie.own) push(own.node, direction, -own.weight * lambda[r]);
       if (second != body) continue;
-      for (const contact::Partner& partner : tie.partners) push(partner.node, direction, partner.weight * lambda[r]);
+      for (const contact::NodeWeight& partner : tie.partners) push(partner.node, direction, partner.weight * lambda[r]);
     }
   }
   for (std::size_t s = 0; s < model.support_row[body].size(); ++s)
     for (std::size_t k = 0; k < model.support_row[body][s].size(); ++k) {
       const LawSupport& support = model.bodies[body].laws[s];
-      push(support.nodes[k].node, law_force(support.nodes[k], model.support_row[body][s][k], lambda), 1);
+      const Point pushed = law_force(support.nodes[k], model.support_row[body][s][k], lambda);
+      for (const contact::NodeWeight& own : support.nodes[k].own) push(own.node, pushed, own.weight);
     }
   for (std::size_t k = 0; k < model.slide_row[body].size(); ++k) {
     const int r = model.slide_row[body][k];

@@ -1,5 +1,7 @@
 #include "scene/row_builder.hpp"
 
+#include <algorithm>
+
 #include "base/text.hpp"
 
 namespace dotyk::scene {
@@ -18,23 +20,27 @@ int RowBuilder::open_friction() {
 }
 
 int RowBuilder::add(int body, int node, const Point& direction, double& gap) {
-  return add(body, -1, {{node, {}, direction}}, gap);
+  return add(body, std::vector<contact::NodeWeight>{{node, 1}}, direction, gap);
+}
+
+int RowBuilder::add(int body, const std::vector<contact::NodeWeight>& mean, const Point& direction, double& gap) {
+  return add(body, -1, {{mean, {}, direction}}, gap);
 }
 
 int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, double& gap) {
   const std::size_t before = entries_.size();
   const Pull* main = &pulls.front();
   for (const Pull& pull : pulls) {
-    collect(body, pull.node, pull.direction, 1, gap);
+    for (const contact::NodeWeight& own : pull.own) collect(body, own.node, pull.direction, own.weight, gap);
     if (other_body >= 0)
-      for (const contact::Partner& partner : pull.partners) collect(other_body, partner.node, pull.direction, -partner.weight, gap);
+      for (const contact::NodeWeight& partner : pull.partners) collect(other_body, partner.node, pull.direction, -partner.weight, gap);
     else
       for (int i = 0; i < 3; ++i) gap += pull.direction[i] * move_[i];
     if (dot(pull.direction, pull.direction) > dot(main->direction, main->direction)) main = &pull;
   }
   if (entries_.size() == before) return -1;
   gaps_.push_back(gap);
-  places_.push_back({body, main->node});
+  places_.push_back({body, main->own.front().node});
   if (scalar_) ++model_.problem.groups.back().count;
   return count_++;
 }
@@ -44,6 +50,10 @@ bool RowBuilder::moves(int body, int node, const Point& direction) const {
   for (int i = 0; i < dim; ++i)
     if (direction[i] != 0 && model_.numbering[body].unknown[static_cast<std::size_t>(node) * dim + i] >= 0) return true;
   return false;
+}
+
+bool RowBuilder::moves(int body, const std::vector<contact::NodeWeight>& mean, const Point& direction) const {
+  return std::any_of(mean.begin(), mean.end(), [&](const contact::NodeWeight& n) { return moves(body, n.node, direction); });
 }
 
 void RowBuilder::finish() {

@@ -9,10 +9,10 @@
 
 namespace dotyk::scene {
 
-/// What a node and its partners give to a row: direction·(u_node − Σ weight u_partner), a weight in the direction's length.
+/// What nodes and their partners give to a row: direction·(Σ weight u_own − Σ weight u_partner), a weight in the direction's length.
 struct Pull {
-  int node;
-  std::span<const contact::Partner> partners;  ///< not kept
+  std::span<const contact::NodeWeight> own;       ///< not kept
+  std::span<const contact::NodeWeight> partners;  ///< not kept
   mesh::Point direction;
 };
 
@@ -34,8 +34,11 @@ class RowBuilder {
 
   /// The same of several pulls (at least one) of two bodies, or of one and a rigid shape (other_body -1).
   int add(int body, int other_body, const std::vector<Pull>& pulls, double& gap);
-  /// Has the node an unknown along the direction?
+  /// The row direction·Σ weight u.
+  int add(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction, double& gap);
+  /// Has the node (one of the nodes) an unknown along the direction?
   bool moves(int body, int node, const mesh::Point& direction) const;
+  bool moves(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction) const;
 
   /// Sets B, c and the rows' names.
   void finish();

@@ -77,7 +77,9 @@ SupportNode Solution::support_node(const LawSupport& support, std::size_t k, con
   const algebra::Vector& lambda = result_.state.lambda;
   SupportNode node{side.node, body.mesh->point(side.node), side.normal, side.weight};
   Point u{0, 0, 0};
-  for (int i = 0; i < body.dimension(); ++i) u[i] = displacement_[index][static_cast<std::size_t>(side.node) * body.dimension() + i];
+  for (const contact::NodeWeight& own : side.own)
+    for (int i = 0; i < body.dimension(); ++i)
+      u[i] += own.weight * displacement_[index][static_cast<std::size_t>(own.node) * body.dimension() + i];
   node.away = -dot(u, side.normal);
   const Point load = law_load(support, side, body.dimension()), force = law_force(side, rows, lambda);
   for (int i = 0; i < 3; ++i) node.slip[i] = u[i] + node.away * side.normal[i];

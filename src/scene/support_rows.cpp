@@ -82,20 +82,24 @@ class Rows {
   std::vector<Point> free_tangents(const contact::NodeSide& side) const {
     std::vector<Point> free;
     for (const Point& t : contact::tangents(side.normal, on_.dimension()))
-      if (moves(on_, model_.numbering[body_], side.node, t)) free.push_back(t);
+      if (moves(side, t)) free.push_back(t);
     return free;
   }
 
   /// The row direction·u = gap, or -1 where nothing moves.
   int add(const contact::NodeSide& side, const Point& direction, const SupportLaw& law, double gap) {
-    if (moves(on_, model_.numbering[body_], side.node, direction)) return builder_.add(body_, side.node, direction, gap);
-    if (!builder_.moves(body_, side.node, direction)) builder_.add(body_, side.node, direction, gap);  // no row; gap changes
+    if (moves(side, direction)) return builder_.add(body_, side.own, direction, gap);
+    if (!builder_.moves(body_, side.own, direction)) builder_.add(body_, side.own, direction, gap);  // no row; gap changes
     const double rounding = 1e-12 * on_.mesh->size();
     if (law.kind == Kind::prescribed ? std::abs(gap) > rounding : law.kind == Kind::signorini && gap < -rounding)
       throw InputError(text("contradictory supports on '", on_.name, "': at the node ",
                             point_text(on_.mesh->node(side.node), on_.dimension()), " the ", problem::support_name(law.kind), " law of part '", support_.part.name,
                             "' and the displacement that other supports hold differ by ", std::abs(gap)));
     return -1;
+  }
+
+  bool moves(const contact::NodeSide& side, const Point& direction) const {
+    return scene::moves(on_, model_.numbering[body_], side, direction);
   }
 
   void close_group(const SupportLaw& law, const std::vector<double>& shares) {
@@ -147,7 +151,8 @@ void add_law_loads(Body& body) {
   for (const LawSupport& support : body.laws)
     for (const contact::NodeSide& side : support.nodes) {
       const Point force = law_load(support, side, dim);
-      for (int i = 0; i < dim; ++i) body.force[static_cast<std::size_t>(side.node) * dim + i] += force[i];
+      for (const contact::NodeWeight& own : side.own)
+        for (int i = 0; i < dim; ++i) body.force[static_cast<std::size_t>(own.node) * dim + i] += own.weight * force[i];
     }
 }
 

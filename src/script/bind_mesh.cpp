@@ -14,7 +14,8 @@ namespace dotyk::script {
 namespace {
 
 Key element_key() {
-  return key::choice("element", {"P1", "Q1"}, "P1: triangles or tetrahedra; Q1: quadrilaterals or hexahedra")
+  return key::choice("element", {"P1", "Q1", "P2", "Q2"},
+                     "P1: triangles or tetrahedra; Q1: quadrilaterals or hexahedra; P2, Q2: the same of second order")
       .fallback("P1");
 }
 
@@ -32,7 +33,7 @@ Key cells_key(std::size_t axes) {
 }
 
 mesh::Family family(const Call& call) {
-  return call.choice("element") == 0 ? mesh::Family::p1 : mesh::Family::q1;
+  return static_cast<mesh::Family>(call.choice("element"));
 }
 
 /// The gradings given; they call back into Lua while the mesh is made.
@@ -47,11 +48,15 @@ std::array<mesh::Grading, 3> gradings(const Call& call) {
   return result;
 }
 
-/// Refuses what cannot be numbered or held, before any of it is made. `count` cells before P1 cuts them.
-void require_room(double count, int dimension, bool p1) {
-  if (count > 2e8) throw InputError(text(count, " cells are more than this program can number; use at most 2e8"));
-  const double corners = dimension == 2 ? (p1 ? 6 : 4) : (p1 ? 24 : 8);
-  require_memory(count * (8.0 * dimension + 4 * corners), text("a mesh of ", count, " cells"));
+/// Refuses what cannot be numbered or held, before any of it is made. `count` cells before simplices cut them.
+void require_room(double count, int dimension, mesh::Family family) {
+  const bool plane = dimension == 2, simplex = mesh::simplices(family), second = family == mesh::Family::p2 || family == mesh::Family::q2;
+  const double refined = second ? (plane ? 4 : 8) : 1;  // nodes
+  if (refined * count > 2e8)
+    throw InputError(text(count, " cells are more than this program can number; use at most ", 2e8 / refined, " of this element"));
+  const double entries = second ? (plane ? (simplex ? 12 : 9) : (simplex ? 60 : 27)) : plane ? (simplex ? 6 : 4) : (simplex ? 24 : 8);
+  const double making = second ? 24 * (plane ? 5 : 19) : 0;  // to tell which nodes cells share
+  require_memory(count * (8.0 * dimension * refined + 4 * entries + making), text("a mesh of ", count, " cells"));
 }
 
 std::array<int, 3> cells(const Call& call) {
@@ -64,7 +69,7 @@ std::array<int, 3> cells(const Call& call) {
     result[i] = static_cast<int>(given[i]);
     product *= result[i];
   }
-  require_room(product, static_cast<int>(given.size()), call.choice("element") == 0);
+  require_room(product, static_cast<int>(given.size()), family(call));
   return result;
 }
 
@@ -86,7 +91,7 @@ int disc(Call& call) {
   const auto center = call.vector("center");
   const auto count = call.integer("cells");
   if (count < 1 || count > 10'000) throw InputError(text("cells is ", count, "; it must be from 1 to 10000"));
-  require_room(3.0 * static_cast<double>(count * count), 2, call.choice("element") == 0);
+  require_room(3.0 * static_cast<double>(count * count), 2, family(call));
   return give(call, mesh::disc(center.data(), call.number("radius"), static_cast<int>(count), family(call)));
 }
 
@@ -146,7 +151,7 @@ std::string show(const MeshHandle& m) {
 void bind_mesh(Library& library) {
   library.module("dotyk.mesh", "Meshes: made here or by Gmsh, read from files, moved by mesh:transform.");
   library.function({.name = "dotyk.mesh.rectangle",
-                    .help = "A rectangle of cells; with P1 each is cut from its lower left to its upper right "
+                    .help = "A rectangle of cells; with P1 and P2 each is cut from its lower left to its upper right "
                             "corner. Parts: left right bottom top.",
                     .example = "local m = dotyk.mesh.rectangle{ from = {-1,-1}, to = {1,0}, cells = {64,32} }",
                     .arguments = {key::table({key::vector("from", "lower left corner").count(2).unit("length").required(),
@@ -155,7 +160,7 @@ void bind_mesh(Library& library) {
                     .returns = "mesh",
                     .run = rectangle});
   library.function({.name = "dotyk.mesh.box",
-                    .help = "A box of cells; with P1 each is cut into the six tetrahedra along the edge paths from "
+                    .help = "A box of cells; with P1 and P2 each is cut into the six tetrahedra along the edge paths from "
                             "its least to its greatest corner. Parts: left right (x), front back (y), bottom top (z).",
                     .example = "local b = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {8,8,8} }",
                     .arguments = {key::table({key::vector("from", "least corner").count(3).unit("length").required(),
@@ -164,8 +169,8 @@ void bind_mesh(Library& library) {
                     .returns = "mesh",
                     .run = box});
   library.function({.name = "dotyk.mesh.disc",
-                    .help = "A disc. P1: concentric rings of triangles; Q1: a square core and four blocks about it. "
-                            "Part: boundary.",
+                    .help = "A disc. P1 and P2: concentric rings of triangles; Q1 and Q2: a square core and four blocks about it. "
+                            "P2 and Q2: outer edges are curved. Part: boundary.",
                     .example = "local d = dotyk.mesh.disc{ center = {0,0}, radius = 1, cells = 16 }",
                     .arguments = {key::table({key::vector("center", "centre").count(2).unit("length").required(),
                                               key::positive("radius", "radius").unit("length").required(),
@@ -178,7 +183,7 @@ void bind_mesh(Library& library) {
       .field("dimension", "2 or 3", [](const MeshHandle& m) { return m.mesh->dimension(); })
       .field("node_count", "number of nodes", [](const MeshHandle& m) { return m.mesh->node_count(); })
       .field("cell_count", "number of cells", [](const MeshHandle& m) { return m.mesh->cell_count(); })
-      .field("element", "\"P1\" or \"Q1\"", [](const MeshHandle& m) { return std::string(m.mesh->topology().name); })
+      .field("element", "\"P1\", \"Q1\", \"P2\" or \"Q2\"", [](const MeshHandle& m) { return std::string(m.mesh->topology().name); })
       .field("parts", "names of the boundary parts", part_names)
       .field("regions", "of a mesh from a file: names of the regions that its cells are of", [](const MeshHandle& m) { return m.regions; })
       .field("notes", "of a mesh from a file: what the file has and the mesh has not, sentences", [](const MeshHandle& m) { return m.notes; })

@@ -18,6 +18,7 @@ using mesh::length;
 constexpr int kMostPoints = 4096;
 
 std::vector<int> nodes_of(const scene::Part& part) {
+  require_first_order(*part.body);
   const mesh::Mesh& mesh = *part.body->mesh;
   std::vector<int> nodes;
   for (const mesh::Facet f : part.facets)
@@ -83,6 +84,11 @@ DenseMatrix over_surface(const scene::Part& part, const std::vector<int>& nodes,
 }
 
 }  // namespace
+
+void require_first_order(const scene::Body& body) {
+  if (body.mesh->topology().order == 2)
+    throw InputError(text("'", body.name, "' is of ", body.mesh->topology().name, "; designs are of bodies of P1 or Q1"));
+}
 
 Point BoundaryMotion::velocity(std::size_t node, int variable) const {
   Point v = direction[node];

@@ -27,6 +27,9 @@ struct BoundaryMotion {
   mesh::Point velocity(std::size_t node, int variable) const;
 };
 
+/// Throws InputError for a body of P2 or Q2, whose derivatives are not there.
+void require_first_order(const scene::Body& body);
+
 /// V_i = N_i(t) × direction. In the plane t is the length along the part in shares of the whole, with the body on the left
 /// (a bottom from left to right, a top from right to left); the part must be one chain; B-splines are open on an
 /// open one, periodic on a closed one. In space t and s run along the two coordinate axes in which the part extends

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "scene/moved.hpp"
+#include "shape/boundary_motion.hpp"
 
 namespace dotyk::shape {
 namespace {
@@ -30,6 +31,7 @@ void require_velocities(const scene::Scene& scene, const Velocities& V, std::siz
 
 DesignSpace::DesignSpace(std::shared_ptr<const scene::Scene> scene, std::vector<Velocities> variables)
     : scene_(std::move(scene)), variables_(std::move(variables)) {
+  for (const auto& body : scene_->bodies) require_first_order(*body);
   if (variables_.empty()) throw InputError("a design needs variables: parts that move");
   for (std::size_t i = 0; i < variables_.size(); ++i) require_velocities(*scene_, variables_[i], i);
 }

@@ -37,7 +37,7 @@ Pair blocks(int dim, Family one, Family other, int n, int m, double angle = 0) {
 }
 
 /// Σ weight x_partner.
-Point across(const mesh::Mesh& mesh, const std::vector<contact::Partner>& partners) {
+Point across(const mesh::Mesh& mesh, const std::vector<contact::NodeWeight>& partners) {
   Point sum{0, 0, 0};
   for (const auto& p : partners)
     for (int i = 0; i < 3; ++i) sum[i] += p.weight * mesh.point(p.node)[i];
