@@ -53,7 +53,7 @@ void require_room(double count, int dimension, mesh::Family family) {
   const bool plane = dimension == 2, simplex = mesh::simplices(family), second = family == mesh::Family::p2 || family == mesh::Family::q2;
   const double refined = second ? (plane ? 4 : 8) : 1;  // nodes
   if (refined * count > 2e8)
-    throw InputError(text(count, " cells are more than this program can number; use at most ", 2e8 / refined, " of this element"));
+    throw InputError(text(count, " cells are more than this program can number; use at most 2e8", second ? " nodes" : ""));
   const double entries = second ? (plane ? (simplex ? 12 : 9) : (simplex ? 60 : 27)) : plane ? (simplex ? 6 : 4) : (simplex ? 24 : 8);
   const double making = second ? 24 * (plane ? 5 : 19) : 0;  // to tell which nodes cells share
   require_memory(count * (8.0 * dimension * refined + 4 * entries + making), text("a mesh of ", count, " cells"));

@@ -116,7 +116,7 @@ TEST_CASE("rows between two parts: normal, gap and weight, both sides moving") {
           const Point a = lower.point(side.node), b = upper.point(other.node);
           double off = 0;
           for (int i = 0; i < dimension - 1; ++i) off += std::abs(a[i] - b[i]);
-          if (off < 1e-12) rows.push_back({side.node, {{other.node, 1}}, side.normal, 0, side.weight, side.facets, 0});
+          if (off < 1e-12) rows.push_back({side.node, {{side.node, 1}}, {{other.node, 1}}, side.normal, 0, side.weight, side.facets, 0});
         }
       REQUIRE(rows.size() >= 5);
       rows = again(rows, lower, upper, facets);
