@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
+
+#include <sys/resource.h>
 
 #include "script/lua.hpp"
 #include "script/position.hpp"
@@ -65,27 +68,57 @@ void on_signal(int signal) {
   arm(running);
 }
 
-// coroutine.resume and the functions coroutine.wrap makes, with `running`
-// pointing to the thread that runs. Upvalue 1 is Lua's own function.
-int resumed(lua_State* L, lua_State* thread) {
-  lua_State* const caller = running;
-  running = thread;
-  if (pending || spent()) arm(thread);
+// The stack of the processor: where it begins, and how much of it is for one another's coroutines. Lua counts nested
+// calls of C anew in a coroutine that is being closed, so without end.
+const char* stack_begin = nullptr;
+double stack_share = 0;
+
+void measure_stack() {
+  stack_begin = static_cast<const char*>(__builtin_frame_address(0));
+  rlimit limit{};
+  const bool limited = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  stack_share = 0.5 * (limited ? std::min(static_cast<double>(limit.rlim_cur), 64e6) : 8e6);
+}
+
+void check_stack(lua_State* L) {
+  const auto* here = static_cast<const char*>(__builtin_frame_address(0));
+  if (stack_begin && static_cast<double>(std::abs(stack_begin - here)) > stack_share) raise(L, "", "C stack overflow");
+}
+
+// While it lives, `running` is the thread that runs in place of its caller. Lua, compiled as C++, ends it on errors too.
+class Running {
+ public:
+  Running(lua_State* caller, lua_State* thread) : caller_(caller) {
+    check_stack(caller);
+    running = thread;
+    if (pending || spent()) arm(thread);
+  }
+  ~Running() {
+    running = caller_;
+    if (pending || spent()) arm(caller_);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+ private:
+  lua_State* caller_;
+};
+
+// coroutine.resume and coroutine.close. Upvalue 1 is Lua's own function; its messages name the script's line.
+int with_thread(lua_State* L) {
+  lua_State* thread = lua_tothread(L, 1);
+  const Running now(L, thread ? thread : L);
+  return lua_tocfunction(L, lua_upvalueindex(1))(L);
+}
+
+// A function that coroutine.wrap makes, upvalue 1; its thread is upvalue 2.
+int call_wrapped(lua_State* L) {
+  const Running now(L, lua_tothread(L, lua_upvalueindex(2)));
   lua_pushvalue(L, lua_upvalueindex(1));
   lua_insert(L, 1);
-  const int status = lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0);
-  running = caller;
-  if (pending || spent()) arm(caller);
-  if (status != LUA_OK) return lua_error(L);
+  lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
   return lua_gettop(L);
 }
-
-int resume(lua_State* L) {
-  lua_State* thread = lua_tothread(L, 1);
-  return resumed(L, thread ? thread : L);
-}
-
-int call_wrapped(lua_State* L) { return resumed(L, lua_tothread(L, lua_upvalueindex(2))); }
 
 // A coroutine begins to count afresh: what it might do before the first look is counted at once.
 int create(lua_State* L) {
@@ -162,8 +195,10 @@ void limit_instructions(lua_State* L, long long count) {
 
 void watch_interrupts(lua_State* L) {
   running = L;
+  measure_stack();
   lua_getglobal(L, "coroutine");
-  replace_field(L, "resume", resume);
+  replace_field(L, "resume", with_thread);
+  replace_field(L, "close", with_thread);
   replace_field(L, "wrap", wrap);
   replace_field(L, "create", create);
   lua_pop(L, 1);

@@ -176,6 +176,7 @@ int run(const Command& command) {
   interpreter.set_arguments(command.file.value_or(command.code ? "-e" : "dotyk"), command.arguments);
   dotyk::script::watch_interrupts(interpreter.state());
   if (command.safe) dotyk::script::make_safe(interpreter.state(), dotyk::script::Folder(*command.safe));
+  else if (command.instructions) dotyk::script::close_debug(interpreter.state(), "--instructions");
   if (command.safe || command.instructions)
     dotyk::script::limit_instructions(interpreter.state(), static_cast<long long>(command.instructions.value_or(1e9)));
 

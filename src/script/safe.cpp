@@ -90,8 +90,10 @@ int find_lua_file(lua_State* L) {
   return 1;
 }
 
-// Upvalue 1 is the name of what is refused.
-int refuse(lua_State* L) { raise(L, lua_tostring(L, lua_upvalueindex(1)), "not for scripts run with --safe"); }
+// Upvalue 1 is the name of what is refused, upvalue 2 the option that refuses it.
+int refuse(lua_State* L) {
+  raise(L, lua_tostring(L, lua_upvalueindex(1)), std::string("not for scripts run with ") + lua_tostring(L, lua_upvalueindex(2)));
+}
 
 int no_variable(lua_State* L) {
   luaL_checkstring(L, 1);
@@ -108,26 +110,12 @@ void replace(lua_State* L, const char* library, const char* name, lua_CFunction 
   lua_pop(L, 1);
 }
 
-void take_away(lua_State* L, const char* library, const char* name) {
+void take_away(lua_State* L, const char* library, const char* name, const char* option = "--safe") {
   lua_getglobal(L, library);
   lua_pushfstring(L, "%s.%s", library, name);
-  lua_pushcclosure(L, refuse, 1);
+  lua_pushstring(L, option);
+  lua_pushcclosure(L, refuse, 2);
   lua_setfield(L, -2, name);
-  lua_pop(L, 1);
-}
-
-void take_away_debug(lua_State* L) {
-  lua_getglobal(L, "debug");
-  for (const auto& name : string_keys(L, -1))
-    if (name != "traceback") take_away(L, "debug", name.c_str());
-  lua_pop(L, 1);
-}
-
-// A file's __gc, set by a script, would run where nothing counts its instructions.
-void close_metatable_of_files(lua_State* L) {
-  luaL_getmetatable(L, LUA_FILEHANDLE);
-  lua_pushliteral(L, "a file");
-  lua_setfield(L, -2, "__metatable");
   lua_pop(L, 1);
 }
 
@@ -150,6 +138,16 @@ void keep_lua_searchers(lua_State* L) {
 
 }  // namespace
 
+void close_debug(lua_State* L, const char* option) {
+  lua_getglobal(L, "debug");
+  for (const auto& name : string_keys(L, -1))
+    if (name != "traceback") take_away(L, "debug", name.c_str(), option);
+  luaL_getmetatable(L, LUA_FILEHANDLE);
+  lua_pushliteral(L, "a file");
+  lua_setfield(L, -2, "__metatable");
+  lua_pop(L, 2);
+}
+
 void make_safe(lua_State* L, const Folder& folder) {
   Library::of(L).folder = folder;
   for (const char* name : {"open", "lines", "input", "output"}) replace(L, "io", name, with_file);
@@ -162,8 +160,7 @@ void make_safe(lua_State* L, const Folder& folder) {
   for (const char* name : {"popen", "tmpfile"}) take_away(L, "io", name);
   for (const char* name : {"execute", "tmpname"}) take_away(L, "os", name);
   for (const char* name : {"loadlib", "searchpath"}) take_away(L, "package", name);
-  take_away_debug(L);
-  close_metatable_of_files(L);
+  close_debug(L, "--safe");
   keep_lua_searchers(L);
 }
 

@@ -14,4 +14,8 @@ namespace dotyk::script {
 // traceback alone. What is refused raises at the script's line.
 void make_safe(lua_State* L, const Folder& folder);
 
+// What could undo a count of instructions: debug keeps traceback alone, and files their metatable, whose __gc would run
+// where nothing counts. `option` is the one that asks for it, named where a script tries.
+void close_debug(lua_State* L, const char* option);
+
 }  // namespace dotyk::script

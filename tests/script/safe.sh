@@ -137,10 +137,16 @@ spent "coroutines" 'while true do coroutine.wrap(function() for i = 1, 1e4 do en
 spent "many short coroutines" 'local function f() for i = 1, 100 do end end while true do local c = coroutine.create(f) coroutine.resume(c) end'
 spent "coroutines within coroutines" 'local function f() pcall(function() while true do end end) coroutine.wrap(f)() end while true do pcall(f) end'
 spent "to-be-closed variables" 'local function again() local x <close> = setmetatable({}, { __close = function() while true do end end }) error "x" end while true do pcall(again) end'
+spent "a coroutine that is closed" 'local co = coroutine.create(function() local x <close> = setmetatable({}, { __close = function() while true do end end }) coroutine.yield() end) coroutine.resume(co) while true do pcall(coroutine.close, co) end'
+spent "a hook taken away" 'pcall(function() debug.sethook() end) while true do end'
+spent "setmetatable as Lua has it" 'pcall(function() select(2, debug.getupvalue(setmetatable, 1))({}, { __gc = function() while true do end end }) end) collectgarbage() while true do end'
+spent "the end of a file" 'pcall(function() getmetatable(io.stdout).__gc = function() while true do end end end) while true do end'
 spent "a comparison" 'table.sort({ 3, 1, 2 }, function() while true do end end)'
 spent "a field of a scene" 'while true do pcall(dotyk.mesh.rectangle, { from = {0,0}, to = {1,1}, cells = {1,1}, map = function() while true do end end }) end'
 got=$("$dotyk" --instructions 1e6 -e 'setmetatable({}, { __gc = function() while true do end end })' 2>&1)
 [[ $got == 'dotyk: -e:1: setmetatable: no __gc where instructions are counted (--instructions)' ]] || fail "finalizers: $got"
+got=$("$dotyk" --instructions 1e6 -e 'debug.sethook()' 2>&1)
+[[ $got == 'dotyk: -e:1: debug.sethook: not for scripts run with --instructions' ]] || fail "a hook: $got"
 got=$("$dotyk" --instructions 1e6 -e 'local n = 0 for i = 1, 1e4 do n = n + i end print(n)' 2>&1)
 [[ $got == 50005000 ]] || fail "within the limit: $got"
 "$dotyk" --instructions 1e12 -e 'while true do pcall(function() while true do end end) end' 2>err.txt &
