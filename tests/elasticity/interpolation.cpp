@@ -10,7 +10,7 @@ using mesh::Point;
 TEST_CASE("shape functions at a point: a partition of unity that reproduces the point") {
   test::Random random(231);
   for (int dim : {2, 3})
-    for (const auto family : test::kFamilies) {
+    for (const auto family : test::kAllFamilies) {
       auto m = test::unit(dim, family, 3);
       test::distort(m, 0.08);
       const int nodes = m.topology().nodes;
@@ -18,8 +18,9 @@ TEST_CASE("shape functions at a point: a partition of unity that reproduces the 
         // A random point inside: a convex combination of the corners.
         Point x{0, 0, 0};
         double weight[8], sum = 0;
-        for (int a = 0; a < nodes; ++a) sum += weight[a] = random.between(0.05, 1);
-        for (int a = 0; a < nodes; ++a)
+        const int corners = m.topology().corners;
+        for (int a = 0; a < corners; ++a) sum += weight[a] = random.between(0.05, 1);
+        for (int a = 0; a < corners; ++a)
           for (int i = 0; i < dim; ++i) x[i] += weight[a] / sum * m.node(m.cell(c)[a])[i];
         std::array<double, mesh::kMostNodes> shape;
         REQUIRE(elasticity::shape_at(m, c, x, 1e-9, shape));
@@ -27,7 +28,7 @@ TEST_CASE("shape functions at a point: a partition of unity that reproduces the 
         double one = 0;
         for (int a = 0; a < nodes; ++a) {
           one += shape[a];
-          CHECK(shape[a] > -1e-9);
+          if (m.topology().order == 1) CHECK(shape[a] > -1e-9);
           for (int i = 0; i < dim; ++i) y[i] += shape[a] * m.node(m.cell(c)[a])[i];
         }
         CHECK(one == doctest::Approx(1).epsilon(1e-14));

@@ -19,7 +19,7 @@ TEST_CASE("a graded rectangle keeps its area and its cells positive") {
   const int cells[2] = {12, 9};
   const mesh::Grading grading[2] = {[](double s) { return (std::exp(3 * s) - 1) / (std::exp(3.0) - 1); },
                                     [](double s) { return s * s * (3 - 2 * s); }};
-  for (const auto family : test::kFamilies) {
+  for (const auto family : test::kAllFamilies) {
     const auto m = mesh::rectangle(from, to, cells, family, grading);
     CHECK(test::measure(m) == doctest::Approx(2).epsilon(1e-14));
     CHECK_NOTHROW(mesh::check(m, "graded"));

@@ -7,7 +7,7 @@ using namespace dotyk;
 
 TEST_CASE("cells kept are a mesh of their own, with what is left of the parts and the facets laid bare") {
   for (const int dim : {2, 3})
-    for (const auto family : test::kFamilies) {
+    for (const auto family : test::kAllFamilies) {
       const auto whole = test::unit(dim, family, 4);
       const auto corner_off = [](const mesh::Point& x) { return x[0] < 0.5 || x[1] < 0.5; };
       const auto kept = mesh::keep(whole, corner_off, "step");

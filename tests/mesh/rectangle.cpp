@@ -6,12 +6,13 @@
 using namespace dotyk;
 
 TEST_CASE("a rectangle has the nodes, cells and area it should") {
-  for (const auto family : test::kFamilies)
+  for (const auto family : test::kAllFamilies)
     for (int nx : {1, 3, 8})
       for (int ny : {1, 5}) {
         const auto m = test::rectangle(family, nx, ny, -1, 2, 3, 5);
-        CHECK(m.node_count() == (nx + 1) * (ny + 1));
-        CHECK(m.cell_count() == nx * ny * (family == mesh::Family::p1 ? 2 : 1));
+        const int order = m.topology().order;
+        CHECK(m.node_count() == (order * nx + 1) * (order * ny + 1));
+        CHECK(m.cell_count() == nx * ny * (mesh::simplices(family) ? 2 : 1));
         CHECK(test::measure(m) == doctest::Approx(12).epsilon(1e-14));
         for (int c = 0; c < m.cell_count(); ++c) CHECK(test::measure(m, c) == doctest::Approx(12.0 / m.cell_count()));
         CHECK_NOTHROW(mesh::check(m, "rectangle"));

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "mesh/generators.hpp"
+#include "mesh/second_order.hpp"
 
 namespace dotyk::test {
 
@@ -11,7 +14,18 @@ using mesh::Family;
 using mesh::Mesh;
 using mesh::Point;
 
-inline constexpr Family kFamilies[] = {Family::p1, Family::q1};
+inline constexpr Family kFamilies[] = {Family::p1, Family::q1};     ///< of order 1
+inline constexpr Family kSecondOrder[] = {Family::p2, Family::q2};
+inline constexpr Family kAllFamilies[] = {Family::p1, Family::q1, Family::p2, Family::q2};
+
+inline std::string name(Family family) {
+  switch (family) {
+    case Family::p1: return "P1";
+    case Family::q1: return "Q1";
+    case Family::p2: return "P2";
+    default: return "Q2";
+  }
+}
 
 inline Mesh rectangle(Family family, int nx, int ny, double x0 = 0, double y0 = 0, double x1 = 1, double y1 = 1) {
   const double from[2] = {x0, y0}, to[2] = {x1, y1};
@@ -36,15 +50,41 @@ inline Mesh disc(Family family, int cells, double x = 0, double y = 0, double ra
   return mesh::disc(centre, radius, cells, family);
 }
 
-/// Inner nodes of a unit square or cube moved by up to `amount`, the boundary left in place.
+/// Nodes between corners put back to their mean: cells of order 2 made straight.
+inline void straighten(Mesh& m) {
+  const mesh::ElementTopology& t = m.topology();
+  for (int c = 0; c < m.cell_count(); ++c)
+    for (std::size_t k = 0; k < t.between.size(); ++k)
+      for (int i = 0; i < t.dimension; ++i) {
+        double& x = m.coordinates[static_cast<std::size_t>(m.cell(c)[t.corners + k]) * t.dimension + i];
+        x = 0;
+        for (const int corner : t.between[k]) x += m.node(m.cell(c)[corner])[i] / static_cast<double>(t.between[k].size());
+      }
+}
+
+/// Where a smooth map that leaves the boundary of the unit square or cube in place, and moves inner points by up to `amount`, puts x.
+inline Point bumped(const Point& x, int dimension, double amount) {
+  Point y = x;
+  double bump = amount;
+  for (int i = 0; i < dimension; ++i) bump *= 4 * x[i] * (1 - x[i]);
+  for (int i = 0; i < dimension; ++i) y[i] += bump * std::sin(7 * x[0] + 5 * x[1] + 3 * x[2] + 2 * i);
+  return y;
+}
+
+/// All nodes moved so: cells of order 2 become curved.
+inline void curve(Mesh& m, double amount) {
+  mesh::transform(m, [&](const Point& x) { return bumped(x, m.dimension(), amount); });
+}
+
+/// Corners moved so, cells straight.
 inline void distort(Mesh& m, double amount) {
-  mesh::transform(m, [&](const Point& x) {
-    Point y = x;
-    double bump = amount;
-    for (int i = 0; i < m.dimension(); ++i) bump *= 4 * x[i] * (1 - x[i]);
-    for (int i = 0; i < m.dimension(); ++i) y[i] += bump * std::sin(7 * x[0] + 5 * x[1] + 3 * x[2] + 2 * i);
-    return y;
-  });
+  const int dim = m.dimension();
+  for (int n = 0; n < m.node_count(); ++n) {
+    const Point x = bumped(m.point(n), dim, amount);
+    std::copy_n(x.begin(), dim, m.coordinates.begin() + static_cast<std::ptrdiff_t>(n) * dim);
+  }
+  straighten(m);
+  mesh::check(m, "distorted");
 }
 
 /// Area of a triangle or quadrilateral (shoelace), volume of a tetrahedron or a hexahedron (by the
