@@ -10,6 +10,20 @@
 namespace dotyk::mesh {
 namespace {
 
+/// Where a cell of order 2 is bad and its corners make a good one of order 1: what to do about it.
+std::string advice(const Mesh& mesh, int c) {
+  const ElementTopology& t = mesh.topology();
+  if (t.order == 1) return "check the order of nodes or the map of the mesh";
+  Mesh straight;
+  straight.element = first_order(mesh.element);
+  for (int k = 0; k < t.corners; ++k) {
+    straight.cells.push_back(k);
+    straight.coordinates.insert(straight.coordinates.end(), mesh.node(mesh.cell(c)[k]), mesh.node(mesh.cell(c)[k]) + t.dimension);
+  }
+  return least_jacobian(straight, 0) > 0 ? "its sides are bent too far; with straight sides (order = 1) it is sound, finer cells are bent less"
+                                         : "check the order of nodes or the map of the mesh";
+}
+
 double edge_scale(const Mesh& mesh, int c) {
   const Point a = mesh.point(mesh.cell(c)[0]);
   double h = 0;
@@ -64,7 +78,7 @@ void check(const Mesh& mesh, const std::string& what) {
                           point_text(mesh.cell_centre(c).data(), mesh.dimension()), ") is ",
                           jacobian < -1e-12 * scale ? "inverted" : "flat",
                           "; its least Jacobian is ", jacobian,
-                          ", it must be positive: check the order of nodes or the map of the mesh"));
+                          ", it must be positive: ", advice(mesh, c)));
   }
   refuse_repeated_cells(mesh, what);
   refuse_stray_nodes(mesh, what);

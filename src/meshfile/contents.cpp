@@ -56,11 +56,10 @@ struct Source {
 
 void write(std::FILE* out, const Contents& contents) {
   put_all(out, contents.points);
-  put(out, contents.order);
   put(out, static_cast<std::uint64_t>(contents.groups.size()));
   for (const Group& g : contents.groups) put(out, g.dimension), put_all(out, g.name);
   put(out, static_cast<std::uint64_t>(contents.blocks.size()));
-  for (const Block& b : contents.blocks) put(out, b.shape), put_all(out, b.groups), put_all(out, b.nodes);
+  for (const Block& b : contents.blocks) put(out, b.shape), put_all(out, b.groups), put_all(out, b.nodes), put(out, b.order), put_all(out, b.between);
   put(out, kWhole);
   if (std::fflush(out) != 0) throw std::runtime_error("the mesh could not be handed over");
 }
@@ -69,7 +68,6 @@ Contents read(std::string_view bytes) {
   Source from{bytes};
   Contents c;
   c.points = from.get_all<std::vector<double>>();
-  c.order = from.get<int>();
   for (auto n = from.get<std::uint64_t>(); n > 0; --n) {
     const int dimension = from.get<int>();
     c.groups.push_back({dimension, from.get_all<std::string>()});
@@ -77,7 +75,9 @@ Contents read(std::string_view bytes) {
   for (auto n = from.get<std::uint64_t>(); n > 0; --n) {
     const auto shape = from.get<Shape>();
     auto groups = from.get_all<std::vector<int>>();
-    c.blocks.push_back({shape, std::move(groups), from.get_all<std::vector<int>>()});
+    auto nodes = from.get_all<std::vector<int>>();
+    const int order = from.get<int>();
+    c.blocks.push_back({shape, std::move(groups), std::move(nodes), order, from.get_all<std::vector<int>>()});
   }
   if (from.get<std::uint64_t>() != kWhole) throw std::runtime_error("the reader's answer is not whole");
   return c;

@@ -23,11 +23,15 @@ struct Group {
   std::string name;  ///< as the file has it; its number where it has no name
 };
 
-/// Elements of one shape and of the same groups.
+/// Elements of one shape and order, and of the same groups.
 struct Block {
   Shape shape;
   std::vector<int> groups;  ///< places in Contents::groups
   std::vector<int> nodes;   ///< corners, element by element, in the order of mesh::ElementTopology and of VTK
+  int order = 1;            ///< of the elements in the file
+  /// Of triangles, quadrilaterals, tetrahedra and hexahedra of order 2: the nodes after the corners, element by element, as in
+  /// mesh::ElementTopology::between; -1 where the file's elements have none (serendipity: no centres of faces and cells).
+  std::vector<int> between = {};
 };
 
 /// What a mesh file holds, whatever its format, before it is a mesh of one kind of cell.
@@ -35,7 +39,6 @@ struct Contents {
   std::vector<double> points;  ///< 3 × number of nodes; the file's length unit
   std::vector<Group> groups;
   std::vector<Block> blocks;
-  int order = 1;  ///< greatest of the elements in the file; only their corners are above
 };
 
 /// To and from a reader that runs in a process of its own. The numbers are this machine's.

@@ -9,7 +9,7 @@
 
 namespace dotyk::meshfile {
 
-/// The facets of a mesh, found by their nodes in any order.
+/// The facets of a mesh, found by their corners in any order.
 class FacetTable {
  public:
   explicit FacetTable(const mesh::Mesh& mesh) {
@@ -18,8 +18,8 @@ class FacetTable {
     for (int c = 0; c < mesh.cell_count(); ++c)
       for (int l = 0; l < t.facets; ++l) {
         int nodes[4];
-        for (int k = 0; k < t.nodes_per_facet; ++k) nodes[k] = mesh.facet_node({c, l}, k);
-        entries_.push_back({key(nodes, t.nodes_per_facet), {c, l}});
+        for (int k = 0; k < t.facet_corners; ++k) nodes[k] = mesh.facet_node({c, l}, k);
+        entries_.push_back({key(nodes, t.facet_corners), {c, l}});
       }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.nodes < b.nodes; });
   }
@@ -29,10 +29,10 @@ class FacetTable {
     mesh::Facet facet;
   };
 
-  /// Those with the same nodes beside each other.
+  /// Those with the same corners beside each other.
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// Facets with these nodes: one on the boundary, two within, none elsewhere.
+  /// Facets with these corners: one on the boundary, two within, none elsewhere.
   std::vector<mesh::Facet> find(const int* nodes, int count) const {
     const std::array<int, 4> wanted = key(nodes, count);
     const auto before = [](const Entry& e, const std::array<int, 4>& n) { return e.nodes < n; };

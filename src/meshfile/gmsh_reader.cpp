@@ -1,16 +1,18 @@
 // Reads Gmsh files, and lets Gmsh mesh geometries, with its own library.
 //   dotyk_gmsh load FILE.msh
-//   dotyk_gmsh mesh FILE DIMENSION SIZE     DIMENSION 0: that of the geometry; SIZE 0: as the geometry says
+//   dotyk_gmsh mesh FILE DIMENSION SIZE ORDER     DIMENSION 0: that of the geometry; SIZE 0, ORDER 1: as the geometry says
 #include <fcntl.h>
 #include <gmsh.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <stdexcept>
 #include <unordered_map>
 
+#include "cell_of.hpp"
 #include "reader_main.hpp"
 
 namespace {
@@ -58,7 +60,28 @@ struct Type {
   Shape shape{};
   bool known = false;
   int order = 1, nodes = 0, corners = 0;
+  std::vector<int> between{};  ///< of order 2: which of its nodes stand in our order after the corners, -1: none
 };
+
+/// Gmsh's nodes between corners by their places in its reference element, `local` (dimension × nodes), which is straight.
+std::vector<int> between(Shape shape, int dimension, const std::vector<double>& local) {
+  const auto cell = cell_of(shape);
+  if (!cell) return {};
+  std::vector<int> result;
+  for (const std::vector<int>& corners : dotyk::mesh::topology(dotyk::mesh::second_order(*cell)).between) {
+    result.push_back(-1);
+    for (std::size_t node = 0; (node + 1) * dimension <= local.size(); ++node) {
+      double off = 0;
+      for (int i = 0; i < dimension; ++i) {
+        double mean = 0;
+        for (const int k : corners) mean += local[static_cast<std::size_t>(k) * dimension + i] / static_cast<double>(corners.size());
+        off += std::abs(local[node * dimension + i] - mean);
+      }
+      if (off < 1e-9) result.back() = static_cast<int>(node);
+    }
+  }
+  return result;
+}
 
 Type type_of(int element) {
   std::string name;
@@ -72,6 +95,7 @@ Type type_of(int element) {
       {"Pyramid", Shape::pyramid}};
   for (const auto& [start, shape] : shapes)
     if (name.rfind(start, 0) == 0 && type.corners == kind(shape).nodes) type.shape = shape, type.known = true;
+  if (type.known && type.order == 2) type.between = between(type.shape, dimension, local);
   return type;
 }
 
@@ -119,17 +143,22 @@ class Reader {
     for (std::size_t t = 0; t < types.size(); ++t) {
       const Type type = type_of(types[t]);
       if (!type.known || type.nodes < 1) throw std::runtime_error("it has elements of an unknown type");
-      contents_.order = std::max(contents_.order, type.order);
-      Block block{type.shape, groups_[{dimension, tag}], {}};
-      block.nodes.reserve(nodes[t].size() / type.nodes * type.corners);
-      for (std::size_t i = 0; i + type.nodes <= nodes[t].size(); i += type.nodes)
-        for (int k = 0; k < type.corners; ++k) {
-          const auto at = place_.find(nodes[t][i + k]);
-          if (at == place_.end()) throw std::runtime_error("node " + std::to_string(nodes[t][i + k]) + " is used and not there");
-          block.nodes.push_back(at->second);
-        }
+      Block block{type.shape, groups_[{dimension, tag}], {}, type.order};
+      const std::size_t count = nodes[t].size() / type.nodes;
+      block.nodes.reserve(count * type.corners);
+      block.between.reserve(count * type.between.size());
+      for (std::size_t i = 0; i < count * type.nodes; i += type.nodes) {
+        for (int k = 0; k < type.corners; ++k) block.nodes.push_back(place(nodes[t][i + k]));
+        for (const int k : type.between) block.between.push_back(k < 0 ? -1 : place(nodes[t][i + k]));
+      }
       contents_.blocks.push_back(std::move(block));
     }
+  }
+
+  int place(std::size_t node) const {
+    const auto at = place_.find(node);
+    if (at == place_.end()) throw std::runtime_error("node " + std::to_string(node) + " is used and not there");
+    return at->second;
   }
 
   Contents contents_;
@@ -162,11 +191,15 @@ int geometry_dimension() {
   throw std::runtime_error("the geometry has no surface and no volume to mesh");
 }
 
-Contents generate(const std::string& file, int dimension, double size) {
+Contents generate(const std::string& file, int dimension, double size, int order) {
   start();
   run([&] { gmsh::merge(file); });
   if (dimension == 0) dimension = geometry_dimension();
   if (size > 0) gmsh::option::setNumber("Mesh.MeshSizeMax", size);
+  if (order == 2) {
+    gmsh::option::setNumber("Mesh.ElementOrder", 2);
+    gmsh::option::setNumber("Mesh.HighOrderOptimize", 1);  // cells that curved sides would turn inside out
+  }
   run([&] { gmsh::model::mesh::generate(dimension); });
   Contents result;
   run([&] { result = Reader().read(); });
@@ -181,9 +214,9 @@ int main(int count, char** argument) {
     limit_reader(argument[2]);
     return answer([&] { return load(argument[2]); });
   }
-  if (verb == "mesh" && count == 5) {
+  if (verb == "mesh" && count == 6) {
     limit_reader();
-    return answer([&] { return generate(argument[2], std::stoi(argument[3]), std::stod(argument[4])); });
+    return answer([&] { return generate(argument[2], std::stoi(argument[3]), std::stod(argument[4]), std::stoi(argument[5])); });
   }
   return 2;
 }

@@ -99,9 +99,9 @@ std::string exact(double value) {
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
-Loaded mesh_file(const std::string& file, const Meshing& meshing, const std::vector<std::string>& regions, const std::string& what, Monitor& monitor) {
-  const std::vector<std::string> arguments{"mesh", plain(file), std::to_string(meshing.dimension), exact(meshing.size)};
-  return assemble(read(output_of(gmsh_program(), arguments, what, monitor)), regions, what);
+Loaded mesh_file(const std::string& file, const Meshing& meshing, const Choice& choice, const std::string& what, Monitor& monitor) {
+  const std::vector<std::string> arguments{"mesh", plain(file), std::to_string(meshing.dimension), exact(meshing.size), std::to_string(choice.order)};
+  return assemble(read(output_of(gmsh_program(), arguments, what, monitor)), choice, what);
 }
 
 /// A file in the folder for temporary files, gone at the end.
@@ -129,29 +129,29 @@ class TemporaryFile {
 
 }  // namespace
 
-Loaded load(const std::string& file, const std::vector<std::string>& regions, Monitor& monitor) {
+Loaded load(const std::string& file, const Choice& choice, Monitor& monitor) {
   const std::string end = ending(file);
   if (end == ".geo") throw InputError("'" + file + "' is a geometry: dotyk.mesh.gmsh{ file = \"" + file + "\" } meshes it");
   if (end != ".msh" && end != ".mesh" && end != ".vtu")
     throw InputError("'" + file + "' does not end in .msh (Gmsh), .mesh (MFEM) or .vtu (VTK)");
   require_file(file);
-  return assemble(contents(file, monitor), regions, file);
+  return assemble(contents(file, monitor), choice, file);
 }
 
-Loaded mesh_geometry(const std::string& file, const Meshing& meshing, const std::vector<std::string>& regions, Monitor& monitor) {
+Loaded mesh_geometry(const std::string& file, const Meshing& meshing, const Choice& choice, Monitor& monitor) {
   static const std::string known[] = {".geo", ".step", ".stp", ".brep", ".iges", ".igs"};
   if (std::find(std::begin(known), std::end(known), ending(file)) == std::end(known))
     throw InputError("'" + file + "' does not end in .geo, .step, .stp, .brep, .iges or .igs");
   require_file(file);
   if (ending(file) == ".geo" && content(file).back() != '\n')
     throw InputError(file + ": its last line does not end; without a newline there, Gmsh leaves out the last statements");
-  return mesh_file(file, meshing, regions, file, monitor);
+  return mesh_file(file, meshing, choice, file, monitor);
 }
 
-Loaded mesh_text(const std::string& geometry, const Meshing& meshing, const std::vector<std::string>& regions, Monitor& monitor) {
+Loaded mesh_text(const std::string& geometry, const Meshing& meshing, const Choice& choice, Monitor& monitor) {
   const TemporaryFile file(geometry + "\n");  // without a last newline Gmsh leaves out what comes last
   try {
-    return mesh_file(file.name(), meshing, regions, "geometry", monitor);
+    return mesh_file(file.name(), meshing, choice, "geometry", monitor);
   } catch (const InputError& e) {
     std::string message = e.what();
     const std::string name = "'" + file.name() + "'";

@@ -17,7 +17,9 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 
+#include "cell_of.hpp"
 #include "reader_main.hpp"
 
 namespace {
@@ -103,35 +105,38 @@ class Blocks {
     if (vtk == VTK_VERTEX || vtk == VTK_POLY_VERTEX || vtk == VTK_EMPTY_CELL) return;
     const Type* type = type_of(vtk);
     if (!type) throw std::runtime_error("it has cells of VTK's type " + std::to_string(vtk) + ", for which there is no element");
-    contents.order = std::max(contents.order, type->order);
     grid->GetCellPoints(cell, ids);
     const int corners = kind(type->shape).nodes;
     if (ids->GetNumberOfIds() < corners) throw std::runtime_error("cell " + std::to_string(cell + 1) + " has too few nodes");
-    Block& block = block_of(type->shape, regions_.of(cell));
-    for (int k = 0; k < corners; ++k) {
-      const vtkIdType node = ids->GetId(type->corner.empty() ? k : type->corner[k]);
-      if (node < 0 || node >= grid->GetNumberOfPoints()) throw std::runtime_error("cell " + std::to_string(cell + 1) + " has a node that is not there");
-      block.nodes.push_back(static_cast<int>(node));
-    }
+    Block& block = block_of(*type, regions_.of(cell));
+    const auto node = [&](int k) {
+      const vtkIdType n = ids->GetId(k);
+      if (n < 0 || n >= grid->GetNumberOfPoints()) throw std::runtime_error("cell " + std::to_string(cell + 1) + " has a node that is not there");
+      return static_cast<int>(n);
+    };
+    for (int k = 0; k < corners; ++k) block.nodes.push_back(node(type->corner.empty() ? k : type->corner[k]));
+    // VTK's order is ours; serendipity cells end with the nodes on their edges.
+    const int all = type->order == 2 ? corners + between_count(type->shape) : corners;
+    for (int k = corners; k < all; ++k) block.between.push_back(k < ids->GetNumberOfIds() ? node(k) : -1);
   }
 
   Contents contents;
 
  private:
-  Block& block_of(Shape shape, double region) {
+  Block& block_of(const Type& type, double region) {
     if (std::isnan(region)) throw std::runtime_error("a region number is not a number");
-    const auto [block, fresh] = block_of_.try_emplace({shape, region}, contents.blocks.size());
+    const auto [block, fresh] = block_of_.try_emplace({type.shape, type.order, region}, contents.blocks.size());
     if (!fresh) return contents.blocks[block->second];
-    contents.blocks.push_back({shape, {}, {}});
+    contents.blocks.push_back({type.shape, {}, {}, type.order});
     if (regions_.array) {
       contents.blocks.back().groups.push_back(static_cast<int>(contents.groups.size()));
-      contents.groups.push_back({kind(shape).dimension, regions_.name(region)});
+      contents.groups.push_back({kind(type.shape).dimension, regions_.name(region)});
     }
     return contents.blocks.back();
   }
 
   Regions regions_;
-  std::map<std::pair<Shape, double>, std::size_t> block_of_;
+  std::map<std::tuple<Shape, int, double>, std::size_t> block_of_;
 };
 
 Contents load(const std::string& file) {

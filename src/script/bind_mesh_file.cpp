@@ -14,10 +14,15 @@ Key region_key() {
       .otherwise("all cells");
 }
 
-std::vector<std::string> regions(const Arguments& given) {
-  if (!given.has("region")) return {};
-  if (given.is("region", LUA_TTABLE)) return given.texts("region");
-  return {given.text("region")};
+Key order_key(const char* second) {
+  return key::integer("order", std::string("of the cells: 1, with straight sides between their corners, or 2: ") + second).within(1, 2).otherwise("1");
+}
+
+meshfile::Choice choice(const Arguments& given) {
+  meshfile::Choice result;
+  if (given.has("region")) result.regions = given.is("region", LUA_TTABLE) ? given.texts("region") : std::vector<std::string>{given.text("region")};
+  if (given.has("order")) result.order = static_cast<int>(given.integer("order"));
+  return result;
 }
 
 int give(const Call& call, meshfile::Loaded loaded) {
@@ -27,7 +32,7 @@ int give(const Call& call, meshfile::Loaded loaded) {
 
 int load(Call& call) {
   Watch watch(call.state(), "reading");
-  const auto wanted = call.has("options") ? regions(call.table("options")) : std::vector<std::string>();
+  const auto wanted = call.has("options") ? choice(call.table("options")) : meshfile::Choice();
   return give(call, meshfile::load(call.text("file"), wanted, watch));
 }
 
@@ -37,8 +42,8 @@ int gmsh(Call& call) {
   const meshfile::Meshing meshing{.dimension = call.has("dimension") ? static_cast<int>(call.integer("dimension")) : 0,
                                   .size = call.has("size") ? call.number("size") : 0};
   Watch watch(call.state(), "meshing");
-  if (call.has("file")) return give(call, meshfile::mesh_geometry(call.text("file"), meshing, regions(call), watch));
-  return give(call, meshfile::mesh_text(call.text("text"), meshing, regions(call), watch));
+  if (call.has("file")) return give(call, meshfile::mesh_geometry(call.text("file"), meshing, choice(call), watch));
+  return give(call, meshfile::mesh_text(call.text("text"), meshing, choice(call), watch));
 }
 
 }  // namespace
@@ -49,19 +54,22 @@ void bind_mesh_file(Library& library) {
        .help = "Reads a mesh of triangles, quadrilaterals, tetrahedra or hexahedra: .msh (Gmsh 2 and 4, text or binary), "
                ".mesh (MFEM mesh v1.0) or .vtu (VTK; cell data \"region\", or \"body\" as s:write has it, tell regions apart). Physical "
                "groups of cells are its regions, those of one dimension less its boundary parts; a group without a name "
-               "goes by its number. Elements of higher order are reduced to their corners, facets of a part that lie "
-               "between cells are left out: mesh.notes says so. A file of several bodies: one load for each region, or "
+               "goes by its number. Facets of a part that lie between cells are left out, elements of higher order are reduced to their "
+               "corners: mesh.notes says so. With order = 2 elements of second order give cells P2 or Q2 with the "
+               "file's nodes (curved sides stay curved; centres that quadrilaterals of 8 and hexahedra of 20 nodes lack are added "
+               "without a change of shape), and those of first order get nodes in the middle of their sides. A file of several bodies: one load for each region, or "
                "mesh:pieces().",
        .setup = setup::solved_block(),
        .example = "s:write \"block.vtu\"\nprint(dotyk.mesh.load \"block.vtu\")\nprint(dotyk.mesh.load(\"block.vtu\", { region = \"block\" }))",
-       .arguments = {key::file("file", "ends in .msh, .mesh or .vtu").required(), key::table("options", {region_key()}, "what of it").otherwise("all of it")},
+       .arguments = {key::file("file", "ends in .msh, .mesh or .vtu").required(), key::table("options", {region_key(), order_key("second order, P2 or Q2")}, "what of it").otherwise("all of it, by the corners")},
        .returns = "mesh",
        .run = load});
   library.function(
       {.name = "dotyk.mesh.gmsh",
        .help = "Has Gmsh mesh a geometry: a file of its own language (.geo) or from a CAD program (.step, .stp, .brep, "
                ".iges, .igs), or a text in that language. Physical groups become regions and boundary parts as in "
-               "dotyk.mesh.load; nodes of curved boundaries lie on them. A .geo file is a program that can read any file, but "
+               "dotyk.mesh.load; nodes of curved boundaries lie on them, with order = 2 those between corners, too, so that "
+               "sides are parabolas there, not chords. A .geo file is a program that can read any file, but "
                "start no other program and write none. In a text, files to be included need full paths.",
        .example = "local m = dotyk.mesh.gmsh{ size = 0.1, text = [[\n"
                   "  SetFactory(\"OpenCASCADE\");\n"
@@ -73,7 +81,7 @@ void bind_mesh_file(Library& library) {
        .arguments = {key::table({key::file("file", "the geometry; or text"), key::string("text", "the geometry, in Gmsh's language; or file"),
                                  key::positive("size", "greatest length of an edge").unit("length").otherwise("as the geometry says"),
                                  key::integer("dimension", "of the cells").within(2, 3).otherwise("3 where there is a volume, else 2"),
-                                 region_key()})},
+                                 order_key("second order, with curved boundaries"), region_key()})},
        .returns = "mesh",
        .run = gmsh});
 }

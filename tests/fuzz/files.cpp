@@ -1,5 +1,5 @@
 // fuzz_files SECONDS SEED [FOLDER]: files that scripts read, changed at random: programs (QPS), linear
-// complementarity problems, contact problems as siconos prints them, meshes of Gmsh and VTK; where
+// complementarity problems, contact problems as siconos prints them, meshes of Gmsh and VTK, of order 1 or 2; where
 // ../shared/reference is, its small files too. Each is read, and what could be read is solved. Failures are
 // those of fuzz_lua; the file that failed stands in the script.
 #include <algorithm>
@@ -21,11 +21,11 @@ struct Seed {
   std::string ending, content;
 };
 
-std::string read_of(const std::string& ending) {
+std::string read_of(const std::string& ending, bool second_order) {
   if (ending == ".qps" || ending == ".mat") return "dotyk.qp{ file = FILE, method = 'active_set', max_iterations = 50 }";
   if (ending == ".lcp") return "dotyk.lcp{ file = FILE, unique = false }";
   if (ending == ".fc") return "dotyk.solver.newton{ max_iterations = 20 }:solve(dotyk.fclib(FILE))";
-  return "dotyk.mesh.load(FILE)";
+  return second_order ? "dotyk.mesh.load(FILE, { order = 2 })" : "dotyk.mesh.load(FILE)";
 }
 
 // As scripts write it: every byte by its number.
@@ -133,7 +133,7 @@ int main(int count, char** words) {
     const std::string name = "fuzz" + (one.ending == ".lcp" || one.ending == ".fc" ? std::string(".dat") : one.ending);
     machine.begin(text("file_", seed));
     std::ofstream(name, std::ios::binary) << content;
-    std::string call = read_of(one.ending);
+    std::string call = read_of(one.ending, mutation.below(2) == 0);
     call.replace(call.find("FILE"), 4, "'" + name + "'");
     machine.run("V[1] = try(function() return " + call + " end)", "do local f <close> = io.open('" + name + "', 'wb') f:write(" + quoted(content) + ") end\n");
   }

@@ -41,7 +41,7 @@ double area(const mesh::Mesh& m) {
 
 void check_refused(const Contents& c, const std::vector<std::string>& regions, const std::string& why) {
   try {
-    assemble(c, regions, "f.msh");
+    assemble(c, {.regions = regions}, "f.msh");
     FAIL_CHECK("not refused: " << why);
   } catch (const InputError& e) {
     CHECK_MESSAGE(std::string(e.what()).find(why) != std::string::npos, e.what());
@@ -58,12 +58,12 @@ TEST_CASE("all cells or those of some regions, without the nodes of others") {
   CHECK(all.mesh.cell_count() == 3);
   CHECK(area(all.mesh) == doctest::Approx(3).epsilon(1e-14));
   CHECK(all.regions == std::vector<std::string>{"0", "1", "2"});
-  const Loaded two = assemble(c, {"2", "0"}, "f");
+  const Loaded two = assemble(c, {.regions = {"2", "0"}}, "f");
   CHECK(two.mesh.node_count() == 8);
   CHECK(two.mesh.cell_count() == 2);
   CHECK(area(two.mesh) == doctest::Approx(2).epsilon(1e-14));
   CHECK(two.regions == std::vector<std::string>{"0", "2"});
-  CHECK(assemble(c, {"1"}, "f").mesh.node_count() == 4);
+  CHECK(assemble(c, {.regions = {"1"}}, "f").mesh.node_count() == 4);
 }
 
 TEST_CASE("facets of a part: those on the boundary of what is loaded, each once") {
@@ -80,7 +80,7 @@ TEST_CASE("facets of a part: those on the boundary of what is loaded, each once"
   CHECK(all.notes[0] == "part 'elsewhere': 1 of its facets are of no cell and are left out, so there is no such part");
   CHECK(all.notes[1] == "part 'middle': 1 of its facets lie between cells and are left out, so there is no such part");
   CHECK(all.notes[2] == "part 'mixed': 1 of its facets lie between cells and are left out");
-  const Loaded second = assemble(c, {"1"}, "f");  // what lay between is now on its boundary
+  const Loaded second = assemble(c, {.regions = {"1"}}, "f");  // what lay between is now on its boundary
   CHECK(second.mesh.parts.at("middle") == std::vector<mesh::Facet>{{0, 3}});
   CHECK(second.mesh.parts.count("left") == 0);
   CHECK(second.notes.empty());
@@ -140,7 +140,7 @@ TEST_CASE("what cannot be a mesh says why") {
   mixed.groups.push_back({2, "t"});
   mixed.blocks.push_back({Shape::triangle, {static_cast<int>(mixed.groups.size()) - 1}, {5, 6, 0}});
   check_refused(mixed, {}, "of several (triangles in 't'; quadrilaterals in '0', '1')");
-  CHECK(assemble(mixed, {"0", "1"}, "f").mesh.cell_count() == 2);
+  CHECK(assemble(mixed, {.regions = {"0", "1"}}, "f").mesh.cell_count() == 2);
   Contents stray = c;
   stray.blocks[0].nodes[2] = 7;
   check_refused(stray, {}, "has a node that is not there");

@@ -26,17 +26,18 @@ std::string bytes(const Contents& contents) {
 TEST_CASE("contents are handed over as they are; what is cut off anywhere is refused") {
   Contents c;
   c.points = {0, 0, 0, 1, 0, 0, 0, 1.5, 0};
-  c.order = 2;
   c.groups = {{2, "a region"}, {1, ""}};
-  c.blocks = {{Shape::triangle, {0}, {0, 1, 2}}, {Shape::segment, {1}, {0, 1, 1, 2}}, {Shape::pyramid, {}, {}}};
+  c.blocks = {{Shape::triangle, {0}, {0, 1, 2}}, {Shape::segment, {1}, {0, 1, 1, 2}}, {Shape::pyramid, {}, {}}, {Shape::triangle, {0}, {0, 1, 2}, 2, {1, -1, 2}}};
   const std::string whole = bytes(c);
   const Contents back = read(whole);
   CHECK(back.points == c.points);
-  CHECK(back.order == 2);
   REQUIRE(back.groups.size() == 2);
   CHECK(back.groups[0].name == "a region");
   CHECK(back.groups[1].dimension == 1);
-  REQUIRE(back.blocks.size() == 3);
+  REQUIRE(back.blocks.size() == 4);
+  CHECK(back.blocks[0].order == 1);
+  CHECK(back.blocks[3].order == 2);
+  CHECK(back.blocks[3].between == std::vector<int>{1, -1, 2});
   CHECK(back.blocks[1].shape == Shape::segment);
   CHECK(back.blocks[1].groups == std::vector<int>{1});
   CHECK(back.blocks[1].nodes == std::vector<int>{0, 1, 1, 2});

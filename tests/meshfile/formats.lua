@@ -1,6 +1,6 @@
 -- Every version, encoding and order of Gmsh's format gives the same body: [0, 2] × [0, 1] (× [1/4, 5/4]) in two regions.
 -- A patch test with contact says whether its cells, parts and coordinates are right: pressed onto a rigid floor it has
--- uniform stress, which first order elements represent exactly.
+-- uniform stress, which elements of either order represent exactly.
 local check <const> = require "check"
 if require "without_gmsh" then return end
 local folder <const> = debug.getinfo(1, "S").source:match "^@(.*)/" .. "/files/"
@@ -35,12 +35,21 @@ local function patch(m, about)
   end
 end
 
--- shape, nodes and cells of all and of one region
+-- dimension, element, nodes and cells of all and of one region
 local expected <const> = {
   triangles = { 2, "P1", 15, 16, 9, 8 },
   quadrilaterals = { 2, "Q1", 15, 8, 9, 4 },
   tetrahedra = { 3, "P1", 12, 12, 8, 6 },
   hexahedra = { 3, "Q1", 12, 2, 8, 1 },
+}
+
+-- element, nodes of all and of one region: 4 × 2 and 2 × 2 squares and what halves them; 2 cubes and 1. Tetrahedra of
+-- order 2 have as many nodes as corners and edges, 12 + 33 and 8 + 19: 20 edges of the cubes, 11 diagonals of faces and 2 of cubes.
+local expected_second <const> = {
+  triangles = { "P2", 45, 25 },
+  quadrilaterals = { "Q2", 45, 25 },
+  tetrahedra = { "P2", 45, 27 },
+  hexahedra = { "Q2", 45, 27 },
 }
 
 for _, name in ipairs{
@@ -54,7 +63,7 @@ for _, name in ipairs{
   check.equal({ m.dimension, m.element, m.node_count, m.cell_count, half.node_count, half.cell_count }, expected[name:match "^%a+"], name)
   check.equal(m.regions, { "left half", "right half" }, name)
   check.equal(m.parts, m.dimension == 2 and { "77", "bottom", "left", "top" } or { "77", "bottom", "top" }, name)
-  local order <const> = "its elements are of order 2; only their corners are used, so that curved sides become straight"
+  local order <const> = "its elements are of order 2; only their corners are used, so that curved sides become straight (order = 2 takes them as they are)"
   check.equal(m.notes[1] == order, name:find "second_order" ~= nil, name)
   check.equal(#m:pieces(), 1, name)
   patch(m, name)
@@ -63,6 +72,17 @@ for _, name in ipairs{
   check.equal(half.parts, m.dimension == 2 and { "bottom", "left", "middle", "top" } or { "77", "bottom", "top" }, name)
   local both <const> = dotyk.mesh.load(folder .. name .. ".msh", { region = { "right half", "left half" } })
   check.equal({ both.node_count, both.cell_count }, { m.node_count, m.cell_count }, name)
+
+  -- With order = 2 every one of them is of second order: by its own nodes, or with nodes in the middle of what is straight.
+  local second <const> = dotyk.mesh.load(folder .. name .. ".msh", { order = 2 })
+  local of_second <const> = expected_second[name:match "^%a+"]
+  check.equal({ second.element, second.node_count, second.cell_count }, { of_second[1], of_second[2], m.cell_count }, name)
+  check.equal(second.parts, m.parts, name)
+  local added <const> = "its elements are of order 1; nodes are put in the middle of their straight sides"
+  check.equal(second.notes[1] == added, not name:find "second_order", name)
+  patch(second, name .. " of order 2")
+  local half_of_second <const> = dotyk.mesh.load(folder .. name .. ".msh", { region = "left half", order = 2 })
+  check.equal({ half_of_second.parts, half_of_second.node_count, half_of_second.cell_count }, { half.parts, of_second[3], half.cell_count }, name)
 end
 
 local plain <const> = dotyk.mesh.load(folder .. "quadrilaterals_without_groups_41.msh")

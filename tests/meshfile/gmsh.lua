@@ -32,6 +32,64 @@ check.that(fine.cell_count > 3 * m.cell_count and fine.cell_count < 5 * m.cell_c
 -- The same geometry gives the same mesh.
 check.equal(dotyk.mesh.gmsh{ text = ring, size = 0.1 }.node_count, m.node_count)
 
+-- Order 2: nodes between corners lie on the circles, too, two for each facet of these closed curves; the area, which is
+-- the reaction to a unit force per area, converges as h^4, with chords as h^2. (In the ring the chords' errors cancel: they
+-- are pi h^2/6 on either circle.)
+local disc <const> = 'SetFactory("OpenCASCADE"); Disk(1) = {0, 0, 0, 1}; Physical Surface("disc") = {1};'
+local function area(text, size, order)
+  local m <const> = dotyk.mesh.gmsh{ text = text, size = size, order = order }
+  local body <const> = dotyk.body{ name = "round", mesh = m, material = dotyk.material{ E = 1, nu = 0.3 }, force = {0, -1} }
+  local facets, on = 0, 0
+  local edge <const> = body:part("circles", function() facets = facets + 1 return true end)
+  edge:fix()
+  m:transform(function(x, y)
+    if math.min(math.abs(math.sqrt(x^2 + y^2) - 1), math.abs(math.sqrt(x^2 + y^2) - 0.5)) < 1e-12 then on = on + 1 end
+    return x, y
+  end)
+  check.equal({ m.element, on }, { "P" .. order, order * facets })
+  local _ <const>, force <const> = dotyk.solve(dotyk.scene{ body }):reaction(edge)
+  return force, facets
+end
+for order = 1, 2 do
+  local coarse <const>, facets <const> = area(disc, 0.2, order)
+  local fine <const>, more <const> = area(disc, 0.1, order)
+  local rate <const> = math.log((coarse - math.pi) / (fine - math.pi)) / math.log(more / facets)
+  check.near(rate, 2 * order, 0.05, "order of the area's error with cells of order " .. order)
+end
+check.near(area(ring, 0.1, 2), 0.75 * math.pi, 2e-6)  -- with the disc's 4e-7 on the outer circle and 4 times that on the inner
+
+-- Quadrilaterals, solids and what Gmsh's own options ask for.
+local recombined <const> = ring .. "\nMesh.RecombineAll = 1; Mesh.RecombinationAlgorithm = 2; Mesh.SecondOrderIncomplete = 1;"
+check.equal(dotyk.mesh.gmsh{ text = recombined, size = 0.2, order = 2 }.element, "Q2")
+-- A quarter of a pipe, of hexahedra of 27 and of 20 nodes: the same nodes, volumes near the pipe's.
+local pipe <const> = [[
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {2, 0, 0}; Point(4) = {0, 2, 0}; Point(5) = {0, 1, 0};
+Line(1) = {2, 3}; Circle(2) = {3, 1, 4}; Line(3) = {4, 5}; Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Transfinite Curve{1, 3} = 2; Transfinite Curve{2, 4} = 5; Transfinite Surface{1}; Recombine Surface{1};
+out() = Extrude{0, 0, 1}{ Surface{1}; Layers{2}; Recombine; };
+Physical Volume("pipe") = {out(1)}; Physical Surface("low") = {1};
+Mesh.SecondOrderIncomplete = %d;]]
+for incomplete = 0, 1 do
+  local m <const> = dotyk.mesh.gmsh{ text = pipe:format(incomplete), order = 2 }
+  check.equal({ m.element, m.node_count, m.cell_count, m.parts, #m.notes }, { "Q2", 3 * 9 * 5, 8, { "low" }, 0 })
+  local body <const> = dotyk.body{ name = "pipe", mesh = m, material = dotyk.material{ E = 1, nu = 0.3 }, force = {0, 0, -1} }
+  body:part "low":fix()
+  local _ <const>, _ <const>, volume <const> = dotyk.solve(dotyk.scene{ body }):reaction(body:part "low")
+  -- Sides are parabolas: 2/3 of chord times height between chord and arc.
+  local turn <const> = math.pi / 8
+  check.near(volume, 4 * (2^2 - 1^2) * (math.sin(turn) / 2 + 2 / 3 * 2 * math.sin(turn / 2) * (1 - math.cos(turn / 2))), 1e-12)
+end
+local own <const> = dotyk.mesh.gmsh{ text = ring .. "\nMesh.ElementOrder = 2;", size = 0.2 }
+check.equal({ own.element, own.notes[1] }, { "P1", "its elements are of order 2; only their corners are used, so that curved sides become straight (order = 2 takes them as they are)" })
+local ball <const> = dotyk.mesh.gmsh{ text = 'SetFactory("OpenCASCADE"); Sphere(1) = {0, 0, 0, 1};', size = 0.7, order = 2 }
+local weighed <const> = dotyk.body{ name = "ball", mesh = ball, material = dotyk.material{ E = 1, nu = 0.3 }, force = {0, 0, -1} }
+local surface <const> = weighed:part("surface", function() return true end)
+surface:fix()
+local _ <const>, _ <const>, weight <const> = dotyk.solve(dotyk.scene{ weighed }):reaction(surface)
+check.near(weight, 4 / 3 * math.pi, 0.01, "the volume of a ball of cells 0.7 wide")
+check.error(dotyk.mesh.gmsh, "order", { text = ring, order = 3 })
+
 local box <const> = [[
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1}; Box(2) = {3, 0, 0, 1, 1, 1};

@@ -53,17 +53,17 @@ void check_refused(const std::string& text, const std::string& why) {
 }  // namespace
 
 TEST_CASE("MFEM's text: attributes become regions and parts") {
-  const Loaded square = assemble(read_mfem(kMesh, "f"), {"4"}, "f");
+  const Loaded square = assemble(read_mfem(kMesh, "f"), {.regions = {"4"}}, "f");
   CHECK(square.mesh.element == mesh::Element::quadrilateral_q1);
   CHECK(square.mesh.node_count() == 4);
   CHECK(square.mesh.parts.at("1") == std::vector<mesh::Facet>{{0, 0}});
   CHECK(square.mesh.parts.count("30") == 0);
-  const Loaded triangles = assemble(read_mfem(kMesh, "f"), {"7"}, "f");
+  const Loaded triangles = assemble(read_mfem(kMesh, "f"), {.regions = {"7"}}, "f");
   CHECK(triangles.mesh.cell_count() == 2);
   CHECK(triangles.mesh.parts.at("30") == std::vector<mesh::Facet>{{1, 0}});
   std::string windows;
   for (const char c : kMesh) windows += c == '\n' ? "\r\n" : std::string(1, c);
-  CHECK(assemble(read_mfem(windows, "f"), {"7"}, "f").mesh.coordinates == triangles.mesh.coordinates);
+  CHECK(assemble(read_mfem(windows, "f"), {.regions = {"7"}}, "f").mesh.coordinates == triangles.mesh.coordinates);
 }
 
 TEST_CASE("MFEM's text: what is wrong, and in which line") {

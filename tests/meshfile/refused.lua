@@ -41,6 +41,7 @@ refused(function() dotyk.mesh.load(3) end, "file")
 refused(function() dotyk.mesh.load("a.msh", { regoin = "a" }) end, "unknown key 'regoin', did you mean 'region'?")
 refused(function() dotyk.mesh.load("a.msh", { region = 3 }) end, "region")
 refused(function() dotyk.mesh.load("a.msh", { region = { 3 } }) end, "region")
+for _, order in ipairs{ 0, 3, 1.5, "2" } do refused(function() dotyk.mesh.load("a.msh", { order = order }) end, "order") end
 
 -- A Gmsh file is one before Gmsh sees it: what it does not know it would run as a script.
 expect("script.msh", 'SystemCall "touch ran";\n', "it does not begin with $MeshFormat")
