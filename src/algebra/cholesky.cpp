@@ -5,6 +5,7 @@
 
 #include "algebra/blas_threads.hpp"
 #include "algebra/cholmod_handle.hpp"
+#include "algebra/stop_factoring.hpp"
 #include "base/memory.hpp"
 
 namespace dotyk::algebra {
@@ -84,7 +85,9 @@ bool Cholesky::factor(const SparseMatrix& lower) {
   require_memory(bytes(), text("the factor of ", lower.rows(), " unknowns"));
   const BlasThreads threads(it_->flops);
   cholmod_sparse a = view(lower);
+  const StoppableFactoring factoring;
   cholmod_factorize(&a, it_->factor, it_->common.get());
+  if (factoring.stopped()) throw Interrupted();
   if (it_->common.get()->status == CHOLMOD_NOT_POSDEF) return false;
   it_->common.check("factorisation");
   return it_->factor->minor == it_->factor->n;

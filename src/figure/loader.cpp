@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <climits>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -53,6 +54,8 @@ void* open_library() {
     }
     if (void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
     const char* reason = dlerror();
+    for (const char* short_of : {"failed to map", "cannot allocate", "Cannot allocate"})
+      if (reason && std::strstr(reason, short_of)) throw std::runtime_error("out of memory: the drawing library takes more than there is left");
     throw std::runtime_error("cannot open the drawing library " + place + ": " + (reason ? reason : "unknown reason"));
   }
   throw std::runtime_error("pictures and .vtu files need the drawing library " + name + ", which is missing:" + tried);

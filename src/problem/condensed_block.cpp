@@ -1,5 +1,6 @@
 #include "problem/condensed_block.hpp"
 
+#include "algebra/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -47,6 +48,7 @@ CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ord
   monitor.check();
   monitor.phase(text("factoring '", block.name, "' (", part.condensation.cholesky().method(), ", ",
                      part.condensation.cholesky().flops() * 1e-9, " Gflop)"));
+  const algebra::StopFactoring stop(monitor);
   if (!part.condensation.factor(block.K)) {
     const int unknown = part.condensation.failed_unknown();
     throw InputError(text("the stiffness of '", block.name, "' is singular",

@@ -39,8 +39,8 @@ fs::path place_of(const fs::path& file) {
 
 }  // namespace
 
-Folder::Folder(const std::string& name) : name_(name), place_(place_of(name)) {
-  if (!fs::is_directory(place_)) throw std::runtime_error("'" + name + "' is not a folder");
+Folder::Folder(const std::string& name) : name_(name), place_(name.empty() ? fs::path() : place_of(name)) {
+  if (name.empty() || !fs::is_directory(place_)) throw std::runtime_error("'" + name + "' is not a folder");
 }
 
 void Folder::require(const std::string& file) const {

@@ -33,13 +33,17 @@ Function::Function(lua_State* L, int slot, std::string key, std::string callee)
 // wrong; the place of the call that evaluated it is appended.
 void Function::call(int count, int results) const {
   if (lua_pcall(L_, count, results, 0) == LUA_OK) return;
-  if (interrupted()) throw Interrupted();  // caught where a result so far can be given
+  if (interrupted()) {
+    lua_pop(L_, 1);
+    throw Interrupted();  // caught where a result so far can be given
+  }
   if (lua_type(L_, -1) == LUA_TSTRING) {
     auto place = position(L_);
     if (!place.empty()) place = " at " + place.substr(0, place.size() - 2);
     const auto what =
         key_.empty() ? "in the function given to " + callee_ : "in '" + key_ + "' of " + callee_;
-    lua_pushfstring(L_, "%s (%s%s)", lua_tostring(L_, -1), what.c_str(), place.c_str());
+    const std::string message = lua_tostring(L_, -1), where = " (" + what + place + ")";
+    if (message.find(where) == std::string::npos) lua_pushstring(L_, (message + where).c_str());  // nested ones say it once
   }
   lua_error(L_);
 }

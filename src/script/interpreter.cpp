@@ -7,15 +7,17 @@
 #include "script/library.hpp"
 #include "script/lua.hpp"
 #include "script/lua_side.hpp"
+#include "script/position.hpp"
+#include "script/push.hpp"
 #include "script/strict.hpp"
 
 namespace dotyk::script {
 namespace {
 
-// The error value as a text: strings as they are, objects by __tostring.
+// The error value as a text: strings as they are, objects by __tostring; of what is neither, where it was raised.
 int to_message(lua_State* L) {
-  if (lua_type(L, 1) == LUA_TTABLE && luaL_getmetafield(L, 1, "__tostring") == LUA_TNIL) {
-    lua_pushliteral(L, "error with a table in place of a message");
+  if (!lua_isstring(L, 1) && luaL_getmetafield(L, 1, "__tostring") == LUA_TNIL) {
+    push(L, position(L) + "error with " + describe_value(L, 1) + " in place of a message");
     return 1;
   }
   lua_settop(L, 1);

@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "script/lua.hpp"
 #include "script/position.hpp"
@@ -17,7 +18,8 @@ namespace {
 // The signal handler may touch nothing but these.
 std::atomic<bool> pending{false};
 std::atomic<lua_State*> running{nullptr};
-std::atomic<double> asked_at{0};
+std::atomic<double> asked_at{0}, warned_at{0};
+std::atomic<bool> session{false};
 
 // Instructions of Lua that may run (0: any number), that ran, and that run between two looks at them.
 long long allowed = 0, used = 0;
@@ -56,9 +58,24 @@ double now() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+void warn() {
+  constexpr char message[] = "\ndotyk: still computing; press Ctrl-C again within 2 s to end dotyk and lose the session\n";
+  if (write(STDERR_FILENO, message, sizeof message - 1) < 0) return;
+}
+
+// Is this one to end the program? Where there is a session to lose only after a warning.
+bool ends(double time) {
+  if (!pending) return false;
+  if (!session) return time - asked_at < 1;
+  if (time - warned_at < 2) return true;
+  warned_at = time;
+  warn();
+  return false;
+}
+
 void on_signal(int signal) {
   const double time = now();
-  if (pending && time - asked_at < 1.0) {
+  if (ends(time)) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
     return;
@@ -174,8 +191,11 @@ void replace_field(lua_State* L, const char* name, lua_CFunction function) {
 bool interrupted() { return pending; }
 void clear_interrupt() {
   pending = false;
+  warned_at = 0;
   used = 0;
 }
+
+void keep_session() { session = true; }
 
 void request_interrupt() {
   asked_at = now();

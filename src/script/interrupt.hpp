@@ -2,6 +2,7 @@
 // Ctrl-C. The first raises the Lua error "interrupted" at the next instruction
 // of the script and is seen by long computations that poll interrupted(); a
 // second within a second, while the first is still unanswered, ends the program.
+// At the prompt a second only says that the next one will, for two seconds.
 struct lua_State;
 
 namespace dotyk::script {
@@ -11,6 +12,9 @@ bool interrupted();
 
 // The request was answered. Instructions are counted anew.
 void clear_interrupt();
+
+// From now on the user has a session to lose: Ctrl-C does not end the program without a warning.
+void keep_session();
 
 // Asks to stop, as Ctrl-C does.
 void request_interrupt();

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -10,18 +9,19 @@
 #include <fstream>
 #include <iterator>
 #include <locale>
+#include <new>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "script/interpreter.hpp"
 #include "script/interrupt.hpp"
 #include "script/library.hpp"
 #include "script/manifest.hpp"
+#include "script/process_limits.hpp"
 #include "script/prompt.hpp"
 #include "script/safe.hpp"
 
@@ -36,8 +36,9 @@ constexpr char usage[] =
     "  dotyk -i FILE.lua ARGS…    run a script, then the prompt\n"
     "  dotyk - ARGS…              run a script from standard input\n"
     "  dotyk --traceback …        errors with the stack of calls (also DOTYK_TRACEBACK=1)\n"
-    "  dotyk --safe FOLDER …      a script from a stranger: files below FOLDER only, no other programs, no\n"
-    "                             environment, text only to load, 1e9 instructions unless said otherwise\n"
+    "  dotyk --safe FOLDER …      a script from a stranger: files below FOLDER only, of 1 GB at most, no other\n"
+    "                             programs, no environment, text only to load; unless said otherwise at most\n"
+    "                             1e9 instructions, 600 s of processors and half of the machine's memory\n"
     "  dotyk --instructions N …   at most N instructions of Lua (what dotyk computes meanwhile counts for none)\n"
     "  dotyk --seconds N …        at most N seconds of processors' time, whatever runs\n"
     "  dotyk --memory SIZE …      at most this address space: 500M, 2G\n"
@@ -52,7 +53,8 @@ struct Command {
   std::optional<std::string> file, code;
   std::vector<std::string> arguments;
   std::optional<std::string> safe;
-  std::optional<double> instructions, seconds, memory;
+  std::optional<double> instructions;
+  dotyk::script::ProcessLimits limits;
   bool prompt = false, manifest = false, traceback = std::getenv("DOTYK_TRACEBACK") != nullptr;
 };
 
@@ -83,7 +85,7 @@ std::optional<int> read_limits(const std::string& option, const std::string* nex
   }
   const double value = read_limit(*next, memory);
   if (value == 0) return misuse(option + " needs a number of at least 1" + (memory ? ", as 500M or 2G" : "") + ", got '" + *next + "'");
-  (memory ? command.memory : option == "--seconds" ? command.seconds : command.instructions) = value;
+  (memory ? command.limits.memory : option == "--seconds" ? command.limits.seconds : command.instructions) = value;
   return std::nullopt;
 }
 
@@ -122,6 +124,8 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
   }
   if (command.prompt && !command.file && !command.code) return misuse("-i needs a file");
   if (!command.file && !command.code) command.prompt = true;
+  if (std::find(words.begin() + static_cast<std::ptrdiff_t>(std::min(i, words.size())), words.end(), "--safe") != words.end())
+    std::fputs("dotyk: --safe after the script is an argument of its own; dotyk's come before it\n", stderr);
   command.arguments.assign(words.begin() + static_cast<std::ptrdiff_t>(std::min(i, words.size())),
                            words.end());
   return std::nullopt;
@@ -132,26 +136,6 @@ int after_printing(int status) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
   std::fprintf(stderr, "dotyk: standard output could not be written%s%s\n", errno ? ": " : "", errno ? std::strerror(errno) : "");
   return status == 0 ? 1 : status;
-}
-
-void time_is_up(int) {
-  constexpr char message[] = "dotyk: the limit of processors' time is reached (--seconds)\n";
-  const auto written = write(STDERR_FILENO, message, sizeof message - 1);
-  _exit(written > 0 ? 1 : 3);
-}
-
-void limit(int resource, double value) {
-  rlimit limits{};
-  getrlimit(resource, &limits);
-  limits.rlim_cur = std::min(static_cast<rlim_t>(value), limits.rlim_max);
-  setrlimit(resource, &limits);
-}
-
-void set_limits(const Command& command) {
-  if (command.memory) limit(RLIMIT_AS, *command.memory);
-  if (!command.seconds) return;
-  std::signal(SIGXCPU, time_is_up);
-  limit(RLIMIT_CPU, std::ceil(*command.seconds));
 }
 
 dotyk::script::Manifest manifest_of(const Command& command) {
@@ -169,9 +153,8 @@ int run(const Command& command) {
     std::fprintf(stderr, "dotyk: cannot open %s: %s\n", command.file->c_str(), std::strerror(errno));
     return 2;
   }
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond ulimit -f is an error where it is written
-  set_limits(command);
   dotyk::script::Interpreter interpreter;
+  dotyk::script::set_limits(command.limits);
   interpreter.trace(command.traceback);
   interpreter.set_arguments(command.file.value_or(command.code ? "-e" : "dotyk"), command.arguments);
   dotyk::script::watch_interrupts(interpreter.state());
@@ -200,7 +183,12 @@ int main(int count, char** words) {
   try {
     Command command;
     if (const auto status = read_command({words + 1, words + count}, command)) return after_printing(*status);
+    if (command.safe) command.limits.fill_in_for_safe();
+    dotyk::script::leave_threads_if_tight(command.limits, words);
     return after_printing(run(command));
+  } catch (const std::bad_alloc&) {
+    std::fputs("dotyk: out of memory\n", stderr);
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "dotyk: %s\n", error.what());
     return 1;

@@ -33,6 +33,7 @@ class Prompt {
 
   int run() {
     if (terminal_) {
+      keep_session();
       load_history();
       std::printf("dotyk %s – help() lists what there is, Ctrl-D leaves\n", DOTYK_VERSION);
     }

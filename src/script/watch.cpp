@@ -38,14 +38,19 @@ void Watch::iteration(const IterationInfo& info) {
   const auto line =
       text(work_, info.step > 0 ? text(": step ", info.step, ", iteration ") : ": iteration ", info.iteration, ", ", info.active, " active, ", info.changed, " changed, ",
            info.stick, " stick, ", info.slip, " slip, ", info.inner > 0 ? text(info.inner, " inner, ") : "", "residual ", info.residual, ", ", info.seconds, " s");
+  last_ = info;
   if (verbose_) {
     clear_progress();
     std::fprintf(stderr, "%s\n", line.c_str());
   } else {
     show_progress(line);
   }
-  if (!on_iteration_.empty() && !on_iteration_.front()(info.iteration, iteration_record(info)))
-    refused_ = true;
+  if (on_iteration_.empty()) return;
+  try {
+    if (!on_iteration_.front()(info.iteration, iteration_record(info))) refused_ = true;
+  } catch (const Interrupted&) {
+    refused_ = true;  // the method ends with the state so far
+  }
 }
 
 void Watch::limit(double seconds) {
@@ -63,7 +68,8 @@ void Watch::answer() {
   if (!at_prompt) return;
   if (interrupted()) {
     clear_progress();
-    std::fputs("stopped: the result is the state so far; look at it, go on from it with start = it, or leave it\n", stderr);
+    const std::string place = !last_ ? "" : last_->step > 0 ? text(" in step ", last_->step, " after iteration ", last_->iteration) : text(" after iteration ", last_->iteration);
+    std::fprintf(stderr, "stopped%s: the result is the state so far; look at it, go on from it with start = it, or leave it\n", place.c_str());
   }
   clear_interrupt();
 }

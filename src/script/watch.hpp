@@ -44,6 +44,7 @@ class Watch : public Monitor {
   std::vector<Function> on_iteration_;
   bool verbose_, refused_ = false;
   std::optional<std::chrono::steady_clock::time_point> deadline_;
+  std::optional<IterationInfo> last_;
 };
 
 }  // namespace dotyk::script

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "algebra/blas_threads.hpp"
+#include "algebra/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
@@ -24,6 +25,7 @@ void factor_in_threads(const std::vector<double>& flops, const std::string& what
       monitor.check();
       monitor.phase(text(what, " ", ++begun, " of ", flops.size()));
     }
+    const algebra::StopFactoring stop(monitor);
     factor(order[k]);
   };
   if (order.size() == 1) return one(0);

@@ -1,4 +1,5 @@
 #include "algebra/cholesky.hpp"
+#include "algebra/stop_factoring.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "problem/condensed.hpp"
@@ -30,6 +31,7 @@ void solve_block(const problem::Block& block, algebra::Ordering ordering, Monito
   monitor.check();
   monitor.phase(text("factoring '", block.name, "' (", cholesky.method(), ", ", cholesky.flops() * 1e-9,
                      " Gflop)"));
+  const algebra::StopFactoring stop(monitor);
   if (!cholesky.factor(block.K))
     throw InputError(text("the stiffness of '", block.name, "' is singular near node ",
                           block.node[cholesky.failed_unknown()] + 1,

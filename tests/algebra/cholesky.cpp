@@ -5,7 +5,9 @@
 #include <numeric>
 
 #include "../support/spring_grid.hpp"
+#include "algebra/stop_factoring.hpp"
 #include "base/parallel.hpp"
+#include "spd_matrices.hpp"
 
 using namespace dotyk;
 using namespace dotyk::algebra;
@@ -43,6 +45,37 @@ TEST_CASE("Cholesky solves as the dense factorisation does") {
         CHECK(cholesky.flops() > 0);
         CHECK(cholesky.bytes() >= 8.0 * static_cast<double>(grid.node.size()));
       }
+}
+
+TEST_CASE("a factorisation ends early where its watcher asks to stop, and is whole again afterwards") {
+  struct Patience : Monitor {
+    explicit Patience(int n) : left(n) {}
+    bool stop() override { return --left < 0; }
+    int left;
+  };
+  const SparseMatrix K = test::laplacian(12, 12, 12);
+  std::vector<int> node(K.rows());
+  std::iota(node.begin(), node.end(), 0);
+  const Vector b = Random(3).vector(static_cast<int>(K.rows()));
+  Cholesky cholesky(K, node, {});
+  Patience endless(1 << 30);
+  {
+    const StopFactoring stop(endless);
+    REQUIRE(cholesky.factor(K));
+  }
+  const int asked = (1 << 30) - endless.left;
+  CHECK(asked > 10);
+  const DenseMatrix x = cholesky.solve(b);
+  CHECK(test::relative(test::full(K) * x, b) < kRounding);
+  for (const int after : {0, 1, asked / 2, asked - 1}) {
+    Patience patience(after);
+    {
+      const StopFactoring stop(patience);
+      CHECK_THROWS_AS(cholesky.factor(K), Interrupted);
+    }
+    CHECK(cholesky.factor(K));
+    CHECK(cholesky.solve(b) == x);
+  }
 }
 
 TEST_CASE("a dense matrix of one node and a diagonal one are factored too") {

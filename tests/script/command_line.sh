@@ -19,13 +19,16 @@ printf 'local x = 1\nprint(x)\nerror("gone wrong")\n' >wrong.lua
 printf 'local x = = 1\n' >syntax.lua
 printf 'y = 7\n' >sets.lua
 printf '\n\nerror({})\n' >table.lua
+echo 'print(1)' >hello_.lua
 
 expect "a script" 0 $'hello\thello.lua' '' "$dotyk" hello.lua
 expect "arguments" 0 '2 a --b' '' "$dotyk" -e 'print(#arg .. " " .. arg[1] .. " " .. arg[2])' a --b
 expect "-e" 0 '2' '' "$dotyk" -e 'print(1 + 1)'
 expect "an error" 1 '1' 'dotyk: wrong.lua:3: gone wrong' "$dotyk" wrong.lua
 expect "a syntax error" 1 '' "dotyk: syntax.lua:1: unexpected symbol near '='" "$dotyk" syntax.lua
-expect "an error that is a table" 1 '' 'dotyk: error with a table in place of a message' "$dotyk" table.lua
+expect "an error that is a table" 1 '' 'dotyk: table.lua:3: error with a table in place of a message' "$dotyk" table.lua
+expect "an error without a message" 1 '' 'dotyk: -e:2: error with nil in place of a message' "$dotyk" -e $'\nerror()'
+expect "a safe run that is none" 0 '1' "dotyk: --safe after the script is an argument of its own; dotyk's come before it" "$dotyk" hello_.lua --safe .
 expect "an error of -e" 1 '' "dotyk: -e:1: unknown variable 'x'" "$dotyk" -e 'print(x)'
 expect "a missing file" 2 '' 'dotyk: cannot open nothing.lua: No such file or directory' "$dotyk" nothing.lua
 expect "an unknown option" 2 '' "dotyk: unknown option '--fast' (dotyk --help tells more)" "$dotyk" --fast

@@ -43,6 +43,11 @@ expect "source" 'local refinement <const>' 'source(dotyk.adapt)\n' &
 expect "completion of a field" '# dotyk: reference' 'print((dotyk.refe\t():sub(1, 18)))\n' &
 expect "Ctrl-C on an endless loop" 'still here' 'while true do end\n' '\003' 'print("still" .. " here")\n' &
 expect "Ctrl-C on an endless coroutine" 'still here' 'coroutine.wrap(function() while true do end end)()\n' '\003' 'print("still" .. " here")\n' &
+# What Lua's library computes cannot be stopped (seconds, here): the second Ctrl-C warns, the session goes on; the third ends it.
+pattern='(("a"):rep(23) .. "b"):find(("a?"):rep(23) .. ("a"):rep(23) .. "c")\n'
+expect "Ctrl-C twice warns" 'press Ctrl-C again within 2 s to end dotyk and lose the session' "$pattern" '\003' '\003' 'os.exit()\n' &
+expect "Ctrl-C twice and the session" 'still here' "$pattern" '\003' '\003' 'print("still" .. " here")\n' 'os.exit()\n' &
+(dotyk="trap : INT; $dotyk; echo status \$?" && expect "Ctrl-C three times" 'status 130' "${pattern//23/60}" '\003' '\003' '\003') &
 expect "Ctrl-C clears the line" '12' 'error(' '\003' '3 * 4\n' &
 block='block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} }, material = dotyk.material{ E = 1, nu = 0.3 } }\n'
 expect "completion of a part" 'bottom: 2 facets' "$block" 'block:part "bo\t:fix()\n' &
@@ -70,6 +75,9 @@ shape = dotyk.shape{ scene = scene, moves = { { part = block:part "bottom", cont
 END
 expect "Ctrl-C in an optimisation" 'ended: stopped, 4 variables' "dofile \"$folder/shape.lua\"\n" 'best = shape:optimise{ max_designs = 100000, tol_design = 1e-300, tol_gap = 0 }\n' '' '' '' '' '' '' \
   '\003' '' 'print(("ended: %s, %d variables"):format(best.reason, #best.alpha))\n' &
+expect "Ctrl-C in a solve" 'stopped after iteration' "$block" 'scene = dotyk.scene{ block } block:part "top":load{ 0, -1 } block:part "left":fix "x"\n' \
+  'scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }\n' \
+  's = dotyk.solver.pdas{ on_iteration = function() while os.clock() < 1.2 do end end }:solve(scene)\n' '\003' '' '' '' &
 (
   expect "history" 'ninety-9' 'print("ninety" .. "-" .. 9)\n'
   expect "history" 'ninety-9' 'print("nin\033[A\n'

@@ -159,6 +159,24 @@ wait $!
 got=$(timeout 20 "$dotyk" --seconds 1 -e 'table.move({}, 1, 1 << 60, 2)' 2>&1)
 [[ $? == 1 && $got == "dotyk: the limit of processors' time is reached (--seconds)" ]] || fail "--seconds: $got"
 
+# The same without a word where the script is a stranger's; what Lua's library does meanwhile no count of instructions sees.
+endless() {
+  local got
+  got=$(timeout 20 "$dotyk" --safe below --seconds 1 -e "$2" 2>&1)
+  [[ $? == 1 && ($got == "dotyk: the limit of processors' time is reached (--seconds)" || $got == *'not enough memory') ]] || fail "$1: $got"
+}
+endless "a pattern" '(("a"):rep(40) .. "b"):find(("a?"):rep(40) .. ("a"):rep(40) .. "c")'
+endless "a pattern of balances" 'for i = 1, 1e6 do (("("):rep(3e5)):find "%b()" end'
+endless "a substitution" '(("a"):rep(3e5)):gsub(".-b", "")'
+endless "a long string" 'local s = {} for i = 1, 1e6 do s[i] = ("x"):rep(1 << 30) end'
+"$dotyk" --safe below -e 'while true do end' 2>/dev/null &
+sleep 0.5
+limits=$(</proc/$!/limits)
+kill -9 $!
+wait $! 2>/dev/null
+[[ $limits =~ 'Max cpu time'\ +600\  && $limits =~ 'Max file size'\ +1000000000\  ]] || fail "limits of --safe: $limits"
+[[ $limits =~ 'Max address space'\ +[0-9]+\  ]] || "$dotyk" --memory 2G -e '' 2>&1 | grep -q . || fail "memory of --safe: $limits"
+
 # Memory.
 if [[ $("$dotyk" --memory 2G -e 'print(1)' 2>&1) == 1 ]]; then # a sanitized program takes more for itself
   got=$("$dotyk" --memory 600M -e 'local t = {} while true do t[#t + 1] = ("x"):rep(1e6 + #t) end' 2>&1)
@@ -169,6 +187,7 @@ fi
 
 # Wrong use.
 [[ $("$dotyk" --safe 2>&1) == 'dotyk: --safe needs a folder (dotyk --help tells more)' ]] || fail "--safe alone"
+[[ $("$dotyk" --safe '' -e '' 2>&1) == "dotyk: '' is not a folder" ]] || fail "--safe without a name"
 [[ $("$dotyk" --safe nowhere -e '' 2>&1) == "dotyk: 'nowhere' is not a folder" ]] || fail "--safe nowhere"
 [[ $("$dotyk" --memory 5X -e '' 2>&1) == "dotyk: --memory needs a number of at least 1, as 500M or 2G, got '5X' (dotyk --help tells more)" ]] || fail "--memory 5X"
 [[ $("$dotyk" --instructions many -e '' 2>&1) == "dotyk: --instructions needs a number of at least 1, got 'many' (dotyk --help tells more)" ]] || fail "--instructions many"
