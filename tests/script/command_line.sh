@@ -51,6 +51,10 @@ expect "a broken Lua folder" 1 '' "dotyk: the Lua files of dotyk, in /nowhere, c
 
 "$dotyk" --version | grep -qx 'dotyk [0-9.]*' || fail "--version"
 "$dotyk" --help | grep -q 'Exit status' || fail "--help"
+# A function within itself, again and again: the place is said once.
+nested=$("$dotyk" -e 'local m = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {1,1} }
+local function within() m:transform(function(x, y) within() return x, y end) end within()' 2>&1)
+[[ $nested == "dotyk: -e:2: C stack overflow (in 'map' of transform at -e:2)" ]] || fail "nested errors: ${nested:0:300}"
 # What a logarithmic axis leaves out is said, once a chart.
 expect "a logarithmic axis" 0 'a.png' "dotyk: a.png: zero and negative values have no place on a logarithmic axis; left out: 2 of 3 points of 'error', 1 of 2 points of series 3" \
   "$dotyk" -e 'print(dotyk.chart{ file = "a.png", log = "y", series = { { name = "error", x = {1,2,3}, y = {1,0,-1} }, { x = {0,1}, y = {1,2} }, { x = {0,1}, y = {0,2} } } })'
