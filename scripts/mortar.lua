@@ -53,13 +53,13 @@ local passed = true
 print "patch test: greatest relative error of pressure and stress\n"
 print "        elements    cells    mortar   node to segment   action against reaction"
 for _, dimension in ipairs{ 2, 3 } do
-  for _, elements in ipairs{ { "P1", "P1" }, { "Q1", "Q1" }, { "P1", "Q1" }, { "Q1", "P1" } } do
+  for _, elements in ipairs{ { "P1", "P1" }, { "Q1", "Q1" }, { "P1", "Q1" }, { "Q1", "P1" }, { "P2", "P2" }, { "Q2", "Q2" }, { "P2", "Q1" }, { "P1", "Q2" } } do
     for _, cells in ipairs{ { 2, 3 }, { 5, 7 }, { 7, 5 } } do
       local n <const>, m <const> = cells[1], cells[2]
       local mortar, balance = departure(dimension, blocks(dimension, elements, n, m, "mortar"))
       local feet = departure(dimension, blocks(dimension, elements, n, m, "node_to_segment"))
       print(("  %d-D   %s on %s   %3d:%d   %8.1e   %8.3f          %8.1e"):format(dimension, elements[1], elements[2], n, m, mortar, feet, balance))
-      passed = passed and mortar < 1e-11 and balance < 1e-11 and feet > 0.01
+      passed = passed and mortar < 1e-11 and balance < 1e-11 and (elements[1]:find "2" or feet > 0.01)
     end
   end
 end
@@ -79,7 +79,7 @@ print "\nHertz's line contact: error of the pressure in L2 and of its peak, in p
 print "  element   cells      matching          mortar            ratio    node to segment"
 local chart = { x = {}, matching = {}, mortar = {}, feet = {} }
 local shown
-for _, element in ipairs{ "P1", "Q1" } do
+for _, element in ipairs{ "P1", "Q1", "P2", "Q2" } do
   for level = finest < 80 and 1 or 2, 0, -1 do
     local n <const> = finest >> level
     local m <const> = 7 * n // 5
@@ -89,8 +89,8 @@ for _, element in ipairs{ "P1", "Q1" } do
       local feet, feet_peak, feet_last = error_of(cells[1], cells[2], "node_to_segment", element)
       print(("  %s     %4d:%-4d  %6.3f %6.3f    %6.3f %6.3f    %5.2f    %6.3f %6.3f"):format(
         element, cells[1], cells[2], 100 * matching, 100 * peak, 100 * mortar, 100 * mortar_peak, mortar / matching, 100 * feet, 100 * feet_peak))
-      -- On P1's triangles a first part finer than the second lets the pressure waver.
-      if element == "Q1" or cells[1] <= cells[2] then passed = passed and mortar < 1.1 * matching end
+      -- On P1's triangles a finer first part would let the pressure waver: its multipliers are then the second's.
+      passed = passed and mortar < 1.1 * matching
       if element == "Q1" and cells[1] < cells[2] then
         local i = #chart.x + 1
         chart.x[i], chart.matching[i], chart.mortar[i], chart.feet[i] = n, 100 * matching, 100 * mortar, 100 * feet

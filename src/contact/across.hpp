@@ -28,8 +28,8 @@ std::vector<Across> node_to_segment(const Face& first, const Face& second, const
 /// taken on the cut pieces by a rule exact for straight edges, triangles and parallelograms; for other quadrilaterals, whose
 /// hats are rational, by one of degree 11. Forces balance whatever the rule, since both sides' integrals are the same ones.
 /// A uniform pressure gives Σ_k M_kj p = p∫φ_j: the patch test is passed. Matching nodes: M_kj = δ_kj D_k, the nodal rows.
-/// A first part of order 2 has the corners' linear hats themselves for ψ, φ_l all its shape functions: rows in the mean, see
-/// ContactRow. Curved facets are projected as if the straight ones through their corners had their nodes.
+/// Of a first part of order 2, φ_k in the definition of ψ are the corners' linear hats, and all its shape functions have their moments
+/// in the rows: means on both sides, see ContactRow. Curved facets are projected as if the straight ones through their corners had their nodes.
 /// Where the first part's facets are covered by the second in part, φ, ψ and D are those of the covered part (Cichosz and
 /// Bischoff 2011), and ψ stays dual. What is covered in less than kSliver of a facet counts as not covered.
 std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides);

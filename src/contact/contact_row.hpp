@@ -15,10 +15,11 @@ struct NodeWeight {
 
 /// One condition of non-penetration at a corner of the first part's facets:
 ///   normal·(Σ weight u_own − Σ weight u_partner) ≤ gap        (no partners against a rigid shape)
-/// Cells of order 1: a node is its own alone. Order 2: the condition is asked for in the mean with the corner's linear hat ψ,
-/// own weights are ∫ψφ_k/∫ψ, so that the pressure is continuous and piecewise linear: one order less than the displacement,
-/// as is stable (Hild and Laborde 2002; in space Wohlmuth, Popp, Gee and Wall 2012). Nodal conditions would not do: on
-/// quadratic triangles ∫φ of a corner is 0.
+/// Cells of order 1: a node is its own alone. Order 2: the condition is asked for in the mean with the corner's dual hat ψ (dual_hats.hpp),
+/// own weights are ∫ψφ_k/∫ψ, so that the pressure is piecewise linear: one order less than the displacement, as is stable
+/// (Hild and Laborde 2002; in space, with dual hats, Wohlmuth, Popp, Gee and Wall 2012). Nodal conditions would not do: on
+/// quadratic triangles ∫φ of a corner is 0. Hats of their own would do, but the pressure they give swings about the true one
+/// next to the contact's edge, as continuous projections of a function with a kink do; that of dual hats, local means, does not.
 struct ContactRow {
   int node;                         ///< of the first body's mesh
   std::vector<NodeWeight> own;       ///< of the first body, 1 in sum; `node` first

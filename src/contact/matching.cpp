@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "contact/sides.hpp"
+#include "contact/corner_means.hpp"
 
 namespace dotyk::contact {
 namespace {
@@ -209,15 +209,23 @@ std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::un
   for (NodeSide& side : corner_sides(first.mesh, first.facets)) {
     take_mean(first.mesh, first.facets, used, side);
     if (!(side.weight > 0)) continue;
-    double more = 0;
+    double more = 0, least = INFINITY;
     std::map<int, double> across;
     for (const NodeWeight& own : side.own) {
-      if (added) more += own.weight * added(first.mesh.point(own.node));
-      for (const NodeWeight& p : partner.at(own.node)) across[p.node] += own.weight * p.weight;
+      const Point x = first.mesh.point(own.node);
+      if (added) more += own.weight * added(x);
+      double gap = -dot(x, side.normal);
+      for (const NodeWeight& p : partner.at(own.node)) {
+        across[p.node] += own.weight * p.weight;
+        gap += p.weight * dot(second.mesh.point(p.node), side.normal);
+      }
+      least = std::min(least, gap);
     }
     std::vector<NodeWeight> partners;
     for (const auto& [node, weight] : across) partners.push_back({node, weight});
     rows.push_back(row_of(side, std::move(partners), more, first, second));
+    ContactRow& row = rows.back();
+    if (least >= -kTouching * first.mesh.size()) row.gap = std::max(row.gap, row.added);  // a dual hat is negative in places: a mean of gaps may be
   }
   return rows;
 }

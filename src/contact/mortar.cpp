@@ -1,9 +1,9 @@
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "contact/across.hpp"
+#include "contact/dual_hats.hpp"
 #include "contact/second_facets.hpp"
 
 namespace dotyk::contact {
@@ -37,7 +37,7 @@ class Mortar {
     for (const Cut& c : cuts) covered += size(c.polygon);
     if (covered > (1 + kSliver) * own.size()) keep_nearest(cuts);
     if (covered < kSliver * own.size()) return {};
-    return first_.mesh.topology().order == 2 ? integrate_means(facet, own, cuts) : integrate(own, cuts);
+    return integrate(facet, own, cuts);
   }
 
  private:
@@ -78,46 +78,27 @@ class Mortar {
     return quadratic ? biquadratic_ : bilinear_;
   }
 
-  std::array<Corner, 4> integrate_means(mesh::Facet facet, const Shadow& own, const std::vector<Cut>& cuts) const {
-    std::array<Corner, 4> result;
+  std::array<Corner, 4> integrate(mesh::Facet facet, const Shadow& own, const std::vector<Cut>& cuts) const {
+    DualHats first(corners_), second(corners_);
     for (const Cut& c : cuts)
       for (const FlatQuadrature::At& q : rule(own, c.shadow).points(c.polygon)) {
-        const auto psi = own.hats(q.x);
-        const auto phi = own.shape(q.x), other = c.shadow.shape(q.x);
-        for (int k = 0; k < corners_; ++k) {
-          Corner& corner = result[k];
-          corner.weight += q.measure * psi[k];
-          for (int a = 0; a < own.nodes; ++a) corner.own[first_.mesh.facet_node(facet, a)] += q.measure * psi[k] * phi[a];
-          for (int a = 0; a < c.shadow.nodes; ++a)
-            corner.partners[second_.mesh.facet_node(second_.facets[c.facet], a)] += q.measure * psi[k] * other[a];
-        }
-      }
-    return result;
-  }
-
-  std::array<Corner, 4> integrate(const Shadow& own, const std::vector<Cut>& cuts) const {
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(corners_, corners_);  // ∫φ_kφ_l
-    std::map<int, Eigen::VectorXd> mixed;                              // j → ∫φ_k φ_j∘P
-    for (const Cut& c : cuts)
-      for (const FlatQuadrature::At& q : rule(own, c.shadow).points(c.polygon)) {
-        const auto phi = own.hats(q.x);
+        const auto hats = own.hats(q.x);
         const auto other = c.shadow.shape(q.x);
-        const Eigen::Map<const Eigen::VectorXd> hats(phi.data(), corners_);
-        gram += q.measure * hats * hats.transpose();
-        for (int a = 0; a < c.shadow.nodes; ++a) {
-          const auto at = mixed.try_emplace(second_.mesh.facet_node(second_.facets[c.facet], a), Eigen::VectorXd::Zero(corners_)).first;
-          at->second += q.measure * other[a] * hats;
-        }
+        second.point(hats.data(), q.measure);
+        for (int a = 0; a < c.shadow.nodes; ++a) second.value(second_.mesh.facet_node(second_.facets[c.facet], a), other[a]);
+        if (own.nodes == own.corners) continue;
+        const auto phi = own.shape(q.x);
+        first.point(hats.data(), q.measure);
+        for (int a = 0; a < own.nodes; ++a) first.value(first_.mesh.facet_node(facet, a), phi[a]);
       }
-    // Σφ = 1, so that rows of the Gram matrix sum to ∫φ. Scaled: a narrow strip along an edge has small hats.
-    const Eigen::VectorXd weight = gram.rowwise().sum(), scale = gram.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::LDLT<Eigen::MatrixXd> factor(scale.asDiagonal() * gram * scale.asDiagonal());
     std::array<Corner, 4> result;
-    for (int a = 0; a < corners_; ++a) result[a].weight = weight[a];
-    for (const auto& [j, moments] : mixed) {
-      const Eigen::VectorXd dual = weight.asDiagonal() * (scale.asDiagonal() * factor.solve(scale.asDiagonal() * moments));
-      for (int a = 0; a < corners_; ++a) result[a].partners[j] = dual[a];
-    }
+    const Eigen::VectorXd weight = second.weights();
+    for (int k = 0; k < corners_; ++k) result[k].weight = weight[k];
+    for (const auto& [node, moment] : second.moments())
+      for (int k = 0; k < corners_; ++k) result[k].partners[node] = moment[k];
+    if (own.nodes > own.corners)
+      for (const auto& [node, moment] : first.moments())
+        for (int k = 0; k < corners_; ++k) result[k].own[node] = moment[k];
     return result;
   }
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <unordered_set>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "contact/corner_means.hpp"
 
 namespace dotyk::contact {
 namespace {
@@ -68,6 +71,19 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
   return rows;
 }
 
+/// Length or area that rows stand for.
+double measure(const std::vector<ContactRow>& rows) {
+  return std::accumulate(rows.begin(), rows.end(), 0.0, [](double sum, const ContactRow& row) { return sum + row.weight; });
+}
+
+/// Are there fewer nodes across than rows, by more than what an end more or less makes?
+bool coarser_across(const std::vector<ContactRow>& rows) {
+  std::unordered_set<int> across;
+  for (const ContactRow& row : rows)
+    for (const NodeWeight& partner : row.partners) across.insert(partner.node);
+  return static_cast<double>(across.size()) < 0.95 * static_cast<double>(rows.size());
+}
+
 }  // namespace
 
 PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairing> pairing,
@@ -78,7 +94,14 @@ PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairin
     if (pairing) throw InputError(found.mismatch);
   }
   const Pairing used = pairing.value_or(Pairing::mortar);
-  return {used, paired(first, second, used, added, interference)};
+  std::vector<ContactRow> rows = paired(first, second, used, added, interference);
+  const bool wavers = first.mesh.element == mesh::Element::triangle_p1 || first.mesh.element == mesh::Element::tetrahedron_p1;
+  if (used == Pairing::mortar && wavers && coarser_across(rows)) {
+    std::vector<ContactRow> turned = paired(second, first, used, added, interference);
+    // Parts that lie above themselves cover more seen from the other side.
+    if (measure(turned) < 1.1 * measure(rows)) return {used, std::move(turned), true};
+  }
+  return {used, std::move(rows)};
 }
 
 PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing) {

@@ -1,11 +1,12 @@
 #include "contact/rigid.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "contact/sides.hpp"
+#include "contact/corner_means.hpp"
 
 namespace dotyk::contact {
 namespace {
@@ -84,10 +85,14 @@ std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh
   std::vector<ContactRow> rows;
   for (NodeSide& side : corner_nodes(mesh, facets)) {
     ContactRow row{side.node, std::move(side.own), {}, at.at(side.node).distance.normal, 0, side.weight, std::move(side.facets), 0};
+    double least = INFINITY;
     for (const NodeWeight& own : row.own) {
-      row.gap += own.weight * at.at(own.node).distance.gap;
-      row.added += own.weight * at.at(own.node).added;
+      const At& here = at.at(own.node);
+      row.gap += own.weight * here.distance.gap;
+      row.added += own.weight * here.added;
+      least = std::min(least, here.distance.gap);
     }
+    if (least >= 0) row.gap = std::max(row.gap, 0.0);  // a dual hat is negative in places: a mean of gaps may be
     rows.push_back(std::move(row));
   }
   return rows;

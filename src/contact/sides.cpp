@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "contact/corner_means.hpp"
 #include "elasticity/load.hpp"
 
 namespace dotyk::contact {
@@ -25,13 +26,6 @@ struct Share {
   int side = -1;
 };
 
-/// The linear hat of a corner; of order 1 the shape function itself.
-double hat(const mesh::ElementTopology& t, const elasticity::FacetPoint& p, int corner) {
-  double value = p.shape[corner];
-  for (int k = t.facet_corners; k < p.nodes; ++k) value += mesh::corner_hat(t, corner, k) * p.shape[k];
-  return value;
-}
-
 std::map<int, std::vector<Share>> shares(const Mesh& mesh, const std::vector<Facet>& facets) {
   const mesh::ElementTopology& t = mesh.topology();
   std::map<int, std::vector<Share>> by_node;
@@ -44,7 +38,7 @@ std::map<int, std::vector<Share>> shares(const Mesh& mesh, const std::vector<Fac
     Point normal[mesh::kMostFacetNodes] = {};
     elasticity::for_each_facet_point(mesh, f, [&](const elasticity::FacetPoint& p) {
       for (int a = 0; a < p.nodes; ++a) {
-        const double part = p.measure * (a < t.facet_corners ? hat(t, p, a) : p.shape[a]);
+        const double part = p.measure * (a < t.facet_corners ? linear_hat(t, p, a) : p.shape[a]);
         weight[a] += part;
         for (int i = 0; i < 3; ++i) normal[a][i] += part * p.normal[i];
       }
@@ -105,49 +99,6 @@ std::vector<NodeSide> nodes(const Mesh& mesh, const std::vector<Facet>& facets) 
   std::vector<NodeSide> result;
   for (const auto& [node, list] : shares(mesh, facets)) result.push_back(sum(node, list, -1));
   return result;
-}
-
-void take_mean(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<char>& used, NodeSide& side) {
-  const mesh::ElementTopology& t = mesh.topology();
-  std::map<int, double> moments;
-  side.weight = 0;
-  for (const int k : side.facets) {
-    if (!used[k]) continue;
-    int corner = 0;
-    while (mesh.facet_node(facets[k], corner) != side.node) ++corner;
-    elasticity::for_each_facet_point(mesh, facets[k], [&](const elasticity::FacetPoint& p) {
-      const double psi = p.measure * hat(t, p, corner);
-      side.weight += psi;
-      for (int a = 0; a < p.nodes; ++a) moments[mesh.facet_node(facets[k], a)] += psi * p.shape[a];
-    });
-  }
-  if (!(side.weight > 0)) return;
-  side.own.assign(1, {side.node, moments[side.node] / side.weight});
-  for (const auto& [node, moment] : moments)
-    if (node != side.node && std::abs(moment) > 1e-13 * side.weight) side.own.push_back({node, moment / side.weight});
-}
-
-namespace {
-
-std::vector<NodeSide> at_corners(const Mesh& mesh, const std::vector<Facet>& facets, std::vector<NodeSide> all) {
-  if (mesh.topology().order == 1) return all;
-  std::vector<char> corner(mesh.node_count(), 0);
-  for (const Facet f : facets)
-    for (int k = 0; k < mesh.topology().facet_corners; ++k) corner[mesh.facet_node(f, k)] = 1;
-  std::erase_if(all, [&](const NodeSide& side) { return !corner[side.node]; });
-  const std::vector<char> used(facets.size(), 1);
-  for (NodeSide& side : all) take_mean(mesh, facets, used, side);
-  return all;
-}
-
-}  // namespace
-
-std::vector<NodeSide> corner_sides(const Mesh& mesh, const std::vector<Facet>& facets) {
-  return at_corners(mesh, facets, sides(mesh, facets));
-}
-
-std::vector<NodeSide> corner_nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
-  return at_corners(mesh, facets, nodes(mesh, facets));
 }
 
 std::vector<NodeSide> moved_sides(const Mesh& before, const Mesh& after, const std::vector<Facet>& facets, const std::string& part) {

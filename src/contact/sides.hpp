@@ -13,7 +13,7 @@ struct NodeSide {
   mesh::Point normal;  ///< unit, outward: of the side's facets, weighted by their measure
   double weight;       ///< ∫ φ over the side's facets: length (2-D) or area; of corners of order 2 ∫ of the linear hat
   std::vector<int> facets;  ///< the side's facets at the node, as indices into the part's
-  std::vector<NodeWeight> own;  ///< the nodes whose mean the side stands for, `node` first: itself alone, but see corner_sides()
+  std::vector<NodeWeight> own;  ///< the nodes whose mean the side stands for, `node` first: itself alone, but see corner_means.hpp
 };
 
 /// Facets whose normals differ by more than this meet in an edge; below it the surface is taken
@@ -26,14 +26,6 @@ std::vector<NodeSide> sides(const mesh::Mesh& mesh, const std::vector<mesh::Face
 
 /// One entry a node, with all its facets' measure; the normal is their mean.
 std::vector<NodeSide> nodes(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets);
-
-/// Those of sides() (nodes()) at the facets' corners, which have multipliers: of order 2 each stands for a mean with its hat, see ContactRow.
-std::vector<NodeSide> corner_sides(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets);
-std::vector<NodeSide> corner_nodes(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets);
-
-/// Makes the mean of a corner's side of order 2 one over those of its facets that are `used` (one flag a facet of the part), and
-/// its weight that part's; weight 0 where none is.
-void take_mean(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const std::vector<char>& used, NodeSide& side);
 
 /// sides() of a part whose nodes have moved from the mesh `before` to `after`. Throws InputError, naming the part and the place,
 /// where they are not, one for one, of the facets they were of: a corner has appeared, or gone.

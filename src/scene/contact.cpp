@@ -86,6 +86,17 @@ void refuse_repetition(const Scene& scene, const Contact& fresh) {
   }
 }
 
+/// The same of a contact with a rigid shape: the same rows as one that is there.
+void refuse_repeated_shape(const Scene& scene, const Contact& fresh) {
+  for (const auto& known : scene.contacts) {
+    if (known->second.body || known->first.body != fresh.first.body || known->rows.size() != fresh.rows.size()) continue;
+    const bool same = std::equal(known->rows.begin(), known->rows.end(), fresh.rows.begin(), [](const contact::ContactRow& a, const contact::ContactRow& b) {
+      return a.node == b.node && a.normal == b.normal && a.gap == b.gap;
+    });
+    if (same) throw InputError(text("there is the same ", known->name, " already; say it once"));
+  }
+}
+
 /// Evaluates the friction at the contact nodes.
 void set_friction(Contact& contact, const Friction& friction) {
   if (friction.kind == Friction::Kind::none) return;
@@ -160,7 +171,9 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   contact::PairedRows paired = contact::pair_rows(first.face(), second.face(), pairing, added_gap, interference);
   contact.pairing = paired.pairing;
   contact.rows = std::move(paired.rows);
-  if (contact.pairing != contact::Pairing::mortar && first.body->mesh->topology().order == 1) set_weights(contact);
+  contact.turned = paired.turned;
+  if (contact.turned) std::swap(contact.first, contact.second);
+  if (contact.pairing != contact::Pairing::mortar && contact.first.body->mesh->topology().order == 1) set_weights(contact);
   set_friction(contact, friction);
   set_discretisation(contact, discretisation);
   refuse_repetition(scene, contact);
@@ -176,6 +189,7 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const
   contact.first = part;
   contact.interference = interference;
   contact.rows = contact::against(*part.body->mesh, part.facets, shape, added_gap, interference);
+  refuse_repeated_shape(scene, contact);
   set_friction(contact, friction);
   set_discretisation(contact, discretisation);
   contact.shape = shape;

@@ -78,6 +78,16 @@ void count(const ContactNode& node, ContactResult& result) {
 
 }  // namespace
 
+ContactResult as_given(const Contact& contact, ContactResult result) {
+  if (!contact.turned) return result;
+  const auto turn = [](Point& p) {
+    for (double& v : p) v = 0 - v;
+  };
+  turn(result.force), turn(result.friction_force);
+  for (ContactNode& node : result.nodes) turn(node.normal), turn(node.shear), turn(node.slip);
+  return result;
+}
+
 ContactResult Solution::contact(const Contact& asked) const {
   const int index = scene_->index_of(asked);
   if (index < 0)

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "contact/corner_means.hpp"
 #include "contact/tangents.hpp"
 #include "scene/body.hpp"
 

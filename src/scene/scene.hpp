@@ -39,6 +39,7 @@ struct Contact {
   std::vector<double> friction_value;      ///< of each row: bound per length or area, or coefficient
   Discretisation discretisation;
   contact::Pairing pairing = contact::Pairing::matching;  ///< of two parts
+  bool turned = false;  ///< `first` and `second` are the parts in other order than they were given: see contact::pair_rows
   std::vector<contact::Tie> glued;         ///< of a glue
   contact::RigidShape shape;               ///< a gap function is not kept
   bool interference = false;               ///< an overlap at rest is meant

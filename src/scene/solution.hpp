@@ -40,6 +40,10 @@ struct ContactResult {
   std::vector<ContactNode> nodes;
 };
 
+/// The result as to the parts in the order they were given: of a contact that is turned, forces, normals, shear and slip change sign;
+/// its nodes are still those of the part with the multipliers.
+ContactResult as_given(const Contact& contact, ContactResult result);
+
 /// One node of a support by laws after the solve; at a corner there is one for each adjoining side. Signs as in LawSupport.
 struct SupportNode {
   int node = 0;                ///< of the body's mesh

@@ -27,7 +27,7 @@ void write_contact(const Solution& solution, const std::string& file) {
   for (const auto& contact : solution.scene().contacts) {
     ++number;
     if (contact->kind != Contact::Kind::contact) continue;
-    for (const ContactNode& n : solution.contact(*contact).nodes) {
+    for (const ContactNode& n : as_given(*contact, solution.contact(*contact)).nodes) {
       out << number << ',' << n.node + 1;
       for (int i = 0; i < dim; ++i) out << ',' << n.x[i];
       out << ',' << n.gap << ',' << n.pressure << ',' << n.force << ',' << n.weight;

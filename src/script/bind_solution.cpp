@@ -124,7 +124,8 @@ Record node_record(const scene::ContactNode& n, int dimension) {
 
 int contact(Call& call) {
   const auto s = call.self<Solution>();
-  const auto c = s->contact(*call.object<Contact>("contact"));
+  const auto asked = call.object<Contact>("contact");
+  const auto c = scene::as_given(*asked, s->contact(*asked));
   std::vector<Record> nodes;
   for (const auto& n : c.nodes) nodes.push_back(node_record(n, s->scene().dimension()));
   return call.give(Record{"contact result",
