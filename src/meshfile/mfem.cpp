@@ -1,10 +1,13 @@
 #include "meshfile/mfem.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <map>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "meshfile/cell_of.hpp"
 #include "meshfile/quoted.hpp"
 
 namespace dotyk::meshfile {
@@ -68,8 +71,8 @@ Shape shape(Words& words) {
   return shapes[type - 1];
 }
 
-/// The elements of a section, in blocks of one shape and attribute.
-void read_elements(Words& words, Contents& contents, int dimension) {
+/// The elements of a section, in blocks of one shape and attribute; `blocks` gets the block of each.
+void read_elements(Words& words, Contents& contents, int dimension, std::vector<std::size_t>& blocks) {
   std::map<std::pair<int, int>, std::size_t> block_of;
   std::map<int, int> group_of;
   for (int n = words.count("the number of elements"); n > 0; --n) {
@@ -80,14 +83,91 @@ void read_elements(Words& words, Contents& contents, int dimension) {
     if (first) contents.groups.push_back({dimension, std::to_string(attribute)});
     const auto [block, fresh] = block_of.try_emplace({attribute, static_cast<int>(s)}, contents.blocks.size());
     if (fresh) contents.blocks.push_back({s, {group->second}, {}});
+    blocks.push_back(block->second);
     for (int k = 0; k < kind(s).nodes; ++k) contents.blocks[block->second].nodes.push_back(words.number<int>("a vertex"));
   }
 }
 
-void read_vertices(Words& words, Contents& contents) {
+/// MFEM's order of edges, then faces, then the cell, by places in mesh::ElementTopology::between.
+const std::vector<int>& between_in_order(Shape shape) {
+  static const std::vector<int> triangle{0, 1, 2}, quadrilateral{0, 1, 2, 3, 4}, tetrahedron{0, 2, 3, 1, 4, 5},
+      hexahedron{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 14, 13, 15, 12, 17, 18}, none;
+  switch (shape) {
+    case Shape::triangle: return triangle;
+    case Shape::quadrilateral: return quadrilateral;
+    case Shape::tetrahedron: return tetrahedron;
+    case Shape::hexahedron: return hexahedron;
+    default: return none;
+  }
+}
+
+/// Makes the elements' order 2: after the vertices come the nodes on edges, in quadrilateral faces, then in cells, each
+/// numbered as its first element comes. Returns how many nodes there are.
+int number_between(Contents& contents, const std::vector<std::size_t>& elements, int vertices, const Words& words) {
+  std::map<std::array<int, 4>, int> numbers[2];  // of edges and of faces, by corners
+  int cells = 0;
+  std::vector<std::vector<int>> of_kind(contents.blocks.size());  // of each node between corners: edge, face or cell
+  std::vector<std::size_t> done(contents.blocks.size(), 0);
+  for (const std::size_t b : elements) {
+    Block& block = contents.blocks[b];
+    const auto& order = between_in_order(block.shape);
+    if (order.empty()) words.fail(text("nodes of ", kind(block.shape).plural, "; those of triangles, quadrilaterals, tetrahedra and hexahedra are read"));
+    const auto& between = mesh::topology(mesh::second_order(*cell_of(block.shape))).between;
+    const int* corner = &block.nodes[done[b]++ * kind(block.shape).nodes];
+    for (int k = 0; k < kind(block.shape).nodes; ++k)
+      if (corner[k] < 0 || corner[k] >= vertices) words.fail(text("vertex ", corner[k], " of an element; there are ", vertices, ", counted from 0"));
+    const std::size_t first = block.between.size();
+    block.order = 2;
+    block.between.resize(first + between.size());
+    of_kind[b].resize(first + between.size());
+    for (const int k : order) {
+      std::array<int, 4> key{-1, -1, -1, -1};
+      const bool inside = between[k].size() == 8 || (between[k].size() == 4 && block.shape == Shape::quadrilateral);
+      for (std::size_t i = 0; !inside && i < between[k].size(); ++i) key[i] = corner[between[k][i]];
+      std::sort(key.begin(), key.end());
+      const int which = inside ? 2 : between[k].size() == 4;
+      of_kind[b][first + k] = which;
+      block.between[first + k] = inside ? cells++ : numbers[which].try_emplace(key, static_cast<int>(numbers[which].size())).first->second;
+    }
+  }
+  const int edges = static_cast<int>(numbers[0].size()), faces = static_cast<int>(numbers[1].size());
+  const int before[] = {vertices, vertices + edges, vertices + edges + faces};
+  for (std::size_t b = 0; b < contents.blocks.size(); ++b)
+    for (std::size_t i = 0; i < of_kind[b].size(); ++i) contents.blocks[b].between[i] += before[of_kind[b][i]];
+  return before[2] + cells;
+}
+
+void expect(Words& words, std::string_view wanted) {
+  const std::string_view word = words.next();
+  if (word != wanted) words.fail(text(quoted(word), " where '", wanted, "' should be"));
+}
+
+/// The section nodes, which stands for the vertices' coordinates: continuous, of order 1 or 2.
+void read_nodes(Words& words, Contents& contents, const std::vector<std::size_t>& elements, int vertices) {
+  expect(words, "FiniteElementSpace");
+  expect(words, "FiniteElementCollection:");
+  const std::string_view collection = words.next();
+  const bool first = collection == "Linear" || collection == "H1_2D_P1" || collection == "H1_3D_P1";
+  if (!first && collection != "Quadratic" && collection != "H1_2D_P2" && collection != "H1_3D_P2")
+    words.fail(text("nodes by the collection ", quoted(collection), "; 'Linear', 'Quadratic' and 'H1_2D_P1' to 'H1_3D_P2' are read"));
+  expect(words, "VDim:");
+  const int dimension = words.number<int>("the nodes' dimension");
+  if (dimension != 2 && dimension != 3) words.fail(text("nodes of dimension ", dimension, "; 2 or 3 is expected"));
+  expect(words, "Ordering:");
+  const int ordering = words.number<int>("the nodes' ordering");
+  if (ordering != 0 && ordering != 1) words.fail(text("ordering ", ordering, "; 0 or 1 is expected"));
+  const int count = first ? vertices : number_between(contents, elements, vertices, words);
+  contents.points.assign(3 * static_cast<std::size_t>(count), 0);
+  for (long long v = 0, all = static_cast<long long>(count) * dimension; v < all; ++v) {
+    const long long node = ordering == 0 ? v % count : v / dimension, component = ordering == 0 ? v / count : v % dimension;
+    contents.points[static_cast<std::size_t>(3 * node + component)] = words.number<double>("a coordinate");
+  }
+}
+
+void read_vertices(Words& words, Contents& contents, const std::vector<std::size_t>& elements) {
   const int n = words.count("the number of vertices");
   const std::string_view dimension = words.next();
-  if (dimension == "nodes") words.fail("a curved mesh (section nodes); only straight ones, with vertices, are read");
+  if (dimension == "nodes") return read_nodes(words, contents, elements, n);
   if (dimension != "2" && dimension != "3") words.fail(text("vertices of dimension ", quoted(dimension), "; 2 or 3 is expected"));
   contents.points.reserve(3 * static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i)
@@ -102,13 +182,13 @@ Contents read_mfem(std::string_view all, const std::string& what) {
   all.remove_prefix(std::min(first.size() + (all.substr(first.size(), 2) == "\r\n" ? 2 : 1), all.size()));
   Words words(all, what);
   Contents contents;
+  std::vector<std::size_t> elements, boundary;  // their blocks
   int dimension = 0;
   for (std::string_view section = words.next(); !section.empty(); section = words.next()) {
     if (section == "dimension") dimension = words.number<int>("the dimension");
-    else if (section == "elements") read_elements(words, contents, dimension);
-    else if (section == "boundary") read_elements(words, contents, dimension - 1);
-    else if (section == "vertices") read_vertices(words, contents);
-    else if (section == "nodes") words.fail("a curved mesh (section nodes); only straight ones are read");
+    else if (section == "elements") read_elements(words, contents, dimension, elements);
+    else if (section == "boundary") read_elements(words, contents, dimension - 1, boundary);
+    else if (section == "vertices") read_vertices(words, contents, elements);
     else words.fail(text("unknown section ", quoted(section), "; 'dimension', 'elements', 'boundary' or 'vertices' is expected"));
     if (dimension != 2 && dimension != 3) words.fail(text("dimension ", dimension, "; 2 or 3 is expected"));
   }

@@ -52,7 +52,7 @@ void bind_mesh_file(Library& library) {
   library.function(
       {.name = "dotyk.mesh.load",
        .help = "Reads a mesh of triangles, quadrilaterals, tetrahedra or hexahedra: .msh (Gmsh 2 and 4, text or binary), "
-               ".mesh (MFEM mesh v1.0) or .vtu (VTK; cell data \"region\", or \"body\" as s:write has it, tell regions apart). Physical "
+               ".mesh (MFEM mesh v1.0, straight or with continuous nodes of order 2) or .vtu (VTK; cell data \"region\", or \"body\" as s:write has it, tell regions apart). Physical "
                "groups of cells are its regions, those of one dimension less its boundary parts; a group without a name "
                "goes by its number. Facets of a part that lie between cells are left out, elements of higher order are reduced to their "
                "corners: mesh.notes says so. With order = 2 elements of second order give cells P2 or Q2 with the "

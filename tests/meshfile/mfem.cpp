@@ -77,7 +77,7 @@ TEST_CASE("MFEM's text: what is wrong, and in which line") {
   check_refused(replaced(kMesh, "7 2 1 2 4", "7 8 1 2 4"), "geometry type 8");
   check_refused(replaced(kMesh, "\n6\n", "\n2000000000\n"), "the file is too short for that");
   check_refused(replaced(kMesh, "\n6\n", "\n7\n"), "it ends where a coordinate should be");
-  check_refused(replaced(kMesh, "\n6\n2\n", "\n6\nnodes\n"), "curved");
+  check_refused(replaced(kMesh, "\n6\n2\n", "\n6\nnodes\n"), "'FiniteElementSpace' should be");
   check_refused(replaced(kMesh, "boundary", "bindary"), "unknown section 'bindary'");
   for (std::size_t n = 0; n + 4 < kMesh.size(); n += 3) CHECK_THROWS_AS(assemble(read_mfem(kMesh.substr(0, n), "f"), {}, "f"), InputError);
 }
