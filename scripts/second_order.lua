@@ -84,10 +84,10 @@ for _, element in ipairs(elements) do
   -- On P1 the stress that is recovered at a boundary is of order 1 in the end.
   passed = passed and last(list.displacement) > (second and 2.8 or 1.8) and (not second or last(list.stress) > 1.8)
 end
-dotyk.chart{ file = "images/second_order.png", size = {1500, 560}, panels = {
+dotyk.chart{ file = "images/second_order.png", size = {1000, 1400}, panels = {
   { title = "Lamé's ring: displacement at the bore", x = "unknowns", y = "relative error", log = "xy", slopes = { -1, -1.5 }, series = chart(lame, "unknowns", "displacement") },
-  { title = "hoop stress at the bore", x = "unknowns", y = "relative error", log = "xy", slopes = { -0.5, -1 }, series = chart(lame, "unknowns", "stress") },
-  { title = "hoop stress: accuracy against time", x = "seconds", y = "relative error", log = "xy", series = chart(lame, "seconds", "stress") } } }
+  { title = "Hoop stress at the bore", x = "unknowns", y = "relative error", log = "xy", slopes = { -0.5, -1 }, series = chart(lame, "unknowns", "stress") },
+  { title = "Hoop stress: accuracy against time", x = "seconds", y = "relative error", log = "xy", series = chart(lame, "seconds", "stress") } } }
 
 -- 2. Hertz: the force at five approaches, beside that of a mesh twice as fine as the finest. The error jumps with the distance of the
 -- contact's edge from the nearest node: root mean squares over the five.
@@ -119,9 +119,9 @@ for _, element in ipairs(elements) do
       level > 1 and ("%5.2f"):format(math.log(list.force[level - 1] / list.force[level], 2)) or ""))
   end
 end
-dotyk.chart{ file = "images/second_order_hertz.png", size = {1100, 560}, panels = {
+dotyk.chart{ file = "images/second_order_hertz.png", size = {1000, 1000}, panels = {
   { title = "Hertz's line contact: force", x = "unknowns", y = "relative error", log = "xy", slopes = { -1 }, series = chart(line, "unknowns", "force") },
-  { title = "accuracy against time", x = "seconds", y = "relative error", log = "xy", series = chart(line, "seconds", "force") } } }
+  { title = "Accuracy against time", x = "seconds", y = "relative error", log = "xy", series = chart(line, "seconds", "force") } } }
 print "\nimages/second_order.png, images/second_order_hertz.png"
 print(passed and "orders are those of the elements" or "FAILED")
 if not passed then os.exit(1) end
