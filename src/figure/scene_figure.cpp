@@ -120,6 +120,7 @@ void Stage::set_greatest() {
         if (picture.shear) greatest_shear = std::max(greatest_shear, std::sqrt(dot(contact.nodes[i].shear, contact.nodes[i].shear)));
       }
   }
+  if (greatest_shear < 1e-9 * greatest_pressure) greatest_shear = 0;  // rounding's
 }
 
 std::vector<std::size_t> Stage::spaced(const std::vector<Point>& positions, double spacing, double within) const {
