@@ -52,7 +52,7 @@ expect "Ctrl-C clears the line" '12' 'error(' '\003' '3 * 4\n' &
 block='block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} }, material = dotyk.material{ E = 1, nu = 0.3 } }\n'
 expect "completion of a part" 'bottom: 2 facets' "$block" 'block:part "bo\t:fix()\n' &
 expect "all completions at the first Tab" 'bottom  left    right   top' "$block" 'block:part("\t' '\003' &
-expect "completion of what a key may be" '"P1"  "Q1"' 'dotyk.mesh.rectangle{ element = \t' '\003' &
+expect "completion of what a key may be" '"P1"  "P2"  "Q1"  "Q2"' 'dotyk.mesh.rectangle{ element = \t' '\003' &
 expect "a question" 'Made by dotyk.body' "$block" 'block?\n' &
 expect "Ctrl-D in an unfinished input" 'still here' 'if true then\n' '\004' 'print("still" .. " here")\n' &
 expect "an unfinished input left is recalled" 'seven-7' 'print(("seven-" .. 7\n' '\003' '\033[A' '))\n' &
