@@ -140,7 +140,20 @@ std::string mismatch(const Face& face, const std::vector<NodeSide>& lonely, cons
 
 }  // namespace
 
+namespace {
+
+/// Of order 2 the facets' functions must be the same, too: of triangles and quadrilaterals, or of order 1 and 2, with common
+/// nodes, they are not, and forces that one side has from a uniform pressure are not the other's.
+std::string unlike(const Face& first, const Face& second) {
+  const mesh::ElementTopology &a = first.mesh.topology(), &b = second.mesh.topology();
+  if ((a.order == 1 && b.order == 1) || a.nodes_per_facet == b.nodes_per_facet) return "";
+  return text(first.name, " is of ", a.name, " and ", second.name, " of ", b.name, ": functions on their facets do not match");
+}
+
+}  // namespace
+
 Matching find_matching(const Face& first, const Face& second) {
+  if (const std::string why = unlike(first, second); !why.empty()) return {{}, why};
   const auto from = nodes(first.mesh, first.facets), to = nodes(second.mesh, second.facets);
   const double size = std::max(extent(first.mesh, from), extent(second.mesh, to));
   const double tolerance = 1e-6 * size;

@@ -25,7 +25,7 @@ struct NodePair {
 
 struct Matching {
   std::vector<NodePair> pairs;
-  std::string mismatch;  ///< why nodes do not match, or parts do not face each other; empty: they do
+  std::string mismatch;  ///< why nodes (of order 2 also functions between them) do not match, or parts do not face each other; empty: they do
 };
 Matching find_matching(const Face& first, const Face& second);
 

@@ -84,11 +84,18 @@ bool coarser_across(const std::vector<ContactRow>& rows) {
   return static_cast<double>(across.size()) < 0.95 * static_cast<double>(rows.size());
 }
 
+/// Where none is asked for nodes are tried first, but for triangles on quadrilaterals: those forces of a uniform pressure differ,
+/// and no uniform stress passes.
+Pairing tried_first(const Face& first, const Face& second, std::optional<Pairing> asked) {
+  const bool alike = first.mesh.topology().nodes_per_facet == second.mesh.topology().nodes_per_facet;
+  return asked.value_or(alike ? Pairing::matching : Pairing::mortar);
+}
+
 }  // namespace
 
 PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairing> pairing,
                      const elasticity::ScalarField& added, bool interference) {
-  if (pairing.value_or(Pairing::matching) == Pairing::matching) {
+  if (tried_first(first, second, pairing) == Pairing::matching) {
     const Matching found = find_matching(first, second);
     if (found.mismatch.empty()) return {Pairing::matching, matching_rows(found.pairs, first, second, added, interference)};
     if (pairing) throw InputError(found.mismatch);
@@ -106,7 +113,7 @@ PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairin
 
 PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing) {
   PairedTies result{pairing.value_or(Pairing::mortar), {}};
-  if (pairing.value_or(Pairing::matching) == Pairing::matching) {
+  if (tried_first(first, second, pairing) == Pairing::matching) {
     const Matching found = find_matching(first, second);
     if (found.mismatch.empty()) {
       for (const NodePair& pair : found.pairs) result.ties.push_back({pair.first, {{pair.first, 1}}, {{pair.second, 1}}});

@@ -1,6 +1,7 @@
 // The file for ParaView, read back by VTK's own reader.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -107,6 +108,43 @@ TEST_CASE("a written solution is read back bit by bit") {
       }
     if (each > 1) CHECK(std::string(back->GetComponentName(each - 1)) == array.components.back());
   }
+}
+
+TEST_CASE("cells of order 2 are VTK's own, nodes in its order: every one is where VTK's shape functions have it") {
+  for (const mesh::Family family : {mesh::Family::p2, mesh::Family::q2})
+    for (const int dim : {2, 3}) {
+      const double from[3] = {0, 0, 0}, to[3] = {1, 2, 3};
+      const int cells[3] = {2, 1, 1};
+      const mesh::Grading even[3];
+      auto mesh = std::make_shared<mesh::Mesh>(dim == 2 ? mesh::rectangle(from, to, cells, family, even) : mesh::box(from, to, cells, family, even));
+      const auto body = scene::make_body("block", mesh, elasticity::MaterialField(elasticity::isotropic(10, 0.2, dim, elasticity::Plane::strain)), {});
+      auto held = scene::named_part(body, "bottom"), loaded = scene::named_part(body, "top");
+      scene::fix(held, {true, true, true});
+      scene::load(loaded, [](const mesh::Point&) { return mesh::Point{0.1, -1, 0.2}; });
+      Monitor monitor;
+      figure::write(figure::compose_grid(*scene::solve(scene::make_scene({body}), {}, {}, monitor), "second.vtu"));
+      const auto grid = read("second.vtu");
+      REQUIRE(grid->GetNumberOfPoints() == mesh->node_count());
+      REQUIRE(grid->GetNumberOfCells() == mesh->cell_count());
+      const int type = family == mesh::Family::p2 ? (dim == 2 ? 22 : 24) : (dim == 2 ? 28 : 29);
+      for (int c = 0; c < mesh->cell_count(); ++c) {
+        CHECK(grid->GetCellType(c) == type);
+        vtkCell* cell = grid->GetCell(c);
+        REQUIRE(cell->GetNumberOfPoints() == mesh->topology().nodes);
+        for (int k = 0; k < mesh->topology().nodes; ++k) {
+          CHECK(cell->GetPointId(k) == mesh->cell(c)[k]);
+          // On straight cells the map is that of the corners: where the node's parametric point is says which node it must be.
+          const double* at = cell->GetParametricCoords() + 3 * k;
+          for (int i = 0; i < dim; ++i) {
+            double x = cell->GetPoints()->GetPoint(0)[i];
+            const int next[2][3] = {{1, 2, 3}, {1, 3, 4}};  // the corners along the axes
+            for (int axis = 0; axis < dim; ++axis)
+              x += at[axis] * (cell->GetPoints()->GetPoint(next[family == mesh::Family::q2][axis])[i] - cell->GetPoints()->GetPoint(0)[i]);
+            CHECK(cell->GetPoints()->GetPoint(k)[i] == doctest::Approx(x).epsilon(1e-14));
+          }
+        }
+      }
+    }
 }
 
 TEST_CASE("the arrays are what the solution says") {

@@ -59,6 +59,10 @@ const std::vector<std::vector<std::string>> openings = {
     {"dotyk.body{ mesh = dotyk.mesh.box{ from = {0,0,0}, to = {4,1,1}, cells = {3,1,1}, element = 'Q1' }, material = dotyk.material{ E = 1, nu = 0.3 } }",
      "V[1]:part 'left':fix()", "V[1]:part 'right':load{ 0, 0, -1e-4 }",
      "dotyk.repeated_systems{ scene = dotyk.scene{ V[1] }, method = 'scg', velocities = { function(x, y, z) return 0, 0, z * (1 - x/8) end } }"},
+    {"dotyk.mesh.rectangle{ from = {0,0}, to = {2,1}, cells = {2,2}, element = 'P2' }", "dotyk.mesh.rectangle{ from = {0,1}, to = {2,2}, cells = {3,2}, element = 'Q2' }",
+     "dotyk.material{ E = 10, nu = 0.3 }", "dotyk.body{ mesh = V[1], material = V[3] }", "dotyk.body{ mesh = V[2], material = V[3] }",
+     "V[4]:part 'bottom':fix()", "V[5]:part 'left':fix 'x'", "V[5]:part 'top':load{ 0.02, -0.1 }", "dotyk.scene{ V[4], V[5] }",
+     "V[9]:contact{ V[4]:part 'top', V[5]:part 'bottom', friction = dotyk.friction.tresca(0.01) }", "dotyk.solve(V[9])"},
     {"dotyk.refinement{ dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} } }", "V[1]:refine()"}};
 
 // What a run reached.
@@ -104,7 +108,7 @@ class Program {
   void begin_with_scene() {
     const bool space = values_.once_in(4);
     const auto count = [&] { return std::to_string(1 + values_.below(space ? 3 : 5)); };
-    const std::string element = values_.of(space ? std::vector<std::string>{"P1", "Q1"} : std::vector<std::string>{"P1", "Q1"});
+    const std::string element = values_.of({"P1", "Q1", "P2", "Q2"});
     make(space ? text("dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {", count(), ",", count(), ",", count(), "}, element = '", element, "' }")
                : text("dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {", count(), ",", count(), "}, element = '", element, "' }"));
     make("dotyk.material{ E = 100, nu = 0.3 }");

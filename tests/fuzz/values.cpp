@@ -44,7 +44,8 @@ const std::map<std::string, std::vector<std::string>> makers = {
                "dotyk.rigid.gap{ normal = {0,1}, gap = function(x) return x^2 end }"}},
     {"material", {"dotyk.material{ E = 10, nu = 0.25 }", "dotyk.material{ E = function(x) return 1 + x^2 end, nu = 0.3 }"}},
     {"mesh", {"dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} }", "dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {1,2,1} }",
-              "dotyk.mesh.disc{ center = {0,0}, radius = 1, cells = 3 }"}}};
+              "dotyk.mesh.disc{ center = {0,0}, radius = 1, cells = 3 }", "dotyk.mesh.disc{ center = {0,0}, radius = 1, cells = 2, element = 'P2' }",
+              "dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {1,1,2}, element = 'Q2' }"}}};
 
 const std::vector<std::string> wrongs = {
     "nil", "true", "0/0", "1/0", "-1/0", "1e308", "-1e308", "5e-324", "-0.0", "1 << 62", "math.mininteger", "0.5", "''", "'text'",

@@ -46,7 +46,7 @@ std::shared_ptr<scene::Scene> eccentric(double E, const Laws& law, double force,
 TEST_CASE("a block pressed on a foundation sinks in by p/k, alike everywhere") {
   const double p = 2.5, k = 40, E = 210;
   for (const int dimension : {2, 3})
-    for (const auto family : test::kFamilies)
+    for (const auto family : test::kAllFamilies)
       for (const Laws law : {Laws{LawKind::one_sided_elastic, k}, Laws{LawKind::elastic, k}, Laws{LawKind::capped_elastic, k, 3.0},
                              Laws{LawKind::breaking, k, 3.0}, Laws{LawKind::unequal_elastic, k, 0, 3 * k}}) {
         const auto s = test::solve(pressed(dimension, family, law, p));
@@ -70,7 +70,7 @@ TEST_CASE("a block pressed on a foundation sinks in by p/k, alike everywhere") {
 TEST_CASE("a block pulled off a foundation of two stiffnesses rises by p/k of the spring that pulls") {
   const double p = 2.5, k = 40;
   for (const int dimension : {2, 3})
-    for (const auto family : test::kFamilies) {
+    for (const auto family : test::kAllFamilies) {
       const auto s = test::solve(pressed(dimension, family, {LawKind::unequal_elastic, 3 * k, 0, k}, -p));
       for (const scene::SupportNode& node : s->support(test::part(s->scene().bodies[0], "bottom")).nodes) {
         CHECK(node.away == doctest::Approx(p / k).epsilon(1e-11));
