@@ -29,7 +29,7 @@ void require_facets_once(const Plate& plate) {
 void require_valid(const Plate& plate) {
   if (!plate.mesh) throw InputError("it has no mesh");
   if (plate.mesh->element != mesh::Element::triangle_p1)
-    throw InputError(text("its mesh is of ", plate.mesh->topology().shapes, "; plates need triangles (element = \"P1\") in the plane"));
+    throw InputError(text("its mesh is of ", plate.mesh->topology().shapes, " (", plate.mesh->topology().name, "); plates need triangles (element = \"P1\") in the plane"));
   if (!plate.D_of && (!(plate.D > 0) || !std::isfinite(plate.D))) throw InputError(text("its bending stiffness D is ", plate.D, "; it must be positive"));
   if (!(plate.nu > -1 && plate.nu < 1)) throw InputError(text("nu is ", plate.nu, "; it must be between -1 and 1"));
   if (!plate.f_of && !std::isfinite(plate.f)) throw InputError(text("its load is ", plate.f));

@@ -113,6 +113,8 @@ void require_differentiable(const Scene& scene, const std::vector<std::vector<do
     if (V[b].size() != scene.bodies[b]->mesh->coordinates.size())
       throw InputError(text("'", scene.bodies[b]->name, "' has ", scene.bodies[b]->mesh->coordinates.size(), " coordinates; ", V[b].size(),
                             " velocities are given for them"));
+    if (const mesh::ElementTopology& t = scene.bodies[b]->mesh->topology(); t.order == 2)
+      throw InputError(text("'", scene.bodies[b]->name, "' is of ", t.name, "; derivatives by the nodes' places are of bodies of P1 or Q1"));
     require_body(*scene.bodies[b], Velocity(*scene.bodies[b], V[b]));
   }
   for (const auto& contact : scene.contacts) {

@@ -18,7 +18,7 @@ std::vector<double> internal_force_derivative(const Body& body, const std::vecto
 
 /// Throws InputError where what supports hold changes with V (a body each; empty where it rests) in a way that has no derivative here,
 /// naming the part and what to do: the normal of a slide turns, the part of a law's support moves, or that of a contact with a rigid
-/// gap. Normals that turn by less than 1e-9 of what V could turn them by, and V below 1e-12 of its greatest, are taken as rounding.
+/// gap. A body that moves is of cells of order 1. Normals that turn by less than 1e-9 of what V could turn them by, and V below 1e-12 of its greatest, are taken as rounding.
 void require_differentiable(const Scene& scene, const std::vector<std::vector<double>>& V);
 
 }  // namespace dotyk::scene

@@ -78,4 +78,4 @@ local p1 <const> = block("P1", "c", 1)
 local mixed <const> = dotyk.scene{ a, p1 }
 refused(function() mixed:contact{ p1:part "bottom", a:part "top", pairing = "matching" } end, "do not match")
 refused(function() dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {2, 2}, element = "P3" } end, "'element' must be")
-refused(function() dotyk.repeated_systems{ scene = dotyk.scene{ one }, velocities = { function(x, y) return x, 0 end } } end, "Q2", "order 1")
+refused(function() dotyk.repeated_systems{ scene = dotyk.scene{ one }, velocities = { function(x, y) return x, 0 end } } end, "'block' is of Q2", "P1 or Q1")
