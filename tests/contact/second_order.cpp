@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "../support/elastic.hpp"
+#include "contact/corner_means.hpp"
 #include "contact/pairing.hpp"
 #include "contact/rigid.hpp"
 #include "contact/sides.hpp"
@@ -61,7 +62,7 @@ double length_of(const Mesh& m, const std::vector<Facet>& facets) {
 
 }  // namespace
 
-TEST_CASE("in the plane a corner stands for a third of itself and two thirds of the middles, ∫ψφ_k/∫ψ by hand") {
+TEST_CASE("in the plane a corner stands for 2/3 of itself, 2/3 of the middles and -1/3 of its neighbours, ∫ψφ_k/∫ψ by hand") {
   for (const Family family : test::kSecondOrder) {
     const Mesh m = test::rectangle(family, 4, 2);
     const auto sides = contact::corner_sides(m, m.parts.at("top"));
@@ -71,12 +72,12 @@ TEST_CASE("in the plane a corner stands for a third of itself and two thirds of 
       const bool end = x == 0 || x == 1;
       CHECK(s.weight == doctest::Approx(end ? 0.125 : 0.25).epsilon(1e-14));
       CHECK(s.own.front().node == s.node);
-      // On [0, h] with ψ = 1 − s: ∫ψφ is h/6 of its own corner, h/3 of the middle, 0 of the other corner; ∫ψ = h/2.
-      REQUIRE(s.own.size() == (end ? 2 : 3));
-      CHECK(s.own.front().weight == doctest::Approx(1.0 / 3).epsilon(1e-14));
+      // On [0, h] with ψ = 2 − 3s, dual to 1 − s: ∫ψφ is h/3 of its own corner, h/3 of the middle, −h/6 of the other corner; ∫ψ = h/2.
+      REQUIRE(s.own.size() == (end ? 3 : 5));
+      CHECK(s.own.front().weight == doctest::Approx(2.0 / 3).epsilon(1e-14));
       for (std::size_t k = 1; k < s.own.size(); ++k) {
-        CHECK(s.own[k].weight == doctest::Approx(end ? 2.0 / 3 : 1.0 / 3).epsilon(1e-14));
-        CHECK(std::abs(m.node(s.own[k].node)[0] - x) == doctest::Approx(0.125).epsilon(1e-14));
+        const bool middle = std::abs(std::abs(m.node(s.own[k].node)[0] - x) - 0.125) < 1e-14;
+        CHECK(s.own[k].weight == doctest::Approx((middle ? 2.0 : -1.0) / (end ? 3 : 6)).epsilon(1e-13));
       }
     }
   }
@@ -176,35 +177,38 @@ TEST_CASE("mortar with order 2 on either side: means of linear functions are the
             const Pair p = blocks(dim, one, other, n, m, angle);
             const Face first = face(p.high, "bottom"), second = face(p.low, "top");
             const auto paired = contact::pair_rows(first, second, Pairing::mortar, {}, false);
-            const auto sides = contact::corner_sides(first.mesh, first.facets);
+            // The rows are at the first part's corners, but of finer triangles of order 1 at the second's.
+            const Mesh &here = paired.turned ? p.low : p.high, &there = paired.turned ? p.high : p.low;
+            if (paired.turned) CHECK(here.node_count() < there.node_count());
+            const auto sides = contact::corner_sides(here, here.parts.at(paired.turned ? "top" : "bottom"));
             REQUIRE(paired.rows.size() == sides.size());
             const auto quadratic = [](const Point& x) { return 1 + 2 * x[0] - x[1] + 0.5 * x[2] + x[0] * x[0] - 2 * x[1] * x[0]; };
-            std::vector<double> reached(p.low.node_count(), 0), pushed(p.high.node_count(), 0);
+            std::vector<double> reached(there.node_count(), 0), pushed(here.node_count(), 0);
             double mine = 0, theirs = 0;
             for (std::size_t k = 0; k < sides.size(); ++k) {
               const contact::ContactRow& row = paired.rows[k];
               CHECK(row.node == sides[k].node);
               CHECK(row.own.front().node == row.node);
               CHECK(row.weight == doctest::Approx(sides[k].weight).epsilon(1e-12));
-              CHECK(std::abs(mean(p.low, row.partners, [](const Point&) { return 1.0; }) - 1) < 1e-13);
-              CHECK(std::abs(mean(p.high, row.own, [](const Point&) { return 1.0; }) - 1) < 1e-13);
+              CHECK(std::abs(mean(there, row.partners, [](const Point&) { return 1.0; }) - 1) < 1e-13);
+              CHECK(std::abs(mean(here, row.own, [](const Point&) { return 1.0; }) - 1) < 1e-13);
               for (int i = 0; i < dim; ++i) {
                 const auto x = [i](const Point& at) { return at[i]; };
-                CHECK(std::abs(mean(p.low, row.partners, x) - mean(p.high, row.own, x)) < 1e-12);
+                CHECK(std::abs(mean(there, row.partners, x) - mean(here, row.own, x)) < 1e-12);
               }
               CHECK(std::abs(row.gap) < 1e-12);
               // ∫ψv of a quadratic v by either part's shape functions, where they contain it.
-              if (p.low.topology().order == 2) {
-                theirs += row.weight * mean(p.low, row.partners, quadratic);
-                if (p.high.topology().order == 2)
-                  CHECK(std::abs(mean(p.low, row.partners, quadratic) - mean(p.high, row.own, quadratic)) < 1e-11);
+              if (there.topology().order == 2) {
+                theirs += row.weight * mean(there, row.partners, quadratic);
+                if (here.topology().order == 2)
+                  CHECK(std::abs(mean(there, row.partners, quadratic) - mean(here, row.own, quadratic)) < 1e-11);
               }
-              mine += row.weight * mean(p.high, row.own, quadratic);
+              mine += row.weight * mean(here, row.own, quadratic);
               for (const NodeWeight& w : row.partners) reached[w.node] += w.weight * row.weight;
               for (const NodeWeight& w : row.own) pushed[w.node] += w.weight * row.weight;
             }
             // The patch test: a uniform pressure pushes both bodies as their own tractions do.
-            for (const auto& [mesh, part, forces] : {std::tuple{&p.low, "top", &reached}, {&p.high, "bottom", &pushed}}) {
+            for (const auto& [mesh, part, forces] : {std::tuple{&there, paired.turned ? "bottom" : "top", &reached}, {&here, paired.turned ? "top" : "bottom", &pushed}}) {
               std::vector<double> traction(mesh->coordinates.size(), 0);
               test::add_traction(*mesh, mesh->parts.at(part), [](const Point&) { return Point{1, 0, 0}; }, traction);
               for (int k = 0; k < mesh->node_count(); ++k) CHECK(std::abs((*forces)[k] - traction[k * dim]) < 1e-13);

@@ -66,9 +66,9 @@ TEST_CASE("a wavy surface on a rigid plane: pressures tend to Westergaard's, ene
     CAPTURE(fine.l2);
     CAPTURE(coarse.peak);
     CAPTURE(fine.peak);
-    CHECK(fine.l2 < coarse.l2 / 2);
+    CHECK(fine.l2 < coarse.l2 / 1.7);  // in L2 the root at the edge leaves h; where it lies between nodes makes that jump about
     CHECK(fine.l2 < 0.02);
-    if (test::quadratic(family)) CHECK(fine.peak < 0.002);
+    if (test::quadratic(family)) CHECK(fine.peak < coarse.peak / 4);
     // u is of H^{5/2 − ε} at the contact's edge: h² of order 1, h³ of order 2.
     CHECK(energy_order > (test::quadratic(family) ? 2.7 : 1.7));
   }
