@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "base/error.hpp"
@@ -27,18 +28,22 @@ std::vector<Across> across(const Face& first, const Face& second, Pairing pairin
   return all;
 }
 
-/// Height of the chords that facets `width` wide are of the curve through the side's facets.
-double chord_height(const Face& face, const NodeSide& side, double width) {
-  double curvature = 0;
-  for (const int f : side.facets) {
-    const Point n = face.mesh.facet_area_vector(face.facets[f]);
-    const double size = mesh::length(n);
-    double along = 0;
-    for (int i = 0; i < 3; ++i) along += n[i] / size * side.normal[i];
-    const double turn = std::sqrt(std::max(0.0, 2 - 2 * along));  // half the angle between neighbours
-    curvature = std::max(curvature, 2 * turn / (face.mesh.dimension() == 2 ? size : std::sqrt(size)));
-  }
-  return curvature * width * width / 8;
+/// Curvature of a part at its nodes, by how its facets' normals turn: the greatest of their facets', those' the greatest at their corners,
+/// so that the ends of a part know it from their neighbours.
+std::unordered_map<int, double> curvature_of(const Face& face) {
+  std::vector<double> of_facet(face.facets.size(), 0);
+  const std::vector<NodeSide> all = sides(face.mesh, face.facets);
+  for (const NodeSide& side : all)
+    for (const int f : side.facets) {
+      const Point n = face.mesh.facet_area_vector(face.facets[f]);
+      const double size = mesh::length(n);
+      const double turn = std::sqrt(std::max(0.0, 2 - 2 * mesh::dot(n, side.normal) / size));  // half the angle between neighbours
+      of_facet[f] = std::max(of_facet[f], 2 * turn / (face.mesh.dimension() == 2 ? size : std::sqrt(size)));
+    }
+  std::unordered_map<int, double> curvature;
+  for (const NodeSide& side : all)
+    for (const int f : side.facets) curvature[side.node] = std::max(curvature[side.node], of_facet[f]);
+  return curvature;
 }
 
 /// Rows with partners found by `pairing`; of chords that overlap no more than they must the gap is 0.
@@ -48,6 +53,7 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
   std::vector<NodeSide> list = means && pairing == Pairing::node_to_segment ? nodes(first.mesh, first.facets)
                                                                           : corner_sides(first.mesh, first.facets);
   std::vector<Across> all = across(first, second, pairing, list);
+  const auto curved = curvature_of(first), curved_across = curvature_of(second);
   std::vector<ContactRow> rows;
   if (means && pairing == Pairing::node_to_segment) {
     std::unordered_map<int, std::vector<NodeWeight>> feet;
@@ -59,7 +65,9 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
   }
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (all[k].partners.empty()) continue;
-    const double chord = interference ? 0 : chord_height(first, list[k], all[k].widest);
+    double curvature = curved.at(list[k].node);
+    for (const NodeWeight& partner : all[k].partners) curvature = std::max(curvature, curved_across.at(partner.node));
+    const double chord = interference ? 0 : curvature * all[k].widest * all[k].widest / 8;  // the height of facets that wide
     list[k].weight = all[k].weight;
     if (means) list[k].own = std::move(all[k].own);
     rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, first, second));
