@@ -200,22 +200,24 @@ Refined Bisection::refine(const std::vector<int>& cells) {
 }
 
 void Bisection::project(const std::string& part, const std::function<Point(const Point&)>& map) {
-  const auto found = mesh_->parts.find(part);
-  if (found == mesh_->parts.end()) {
+  const auto old = mesh_;
+  const auto found = old->parts.find(part);
+  if (found == old->parts.end()) {
     std::string all;
     for (const std::string& name : names_) all += (all.empty() ? "" : ", ") + name;
     throw InputError(text("the mesh has no part '", part, "'; it has ", all.empty() ? "none" : all));
   }
-  auto moved = std::make_shared<Mesh>(*mesh_);
-  std::vector<char> seen(mesh_->node_count(), 0);
+  auto moved = std::make_shared<Mesh>(*old);
+  std::vector<char> seen(old->node_count(), 0);
   for (const Facet f : found->second)
     for (int k = 0; k < dim_; ++k) {
-      const int n = mesh_->facet_node(f, k);
+      const int n = old->facet_node(f, k);
       if (n < first_new_ || seen[n]) continue;
       seen[n] = 1;
-      const Point x = map(mesh_->point(n));
+      const Point x = map(old->point(n));
       std::copy_n(x.begin(), dim_, moved->coordinates.begin() + static_cast<std::ptrdiff_t>(n) * dim_);
     }
+  if (mesh_ != old) throw InputError("the meshes were refined or projected by the function that says where nodes go");
   check(*moved, "the mesh with the new nodes of part '" + part + "' moved");
   mesh_ = std::move(moved);
 }

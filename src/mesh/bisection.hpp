@@ -41,7 +41,8 @@ class Bisection {
   Refined refine(const std::vector<int>& cells);
 
   /// Moves the nodes that the last round made on the boundary part to `map(x)`: without it, new nodes of a curved
-  /// boundary stay on its chords. Throws InputError where the mesh has no such part or a cell inverts, and then moves none.
+  /// boundary stay on its chords. Throws InputError where the mesh has no such part, a cell inverts, or `map`
+  /// itself changed these meshes, and then moves none.
   void project(const std::string& part, const std::function<Point(const Point&)>& map);
 
  private:

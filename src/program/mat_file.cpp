@@ -16,6 +16,20 @@ namespace dotyk::program {
 #ifdef DOTYK_MATIO
 namespace {
 
+constexpr std::size_t kMost = 1 << 30;
+
+/// Do columns and rows of the entries lie within the matrix, and the entries within the lists? The file alone says so.
+bool sound(const mat_sparse_t& s, std::size_t rows, std::size_t columns) {
+  if (s.njc != columns + 1 || !s.jc) return false;
+  for (std::size_t j = 0; j < columns; ++j)
+    if (s.jc[j] > s.jc[j + 1]) return false;
+  const std::size_t count = s.jc[columns];
+  if (count > s.nir || count > s.ndata || (count > 0 && (!s.ir || !s.data))) return false;
+  for (std::size_t k = 0; k < count; ++k)
+    if (s.ir[k] >= rows) return false;
+  return true;
+}
+
 /// 1e20 less the rounding of a scaling.
 constexpr double kInfinite = 0.99e20;
 
@@ -34,10 +48,14 @@ class MatFile {
     if (!v && optional) return {};
     if (!v) throw InputError("'" + name_ + "' has no variable '" + variable + "'; it must have P, q, A, l and u");
     if (v->rank != 2 || v->isComplex) fail(variable, "is not a real matrix");
+    if (v->dims[0] > kMost || v->dims[1] > kMost) fail(variable, "is too large");
     rows = static_cast<int>(v->dims[0]), columns = static_cast<int>(v->dims[1]);
     Entries out;
+    if (!v->data && rows > 0 && columns > 0) fail(variable, "has no entries in the file");
+    if (rows == 0 || columns == 0) return out;
     if (v->class_type == MAT_C_SPARSE) {
       const auto* s = static_cast<const mat_sparse_t*>(v->data);
+      if (!sound(*s, v->dims[0], v->dims[1])) fail(variable, "is damaged: its sparse entries do not fit its size");
       const auto* x = static_cast<const double*>(s->data);
       for (int j = 0; j < columns; ++j)
         for (auto k = s->jc[j]; k < s->jc[j + 1]; ++k)

@@ -117,10 +117,10 @@ int pieces(Call& call) {
 }
 
 int keep(Call& call) {
-  const MeshHandle& handle = *call.self<MeshHandle>();
+  const auto whole = call.self<MeshHandle>()->mesh;  // this one, though the function may transform the handle's
   const Function chosen = call.function("chosen");
-  const auto dimension = static_cast<std::size_t>(handle.mesh->dimension());
-  return give(call, mesh::keep(*handle.mesh, [&](const mesh::Point& x) { return chosen.truth({x.data(), dimension}); },
+  const auto dimension = static_cast<std::size_t>(whole->dimension());
+  return give(call, mesh::keep(*whole, [&](const mesh::Point& x) { return chosen.truth({x.data(), dimension}); },
                                call.text("part")));
 }
 

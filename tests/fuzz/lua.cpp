@@ -1,6 +1,7 @@
 // fuzz_lua SECONDS SEED [FOLDER]: random calls of everything a script can call. Each program begins with a
 // small problem or with nothing, then calls random functions and methods with random arguments, made from
-// their descriptions; most fit, some do not. A failure is a crash, a statement that goes on for 10 s though
+// their descriptions; most fit, some do not. Functions among them may raise what is no message, yield, collect
+// garbage, close coroutines and call dotyk again on what is being worked on (prelude.lua). A failure is a crash, a statement that goes on for 10 s though
 // asked to stop, as by Ctrl-C, after 5, a number that is none (NaN) in a result, or an error that is not one
 // line at the user's line. Its script is saved in FOLDER (here) and runs by dotyk alone.
 #include <cstdlib>
@@ -8,6 +9,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "machine.hpp"
+#include "openings.hpp"
 #include "script/lua.hpp"
 #include "values.hpp"
 
@@ -21,53 +23,17 @@ using fuzz::Values;
 // Draws pictures, prints, or solves many times over: seldom, or never. Functions of numbers, as math's, may be none.
 int rarity(const std::string& name) {
   if (name.starts_with("dotyk.dual.")) return 0;
-  for (const char* never : {"help", "source", "dotyk.work_precision", "dotyk.mesh.gmsh"})
+  for (const char* never : {"dotyk.work_precision", "dotyk.mesh.gmsh"})
     if (name == never) return 0;
   for (const char* rare : {"render", "chart", "show_law", "optimise", "adapt", "all_solutions"})
     if (name.find(rare) != std::string::npos) return 60;
   return 1;
 }
 
-// Problems other than a body on a floor: V[n] is the n-th expression's.
-const std::vector<std::vector<std::string>> openings = {
-    {"dotyk.law.signorini()", "dotyk.beam{ cells = 4, load = -1, left = { deflection = V[1] }, right = { deflection = V[1], rotation = dotyk.law.elastic(2) } }",
-     "dotyk.solve(V[2])"},
-    {"dotyk.beam{ cells = 3, load = -1, left = { deflection = dotyk.law.breaking{ k = 2, g = 1 } }, right = { deflection = dotyk.law.elastic(2) } }",
-     "dotyk.solve(V[1])"},
-    {"dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {3,3} }", "dotyk.plate{ mesh = V[1], load = -1, edge = { deflection = dotyk.law.signorini() } }",
-     "dotyk.solve(V[2])"},
-    {"dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,3} }",
-     "dotyk.plate{ mesh = V[1], load = -1, element = 'HCT', edge = { deflection = dotyk.law.prescribed(0), rotation = dotyk.law.friction(0.1) } }", "dotyk.solve(V[2])"},
-    {"dotyk.qp{ B = {{2,0},{0,2}}, c = {2,5}, D = {{1,1}}, d = {1}, x_low = 0 }", "V[1]:solve{}"},
-    {"dotyk.lcp{ M = {{1,0,2},{2,1,0},{0,2,1}}, q = {1,-1,1} }"},
-    {"dotyk.thermoelastic_beam{ height = 0.1, E = 100, expansion = 1e-3, conductivity = 1, heat_capacity = 1, cells = 4, load = -1, step = 1, "
-     "left = { deflection = dotyk.law.signorini(), displacement = dotyk.law.prescribed(0) }, right = { deflection = dotyk.law.signorini() } }",
-     "V[1]:run(2)"},
-    {"dotyk.channel{ half_width = 1e-3, density = 13546, viscosity = 1.55e-3, conductivity = 1.04e6, E0 = 0.1, B0 = 0.2, pressure_gradient = -2e4, omega = 6.28, u0 = 1 }"},
-    {"dotyk.mesh.rectangle{ from = {0,0}, to = {2,1}, cells = {3,2} }", "dotyk.mesh.rectangle{ from = {0,1}, to = {2,2}, cells = {3,2} }",
-     "dotyk.material{ E = 10, nu = 0.3 }", "dotyk.body{ mesh = V[1], material = V[3] }", "dotyk.body{ mesh = V[2], material = V[3] }",
-     "V[4]:part 'bottom':fix()", "V[5]:part 'top':load{ 0.02, -0.1 }", "dotyk.scene{ V[4], V[5] }",
-     "V[8]:contact{ V[4]:part 'top', V[5]:part 'bottom', friction = dotyk.friction.coulomb(0.4) }",
-     "dotyk.solve(V[8], { steps = { { load = 0.5 }, { load = 1 } } })"},
-    {"dotyk.mesh.rectangle{ from = {-1,0}, to = {1,1}, cells = {4,2} }", "dotyk.body{ mesh = V[1], material = dotyk.material{ E = 100, nu = 0.3 } }",
-     "V[2]:part 'top':load{ 0, -1 }", "V[2]:part 'left':fix 'x'", "V[2]:part 'bottom'", "dotyk.scene{ V[2] }",
-     "V[6]:contact{ V[5], rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} } }",
-     "dotyk.shape{ scene = V[6], moves = { { part = V[5], control_points = 4, direction = {0,1}, lower = 0, upper = 0.05 } } }", "V[8]:design{ 0.01, 0, 0, 0.01 }"},
-    {"dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {2,1}, cells = {3,2} }, material = dotyk.material{ E = 10, nu = 0.3 } }", "V[1]:part 'bottom'",
-     "V[1]:part 'top':load{ 0.1, -1 }", "V[1]:part 'left':fix 'x'", "V[2]:support{ normal = dotyk.law.signorini(), tangential = dotyk.law.friction(0.1) }",
-     "dotyk.scene{ V[1] }", "dotyk.solve(V[6])", "V[7]:support(V[2])"},
-    {"dotyk.body{ mesh = dotyk.mesh.box{ from = {0,0,0}, to = {4,1,1}, cells = {3,1,1}, element = 'Q1' }, material = dotyk.material{ E = 1, nu = 0.3 } }",
-     "V[1]:part 'left':fix()", "V[1]:part 'right':load{ 0, 0, -1e-4 }",
-     "dotyk.repeated_systems{ scene = dotyk.scene{ V[1] }, method = 'scg', velocities = { function(x, y, z) return 0, 0, z * (1 - x/8) end } }"},
-    {"dotyk.mesh.rectangle{ from = {0,0}, to = {2,1}, cells = {2,2}, element = 'P2' }", "dotyk.mesh.rectangle{ from = {0,1}, to = {2,2}, cells = {3,2}, element = 'Q2' }",
-     "dotyk.material{ E = 10, nu = 0.3 }", "dotyk.body{ mesh = V[1], material = V[3] }", "dotyk.body{ mesh = V[2], material = V[3] }",
-     "V[4]:part 'bottom':fix()", "V[5]:part 'left':fix 'x'", "V[5]:part 'top':load{ 0.02, -0.1 }", "dotyk.scene{ V[4], V[5] }",
-     "V[9]:contact{ V[4]:part 'top', V[5]:part 'bottom', friction = dotyk.friction.tresca(0.01) }", "dotyk.solve(V[9])"},
-    {"dotyk.refinement{ dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} } }", "V[1]:refine()"}};
-
 // What a run reached.
 struct Reached {
   std::map<std::string, long> made;    // objects that calls gave, by class
+  std::map<std::string, long> opened;  // expressions of openings that were refused
   std::map<std::string, long> called;  // random calls by callable that gave a result, which may be nothing
 };
 
@@ -77,8 +43,7 @@ class Program {
 
   void run() {
     if (values_.once_in(2)) begin_with_scene();
-    else if (!values_.once_in(4))
-      for (const auto& expression : openings[static_cast<std::size_t>(values_.below(static_cast<int>(openings.size())))]) make(expression);
+    else if (!values_.once_in(4)) begin_with(values_.once_in(30) ? fuzz::pictures : fuzz::openings);
     for (int calls = 3 + values_.below(15); calls > 0; --calls) call_something();
   }
 
@@ -86,7 +51,9 @@ class Program {
   // Runs "V[n] = try(…)" and notes what it made.
   void make(const std::string& expression) {
     const std::string name = text("V[", ++made_, "]");
-    machine_.run(text(name, " = try(function() return ", expression, " end)"));
+    // Or in a coroutine, where functions given may yield.
+    const bool inside = values_.once_in(8);
+    machine_.run(text(name, " = try(function() return ", inside ? "odd.inside(function() return " : "", expression, inside ? " end)" : "", " end)"));
     lua_State* L = machine_.state();
     lua_getglobal(L, "V");
     lua_rawgeti(L, -1, made_);
@@ -96,6 +63,20 @@ class Program {
     pool_[type->name].push_back(name);
     ++reached_.made[type->name];
     if (!type->fields.empty() && values_.once_in(3)) look(name, *type);
+  }
+
+  void begin_with(const std::vector<fuzz::Opening>& some) {
+    for (const auto& expression : some[static_cast<std::size_t>(values_.below(static_cast<int>(some.size())))]) {
+      make(expression);
+      if (failed()) ++reached_.opened[expression];
+    }
+  }
+
+  bool failed() {
+    lua_State* L = machine_.state();
+    const bool is = lua_getglobal(L, "failed") == LUA_TBOOLEAN && lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    return is;
   }
 
   void look(const std::string& name, const script::Type& type) {
@@ -147,9 +128,7 @@ class Program {
 
   void call(const script::Descriptor& one, const std::string& expression) {
     make(expression);
-    lua_State* L = machine_.state();
-    reached_.called[one.name] += lua_getglobal(L, "failed") != LUA_TBOOLEAN || !lua_toboolean(L, -1);
-    lua_pop(L, 1);
+    reached_.called[one.name] += !failed();
   }
 
   bool wanted(const std::string& name) {
@@ -185,6 +164,7 @@ int main(int count, char** words) {
   std::string never;
   for (const auto& [name, times] : reached.called)
     if (times == 0) never += (never.empty() ? "" : ", ") + name;
+  for (const auto& [expression, times] : reached.opened) machine.say(text("refused ", times, " times: ", expression));
   machine.say("called, but always refused: " + (never.empty() ? "none" : never));
   machine.say(text(machine.executions(), " executions of ", seed - first, " programs (seeds ", first, " to ", seed - 1, ") in ", clock.seconds(), " s, ",
                    machine.failures(), " failures, ", machine.slowest(), "; memory ", fuzz::resident(), " MB", before > 0 ? text(", after 400 programs ", before, " MB") : ""));

@@ -32,6 +32,47 @@ const std::vector<std::string> functions = {
     "function(x) return 1e300 * (x or 1) end",
     "function(x) return x.y.z end"};
 
+// What a function may do beside giving a value: see prelude.lua.
+const std::vector<std::string> odd_functions = {
+    "function() raise 'no' end",
+    "function() raise 'two\\nlines' end",
+    "function() raise{} end",
+    "function() raise(nil) end",
+    "function() raise(3) end",
+    "function() raise(print) end",
+    "function() raise(setmetatable({}, { __tostring = function() error 'none' end })) end",
+    "function(...) raise(V[1]) end",
+    "function(...) return coroutine.yield(...) end",
+    "coroutine.wrap(function(...) local x = ... while true do x = coroutine.yield(x) end end)",
+    "coroutine.wrap(function(...) return ... end)",
+    "function(...) return odd.inside(function(...) coroutine.yield() return ... end, ...) end",
+    "function(...) local _ <close> = odd.closing() return ... end",
+    "function(...) local _ <close> = odd.closing() raise{} end",
+    "function(x) local _ <close> = odd.closing() return 0.1 * (x or 1) end",
+    "function(...) collectgarbage() return ... end",
+    "function(x) collectgarbage 'step' return 0.5 end",
+    "function(...) odd.litter() return ... end",
+    "function(x) odd.litter() return 0.1 end",
+    "function(...) odd.sweep() return ... end",
+    "function(x) odd.sweep() return 0.1 end",
+    "function() odd.sweep() end",
+    "function(x, y, z) odd.close_chain(20) return x, y, z end",
+    "function(x) odd.close_chain(150, true) return -0.1 end",
+    "function(...) odd.again(2, ...) return ... end",
+    "function(x) odd.again(2, x) return 0.2 end",
+    "function() odd.again(3) end",
+    "function(...) odd.touch(...) return ... end",
+    "function(x) odd.touch(x) return 0.3 end",
+    "function() odd.touch() end",
+    "function(...) V = {} collectgarbage() return ... end",
+    "setmetatable({}, { __call = function(_, x) return x end })",
+    "string.rep",
+    "math.floor",
+    "setmetatable",
+    "next",
+    "pcall",
+    "raise"};
+
 // Objects that need no others.
 const std::map<std::string, std::vector<std::string>> makers = {
     {"law", {"dotyk.law.signorini()", "dotyk.law.elastic(2)", "dotyk.law.prescribed(0)", "dotyk.law.friction(0.5)", "dotyk.law.free()",
@@ -160,7 +201,7 @@ std::string Values::table(const Key& key) {
   return "{ " + entries + "}";
 }
 
-std::string Values::function() { return of(functions); }
+std::string Values::function() { return of(once_in(4) ? odd_functions : functions); }
 
 std::string Values::object(const std::string& type) {
   const auto found = pool_.find(type);
