@@ -1,8 +1,11 @@
 #include "scene/solution.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include "base/error.hpp"
@@ -157,17 +160,37 @@ bool Solution::active(int row) const {
   return !result_.active_sets.empty() && result_.active_sets.back()[row];
 }
 
+namespace {
+
+/// With as many digits as a duration or a residual is known to.
+std::string brief(double value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::setprecision(3) << value;
+  return out.str();
+}
+
+/// A force without the rounding left in components that balance.
+std::string force_text(std::array<double, 3> force, int dimension) {
+  const double length = std::hypot(force[0], force[1], force[2]);
+  for (double& component : force)
+    if (std::abs(component) < 1e-12 * length) component = 0;
+  return point_text(force.data(), dimension);
+}
+
+}  // namespace
+
 std::string describe(const Solution& s) {
   const solver::Result& r = s.result();
   std::string out = text("solution: ", r.converged ? "converged" : "NOT CONVERGED", " (", r.method, ", ",
                          r.iterations, r.iterations == 1 ? " iteration" : " iterations", "; ", r.reason, ")\n");
   out += text("  unknowns ", s.unknowns(), ", rows ", s.rows(), ", energy ", s.energy(), "\n");
-  out += text("  residual: equilibrium ", s.residual().equilibrium, ", penetration ", s.residual().penetration,
-              ", complementarity ", s.residual().complementarity, "\n");
+  out += text("  residual: equilibrium ", brief(s.residual().equilibrium), ", penetration ", brief(s.residual().penetration),
+              ", complementarity ", brief(s.residual().complementarity), "\n");
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact) continue;
     const ContactResult c = s.contact(*contact);
-    out += text("  ", contact->name, ": force ", point_text(c.force.data(), s.scene().dimension()), ", ",
+    out += text("  ", contact->name, ": force ", force_text(c.force, s.scene().dimension()), "\n    ",
                 c.stick + c.slip > 0 ? text(c.stick, " stick, ", c.slip, " slip, ") : "",
                 c.closed > 0 || c.stick + c.slip == 0 ? text(c.closed, " closed, ") : "", c.open, " open, greatest pressure ",
                 c.max_pressure, c.dissipated > 0 ? text(", dissipated ", c.dissipated) : "", "\n");
@@ -179,8 +202,8 @@ std::string describe(const Solution& s) {
                   describe(r, s.scene().dimension()), "\n");
     }
   const problem::Clock& t = s.clock();
-  out += text("  seconds: total ", t.total, " (assembly ", t.assembly, ", ordering ", t.ordering, ", factor ",
-              t.factor, ", iterate ", t.iterate, ", recover ", t.recover, ")");
+  out += text("  seconds: total ", brief(t.total), " (assembly ", brief(t.assembly), ", ordering ", brief(t.ordering),
+              ", factor ", brief(t.factor), ", iterate ", brief(t.iterate), ", recover ", brief(t.recover), ")");
   return out;
 }
 

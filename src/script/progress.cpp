@@ -3,6 +3,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -32,7 +33,7 @@ void show_progress(const std::string& text) {
   if (now < line.next || !isatty(STDERR_FILENO)) return;
   line.next = now + std::chrono::milliseconds(100);
   line.shown = true;
-  std::fprintf(stderr, "\r%.*s\033[K", columns() - 1, text.c_str());
+  std::fprintf(stderr, "\r%.*s\033[K", std::max(1, columns() - 3), text.c_str());  // "^C" is echoed after it
   std::fflush(stderr);
 }
 

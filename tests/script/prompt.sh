@@ -34,6 +34,7 @@ expect() {
 }
 
 expect "an expression" '42' '6 * 7\n' &
+expect "several results" '3  "a"' '3, "a"\n' &
 expect "several lines" '25' 'for i = 5, 5 do\n' 'print(i * i)\n' 'end\n' &
 expect "an error" "prompt:1: unknown variable 'prnit', did you mean 'print'?" 'prnit(1)\n' &
 expect "locals last" '41' 'local x = 40\n' 'x + 1\n' &
