@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "../support/block_pair.hpp"
 #include "../support/facets.hpp"
 #include "base/error.hpp"
 #include "contact/projection.hpp"
@@ -16,25 +17,6 @@ using mesh::Family;
 using mesh::Point;
 
 namespace {
-
-Face face(const mesh::Mesh& m, const std::string& part) { return {m, m.parts.at(part), "'" + part + "'"}; }
-
-/// A block below [0, 1]ᵈ's top and one above it, of different cells, their interface turned by an angle.
-struct Pair {
-  mesh::Mesh low, high;
-};
-Pair blocks(int dim, Family one, Family other, int n, int m, double angle = 0) {
-  Pair p{test::unit(dim, one, n), test::unit(dim, other, m)};
-  mesh::transform(p.high, [&](Point x) { return x[dim - 1] += 1, x; });
-  for (mesh::Mesh* mesh : {&p.low, &p.high})
-    mesh::transform(*mesh, [&](const Point& x) {
-      Point y = x;
-      y[0] = std::cos(angle) * x[0] - std::sin(angle) * x[dim - 1];
-      y[dim - 1] = std::sin(angle) * x[0] + std::cos(angle) * x[dim - 1];
-      return y;
-    });
-  return p;
-}
 
 /// Σ weight x_partner.
 Point across(const mesh::Mesh& mesh, const std::vector<contact::NodeWeight>& partners) {
@@ -61,8 +43,8 @@ TEST_CASE("mortar reproduces linear functions, and its integrals are those of ei
             CAPTURE(p1[1]);
             CAPTURE(cells);
             CAPTURE(angle);
-            const Pair p = blocks(dim, one, other, n, m, angle);
-            const Face first = face(p.high, "bottom"), second = face(p.low, "top");
+            const test::BlockPair p = test::block_pair(dim, one, other, n, m, angle);
+            const Face first = test::face(p.high, "bottom"), second = test::face(p.low, "top");
             const auto sides = contact::sides(first.mesh, first.facets);
             const auto all = contact::mortar(first, second, sides);
             std::vector<double> reached(p.low.node_count(), 0);
@@ -81,8 +63,8 @@ TEST_CASE("mortar reproduces linear functions, and its integrals are those of ei
 TEST_CASE("on matching nodes mortar and feet are the matching nodes") {
   for (int dim : {2, 3})
     for (const Family family : test::kFamilies) {
-      const Pair p = blocks(dim, family, family, 4, 4, 0.3);
-      const Face first = face(p.high, "bottom"), second = face(p.low, "top");
+      const test::BlockPair p = test::block_pair(dim, family, family, 4, 4, 0.3);
+      const Face first = test::face(p.high, "bottom"), second = test::face(p.low, "top");
       const auto rows = contact::between(first, second, {});
       for (const Pairing pairing : {Pairing::mortar, Pairing::node_to_segment}) {
         const auto same = contact::pair_rows(first, second, pairing, {}, false);
@@ -108,8 +90,8 @@ TEST_CASE("on matching nodes mortar and feet are the matching nodes") {
 TEST_CASE("feet reproduce linear functions, but not the second part's integrals") {
   for (int dim : {2, 3})
     for (const Family other : test::kFamilies) {
-      const Pair p = blocks(dim, Family::p1, other, 5, 7);
-      const Face first = face(p.high, "bottom"), second = face(p.low, "top");
+      const test::BlockPair p = test::block_pair(dim, Family::p1, other, 5, 7);
+      const Face first = test::face(p.high, "bottom"), second = test::face(p.low, "top");
       const auto sides = contact::sides(first.mesh, first.facets);
       const auto all = contact::node_to_segment(first, second, sides);
       std::vector<double> reached(p.low.node_count(), 0);
@@ -127,9 +109,9 @@ TEST_CASE("parts that overhang: what is covered counts, however little of a face
   for (int dim : {2, 3})
     for (const Family family : test::kFamilies)
       for (const double shift : {0.25, 0.37, 0.5 + 1e-3, 0.5 + 1e-5}) {
-        Pair p = blocks(dim, family, family, 3, 2);
+        test::BlockPair p = test::block_pair(dim, family, family, 3, 2);
         mesh::transform(p.high, [&](Point x) { return x[0] += shift, x; });
-        const Face first = face(p.high, "bottom"), second = face(p.low, "top");
+        const Face first = test::face(p.high, "bottom"), second = test::face(p.low, "top");
         const auto rows = contact::pair_rows(first, second, Pairing::mortar, {}, false).rows;
         double weight = 0, moment = 0, reached = 0;
         for (const auto& row : rows) {
@@ -146,17 +128,17 @@ TEST_CASE("parts that overhang: what is covered counts, however little of a face
 
 TEST_CASE("a gap is its mean: constant and linear ones are exact") {
   for (int dim : {2, 3}) {
-    Pair p = blocks(dim, Family::p1, Family::q1, 3, 5);
+    test::BlockPair p = test::block_pair(dim, Family::p1, Family::q1, 3, 5);
     mesh::transform(p.high, [&](Point x) { return x[dim - 1] += 0.1 + 0.05 * x[0], x; });
     // The lower part first: its facets' normal is the axis, along which the gap is 0.1 + 0.05 x.
-    const auto rows = contact::pair_rows(face(p.low, "top"), face(p.high, "bottom"), {}, [](const Point& x) { return x[0]; }, false);
+    const auto rows = contact::pair_rows(test::face(p.low, "top"), test::face(p.high, "bottom"), {}, [](const Point& x) { return x[0]; }, false);
     CHECK(rows.pairing == Pairing::mortar);
     for (const auto& row : rows.rows) CHECK(row.gap == doctest::Approx(0.1 + 1.05 * p.low.node(row.node)[0]).epsilon(1e-12));
   }
 }
 
 TEST_CASE("distorted quadrilaterals: forces balance to rounding, integrals are those of the rule") {
-  Pair p = blocks(3, Family::q1, Family::q1, 3, 4);
+  test::BlockPair p = test::block_pair(3, Family::q1, Family::q1, 3, 4);
   const auto move = [](mesh::Mesh& m) {
     mesh::transform(m, [](Point x) {
       const double bump = 16 * x[0] * (1 - x[0]) * x[1] * (1 - x[1]);
@@ -165,7 +147,7 @@ TEST_CASE("distorted quadrilaterals: forces balance to rounding, integrals are t
     });
   };
   move(p.low), move(p.high);
-  const Face first = face(p.high, "bottom"), second = face(p.low, "top");
+  const Face first = test::face(p.high, "bottom"), second = test::face(p.low, "top");
   const auto sides = contact::sides(first.mesh, first.facets);
   const auto all = contact::mortar(first, second, sides);
   std::vector<double> reached(p.low.node_count(), 0);
@@ -187,7 +169,7 @@ TEST_CASE("chords of a curve that overlap by their height touch; a ring in a rin
     return m;
   };
   const mesh::Mesh shaft = arc(0.5, 1, 11), bush = arc(1, 1.5, 16);
-  const auto rows = contact::pair_rows(face(shaft, "top"), face(bush, "bottom"), {}, {}, false);
+  const auto rows = contact::pair_rows(test::face(shaft, "top"), test::face(bush, "bottom"), {}, {}, false);
   CHECK(rows.pairing == Pairing::mortar);
   CHECK(rows.rows.size() == 12);
   const double height = 1 - std::cos(std::numbers::pi / 44);  // of the shaft's chords
@@ -195,7 +177,7 @@ TEST_CASE("chords of a curve that overlap by their height touch; a ring in a rin
     CHECK(row.gap >= 0);
     CHECK(row.gap < 2 * height);
   }
-  CHECK_THROWS_WITH_AS(contact::pair_rows(face(shaft, "top"), face(arc(0.98, 1.5, 16), "bottom"), {}, {}, false),
+  CHECK_THROWS_WITH_AS(contact::pair_rows(test::face(shaft, "top"), test::face(arc(0.98, 1.5, 16), "bottom"), {}, {}, false),
                        doctest::Contains("overlap by"), InputError);
 }
 
@@ -210,7 +192,7 @@ TEST_CASE("of two sheets above each other the nearer one counts") {
   for (const mesh::Facet f : far.parts.at("bottom")) facets.push_back({f.cell + cells, f.local});
   const Face second{near, facets, "plates"};
   for (const Pairing pairing : {Pairing::mortar, Pairing::node_to_segment})
-    for (const auto& row : contact::pair_rows(face(low, "top"), second, pairing, {}, false).rows)
+    for (const auto& row : contact::pair_rows(test::face(low, "top"), second, pairing, {}, false).rows)
       CHECK(row.gap == doctest::Approx(0.5));
 }
 
@@ -218,12 +200,12 @@ TEST_CASE("parts that do not face each other have no pairing at all") {
   const auto low = test::rectangle(Family::p1, 4, 2), high = test::rectangle(Family::p1, 3, 2, 0, 1, 1, 2),
              beside = test::rectangle(Family::p1, 3, 2, 1, 1, 2, 2);
   for (const std::optional<Pairing> pairing : {std::optional<Pairing>{}, std::optional{Pairing::mortar}, std::optional{Pairing::node_to_segment}}) {
-    CHECK_THROWS_WITH_AS(contact::pair_rows(face(low, "top"), face(high, "top"), pairing, {}, false),
+    CHECK_THROWS_WITH_AS(contact::pair_rows(test::face(low, "top"), test::face(high, "top"), pairing, {}, false),
                          doctest::Contains("do not face each other"), InputError);
     if (pairing != Pairing::node_to_segment)  // two corners are one another's feet
-      CHECK_THROWS_AS(contact::pair_rows(face(low, "top"), face(beside, "bottom"), Pairing::mortar, {}, false), InputError);
+      CHECK_THROWS_AS(contact::pair_rows(test::face(low, "top"), test::face(beside, "bottom"), Pairing::mortar, {}, false), InputError);
   }
-  CHECK_THROWS_WITH_AS(contact::pair_rows(face(low, "top"), face(high, "bottom"), Pairing::matching, {}, false),
+  CHECK_THROWS_WITH_AS(contact::pair_rows(test::face(low, "top"), test::face(high, "bottom"), Pairing::matching, {}, false),
                        doctest::Contains("do not match"), InputError);
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "../support/block_pair.hpp"
 #include "../support/elastic.hpp"
 #include "contact/corner_means.hpp"
 #include "contact/pairing.hpp"
@@ -21,26 +22,6 @@ using mesh::Mesh;
 using mesh::Point;
 
 namespace {
-
-Face face(const Mesh& m, const std::string& part) { return {m, m.parts.at(part), "'" + part + "'"}; }
-
-struct Pair {
-  Mesh low, high;
-};
-
-/// Unit blocks above each other, of different cells, turned by an angle.
-Pair blocks(int dim, Family one, Family other, int n, int m, double angle = 0) {
-  Pair p{test::unit(dim, one, n), test::unit(dim, other, m)};
-  mesh::transform(p.high, [&](Point x) { return x[dim - 1] += 1, x; });
-  for (Mesh* mesh : {&p.low, &p.high})
-    mesh::transform(*mesh, [&](const Point& x) {
-      Point y = x;
-      y[0] = std::cos(angle) * x[0] - std::sin(angle) * x[dim - 1];
-      y[dim - 1] = std::sin(angle) * x[0] + std::cos(angle) * x[dim - 1];
-      return y;
-    });
-  return p;
-}
 
 double mean(const Mesh& m, const std::vector<NodeWeight>& nodes, const std::function<double(const Point&)>& f) {
   double sum = 0;
@@ -174,8 +155,8 @@ TEST_CASE("mortar with order 2 on either side: means of linear functions are the
             CAPTURE(test::name(other));
             CAPTURE(n);
             CAPTURE(m);
-            const Pair p = blocks(dim, one, other, n, m, angle);
-            const Face first = face(p.high, "bottom"), second = face(p.low, "top");
+            const test::BlockPair p = test::block_pair(dim, one, other, n, m, angle);
+            const Face first = test::face(p.high, "bottom"), second = test::face(p.low, "top");
             const auto paired = contact::pair_rows(first, second, Pairing::mortar, {}, false);
             // The rows are at the first part's corners, but of finer triangles of order 1 at the second's.
             const Mesh &here = paired.turned ? p.low : p.high, &there = paired.turned ? p.high : p.low;
@@ -219,8 +200,8 @@ TEST_CASE("mortar with order 2 on either side: means of linear functions are the
 TEST_CASE("matching nodes of order 2: mortar gives the rows of the matching pairing") {
   for (int dim : {2, 3})
     for (const Family family : test::kSecondOrder) {
-      const Pair p = blocks(dim, family, family, 3, 3, 0.3);
-      const Face first = face(p.high, "bottom"), second = face(p.low, "top");
+      const test::BlockPair p = test::block_pair(dim, family, family, 3, 3, 0.3);
+      const Face first = test::face(p.high, "bottom"), second = test::face(p.low, "top");
       const auto own = contact::pair_rows(first, second, {}, {}, false);
       CHECK(own.pairing == Pairing::matching);
       const auto mortar = contact::pair_rows(first, second, Pairing::mortar, {}, false);
@@ -244,10 +225,10 @@ TEST_CASE("parts of order 2 that overhang: what is covered counts") {
   for (int dim : {2, 3})
     for (const Family family : test::kSecondOrder)
       for (const double shift : {0.25, 0.37, 0.5 + 1e-4}) {
-        Pair p = blocks(dim, family, family, 3, 2);
+        test::BlockPair p = test::block_pair(dim, family, family, 3, 2);
         mesh::transform(p.high, [&](Point x) { return x[0] += shift, x; });
         double weight = 0, moment = 0, across = 0, second = 0;
-        for (const auto& row : contact::pair_rows(face(p.high, "bottom"), face(p.low, "top"), Pairing::mortar, {}, false).rows) {
+        for (const auto& row : contact::pair_rows(test::face(p.high, "bottom"), test::face(p.low, "top"), Pairing::mortar, {}, false).rows) {
           const auto x = [](const Point& at) { return at[0]; };
           weight += row.weight;
           moment += row.weight * mean(p.high, row.own, x);

@@ -2,8 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "base/error.hpp"
-#include "meshfile/assemble.hpp"
+#include "mfem_text.hpp"
 
 using namespace dotyk;
 using namespace dotyk::meshfile;
@@ -36,20 +35,6 @@ vertices
 2 1e0
 )";
 
-std::string replaced(std::string text, const std::string& what, const std::string& with) {
-  text.replace(text.find(what), what.size(), with);
-  return text;
-}
-
-void check_refused(const std::string& text, const std::string& why) {
-  try {
-    assemble(read_mfem(text, "f.mesh"), {}, "f.mesh");
-    FAIL_CHECK("not refused: " << why);
-  } catch (const InputError& e) {
-    CHECK_MESSAGE(std::string(e.what()).find(why) != std::string::npos, e.what());
-  }
-}
-
 }  // namespace
 
 TEST_CASE("MFEM's text: attributes become regions and parts") {
@@ -67,17 +52,17 @@ TEST_CASE("MFEM's text: attributes become regions and parts") {
 }
 
 TEST_CASE("MFEM's text: what is wrong, and in which line") {
-  check_refused("mesh", "its first line is 'mesh'; 'MFEM mesh v1.0' is expected");
-  check_refused("MFEM mesh v1.0", "no cells");
-  check_refused(replaced(kMesh, "v1.0", "v1.3"), "MFEM mesh v1.3");
-  check_refused(replaced(kMesh, "\n2\n", "\n4\n"), "f.mesh, line 5: dimension 4; 2 or 3 is expected");
-  check_refused(replaced(kMesh, "7 2 1 2 4", "7 2 1 x 4"), "line 9: 'x' where a vertex should be");
-  check_refused(replaced(kMesh, "7 2 1 2 4", "7 2 1 2 6"), "has a node that is not there");
-  check_refused(replaced(kMesh, "7 2 1 2 4", "7 5 1 2 4"), "hexahedra among elements of dimension 2");
-  check_refused(replaced(kMesh, "7 2 1 2 4", "7 8 1 2 4"), "geometry type 8");
-  check_refused(replaced(kMesh, "\n6\n", "\n2000000000\n"), "the file is too short for that");
-  check_refused(replaced(kMesh, "\n6\n", "\n7\n"), "it ends where a coordinate should be");
-  check_refused(replaced(kMesh, "\n6\n2\n", "\n6\nnodes\n"), "'FiniteElementSpace' should be");
-  check_refused(replaced(kMesh, "boundary", "bindary"), "unknown section 'bindary'");
+  test::refused("mesh", "its first line is 'mesh'; 'MFEM mesh v1.0' is expected");
+  test::refused("MFEM mesh v1.0", "no cells");
+  test::refused(test::replaced(kMesh, "v1.0", "v1.3"), "MFEM mesh v1.3");
+  test::refused(test::replaced(kMesh, "\n2\n", "\n4\n"), "f.mesh, line 5: dimension 4; 2 or 3 is expected");
+  test::refused(test::replaced(kMesh, "7 2 1 2 4", "7 2 1 x 4"), "line 9: 'x' where a vertex should be");
+  test::refused(test::replaced(kMesh, "7 2 1 2 4", "7 2 1 2 6"), "has a node that is not there");
+  test::refused(test::replaced(kMesh, "7 2 1 2 4", "7 5 1 2 4"), "hexahedra among elements of dimension 2");
+  test::refused(test::replaced(kMesh, "7 2 1 2 4", "7 8 1 2 4"), "geometry type 8");
+  test::refused(test::replaced(kMesh, "\n6\n", "\n2000000000\n"), "the file is too short for that");
+  test::refused(test::replaced(kMesh, "\n6\n", "\n7\n"), "it ends where a coordinate should be");
+  test::refused(test::replaced(kMesh, "\n6\n2\n", "\n6\nnodes\n"), "'FiniteElementSpace' should be");
+  test::refused(test::replaced(kMesh, "boundary", "bindary"), "unknown section 'bindary'");
   for (std::size_t n = 0; n + 4 < kMesh.size(); n += 3) CHECK_THROWS_AS(assemble(read_mfem(kMesh.substr(0, n), "f"), {}, "f"), InputError);
 }

@@ -6,9 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "base/error.hpp"
-#include "meshfile/assemble.hpp"
-#include "meshfile/mfem.hpp"
+#include "mfem_text.hpp"
 
 using namespace dotyk;
 using namespace dotyk::meshfile;
@@ -96,11 +94,6 @@ void check_read(const Geometry& g, const std::vector<Point>& vertices, const std
   }
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& with) {
-  text.replace(text.find(what), what.size(), with);
-  return text;
-}
-
 const std::vector<Point> kPlane{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
 
 }  // namespace
@@ -116,21 +109,14 @@ TEST_CASE("MFEM's curved meshes of order 2: nodes on edges, in faces and in cell
 
 TEST_CASE("MFEM's curved meshes: what is wrong with the nodes, and in which line") {
   const std::string sound = file(kSquare, kPlane, {{0, 1, 4, 3}, {1, 2, 5, 4}}, 1);
-  const auto refused = [&](const std::string& text, const std::string& why) {
-    try {
-      assemble(read_mfem(text, "f.mesh"), {.order = 2}, "f.mesh");
-      FAIL_CHECK("not refused: " << why);
-    } catch (const InputError& e) {
-      CHECK_MESSAGE(std::string(e.what()).find(why) != std::string::npos, e.what());
-    }
-  };
-  refused(replaced(sound, "H1_2D_P2", "H1_2D_P3"), "line 14: nodes by the collection 'H1_2D_P3'; 'Linear', 'Quadratic' and");
-  refused(replaced(sound, "H1_2D_P2", "L2_T1_2D_P2"), "'L2_T1_2D_P2'");
-  refused(replaced(sound, "VDim: 2", "VDim: 1"), "nodes of dimension 1; 2 or 3 is expected");
-  refused(replaced(sound, "VDim:", "VDims"), "'VDims' where 'VDim:' should be");
-  refused(replaced(sound, "Ordering: 1", "Ordering: 2"), "ordering 2; 0 or 1 is expected");
-  refused(replaced(sound, "1 3 0 1 4 3", "1 3 0 1 6 3"), "vertex 6 of an element; there are 6, counted from 0");
-  refused(replaced(sound, "1 3 0 1 4 3", "1 3 0 1 -1 3"), "vertex -1 of an element");
+  const auto refused = [&](const std::string& text, const std::string& why) { test::refused(text, why, {.order = 2}); };
+  refused(test::replaced(sound, "H1_2D_P2", "H1_2D_P3"), "line 14: nodes by the collection 'H1_2D_P3'; 'Linear', 'Quadratic' and");
+  refused(test::replaced(sound, "H1_2D_P2", "L2_T1_2D_P2"), "'L2_T1_2D_P2'");
+  refused(test::replaced(sound, "VDim: 2", "VDim: 1"), "nodes of dimension 1; 2 or 3 is expected");
+  refused(test::replaced(sound, "VDim:", "VDims"), "'VDims' where 'VDim:' should be");
+  refused(test::replaced(sound, "Ordering: 1", "Ordering: 2"), "ordering 2; 0 or 1 is expected");
+  refused(test::replaced(sound, "1 3 0 1 4 3", "1 3 0 1 6 3"), "vertex 6 of an element; there are 6, counted from 0");
+  refused(test::replaced(sound, "1 3 0 1 4 3", "1 3 0 1 -1 3"), "vertex -1 of an element");
   refused(sound.substr(0, sound.size() - 25), "it ends where a coordinate should be");
   refused(sound + "vertices\n6\nnodes\nFiniteElementSpace\nFiniteElementCollection: Quadratic\nVDim: 2\nOrdering: 1\n" + std::string(100, '0'), "");
   for (std::size_t n = 0; n + 20 < sound.size(); n += 7) CHECK_THROWS_AS(assemble(read_mfem(sound.substr(0, n), "f"), {.order = 2}, "f"), InputError);
