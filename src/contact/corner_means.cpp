@@ -16,6 +16,9 @@ double linear_hat(const mesh::ElementTopology& t, const elasticity::FacetPoint& 
   return value;
 }
 
+namespace {
+
+/// Makes a corner's side of order 2 the mean over those of its facets that are used; weight 0 where none is.
 void take_mean(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<char>& used, NodeSide& side) {
   const mesh::ElementTopology& t = mesh.topology();
   std::map<int, double> moments;
@@ -40,27 +43,27 @@ void take_mean(const Mesh& mesh, const std::vector<Facet>& facets, const std::ve
     if (node != side.node && std::abs(moment) > 1e-13 * side.weight) side.own.push_back({node, moment / side.weight});
 }
 
-namespace {
-
-std::vector<NodeSide> at_corners(const Mesh& mesh, const std::vector<Facet>& facets, std::vector<NodeSide> all) {
+/// `used`: one flag a facet; empty: all.
+std::vector<NodeSide> at_corners(const Mesh& mesh, const std::vector<Facet>& facets, std::vector<NodeSide> all, std::vector<char> used) {
   if (mesh.topology().order == 1) return all;
   std::vector<char> corner(mesh.node_count(), 0);
   for (const Facet f : facets)
     for (int k = 0; k < mesh.topology().facet_corners; ++k) corner[mesh.facet_node(f, k)] = 1;
   std::erase_if(all, [&](const NodeSide& side) { return !corner[side.node]; });
-  const std::vector<char> used(facets.size(), 1);
+  if (used.empty()) used.assign(facets.size(), 1);
   for (NodeSide& side : all) take_mean(mesh, facets, used, side);
+  std::erase_if(all, [](const NodeSide& side) { return !(side.weight > 0); });
   return all;
 }
 
 }  // namespace
 
-std::vector<NodeSide> corner_sides(const Mesh& mesh, const std::vector<Facet>& facets) {
-  return at_corners(mesh, facets, sides(mesh, facets));
+std::vector<NodeSide> corner_sides(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<char>& used) {
+  return at_corners(mesh, facets, sides(mesh, facets), used);
 }
 
 std::vector<NodeSide> corner_nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
-  return at_corners(mesh, facets, nodes(mesh, facets));
+  return at_corners(mesh, facets, nodes(mesh, facets), {});
 }
 
 }  // namespace dotyk::contact

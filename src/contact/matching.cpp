@@ -219,9 +219,7 @@ std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::un
     used.push_back(all);
   }
   std::vector<ContactRow> rows;
-  for (NodeSide& side : corner_sides(first.mesh, first.facets)) {
-    take_mean(first.mesh, first.facets, used, side);
-    if (!(side.weight > 0)) continue;
+  for (const NodeSide& side : corner_sides(first.mesh, first.facets, used)) {
     double more = 0, least = INFINITY;
     std::map<int, double> across;
     for (const NodeWeight& own : side.own) {
@@ -260,15 +258,16 @@ std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const 
                                       const elasticity::ScalarField& added, bool interference) {
   std::unordered_map<int, std::vector<NodeWeight>> partner;
   for (const NodePair& p : pairs) partner.emplace(p.first, std::vector<NodeWeight>{{p.second, 1}});
-  std::vector<ContactRow> rows = first.mesh.topology().order == 2
-                                     ? mean_rows(first, second, partner, added)
-                                     : std::vector<ContactRow>();
-  if (first.mesh.topology().order == 1)
+  std::vector<ContactRow> rows;
+  if (first.mesh.topology().order == 2) {
+    rows = mean_rows(first, second, std::move(partner), added);
+  } else {
     for (const NodeSide& side : sides(first.mesh, first.facets)) {
       const auto found = partner.find(side.node);
       if (found == partner.end()) continue;
       rows.push_back(row_of(side, found->second, added ? added(first.mesh.point(side.node)) : 0, first, second));
     }
+  }
   if (!interference) refuse_overlap(rows, first, second);
   return rows;
 }

@@ -53,7 +53,6 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
   std::vector<NodeSide> list = means && pairing == Pairing::node_to_segment ? nodes(first.mesh, first.facets)
                                                                           : corner_sides(first.mesh, first.facets);
   std::vector<Across> all = across(first, second, pairing, list);
-  const auto curved = curvature_of(first), curved_across = curvature_of(second);
   std::vector<ContactRow> rows;
   if (means && pairing == Pairing::node_to_segment) {
     std::unordered_map<int, std::vector<NodeWeight>> feet;
@@ -63,11 +62,14 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
     if (!interference) refuse_overlap(rows, first, second);
     return rows;
   }
+  std::unordered_map<int, double> curved, curved_across;
+  if (!interference) curved = curvature_of(first), curved_across = curvature_of(second);
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (all[k].partners.empty()) continue;
-    double curvature = curved.at(list[k].node);
-    for (const NodeWeight& partner : all[k].partners) curvature = std::max(curvature, curved_across.at(partner.node));
-    const double chord = interference ? 0 : curvature * all[k].widest * all[k].widest / 8;  // the height of facets that wide
+    double curvature = interference ? 0 : curved.at(list[k].node);
+    if (!interference)
+      for (const NodeWeight& partner : all[k].partners) curvature = std::max(curvature, curved_across.at(partner.node));
+    const double chord = curvature * all[k].widest * all[k].widest / 8;  // the height of facets that wide
     list[k].weight = all[k].weight;
     if (means) list[k].own = std::move(all[k].own);
     rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, first, second));

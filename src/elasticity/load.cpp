@@ -27,7 +27,7 @@ double edge_rule(int order, int q, FacetShape& f) {
     f.du[0] = -0.5, f.du[1] = 0.5;
     return 1;
   }
-  const double s = (q - 1) * 0.77459666924148337704;  // √(3/5)
+  const double s = (q - 1) * kGauss3;
   f.n[0] = 0.5 * s * (s - 1), f.n[1] = 0.5 * s * (s + 1), f.n[2] = 1 - s * s;
   f.du[0] = s - 0.5, f.du[1] = s + 0.5, f.du[2] = -2 * s;
   return q == 1 ? 8.0 / 9 : 5.0 / 9;

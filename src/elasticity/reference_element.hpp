@@ -11,6 +11,7 @@
 namespace dotyk::elasticity {
 
 inline constexpr double kGauss = 0.57735026918962576451;  // 1/√3
+inline constexpr double kGauss3 = 0.77459666924148337704;  // √(3/5), of three points
 
 /// Linear triangle on (0,0) (1,0) (0,1). Gradients are constant: one point for
 /// stiffness; three (exact for quadratics) for loads.

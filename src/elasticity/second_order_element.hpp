@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "elasticity/reference_element.hpp"
 #include "mesh/element.hpp"
 
 namespace dotyk::elasticity {
@@ -117,7 +118,7 @@ struct TensorQ2 {
   }
   static Point point(int q) {
     Point x;
-    for (int i = 0; i < Dim; ++i, q /= 3) x[i] = (q % 3 - 1) * 0.77459666924148337704;  // √(3/5)
+    for (int i = 0; i < Dim; ++i, q /= 3) x[i] = (q % 3 - 1) * kGauss3;
     return x;
   }
   static constexpr double weight(int q) {

@@ -73,11 +73,11 @@ private:
   // About t, with teeth of a.
   void zigzag(double from, double to, double t, double a, Colour colour) {
     const int teeth = std::clamp(static_cast<int>((to - from) / (0.36 * em_)), 2, 4);
-    const double stub = 0.12 * (to - from);
-    std::vector<Point> points{at(from, t), at(from + stub, t)};
-    const double step = (to - from - 2 * stub) / (2 * teeth);
-    for (int i = 0; i < 2 * teeth; ++i) points.push_back(at(from + stub + (i + 0.5) * step, i % 2 ? t + a : t - a));
-    points.push_back(at(to - stub, t));
+    const double lead = 0.12 * (to - from);
+    std::vector<Point> points{at(from, t), at(from + lead, t)};
+    const double step = (to - from - 2 * lead) / (2 * teeth);
+    for (int i = 0; i < 2 * teeth; ++i) points.push_back(at(from + lead + (i + 0.5) * step, i % 2 ? t + a : t - a));
+    points.push_back(at(to - lead, t));
     points.push_back(at(to, t));
     canvas_.polyline(points, width(), colour);
   }

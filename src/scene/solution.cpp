@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 #include "base/error.hpp"
@@ -162,14 +161,6 @@ bool Solution::active(int row) const {
 
 namespace {
 
-/// With as many digits as a duration or a residual is known to.
-std::string brief(double value) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << std::setprecision(3) << value;
-  return out.str();
-}
-
 /// A force without the rounding left in components that balance.
 std::string force_text(std::array<double, 3> force, int dimension) {
   const double length = std::hypot(force[0], force[1], force[2]);
@@ -185,8 +176,8 @@ std::string describe(const Solution& s) {
   std::string out = text("solution: ", r.converged ? "converged" : "NOT CONVERGED", " (", r.method, ", ",
                          r.iterations, r.iterations == 1 ? " iteration" : " iterations", "; ", r.reason, ")\n");
   out += text("  unknowns ", s.unknowns(), ", rows ", s.rows(), ", energy ", s.energy(), "\n");
-  out += text("  residual: equilibrium ", brief(s.residual().equilibrium), ", penetration ", brief(s.residual().penetration),
-              ", complementarity ", brief(s.residual().complementarity), "\n");
+  out += text(std::setprecision(3), "  residual: equilibrium ", s.residual().equilibrium, ", penetration ", s.residual().penetration,
+              ", complementarity ", s.residual().complementarity, "\n");
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact) continue;
     const ContactResult c = s.contact(*contact);
@@ -202,8 +193,8 @@ std::string describe(const Solution& s) {
                   describe(r, s.scene().dimension()), "\n");
     }
   const problem::Clock& t = s.clock();
-  out += text("  seconds: total ", brief(t.total), " (assembly ", brief(t.assembly), ", ordering ", brief(t.ordering),
-              ", factor ", brief(t.factor), ", iterate ", brief(t.iterate), ", recover ", brief(t.recover), ")");
+  out += text(std::setprecision(3), "  seconds: total ", t.total, " (assembly ", t.assembly, ", ordering ", t.ordering,
+              ", factor ", t.factor, ", iterate ", t.iterate, ", recover ", t.recover, ")");
   return out;
 }
 

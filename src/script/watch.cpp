@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iomanip>
 #include <utility>
 
 #include "base/text.hpp"
@@ -11,16 +12,6 @@
 #include "script/progress.hpp"
 
 namespace dotyk::script {
-
-namespace {
-
-std::string digits(const char* format, double value) {
-  char out[32];
-  std::snprintf(out, sizeof out, format, value);
-  return out;
-}
-
-}  // namespace
 
 Record iteration_record(const IterationInfo& info) {
   Record record{"iteration",
@@ -47,7 +38,7 @@ void Watch::phase(const std::string& what) { show_progress(work_ + ": " + what +
 void Watch::iteration(const IterationInfo& info) {
   const auto line =
       text(work_, info.step > 0 ? text(": step ", info.step, ", iteration ") : ": iteration ", info.iteration, ", ", info.active, " active, ", info.changed, " changed, ",
-           info.stick, " stick, ", info.slip, " slip, ", info.inner > 0 ? text(info.inner, " inner, ") : "", "residual ", digits("%.3g", info.residual), ", ", digits("%.1f", info.seconds), " s");
+           info.stick, " stick, ", info.slip, " slip, ", info.inner > 0 ? text(info.inner, " inner, ") : "", "residual ", std::setprecision(3), info.residual, ", ", std::fixed, std::setprecision(1), info.seconds, " s");
   last_ = info;
   if (verbose_) {
     clear_progress();
