@@ -53,6 +53,6 @@ assert(r.converged and math.abs(r.objective - (0.5 * 1.5 + 2.5 * 1.5^2 / 2)) < 1
 LUA
 "$dotyk" --traceback numbers.lua || exit 1
 
-command -v script >/dev/null || exit 0
+terminals || exit 0
 screen=$({ sleep 0.5; printf '0.25 + 0.5\n'; sleep 0.3; printf '\004'; } | timeout 60 script -qec "$dotyk" /dev/null | tr -d '\r')
 grep -qF 0.75 <<<"$screen" || { echo "the prompt shows no 0.75:"; echo "$screen"; exit 1; }

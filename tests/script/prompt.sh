@@ -2,7 +2,7 @@
 # The prompt on a pseudo-terminal: editing, several lines, completion, questions,
 # Ctrl-C, Ctrl-D, pasting, history. Needs script(1).
 . "$(dirname "$0")/scratch.sh"
-command -v script >/dev/null || exit 77
+terminals || exit 77
 export TERM=xterm
 unset XDG_STATE_HOME
 

@@ -9,3 +9,10 @@ fail() {
   printf 'FAILED: %s\n' "$1"
   failures=$((failures + 1))
 }
+
+# Are there terminals to type at? A bare chroot has no /dev/pts.
+terminals() {
+  script -qec true /dev/null >/dev/null 2>&1 && return
+  echo "no pseudo-terminals (script(1), /dev/pts): the prompt is left out"
+  return 1
+}
