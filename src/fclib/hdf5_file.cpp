@@ -1,121 +1,86 @@
-#include <memory>
+#include <map>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "fclib/hdf5_object.hpp"
 #include "fclib/read.hpp"
-
-#ifdef DOTYK_HDF5
-#include <hdf5.h>
-#endif
+#include "reader/process.hpp"
 
 namespace dotyk::fclib {
-
-#ifdef DOTYK_HDF5
 namespace {
 
 using algebra::SparseMatrix;
 using algebra::Vector;
+using Kind = Hdf5Object::Kind;
 
-/// An HDF5 identifier with the function that closes it.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
+/// All places of a file that are looked at.
+std::vector<std::string> places() {
+  std::vector<std::string> all{"fclib_local_rolling", "fclib_global_rolling"};
+  for (const std::string group : {"fclib_local", "fclib_global"}) {
+    all.push_back(group);
+    for (const char* place : {"/spacedim", "/info/title", "/info/description", "/vectors/mu", "/vectors/q", "/vectors/f", "/vectors/w", "/V", "/G", "/R"})
+      all.push_back(group + place);
+    for (const char* matrix : {"/W", "/M", "/H"})
+      for (const char* place : {"/m", "/n", "/nz", "/p", "/i", "/x"}) all.push_back(group + matrix + place);
   }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: stands for the identifier in calls
-  bool valid() const { return id_ >= 0; }
+  return all;
+}
 
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// Keeps the library from printing its errors while it lives.
-class Quiet {
- public:
-  Quiet() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  H5E_auto2_t function_;
-  void* data_;
-};
+std::string reader_program(const std::string& file) {
+  const std::string program = reader::find_program("dotyk_hdf5");
+  if (program.empty())
+    throw std::runtime_error("'" + file + "' cannot be read: this dotyk was built without HDF5 "
+                             "(apt-get install libhdf5-dev, then build again)");
+  return program;
+}
 
 class File {
  public:
-  explicit File(const std::string& name)
-      : name_(name), file_(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose) {
-    if (!file_.valid()) throw InputError("'" + name + "' cannot be read as HDF5: it is damaged or cut short");
+  File(const std::string& name, Monitor& monitor) : name_(name) {
+    const std::vector<std::string> all = places();
+    std::vector<std::string> arguments{name};
+    arguments.insert(arguments.end(), all.begin(), all.end());
+    const std::string bytes = reader::output_of(reader_program(name), arguments, "'" + name + "'", monitor);
+    reader::Answer answer(bytes);
+    for (const std::string& place : all) objects_[place] = read_object(answer);
+    answer.end();
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw InputError("'" + name_ + "': " + what); }
 
-  bool has(const std::string& path) const {  // every group on the way must be there
-    for (auto slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
-      if (H5Lexists(file_, path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
-    return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
-  }
+  bool has(const std::string& path) const { return objects_.at(path).kind != Kind::absent; }
 
-  std::vector<int> integers(const std::string& path) const { return read<int>(path, H5T_INTEGER, H5T_NATIVE_INT); }
+  const std::vector<int>& integers(const std::string& path) const { return at(path, Kind::integers, " does not hold integers").integers; }
   int integer(const std::string& path) const {
-    const std::vector<int> all = integers(path);
+    const std::vector<int>& all = integers(path);
     if (all.size() != 1) fail(text(path, " holds ", all.size(), " numbers; one is expected"));
     return all[0];
   }
   Vector vector(const std::string& path) const {
-    const std::vector<double> all = read<double>(path, H5T_FLOAT, H5T_NATIVE_DOUBLE);
+    const std::vector<double>& all = at(path, Kind::reals, " does not hold real numbers").reals;
     return Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
   }
-
   /// A string, or nothing where there is none.
   std::string words(const std::string& path) const {
-    if (!has(path)) return "";
-    const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), &H5Dclose);
-    if (!set.valid()) return "";
-    const Handle type(H5Dget_type(set), &H5Tclose);
-    if (!type.valid() || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return "";
-    std::string content(H5Tget_size(type), '\0');
-    if (points(set) != 1 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, content.data()) < 0) return "";
+    const std::string& content = objects_.at(path).words;
     return content.substr(0, content.find('\0'));
   }
 
  private:
-  static hssize_t points(const Handle& set) {
-    const Handle space(H5Dget_space(set), &H5Sclose);
-    return space.valid() ? H5Sget_simple_extent_npoints(space) : -1;
-  }
-
-  template <class Number>
-  std::vector<Number> read(const std::string& path, H5T_class_t expected, hid_t memory_type) const {
-    if (!has(path)) fail(path + " is missing");
-    const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), &H5Dclose);
-    if (!set.valid()) fail(path + " is not an array");
-    const Handle type(H5Dget_type(set), &H5Tclose);
-    if (!type.valid() || H5Tget_class(type) != expected)
-      fail(path + (expected == H5T_INTEGER ? " does not hold integers" : " does not hold real numbers"));
-    const hssize_t size = points(set);
-    if (size < 0) fail(path + " cannot be read");
-    require_memory(static_cast<double>(size) * sizeof(Number), path);
-    std::vector<Number> values(static_cast<std::size_t>(size));
-    if (size > 0 && H5Dread(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-      fail(path + " cannot be read");
-    return values;
+  const Hdf5Object& at(const std::string& path, Kind expected, const char* otherwise) const {
+    const Hdf5Object& object = objects_.at(path);
+    if (object.kind == Kind::absent) fail(path + " is missing");
+    if (object.kind == Kind::group) fail(path + " is not an array");
+    if (object.kind != expected) fail(path + otherwise);
+    return object;
   }
 
   std::string name_;
-  Quiet quiet_;
-  Handle file_;
+  std::map<std::string, Hdf5Object> objects_;
 };
 
 /// One line of a compressed matrix's outer index after the other: the outer index of every entry.
@@ -137,7 +102,7 @@ std::vector<int> expand(const File& file, const std::string& path, const std::ve
 /// one place are added.
 SparseMatrix matrix(const File& file, const std::string& path) {
   const int m = file.integer(path + "/m"), n = file.integer(path + "/n"), nz = file.integer(path + "/nz");
-  if (m < 0 || n < 0 || nz < -2) file.fail(text(path, " has m = ", m, ", n = ", n, ", nz = ", nz));
+  if (m < 0 || m > kMost || n < 0 || n > kMost || nz < -2) file.fail(text(path, " has m = ", m, ", n = ", n, ", nz = ", nz));
   const std::vector<int> p = file.integers(path + "/p"), i = file.integers(path + "/i");
   const Vector x = file.vector(path + "/x");
   const std::size_t entries = nz >= 0 ? static_cast<std::size_t>(nz) : i.size();
@@ -173,8 +138,8 @@ std::string group_of(const File& file) {
 
 }  // namespace
 
-ContactProblem read_hdf5(const std::string& name) {
-  const File file(name);
+ContactProblem read_hdf5(const std::string& name, Monitor& monitor) {
+  const File file(name, monitor);
   const std::string group = group_of(file);
   ContactProblem p;
   p.name = name;
@@ -196,14 +161,5 @@ ContactProblem read_hdf5(const std::string& name) {
   }
   return p;
 }
-
-#else
-
-ContactProblem read_hdf5(const std::string& name) {
-  throw std::runtime_error("'" + name + "' cannot be read: this dotyk was built without HDF5 "
-                           "(apt-get install libhdf5-dev, then build again)");
-}
-
-#endif
 
 }  // namespace dotyk::fclib

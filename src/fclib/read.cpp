@@ -3,19 +3,18 @@
 #include <cstring>
 #include <fstream>
 
-#include "base/error.hpp"
+#include "base/readable_file.hpp"
 
 namespace dotyk::fclib {
 
 ContactProblem read(const std::string& file, Monitor& monitor) {
   char start[8] = {};
+  require_readable(file);
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError("cannot read '" + file + "'");
   in.read(start, sizeof start);
-  if (in.gcount() == 0) throw InputError("'" + file + "' is empty, or no file");
   const bool hdf5 = in.gcount() == 8 && std::memcmp(start, "\x89HDF\r\n\x1a\n", 8) == 0;
   in.close();
-  ContactProblem problem = hdf5 ? read_hdf5(file) : read_text(file);
+  ContactProblem problem = hdf5 ? read_hdf5(file, monitor) : read_text(file);
   const auto slash = file.find_last_of('/');
   problem.name = file.substr(slash == std::string::npos ? 0 : slash + 1);
   check(problem);

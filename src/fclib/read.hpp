@@ -13,8 +13,10 @@ namespace dotyk::fclib {
 /// without it.
 ContactProblem read(const std::string& file, Monitor& monitor);
 
+constexpr int kMost = 10'000'000;  ///< rows, columns, entries: beyond it a count is a mistake
+
 /// One format each, not condensed.
-ContactProblem read_hdf5(const std::string& file);
+ContactProblem read_hdf5(const std::string& file, Monitor& monitor);
 ContactProblem read_text(const std::string& file);
 
 }  // namespace dotyk::fclib

@@ -17,8 +17,6 @@ using algebra::SparseMatrix;
 using algebra::Vector;
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-constexpr int kMost = 10'000'000;  ///< rows, columns, entries: beyond it a count is a mistake
-
 /// Reads numbers one after the other; its errors name file, line and what was looked for.
 class Numbers {
  public:

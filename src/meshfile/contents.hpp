@@ -43,7 +43,7 @@ struct Contents {
 
 /// To and from a reader that runs in a process of its own. The numbers are this machine's.
 void write(std::FILE* out, const Contents& contents);
-/// Throws std::runtime_error where `bytes` are not whole.
+/// Throws std::runtime_error where `bytes` are not whole, or name places beyond the lists.
 Contents read(std::string_view bytes);
 
 }  // namespace dotyk::meshfile

@@ -13,11 +13,12 @@
 #include <unordered_map>
 
 #include "cell_of.hpp"
-#include "reader_main.hpp"
+#include "reader/reader_main.hpp"
 
 namespace {
 
 using namespace dotyk::meshfile;
+using dotyk::reader::answer, dotyk::reader::limit_reader;
 
 /// The first error that Gmsh had to report; its exceptions name only the last.
 std::string complaint() {
@@ -212,11 +213,11 @@ int main(int count, char** argument) {
   const std::string verb = count > 1 ? argument[1] : "";
   if (verb == "load" && count == 3) {
     limit_reader(argument[2]);
-    return answer([&] { return load(argument[2]); });
+    return answer([&](std::FILE* out) { write(out, load(argument[2])); });
   }
   if (verb == "mesh" && count == 6) {
     limit_reader();
-    return answer([&] { return generate(argument[2], std::stoi(argument[3]), std::stod(argument[4]), std::stoi(argument[5])); });
+    return answer([&](std::FILE* out) { write(out, generate(argument[2], std::stoi(argument[3]), std::stod(argument[4]), std::stoi(argument[5]))); });
   }
   return 2;
 }

@@ -13,31 +13,22 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/readable_file.hpp"
 #include "base/text.hpp"
 #include "meshfile/mfem.hpp"
-#include "meshfile/process.hpp"
 #include "meshfile/quoted.hpp"
+#include "reader/process.hpp"
 
 namespace dotyk::meshfile {
 namespace {
+
+using reader::find_program, reader::output_of;
 
 std::string ending(const std::string& file) {
   const auto dot = file.rfind('.');
   std::string result = dot == std::string::npos || file.find('/', dot) != std::string::npos ? "" : file.substr(dot);
   for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
-}
-
-/// A regular file that can be read and holds something. Opening anything else (a pipe) could wait for ever.
-void require_file(const std::string& file) {
-  if (file.find('\0') != std::string::npos) throw InputError("the file name has a zero byte in it");
-  struct stat info {};
-  const auto fail = [&](const std::string& why) { throw InputError("cannot read '" + file + "': " + why); };
-  if (stat(file.c_str(), &info) != 0) fail(std::strerror(errno));
-  if (S_ISDIR(info.st_mode)) fail("it is a folder");
-  if (!S_ISREG(info.st_mode)) fail("it is not a file");
-  if (access(file.c_str(), R_OK) != 0) fail(std::strerror(errno));
-  if (info.st_size == 0) fail("it is empty");
 }
 
 std::string content(const std::string& file) {
@@ -134,7 +125,7 @@ Loaded load(const std::string& file, const Choice& choice, Monitor& monitor) {
   if (end == ".geo") throw InputError("'" + file + "' is a geometry: dotyk.mesh.gmsh{ file = \"" + file + "\" } meshes it");
   if (end != ".msh" && end != ".mesh" && end != ".vtu")
     throw InputError("'" + file + "' does not end in .msh (Gmsh), .mesh (MFEM) or .vtu (VTK)");
-  require_file(file);
+  require_readable(file);
   return assemble(contents(file, monitor), choice, file);
 }
 
@@ -142,7 +133,7 @@ Loaded mesh_geometry(const std::string& file, const Meshing& meshing, const Choi
   static const std::string known[] = {".geo", ".step", ".stp", ".brep", ".iges", ".igs"};
   if (std::find(std::begin(known), std::end(known), ending(file)) == std::end(known))
     throw InputError("'" + file + "' does not end in .geo, .step, .stp, .brep, .iges or .igs");
-  require_file(file);
+  require_readable(file);
   if (ending(file) == ".geo" && content(file).back() != '\n')
     throw InputError(file + ": its last line does not end; without a newline there, Gmsh leaves out the last statements");
   return mesh_file(file, meshing, choice, file, monitor);

@@ -20,11 +20,12 @@
 #include <tuple>
 
 #include "cell_of.hpp"
-#include "reader_main.hpp"
+#include "reader/reader_main.hpp"
 
 namespace {
 
 using namespace dotyk::meshfile;
+using dotyk::reader::answer, dotyk::reader::limit_reader;
 
 struct Type {
   Shape shape;
@@ -164,5 +165,5 @@ Contents load(const std::string& file) {
 int main(int count, char** argument) {
   if (count != 2) return 2;
   limit_reader(argument[1]);
-  return answer([&] { return load(argument[1]); });
+  return answer([&](std::FILE* out) { write(out, load(argument[1])); });
 }

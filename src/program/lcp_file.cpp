@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <fstream>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/readable_file.hpp"
 #include "base/text.hpp"
 #include "program/lcp.hpp"
 
@@ -9,13 +12,15 @@ namespace {
 
 class Reader {
  public:
-  explicit Reader(const std::string& file) : file_(file), in_(file) {
-    if (!in_) throw InputError("cannot read '" + file + "'");
+  explicit Reader(const std::string& file) : file_(file) {
+    require_readable(file);
+    in_.open(file);
   }
 
   Lcp read() {
     const int n = count("n", 1, 100000), storage = count("the storage", 0, 1);
     const int rows = count("the rows", n, n), columns = count("the columns", n, n);
+    require_memory(8.0 * n * n, text("'", file_, "': the dense matrix of ", n, " rows"));
     Lcp lcp;
     lcp.M = algebra::DenseMatrix::Zero(rows, columns);
     if (storage == 0) dense(lcp);
@@ -34,7 +39,7 @@ class Reader {
     if (!(in_ >> x)) throw InputError(text("'", file_, "': a number of ", what, " is missing"));
     return x;
   }
-  int count(const char* what, int least, int most) {
+  int count(const char* what, int least, double most) {
     const double x = number(what);
     if (!(x >= least && x <= most) || x != static_cast<int>(x))
       throw InputError(text("'", file_, "': ", what, " is ", x, "; from ", least, " to ", most, " is expected"));
@@ -52,7 +57,7 @@ class Reader {
   /// for each block its number and its entries by columns.
   void blocks(Lcp& lcp) {
     const int n = static_cast<int>(lcp.M.rows());
-    const int total = count("the number of blocks", 1, n * n);
+    const int total = count("the number of blocks", 1, std::min(static_cast<double>(n) * n, 1e9));
     const int down = count("the block rows", 1, n), across = count("the block columns", 1, n);
     const auto ends = [&](int size) {
       std::vector<int> list{0};
@@ -63,7 +68,8 @@ class Reader {
     const int starts = count("the row index's length", down + 1, down + 1);
     const int filled = count("the column index's length", total, total);
     std::vector<int> first, place;
-    for (int k = 0; k < starts; ++k) first.push_back(count("the row index", 0, total));
+    for (int k = 0; k < starts; ++k)  // from 0 to the number of blocks, ascending
+      first.push_back(count("the row index", k == 0 ? 0 : k == down ? total : first.back(), k == 0 ? 0 : total));
     for (int k = 0; k < filled; ++k) place.push_back(count("the column index", 0, across - 1));
     for (int k = 0; k < total; ++k) {
       count("a block's number", k, k);

@@ -2,13 +2,15 @@
 
 #include <string>
 
+#include "base/monitor.hpp"
 #include "program/program.hpp"
 
 namespace dotyk::program {
 
 /// A program in a MATLAB v5 file as the Maros–Mészáros collection of qpsolvers keeps it: variables P
 /// (n × n, both triangles), q, r, A (m × n, bounds are rows of it), l, u; ±1e20 and beyond is infinite.
-/// Throws InputError naming file and variable; std::runtime_error where dotyk was built without libmatio.
-QuadraticProgram read_mat(const std::string& file);
+/// A program of its own reads it (reader/process.hpp). Throws InputError naming file and variable; Interrupted where the
+/// monitor asks to stop; std::runtime_error where dotyk was built without libmatio.
+QuadraticProgram read_mat(const std::string& file, Monitor& monitor);
 
 }  // namespace dotyk::program

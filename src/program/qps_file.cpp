@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/readable_file.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::program {
@@ -222,8 +223,8 @@ class Reader {
 QuadraticProgram read_qps(std::istream& in, const std::string& name) { return Reader(in, name).read(); }
 
 QuadraticProgram read_qps(const std::string& file) {
+  require_readable(file);
   std::ifstream in(file);
-  if (!in) throw InputError("cannot read '" + file + "'");
   return read_qps(in, file);
 }
 

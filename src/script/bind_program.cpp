@@ -79,7 +79,10 @@ int solve_with(Call& call, const std::shared_ptr<QuadraticProgram>& p) {
 }
 
 int make(Call& call) {
-  const auto p = read_program(call);
+  const auto p = [&] {
+    Watch watch(call.state(), "reading");
+    return read_program(call, watch);
+  }();
   return call.has("method") ? solve_with(call, p) : call.give(p);
 }
 

@@ -144,6 +144,16 @@ void read_rows(const Arguments& given, program::QuadraticProgram& p, int n) {
   rows.into(p);
 }
 
+// By its ending: .qps, .mps or .mat.
+program::QuadraticProgram read_program_file(const std::string& file, Monitor& monitor) {
+  const auto ends = [&](const std::string& ending) {
+    return file.size() >= ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
+  };
+  if (ends(".mat")) return program::read_mat(file, monitor);
+  if (ends(".qps") || ends(".QPS") || ends(".mps") || ends(".MPS")) return program::read_qps(file);
+  throw InputError("'" + file + "' ends neither in .qps or .mps nor in .mat");
+}
+
 }  // namespace
 
 Key matrix_key(std::string name, std::string help) {
@@ -164,21 +174,12 @@ std::vector<Key> program_keys() {
           limits_key("x_low", "lower bounds of x", "none"), limits_key("x_high", "upper bounds of x", "none")};
 }
 
-program::QuadraticProgram read_program_file(const std::string& file) {
-  const auto ends = [&](const std::string& ending) {
-    return file.size() >= ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
-  };
-  if (ends(".mat")) return program::read_mat(file);
-  if (ends(".qps") || ends(".QPS") || ends(".mps") || ends(".MPS")) return program::read_qps(file);
-  throw InputError("'" + file + "' ends neither in .qps or .mps nor in .mat");
-}
-
-std::shared_ptr<program::QuadraticProgram> read_program(const Arguments& given) {
+std::shared_ptr<program::QuadraticProgram> read_program(const Arguments& given, Monitor& monitor) {
   auto p = std::make_shared<program::QuadraticProgram>();
   if (given.has("file")) {
     for (const char* name : {"B", "c", "D", "d", "A", "low", "high", "x_low", "x_high"})
       if (given.has(name)) throw InputError(text("give either a file, or matrices ('", name, "')"));
-    *p = read_program_file(given.text("file"));
+    *p = read_program_file(given.text("file"), monitor);
     return p;
   }
   if (!given.has("c")) throw InputError("'c' (the linear term, one number an unknown) is missing");

@@ -32,9 +32,6 @@ Key matrix_key(std::string name, std::string help);
 // The keys of dotyk.qp that say what the program is.
 std::vector<Key> program_keys();
 // The program they describe. Throws InputError.
-std::shared_ptr<program::QuadraticProgram> read_program(const Arguments& given);
-
-// A file by its ending: .qps, .mps or .mat.
-program::QuadraticProgram read_program_file(const std::string& file);
+std::shared_ptr<program::QuadraticProgram> read_program(const Arguments& given, Monitor& monitor);
 
 }  // namespace dotyk::script

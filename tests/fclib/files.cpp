@@ -156,7 +156,7 @@ TEST_CASE("a text file: dense matrices run down their columns") {
 }
 
 TEST_CASE("text files that are wrong: file, line and what is expected") {
-  CHECK(refusal("") == "'made.dat' is empty, or no file");
+  CHECK(refusal("") == "cannot read 'made.dat': it is empty");
   CHECK(begins(refusal("5 1"), "made.dat:1: the dimension of a contact problem is 5; from 2 to 3 is expected"));
   CHECK(begins(refusal("hello"), "made.dat:1: 'hello' stands where the dimension"));
   CHECK(refusal("3\n1\n7\n") == "made.dat:3: the storage of a matrix (0 dense, 1 blocks, 2 sparse) is 7; from 0 to 2 is expected");
@@ -199,6 +199,24 @@ TEST_CASE("a truncated text file is refused wherever it ends") {
   }
 }
 
+TEST_CASE("HDF5 files that lead to other files are refused: a script from a stranger could read any file through them") {
+  Monitor quiet;
+  const std::string here = DOTYK_TEST_DIR "/files/";
+  try {
+    const ContactProblem p = fclib::read(DOTYK_TEST_DIR "/../fuzz/files/one.hdf5", quiet);  // sound, and the same but for its q
+    CHECK(p.title == "one contact");
+    CHECK(p.W(0, 1) == 1);
+    CHECK(p.q[2] == 3);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    MESSAGE("skipped: " << error.what());
+    return;
+  }
+  CHECK_THROWS_WITH_AS(fclib::read(here + "elsewhere.hdf5", quiet), doctest::Contains("fclib_local/vectors/q lies in another file, which is not read"), InputError);
+  CHECK_THROWS_WITH_AS(fclib::read(here + "linked.hdf5", quiet), doctest::Contains("fclib_local/vectors/q is a link to another place, which is not followed"), InputError);
+}
+
 TEST_CASE("truncated and damaged HDF5 files") {
   if (!reference::present()) return;
   ContactProblem p;
@@ -207,13 +225,13 @@ TEST_CASE("truncated and damaged HDF5 files") {
   for (const double part : {0.001, 0.2, 0.5, 0.9, 0.999}) {
     CAPTURE(part);
     const std::string message = refusal(whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))), "made.hdf5");
-    CHECK(message == "'made.hdf5' cannot be read as HDF5: it is damaged or cut short");
+    CHECK(message == "'made.hdf5': it is no whole HDF5 file: damaged or cut short");
   }
   // Another group name of the same length.
   std::string other = whole;
   for (auto at = other.find("fclib_global"); at != std::string::npos; at = other.find("fclib_global", at)) other.replace(at, 12, "fclib_glabol");
   CHECK(refusal(other, "made.hdf5") == "'made.hdf5': there is no group fclib_local or fclib_global in it");
   Monitor quiet;
-  CHECK_THROWS_WITH_AS(fclib::read("no such file", quiet), "cannot read 'no such file'", InputError);
-  CHECK_THROWS_WITH_AS(fclib::read(".", quiet), "'.' is empty, or no file", InputError);
+  CHECK_THROWS_WITH_AS(fclib::read("no such file", quiet), "cannot read 'no such file': No such file or directory", InputError);
+  CHECK_THROWS_WITH_AS(fclib::read(".", quiet), "cannot read '.': it is a folder", InputError);
 }

@@ -1,7 +1,7 @@
-// fuzz_files SECONDS SEED [FOLDER]: files that scripts read, changed at random: programs (QPS), linear
-// complementarity problems, contact problems as siconos prints them, meshes of Gmsh and VTK, of order 1 or 2; where
-// ../shared/reference is, its small files too. Each is read, and what could be read is solved. Failures are
-// those of fuzz_lua; the file that failed stands in the script.
+// fuzz_files SECONDS SEED [FOLDER]: files that scripts read, changed at random: programs (QPS, MATLAB), linear
+// complementarity problems, contact problems as siconos prints them and in HDF5, meshes of Gmsh, MFEM and VTK, of order
+// 1 or 2; where ../shared/reference is, its small files too. Each is read, and what could be read is solved. Failures
+// are those of fuzz_lua; the file that failed stands in the script.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -24,7 +24,7 @@ struct Seed {
 std::string read_of(const std::string& ending, bool second_order) {
   if (ending == ".qps" || ending == ".mat") return "dotyk.qp{ file = FILE, method = 'active_set', max_iterations = 50 }";
   if (ending == ".lcp") return "dotyk.lcp{ file = FILE, unique = false }";
-  if (ending == ".fc") return "dotyk.solver.newton{ max_iterations = 20 }:solve(dotyk.fclib(FILE))";
+  if (ending == ".fc" || ending == ".hdf5") return "dotyk.solver.newton{ max_iterations = 20 }:solve(dotyk.fclib(FILE))";
   return second_order ? "dotyk.mesh.load(FILE, { order = 2 })" : "dotyk.mesh.load(FILE)";
 }
 
@@ -128,7 +128,7 @@ int main(int count, char** words) {
   for (; clock.seconds() < seconds; ++seed) {
     Mutation mutation(seed);
     const Seed& one = all[mutation.below(all.size())];
-    if (one.ending == ".msh" && mutation.below(20) != 0) continue;  // Gmsh's are read by a process of their own, which takes time
+    if (one.ending == ".msh" && mutation.below(20) != 0) continue;  // Gmsh takes time to start
     const std::string content = mutation(one.content, all[mutation.below(all.size())].content);
     const std::string name = "fuzz" + (one.ending == ".lcp" || one.ending == ".fc" ? std::string(".dat") : one.ending);
     machine.begin(text("file_", seed));

@@ -17,7 +17,6 @@
 #include "meshfile/contents.hpp"
 #include "meshfile/mfem.hpp"
 #include "program/lcp.hpp"
-#include "program/mat_file.hpp"
 #include "program/qps_file.hpp"
 
 namespace {
@@ -49,11 +48,8 @@ void read(unsigned reader, std::string_view text) {
     case 3:
       fclib::read_text(file_of(text));
       break;
-    case 4:
-      meshfile::read(text);
-      break;
     default:
-      program::read_mat(file_of(text));
+      meshfile::read(text);
   }
 }
 
@@ -62,7 +58,7 @@ void read(unsigned reader, std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
-    read(data[0] % 6u, {reinterpret_cast<const char*>(data) + 1, size - 1});
+    read(data[0] % 5u, {reinterpret_cast<const char*>(data) + 1, size - 1});
   } catch (const std::exception&) {
   }
   return 0;

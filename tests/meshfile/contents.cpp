@@ -43,3 +43,16 @@ TEST_CASE("contents are handed over as they are; what is cut off anywhere is ref
   CHECK(back.blocks[1].nodes == std::vector<int>{0, 1, 1, 2});
   for (std::size_t n = 0; n < whole.size(); ++n) CHECK_THROWS(read(whole.substr(0, n)));
 }
+
+TEST_CASE("contents that name places beyond their lists are refused") {
+  Contents c;
+  c.points = {0, 0, 0, 1, 0, 0, 0, 1.5, 0};
+  c.blocks = {{Shape::triangle, {}, {0, 1, 3}}};
+  CHECK_THROWS(read(bytes(c)));
+  c.blocks = {{Shape::triangle, {0}, {0, 1, 2}}};
+  CHECK_THROWS(read(bytes(c)));
+  c.blocks = {{static_cast<Shape>(7), {}, {0, 1, 2}}};
+  CHECK_THROWS(read(bytes(c)));
+  c.blocks = {{Shape::triangle, {}, {0, 1, 2}}};
+  CHECK(read(bytes(c)).blocks.size() == 1);
+}

@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 
+#include "base/error.hpp"
 #include "program/lcp.hpp"
 
 using namespace dotyk;
@@ -35,4 +37,15 @@ TEST_CASE("every file of ../shared/reference/lcp is solved, or said to have no s
   const auto dense = program::read_lcp(folder / "lcp_ortiz.dat"), blocks = program::read_lcp(folder / "lcp_ortiz_block.dat");
   CHECK(dense.M == blocks.M);
   CHECK(dense.q == blocks.q);
+}
+
+TEST_CASE("files of complementarity problems that do not hold together are refused") {
+  const auto refused = [](const std::string& content, const std::string& message) {
+    { std::ofstream("made.dat") << content; }
+    CHECK_THROWS_WITH_AS(program::read_lcp("made.dat"), message.c_str(), InputError);
+  };
+  refused("2 1 2 2 1 1 1 2 2 2 1 0 0 0", "'made.dat': the row index is 0; from 1 to 1 is expected");  // beyond the last row
+  refused("2 1 2 2 1 1 1 2 2 2 1 1 1 0", "'made.dat': the row index is 1; from 0 to 0 is expected");
+  refused("2 2", "'made.dat': the storage is 2; from 0 to 1 is expected");
+  CHECK_THROWS_WITH_AS(program::read_lcp("no such file"), "cannot read 'no such file': No such file or directory", InputError);
 }

@@ -28,7 +28,7 @@ TEST_CASE("the programs of ../shared/reference/qp: listed optimum, feasibility, 
     const double optimum = std::stod(field);
     program::QuadraticProgram p;
     try {
-      p = program::read_mat(folder + "maros_meszaros/" + name + ".mat");
+      p = program::read_mat(folder + "maros_meszaros/" + name + ".mat", quiet);
     } catch (const std::runtime_error& error) {
       MESSAGE("skipped: " << error.what());
       return;

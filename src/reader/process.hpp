@@ -5,7 +5,7 @@
 
 #include "base/monitor.hpp"
 
-namespace dotyk::meshfile {
+namespace dotyk::reader {
 
 /// The program of this name beside dotyk, in its library folder or in the build tree; empty where it was not built.
 std::string find_program(const std::string& name);
@@ -19,4 +19,4 @@ std::string find_program(const std::string& name);
 std::string output_of(const std::string& program, const std::vector<std::string>& arguments, const std::string& what,
                       Monitor& monitor);
 
-}  // namespace dotyk::meshfile
+}  // namespace dotyk::reader

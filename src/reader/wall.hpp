@@ -1,6 +1,6 @@
 #pragma once
 
-namespace dotyk::meshfile {
+namespace dotyk::reader {
 
 /// From here on this process, with all threads it starts, computes, reads files and writes to what it has open, and nothing
 /// else: it starts no program, opens no file for writing, removes, renames and makes none, and reaches no network. Such
@@ -8,4 +8,4 @@ namespace dotyk::meshfile {
 /// leaves the process as it is.
 void wall_in();
 
-}  // namespace dotyk::meshfile
+}  // namespace dotyk::reader

@@ -16,10 +16,9 @@
 #include <string>
 
 #include "base/memory.hpp"
-#include "contents.hpp"
-#include "wall.hpp"
+#include "reader/wall.hpp"
 
-namespace dotyk::meshfile {
+namespace dotyk::reader {
 
 inline void limit(int resource, double most) {
   const rlimit value{static_cast<rlim_t>(most), static_cast<rlim_t>(most)};
@@ -45,13 +44,13 @@ inline void limit_reader(const std::string& file) {
   limit(RLIMIT_CPU, 20 + 1e-6 * bytes);
 }
 
-/// Writes what `contents` returns, status 0, or the message of what it throws, status 1. Libraries that write to
-/// standard output do not get into the answer.
-inline int answer(const std::function<Contents()>& contents) {
+/// Lets `write` write what it reads, status 0; of what it throws, before it has written, the message, status 1. Libraries
+/// that write to standard output do not get into the answer.
+inline int answer(const std::function<void(std::FILE*)>& write) {
   std::FILE* out = fdopen(dup(STDOUT_FILENO), "wb");
   if (!out || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
   try {
-    write(out, contents());
+    write(out);
     std::fflush(out);
     std::_Exit(0);  // nothing of the libraries' own ends is needed
   } catch (const std::bad_alloc&) {
@@ -63,4 +62,4 @@ inline int answer(const std::function<Contents()>& contents) {
   std::_Exit(1);
 }
 
-}  // namespace dotyk::meshfile
+}  // namespace dotyk::reader

@@ -1,4 +1,4 @@
-#include "wall.hpp"
+#include "reader/wall.hpp"
 
 #include <fcntl.h>
 #include <linux/audit.h>
@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace dotyk::meshfile {
+namespace dotyk::reader {
 namespace {
 
 #if defined(__x86_64__)
@@ -49,7 +49,7 @@ void answer_by_bits(Program& program, long call, int argument, unsigned bits, un
 Program wall() {
   static constexpr long harmless[] = {
       SYS_read, SYS_readv, SYS_pread64, SYS_write, SYS_writev, SYS_close, SYS_lseek, SYS_fstat, SYS_newfstatat, SYS_statx, SYS_faccessat,
-      SYS_readlinkat, SYS_getdents64, SYS_getcwd, SYS_fcntl, SYS_dup, SYS_dup3, SYS_ioctl,
+      SYS_readlinkat, SYS_getdents64, SYS_getcwd, SYS_fcntl, SYS_flock, SYS_dup, SYS_dup3, SYS_ioctl,
       SYS_mmap, SYS_munmap, SYS_mremap, SYS_mprotect, SYS_madvise, SYS_brk,
       SYS_futex, SYS_set_robust_list, SYS_set_tid_address, SYS_rseq, SYS_sched_yield, SYS_sched_getaffinity, SYS_getcpu,
       SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_sigaltstack, SYS_restart_syscall,
@@ -85,4 +85,4 @@ void wall_in() {
 #endif
 }
 
-}  // namespace dotyk::meshfile
+}  // namespace dotyk::reader

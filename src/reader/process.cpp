@@ -1,4 +1,4 @@
-#include "meshfile/process.hpp"
+#include "reader/process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -17,7 +17,7 @@
 
 extern char** environ;
 
-namespace dotyk::meshfile {
+namespace dotyk::reader {
 namespace {
 
 std::string own_folder() {
@@ -92,8 +92,8 @@ class Child {
 
 std::string find_program(const std::string& name) {
   const std::string here = own_folder();
-  std::vector<std::string> places{here + "/" + name, here + "/../lib/dotyk/" + name, here + "/../" DOTYK_MESHFILE_LIBDIR "/dotyk/" + name,
-                                  DOTYK_MESHFILE_BUILD "/" + name};
+  std::vector<std::string> places{here + "/" + name, here + "/../lib/dotyk/" + name, here + "/../" DOTYK_READER_LIBDIR "/dotyk/" + name,
+                                  DOTYK_READER_BUILD "/" + name};
   for (const std::string& place : places)
     if (access(place.c_str(), X_OK) == 0) return place;
   return {};
@@ -115,4 +115,4 @@ std::string output_of(const std::string& program, const std::vector<std::string>
   }
 }
 
-}  // namespace dotyk::meshfile
+}  // namespace dotyk::reader

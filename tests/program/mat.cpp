@@ -1,0 +1,98 @@
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "program/lcp.hpp"
+#include "program/mat_file.hpp"
+#include "program/qps_file.hpp"
+#include "programs.hpp"
+
+using namespace dotyk;
+
+namespace {
+
+// minimise x² + y² − 2x − 5y + 0.5 where x + y ≤ 2, x ≥ 0, y ≥ 0: the solution is (1/4, 7/4).
+const std::string kFile = DOTYK_TEST_DIR "/../fuzz/files/small.mat";
+
+std::string content() {
+  std::ifstream in(kFile, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+program::QuadraticProgram read(const std::string& bytes) {
+  { std::ofstream("made.mat", std::ios::binary) << bytes; }
+  Monitor quiet;
+  return program::read_mat("made.mat", quiet);
+}
+
+/// Tells where this dotyk was built without libmatio.
+bool readable() {
+  Monitor quiet;
+  try {
+    program::read_mat(kFile, quiet);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    MESSAGE("skipped: " << error.what());
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("a MATLAB file of sparse and full matrices") {
+  if (!readable()) return;
+  Monitor quiet;
+  const auto p = program::read_mat(kFile, quiet);
+  CHECK(p.name == "small");
+  CHECK(p.r == 0.5);
+  CHECK(std::isinf(p.low[0]));
+  CHECK(std::isinf(p.high[1]));
+  const auto r = program::solve(p, test::one(), quiet);
+  REQUIRE(r.status == program::Status::solved);
+  CHECK(r.x[0] == doctest::Approx(0.25));
+  CHECK(r.x[1] == doctest::Approx(1.75));
+  CHECK(r.objective == doctest::Approx(-5.625));
+}
+
+TEST_CASE("a MATLAB file cut short anywhere is refused") {
+  if (!readable()) return;
+  const std::string whole = content();
+  for (std::size_t size = 0; size < whole.size(); size += 7) {
+    CAPTURE(size);
+    CHECK_THROWS_AS(read(whole.substr(0, size)), InputError);
+  }
+}
+
+TEST_CASE("a damaged MATLAB file is refused by the name of what is wrong") {
+  if (!readable()) return;
+  const auto refused = [](const std::string& from, const std::string& to, const std::string& message) {
+    std::string bytes = content();
+    REQUIRE(bytes.find(from) != std::string::npos);
+    bytes.replace(bytes.find(from), from.size(), to);
+    CHECK_THROWS_WITH_AS(read(bytes), doctest::Contains(message.c_str()), InputError);
+  };
+  const std::string tag("\1\0\1\0", 4);  // of a name of one letter
+  refused(tag + "u", tag + "v", "'made.mat': variable 'u' is missing; it must have P, q, A, l and u");
+  refused("MATLAB 5.0", "NOTLAB 5.0", "'made.mat'");
+  Monitor quiet;
+  CHECK_THROWS_WITH_AS(program::read_mat("/nowhere/a.mat", quiet), "cannot read '/nowhere/a.mat': No such file or directory", InputError);
+  CHECK_THROWS_WITH_AS(program::read_mat(".", quiet), "cannot read '.': it is a folder", InputError);
+}
+
+TEST_CASE("a pipe is no file: opening it would wait for ever") {
+  mkfifo("pipe", 0600);
+  Monitor quiet;
+  const char* message = "cannot read 'pipe': it is not a file";
+  CHECK_THROWS_WITH_AS(program::read_mat("pipe", quiet), message, InputError);
+  CHECK_THROWS_WITH_AS(program::read_qps(std::string("pipe")), message, InputError);
+  CHECK_THROWS_WITH_AS(program::read_lcp("pipe"), message, InputError);
+  std::filesystem::remove("pipe");
+}
