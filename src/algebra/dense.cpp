@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algebra/blas_threads.hpp"
+#include "algebra/stop_factoring.hpp"
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -29,8 +30,10 @@ void triangular_solve(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x, const cha
   if (l.rows() != x.rows()) throw std::logic_error("triangular solve: sizes differ");
   if (m == 0 || n == 0) return;
   const BlasThreads threads(1.0 * m * m * n);
+  const StoppableFactoring sweeping;
   const double one = 1;
   dtrsm_("L", "L", transposed, "N", &m, &n, &one, l.data(), &lda, x.data(), &ldb);
+  if (sweeping.stopped()) throw Interrupted();
 }
 
 /// alpha: X Xᵀ ("N") or XᵀX ("T").
@@ -41,8 +44,10 @@ DenseMatrix rank_update(const DenseMatrix& x, const char* transposed) {
   DenseMatrix c = DenseMatrix::Zero(n, n);
   if (n == 0 || k == 0) return c;
   const BlasThreads threads(1.0 * n * n * k);
+  const StoppableFactoring multiplying;
   const double one = 1, zero = 0;
   dsyrk_("L", transposed, &n, &k, &one, x.data(), &lda, &zero, c.data(), &n);
+  if (multiplying.stopped()) throw Interrupted();
   c.triangularView<Eigen::StrictlyUpper>() = c.transpose();
   return c;
 }
@@ -53,8 +58,10 @@ bool cholesky(DenseMatrix& a) {
   const int n = static_cast<int>(a.rows());
   if (n == 0) return true;
   const BlasThreads threads(1.0 / 3 * n * n * n);
+  const StoppableFactoring factoring;
   int info = 0;
   dpotrf_("L", &n, a.data(), &n, &info);
+  if (factoring.stopped()) throw Interrupted();
   if (info != 0) return false;
   a.triangularView<Eigen::StrictlyUpper>().setZero();
   return true;

@@ -4,9 +4,9 @@
 
 namespace dotyk::algebra {
 
-/// While it lives, a Cholesky::factor on this thread ends early, by throwing Interrupted, once the monitor asks to stop:
-/// within one product of matrices, a second at most for some 1e5 unknowns in space. CHOLMOD itself cannot be asked; but
-/// each of its steps calls BLAS, whose names dgemm_, dsyrk_ and dpotrf_ this program takes: they pass on to OpenBLAS
+/// While it lives, a Cholesky::factor on this thread, and what dense.hpp has for large matrices, ends early by throwing
+/// Interrupted once the monitor asks to stop: within a second or so. CHOLMOD and LAPACK cannot be asked; but each of their steps
+/// calls BLAS, whose names dgemm_, dtrsm_, dsyrk_ and dpotrf_ this program takes: they pass on to OpenBLAS, large ones in pieces,
 /// unless the monitor asks to stop, when dpotrf_ reports a pivot that is not positive, which ends CHOLMOD's loop.
 /// The monitor is asked on this thread, often.
 class StopFactoring {
@@ -20,7 +20,7 @@ class StopFactoring {
   Monitor* before_;
 };
 
-/// For Cholesky::factor: lives while CHOLMOD factors.
+/// For those functions: lives while such a library is at work.
 class StoppableFactoring {
  public:
   StoppableFactoring();
@@ -30,6 +30,9 @@ class StoppableFactoring {
 
   /// Was it ended early? Its numbers mean nothing then.
   bool stopped() const;
+
+ private:
+  bool within_;  ///< another that lives
 };
 
 }  // namespace dotyk::algebra

@@ -1,6 +1,7 @@
 #include "problem/condensed.hpp"
 
 #include "algebra/dense.hpp"
+#include "algebra/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
@@ -71,6 +72,7 @@ CondensedProblem CondensedProblem::softened(const Vector& compliance, const Vect
 void CondensedProblem::add(const Problem& problem, const Block& block, algebra::Ordering ordering,
                            Clock& clock, Monitor& monitor) {
   Part part{condense(problem, block, ordering, clock, monitor), modes_};
+  const algebra::StopFactoring stop(monitor);
   Stopwatch watch;
   // Only the rows present on this block make columns of the half compliance.
   const std::vector<int> present = rows_present(part.rows);

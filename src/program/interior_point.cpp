@@ -1,6 +1,7 @@
 #include "program/interior_point.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -33,6 +34,12 @@ bool diverged(const QuadraticProgram& p, const Barrier& barrier, Result& result)
       return true;
     }
   return false;
+}
+
+/// What rounding of Aᵀy leaves of stationarity, in the measure of the merit.
+double rounding(const QuadraticProgram& p, const Vector& y) {
+  const auto peak = [](const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; };
+  return std::numeric_limits<double>::epsilon() * peak(p.A.cwiseAbs().transpose() * y.cwiseAbs()) / (1 + peak(p.q));
 }
 
 /// One run from a start with multipliers `far` inside.
@@ -75,6 +82,11 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
   if (result.status == Status::stopped && least <= kEnough * settings.tol) {
     result.status = Status::solved;
     result.reason = text("residuals and gap have stopped falling at ", least);
+  }
+  // Rows without an interior (an equality that another implies as an inequality) have multipliers without bound.
+  if (const double lost = rounding(p, best.y); result.status == Status::solved && lost > kEnough * settings.tol) {
+    result.status = Status::stopped;
+    result.reason = text("the multipliers have grown until their rounding leaves a residual of ", lost, ": the rows have no interior");
   }
   result.factorisations = barrier.factorisations();
   result.x = best.x;

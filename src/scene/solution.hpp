@@ -166,7 +166,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
 };
 
 /// Where contacts start: as a coarser solution's nearest nodes were, or with the rows named
-/// (numbered over all contacts in order); empty: by the method's own rule, or as `after` ended.
+/// (numbered over all contacts in order); empty: by the method's own rule, or as `after` ended. A solution with the
+/// same rows gives methods that can its whole state.
 struct Start {
   std::shared_ptr<const Solution> coarse;
   std::optional<std::vector<int>> closed;
@@ -189,6 +190,9 @@ std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const solver
 
 /// The flags of a start, row by row of B; empty where `start` says nothing.
 std::vector<char> start_flags(const Scene& scene, const Model& model, const Start& start);
+
+/// Has the solution the unknowns and rows of this scene's model: bodies with the same meshes, the same contacts of the same nodes?
+bool same_rows(const Scene& scene, const Model& model, const Solution& solution);
 
 /// Contact nodes of all contacts as comma-separated values with a header line: contact, node, x y (z), gap,
 /// pressure, force, weight, the components of shear and of slip, status. The file appears

@@ -137,12 +137,19 @@ class History {
     const solver::Method method = method_                         ? method_
                                   : model_.problem.friction.empty() ? solver::Method(solver::Pdas{})
                                                                     : solver::Method(solver::Newton{});
-    return method.run(model_.problem, {flags(), condenser_}, monitor);
+    return method.run(model_.problem, {flags(), condenser_, state()}, monitor);
+  }
+
+  bool begins() const { return !last_ || last_ == start_.after; }
+
+  /// The state to go on from: that of a solution with the same rows on the same meshes.
+  std::shared_ptr<const problem::State> state() const {
+    if (!begins() || !start_.coarse || !same_rows(*scene_, model_, *start_.coarse)) return nullptr;
+    return {start_.coarse, &start_.coarse->result().state};
   }
 
   std::vector<char> flags() const {
-    const bool begins = !last_ || last_ == start_.after;
-    if (begins && (start_.coarse || start_.closed)) return start_flags(*scene_, model_, start_);
+    if (begins() && (start_.coarse || start_.closed)) return start_flags(*scene_, model_, start_);
     std::vector<char> flags;
     if (last_)
       for (int r = 0; r < model_.problem.rows(); ++r) flags.push_back(last_->active(r));

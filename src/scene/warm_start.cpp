@@ -32,6 +32,21 @@ std::optional<ContactResult> counterpart(const Solution& coarse, std::size_t c) 
 
 }  // namespace
 
+bool same_rows(const Scene& scene, const Model& model, const Solution& solution) {
+  const Scene& other = solution.scene();
+  const Model& known = solution.model();
+  bool same = known.problem.rows() == model.problem.rows() && known.problem.unknowns() == model.problem.unknowns() &&
+              known.contact_row == model.contact_row && other.bodies.size() == scene.bodies.size() &&
+              other.contacts.size() == scene.contacts.size();
+  for (std::size_t b = 0; same && b < scene.bodies.size(); ++b) same = other.bodies[b]->mesh == scene.bodies[b]->mesh;
+  for (std::size_t c = 0; same && c < scene.contacts.size(); ++c) {
+    const auto &one = scene.contacts[c]->rows, &two = other.contacts[c]->rows;
+    same = scene.contacts[c]->kind == other.contacts[c]->kind && one.size() == two.size();
+    for (std::size_t k = 0; same && k < one.size(); ++k) same = one[k].node == two[k].node;
+  }
+  return same;
+}
+
 std::vector<char> start_flags(const Scene& scene, const Model& model, const Start& start) {
   std::vector<char> flags(model.problem.rows(), 0);
   int number = 0;  // of the row over all contacts

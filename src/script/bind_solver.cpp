@@ -23,7 +23,8 @@ Key start_key() {
   return key::either("start",
                      {key::object<Solution>("", "a solution of a like scene, usually on a coarser mesh"),
                       key::list("", key::integer("", ""), "numbers of the rows (contact nodes, in order) that start closed")},
-                     "where to start: a solution whose contact status is taken over, or a list of the closed rows");
+                     "where to start: a solution, of which methods that can (all but interior_point and feti) take over the whole state where it "
+                     "has the same meshes and contacts, and the contact status of nearest nodes otherwise; or a list of the closed rows");
 }
 
 int count_rows(const Scene& scene) {
@@ -56,7 +57,8 @@ int run(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& m
   Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
   if (call.has("options") && call.table("options").has("seconds")) watch.limit(call.table("options").number("seconds"));
   const auto solution = scene::solve(scene, method, start, watch, steps);
-  watch.answer();
+  watch.answer(method.begins_anew() ? "look at it or leave it (this method begins anew, whatever start says)"
+                                    : "look at it, go on from it with start = it, or leave it");
   return call.give(solution);
 }
 

@@ -64,13 +64,13 @@ bool Watch::stop() {
   return refused_ || interrupted() || (deadline_ && std::chrono::steady_clock::now() > *deadline_);
 }
 
-void Watch::answer() {
+void Watch::answer(const char* advice) {
   const bool at_prompt = position(L_).rfind(std::string(prompt_chunk) + ":", 0) == 0;
   if (!at_prompt) return;
   if (interrupted()) {
     clear_progress();
     const std::string place = !last_ ? "" : last_->step > 0 ? text(" in step ", last_->step, " after iteration ", last_->iteration) : text(" after iteration ", last_->iteration);
-    std::fprintf(stderr, "stopped%s: the result is the state so far; look at it, go on from it with start = it, or leave it\n", place.c_str());
+    std::fprintf(stderr, "stopped%s: the result is the state so far; %s\n", place.c_str(), advice);
   }
   clear_interrupt();
 }

@@ -36,7 +36,8 @@ class Watch : public Monitor {
   // To be called with the partial result in hand. At the prompt the request to
   // stop is thereby answered and the user gets the result to look at; in a
   // script it goes on to end the script.
-  void answer();
+  // `advice` ends what is said of it.
+  void answer(const char* advice = "look at it or leave it");
 
  private:
   lua_State* L_;

@@ -20,6 +20,10 @@ Equilibrium::Equilibrium(const problem::CondensedProblem& condensed, Vector star
   augmented_ = condensed.W() + gamma_ * Q_ * Q_.transpose();
 }
 
+void Equilibrium::go_on_from(const Vector& lambda, const Vector& alpha) {
+  if (needed()) alpha_ += alpha - this->alpha(lambda);
+}
+
 Vector Equilibrium::x0() const {
   if (!needed()) return condensed_.x0();
   return condensed_.x0() + condensed_.N() * alpha_ + gamma_ * Q_ * e_;

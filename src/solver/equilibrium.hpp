@@ -19,6 +19,9 @@ class Equilibrium {
   /// γ = `weight` times (a bound of) the greatest eigenvalue of W; α is `start`.
   Equilibrium(const problem::CondensedProblem& condensed, algebra::Vector start, double weight = 1.0);
 
+  /// Sets α so that α(λ) is `alpha`.
+  void go_on_from(const algebra::Vector& lambda, const algebra::Vector& alpha);
+
   bool needed() const { return condensed_.kernel_size() > 0; }
   double gamma() const { return gamma_; }
   const algebra::DenseMatrix& W() const { return needed() ? augmented_ : condensed_.W(); }

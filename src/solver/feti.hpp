@@ -22,6 +22,7 @@ namespace dotyk::solver {
 /// depend on each other make F singular, nothing else; of their multipliers one choice is returned. Coulomb
 /// friction is an outer loop over given friction, b := μλ_n, ended where the bounds change by less than tol.
 struct Feti : Settings {
+  static constexpr bool begins_anew = true;
   Feti() { outer.rho = 30, outer.update = Smalbe::Update::both; }
   enum class Preconditioner {
     none,

@@ -8,6 +8,7 @@ namespace dotyk::solver {
 /// program/interior_point.hpp. At its end every multiplier and every gap is positive; a row is called closed
 /// where the multiplier is the larger one, in units in which rows and energy are of size 1.
 struct InteriorPoint : Settings {
+  static constexpr bool begins_anew = true;
   /// On the unknowns of the contact boundary (the semidefinite Schur complement), or on all of them.
   bool reduced = true;
 };

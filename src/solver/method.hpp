@@ -13,7 +13,8 @@ namespace dotyk::solver {
 /// What a run begins with; see Settings.
 struct Beginning {
   std::vector<char> start;  ///< empty: the method's own choice
-  std::shared_ptr<problem::Condenser> condenser;
+  std::shared_ptr<problem::Condenser> condenser = nullptr;
+  std::shared_ptr<const problem::State> from = nullptr;
 };
 
 /// Any method with its options, by value: what a model needs to know of it. Made of anything derived
@@ -25,10 +26,12 @@ class Method {
     requires std::derived_from<Chosen, Settings>
   Method(Chosen chosen)  // NOLINT: a method is taken wherever its options are given
       : ordering_(chosen.ordering),
+        begins_anew_(Chosen::begins_anew),
         decomposition_(decomposition_of(chosen)),
         run_([chosen](const problem::Problem& problem, Beginning from, Monitor& monitor) {
           Chosen started = chosen;
           if (!from.start.empty()) started.start = std::move(from.start);
+          started.from = std::move(from.from);
           started.condenser = std::move(from.condenser);
           return as_asked(solve(problem, started, monitor), started.tol);
         }),
@@ -42,6 +45,7 @@ class Method {
 
   explicit operator bool() const { return static_cast<bool>(run_); }
   algebra::Ordering ordering() const { return ordering_; }
+  bool begins_anew() const { return begins_anew_; }
   /// The same method with another tol.
   Method with_tol(double tol) const { return with_tol_(tol); }
   /// How the method wants bodies cut into subdomains; nothing where it has no use for them.
@@ -72,6 +76,7 @@ class Method {
   }
 
   algebra::Ordering ordering_ = algebra::Ordering::automatic;
+  bool begins_anew_ = false;
   std::optional<problem::Decomposition> decomposition_;
   std::function<Result(const problem::Problem&, Beginning, Monitor&)> run_;
   std::function<Method(double)> with_tol_;

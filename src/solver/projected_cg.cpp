@@ -24,7 +24,7 @@ constexpr double kStep = 0.95;
 class Run {
  public:
   explicit Run(RowIteration& it)
-      : it_(it), equilibrium_(it.condensed, it.alpha(), kWeight), coulomb_(bounds_depend_on_normal(it.problem)) {
+      : it_(it), equilibrium_(equilibrium_of(it, kWeight)), coulomb_(bounds_depend_on_normal(it.problem)) {
     step_ = kStep * equilibrium_.step_bound(it.map.rho()) * it.map.rho();
     start(it.lambda());
   }

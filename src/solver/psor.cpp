@@ -8,7 +8,7 @@ namespace dotyk::solver {
 using algebra::Vector;
 
 void Psor::iterate(RowIteration& it) const {
-  Equilibrium equilibrium(it.condensed, it.alpha());
+  Equilibrium equilibrium = equilibrium_of(it);
   const Relaxation relaxation(it.problem, equilibrium.W());
   solver::iterate(it, equilibrium, [&](Vector lambda, Vector x) {
     relaxation.sweep(omega, lambda, x);

@@ -1,5 +1,6 @@
 #include "solver/row_iteration.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "base/text.hpp"
@@ -95,9 +96,22 @@ Result RowIteration::finish() {
   return std::move(result_);
 }
 
+namespace {
+
+/// The amounts of rigid motion that come nearest to the state's jumps.
+Vector rigid_motion_of(const problem::State& state, const Problem& problem, const CondensedProblem& condensed) {
+  if (condensed.kernel_size() == 0) return Vector(0);
+  const Vector none = Vector::Zero(condensed.kernel_size());
+  const Vector jump = problem.B * state.u - problem.c;
+  return condensed.N().colPivHouseholderQr().solve(jump - condensed.jump(state.lambda, none));
+}
+
+}  // namespace
+
 Result solve(const Problem& problem, const CondensedProblem& condensed, const RowMethod& method, Monitor& monitor) {
   Stopwatch watch;
   RowIteration iteration(problem, condensed, method, method.map_weight(), monitor);
+  if (method.from) iteration.begin_at(method.from->lambda, rigid_motion_of(*method.from, problem, condensed));
   method.iterate(iteration);
   Result result = iteration.finish();
   const Vector alpha = iteration.alpha();

@@ -84,6 +84,11 @@ struct Settings {
   algebra::Ordering ordering = algebra::Ordering::automatic;
   /// Rows taken as active at the start, one flag a row; empty: the rows whose gap is closed at rest.
   std::vector<char> start;
+  /// A state of this problem to go on from, for methods that know more of one than which rows are active (RowMethod); beside it
+  /// `start` does not count. Empty: from rest.
+  std::shared_ptr<const problem::State> from;
+  /// Does the method begin anew, whatever `start` and `from` say?
+  static constexpr bool begins_anew = false;
   /// Shared by problems that differ in f and c alone, for methods that condense; empty: condensed anew.
   std::shared_ptr<problem::Condenser> condenser;
 };

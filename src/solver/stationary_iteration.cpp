@@ -4,6 +4,12 @@ namespace dotyk::solver {
 
 using algebra::Vector;
 
+Equilibrium equilibrium_of(const RowIteration& it, double weight) {
+  Equilibrium equilibrium(it.condensed, it.alpha(), weight);
+  if (it.begun()) equilibrium.go_on_from(it.lambda(), it.alpha());
+  return equilibrium;
+}
+
 void move_to(RowIteration& it, const Equilibrium& equilibrium, Vector lambda) {
   Vector alpha = equilibrium.alpha(lambda);
   it.move_to(std::move(lambda), std::move(alpha));

@@ -7,6 +7,9 @@
 
 namespace dotyk::solver {
 
+/// The equilibrium of an iteration's free bodies, with which it begins where it stands.
+Equilibrium equilibrium_of(const RowIteration& iteration, double weight = 1.0);
+
 /// Moves the iterate to λ and the α(λ) of an augmented Lagrangian.
 void move_to(RowIteration& iteration, const Equilibrium& equilibrium, algebra::Vector lambda);
 

@@ -9,7 +9,7 @@ namespace dotyk::solver {
 using algebra::Vector;
 
 void Uzawa::iterate(RowIteration& it) const {
-  Equilibrium equilibrium(it.condensed, it.alpha());
+  Equilibrium equilibrium = equilibrium_of(it);
   const double bound = equilibrium.step_bound(it.map.rho());
   const Vector step = rho * bound * it.map.rho();
   it.remark(text("rho = ", rho * bound, " for a bound 2/λ_max of ", bound, " (in units of 1/W_rr)",

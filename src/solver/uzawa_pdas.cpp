@@ -27,7 +27,7 @@ constexpr double kRounding = 1e-14, kReturned = 1e-3;
 
 class Alternation {
  public:
-  explicit Alternation(RowIteration& it) : it_(it), equilibrium_(it.condensed, it.alpha()) {}
+  explicit Alternation(RowIteration& it) : it_(it), equilibrium_(equilibrium_of(it)) {}
 
   double step_bound(const Vector& stiffness) const { return equilibrium_.step_bound(stiffness); }
 
