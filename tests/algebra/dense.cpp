@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "../support/random.hpp"
+#include "algebra/stop_factoring.hpp"
+#include "base/error.hpp"
 
 using namespace dotyk;
 using namespace dotyk::algebra;
@@ -35,6 +37,49 @@ TEST_CASE("dense kernels agree with Eigen") {
     CHECK(wide.row(0) == before.row(0));
     CHECK(wide.row(n + 1) == before.row(n + 1));
   }
+}
+
+namespace {
+
+/// Asks to stop at the question of this number.
+struct StopAt : Monitor {
+  explicit StopAt(int question) : left(question) {}
+  bool stop() override { return ++asked, --left < 0; }
+  int left, asked = 0;
+};
+
+}  // namespace
+
+TEST_CASE("large dense kernels, taken in pieces, are the same, and end where their watcher asks to stop") {
+  const int n = 4200;  // n³/3 multiplications are three pieces
+  DenseMatrix A = DenseMatrix::Constant(n, n, 0.5);
+  for (int i = 0; i < n; ++i) A(i, i) = 2 + i % 7;
+  Vector x = Vector::LinSpaced(n, -1, 1);
+  const Vector b = A * x;
+  StopAt never(1 << 30), soon(3);
+  {
+    const StopFactoring watched(never);
+    DenseMatrix L = A;
+    REQUIRE(cholesky(L));
+    Vector y = b;
+    solve_lower(L, y);
+    solve_lower_transposed(L, y);
+    CHECK((y - x).norm() <= 1e-12 * x.norm());
+    CHECK(never.asked > 4);
+    const DenseMatrix back = square(L), inverse = [&] {
+      DenseMatrix all = DenseMatrix::Identity(n, n);
+      solve_lower(L, all);
+      return all;
+    }();
+    CHECK((back - A).norm() <= 1e-12 * A.norm());
+    CHECK((L * (inverse * x) - x).norm() <= 1e-12 * x.norm());
+    L = A;
+    L(n - 1, n - 1) = -1;
+    CHECK_FALSE(cholesky(L));
+  }
+  const StopFactoring watched(soon);
+  CHECK_THROWS_AS(square(A), Interrupted);
+  CHECK_THROWS_AS(cholesky(A), Interrupted);
 }
 
 TEST_CASE("dense Cholesky refuses what is not positive definite") {
