@@ -21,7 +21,7 @@ end
 
 core.describe{
   name = "source",
-  help = "Prints the text of a function: of a script, or of one of dotyk's own that is written in Lua.",
+  help = "Prints the text of a function: a script's, one typed at the prompt, or one of dotyk's own that is written in Lua.",
   example = "source(dotyk.adapt)",
   arguments = { { name = "f", kind = "any", required = true, help = "a function" } },
   run = core.lazily("source", "run") }

@@ -13,7 +13,8 @@ local function protocol()
   if not core.terminal "stdout" or os.getenv "TMUX" or os.getenv "STY" then return nil end
   local term <const>, program <const> = os.getenv "TERM" or "", os.getenv "TERM_PROGRAM" or ""
   if os.getenv "KITTY_WINDOW_ID" or term:find "kitty" or program == "ghostty" then return "kitty" end
-  if program == "iTerm.app" or program == "WezTerm" then return "iterm" end
+  local over_ssh <const> = os.getenv "LC_TERMINAL" -- which ssh passes on
+  if program == "iTerm.app" or program == "WezTerm" or over_ssh == "iTerm2" then return "iterm" end
   if term:find "^foot" or term:find "^mlterm" or term:find "sixel" then return "sixel" end
 end
 

@@ -27,6 +27,18 @@ local function text_of(f, path, whole)
   return ("-- %s:%d\n%s"):format(path, info.linedefined, lines(whole or whole_text(path), info.linedefined, info.lastlinedefined))
 end
 
+-- Of a function typed at the prompt. All inputs have one name, so it is found by what it compiles to: the code of a function
+-- stands within that of its chunk, behind a header of its own and a source, which stripped code has not.
+local header <const> = 32
+local function typed(f)
+  local code <const> = string.dump(f, true):sub(header + 1)
+  for k = #core.inputs, 1, -1 do
+    local input <const> = core.inputs[k]
+    local chunk <const> = load(input.compiled, "=prompt", "t")
+    if chunk and string.dump(chunk, true):find(code, 1, true) then return text_of(f, "prompt", input.typed) end
+  end
+end
+
 -- Of a callable of dotyk's.
 local function own(signature)
   local name <const> = signature:match "^[%w_.:]+"
@@ -40,7 +52,7 @@ function source.run(x)
   local signature <const> = core.signature(x)
   local text = signature and own(signature)
   if not text and core.getinfo(x, "S").what == "C" then text = "this function is Lua's own, written in C" end
-  print(text or text_of(x) or "this function was typed at the prompt or given as a text; the up key brings its lines back")
+  print(text or text_of(x) or typed(x) or "this function was given as a text, which is not kept")
 end
 
 return source

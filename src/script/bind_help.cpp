@@ -3,12 +3,14 @@
 #include "script/enter.hpp"
 #include "script/help.hpp"
 #include "script/nearest.hpp"
+#include "script/pager.hpp"
 #include "script/position.hpp"
 
 namespace dotyk::script {
 namespace {
 
 std::string help_on_name(const Library& library, const std::string& name) {
+  if (name == "prompt") return help_on_prompt();
   for (const auto& module : library.modules()) {
     if (module.name == name) return help_text(library, module);
   }
@@ -17,6 +19,15 @@ std::string help_on_name(const Library& library, const std::string& name) {
   const auto near = nearest(name, library.names());
   throw ArgumentError("nothing is called '" + name + "'" +
                       (near.empty() ? "; help() lists everything" : ", did you mean '" + near + "'?"));
+}
+
+// A function of the user's own.
+std::string help_on_own(lua_State* L, int index) {
+  lua_Debug info;
+  lua_pushvalue(L, index);
+  lua_getinfo(L, ">Su", &info);
+  const std::string arguments = std::to_string(info.nparams) + (info.isvararg ? " or more arguments" : info.nparams == 1 ? " argument" : " arguments");
+  return std::string("A Lua function of ") + arguments + ", written at " + info.short_src + ":" + std::to_string(info.linedefined) + "; source(f), or f??, shows it.\n";
 }
 
 std::string help_on_value(const Call& call) {
@@ -28,6 +39,7 @@ std::string help_on_value(const Call& call) {
   if (const auto* type = library.type_at(L, index)) return help_text(library, *type);
   const auto module = library.module_at(L, index);
   if (!module.empty()) return help_on_name(library, module);
+  if (lua_type(L, index) == LUA_TFUNCTION && !lua_iscfunction(L, index)) return help_on_own(L, index);
   throw ArgumentError("there is no help on " + describe_value(L, index) + "; help() lists everything");
 }
 
@@ -36,13 +48,14 @@ std::string help_on_value(const Call& call) {
 void bind_help(Library& library) {
   library.function(
       {.name = "help",
-       .help = "Prints help: on everything, or on one function, method, object or name.",
-       .example = "help()\nhelp(dotyk)\nhelp \"help\"",
+       .help = "Prints help: on everything, on a function, method, object or name; help \"prompt\" on the prompt.",
+       .example = "help()\nhelp(dotyk)\nhelp \"help\"\nhelp \"prompt\"",
        .arguments = {key::any("x", "a function, a method, an object, a table of functions, or a name")},
        .run = [](Call& call) {
          const auto& library = Library::of(call.state());
          const auto text = call.has("x") ? help_on_value(call) : help_index(library);
-         std::fputs(text.c_str(), stdout);
+         if (library.folder) std::fputs(text.c_str(), stdout);  // --safe starts no program
+         else show_paged(text);
          return 0;
        }});
   library.function({.name = "dotyk.reference",

@@ -26,7 +26,7 @@ std::vector<Maker> makers() {
   return {{"free", Kind::free, "A support that does nothing.", {}},
           {"prescribed", Kind::prescribed, "Prescribes the displacement.",
            {key::number("v", "the deflection, rotation or displacement").unit("length, or rad").fallback(0.0)}},
-          {"load", Kind::load, "Loads the place with a force, a moment on its rotation, or a pressure on a part.",
+          {"load", Kind::load, "A load: a force, a moment on the rotation, or a pressure on a part.",
            {key::number("f", "up, a moment anticlockwise; of a part into the body, a pressure").unit("force, or moment; on a part per length or area").required()}},
           {"elastic", Kind::elastic, "A spring: the reaction is -k v.", {stiffness()}},
           {"one_sided_elastic", Kind::one_sided_elastic,

@@ -78,7 +78,10 @@ Completion in_string(lua_State* L, const Library& library, const Context& contex
   }
   const auto place = value_at(L, library, context);
   bool files = true;  // what is not dotyk's to know may be one
-  if (place.callee.callable && place.callee.callable->name == "help") result.words = library.names();
+  if (place.callee.callable && place.callee.callable->name == "help") {
+    result.words = library.names();
+    result.words.push_back("prompt");
+  }
   else if (place.key) {
     const auto& key = place.key->kind == Kind::table && !place.key->keys.empty() ? place.key->keys.front() : *place.key;
     add_strings(L, place, key, result.words);
@@ -163,6 +166,7 @@ int run(lua_State* L) {
   } catch (const std::exception&) {
     request.result = {};  // a released object, say: nothing to offer
   }
+  if (context.start == 1 && request.text[0] == '%') request.result.words = {"time "};
   request.result.start = context.start;
   request.result.in_string = context.in_string;
   if (context.in_string && !request.result.file_names) request.result.quote = request.text[context.start - 1];

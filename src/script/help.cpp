@@ -1,44 +1,12 @@
 #include "script/help.hpp"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <sstream>
 
+#include "script/help_lines.hpp"
+
 namespace dotyk::script {
 namespace {
-
-// Letters in a line: no more than a person likes to read, or the terminal has.
-std::size_t line_width() {
-  constexpr std::size_t pleasant = 96, least = 40;
-  winsize terminal{};
-  if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &terminal) != 0 || terminal.ws_col == 0) return pleasant;
-  return std::clamp<std::size_t>(terminal.ws_col - 1u, least, pleasant);
-}
-
-// Letters, where bytes 10xxxxxx go on with one.
-std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
-}
-
-// Text broken into lines: the first begins with `start`, the others with `indent`.
-std::string wrapped(const std::string& text, const std::string& start, const std::string& indent) {
-  const std::size_t width = line_width();
-  std::istringstream words(text);
-  std::string word, all, line = start;
-  bool empty = true;
-  while (words >> word) {
-    if (!empty && letters(line) + 1 + letters(word) > width) {
-      all += line + "\n";
-      line = indent;
-      empty = true;
-    }
-    line += (empty ? "" : " ") + word;
-    empty = false;
-  }
-  return empty && start == indent ? all : all + line + "\n";
-}
 
 // "name = value" stays together.
 std::string wrapped_signature(std::string text) {
@@ -47,15 +15,6 @@ std::string wrapped_signature(std::string text) {
   text = wrapped(text, "", "    ");
   std::replace(text.begin(), text.end(), held, ' ');
   return text;
-}
-
-std::string wrapped(const std::string& text, const std::string& indent) { return wrapped(text, indent, indent); }
-
-std::string first_sentence(const std::string& text) {
-  const auto end = text.find(". ");
-  auto sentence = end == std::string::npos ? text : text.substr(0, end);
-  if (!sentence.empty() && sentence.back() == '.') sentence.pop_back();
-  return sentence;
 }
 
 std::string facts(const Key& key) {
@@ -96,11 +55,6 @@ std::string indented(const std::string& text, const std::string& indent) {
   return all;
 }
 
-std::string summary_line(const std::string& name, const std::string& help) {
-  const auto pad = name.size() < 28 ? 28 - name.size() : 1;
-  return wrapped(first_sentence(help), "  " + name + std::string(pad, ' '), std::string(30, ' '));
-}
-
 }  // namespace
 
 std::string help_text(const Descriptor& descriptor) {
@@ -139,16 +93,6 @@ std::string help_text(const Library& library, const Module& module) {
     if (inner.name.rfind(module.name + ".", 0) == 0) out += summary_line(inner.name, inner.help);
   }
   return out;
-}
-
-std::string help_index(const Library& library) {
-  std::string out = "Functions:\n";
-  for (const auto& one : library.functions()) out += summary_line(one.name, one.help);
-  if (!library.types().empty()) out += "\nObjects:\n";
-  for (const auto& type : library.types()) out += summary_line(type.name, type.help);
-  out += "\nhelp(x) tells more: x is a function, an object or a name, as in help \"";
-  out += library.functions().empty() ? "help" : library.functions().front().name;
-  return out + "\".\n";
 }
 
 std::vector<std::string> missing_help(const Library& library) {

@@ -6,7 +6,11 @@
 
 namespace dotyk::script {
 
+// Everything callable, by what it is for, one line each; and help_on_prompt.
 std::string help_index(const Library& library);
+// Keys, signs and words that work at the prompt.
+std::string help_on_prompt();
+
 std::string help_text(const Descriptor& descriptor);
 std::string help_text(const Library& library, const Type& type);
 std::string help_text(const Library& library, const Module& module);

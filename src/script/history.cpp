@@ -4,7 +4,9 @@
 
 #include <readline/history.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 
@@ -32,6 +34,15 @@ void load_history() {
   const auto file = history_file();
   if (file.empty() || read_history(file.c_str()) != 0) return;
   if (history_length >= most_lines) history_truncate_file(file.c_str(), most_lines / 2);
+}
+
+std::string why_no_history() {
+  const auto path = history_file();
+  if (path.empty()) return "";
+  FILE* file = std::fopen(path.c_str(), "a");
+  if (!file) return path + ": " + std::strerror(errno);
+  std::fclose(file);
+  return "";
 }
 
 void add_to_history(const std::string& input) {

@@ -10,6 +10,9 @@ std::string history_file();
 // Reads the file into readline's history; a missing one is no error.
 void load_history();
 
+// Why inputs will not be in the file, as "file: reason"; "" where they will, and where there is no home folder.
+std::string why_no_history();
+
 // Adds an input, to the file as well: a crash loses nothing. Repeats are skipped;
 // a file that cannot be written is no error.
 void add_to_history(const std::string& input);

@@ -1,11 +1,16 @@
 #include "script/interpreter.hpp"
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 
 #include "script/bind.hpp"
+#include "script/kept_locals.hpp"
 #include "script/library.hpp"
 #include "script/lua.hpp"
+#include "script/lua_guards.hpp"
 #include "script/lua_side.hpp"
 #include "script/position.hpp"
 #include "script/push.hpp"
@@ -16,6 +21,7 @@ namespace {
 
 // The error value as a text: strings as they are, objects by __tostring; of what is neither, where it was raised.
 int to_message(lua_State* L) {
+  keep_locals_after_error(L);
   if (!lua_isstring(L, 1) && luaL_getmetafield(L, 1, "__tostring") == LUA_TNIL) {
     push(L, position(L) + "error with " + describe_value(L, 1) + " in place of a message");
     return 1;
@@ -31,8 +37,18 @@ int to_traced_message(lua_State* L) {
   return 1;
 }
 
+// What stands before a script that the system starts (#!, a byte order mark) is no Lua.
+std::string script_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
+  if (!text.empty() && text[0] == '#') text.erase(0, std::min(text.find('\n'), text.size()));
+  return text;
+}
+
 void fill(lua_State* L, Library& library) {
   luaL_openlibs(L);
+  guard_lua(L);
   bind_all(library);
   lua_getglobal(L, "dotyk");
   lua_pushliteral(L, DOTYK_VERSION);
@@ -94,11 +110,15 @@ std::optional<std::string> Interpreter::run_loaded(int load_status) {
 }
 
 std::optional<std::string> Interpreter::run_file(const std::string& path) {
-  return run_loaded(luaL_loadfilex(L_, path == "-" ? nullptr : path.c_str(), "t"));
+  const int status = luaL_loadfilex(L_, path == "-" ? nullptr : path.c_str(), "t");
+  if (status == LUA_OK && keep_locals_ && path != "-" && !load_keeping_locals(L_, script_text(path), "@" + path).empty()) lua_remove(L_, -2);
+  return run_loaded(status);
 }
 
 std::optional<std::string> Interpreter::run_text(const std::string& text, const std::string& chunk) {
-  return run_loaded(luaL_loadbufferx(L_, text.data(), text.size(), ("=" + chunk).c_str(), "t"));
+  const int status = luaL_loadbufferx(L_, text.data(), text.size(), ("=" + chunk).c_str(), "t");
+  if (status == LUA_OK && keep_locals_ && !load_keeping_locals(L_, text, "=" + chunk).empty()) lua_remove(L_, -2);
+  return run_loaded(status);
 }
 
 }  // namespace dotyk::script

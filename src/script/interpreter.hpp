@@ -26,6 +26,9 @@ class Interpreter {
   // Error messages carry the stack of calls from now on.
   void trace(bool wanted) { trace_ = wanted; }
 
+  // The local variables of the scripts run from now on stay, as global ones, when they end.
+  void keep_locals() { keep_locals_ = true; }
+
   // The global `arg`: [0] the script, [1] … its arguments.
   void set_arguments(const std::string& script, const std::vector<std::string>& arguments);
 
@@ -43,7 +46,7 @@ class Interpreter {
 
   lua_State* L_;
   std::unique_ptr<Library> library_;
-  bool trace_ = false;
+  bool trace_ = false, keep_locals_ = false;
 };
 
 }  // namespace dotyk::script

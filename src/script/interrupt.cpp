@@ -18,8 +18,10 @@ namespace {
 // The signal handler may touch nothing but these.
 std::atomic<bool> pending{false};
 std::atomic<lua_State*> running{nullptr};
-std::atomic<double> asked_at{0}, warned_at{0};
+std::atomic<double> warned_at{0};
 std::atomic<bool> session{false};
+
+bool answered = false;  // by a result so far, and its input goes on
 
 // Instructions of Lua that may run (0: any number), that ran, and that run between two looks at them.
 long long allowed = 0, used = 0;
@@ -66,7 +68,7 @@ void warn() {
 // Is this one to end the program? Where there is a session to lose only after a warning.
 bool ends(double time) {
   if (!pending) return false;
-  if (!session) return time - asked_at < 1;
+  if (!session) return true;
   if (time - warned_at < 2) return true;
   warned_at = time;
   warn();
@@ -80,7 +82,6 @@ void on_signal(int signal) {
     std::raise(signal);
     return;
   }
-  asked_at = time;
   pending = true;
   arm(running);
 }
@@ -190,15 +191,28 @@ void replace_field(lua_State* L, const char* name, lua_CFunction function) {
 
 bool interrupted() { return pending; }
 void clear_interrupt() {
-  pending = false;
+  pending = answered = false;
   warned_at = 0;
   used = 0;
 }
 
+void answer_interrupt() {
+  const bool was = pending || answered;
+  clear_interrupt();
+  answered = was;
+}
+
+bool interrupt_answered() { return answered; }
+
+void raise_if_interrupted(lua_State* L) {
+  if (pending) raise(L, "", "interrupted");
+}
+
+void leave_interrupts() { std::signal(SIGINT, SIG_DFL); }
+
 void keep_session() { session = true; }
 
 void request_interrupt() {
-  asked_at = now();
   pending = true;
   arm(running);
 }
@@ -208,7 +222,6 @@ void limit_instructions(lua_State* L, long long count) {
   interval = static_cast<int>(std::clamp(count, 1LL, 1000LL));
   lua_pushglobaltable(L);
   replace_field(L, "setmetatable", set_metatable);
-  replace_field(L, "xpcall", protected_call);
   lua_pop(L, 1);
   disarm(L);
 }
@@ -221,6 +234,9 @@ void watch_interrupts(lua_State* L) {
   replace_field(L, "close", with_thread);
   replace_field(L, "wrap", wrap);
   replace_field(L, "create", create);
+  lua_pop(L, 1);
+  lua_pushglobaltable(L);
+  replace_field(L, "xpcall", protected_call);
   lua_pop(L, 1);
   struct sigaction action {};
   action.sa_handler = on_signal;

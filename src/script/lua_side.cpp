@@ -111,6 +111,26 @@ int read_own(lua_State* L) {
   return 1;
 }
 
+constexpr char own_globals[] = "dotyk.own_globals";  // in the registry: _ENV of dotyk's own files
+
+// The globals as they are, but print, and beyond them those of the moment.
+void keep_own_globals(lua_State* L) {
+  lua_newtable(L);
+  lua_pushglobaltable(L);
+  for (lua_pushnil(L); lua_next(L, -2);) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, -5);
+  }
+  lua_createtable(L, 0, 1);
+  lua_insert(L, -2);
+  lua_setfield(L, -2, "__index");
+  lua_setmetatable(L, -2);
+  lua_pushnil(L);
+  lua_setfield(L, -2, "print");
+  lua_setfield(L, LUA_REGISTRYINDEX, own_globals);
+}
+
 // Loads lua/<name>.lua and calls it with the core table, upvalue 1 here.
 int load(lua_State* L) {
   const std::string name = luaL_checkstring(L, 1);
@@ -120,6 +140,8 @@ int load(lua_State* L) {
   const auto text = own_text(L, name);
   const auto chunk = std::string(own_chunk) + " " + name + ".lua";
   if (luaL_loadbufferx(L, text.data(), text.size(), chunk.c_str(), "t") != LUA_OK) return lua_error(L);
+  lua_getfield(L, LUA_REGISTRYINDEX, own_globals);
+  lua_setupvalue(L, -2, 1);
   lua_pushvalue(L, lua_upvalueindex(1));
   lua_call(L, 1, 1);
   if (lua_isnil(L, -1)) {
@@ -154,6 +176,7 @@ void push_own_module(lua_State* L, const char* name) {
 void load_lua_side(lua_State* L) {
   lua_newtable(L);
   lua_setfield(L, LUA_REGISTRYINDEX, "dotyk.loaded");
+  keep_own_globals(L);
   lua_newtable(L);
   static const luaL_Reg functions[] = {
       {"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
@@ -166,6 +189,8 @@ void load_lua_side(lua_State* L) {
   lua_pop(L, 1);
   lua_pushstring(L, lua_folder());
   lua_setfield(L, -2, "folder");
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, inputs_of_prompt);
+  lua_setfield(L, -2, "inputs");
   lua_pushvalue(L, -1);
   lua_pushcclosure(L, load, 1);
   lua_pushvalue(L, -1);

@@ -12,10 +12,13 @@
 //   clock()         seconds, of a clock that never jumps
 //   lazily(f, name) a function that loads lua/<f>.lua when first called
 //   getinfo(…)      debug.getinfo, which scripts lack under --safe
+//   inputs          what was typed at the prompt and has functions: { typed = text, compiled = text } each
 //   read_own(name)  the text of lua/<name>.lua
 //   signature(f)    of a callable of dotyk's, else nil
 //   folder          where these files are
 //   type_name(v)    "body", "mesh", … or what type() says
+// Global names these files use are Lua's own, whatever a script or a line at the prompt has called `type` or `table`;
+// print alone is the user's.
 struct lua_State;
 
 namespace dotyk::script {
@@ -23,6 +26,9 @@ namespace dotyk::script {
 // Runs lua/init.lua with the table above. Throws std::runtime_error with the
 // reason when a file is missing or wrong.
 void load_lua_side(lua_State* L);
+
+// In the registry: core.inputs.
+inline constexpr char inputs_of_prompt[] = "dotyk.inputs";
 
 // Pushes the value of lua/<name>.lua, loading it if need be. May raise a Lua error.
 void push_own_module(lua_State* L, const char* name);

@@ -33,7 +33,7 @@ constexpr char usage[] =
     "  dotyk                      the prompt\n"
     "  dotyk FILE.lua ARGS…       run a script; its arguments are in the table arg\n"
     "  dotyk -e CODE ARGS…        run a text\n"
-    "  dotyk -i FILE.lua ARGS…    run a script, then the prompt\n"
+    "  dotyk -i FILE.lua ARGS…    run a script, then the prompt, which has the script's local variables, too\n"
     "  dotyk - ARGS…              run a script from standard input\n"
     "  dotyk --traceback …        errors with the stack of calls (also DOTYK_TRACEBACK=1)\n"
     "  dotyk --safe FOLDER …      a script from a stranger: files below FOLDER only, of 1 GB at most, no other\n"
@@ -165,6 +165,7 @@ int run(const Command& command) {
 
   if (command.manifest) interpreter.library().manifest = std::make_shared<dotyk::script::Manifest>(manifest_of(command));
 
+  if (command.prompt) interpreter.keep_locals();
   std::optional<std::string> error;
   if (command.code) error = interpreter.run_text(*command.code, "-e");
   if (command.file) error = interpreter.run_file(*command.file);
@@ -172,9 +173,11 @@ int run(const Command& command) {
   if (error) {
     std::fflush(stdout);
     std::fprintf(stderr, "dotyk: %s\n", error->c_str());
-    if (!command.prompt) return 1;
   }
-  return command.prompt ? run_prompt(interpreter) : 0;
+  const int status = command.prompt ? run_prompt(interpreter) : error ? 1 : 0;
+  std::fflush(stdout);  // finalizers come, which Ctrl-C cannot stop: it ends the program
+  dotyk::script::leave_interrupts();
+  return status;
 }
 
 }  // namespace

@@ -13,11 +13,13 @@
 #include "script/history.hpp"
 #include "script/interpreter.hpp"
 #include "script/interrupt.hpp"
+#include "script/kept_locals.hpp"
 #include "script/line_reader.hpp"
 #include "script/lua.hpp"
 #include "script/lua_side.hpp"
 #include "script/position.hpp"
 #include "script/prompt_input.hpp"
+#include "script/push.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -35,6 +37,7 @@ class Prompt {
     if (terminal_) {
       keep_session();
       load_history();
+      if (const auto reason = why_no_history(); !reason.empty()) std::fprintf(stderr, "dotyk: history is not kept: %s\n", reason.c_str());
       std::printf("dotyk %s – help() lists what there is, Ctrl-D leaves\n", DOTYK_VERSION);
     }
     bool failed = false;
@@ -102,12 +105,12 @@ class Prompt {
 
   // The input as Lua compiles it: "= expr" without its sign, and, as each input
   // is a chunk of its own, "local x = …" without "local", so that x can be used
-  // in the next line as in the script it was copied from.
+  // in the next line as in the script it was copied from. (Further locals of the
+  // input stay by load_keeping_locals.)
   std::string plain(const std::string& input) {
     if (!input.empty() && input[0] == '=') return input.substr(1);
-    const auto start = input.find_first_not_of(" \t");
-    if (start == std::string::npos || input.compare(start, 6, "local ") != 0) return input;
-    const auto global = input.substr(start + 6);
+    const auto global = as_globals(input);
+    if (global == input) return input;
     const bool fits = load(global) || ends_early(lua_tostring(L_, -1));
     lua_pop(L_, 1);
     return fits ? global : input;
@@ -138,10 +141,17 @@ class Prompt {
 
   // Leaves the function, or the message of what is wrong, on the stack.
   Compiled compile(const std::string& text, bool last) {
-    if (load("return " + text)) return Compiled::expression;
+    compiled_ = "return " + text;
+    if (load(compiled_)) return Compiled::expression;
     const std::string as_expression = lua_tostring(L_, -1);
     lua_pop(L_, 1);
-    if (load(text)) return Compiled::statement;
+    if (load(text)) {
+      const bool declares = text.find("local") != std::string::npos;
+      compiled_ = declares ? load_keeping_locals(L_, text, chunk_name) : "";
+      if (compiled_.empty()) compiled_ = text;
+      else lua_remove(L_, -2);
+      return Compiled::statement;
+    }
     const std::string message = lua_tostring(L_, -1);
     return !last && (ends_early(message) || ends_early(as_expression)) ? Compiled::not_yet : Compiled::wrong;
   }
@@ -160,19 +170,33 @@ class Prompt {
       lua_pop(L_, 1);
       return true;
     }
+    keep_for_source(input);
     const Stopwatch watch;
     const std::clock_t used = std::clock();
-    run_function(compiled == Compiled::expression);
+    run_function();
     if (timed && !failed_)
       std::printf("%.3g s, %.3g s of processors\n", watch.seconds(), static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC);
     return true;
   }
 
-  void run_function(bool show) {
+  // The text of a function typed is found again by what it compiles to (lua/source.lua).
+  void keep_for_source(const std::string& input) {
+    if (compiled_.find("function") == std::string::npos) return;
+    luaL_getsubtable(L_, LUA_REGISTRYINDEX, inputs_of_prompt);
+    lua_createtable(L_, 0, 2);
+    push(L_, input);
+    lua_setfield(L_, -2, "typed");
+    push(L_, compiled_);
+    lua_setfield(L_, -2, "compiled");
+    lua_rawseti(L_, -2, static_cast<lua_Integer>(lua_rawlen(L_, -2)) + 1);
+    lua_pop(L_, 1);
+  }
+
+  void run_function() {
     const int base = lua_gettop(L_) - 1;
     auto error = interpreter_.call(0, LUA_MULTRET);
     const int count = lua_gettop(L_) - base;
-    if (!error && count > 0 && show && !lua_isnil(L_, base + 1)) {
+    if (!error && count > 0 && !lua_isnil(L_, base + 1)) {
       lua_pushvalue(L_, base + 1);
       lua_setglobal(L_, "_");
     }
@@ -201,6 +225,7 @@ class Prompt {
   Interpreter& interpreter_;
   lua_State* L_;
   std::deque<std::string> pending_;  // lines that came with those being evaluated
+  std::string compiled_;             // the text of the function to be run
   bool terminal_, failed_ = false;
 };
 

@@ -25,9 +25,19 @@ void add_locals(lua_State* L, std::vector<std::string>& names) {
   lua_pop(L, 1);
 }
 
+constexpr char declared[] = "dotyk.declared";  // in the registry: NAME = true
+
+bool is_declared(lua_State* L, const char* name) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, declared);
+  lua_getfield(L, -1, name);
+  const bool is = lua_toboolean(L, -1);
+  lua_pop(L, 2);
+  return is;
+}
+
 int unknown_global(lua_State* L) {
   return guarded(L, "", [L]() -> int {
-    if (lua_type(L, 2) != LUA_TSTRING || std::string(lua_tostring(L, 2)) == "_") {
+    if (lua_type(L, 2) != LUA_TSTRING || std::string(lua_tostring(L, 2)) == "_" || is_declared(L, lua_tostring(L, 2))) {
       lua_pushnil(L);
       return 1;
     }
@@ -48,6 +58,13 @@ void make_globals_strict(lua_State* L) {
   lua_pushcfunction(L, unknown_global);
   lua_setfield(L, -2, "__index");
   lua_setmetatable(L, -2);
+  lua_pop(L, 1);
+}
+
+void declare_global(lua_State* L, const char* name) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, declared);
+  lua_pushboolean(L, true);
+  lua_setfield(L, -2, name);
   lua_pop(L, 1);
 }
 

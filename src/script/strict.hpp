@@ -8,4 +8,7 @@ namespace dotyk::script {
 // before there is one; rawget(_G, name) asks without an error.
 void make_globals_strict(lua_State* L);
 
+// From now on the global may be read while it is nil: `local x` at the prompt.
+void declare_global(lua_State* L, const char* name);
+
 }  // namespace dotyk::script

@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "script/interrupt.hpp"
 #include "script/position.hpp"
@@ -29,7 +30,11 @@ Record iteration_record(const IterationInfo& info) {
 }
 
 Watch::Watch(lua_State* L, std::string work, std::vector<Function> on_iteration, bool verbose)
-    : L_(L), work_(std::move(work)), on_iteration_(std::move(on_iteration)), verbose_(verbose) {}
+    : L_(L), work_(std::move(work)), on_iteration_(std::move(on_iteration)), verbose_(verbose) {
+  if (!interrupt_answered()) return;
+  request_interrupt();  // so that no pcall goes on
+  throw Interrupted();
+}
 
 Watch::~Watch() { clear_progress(); }
 
@@ -72,7 +77,7 @@ void Watch::answer(const char* advice) {
     const std::string place = !last_ ? "" : last_->step > 0 ? text(" in step ", last_->step, " after iteration ", last_->iteration) : text(" after iteration ", last_->iteration);
     std::fprintf(stderr, "stopped%s: the result is the state so far; %s\n", place.c_str(), advice);
   }
-  clear_interrupt();
+  answer_interrupt();
 }
 
 }  // namespace dotyk::script

@@ -20,7 +20,8 @@ Record iteration_record(const IterationInfo& info);
 class Watch : public Monitor {
  public:
   // `on_iteration` is empty or one function, called as f(k, info); `verbose`
-  // leaves a line on standard error for each iteration.
+  // leaves a line on standard error for each iteration. Throws Interrupted where
+  // Ctrl-C was answered in this input already, by another work's partial result.
   Watch(lua_State* L, std::string work, std::vector<Function> on_iteration = {}, bool verbose = false);
   ~Watch() override;
   Watch(const Watch&) = delete;

@@ -1,0 +1,22 @@
+#pragma once
+// Local variables of a chunk that outlive it as the prompt's: of what is typed there, and of a script before it (-i).
+#include <string>
+
+struct lua_State;
+
+namespace dotyk::script {
+
+// Compiles the text like luaL_loadbufferx, so that the function, run next, leaves the variables of its outermost block as
+// global ones, whether it returns or ends with an error (see keep_locals_after_error). <const> is dropped: constants are
+// in no register, so nobody could read them. What is <close> is closed and forgotten. The function is left on the
+// stack; returns the text it is of. "": nothing is, as the text does not compile or has no room for one variable more.
+std::string load_keeping_locals(lua_State* L, const std::string& text, const std::string& chunk);
+
+// In a message handler, where the frames still stand: keeps what load_keeping_locals' last function has so far.
+void keep_locals_after_error(lua_State* L);
+
+// The text of an input without "local" at its beginning, where that declares what is given a value: functions of the
+// same input then share the variable with what is typed later. And without <const>.
+std::string as_globals(const std::string& text);
+
+}  // namespace dotyk::script

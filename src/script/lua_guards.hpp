@@ -1,0 +1,12 @@
+#pragma once
+// Functions of Lua's own libraries that would run for ever beyond the reach of Ctrl-C, or let a script break what C++
+// relies on, replaced by ones that do the same and do not.
+struct lua_State;
+
+namespace dotyk::script {
+
+// string.rep of nothing; table.move, insert and remove over any number of places; debug.setupvalue and setmetatable on
+// what is not written in Lua, which is refused.
+void guard_lua(lua_State* L);
+
+}  // namespace dotyk::script
