@@ -40,6 +40,25 @@ expect "no home, odd locale" 0 '0.5' '' env -u HOME LC_ALL=de_DE.UTF-8 "$dotyk" 
 expect "-" 0 $'12\tx' '' bash -c 'echo "print(12, arg[1])" | "$0" - x' "$dotyk"
 expect "an error of -" 1 '' 'dotyk: stdin:2: no' bash -c 'printf "\nerror [[no]]\n" | "$0" -' "$dotyk"
 expect "-i" 0 $'7' '' bash -c 'echo y | "$0" -i sets.lua' "$dotyk"
+cat >keeps.lua <<'LUA'
+#!/usr/bin/env dotyk
+local n <const>, t = 3, { 5 }
+local function f(x) return n * x end
+print(select("#", ...))
+LUA
+expect "-i keeps the script's locals" 0 $'0\n3\n{ 5 }\n12\n-- keeps.lua:3\nlocal function f(x) return n * x end' '' \
+  bash -c 'printf "%s\n" n t "f(4)" "f??" | "$0" -i keeps.lua' "$dotyk"
+expect "-i after an error" 0 '1' 'dotyk: wrong.lua:3: gone wrong' bash -c 'echo x | "$0" -i wrong.lua | tail -n 1' "$dotyk"
+expect "-i and a syntax error" 0 '' "dotyk: syntax.lua:1: unexpected symbol near '='" "$dotyk" -i syntax.lua
+expect "-i -e" 0 '7' '' bash -c 'echo x | "$0" -i -e "local x <const> = 7"' "$dotyk"
+expect "locals at the prompt" 0 $'3\n3\nnil\n9\n12\n1' 'prompt:1: oh' bash -c 'printf "%s\n" "local q <const> = 3" q "local a <const>, b = 1, 2" "a + b" "local z" z \
+  "local function f(x)" "return x^2 // 1 | 0 end" "f(3)" "local c <const> = 5 local d <const> = 7" "c + d" "local k = 1 error [[oh]]" k | "$0"; exit 0' "$dotyk"
+expect "a local that is shared" 0 $'2' '' bash -c 'printf "%s\n" "local n = 0 function up() n = n + 1 end" "up() up()" n | "$0"' "$dotyk"
+expect "return" 0 $'5  6\n5' '' bash -c 'printf "%s\n" "return 5, 6" _ | "$0"' "$dotyk"
+expect "a variable called as what Lua has" 0 $'{ 1 }\n{ 2 }' '' bash -c 'printf "%s\n" "local table, type = { 1 }, 5" table "{ 2 }" | "$0"' "$dotyk"
+expect "help on a function typed, and its source" 0 $'A Lua function of 1 argument, written at prompt:1; source(f), or f??, shows it.\n-- prompt:1\nlocal function f(x)\n  return x^2\nend\n-- prompt:1\ng = function(x) local k <const> = 2 return k * x end' '' \
+  bash -c 'printf "%s\n" "local function f(x)" "  return x^2" "end" "g = function(x) local k <const> = 2 return k * x end" "f?" "f??" "g??" | "$0"' "$dotyk"
+expect "source of a text" 0 'this function was given as a text, which is not kept' '' "$dotyk" -e 'source(load "return 1")'
 expect "the prompt from a pipe" 1 $'3\n3\n{ 1, "x" }\n5' "prompt:1: unknown variable 'nix'" \
   bash -c 'printf "%s\n" "1 +" "2" "_" "local t = {" "1, [[x]] }" t "= 5" nix | "$0"' "$dotyk"
 expect "a full disk" 1 '' 'dotyk: standard output could not be written: No space left on device' \
@@ -70,5 +89,28 @@ sleep 0.3
 kill -INT $!
 wait $!
 [[ $? == 1 && $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || fail "interrupt: $(<err.txt)"
+
+# What Lua's library does for ever, one Ctrl-C ends, too.
+for code in 'table.move({}, 1, math.maxinteger - 1, 2)' 'table.insert(setmetatable({}, { __len = function() return 1 << 62 end }), 1, 0)' \
+  'table.remove(setmetatable({}, { __len = function() return 1 << 62 end }), 1)' 'xpcall(error, function() while true do end end)'; do
+  "$dotyk" -e "$code" 2>err.txt &
+  sleep 0.3
+  kill -INT $!
+  wait $!
+  [[ $? == 1 && $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || fail "interrupt of $code: $(<err.txt)"
+done
+# A finalizer runs without hooks: at the end of the program one Ctrl-C ends it, else the second, whenever it comes.
+"$dotyk" -e 'print "kept" setmetatable({}, { __gc = function() while true do end end })' >out.txt &
+sleep 0.3
+kill -INT $!
+wait $!
+[[ $? == 130 && $(<out.txt) == kept ]] || fail "interrupt at the end: $(<out.txt)"
+"$dotyk" -e 'setmetatable({}, { __gc = function() while true do end end }) collectgarbage()' &
+sleep 0.3
+kill -INT $!
+sleep 1.2
+kill -INT $!
+wait $!
+[[ $? == 130 ]] || fail "a second interrupt"
 
 exit $((failures > 0))

@@ -31,6 +31,17 @@ TEST_CASE("completion offers what fits") {
   CHECK(words("-- dotyk.").size() >= 0);
 }
 
+TEST_CASE("completion of what is no Lua") {
+  Bench bench;
+  const auto words = [&](const std::string& text) { return complete(bench.interpreter.state(), text).words; };
+  CHECK(words("%ti") == Words{"time "});
+  CHECK(words("%") == Words{"time "});
+  CHECK(words("%x").empty());
+  CHECK(words("%time dotyk.te") == Words{"test"});
+  CHECK(words("5 %ti").empty());
+  CHECK(words("help \"prom") == Words{"prompt"});
+}
+
 TEST_CASE("completion inside a table argument") {
   Bench bench;
   const auto words = [&](const std::string& text) { return complete(bench.interpreter.state(), text).words; };

@@ -1,6 +1,7 @@
 #!/bin/bash
 # The prompt on a pseudo-terminal: editing, several lines, completion, questions,
 # Ctrl-C, Ctrl-D, pasting, history. Needs script(1).
+tutorial=$(<"$(dirname "$0")/../../scripts/tutorial/01_a_body.lua")
 . "$(dirname "$0")/scratch.sh"
 terminals || exit 77
 export TERM=xterm
@@ -59,6 +60,15 @@ expect "Ctrl-D in an unfinished input" 'still here' 'if true then\n' '\004' 'pri
 expect "an unfinished input left is recalled" 'seven-7' 'print(("seven-" .. 7\n' '\003' '\033[A' '))\n' &
 expect "an input of several lines is recalled as one" '8-8' 'for i = 7, 8 do\n' 'local x = i .. "-" .. i\n' 'if i == 8 then print(x) end end\n' 'print "else"\n' 'for\033[A\n' &
 expect "pasted lines are inputs of their own" 'sum 42' '\033[200~local a = 40\nlocal b = a\n  + 2\nprint("sum " .. b)\033[201~\n' &
+mkdir images
+expect "a tutorial pasted" 'sinks 0.0897' "\\033[200~${tutorial//\\/\\\\}\\033[201~\n" '' 'print(("sinks %.4f"):format(-tip))\n' &
+expect "completion of %time" 's of processors' '%ti\t6 * 7\n' &
+(dotyk="stty rows 20; PAGER='sed s/^/paged:/' $dotyk" && expect "long help is paged" 'paged:  %time EXPRESSION' 'help()\n') &
+(dotyk="stty rows 20; PAGER='head -n 1' $dotyk" && expect "a pager that goes early" '42' 'help()\n' '6 * 7\n') &
+(dotyk="stty rows 20; PAGER=/nowhere $dotyk 2>/dev/null" && expect "a pager that is none" '  %time EXPRESSION' 'help()\n') &
+(dotyk="stty rows 20; PAGER='sed s/%time/%zeit/' $dotyk --safe $folder" && expect "--safe starts no pager" '  %time EXPRESSION' 'help()\n') &
+mkdir -p "$folder/no history/.dotyk_history" # which root cannot write, either
+expect "no history" 'dotyk: history is not kept: ' '6 * 7\n' &
 cat >"$folder/shape.lua" <<'END'
 local block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = { -1, 0 }, to = { 1, 1 }, cells = { 8, 4 } }, material = dotyk.material{ E = 1000, nu = 0.3 } }
 block:part "top":load{ 0, -1 }
@@ -79,6 +89,11 @@ expect "Ctrl-C in an optimisation" 'ended: stopped, 4 variables' "dofile \"$fold
 expect "Ctrl-C in a solve" 'stopped after iteration' "$block" 'scene = dotyk.scene{ block } block:part "top":load{ 0, -1 } block:part "left":fix "x"\n' \
   'scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }\n' \
   's = dotyk.solver.pdas{ on_iteration = function() while os.clock() < 1.2 do end end }:solve(scene)\n' '\003' '' '' '' &
+solves='b = 0 for i = 1, 9 do b = i s = slow:solve(scene) end\n'
+expect "Ctrl-C in a loop of solves" 'loop 1: 11' "$block" 'scene = dotyk.scene{ block } block:part "top":load{ 0, -1 } block:part "left":fix "x"\n' \
+  'scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }\n' \
+  'function slowly() local t = os.clock() while os.clock() < t + 1.2 do end end slow = dotyk.solver.pdas{ on_iteration = slowly }\n' \
+  "$solves" '\003' '' '' '' '' 'print(("loop %d: %d"):format(b - 1, s.unknowns - 4))\n' &
 (
   expect "history" 'ninety-9' 'print("ninety" .. "-" .. 9)\n'
   expect "history" 'ninety-9' 'print("nin\033[A\n'

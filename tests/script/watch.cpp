@@ -61,3 +61,19 @@ TEST_CASE("Ctrl-C ends a script, but at the prompt the partial result is kept") 
   CHECK_FALSE(run("prompt"));
   CHECK(bench.error("assert(done == 0)") == "");
 }
+
+TEST_CASE("after a partial result the next work of the same input is one too many") {
+  Bench bench;
+  add_work(bench);
+  watch_interrupts(bench.interpreter.state());
+  const auto run = [&] {
+    request_interrupt();
+    lua_sethook(bench.interpreter.state(), nullptr, 0, 0);
+    const auto error = bench.interpreter.run_text("rounds = 0\nfor i = 1, 100 do done = dotyk.test.work{} rounds = i pcall(dotyk.test.work, {}) end", "prompt").value_or("");
+    clear_interrupt();
+    return error;
+  };
+  CHECK(run().find("interrupted") != std::string::npos);
+  CHECK(bench.error("assert(done == 0 and rounds == 1)") == "");  // the state so far stays
+  CHECK(bench.interpreter.run_text("for i = 1, 3 do assert(dotyk.test.work{} == 5) end", "prompt").value_or("") == "");
+}

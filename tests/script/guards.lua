@@ -1,0 +1,71 @@
+-- Lua's own functions that dotyk replaces do what they did, and refuse what would break C++.
+local refused <const> = require "refused"
+local check <const> = require "check"
+
+-- Nothing, again and again; places beyond counting are another test's (command_line.sh).
+check.equal((""):rep(math.maxinteger), "")
+check.equal((""):rep(3, "x"), "xx")
+check.equal(("ab"):rep(3, ","), "ab,ab,ab")
+check.equal(("ab"):rep(-1), "")
+refused(function() ("x"):rep() end, "number expected, got no value")
+refused(function() ("x"):rep(math.maxinteger) end, "resulting string too large")
+
+local function text(t) return table.concat(t, " ") end
+check.equal(text(table.move({ 1, 2, 3 }, 1, 3, 2)), "1 1 2 3")
+check.equal(text(table.move({ 1, 2, 3 }, 2, 3, 1)), "2 3 3")
+check.equal(text(table.move({ 1, 2, 3 }, 1, 3, 2, { 9 })), "9 1 2 3")
+refused(function() table.move({}, -5, math.maxinteger, 2) end, "too many elements to move")
+refused(function() table.move({}, 1, math.maxinteger, 2) end, "destination wrap around")
+refused(function() table.move({}, 1, 2) end, "bad argument #4")
+-- More than are moved without a look at Ctrl-C, forwards, backwards and into another table.
+local n <const>, long <const> = (1 << 20) + 5, {}
+for i = 1, n do long[i] = i end
+local other <const> = table.move(long, 1, n, 3, {})
+assert(other[3] == 1 and other[n + 2] == n and other[2] == nil)
+table.move(long, 1, n, 2)
+assert(long[1] == 1 and long[2] == 1 and long[n + 1] == n and long[n] == n - 1)
+table.move(long, 2, n + 1, 1)
+assert(long[1] == 1 and long[n] == n and long[n // 2] == n // 2)
+
+-- Tables that say themselves how long they are.
+local own <const> = setmetatable({}, { __len = function(t) return rawlen(t) end })
+for i = 1, 5 do table.insert(own, 1, i) end
+table.insert(own, 3, 9)
+table.insert(own, 0)
+check.equal(text(own), "5 4 9 3 2 1 0")
+check.equal(table.remove(own, 2), 4)
+check.equal(table.remove(own), 0)
+check.equal(table.remove(own, 5), 1)
+check.equal(table.remove(own, 5), nil)
+check.equal(text(own), "5 9 3 2")
+refused(function() table.insert(own, 9, 1) end, "position out of bounds")
+refused(function() table.remove(own, 9) end, "position out of bounds")
+refused(function() table.insert(own, 1, 2, 3) end, "wrong number of arguments")
+local plain <const> = { 1, 2 }
+table.insert(plain, 1, 0)
+check.equal(text(plain) .. table.remove(plain, 1) .. #plain, "0 1 202")
+
+-- What C++ relies on cannot be changed from Lua.
+local material <const> = dotyk.material{ E = 1 }
+refused(function() debug.setupvalue(dotyk.solve, 1, nil) end, "debug.setupvalue: expected a function written in Lua, not one of Lua's or dotyk's own")
+refused(function() debug.setupvalue(string.rep, 1, nil) end, "debug.setupvalue: expected a function written in Lua")
+refused(function() debug.upvaluejoin(dotyk.solve, 1, dotyk.body, 1) end, "Lua function expected")
+refused(function() debug.setmetatable(io.stdout, debug.getmetatable(material)) end, "debug.setmetatable: an object of dotyk's, or a file, keeps its metatable")
+refused(function() debug.setmetatable(material, debug.getmetatable(io.stdout)) end, "debug.setmetatable: an object of dotyk's, or a file, keeps its metatable")
+local function counter() local k = 0 return function() k = k + 1 return k end end
+local f <const> = counter()
+check.equal(debug.setupvalue(f, 1, 41), "k")
+check.equal(f(), 42)
+check.equal(getmetatable(debug.setmetatable({}, { x = 1 })).x, 1)
+
+-- xpcall as ever.
+local ok <const>, message <const> = xpcall(error, function(m) return "handled " .. m end, "x", 0)
+assert(not ok and message == "handled x")
+check.equal(select("#", xpcall(function(...) return ... end, print, 1, 2, 3)), 4)
+refused(function() xpcall(print) end, "bad argument #2")
+local co <const> = coroutine.wrap(function() return xpcall(function() return coroutine.yield(1) end, print) end)
+assert(co() == 1 and select(2, co(5)) == 5)
+
+-- A picture has nowhere to go: said before it is drawn, and what to do.
+refused(function() dotyk.chart{ file = "nowhere/x.png", series = { { x = { 0, 1 }, y = { 0, 1 } } } } end,
+  "chart: cannot write nowhere/x.png: folder nowhere: No such file or directory; it must be there first: mkdir -p nowhere")
