@@ -23,7 +23,7 @@ mkdir "$folder/work"
 
 # An empty history and a folder of its own; pictures go to files alone.
 $tmux start-server \; set-option -g history-limit 20000 \; new-session -d -s s -x 136 -y 48 \
-  "cd '$folder/work' && HOME='$folder/work' XDG_STATE_HOME='$folder/work' DOTYK_PICTURES=none TERM=screen '$dotyk'; sleep 1000"
+  "cd '$folder/work' && HOME='$folder/work' XDG_STATE_HOME='$folder/work' DOTYK_PICTURES=none PAGER= TERM=screen '$dotyk'; sleep 1000"
 
 # The line of the cursor.
 line() { $tmux capture-pane -p -t s | sed -n "$(($($tmux display-message -p -t s '#{cursor_y}') + 1))p" | sed 's/ *$//'; }
