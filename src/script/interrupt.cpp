@@ -40,11 +40,30 @@ void disarm(lua_State* L) {
   else lua_sethook(L, nullptr, 0, 0);
 }
 
+// A message handler runs without hooks after a hook's error, so the innermost xpcall gets one that passes the message on.
+// (No wrapper around every handler: it would stand in their stack of calls.)
+lua_CFunction lua_xpcall = nullptr;
+
+void pass_handler_over(lua_State* L) {
+  constexpr int most = 5000;  // levels: lua_getstack counts from the innermost each time
+  lua_Debug frame;
+  for (int level = 0; level < most && lua_getstack(L, level, &frame); ++level) {
+    lua_getinfo(L, "f", &frame);
+    const bool handled = lua_xpcall && lua_tocfunction(L, -1) == lua_xpcall;
+    lua_pop(L, 1);
+    if (!handled) continue;
+    lua_pushcfunction(L, [](lua_State*) { return 1; });
+    lua_setlocal(L, &frame, 2);  // where xpcall keeps it
+    return;
+  }
+}
+
 // Raises in whatever code runs next, again and again until the request is
 // answered, so that a pcall in a loop cannot swallow it.
 void stop_here(lua_State* L, lua_Debug* event) {
   const bool counting = lua_gethookmask(L) == LUA_MASKCOUNT;
   if (counting && event->event == LUA_HOOKCOUNT) used += interval;
+  if (pending || spent()) pass_handler_over(L);
   if (pending) raise(L, "", "interrupted");
   if (!spent()) {
     if (!counting) disarm(L);
@@ -155,23 +174,6 @@ int wrap(lua_State* L) {
   return 1;
 }
 
-// The message handler of xpcall, upvalue 1, runs without hooks after a hook's error: then it is left out.
-int handle(lua_State* L) {
-  if (pending || spent()) return 1;
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, 1);
-  return 1;
-}
-
-int protected_call(lua_State* L) {
-  luaL_checktype(L, 2, LUA_TFUNCTION);
-  lua_pushvalue(L, 2);
-  lua_pushcclosure(L, handle, 1);
-  lua_replace(L, 2);
-  return lua_tocfunction(L, lua_upvalueindex(1))(L);
-}
-
 int set_metatable(lua_State* L) {
   if (lua_istable(L, 2)) {
     lua_pushliteral(L, "__gc");
@@ -235,8 +237,8 @@ void watch_interrupts(lua_State* L) {
   replace_field(L, "wrap", wrap);
   replace_field(L, "create", create);
   lua_pop(L, 1);
-  lua_pushglobaltable(L);
-  replace_field(L, "xpcall", protected_call);
+  lua_getglobal(L, "xpcall");
+  lua_xpcall = lua_tocfunction(L, -1);
   lua_pop(L, 1);
   struct sigaction action {};
   action.sa_handler = on_signal;

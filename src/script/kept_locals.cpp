@@ -129,6 +129,20 @@ void keep(lua_State* L, const lua_Debug& frame, int index) {
   lua_pop(L, 1);
 }
 
+// Each lua_getstack counts from the innermost: of a stack that overflows there are too many to try them all.
+bool outermost(lua_State* L, lua_Debug& frame) {
+  int known = -1, beyond = 1;
+  while (lua_getstack(L, beyond - 1, &frame)) {
+    known = beyond - 1;
+    beyond *= 2;
+  }
+  for (beyond -= 1; beyond - known > 1;) {
+    const int middle = known + (beyond - known) / 2;
+    (lua_getstack(L, middle, &frame) ? known : beyond) = middle;
+  }
+  return known >= 0 && lua_getstack(L, known, &frame);
+}
+
 // __close of the first variable, while the frame that ends still stands. After an error it does not.
 int keep_at_end(lua_State* L) {
   lua_Debug frame;
@@ -190,13 +204,11 @@ void keep_locals_after_error(lua_State* L) {
   if (lua_getfield(L, LUA_REGISTRYINDEX, kept) != LUA_TTABLE) return lua_pop(L, 1);
   lua_rawgeti(L, -1, 1);
   lua_Debug frame;
-  for (int level = 0; lua_getstack(L, level, &frame); ++level) {
+  if (outermost(L, frame)) {
     lua_getinfo(L, "f", &frame);
     const bool same = lua_rawequal(L, -1, -2);
     lua_pop(L, 1);
-    if (!same) continue;
-    keep(L, frame, lua_absindex(L, -2));
-    break;
+    if (same) keep(L, frame, lua_absindex(L, -2));
   }
   lua_pop(L, 2);
 }

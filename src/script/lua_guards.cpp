@@ -75,9 +75,23 @@ int remove(lua_State* L) {
 
 [[noreturn]] void refuse(lua_State* L, const char* name, const char* why) { raise(L, name, why); }
 
+constexpr char of_lua[] = "expected a function written in Lua, not one of Lua's or dotyk's own";
+
 // What a function written in C++ holds is looked at by nobody again.
 int set_upvalue(lua_State* L) {
-  if (lua_iscfunction(L, 1)) refuse(L, "debug.setupvalue", "expected a function written in Lua, not one of Lua's or dotyk's own");
+  if (lua_iscfunction(L, 1)) refuse(L, "debug.setupvalue", of_lua);
+  return original(L);
+}
+
+// Nor are the arguments of one that runs.
+int set_local(lua_State* L) {
+  const int first = lua_isthread(L, 1) ? 2 : 1;
+  lua_State* thread = first == 2 ? lua_tothread(L, 1) : L;
+  const auto level = lua_tointeger(L, first);
+  lua_Debug frame;
+  if (level < 0 || level > 1000000 || !lua_getstack(thread, static_cast<int>(level), &frame)) return original(L);
+  lua_getinfo(thread, "S", &frame);
+  if (frame.what[0] == 'C') refuse(L, "debug.setlocal", of_lua);
   return original(L);
 }
 
@@ -86,6 +100,13 @@ int set_metatable(lua_State* L) {
   if (lua_type(L, 1) == LUA_TUSERDATA) refuse(L, "debug.setmetatable", "an object of dotyk's, or a file, keeps its metatable");
   return original(L);
 }
+
+// What a userdata refers to, and by which metatable C++ knows it.
+int set_user_value(lua_State* L) {
+  if (lua_type(L, 1) == LUA_TUSERDATA) refuse(L, "debug.setuservalue", "an object of dotyk's keeps its value");
+  return original(L);
+}
+int get_registry(lua_State* L) { refuse(L, "debug.getregistry", "the registry is Lua's and dotyk's own"); }
 
 void replace(lua_State* L, const char* library, const char* name, lua_CFunction function) {
   lua_getglobal(L, library);
@@ -103,7 +124,10 @@ void guard_lua(lua_State* L) {
   replace(L, "table", "insert", insert);
   replace(L, "table", "remove", remove);
   replace(L, "debug", "setupvalue", set_upvalue);
+  replace(L, "debug", "setlocal", set_local);
   replace(L, "debug", "setmetatable", set_metatable);
+  replace(L, "debug", "setuservalue", set_user_value);
+  replace(L, "debug", "getregistry", get_registry);
 }
 
 }  // namespace dotyk::script

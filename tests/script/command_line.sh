@@ -92,7 +92,8 @@ wait $!
 
 # What Lua's library does for ever, one Ctrl-C ends, too.
 for code in 'table.move({}, 1, math.maxinteger - 1, 2)' 'table.insert(setmetatable({}, { __len = function() return 1 << 62 end }), 1, 0)' \
-  'table.remove(setmetatable({}, { __len = function() return 1 << 62 end }), 1)' 'xpcall(error, function() while true do end end)'; do
+  'table.remove(setmetatable({}, { __len = function() return 1 << 62 end }), 1)' 'xpcall(error, function() while true do end end)' \
+  'while true do xpcall(function() while true do end end, function() while true do end end) end'; do
   "$dotyk" -e "$code" 2>err.txt &
   sleep 0.3
   kill -INT $!

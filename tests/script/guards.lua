@@ -52,6 +52,12 @@ refused(function() debug.setupvalue(string.rep, 1, nil) end, "debug.setupvalue: 
 refused(function() debug.upvaluejoin(dotyk.solve, 1, dotyk.body, 1) end, "Lua function expected")
 refused(function() debug.setmetatable(io.stdout, debug.getmetatable(material)) end, "debug.setmetatable: an object of dotyk's, or a file, keeps its metatable")
 refused(function() debug.setmetatable(material, debug.getmetatable(io.stdout)) end, "debug.setmetatable: an object of dotyk's, or a file, keeps its metatable")
+refused(function() debug.setuservalue(material, {}) end, "debug.setuservalue: an object of dotyk's keeps its value")
+refused(function() debug.getregistry() end, "debug.getregistry: the registry is Lua's and dotyk's own")
+refused(function() table.sort({ 2, 1 }, function(a, b) debug.setlocal(2, 1, nil) return a < b end) end, "debug.setlocal: expected a function written in Lua")
+local function changed() local x = 1 debug.setlocal(1, 1, 5) return x end
+check.equal(changed(), 5)
+refused(function() debug.setlocal(1000, 1, 5) end, "level out of range")
 local function counter() local k = 0 return function() k = k + 1 return k end end
 local f <const> = counter()
 check.equal(debug.setupvalue(f, 1, 41), "k")
@@ -63,6 +69,7 @@ local ok <const>, message <const> = xpcall(error, function(m) return "handled " 
 assert(not ok and message == "handled x")
 check.equal(select("#", xpcall(function(...) return ... end, print, 1, 2, 3)), 4)
 refused(function() xpcall(print) end, "bad argument #2")
+xpcall(error, function() check.equal(debug.getinfo(2, "f").func, error) end)
 local co <const> = coroutine.wrap(function() return xpcall(function() return coroutine.yield(1) end, print) end)
 assert(co() == 1 and select(2, co(5)) == 5)
 

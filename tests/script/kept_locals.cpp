@@ -30,6 +30,8 @@ TEST_CASE("locals of a script stay, whatever ends it") {
   CHECK(prompt("assert(early == 1 and rawget(_G, 'late') == nil)") == "");
   CHECK(bench.error("local before <const> = 7\nlocal function deep() local hidden = 1 error 'oh' end\nfor i = 4, 5 do deep() end\nlocal after = 1") == "t.lua:2: oh");
   CHECK(prompt("assert(before == 7 and i == 4 and not rawget(_G, 'hidden') and not rawget(_G, 'after'))") == "");
+  CHECK(bench.error("local deepest <const> = 8\nlocal function f() return 1 + f() end f()").find("stack overflow") != std::string::npos);
+  CHECK(prompt("assert(deepest == 8)") == "");
   CHECK(bench.error("local x <const> = 1 x = 2") == "t.lua:1: attempt to assign to const variable 'x'");
   CHECK(bench.error("return select('#', ...)") == "");
   CHECK(prompt("assert(not rawget(_G, '__keep_locals'))") == "");
