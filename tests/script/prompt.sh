@@ -68,7 +68,7 @@ expect "completion of %time" 's of processors' '%ti\t6 * 7\n' &
 (dotyk="stty rows 20; PAGER=/nowhere $dotyk 2>/dev/null" && expect "a pager that is none" '  %time EXPRESSION' 'help()\n') &
 (dotyk="stty rows 20; PAGER='sed s/%time/%zeit/' $dotyk --safe $folder" && expect "--safe starts no pager" '  %time EXPRESSION' 'help()\n') &
 (unset TMUX STY DOTYK_PICTURES; export LC_TERMINAL=iTerm2 # as ssh passes on
-  expect "a picture in iTerm2 by ssh" ']1337;File=inline=1' 'dotyk.chart{ file = "iterm.png", series = { { x = {0,1}, y = {0,1} } } }\n') &
+  expect "a picture in iTerm2 by ssh" ']1337;File=inline=1' 'dotyk.chart{ file = "iterm.png", series = { { x = {0,1}, y = {0,1} } } }\n' '' '' '' '' '') &
 mkdir -p "$folder/no history/.dotyk_history" # which root cannot write, either
 expect "no history" 'dotyk: history is not kept: ' '6 * 7\n' &
 cat >"$folder/shape.lua" <<'END'
