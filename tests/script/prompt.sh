@@ -17,7 +17,7 @@ session() {
     done
     printf '\004'
     sleep 0.3
-  } | timeout 60 script -qec "$dotyk" /dev/null | tr -d '\r'
+  } | timeout 60 script -qec "$dotyk" /dev/null | tr -d '\r\000'
 }
 
 # expect NAME TEXT KEYS…: the text is on the screen. Sessions mostly wait, so all
