@@ -41,9 +41,10 @@ Watch::~Watch() { clear_progress(); }
 void Watch::phase(const std::string& what) { show_progress(work_ + ": " + what + " …"); }
 
 void Watch::iteration(const IterationInfo& info) {
-  const auto line =
-      text(work_, info.step > 0 ? text(": step ", info.step, ", iteration ") : ": iteration ", info.iteration, ", ", info.active, " active, ", info.changed, " changed, ",
-           info.stick, " stick, ", info.slip, " slip, ", info.inner > 0 ? text(info.inner, " inner, ") : "", "residual ", std::setprecision(3), info.residual, ", ", std::fixed, std::setprecision(1), info.seconds, " s");
+  const auto line = text(work_, info.step > 0 ? text(": step ", info.step, ", iteration ") : ": iteration ", info.iteration, ", residual ",
+                         std::setprecision(3), info.residual, ", ", info.active, " active, ", info.changed, " changed, ", info.stick,
+                         " stick, ", info.slip, " slip, ", info.inner > 0 ? text(info.inner, " inner, ") : "", std::fixed,
+                         std::setprecision(1), info.seconds, " s");
   last_ = info;
   if (verbose_) {
     clear_progress();
