@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,25 +10,82 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/place.hpp"
+#include "base/removed_at_end.hpp"
 
 namespace dotyk {
 
-/// Writes a text file whole or not at all: beside its place first, then renamed into it.
+namespace detail {
+
+/// What stands there, in words; null for a file.
+inline const char* no_file(mode_t mode) {
+  if (S_ISREG(mode)) return nullptr;
+  return S_ISDIR(mode) ? "a folder" : S_ISFIFO(mode) ? "a pipe" : S_ISSOCK(mode) ? "a socket" : "a device";
+}
+
+}  // namespace detail
+
+/// The name under which a result is to be written: the file's own, or where it leads as a symbolic link, so that the link
+/// stays. Throws InputError where something is there that is no file: to put one in its place would take away a device.
+inline std::string place_to_write(const std::string& file) {
+  if (file.empty()) throw InputError("a file name is needed");
+  struct stat info {};
+  const bool link = lstat(file.c_str(), &info) == 0 && S_ISLNK(info.st_mode);
+  std::string place = link ? place_of(file).string() : file;
+  if (stat(file.c_str(), &info) == 0)
+    if (const char* kind = detail::no_file(info.st_mode))
+      throw InputError("cannot write '" + file + "': it " + (link ? "leads to '" + place + "', " : "is ") + kind + "; results are written to files");
+  return place;
+}
+
+/// A result that is written whole or not at all: beside its place first, then renamed into it. What was there stays until
+/// then. Gone if it is never finished, also where a signal ends the program. Throws InputError naming file and reason.
+class PartFile {
+ public:
+  explicit PartFile(const std::string& file)
+      : file_(file), place_(place_to_write(file)), part_(place_ + ".part-" + std::to_string(getpid())), at_end_(part_) {
+    unlink(part_.c_str());  // of a process of this number that was killed; and no link is followed
+    out_ = open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (out_ < 0) fail(std::strerror(errno));
+  }
+  ~PartFile() {
+    if (out_ >= 0) close(out_);
+    if (!done_) unlink(part_.c_str());
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  /// An empty file, for those who write it themselves.
+  const std::string& name() const { return part_; }
+
+  void write(const void* bytes, std::size_t size) {
+    for (const char* at = static_cast<const char*>(bytes); size > 0;) {
+      const ssize_t n = ::write(out_, at, size);
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail(std::strerror(errno));
+      at += n, size -= static_cast<std::size_t>(n);
+    }
+  }
+  void finish() {
+    const int out = out_;
+    out_ = -1;
+    if (close(out) != 0 || std::rename(part_.c_str(), place_.c_str()) != 0) fail(std::strerror(errno));
+    done_ = true;
+  }
+  [[noreturn]] void fail(const std::string& reason) const { throw InputError("cannot write '" + file_ + "': " + reason); }
+
+ private:
+  std::string file_, place_, part_;
+  RemovedAtEnd at_end_;
+  int out_ = -1;
+  bool done_ = false;
+};
+
 /// Throws InputError naming the file and the reason.
 inline void write_whole_file(const std::string& file, const std::string& content) {
-  if (file.empty()) throw InputError("a file name is needed");
-  const std::string beside = file + ".part-" + std::to_string(::getpid());
-  const auto fail = [&](int reason) {
-    std::remove(beside.c_str());
-    throw InputError("cannot write '" + file + "': " + std::strerror(reason));
-  };
-  std::FILE* out = std::fopen(beside.c_str(), "wb");
-  if (!out) throw InputError("cannot write '" + file + "': " + std::strerror(errno));
-  const bool written = std::fwrite(content.data(), 1, content.size(), out) == content.size();
-  const int reason = errno;
-  if (std::fclose(out) != 0) fail(errno);
-  if (!written) fail(reason);
-  if (std::rename(beside.c_str(), file.c_str()) != 0) fail(errno);
+  PartFile part(file);
+  part.write(content.data(), content.size());
+  part.finish();
 }
 
 }  // namespace dotyk

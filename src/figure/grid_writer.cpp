@@ -15,13 +15,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <stdexcept>
-
+#include "base/whole_file.hpp"
 #include "figures.hpp"
 
 namespace dotyk::figure {
@@ -65,30 +59,6 @@ void add_cells(const GridFile& file, vtkUnstructuredGrid* grid) {
   grid->GetCellData()->AddArray(body);
   grid->GetFieldData()->AddArray(names);
 }
-
-// Beside its place until it is whole; gone if it never becomes so.
-class PartFile {
- public:
-  explicit PartFile(const std::string& file) : file_(file), part_(file + ".tmp-" + std::to_string(getpid())) {}
-  ~PartFile() {
-    if (!done_) std::remove(part_.c_str());
-  }
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
-
-  const std::string& name() const { return part_; }
-  void finish() {
-    if (std::rename(part_.c_str(), file_.c_str()) != 0) fail(std::strerror(errno));
-    done_ = true;
-  }
-  [[noreturn]] void fail(const std::string& reason) const {
-    throw std::runtime_error("cannot write " + file_ + ": " + reason);
-  }
-
- private:
-  std::string file_, part_;
-  bool done_ = false;
-};
 
 // VTK's own complaints would go to standard error, past the script's error.
 class Quiet {

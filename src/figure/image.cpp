@@ -1,12 +1,7 @@
 #include "image.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
@@ -15,6 +10,8 @@
 #include <vtkPNGWriter.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
+
+#include "base/whole_file.hpp"
 
 namespace dotyk::figure {
 
@@ -63,38 +60,15 @@ vtkSmartPointer<vtkUnsignedCharArray> encode(const Image& image) {
   return bytes;
 }
 
-[[noreturn]] void fail(const std::string& file, int reason) {
-  throw std::runtime_error("cannot write " + file + ": " + std::strerror(reason));
-}
-
 }  // namespace
 
 void write_png(const Image& image, const std::string& file) {
   const vtkSmartPointer<vtkUnsignedCharArray> bytes = encode(image);
   const auto size = static_cast<std::size_t>(bytes->GetNumberOfValues());
   if (size == 0) throw std::runtime_error("cannot encode " + file + " as PNG");
-
-  const std::string part = file + ".tmp-" + std::to_string(getpid());
-  const int out = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (out < 0) fail(file, errno);
-  const unsigned char* at = bytes->GetPointer(0);
-  std::size_t left = size;
-  int reason = 0;
-  while (left > 0 && reason == 0) {
-    const ssize_t n = write(out, at, left);
-    if (n >= 0) {
-      at += n;
-      left -= static_cast<std::size_t>(n);
-    } else if (errno != EINTR) {
-      reason = errno;
-    }
-  }
-  if (close(out) != 0 && reason == 0) reason = errno;
-  if (reason == 0 && std::rename(part.c_str(), file.c_str()) != 0) reason = errno;
-  if (reason != 0) {
-    unlink(part.c_str());
-    fail(file, reason);
-  }
+  PartFile part(file);
+  part.write(bytes->GetPointer(0), size);
+  part.finish();
 }
 
 }  // namespace dotyk::figure

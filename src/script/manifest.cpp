@@ -69,7 +69,9 @@ void Manifest::write(lua_State* L, const std::string& file, const std::string& c
   lines += line("dotyk", DOTYK_VERSION) + line("commit", commit) + line("processor", processor()) +
            line("cores", std::to_string(std::thread::hardware_concurrency())) + line("date", date()) +
            line("seconds", text(clock_.seconds()));
-  write_whole_file(file + ".manifest", lines);
+  const std::string beside = file + ".manifest";
+  if (const auto& folder = Library::of(L).folder) folder->require(beside);
+  write_whole_file(beside, lines);
 }
 
 }  // namespace dotyk::script

@@ -32,7 +32,7 @@ for _, name in ipairs{ "a.png", "a.vtu", "a.csv" } do assert(os.execute(("mkdir 
 local before <const> = files()
 refused(function() s:render{ file = folder .. "/a.png" } end, "it is a folder")
 refused(function() s:write(folder .. "/a.vtu") end, "it is a folder")
-refused(function() s:write_contact(folder .. "/a.csv") end, "Is a directory")
+refused(function() s:write_contact(folder .. "/a.csv") end, "it is a folder")
 check.equal(files(), before)
 -- Another ending, no name at all.
 refused(function() s:render{ file = folder .. "/b.jpg" } end, "must end in .png")

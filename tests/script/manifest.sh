@@ -41,9 +41,12 @@ mkdir chart.png.manifest.d && rm chart.png.manifest && mv chart.png.manifest.d c
 got=$("$dotyk" --manifest block.lua 2>&1)
 [[ $? == 1 && $got == "dotyk: block.lua:10: chart: cannot write 'chart.png.manifest': "* ]] || fail "a folder in its place: $got"
 
-# A manifest is below the folder too, as its file is; a link in its place leads nowhere: it is replaced.
+# A manifest is below the folder too, as its file is, and a link in its place may not lead out.
 mkdir below && echo kept >outside.txt && ln -s ../outside.txt below/x.png.manifest
+got=$("$dotyk" --manifest --safe below -e 'dotyk.chart{ file = "below/x.png", series = { { x = {0,1}, y = {0,1} } } }' 2>&1)
+[[ $? == 1 && $got == "dotyk: -e:1: chart: 'below/x.png.manifest' is not below 'below', the folder of this run (--safe)" && $(<outside.txt) == kept ]] || fail "a link in its place: $got"
+rm below/x.png.manifest && ln -s y.manifest below/x.png.manifest
 "$dotyk" --manifest --safe below -e 'dotyk.chart{ file = "below/x.png", series = { { x = {0,1}, y = {0,1} } } }' || fail "--safe"
-[[ $(<outside.txt) == kept ]] && grep -q '^call: dotyk.chart$' below/x.png.manifest || fail "a link in its place"
+grep -q '^call: dotyk.chart$' below/y.manifest && [[ -L below/x.png.manifest ]] || fail "a link within the folder"
 
 exit $((failures > 0))

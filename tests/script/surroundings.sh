@@ -44,8 +44,13 @@ if unshare -m true 2>/dev/null && private 'mkdir -p "$1/m" && mount -t tmpfs -o 
   private 'mount -t tmpfs none /usr/share/fonts && mkdir "$1/fonts" && echo "<fontconfig/>" >"$1/fonts.conf" && cd "$1/fonts" &&
     FONTCONFIG_FILE=$1/fonts.conf "$0" -e "dotyk.chart{ file = [[c.png]], title = [[µ, ü]], x = [[x]], series = { { name = [[a]], x = {0,1}, y = {0,1} } } }" 2>err.txt
     [[ $? == 0 && $(head -c 4 c.png) == $(printf "\211PNG") && $(wc -c <c.png) -gt 3000 ]] || { cat err.txt; exit 1; }' || fail "no fonts"
+  # A reader that was built and is not there any more is not one that was left out.
+  readers=$(realpath "$(dirname "$dotyk")/../../readers")
+  echo '<VTKFile/>' >lost.vtu
+  private "mount -t tmpfs none '$readers'"' && "$0" -e "dotyk.mesh.load [[$1/lost.vtu]]" 2>"$1/err.txt"
+    [[ $? == 1 && $(<"$1/err.txt") == "dotyk: -e:1: load: the program dotyk_vtu, which reads such files, is not beside dotyk or in its library folder"* ]] || { cat "$1/err.txt"; exit 1; }' || fail "a reader that is not there"
 else
-  echo "no namespace of mounts: full disks, read-only folders and absent fonts are left out"
+  echo "no namespace of mounts: full disks, read-only folders, absent fonts and lost readers are left out"
 fi
 
 # A limit of file sizes is a full disk of another kind: it ends other programs by a signal.
@@ -71,7 +76,7 @@ done
 got=$(printf '6 * 7\n' | HOME=/proc/nowhere "$dotyk" 2>&1)
 [[ $got == 42 ]] || fail "a home that is not there: $got"
 
-# Killed while it writes, again and again: each file is one of the two, whole.
+# Killed or ended while it writes, again and again: each file is one of the two, whole. Of one that is ended nothing else stays.
 cat >writing.lua <<'LUA'
 local solved <const>, writers <const> = dofile "solved.lua"
 local states <const> = { solved(-0.1), solved(-0.3) }
@@ -84,17 +89,19 @@ LUA
 mkdir one two now
 "$dotyk" writing.lua 1 one && "$dotyk" writing.lua 2 two || fail "what is written"
 cp one/* now
-for round in 1 2 3 4 5 6 7 8; do
+for signal in KILL KILL KILL KILL KILL KILL TERM TERM TERM TERM TERM HUP HUP HUP; do
   mkfifo ready
   "$dotyk" writing.lua >ready &
   writing=$!
   read -r _ <ready
   sleep "0.$((RANDOM % 5 + 1))$((RANDOM % 10))"
-  kill -9 $writing
+  kill -$signal $writing
   wait $writing 2>/dev/null
+  if [[ $signal == KILL ]]; then rm -f now/*.part-*; fi
+  [[ $(ls -A now) == $'s.csv\ns.png\ns.vtu' ]] || fail "SIG$signal: $(ls -A now)"
   rm ready
   for file in s.png s.vtu s.csv; do
-    cmp -s "now/$file" "one/$file" || cmp -s "now/$file" "two/$file" || fail "killed in round $round: $file is neither"
+    cmp -s "now/$file" "one/$file" || cmp -s "now/$file" "two/$file" || fail "SIG$signal: $file is neither"
   done
 done
 
