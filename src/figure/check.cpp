@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/whole_file.hpp"
 #include "window.hpp"
 
 namespace dotyk::figure {
@@ -29,20 +30,45 @@ std::string number(double value) {
   return text;
 }
 
+/// Without code points that stand for no character: what VTK refuses in the middle of a picture.
+bool is_utf8(const std::string& words) {
+  const auto* at = reinterpret_cast<const unsigned char*>(words.data());
+  const unsigned char* const end = at + words.size();
+  while (at < end) {
+    const int first = *at++, more = first < 0x80 ? 0 : first >= 0xc2 && first < 0xe0 ? 1 : first >= 0xe0 && first < 0xf0 ? 2 : first >= 0xf0 && first < 0xf5 ? 3 : -1;
+    if (more < 0 || end - at < more) return false;
+    static constexpr int mask[] = {0x7f, 0x1f, 0x0f, 0x07}, least[] = {0, 0x80, 0x800, 0x10000};
+    int point = first & mask[more];
+    for (int k = 0; k < more; ++k, ++at) {
+      if ((*at & 0xc0) != 0x80) return false;
+      point = point << 6 | (*at & 0x3f);
+    }
+    if (point < least[more] || point > 0x10ffff || (point >= 0xd800 && point < 0xe000) || point == 0xfffe || point == 0xffff) return false;
+  }
+  return true;
+}
+
+// Of every text that is drawn; `key` is what scripts call it.
+void check_text(const std::string& key, const std::string& words) {
+  constexpr std::size_t most = 1000;
+  if (words.size() > most) throw InputError(key + " has " + count(words.size()) + " bytes; a text in a figure has at most " + count(most));
+  if (!is_utf8(words)) throw InputError(key + " is not valid UTF-8");
+}
+
 // `ending` with its dot.
 void check_file(const std::string& file, const std::string& ending) {
   require(!file.empty(), "a file name is needed, one that ends in " + ending);
   require(file.size() > ending.size() && file.ends_with(ending),
           "cannot write " + file + ": the file name must end in " + ending);
-  const auto slash = file.rfind('/');
-  const std::string folder = slash == std::string::npos ? "." : slash == 0 ? "/" : file.substr(0, slash);
+  const std::string place = place_to_write(file);
+  const auto slash = place.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : slash == 0 ? "/" : place.substr(0, slash);
   struct stat info {};
   if (stat(folder.c_str(), &info) != 0)
     throw std::runtime_error("cannot write " + file + ": folder " + folder + ": " + std::strerror(errno));
   require(S_ISDIR(info.st_mode), "cannot write " + file + ": " + folder + " is not a folder");
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     throw std::runtime_error("cannot write " + file + ": folder " + folder + ": " + std::strerror(errno));
-  require(stat(file.c_str(), &info) != 0 || !S_ISDIR(info.st_mode), "cannot write " + file + ": it is a folder");
 }
 
 void check_size(const std::string& file, int width, int height) {
@@ -112,6 +138,8 @@ void check_window(const ScenePicture& p) {
 void check(const ScenePicture& p) {
   check_file(p.file, ".png");
   check_size(p.file, p.width, p.height);
+  check_text("'title'", p.title);
+  for (const std::string& unit : {p.field_unit, p.pressure_unit}) check_text("'unit'", unit);
   require(!p.bodies.empty(), "the picture " + p.file + " shows no body");
   require(std::isfinite(p.deformation), "the deformation factor is not finite");
   require(!p.field_range || (std::isfinite((*p.field_range)[0]) && std::isfinite((*p.field_range)[1]) &&
@@ -139,6 +167,10 @@ void check(const ScenePicture& p) {
 }
 
 static void check_chart(const ChartPicture& p) {
+  check_text("'title'", p.title);
+  check_text("'x'", p.x_label);
+  check_text("'y'", p.y_label);
+  for (std::size_t k = 0; k < p.series.size(); ++k) check_text("'name' of series " + count(k + 1), p.series[k].name);
   for (const SeriesPicture& s : p.series) {
     const std::string who = "series \"" + s.name + "\"";
     require(s.x.size() == s.y.size(), who + ": " + count(s.x.size()) + " x for " + count(s.y.size()) + " y");
@@ -164,6 +196,7 @@ void check(const ChartColumn& p) {
   check_file(p.file, ".png");
   check_size(p.file, p.width, p.height);
   require(!p.panels.empty(), "the picture " + p.file + " has no panels");
+  check_text("'title'", p.title);
   for (const ChartPicture& panel : p.panels) {
     check_chart(panel);
     require(!p.shared_x || panel.log_x == p.panels.front().log_x, "panels that share the x axis are all logarithmic in x, or none is");
@@ -193,10 +226,15 @@ void check_drawing(const CurveDrawing& c) {
 void check(const PagePicture& p) {
   check_file(p.file, ".png");
   check_size(p.file, p.width, p.height);
+  check_text("'title'", p.title);
   require(!p.rows.empty() && p.rows.size() == p.row_weights.size(), "a page needs rows, and a weight of each");
   for (const auto& row : p.rows) {
     require(!row.empty() && row.size() == p.column_weights.size(), "the rows of a page have one cell a column");
-    for (const PageCell& cell : row) std::visit([](const auto& drawing) { check_drawing(drawing); }, cell.drawing);
+    for (const PageCell& cell : row) {
+      check_text("'title'", cell.title);
+      for (const std::string& label : {cell.x_label, cell.y_label}) check_text("'units'", label);  // the rest of it is ours
+      std::visit([](const auto& drawing) { check_drawing(drawing); }, cell.drawing);
+    }
   }
   for (const auto& weights : {p.column_weights, p.row_weights})
     for (const double w : weights) require(w > 0 && std::isfinite(w), "the weights of a page are positive");
@@ -215,6 +253,8 @@ void check_boundary(const PlateEdge& e) {
 void check(const PlatePicture& p) {
   check_file(p.file, ".png");
   check_size(p.file, p.width, p.height);
+  check_text("'title'", p.title);
+  for (const std::string& unit : {p.field_unit, p.reaction_unit, p.force_unit}) check_text("'units'", unit);
   require(p.points.size() % 2 == 0, "points of a plate come two coordinates each");
   const std::size_t n = p.points.size() / 2;
   require(!p.triangles.empty(), "the picture " + p.file + " shows no triangle");
