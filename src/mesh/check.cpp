@@ -74,11 +74,11 @@ void check(const Mesh& mesh, const std::string& what) {
                             " is beyond the range of numbers; choose another unit of length"));
     // A cell flatter than 1e-12 of its size has no digits left in its gradients.
     if (jacobian > 1e-12 * scale) continue;
-    throw InputError(text(what, ": cell ", c + 1, " (a ", mesh.topology().shape, " near ",
-                          point_text(mesh.cell_centre(c).data(), mesh.dimension()), ") is ",
-                          jacobian < -1e-12 * scale ? "inverted" : "flat",
-                          "; its least Jacobian is ", jacobian,
-                          ", it must be positive: ", advice(mesh, c)));
+    const std::string cell = text(what, ": cell ", c + 1, " (a ", mesh.topology().shape, " near ", point_text(mesh.cell_centre(c).data(), mesh.dimension()), ")");
+    if (jacobian < -1e-12 * scale)
+      throw InputError(text(cell, " is inverted; its least Jacobian is ", jacobian, ", it must be positive: ", advice(mesh, c)));
+    throw InputError(text(cell, " is flat: its least Jacobian, ", jacobian, ", is ", jacobian / scale, " of its extent ", mesh.dimension() == 2 ? "squared" : "cubed",
+                          ", and must be more than 1e-12 of that: ", jacobian > 0 ? "take cells that are less slender" : advice(mesh, c)));
   }
   refuse_repeated_cells(mesh, what);
   refuse_stray_nodes(mesh, what);

@@ -38,6 +38,13 @@ TEST_CASE("a flat cell is refused as flat") {
   }
 }
 
+TEST_CASE("a cell that is flat for its size is told how flat, though its Jacobian is large") {
+  const auto m = test::rectangle(mesh::Family::q1, 9, 1, 0, 0, 1e13, 1);
+  CHECK_THROWS_WITH_AS(mesh::check(m, "m"),
+                       "m: cell 1 (a quadrilateral near (5.55556e+11, 0.5)) is flat: its least Jacobian, 1.11111e+12, is 9e-13 of its extent squared, and must be "
+                       "more than 1e-12 of that: take cells that are less slender", InputError);
+}
+
 TEST_CASE("slender cells are no flat ones") {
   for (const auto family : test::kAllFamilies) {
     CHECK_NOTHROW(mesh::check(test::rectangle(family, 2, 2, 0, 0, 1, 1e-9), "m"));
