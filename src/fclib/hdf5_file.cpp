@@ -30,21 +30,14 @@ std::vector<std::string> places() {
   return all;
 }
 
-std::string reader_program(const std::string& file) {
-  const std::string program = reader::find_program("dotyk_hdf5");
-  if (program.empty())
-    throw std::runtime_error("'" + file + "' cannot be read: this dotyk was built without HDF5 "
-                             "(apt-get install libhdf5-dev, then build again)");
-  return program;
-}
-
 class File {
  public:
   File(const std::string& name, Monitor& monitor) : name_(name) {
     const std::vector<std::string> all = places();
     std::vector<std::string> arguments{name};
     arguments.insert(arguments.end(), all.begin(), all.end());
-    const std::string bytes = reader::output_of(reader_program(name), arguments, "'" + name + "'", monitor);
+    const std::string program = reader::require_program("dotyk_hdf5", "HDF5 (apt-get install libhdf5-dev, then build again)");
+    const std::string bytes = reader::output_of(program, arguments, "'" + name + "'", monitor);
     reader::Answer answer(bytes);
     for (const std::string& place : all) objects_[place] = read_object(answer);
     answer.end();

@@ -10,19 +10,21 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include "base/error.hpp"
+#include "base/in_quotes.hpp"
 #include "base/memory.hpp"
 #include "base/readable_file.hpp"
+#include "base/removed_at_end.hpp"
 #include "base/text.hpp"
 #include "meshfile/mfem.hpp"
-#include "meshfile/quoted.hpp"
 #include "reader/process.hpp"
 
 namespace dotyk::meshfile {
 namespace {
 
-using reader::find_program, reader::output_of;
+using reader::output_of;
 
 std::string ending(const std::string& file) {
   const auto dot = file.rfind('.');
@@ -56,17 +58,14 @@ void check_gmsh_header(const std::string& file) {
   double number = 0;
   const auto [end, error] = std::from_chars(version.data(), version.data() + version.size(), number);
   if (error != std::errc() || end != version.data() + version.size())
-    throw InputError(text(file, ": ", quoted(version), " where the version of the Gmsh mesh should be"));
+    throw InputError(text(file, ": ", in_quotes(version), " where the version of the Gmsh mesh should be"));
   if (!(number >= 2 && number < 2.3) && !(number >= 4 && number < 4.2))
     throw InputError(text(file, ": this is a Gmsh mesh of version ", version.substr(0, 20), "; 2.0 to 2.2, 4.0 and 4.1 are read: save it as one of these"));
 }
 
 std::string gmsh_program() {
-  const std::string program = find_program("dotyk_gmsh");
-  if (program.empty())
-    throw InputError("this dotyk was built without Gmsh's library: install it (apt-get install --no-install-recommends libgmsh-dev) "
-                     "and build again; meshes in .mesh (MFEM) and .vtu (VTK) files are read without it");
-  return program;
+  return reader::require_program("dotyk_gmsh", "Gmsh's library: install it (apt-get install --no-install-recommends libgmsh-dev) "
+                                               "and build again; meshes in .mesh (MFEM) and .vtu (VTK) files are read without it");
 }
 
 /// A name that Gmsh and VTK cannot take for an option.
@@ -79,9 +78,7 @@ Contents contents(const std::string& file, Monitor& monitor) {
     check_gmsh_header(file);
     return read(output_of(gmsh_program(), {"load", plain(file)}, file, monitor));
   }
-  const std::string program = find_program("dotyk_vtu");
-  if (program.empty()) throw InputError("the program dotyk_vtu, which reads .vtu files, is not beside dotyk or in its library folder");
-  return read(output_of(program, {plain(file)}, file, monitor));
+  return read(output_of(reader::require_program("dotyk_vtu", "VTK's library"), {plain(file)}, file, monitor));
 }
 
 /// With all its digits.
@@ -103,6 +100,7 @@ class TemporaryFile {
     name_ = std::string(folder && *folder ? folder : "/tmp") + "/dotyk-XXXXXX.geo";
     const int file = mkstemps(name_.data(), 4);
     if (file < 0) throw std::runtime_error("cannot write '" + name_ + "': " + std::strerror(errno));
+    at_end_.emplace(name_);
     const ssize_t n = ::write(file, content.data(), content.size());
     ::close(file);
     if (n == static_cast<ssize_t>(content.size())) return;
@@ -116,6 +114,7 @@ class TemporaryFile {
 
  private:
   std::string name_;
+  std::optional<RemovedAtEnd> at_end_;
 };
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/in_quotes.hpp"
 #include "base/text.hpp"
 #include "meshfile/cell_of.hpp"
-#include "meshfile/quoted.hpp"
 
 namespace dotyk::meshfile {
 namespace {
@@ -38,7 +38,7 @@ class Words {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty()) fail(text("it ends where ", of, " should be"));
     if (error != std::errc() || end != word.data() + word.size())
-      fail(text(quoted(word), " where ", of, " should be"));
+      fail(text(in_quotes(word), " where ", of, " should be"));
     return value;
   }
 
@@ -139,7 +139,7 @@ int number_between(Contents& contents, const std::vector<std::size_t>& elements,
 
 void expect(Words& words, std::string_view wanted) {
   const std::string_view word = words.next();
-  if (word != wanted) words.fail(text(quoted(word), " where '", wanted, "' should be"));
+  if (word != wanted) words.fail(text(in_quotes(word), " where '", wanted, "' should be"));
 }
 
 /// The section nodes, which stands for the vertices' coordinates: continuous, of order 1 or 2.
@@ -149,7 +149,7 @@ void read_nodes(Words& words, Contents& contents, const std::vector<std::size_t>
   const std::string_view collection = words.next();
   const bool first = collection == "Linear" || collection == "H1_2D_P1" || collection == "H1_3D_P1";
   if (!first && collection != "Quadratic" && collection != "H1_2D_P2" && collection != "H1_3D_P2")
-    words.fail(text("nodes by the collection ", quoted(collection), "; 'Linear', 'Quadratic' and 'H1_2D_P1' to 'H1_3D_P2' are read"));
+    words.fail(text("nodes by the collection ", in_quotes(collection), "; 'Linear', 'Quadratic' and 'H1_2D_P1' to 'H1_3D_P2' are read"));
   expect(words, "VDim:");
   const int dimension = words.number<int>("the nodes' dimension");
   if (dimension != 2 && dimension != 3) words.fail(text("nodes of dimension ", dimension, "; 2 or 3 is expected"));
@@ -168,7 +168,7 @@ void read_vertices(Words& words, Contents& contents, const std::vector<std::size
   const int n = words.count("the number of vertices");
   const std::string_view dimension = words.next();
   if (dimension == "nodes") return read_nodes(words, contents, elements, n);
-  if (dimension != "2" && dimension != "3") words.fail(text("vertices of dimension ", quoted(dimension), "; 2 or 3 is expected"));
+  if (dimension != "2" && dimension != "3") words.fail(text("vertices of dimension ", in_quotes(dimension), "; 2 or 3 is expected"));
   contents.points.reserve(3 * static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k) contents.points.push_back(k < 2 || dimension == "3" ? words.number<double>("a coordinate") : 0);
@@ -178,7 +178,7 @@ void read_vertices(Words& words, Contents& contents, const std::vector<std::size
 
 Contents read_mfem(std::string_view all, const std::string& what) {
   const std::string_view first = all.substr(0, all.find_first_of("\r\n"));
-  if (first != "MFEM mesh v1.0") throw InputError(text(what, ": its first line is ", quoted(first), "; 'MFEM mesh v1.0' is expected"));
+  if (first != "MFEM mesh v1.0") throw InputError(text(what, ": its first line is ", in_quotes(first), "; 'MFEM mesh v1.0' is expected"));
   all.remove_prefix(std::min(first.size() + (all.substr(first.size(), 2) == "\r\n" ? 2 : 1), all.size()));
   Words words(all, what);
   Contents contents;
@@ -189,7 +189,7 @@ Contents read_mfem(std::string_view all, const std::string& what) {
     else if (section == "elements") read_elements(words, contents, dimension, elements);
     else if (section == "boundary") read_elements(words, contents, dimension - 1, boundary);
     else if (section == "vertices") read_vertices(words, contents, elements);
-    else words.fail(text("unknown section ", quoted(section), "; 'dimension', 'elements', 'boundary' or 'vertices' is expected"));
+    else words.fail(text("unknown section ", in_quotes(section), "; 'dimension', 'elements', 'boundary' or 'vertices' is expected"));
     if (dimension != 2 && dimension != 3) words.fail(text("dimension ", dimension, "; 2 or 3 is expected"));
   }
   return contents;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/readable_file.hpp"
 #include "program/mat_variable.hpp"
 #include "reader/process.hpp"
@@ -30,14 +31,6 @@ Vector vector_of(const MatVariable& v) {
   return x;
 }
 
-std::string reader_program(const std::string& file) {
-  const std::string program = reader::find_program("dotyk_mat");
-  if (program.empty())
-    throw std::runtime_error("'" + file + "' cannot be read: this dotyk was built without libmatio "
-                             "(apt-get install libmatio-dev, then build again)");
-  return program;
-}
-
 /// "HUES-MOD" of "folder/HUES-MOD.mat".
 std::string stem(const std::string& file) {
   const auto slash = file.find_last_of('/');
@@ -50,11 +43,15 @@ std::string stem(const std::string& file) {
 QuadraticProgram read_mat(const std::string& file, Monitor& monitor) {
   require_readable(file);
   const std::string what = "'" + file + "'";
-  const std::string bytes = reader::output_of(reader_program(file), {file, "P", "q", "r", "A", "l", "u"}, what, monitor);
+  const std::string program = reader::require_program("dotyk_mat", "libmatio (apt-get install libmatio-dev, then build again)");
+  const std::string bytes = reader::output_of(program, {file, "P", "q", "r", "A", "l", "u"}, what, monitor);
   reader::Answer answer(bytes);
   MatVariable found[6];
   for (MatVariable& v : found) v = read_variable(answer);
   answer.end();
+  double needed = 8.0 * static_cast<double>(bytes.size());
+  for (const MatVariable& v : found) needed += 40.0 * (static_cast<double>(v.rows) + v.columns);
+  require_memory(needed, what);
   const auto& [P, q, r, A, l, u] = found;
   const auto fail = [&](const char* name, const char* problem) {
     throw InputError(what + ": variable '" + name + "' " + problem);
@@ -71,6 +68,7 @@ QuadraticProgram read_mat(const std::string& file, Monitor& monitor) {
   p.P = full.triangularView<Eigen::Lower>();
   p.q = vector_of(q);
   p.r = r.value.empty() ? 0 : r.value.front();
+  if (!std::isfinite(p.r)) fail("r", "is not finite");
   p.A = matrix_of<SparseRows>(A);
   p.low = vector_of(l), p.high = vector_of(u);
   for (double& x : p.low) x = x <= -kInfinite ? -INFINITY : x;

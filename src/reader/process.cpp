@@ -90,13 +90,15 @@ class Child {
 
 }  // namespace
 
-std::string find_program(const std::string& name) {
+std::string require_program(const std::string& name, const std::string& library) {
   const std::string here = own_folder();
-  std::vector<std::string> places{here + "/" + name, here + "/../lib/dotyk/" + name, here + "/../" DOTYK_READER_LIBDIR "/dotyk/" + name,
-                                  DOTYK_READER_BUILD "/" + name};
+  const std::vector<std::string> places{here + "/" + name, here + "/../lib/dotyk/" + name, here + "/../" DOTYK_READER_LIBDIR "/dotyk/" + name,
+                                        DOTYK_READER_BUILD "/" + name};
   for (const std::string& place : places)
     if (access(place.c_str(), X_OK) == 0) return place;
-  return {};
+  const bool built = std::string(" " DOTYK_READERS " ").find(" " + name + " ") != std::string::npos;
+  throw std::runtime_error(built ? "the program " + name + ", which reads such files, is not beside dotyk or in its library folder: install or build dotyk again"
+                                 : "this dotyk was built without " + library);
 }
 
 std::string output_of(const std::string& program, const std::vector<std::string>& arguments, const std::string& what,

@@ -7,8 +7,10 @@
 
 namespace dotyk::reader {
 
-/// The program of this name beside dotyk, in its library folder or in the build tree; empty where it was not built.
-std::string find_program(const std::string& name);
+/// The program of this name beside dotyk, in its library folder or in the build tree. Where it is not there, throws
+/// std::runtime_error: that dotyk was built without `library`, which says too what can be done, or that the program was
+/// built and has been lost.
+std::string require_program(const std::string& name, const std::string& library);
 
 /// What the program writes to its standard output. It runs in a process of its own, so that a damaged file that
 /// makes a library crash or take all memory ends that process and no more. Its standard error is not shown.
