@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/in_quotes.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
 #include "fclib/read.hpp"
@@ -22,6 +24,8 @@ class Numbers {
  public:
   explicit Numbers(const std::string& file) : file_(file) {
     std::ifstream in(file, std::ios::binary);
+    // The text twice, and its numbers as entries of a matrix.
+    if (std::error_code none; in) require_memory(10.0 * static_cast<double>(std::filesystem::file_size(file, none)), "'" + file + "'");
     std::ostringstream whole;
     if (!in || !(whole << in.rdbuf())) throw InputError("cannot read '" + file + "'");
     content_ = whole.str();
@@ -38,7 +42,7 @@ class Numbers {
     double x = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
     if (error != std::errc() || end != word.data() + word.size())
-      fail(text("'", std::string(word.substr(0, 40)), "' stands where ", what, " is expected"));
+      fail(text(in_quotes(word), " stands where ", what, " is expected"));
     return x;
   }
   int count(const char* what, int least, int most) {
@@ -46,6 +50,10 @@ class Numbers {
     if (!(x >= least && x <= most) || x != static_cast<int>(x))
       fail(text(what, " is ", x, least == most ? text("; ", least, " is expected") : text("; from ", least, " to ", most, " is expected")));
     return static_cast<int>(x);
+  }
+  /// Throws where what is left of the file cannot hold so many numbers.
+  void require(double numbers, const char* what) const {
+    if (2 * numbers > static_cast<double>(content_.size() - at_) + 1) fail(text("the file is too short for ", numbers, " ", what));
   }
   Vector vector(const char* what, int size) {
     Vector v(size);
@@ -57,7 +65,7 @@ class Numbers {
     const std::string_view word = next();
     int n = -1;
     std::from_chars(word.data(), word.data() + word.size(), n);
-    if (n < 0 || n > kMost) fail(text("'", std::string(word.substr(0, 40)), "' stands where ", what, " is expected"));
+    if (n < 0 || n > kMost) fail(text(in_quotes(word), " stands where ", what, " is expected"));
     return n;
   }
   void skip_line() { at_ = std::min(content_.find('\n', at_), content_.size()); }
@@ -163,12 +171,16 @@ void sparse(Numbers& in, int rows, int columns, Entries& entries) {
     ++k;
   }
   // Empty columns at the end are listed too.
-  while (in.peek() == "col") in.skip_line();
+  while (in.peek() == "col") {
+    in.skip("col");
+    in.skip_line();
+  }
 }
 
 SparseMatrix matrix(Numbers& in) {
   const int storage = in.count("the storage of a matrix (0 dense, 1 blocks, 2 sparse)", 0, 2);
   const int rows = in.count("the number of rows", 0, kMost), columns = in.count("the number of columns", 0, kMost);
+  in.require(std::max(rows, columns), "rows");  // each of them has a number in a vector behind the matrices
   Entries entries;
   (storage == 0 ? dense : storage == 1 ? blocks : sparse)(in, rows, columns, entries);
   SparseMatrix a(rows, columns);
@@ -185,6 +197,7 @@ ContactProblem read_text(const std::string& file) {
   const int dimension = in.count("the dimension of a contact problem", 2, 3);
   p.dimension = dimension;
   const int contacts = in.count("the number of contacts", 0, kMost / 3), rows = dimension * contacts;
+  in.require(contacts, "contacts");
   const SparseMatrix first = matrix(in);
   if (first.rows() != first.cols()) in.fail(text("the first matrix is ", first.rows(), " x ", first.cols(), ", not square"));
   const int n = static_cast<int>(first.rows());

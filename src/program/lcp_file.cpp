@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "base/error.hpp"
@@ -14,12 +15,15 @@ class Reader {
  public:
   explicit Reader(const std::string& file) : file_(file) {
     require_readable(file);
+    bytes_ = static_cast<double>(std::filesystem::file_size(file));
     in_.open(file);
   }
 
   Lcp read() {
     const int n = count("n", 1, 100000), storage = count("the storage", 0, 1);
     const int rows = count("the rows", n, n), columns = count("the columns", n, n);
+    // A number takes two bytes at least.
+    if (2.0 * n * (storage == 0 ? n : 1) > bytes_ + 1) throw InputError(text("'", file_, "': it is too short for a problem of ", n, " rows"));
     require_memory(8.0 * n * n, text("'", file_, "': the dense matrix of ", n, " rows"));
     Lcp lcp;
     lcp.M = algebra::DenseMatrix::Zero(rows, columns);
@@ -71,9 +75,8 @@ class Reader {
     for (int k = 0; k < starts; ++k)  // from 0 to the number of blocks, ascending
       first.push_back(count("the row index", k == 0 ? 0 : k == down ? total : first.back(), k == 0 ? 0 : total));
     for (int k = 0; k < filled; ++k) place.push_back(count("the column index", 0, across - 1));
-    for (int k = 0; k < total; ++k) {
+    for (int k = 0, i = 0; k < total; ++k) {
       count("a block's number", k, k);
-      int i = 0;
       while (first[i + 1] <= k) ++i;
       for (int c = column[place[k]]; c < column[place[k] + 1]; ++c)
         for (int r = row[i]; r < row[i + 1]; ++r) lcp.M(r, c) = number("M");
@@ -82,6 +85,7 @@ class Reader {
 
   std::string file_;
   std::ifstream in_;
+  double bytes_ = 0;
 };
 
 }  // namespace

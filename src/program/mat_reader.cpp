@@ -19,13 +19,16 @@ using dotyk::program::MatVariable;
 
 constexpr std::size_t kMost = 100'000'000;
 
-/// Throws where a file of version 5 ends within an element: libmatio takes what is missing for zeros.
+/// Throws where a file is not of version 5, or ends within an element: libmatio takes what is missing for zeros. In a file
+/// of version 4 it believes every size, and one of version 7.3 (HDF5) may lead to other files.
 void require_whole(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::array<char, 128> head{};
   in.read(head.data(), head.size());
   const bool little = head[126] == 'I' && head[127] == 'M', big = head[126] == 'M' && head[127] == 'I';
-  if (in.gcount() != head.size() || !(little || big) || head[little ? 125 : 124] != 1) return;  // of another version
+  const int version = in.gcount() == head.size() && (little || big) ? head[little ? 125 : 124] << 8 | head[little ? 124 : 125] : 0;
+  if (version == 0x200) throw std::runtime_error("it is a MATLAB file of version 7.3, which is not read: save it with -v7");
+  if (version != 0x100) throw std::runtime_error("it is no MATLAB file of version 5 to 7: save it with -v7");
   const auto size = std::filesystem::file_size(file);
   const auto word = [little](const unsigned char* b) {
     return little ? b[0] | b[1] << 8 | b[2] << 16 | static_cast<std::uintmax_t>(b[3]) << 24

@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/in_quotes.hpp"
+#include "base/memory.hpp"
 #include "base/readable_file.hpp"
 #include "base/text.hpp"
 
@@ -26,9 +29,10 @@ class Reader {
       if (line.empty() || line[0] == '*') continue;
       std::istringstream stream(line);
       fields_.clear();
-      for (std::string field; stream >> field;) fields_.push_back(field);
+      for (std::string field; fields_.size() <= kMostFields && stream >> field;) fields_.push_back(field);
       if (fields_.empty()) continue;
       if (line[0] != ' ' && line[0] != '\t') header();
+      else if (fields_.size() > kMostFields) fail(text("a line of more than ", kMostFields, " words"));
       else entry();
     }
     if (!ended_) fail("the file ends without ENDATA");
@@ -44,7 +48,7 @@ class Reader {
                                   "QUADOBJ", "QSECTION", "QMATRIX", "ENDATA"};
     bool found = false;
     for (const char* one : known) found = found || section_ == one;
-    if (!found) fail("unknown section '" + section_ + "'");
+    if (!found) fail("unknown section " + in_quotes(section_));
     set_.clear();
     if (section_ == "NAME" && fields_.size() > 1) out_.name = fields_[1];
     if (section_ == "OBJSENSE" && fields_.size() > 1) sense(fields_[1]);
@@ -63,14 +67,14 @@ class Reader {
 
   void sense(const std::string& word) {
     if (word == "MAX" || word == "MAXIMIZE") maximise_ = true;
-    else if (word != "MIN" && word != "MINIMIZE") fail("objective sense '" + word + "'; it must be MIN or MAX");
+    else if (word != "MIN" && word != "MINIMIZE") fail("objective sense " + in_quotes(word) + "; it must be MIN or MAX");
   }
 
   void row() {
     if (fields_.size() != 2) fail("a row needs a type and a name");
     const std::string& type = fields_[0];
-    if (type != "N" && type != "E" && type != "L" && type != "G") fail("row type '" + type + "'; it must be N, E, L or G");
-    if (rows_.count(fields_[1])) fail("row '" + fields_[1] + "' is named twice");
+    if (type != "N" && type != "E" && type != "L" && type != "G") fail("row type " + in_quotes(type) + "; it must be N, E, L or G");
+    if (rows_.count(fields_[1])) fail("row " + in_quotes(fields_[1]) + " is named twice");
     if (type == "N") {
       rows_[fields_[1]] = has_objective_ ? kLeftOut : kObjective;
       has_objective_ = true;
@@ -107,6 +111,7 @@ class Reader {
     for (std::size_t k = first; k < fields_.size(); k += 2) {
       const int r = row_named(fields_[k]);
       const double value = number(fields_[k + 1]);
+      if (r == kObjective && std::isinf(value)) fail("the constant of the objective is not finite");
       if (r == kObjective && section_ == "RHS") constant_ = -value;
       else if (r >= 0) (section_ == "RHS" ? rhs_ : range_)[r] = value;
     }
@@ -116,12 +121,12 @@ class Reader {
     const std::string type = fields_[0];
     const bool valued = type == "LO" || type == "UP" || type == "FX";
     if (type == "BV" || type == "LI" || type == "UI" || type == "SC") fail("bound type " + type + ": integer and semicontinuous variables are not supported");
-    if (!valued && type != "FR" && type != "MI" && type != "PL") fail("bound type '" + type + "'; it must be LO, UP, FX, FR, MI or PL");
+    if (!valued && type != "FR" && type != "MI" && type != "PL") fail("bound type " + in_quotes(type) + "; it must be LO, UP, FX, FR, MI or PL");
     // The name of the set may be left out; a value behind FR, MI and PL may be there.
     const std::size_t least = valued ? 3 : 2;
     if (fields_.size() < least) fail("a bound needs a type, a column" + std::string(valued ? " and a value" : ""));
     const bool named = valued ? fields_.size() > 3 : !columns_.count(fields_[1]) || (fields_.size() > 2 && columns_.count(fields_[2]));
-    if (named && fields_.size() < least + 1) fail("unknown column '" + fields_[1] + "'");
+    if (named && fields_.size() < least + 1) fail("unknown column " + in_quotes(fields_[1]));
     if (named && !in_set(fields_[1])) return;
     const int j = column_named(fields_[named ? 2 : 1]);
     const double value = valued ? number(fields_[named ? 3 : 2]) : 0;
@@ -152,19 +157,19 @@ class Reader {
 
   int row_named(const std::string& name) const {
     const auto found = rows_.find(name);
-    if (found == rows_.end()) fail("unknown row '" + name + "'");
+    if (found == rows_.end()) fail("unknown row " + in_quotes(name));
     return found->second;
   }
   int column_named(const std::string& name) const {
     const auto found = columns_.find(name);
-    if (found == columns_.end()) fail("unknown column '" + name + "'");
+    if (found == columns_.end()) fail("unknown column " + in_quotes(name));
     return found->second;
   }
   double number(const std::string& field) const {
     static const locale_t points = newlocale(LC_ALL_MASK, "C", nullptr);  // a script may have asked for commas
     char* end = nullptr;
     const double value = strtod_l(field.c_str(), &end, points);
-    if (end == field.c_str() || *end || std::isnan(value)) fail("'" + field + "' is not a number");
+    if (end == field.c_str() || *end || std::isnan(value)) fail(in_quotes(field) + " is not a number");
     return std::abs(value) >= 1e20 ? std::copysign(INFINITY, value) : value;
   }
 
@@ -203,6 +208,7 @@ class Reader {
   }
 
   static constexpr int kObjective = -1, kLeftOut = -2;
+  static constexpr std::size_t kMostFields = 20;
   std::istream& in_;
   std::string name_, section_, set_;
   int number_ = 0;
@@ -225,6 +231,7 @@ QuadraticProgram read_qps(std::istream& in, const std::string& name) { return Re
 QuadraticProgram read_qps(const std::string& file) {
   require_readable(file);
   std::ifstream in(file);
+  require_memory(10.0 * static_cast<double>(std::filesystem::file_size(file)), "'" + file + "'");
   return read_qps(in, file);
 }
 

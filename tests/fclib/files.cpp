@@ -167,7 +167,7 @@ TEST_CASE("text files that are wrong: file, line and what is expected") {
   CHECK(begins(refusal(one.replace(one.find("0.5"), 3, "-.5")), "'made.dat': the friction coefficient of contact 1 is -0.5"));
   one = kOne;
   CHECK(begins(refusal(one.replace(one.find("-1 2"), 2, "nan")), "'made.dat': q holds a number that is not finite"));
-  CHECK(begins(refusal("3 1000000 0 3000000 3000000 3000000 3000000 1"), "made.dat:1: the file ends where"));
+  CHECK(begins(refusal("3 1000000 0 3000000 3000000 3000000 3000000 1"), "made.dat:1: the file is too short for 1e+06 contacts"));
   // Blocks whose indices do not fit.
   const std::string blocks = "2 1 1 2 2 1 1 1  2  2  2 1  0 1  0  0  1 0 0 1  5 6  0.5";
   CHECK(refusal(blocks) == "");
@@ -182,6 +182,19 @@ TEST_CASE("text files that are wrong: file, line and what is expected") {
   bad = sparse;
   CHECK(begins(refusal(bad.replace(bad.find("1 : 3"), 1, "2")), "made.dat:10: the row of an entry is 2; from 0 to 1"));
   CHECK(begins(refusal("2\n1\n2\n2\n2\n2\nnothing\n"), "made.dat:7: 'CSparse' is expected"));
+}
+
+TEST_CASE("text files of a few bytes do not ask for memory, nor for hours") {
+  // Counts in millions, none of which the file could hold.
+  CHECK(begins(refusal("3 3333333 2 0 0 2 0 0"), "made.dat:1: the file is too short for 3.33333e+06 contacts"));
+  CHECK(begins(refusal("3 0 2 10000000 10000000 10000000 10000000 CSparse"), "made.dat:1: the file is too short for 1e+07 rows"));
+  CHECK(begins(refusal("3 0 1 0 10000000 0 0 10000000"), "made.dat:1: the file is too short for 1e+07 rows"));
+  // Empty lines between the last columns of a sparse matrix, each of which was once looked at from every other.
+  const std::string sparse = "2 1 2 2 2 2 CSparse\n2-by-2, nzmax: 1 nnz: 1, 1-norm: 3\n col 0 : locations 0 to 0\n 1 : 3\n";
+  CHECK(refusal(sparse + std::string(3'000'000, '\n') + "col 1 : locations 1 to 0\n 5 6 0.5") == "");
+  // A long word, and one that is no text, in a message.
+  CHECK(refusal(std::string(100'000, 'x')).size() < 150);
+  CHECK(begins(refusal("\x1b[2J"), "made.dat:1: '?[2J' stands where"));
 }
 
 TEST_CASE("a truncated text file is refused wherever it ends") {

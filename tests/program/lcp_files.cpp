@@ -48,4 +48,37 @@ TEST_CASE("files of complementarity problems that do not hold together are refus
   refused("2 1 2 2 1 1 1 2 2 2 1 1 1 0", "'made.dat': the row index is 1; from 0 to 0 is expected");
   refused("2 2", "'made.dat': the storage is 2; from 0 to 1 is expected");
   CHECK_THROWS_WITH_AS(program::read_lcp("no such file"), "cannot read 'no such file': No such file or directory", InputError);
+  // No file of a few bytes asks for gigabytes.
+  refused("20000 0 20000 20000 20000 20000 1", "'made.dat': it is too short for a problem of 20000 rows");
+  refused("20000 1 20000 20000 1 1 1 20000 20000 2 1 0 1 0 0", "'made.dat': it is too short for a problem of 20000 rows");
+}
+
+TEST_CASE("a complementarity problem of many blocks in one row after many is read in a moment") {
+  // 20000 single blocks on the diagonal, and 100 000 more in the last row.
+  const int n = 20000;
+  std::string first = "0 ", places, values;
+  for (int k = 0; k < n; ++k) {
+    first += std::to_string(k < n - 1 ? k + 1 : n + 100000) + " ";
+    places += std::to_string(k) + " ";
+    values += std::to_string(k) + " 2 ";
+  }
+  for (int k = 0; k < 100000; ++k) {
+    places += "7 ";
+    values += std::to_string(n + k) + " 1 ";
+  }
+  std::string ends, q;
+  for (int k = 0; k < n; ++k) ends += std::to_string(k + 1) + " ", q += "-1 ";
+  const std::string size = std::to_string(n) + " ", blocks = std::to_string(n + 100000) + " ";
+  { std::ofstream("made.dat") << size << "1 " << size << size << blocks << size << size << ends << ends << n + 1 << " " << blocks << first << places << values << q; }
+  const auto began = std::chrono::steady_clock::now();
+  program::Lcp lcp;
+  try {
+    lcp = program::read_lcp("made.dat");
+  } catch (const InputError& error) {  // 3.2 GB that are not there
+    MESSAGE("skipped: " << error.what());
+    return;
+  }
+  CHECK(lcp.M(n - 1, 7) == 1);
+  CHECK(lcp.M(5, 5) == 2);
+  CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(20));
 }

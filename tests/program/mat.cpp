@@ -86,6 +86,21 @@ TEST_CASE("a damaged MATLAB file is refused by the name of what is wrong") {
   CHECK_THROWS_WITH_AS(program::read_mat(".", quiet), "cannot read '.': it is a folder", InputError);
 }
 
+TEST_CASE("MATLAB files of other versions are refused: of 7.3, which may lead to other files, and of 4, which are believed every size") {
+  if (!readable()) return;
+  std::string bytes = content();
+  REQUIRE(bytes.substr(124, 4) == std::string("\0\1IM", 4));
+  bytes.replace(124, 2, std::string("\0\2", 2));
+  CHECK_THROWS_WITH_AS(read(bytes), "'made.mat': it is a MATLAB file of version 7.3, which is not read: save it with -v7", InputError);
+  bytes.replace(124, 2, std::string("\2\0", 2));
+  const char* other = "'made.mat': it is no MATLAB file of version 5 to 7: save it with -v7";
+  CHECK_THROWS_WITH_AS(read(bytes), other, InputError);
+  // Version 4: a full matrix P of 2 x 2, whose numbers are not there.
+  const std::int32_t head[] = {0, 2, 2, 0, 2};
+  bytes = std::string(reinterpret_cast<const char*>(head), sizeof head) + std::string("P\0", 2);
+  for (const std::size_t more : {0, 16, 32, 200}) CHECK_THROWS_WITH_AS(read(bytes + std::string(more, '\0')), other, InputError);
+}
+
 TEST_CASE("a pipe is no file: opening it would wait for ever") {
   mkfifo("pipe", 0600);
   Monitor quiet;

@@ -83,8 +83,32 @@ TEST_CASE("errors name file and line") {
   fails(kHead + "QUADOBJ\n c1 c9 1\nENDATA\n", "a.qps:13: unknown column 'c9'");
   fails(kHead + "QMATRIX\n c1 c2 1\nENDATA\n", "a.qps:14: QMATRIX is not symmetric: give both triangles, or QUADOBJ and one");
   fails(kHead + "BOUNDS\n BV b c1\nENDATA\n", "a.qps:13: bound type BV: integer and semicontinuous variables are not supported");
-  fails(kHead + "STUFF\nENDATA\n", "a.qps:12: unknown section 'STUFF'");
+  fails(kHead + "STUFF\nENDATA\n", "a.qps:13: unknown section 'STUFF'");
   fails(kHead, "a.qps:11: the file ends without ENDATA");
   fails("ROWS\n G r\nCOLUMNS\n c r 1\nENDATA\n", "a.qps:5: no row of type N: there is no objective");
   CHECK_THROWS_WITH_AS(program::read_qps(std::string("/nowhere/a.qps")), "cannot read '/nowhere/a.qps': No such file or directory", InputError);
+}
+
+TEST_CASE("lines and words without end are refused in a short message") {
+  const std::string long_word(1'000'000, 'x');
+  const auto message = [](const std::string& content) -> std::string {
+    try {
+      read(content);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  std::string words = " ";
+  for (int k = 0; k < 1000; ++k) words += " r1 1";
+  CHECK(message(kHead + "RHS\n" + words + "\nENDATA\n") == "a.qps:13: a line of more than 20 words");
+  CHECK(message("NAME" + words + "\n" + kHead.substr(kHead.find("ROWS")) + "ENDATA\n") == "");  // a title of many words
+  for (const std::string& bad : {long_word + "\n", "ROWS\n N " + long_word + "\n N " + long_word + "\n", kHead + "RHS\n b " + long_word + " 1\n",
+                                 kHead + "RHS\n b r1 " + long_word + "\n", kHead + "BOUNDS\n UP b " + long_word + " 1\n", kHead + "OBJSENSE\n " + long_word + "\n"}) {
+    const std::string told = message(bad);
+    CHECK(!told.empty());
+    CHECK(told.size() < 200);
+  }
+  CHECK(message(kHead + "RHS\n b r1 \x1b[2J\n") == "a.qps:13: '?[2J' is not a number");
+  CHECK(message(kHead + "RHS\n b obj 1e30\nENDATA\n") == "a.qps:13: the constant of the objective is not finite");
 }
