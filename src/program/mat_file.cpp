@@ -60,6 +60,7 @@ QuadraticProgram read_mat(const std::string& file, Monitor& monitor) {
     if (v->rows < 0) fail(name, "is missing; it must have P, q, A, l and u");
   for (const auto& [name, v] : {std::pair{"q", &q}, std::pair{"l", &l}, std::pair{"u", &u}})
     if (v->rows > 1 && v->columns > 1) fail(name, "is not a vector");
+  if (r.rows >= 0 && (r.rows != 1 || r.columns != 1)) fail("r", "is not a number");
   if (P.rows != P.columns) fail("P", "is not square");
 
   QuadraticProgram p;

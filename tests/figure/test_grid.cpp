@@ -199,7 +199,7 @@ TEST_CASE("a file that cannot be written leaves nothing, and says why") {
   const std::string why = message_of([] { write(triangle("full/a.vtu")); });
   setrlimit(RLIMIT_FSIZE, &limit);
   std::signal(SIGXFSZ, handler);
-  CHECK(why.find("cannot write full/a.vtu") == 0);
+  CHECK(why.find("cannot write 'full/a.vtu'") == 0);
   CHECK(files_in("full") == 1);
   CHECK(std::filesystem::file_size("full/a.vtu") == before);
 }

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -45,6 +47,35 @@ bool readable() {
   return true;
 }
 
+/// The variables of kFile, with their tags.
+std::vector<std::string> variables() {
+  const std::string whole = content();
+  std::vector<std::string> all;
+  for (std::size_t at = 128; at < whole.size(); at += all.back().size()) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, &whole[at + 4], 4);
+    all.push_back(whole.substr(at, 8 + size));
+  }
+  return all;
+}
+
+std::string tag(std::uint32_t type, std::size_t size) {
+  const std::uint32_t words[] = {type, static_cast<std::uint32_t>(size)};
+  return {reinterpret_cast<const char*>(words), sizeof words};
+}
+
+/// As zlib has it that stores and does not compress.
+std::string compressed(const std::string& bytes) {
+  std::uint32_t a = 1, b = 0;
+  for (const unsigned char c : bytes) a = (a + c) % 65521, b = (b + a) % 65521;
+  const auto n = static_cast<std::uint16_t>(bytes.size()), not_n = static_cast<std::uint16_t>(~n);
+  std::string z = "\x78\x01\x01";
+  for (const std::uint16_t word : {n, not_n}) z += static_cast<char>(word & 0xff), z += static_cast<char>(word >> 8);
+  z += bytes;
+  for (const std::uint32_t word : {b, a}) z += static_cast<char>(word >> 8), z += static_cast<char>(word & 0xff);
+  return tag(15, z.size()) + z;
+}
+
 }  // namespace
 
 TEST_CASE("a MATLAB file of sparse and full matrices") {
@@ -79,11 +110,47 @@ TEST_CASE("a damaged MATLAB file is refused by the name of what is wrong") {
     bytes.replace(bytes.find(from), from.size(), to);
     CHECK_THROWS_WITH_AS(read(bytes), doctest::Contains(message.c_str()), InputError);
   };
-  const std::string tag("\1\0\1\0", 4);  // of a name of one letter
-  refused(tag + "u", tag + "v", "'made.mat': variable 'u' is missing; it must have P, q, A, l and u");
+  const std::string letter("\1\0\1\0", 4);  // before a name of one
+  refused(letter + "u", letter + "v", "'made.mat': variable 'u' is missing; it must have P, q, A, l and u");
   Monitor quiet;
   CHECK_THROWS_WITH_AS(program::read_mat("/nowhere/a.mat", quiet), "cannot read '/nowhere/a.mat': No such file or directory", InputError);
   CHECK_THROWS_WITH_AS(program::read_mat(".", quiet), "cannot read '.': it is a folder", InputError);
+}
+
+TEST_CASE("compressed variables are read as others are; what is damaged or missing in them is not taken for zeros") {
+  if (!readable()) return;
+  const std::string head = content().substr(0, 128);
+  const std::vector<std::string> each = variables();
+  const auto file = [&](std::size_t changed, const std::string& to) {
+    std::string bytes = head;
+    for (std::size_t k = 0; k < each.size(); ++k) bytes += k == changed ? to : compressed(each[k]);
+    return bytes;
+  };
+  const auto as_it_is = read(content()), p = read(file(each.size(), ""));
+  CHECK(p.q == as_it_is.q);
+  CHECK(p.r == as_it_is.r);
+  CHECK(p.low == as_it_is.low);
+  CHECK((p.A - as_it_is.A).norm() == 0);
+  CHECK((p.P - as_it_is.P).norm() == 0);
+  for (std::size_t k = 0; k < each.size(); ++k) {
+    CAPTURE(k);
+    const std::string short_one = each[k].substr(0, each[k].size() - 8);
+    CHECK_THROWS_WITH_AS(read(file(k, compressed(short_one))), "'made.mat': a compressed variable is damaged or cut short", InputError);
+    std::string z = compressed(each[k]);
+    z.back() = static_cast<char>(z.back() ^ 1);
+    CHECK_THROWS_WITH_AS(read(file(k, z)), "'made.mat': a compressed variable is damaged or cut short", InputError);
+    z = tag(15, each[k].size()) + compressed(each[k]).substr(8, each[k].size());
+    CHECK_THROWS_WITH_AS(read(file(k, z)), "'made.mat': a compressed variable is damaged or cut short", InputError);
+    // Compressed twice, it is no variable; r may be missing.
+    if (k != 2) CHECK_THROWS_WITH_AS(read(file(k, compressed(compressed(each[k])))), doctest::Contains("is missing"), InputError);
+    // Sizes of the matrix: not those of what is there, or beyond all that can be treated.
+    for (const std::int32_t size : {7, 1'000'000'000, -1}) {
+      std::string other = each[k];
+      std::memcpy(&other[8 + 16 + 8], &size, 4);
+      CHECK_THROWS_AS(read(file(k, compressed(other))), InputError);
+      CHECK_THROWS_AS(read(file(k, other)), InputError);
+    }
+  }
 }
 
 TEST_CASE("MATLAB files of other versions are refused: of 7.3, which may lead to other files, and of 4, which are believed every size") {

@@ -83,7 +83,7 @@ TEST_CASE("errors name file and line") {
   fails(kHead + "QUADOBJ\n c1 c9 1\nENDATA\n", "a.qps:13: unknown column 'c9'");
   fails(kHead + "QMATRIX\n c1 c2 1\nENDATA\n", "a.qps:14: QMATRIX is not symmetric: give both triangles, or QUADOBJ and one");
   fails(kHead + "BOUNDS\n BV b c1\nENDATA\n", "a.qps:13: bound type BV: integer and semicontinuous variables are not supported");
-  fails(kHead + "STUFF\nENDATA\n", "a.qps:13: unknown section 'STUFF'");
+  fails(kHead + "STUFF\nENDATA\n", "a.qps:12: unknown section 'STUFF'");
   fails(kHead, "a.qps:11: the file ends without ENDATA");
   fails("ROWS\n G r\nCOLUMNS\n c r 1\nENDATA\n", "a.qps:5: no row of type N: there is no objective");
   CHECK_THROWS_WITH_AS(program::read_qps(std::string("/nowhere/a.qps")), "cannot read '/nowhere/a.qps': No such file or directory", InputError);
