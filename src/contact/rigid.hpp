@@ -35,7 +35,8 @@ const char* name(const RigidShape& shape);
 /// One row a corner of the part's facets. The condition of a ball is linearised about the nodes at rest: the
 /// gap is measured along the line to its centre. `added` (may be empty) is added to the gap.
 /// Throws InputError for a gap that is not finite, and for a plane or ball that overlaps the part
-/// at rest by more than rounding, unless `interference` says that this is meant.
+/// at rest by more than rounding, unless `interference` says that this is meant; and for a shape that lies behind the part: a plane or
+/// a ball from which the part faces away where it is nearest, a gap whose normal points into the body everywhere.
 std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
                                 const RigidShape& shape, const elasticity::ScalarField& added,
                                 bool interference);

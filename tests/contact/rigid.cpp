@@ -80,6 +80,37 @@ TEST_CASE("an obstacle that penetrates at rest is refused with depth and place, 
       m, m.parts.at("top"), plane, [](const Point&) { return 0.2; }, false));
 }
 
+TEST_CASE("a shape behind the part is refused: its pressure would pull the part outwards") {
+  const auto m = test::rectangle(Family::p1, 4, 2);
+  const contact::RigidPlane inside{{0, 0.9999, 0}, {0, 1, 0}}, far_behind{{0, -3, 0}, {0, 1, 0}};
+  const double s = std::sqrt(0.5);
+  for (const bool interference : {false, true})
+    for (const auto& plane : {inside, far_behind, contact::RigidPlane{{0, -3, 0}, {s, s, 0}}})
+      CHECK_THROWS_WITH_AS(contact::against(m, m.parts.at("top"), plane, {}, interference),
+                           doctest::Contains("the rigid plane lies behind the part: at (0, 1)"), InputError);
+  // Overlap does not hide it.
+  CHECK_THROWS_WITH_AS(contact::against(m, m.parts.at("top"), contact::RigidPlane{{0, 1.2, 0}, {0, 1, 0}}, {}, true),
+                       doctest::Contains("lies behind the part"), InputError);
+  const auto gap = [](Point normal) { return contact::RigidGap{normal, [](const Point&) { return 0.1; }}; };
+  CHECK_THROWS_WITH_AS(contact::against(m, m.parts.at("top"), gap({0, -1, 0}), {}, false),
+                       doctest::Contains("the rigid gap lies behind the part: its normal points into the body"), InputError);
+  // Sides that the shape is beside, and the whole boundary, which is nearest where it faces the shape, stay.
+  CHECK_NOTHROW(contact::against(m, m.parts.at("left"), far_behind, {}, false));
+  CHECK_NOTHROW(contact::against(m, m.parts.at("left"), gap({0, 1, 0}), {}, false));
+  std::vector<mesh::Facet> all;
+  for (const auto& [name, facets] : m.parts) all.insert(all.end(), facets.begin(), facets.end());
+  CHECK_NOTHROW(contact::against(m, all, far_behind, {}, false));
+  CHECK_NOTHROW(contact::against(m, all, gap({0, -1, 0}), {}, false));
+}
+
+TEST_CASE("a corner of the body may touch a plane, though the part that it belongs to faces away") {
+  auto m = test::rectangle(Family::p1, 2, 2);
+  mesh::transform(m, [](const Point& x) { return Point{x[0] - 0.2 * x[1], x[1], 0}; });  // leans: the left side faces down, the right one up
+  const contact::RigidPlane floor{{0, -1, 0}, {0, 1, 0}};
+  CHECK_NOTHROW(contact::against(m, m.parts.at("left"), floor, {}, false));
+  CHECK_NOTHROW(contact::against(m, m.parts.at("right"), floor, {}, false));
+}
+
 TEST_CASE("a ball whose centre lies on the part, and gaps that are no numbers, are refused") {
   const auto m = test::rectangle(Family::p1, 4, 2);
   CHECK_THROWS_AS(contact::against(m, m.parts.at("top"), contact::RigidBall{{0.5, 1, 0}, 0.1}, {}, true), InputError);
