@@ -32,6 +32,9 @@ void require_valid(const Plate& plate) {
     throw InputError(text("its mesh is of ", plate.mesh->topology().shapes, " (", plate.mesh->topology().name, "); plates need triangles (element = \"P1\") in the plane"));
   if (!plate.D_of && (!(plate.D > 0) || !std::isfinite(plate.D))) throw InputError(text("its bending stiffness D is ", plate.D, "; it must be positive"));
   if (!(plate.nu > -1 && plate.nu < 1)) throw InputError(text("nu is ", plate.nu, "; it must be between -1 and 1"));
+  if (plate.element == Element::morley && std::abs(plate.nu) > kMostMorleyNu)
+    throw InputError(text("nu is ", plate.nu, "; with Morley's element it must be between ", -kMostMorleyNu, " and ", kMostMorleyNu,
+                          ": nearer to -1 and 1 its error grows beyond all bounds; take element = \"hct\""));
   if (!plate.f_of && !std::isfinite(plate.f)) throw InputError(text("its load is ", plate.f));
   for (const PointLoad& load : plate.point_loads)
     if (!std::isfinite(load.force)) throw InputError(text("the load at (", load.x, ", ", load.y, ") is ", load.force));

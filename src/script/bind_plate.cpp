@@ -168,9 +168,9 @@ void bind_plate(Library& library) {
                   "print(dotyk.solve(p):deflection(0.5, 0.5))",
        .arguments = {key::table(
            {key::object<MeshHandle>("mesh", "triangles in the plane").required(),
-            key::choice("element", kElements, "morley: the lowest order, nonconforming; hct: cubic on thirds of a triangle, conforming").fallback("morley"),
+            key::choice("element", kElements, "morley: the lowest order, nonconforming, for nu from -0.8 to 0.8; hct: cubic on thirds of a triangle, conforming").fallback("morley"),
             key::field("D", "bending stiffness E h³/12(1 - nu²), positive: a number or a function of x, y").unit("force·length").otherwise("1"),
-            key::number("nu", "Poisson's ratio").above(-1).below(1).fallback(0.3),
+            key::number("nu", "Poisson's ratio; beyond 0.8 and -0.8 with hct alone").above(-1).below(1).fallback(0.3),
             key::field("load", "per area, upwards: a number or a function of x, y").unit("force/area").otherwise("0"),
             key::list("loads", key::table("", {point_key("x"), point_key("y"), key::number("force", "upwards").unit("force").required()}, ""), "at points"),
             key::list("lines", key::table("", {key::vector("from", "one end").unit("length").count(2).required(), key::vector("to", "the other").unit("length").count(2).required(),

@@ -20,6 +20,19 @@ refused(function() dotyk.plate{ edge = held } end, "'mesh'")
 
 -- Numbers.
 for _, nu in ipairs{ 1, -1, 1.5, 0/0, math.huge } do refused(function() dotyk.plate{ mesh = square, nu = nu, edge = held } end, "nu") end
+-- Near 1 and -1 Morley's element is off by any factor; HCT is not: on a polygon simply supported nu does not matter.
+for _, nu in ipairs{ 0.9, -0.9, 0.99, 0.9999, -0.9999 } do
+  refused(function() dotyk.plate{ mesh = square, nu = nu, edge = held } end, "with Morley's element it must be between -0.8 and 0.8", "element = \"hct\"")
+end
+do
+  local function middle(element, nu)
+    local fine = dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {8, 8} }
+    return dotyk.solve(dotyk.plate{ mesh = fine, element = element, nu = nu, load = -1, edge = { deflection = law.prescribed() } }):deflection(0.5, 0.5)
+  end
+  for _, nu in ipairs{ -0.9999, 0.3, 0.9999 } do check.near(middle("hct", nu), -0.00406, 1e-5) end
+  local off <const> = middle("morley", 0.3) + 0.00406
+  for _, nu in ipairs{ -0.8, 0, 0.5, 0.8 } do check.that(math.abs(middle("morley", nu) + 0.00406) < 5 * math.abs(off)) end
+end
 for _, D in ipairs{ 0, -1, 0/0, math.huge } do refused(function() dotyk.plate{ mesh = square, D = D, edge = held } end, "D") end
 for _, D in ipairs{ 0, -1 } do refused(function() dotyk.plate{ mesh = square, D = function(x) return x < 0.5 and 1 or D end, edge = held } end, "D is", "at (", "must be positive") end
 for _, D in ipairs{ 0/0, math.huge } do refused(function() dotyk.plate{ mesh = square, D = function(x) return x < 0.5 and 1 or D end, edge = held } end, "function 'D' returned", "at (") end
