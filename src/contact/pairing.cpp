@@ -101,6 +101,47 @@ Pairing tried_first(const Face& first, const Face& second, std::optional<Pairing
   return asked.value_or(alike ? Pairing::matching : Pairing::mortar);
 }
 
+double width(const Face& face, const NodeSide& side) {
+  double widest = 0;
+  for (const int f : side.facets) {
+    const double size = mesh::length(face.mesh.facet_area_vector(face.facets[f]));
+    widest = std::max(widest, face.mesh.dimension() == 2 ? size : std::sqrt(size));
+  }
+  return widest;
+}
+
+/// Where glued sides lie apart, forces across the gap have a moment that nothing bears.
+class Apart {
+ public:
+  Apart(const Face& first, const Face& second) : first_(first), second_(second) {}
+
+  /// `widest`: of the facets met; `curvature`: of the parts there. Chords of curved parts lie apart by their height, and by four times
+  /// that where a facet is covered at its end alone and the other side's line is drawn out; a tenth of a facet is a layer of glue.
+  void see(const Tie& tie, double widest, double curvature) {
+    Point d{0, 0, 0};
+    for (const NodeWeight& own : tie.own)
+      for (int i = 0; i < 3; ++i) d[i] -= own.weight * first_.mesh.point(own.node)[i];
+    for (const NodeWeight& partner : tie.partners)
+      for (int i = 0; i < 3; ++i) d[i] += partner.weight * second_.mesh.point(partner.node)[i];
+    const double distance = mesh::length(d), allowed = 0.1 * widest + 4 * curvature * widest * widest / 8;
+    if (distance > allowed && distance > greatest_) greatest_ = distance, node_ = tie.node;
+  }
+
+  /// Throws InputError.
+  void refuse() const {
+    if (node_ < 0) return;
+    const Point at = first_.mesh.point(node_);
+    throw InputError(text(first_.name, " and ", second_.name, " lie ", greatest_, " apart at ", point_text(at.data(), first_.mesh.dimension()),
+                          "; only parts that touch can be glued (forces across a gap have a moment that nothing bears): move one, or "
+                          "put a body between them"));
+  }
+
+ private:
+  const Face &first_, &second_;
+  double greatest_ = 0;
+  int node_ = -1;
+};
+
 }  // namespace
 
 PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairing> pairing,
@@ -123,10 +164,17 @@ PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairin
 
 PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing) {
   PairedTies result{pairing.value_or(Pairing::mortar), {}};
+  Apart apart(first, second);
   if (tried_first(first, second, pairing) == Pairing::matching) {
     const Matching found = find_matching(first, second);
     if (found.mismatch.empty()) {
-      for (const NodePair& pair : found.pairs) result.ties.push_back({pair.first, {{pair.first, 1}}, {{pair.second, 1}}});
+      std::unordered_map<int, double> widest;
+      for (const NodeSide& side : nodes(first.mesh, first.facets)) widest[side.node] = width(first, side);
+      for (const NodePair& pair : found.pairs) {
+        result.ties.push_back({pair.first, {{pair.first, 1}}, {{pair.second, 1}}});
+        apart.see(result.ties.back(), widest.at(pair.first), 0);
+      }
+      apart.refuse();
       result.pairing = Pairing::matching;
       return result;
     }
@@ -135,9 +183,15 @@ PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairin
   const bool means = first.mesh.topology().order == 2 && result.pairing == Pairing::mortar;
   const std::vector<NodeSide> list = means ? corner_nodes(first.mesh, first.facets) : nodes(first.mesh, first.facets);
   std::vector<Across> all = across(first, second, result.pairing, list);
-  for (std::size_t k = 0; k < list.size(); ++k)
-    if (!all[k].partners.empty())
-      result.ties.push_back({list[k].node, means ? std::move(all[k].own) : list[k].own, std::move(all[k].partners)});
+  const auto curved = curvature_of(first), curved_across = curvature_of(second);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (all[k].partners.empty()) continue;
+    double curvature = curved.at(list[k].node);
+    for (const NodeWeight& partner : all[k].partners) curvature = std::max(curvature, curved_across.at(partner.node));
+    result.ties.push_back({list[k].node, means ? std::move(all[k].own) : list[k].own, std::move(all[k].partners)});
+    apart.see(result.ties.back(), all[k].widest, curvature);
+  }
+  apart.refuse();
   return result;
 }
 

@@ -30,7 +30,8 @@ struct PairedTies {
   std::vector<Tie> ties;
 };
 
-/// The same to tie parts together, one entry a node of the first part.
+/// The same to tie parts together, one entry a node of the first part. Throws InputError where they lie apart by more than a tenth of a
+/// facet's width and what chords of curved parts make of it.
 PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing);
 
 }  // namespace dotyk::contact

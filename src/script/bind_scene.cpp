@@ -244,7 +244,8 @@ void bind_scene(Library& library) {
                .returns = "contact",
                .run = add_contact})
       .method({.name = "scene:glue",
-               .help = "Ties two parts together: no jump of the displacement at the first part's nodes, or in their surroundings' mean.",
+               .help = "Ties two parts together: no jump of the displacement at the first part's nodes, or in their surroundings' mean. "
+                       "They must touch: where they are further apart than a tenth of a facet, and than curved facets make them, the glue is refused.",
                .example = "scene:glue{ upper:part \"bottom\", lower:part \"top\" }",
                .arguments = {key::table({pairing_key()}).with(key::object<Part>("parts", "the two parts").count(2))},
                .returns = "contact",

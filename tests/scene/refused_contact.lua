@@ -31,11 +31,12 @@ refused(function() scene:contact{ top, top } end, "'block' top and 'block' top d
 
 -- Multipliers and the friction that goes with them.
 local given <const>, coulomb <const> = dotyk.friction.tresca(1), dotyk.friction.coulomb(0.3)
+local ceiling <const> = dotyk.rigid.plane{ point = {0,1}, normal = {0,-1} }
 refused(function() scene:contact{ top, rigid = floor, multipliers = "P1" } end, "'multipliers'", "\"P1-P0\"")
-refused(function() scene:contact{ top, rigid = floor, friction = coulomb, multipliers = "P1-P0" } end, "Coulomb friction does not go with multipliers = \"P1-P0\"", "take \"nodal\"")
-refused(function() scene:contact{ top, rigid = floor, friction = given, friction_size = 0.5 } end, "'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"")
-refused(function() scene:contact{ top, rigid = floor, multipliers = "P1-P0", friction_size = 0.5 } end, "it is given without them")
-refused(function() scene:contact{ top, rigid = floor, friction = given, multipliers = "P1-P0", friction_size = 0 } end, "'friction_size' must be a positive number")
+refused(function() scene:contact{ top, rigid = ceiling, friction = coulomb, multipliers = "P1-P0" } end, "Coulomb friction does not go with multipliers = \"P1-P0\"", "take \"nodal\"")
+refused(function() scene:contact{ top, rigid = ceiling, friction = given, friction_size = 0.5 } end, "'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"")
+refused(function() scene:contact{ top, rigid = ceiling, multipliers = "P1-P0", friction_size = 0.5 } end, "it is given without them")
+refused(function() scene:contact{ top, rigid = ceiling, friction = given, multipliers = "P1-P0", friction_size = 0 } end, "'friction_size' must be a positive number")
 
 -- Meshes that do not match, faces that do not face, the same said twice.
 local base <const> = dotyk.body{ name = "base", mesh = it.mesh, material = it.material }
@@ -48,6 +49,23 @@ for _, way in ipairs{ "contact", "glue" } do
   refused(function() two[way](two, { face, four:part "bottom", pairing = "matching" }) end, "the node at (0.25, 1) of 'four' bottom has no partner on the other side")
   refused(function() two[way](two, { face, upper:part "top" }) end, "do not face each other", "normals opposed")
   refused(function() two[way](two, { face, upper:part "left" }) end, "do not face each other")
+end
+-- Glue across a gap, which would lose the moment of its forces; a tenth of a facet is a layer of glue.
+local function over(height, cells)
+  local upper = dotyk.body{ name = "upper", material = it.material, mesh = dotyk.mesh.rectangle{ from = {0,1 + height}, to = {1,2 + height}, cells = cells } }
+  return dotyk.scene{ base, upper }, upper:part "bottom"
+end
+for _, cells in ipairs{ { 2, 1 }, { 3, 1 } } do
+  for _, height in ipairs{ 2, 0.1 } do
+    local apart, under = over(height, cells)
+    for _, pairing in ipairs{ "mortar", "node_to_segment", cells[1] == 2 and "matching" or nil } do
+      refused(function() apart:glue{ under, face, pairing = pairing } end, ("'upper' bottom and 'base' top lie %g apart at ("):format(height), "only parts that touch can be glued")
+      refused(function() apart:glue{ face, under, pairing = pairing } end, ("lie %g apart at ("):format(height))
+    end
+    apart:contact{ under, face }
+  end
+  local near, under = over(0.02, cells)
+  near:glue{ under, face }
 end
 local glue <const> = two:glue{ face, upper:part "bottom" }
 refused(function() two:contact{ face, upper:part "bottom" } end, "already joined by the glue of 'base' top to 'upper' bottom")
@@ -77,6 +95,14 @@ refused(function() scene:contact{ it.bottom, rigid = high } end, "the rigid plan
 refused(function() scene:contact{ it.bottom, rigid = ball } end, "the rigid ball penetrates the part by 0.2 at (0.5, 0)", "interference = true")
 local inner <const> = dotyk.rigid.ball{ center = {0.5,0.3}, radius = 0.1 }
 refused(function() scene:contact{ it.bottom, rigid = inner } end, "the rigid ball lies behind the part: at (0.5, 0)")
+-- From behind a plane would fill the body and pull the part outwards; a gap measured inwards would as well.
+for _, height in ipairs{ 0.9999, 0.5, -1 } do
+  local behind <const> = dotyk.rigid.plane{ point = {0,height}, normal = {0,1} }
+  for _, interference in ipairs{ false, true } do
+    refused(function() scene:contact{ top, rigid = behind, interference = interference } end, "the rigid plane lies behind the part: at (0, 1)", "the part faces away")
+  end
+end
+refused(function() scene:contact{ top, rigid = dotyk.rigid.gap{ normal = {0,-1}, gap = 0 } } end, "the rigid gap lies behind the part: its normal points into the body")
 local on_node <const> = dotyk.rigid.ball{ center = {0.5,0}, radius = 0.1 }
 refused(function() scene:contact{ it.bottom, rigid = on_node } end, "the centre of the rigid ball lies on the contact part")
 local bar <const> = dotyk.body{ mesh = it.mesh, material = it.material }
