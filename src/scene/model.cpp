@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
 #include "elasticity/weak_motions.hpp"
+#include "problem/range.hpp"
 #include "scene/contact_rows.hpp"
 #include "scene/subdomains.hpp"
 #include "scene/support_rows.hpp"
@@ -170,6 +171,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
     monitor.check();
   }
   set_rows(scene, loading, model);
+  if (decomposition || model.problem.rows() > 0) problem::require_moderate(model.problem);
   if (decomposition) cut(*decomposition, model, monitor);
   clock.assembly += watch.seconds();
   return model;
@@ -184,6 +186,7 @@ void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& 
     set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
   }
   set_rows(scene, loading, model);
+  if (!model.problem.subdomains.empty() || model.problem.rows() > 0) problem::require_moderate(model.problem);
   load_subdomains(model);
   clock.assembly += watch.seconds();
 }

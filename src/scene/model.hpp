@@ -62,8 +62,8 @@ struct Model {
 };
 
 /// Assembles. Throws InputError for contradictory supports, for a contact that nodes fixed on both sides
-/// make impossible, and for a body whose supports are lost in rounding beside its stiffness. Adds its
-/// time to clock.assembly. With a `decomposition` the bodies are also cut into subdomains by it: see cut().
+/// make impossible, for a body whose supports are lost in rounding beside its stiffness, and, with rows or subdomains, as
+/// problem::require_moderate(). Adds its time to clock.assembly. With a `decomposition` the bodies are also cut into subdomains by it: see cut().
 Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading = {},
             const std::optional<problem::Decomposition>& decomposition = {});
 /// Puts another loading on a model: f (of subdomains, too) and c change, K and B stay. `bodies`: the scene's, unscaled, as
