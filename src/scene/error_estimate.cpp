@@ -92,6 +92,22 @@ double slip_law(const Contact& contact, const contact::SurfaceFacet& f, const co
   return std::isfinite(lost) ? std::min(std::max(0.0, lost), without) : 0;
 }
 
+/// Throws where squares of stresses or stiffnesses leave the range of numbers: to nan or, no better, to 0.
+void require_squares(const elasticity::MaterialField& material, int cells, const std::vector<elasticity::Stress>& stress) {
+  constexpr double kMost = 1e140;
+  double peak = 0;
+  for (const elasticity::Stress& at : stress)
+    for (const double s : at) peak = std::max(peak, std::abs(s));
+  bool moderate = peak == 0 || (peak < kMost && peak > 1 / kMost);
+  for (int c = 0; moderate && c < (material.varies() ? cells : 1); ++c) {
+    const double stiffness = material.at(c).c[0][0][0][0];
+    moderate = stiffness < kMost && stiffness > 1 / kMost;
+  }
+  if (!moderate)
+    throw InputError("the error estimate has values beyond the range of numbers: squares of stresses or stiffnesses are too large or too "
+                     "small; choose units in which they are moderate");
+}
+
 }  // namespace
 
 const ErrorEstimate& Solution::error_estimate() const {
@@ -129,6 +145,7 @@ ErrorEstimate Solution::make_error_estimate() const {
   double solution = 0;
   for (int b = 0; b < count; ++b) {
     const Body& own = body(b);
+    require_squares(own.material, own.mesh->cell_count(), stress(b));
     for (const LawSupport& on : own.laws)
       add_laws(*own.mesh, on, support({scene_->bodies[b], on.part.name, on.facets}), boundary[b]);
     auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement_[b], cell_forces(own), boundary[b].all(),

@@ -85,3 +85,41 @@ do
     "'body' is as good as free: translation along x, translation along y, rotation about (0.5, 0.5) is held only by "
     .. "spring on bottom", "lost in rounding")
 end
+
+-- Squares that leave the range would lose friction, or the error: that is said, whatever the method.
+local function rubbing(E, strain)
+  local b, scene = column{ mesh = fine, material = dotyk.material{ E = E, nu = 0.3 } }
+  b:part "top":load{ 0.3 * E * strain, -E * strain }
+  return b, scene, scene:contact{ b:part "right", rigid = dotyk.rigid.plane{ point = {1,0}, normal = {-1,0} }, friction = dotyk.friction.coulomb(0.3) }
+end
+local _, moderate <const>, rubs <const> = rubbing(1, 0.1)
+local known <const> = dotyk.solve(moderate)
+for _, case in ipairs{ { 1e100, 0.1 }, { 1e-100, 0.1 }, { 1, 1e-90 }, { 1e-50, 1e90 } } do
+  local _, scene, c = rubbing(case[1], case[2])
+  local s = dotyk.solve(scene)
+  check.that(s.converged)
+  for i = 1, 2 do check.near(s:contact(c).force[i] / (case[1] * case[2]), known:contact(rubs).force[i] / 0.1, 1e-9) end
+  check.near((s:error_estimate()), (known:error_estimate()), 1e-9)
+end
+for _, case in ipairs{ { 1e156, 0.1 }, { 1e200, 0.1 }, { 1e-160, 0.1 }, { 1e-290, 0.1 }, { 1e100, 1e80 }, { 1e-100, 1e-100 }, { 1e-80, 1e150 } } do
+  local _, scene = rubbing(case[1], case[2])
+  for _, method in ipairs{ dotyk.solver.newton{}, dotyk.solver.pdas{}, dotyk.solver.feti{} } do
+    refused(function() method:solve(scene) end, "beyond the range of numbers", "choose units")
+  end
+end
+for _, E in ipairs{ 1e155, 1e200, 1e-160, 1e-200 } do
+  local b, scene = column{ mesh = fine, material = dotyk.material{ E = E, nu = 0.3 } }
+  b:part "top":load{ 0, -E / 10 }
+  local s = dotyk.solve(scene)
+  check.that(s.converged)
+  refused(function() s:error_estimate() end, "the error estimate has values beyond the range of numbers", "choose units")
+end
+-- Loads of steps are looked at as well.
+do
+  local b, scene = column{}
+  b:part "top":load{ 0, -1 }
+  scene:contact{ b:part "right", rigid = dotyk.rigid.plane{ point = {1,0}, normal = {-1,0} } }
+  for _, method in ipairs{ dotyk.solver.feti{}, dotyk.solver.pdas{} } do
+    refused(function() method:solve(scene, { steps = { { load = 1 }, { load = 1e308 } } }) end, "step 2: values beyond the range of numbers: loads are about")
+  end
+end
