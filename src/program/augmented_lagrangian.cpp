@@ -1,5 +1,6 @@
 #include "program/augmented_lagrangian.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -126,6 +127,27 @@ class Iteration {
   Result result_;
 };
 
+double largest(const double* values, Eigen::Index count) {
+  double most = 0;
+  for (Eigen::Index k = 0; k < count; ++k) most = std::max(most, std::abs(values[k]));
+  return most;
+}
+
+/// Squares of what is larger or smaller leave the range of numbers, in the end.
+void require_moderate(const char* what, double size) {
+  constexpr double kMost = 1e100;
+  if (size == 0 || (size <= kMost && size >= 1 / kMost)) return;
+  throw InputError(text("values beyond the range of numbers: the greatest entry of ", what, " is ", size, "; choose units in which it is moderate"));
+}
+
+/// What the objective is divided by: penalties, M and what counts as no curvature are about numbers like 1, and are left to mean
+/// what they say where the objective is of such.
+double cost(const QuadraticProgram& p) {
+  constexpr double kLikeOne = 1e6;
+  const double size = std::max(largest(p.P.valuePtr(), p.P.nonZeros()), largest(p.q.data(), p.q.size()));
+  return size == 0 || (size <= kLikeOne && size >= 1 / kLikeOne) ? 1 : size;
+}
+
 }  // namespace
 
 Result solve(const QuadraticProgram& program, const AugmentedLagrangian& settings, Monitor& monitor) {
@@ -134,8 +156,17 @@ Result solve(const QuadraticProgram& program, const AugmentedLagrangian& setting
     if (!program.equality(r))
       throw InputError(text("row ", r + 1, " is an inequality; augmented Lagrangians take equalities only (use "
                             "\"active_set\" or \"interior_point\")"));
+  require_moderate("B", largest(program.P.valuePtr(), program.P.nonZeros()));
+  require_moderate("c", largest(program.q.data(), program.q.size()));
+  require_moderate("D", largest(program.A.valuePtr(), program.A.nonZeros()));
+  require_moderate("d", largest(program.low.data(), program.low.size()));
   Stopwatch clock;
-  Result result = Iteration(program, settings, monitor).run();
+  const double size = cost(program);
+  QuadraticProgram scaled = program;
+  scaled.P /= size, scaled.q /= size, scaled.r /= size;
+  Result result = Iteration(scaled, settings, monitor).run();
+  result.y *= size;
+  result.penalty *= size;
   measure(program, result);
   result.seconds = clock.seconds();
   return result;

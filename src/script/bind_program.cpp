@@ -29,7 +29,7 @@ std::vector<Key> solve_keys() {
           key::integer("max_iterations", "give up after so many").at_least(1)
               .otherwise("20000 (active_set), 200 (others)"),
           key::positive("M", "augmented Lagrangians: inner precision, |gradient| <= M |Dx - d|").fallback(1.0),
-          key::positive("rho", "first penalty").fallback(100.0),
+          key::positive("rho", "first penalty; as M for B and c divided by their greatest entry, where that is beyond 1e6 or below 1e-6").fallback(100.0),
           key::number("alpha", "factor on eta when |Dx - d| <= eta").within(0, 1).fallback(0.1),
           key::number("beta", "factor on the penalty otherwise").above(1).fallback(10.0),
           key::positive("eta", "first bound on |Dx - d|").fallback(1.0),

@@ -70,3 +70,23 @@ TEST_CASE("what augmented Lagrangians cannot take is refused or told") {
   const auto flat = test::quadratic(DenseMatrix::Zero(2, 2), Vector{{1, 1}}, DenseMatrix{{1, -1}}, Vector::Zero(1), Vector::Zero(1));
   CHECK(program::solve(flat, AugmentedLagrangian{}, quiet).status == Status::unbounded);
 }
+
+TEST_CASE("the size of the objective does not matter; data out of range are refused") {
+  Monitor quiet;
+  const DenseMatrix I = DenseMatrix::Identity(2, 2), D = DenseMatrix::Ones(1, 2);
+  const auto of_size = [&](double e) { return test::quadratic(2 * e * I, -e * Vector{{2, 5}}, D, Vector::Ones(1), Vector::Ones(1)); };
+  for (const auto update : {AugmentedLagrangian::Update::multiplier, AugmentedLagrangian::Update::least_squares}) {
+    AugmentedLagrangian s;
+    s.update = update;
+    for (const double e : {1e-99, 1e-18, 1.0, 1e18, 1e99}) {
+      INFO(e);
+      const auto r = program::solve(of_size(e), s, quiet);
+      REQUIRE(r.status == Status::solved);
+      CHECK(r.x[0] == doctest::Approx(-0.25));
+      CHECK(r.x[1] == doctest::Approx(1.25));
+      CHECK(r.y[0] / e == doctest::Approx(2.5));
+    }
+    for (const double e : {1e-300, 1e-150, 1e150, 1e300})
+      CHECK_THROWS_WITH_AS(program::solve(of_size(e), s, quiet), doctest::Contains("beyond the range of numbers: the greatest entry of B is"), InputError);
+  }
+}
