@@ -80,20 +80,43 @@ Forces forces(const Problem& problem, const State& state) {
   return all;
 }
 
+/// |K||w|.
+Vector gross_forces(const Block& block, const Vector& w) {
+  Vector sum = Vector::Zero(w.size());
+  for (int j = 0; j < block.K.outerSize(); ++j)
+    for (algebra::SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
+      sum[it.row()] += std::abs(it.value() * w[j]);
+      if (it.row() != j) sum[j] += std::abs(it.value() * w[it.row()]);
+    }
+  return sum;
+}
+
 /// ‖|K||w|‖, w the part of u in the block's kernel.
 double moved_forces(const Block& block, const Vector& u) {
   const algebra::DenseMatrix& R = block.kernel;
-  const Vector w = (R * R.colPivHouseholderQr().solve(u)).cwiseAbs();
-  Vector sum = Vector::Zero(u.size());
-  for (int j = 0; j < block.K.outerSize(); ++j)
-    for (algebra::SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
-      sum[it.row()] += std::abs(it.value()) * w[j];
-      if (it.row() != j) sum[j] += std::abs(it.value()) * w[it.row()];
-    }
-  return sum.stableNorm();
+  return gross_forces(block, R * R.colPivHouseholderQr().solve(u)).stableNorm();
 }
 
-/// Greatest resultant of the forces on the block that is not balanced, relative to all of them at the longest lever.
+/// Where nothing loads the bodies, the least that counts as a force, and as work: what half of the digits of K|u| are. Bodies that
+/// get out of an obstacle's way end free of forces, and rounding of K times their motion is all that is left of those.
+struct Least {
+  double force = 0, work = 0;
+};
+
+Least least(const Problem& problem, const State& state, double load) {
+  if (load > 0) return {};
+  const double half = std::sqrt(std::numeric_limits<double>::epsilon());
+  Least result;
+  for (const Block& block : problem.blocks) {
+    const auto u = state.u.segment(block.first, block.size());
+    const Vector gross = gross_forces(block, u);
+    result.force = std::hypot(result.force, half * gross.stableNorm());
+    result.work += half * gross.dot(u.cwiseAbs());
+  }
+  return result;
+}
+
+/// Greatest resultant of the forces on the block that is not balanced, relative to all of them (`gross`) at the longest lever.
 double unbalanced(const Block& block, const Vector& force, double gross) {
   double most = 0;
   for (const auto& mode : block.kernel.colwise())
@@ -107,6 +130,7 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
   constexpr double kRoundings = 4;  // of u itself and of the sums in Ku
   const Forces all = forces(problem, state);
   const Vector gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + all.load.cwiseAbs();
+  const Least least = problem::least(problem, state, all.load.stableNorm());
   MotionResidual result;
   double greatest = 0;
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
@@ -117,19 +141,20 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
     double granted = 0;
     if (block.kernel.cols() > 0) {
       granted = kRoundings * std::numeric_limits<double>::epsilon() * moved_forces(block, own(state.u));
-      result.resultants = std::max(result.resultants, unbalanced(block, force, own(gross).sum()));
+      result.resultants = std::max(result.resultants, unbalanced(block, force, std::max(own(gross).sum(), least.force)));
     }
     if (std::min(left, granted) > greatest) greatest = std::min(left, granted), result.most = static_cast<int>(b);
     result.beyond = std::hypot(result.beyond, std::max(0.0, left - granted));
   }
-  if (all.size() > 0) result.beyond /= all.size();
+  if (const double scale = std::max(all.size(), least.force); scale > 0) result.beyond /= scale;
   return result;
 }
 
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
   const Forces all = forces(problem, state);
-  const double scale = all.size();
+  const Least least = problem::least(problem, state, all.load.stableNorm());
+  const double scale = std::max(all.size(), least.force);
   if (scale > 0) result.equilibrium = (all.internal + all.contact - all.load).stableNorm() / scale;
   if (problem.rows() == 0) return result;
 
@@ -150,7 +175,7 @@ Residual residual(const Problem& problem, const State& state) {
       work += std::abs(state.lambda[r] * problem.c[r]);
     }
   }
-  work += std::abs(0.5 * state.u.dot(all.internal)) + std::abs(state.u.dot(all.load));
+  work += least.work + std::abs(0.5 * state.u.dot(all.internal)) + std::abs(state.u.dot(all.load));
   if (work > 0) result.complementarity = product / work;
   result.friction = friction_violation(problem, state);
   result.law = natural_residual(problem, x, state.lambda, stiffness);

@@ -33,6 +33,10 @@ double honest_equilibrium(const problem::Problem& problem, double raw, double al
   return honest;
 }
 
+bool loaded(const problem::Problem& problem) {
+  return std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& block) { return !block.f.isZero(0); });
+}
+
 /// Where rounding is most of what a method returns, that is no solution.
 void refuse_noise(const problem::Problem& problem, const problem::Residual& r, solver::Result& result) {
   if (!result.converged) return;
@@ -43,7 +47,8 @@ void refuse_noise(const problem::Problem& problem, const problem::Residual& r, s
   if (worst <= allowed) return;
   result.converged = false;
   result.reason = text("rounding leaves ", equilibrium_alone ? "the displacements out of equilibrium by " : "a residual of ",
-                       worst, ": stiffnesses, supports or sizes are too far apart ",
+                       worst, loaded(problem) ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)",
+                       ": stiffnesses, supports or sizes are too far apart ",
                        result.feti ? "for this decomposition, or tol is too great"
                                    : "(a material nearly incompressible, a spring nearly absent, cells nearly flat)");
 }

@@ -99,6 +99,28 @@ TEST_CASE("nothing loaded and nothing moved has no residual") {
   CHECK(r.equilibrium + r.penetration + r.complementarity + r.law == 0);
 }
 
+TEST_CASE("rounding is no force where nothing loads: neither equilibrium nor complementarity are measured by it") {
+  // A bar that has moved out of an obstacle's way, by u = (0.1, 0.1) but for the last digit.
+  const auto moved = [](double load, double difference, double lambda) {
+    Problem p;
+    Block bar;
+    bar.name = "bar";
+    bar.K = test::lower((DenseMatrix(2, 2) << 1000, -1000, -1000, 1000).finished());
+    bar.f = load * Vector::Ones(2);
+    bar.node = {0, 1};
+    bar.kernel = DenseMatrix::Ones(2, 1);
+    add(p, bar);
+    p.B = test::rows(DenseMatrix::Identity(1, 2));
+    p.c = Vector::Constant(1, 0.1);
+    p.groups.push_back(test::group(unilateral(), 0, 1));
+    return residual(p, {Vector{{0.1, 0.1 + difference}}, Vector::Constant(1, lambda)});
+  };
+  CHECK(moved(0, 1e-17, 1e-15).equilibrium < 1e-6);
+  CHECK(moved(1e-15, 1e-17, 1e-15).equilibrium > 0.1);  // beside a load, however small, it is
+  CHECK(moved(0, 1e-6, 0).equilibrium == doctest::Approx(1));  // and strains are no rounding
+  CHECK(moved(0, 0, 1e-3).equilibrium == doctest::Approx(1));
+}
+
 TEST_CASE("row stiffness is Σ B² K_jj") {
   Problem p = one_spring(1, 1, unilateral());
   p.B = test::rows(DenseMatrix::Constant(1, 1, -3));
