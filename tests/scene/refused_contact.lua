@@ -67,6 +67,18 @@ for _, cells in ipairs{ { 2, 1 }, { 3, 1 } } do
   local near, under = over(0.02, cells)
   near:glue{ under, face }
 end
+-- Chords of curved parts lie apart as they must.
+local function arc(inner, cells)
+  local function bend(x, y) return (inner + y) * math.cos(math.pi * x), -(inner + y) * math.sin(math.pi * x) end
+  return dotyk.body{ name = "arc " .. inner, material = it.material, mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {cells,2} }:transform(bend) }
+end
+for _, cells in ipairs{ { 4, 7 }, { 3, 20 }, { 40, 53 } } do
+  for _, pairing in ipairs{ "mortar", "node_to_segment" } do
+    local inside, outside = arc(1, cells[1]), arc(2, cells[2])
+    dotyk.scene{ inside, outside }:glue{ inside:part "top", outside:part "bottom", pairing = pairing }
+    dotyk.scene{ inside, outside }:glue{ outside:part "bottom", inside:part "top", pairing = pairing }
+  end
+end
 local glue <const> = two:glue{ face, upper:part "bottom" }
 refused(function() two:contact{ face, upper:part "bottom" } end, "already joined by the glue of 'base' top to 'upper' bottom")
 refused(function() two:glue{ upper:part "bottom", face } end, "already joined by the glue")
