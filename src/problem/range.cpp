@@ -9,23 +9,19 @@
 namespace dotyk::problem {
 namespace {
 
-/// Squares stay within 1e±240, and leave room for sums and for what is small beside the greatest.
-constexpr double kMost = 1e120;
+constexpr double kMostStiffness = 1e120, kMostDisplacement = 1e175;
 
-void require(double size, const char* what) {
-  if (size == 0 || (size <= kMost && size >= 1 / kMost)) return;
-  throw InputError(text("values beyond the range of numbers: ", what, " are about ", size, ", and squares of what is beyond ", kMost, " or below ", 1 / kMost,
-                        " are lost; choose units in which stiffness, loads and sizes are moderate"));
+void require(double size, double most, const char* what) {
+  if (size == 0 || (size <= most && size >= 1 / most)) return;
+  throw InputError(text("values beyond the range of numbers: ", what, " are about ", size, ", and what is beyond ", most, " or below ", 1 / most,
+                        " is lost where it is squared; choose units in which stiffness, loads and sizes are moderate"));
 }
 
 }  // namespace
 
-void require_moderate(const Problem& problem) {
+void require_moderate(const Problem& problem, double most_force) {
   double stiffness = 0, force = 0, gap = 0;
-  // Not std::max: nan counts.
-  const auto grow = [](double& most, double value) {
-    if (!(std::abs(value) <= most)) most = std::abs(value);
-  };
+  const auto grow = [](double& greatest, double value) { greatest = std::isnan(value) ? INFINITY : std::max(greatest, std::abs(value)); };
   for (const Block& block : problem.blocks) {
     const algebra::Vector diagonal = block.K.diagonal();
     for (const double k : diagonal) grow(stiffness, k);
@@ -33,12 +29,12 @@ void require_moderate(const Problem& problem) {
   }
   for (const double c : problem.c)
     if (!std::isinf(c)) grow(gap, c);
-  require(stiffness, "stiffnesses");
-  require(force, "loads");
-  require(gap, "gaps and prescribed displacements");
+  require(stiffness, kMostStiffness, "stiffnesses");
+  require(force, most_force, "loads");
+  require(gap, kMostDisplacement, "gaps and prescribed displacements");
   grow(force, gap * stiffness);
-  require(force, "forces");
-  require(stiffness > 0 ? force / stiffness : 0, "displacements");
+  require(force, most_force, "forces");
+  require(stiffness > 0 ? force / stiffness : 0, kMostDisplacement, "displacements");
 }
 
 }  // namespace dotyk::problem

@@ -158,6 +158,11 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   builder.finish();
 }
 
+void require_moderate(const problem::Problem& problem, bool cut) {
+  if (cut) problem::require_moderate(problem, problem::kMostForceOnSubdomains);
+  else if (problem.rows() > 0) problem::require_moderate(problem, problem::kMostForceOnRows);
+}
+
 }  // namespace
 
 Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading,
@@ -171,7 +176,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
     monitor.check();
   }
   set_rows(scene, loading, model);
-  if (decomposition || model.problem.rows() > 0) problem::require_moderate(model.problem);
+  require_moderate(model.problem, decomposition.has_value());
   if (decomposition) cut(*decomposition, model, monitor);
   clock.assembly += watch.seconds();
   return model;
@@ -186,7 +191,7 @@ void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& 
     set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
   }
   set_rows(scene, loading, model);
-  if (!model.problem.subdomains.empty() || model.problem.rows() > 0) problem::require_moderate(model.problem);
+  require_moderate(model.problem, model.decomposition.has_value());
   load_subdomains(model);
   clock.assembly += watch.seconds();
 }

@@ -94,14 +94,14 @@ local function rubbing(E, strain)
 end
 local _, moderate <const>, rubs <const> = rubbing(1, 0.1)
 local known <const> = dotyk.solve(moderate)
-for _, case in ipairs{ { 1e100, 0.1 }, { 1e-100, 0.1 }, { 1, 1e-90 }, { 1e-50, 1e90 } } do
+for _, case in ipairs{ { 1e100, 0.1 }, { 1e-100, 0.1 }, { 1, 1e-90 }, { 1e-50, 1e90 }, { 1e-80, 1e150 } } do
   local _, scene, c = rubbing(case[1], case[2])
   local s = dotyk.solve(scene)
   check.that(s.converged)
   for i = 1, 2 do check.near(s:contact(c).force[i] / (case[1] * case[2]), known:contact(rubs).force[i] / 0.1, 1e-9) end
   check.near((s:error_estimate()), (known:error_estimate()), 1e-9)
 end
-for _, case in ipairs{ { 1e156, 0.1 }, { 1e200, 0.1 }, { 1e-160, 0.1 }, { 1e-290, 0.1 }, { 1e100, 1e80 }, { 1e-100, 1e-100 }, { 1e-80, 1e150 } } do
+for _, case in ipairs{ { 1e156, 0.1 }, { 1e200, 0.1 }, { 1e-160, 0.1 }, { 1e-290, 0.1 }, { 1e100, 1e80 }, { 1e-100, 1e-100 } } do
   local _, scene = rubbing(case[1], case[2])
   for _, method in ipairs{ dotyk.solver.newton{}, dotyk.solver.pdas{}, dotyk.solver.feti{} } do
     refused(function() method:solve(scene) end, "beyond the range of numbers", "choose units")
