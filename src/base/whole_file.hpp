@@ -32,6 +32,8 @@ inline std::string place_to_write(const std::string& file) {
   struct stat info {};
   const bool link = lstat(file.c_str(), &info) == 0 && S_ISLNK(info.st_mode);
   std::string place = link ? place_of(file).string() : file;
+  for (const char* system : {"/dev/", "/proc/"})
+    if (link && file.rfind(system, 0) == 0) throw InputError("cannot write '" + file + "': it leads to what is open already; results are written to files");
   if (stat(file.c_str(), &info) == 0)
     if (const char* kind = detail::no_file(info.st_mode))
       throw InputError("cannot write '" + file + "': it " + (link ? "leads to '" + place + "', " : "is ") + kind + "; results are written to files");
@@ -47,6 +49,8 @@ class PartFile {
     unlink(part_.c_str());  // of a process of this number that was killed; and no link is followed
     out_ = open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (out_ < 0) fail(std::strerror(errno));
+    struct stat before {};
+    if (stat(place_.c_str(), &before) == 0) fchmod(out_, before.st_mode & 07777);  // as it was; where that may not be, as new files are
   }
   ~PartFile() {
     if (out_ >= 0) close(out_);

@@ -80,6 +80,7 @@ class History {
   std::shared_ptr<Solution> advance(const Step& step, Monitor& monitor, bool is_last) {
     load(step, monitor);
     solver::Result result = breaks_ ? cascade(monitor) : iterate(monitor);
+    if (last_ && !last_->result().converged) result.reason += "; it follows a solution that has not converged";
     add_times(result.clock);
     Past past{loading_, last_ ? last_->slip() : algebra::Vector(), last_ ? last_->dissipated() : std::vector<double>(),
               steps_};

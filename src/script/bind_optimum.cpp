@@ -201,7 +201,7 @@ int optimise(Call& call) {
   Watch watch(call.state(), "optimising");
   Run run(call, call.self<Shape>(), watch);
   const auto handle = run.run();
-  watch.answer("look at it, go on from it with start = it, or leave it");
+  watch.answer("look at it, go on from it (start = that result), or leave it");
   return call.give(handle);
 }
 

@@ -36,6 +36,7 @@ void RowIteration::move_to(Vector lambda, Vector alpha) {
 void RowIteration::begin_at(Vector lambda, Vector alpha) {
   move_to(std::move(lambda), std::move(alpha));
   recorded_ = value_;
+  best_ = {lambda_, alpha_, residual()};
   begun_ = true;
 }
 
