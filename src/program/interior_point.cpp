@@ -16,6 +16,8 @@ namespace {
 constexpr double kEnough = 100;
 /// Iterations without a better one before it is called so.
 constexpr int kPatience = 15;
+/// The same where all that is asked for yet is `fine`.
+constexpr int kFinerPatience = 3;
 
 /// Iterates that go to infinity show a direction that proves why.
 bool diverged(const QuadraticProgram& p, const Barrier& barrier, Result& result) {
@@ -63,7 +65,10 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
       break;
     }
     monitor.iteration({.iteration = k + 1, .residual = merit, .seconds = clock.seconds()});
-    if (merit <= settings.tol) {
+    const bool within = least <= settings.tol;
+    if (within && settings.fine && since_best >= kFinerPatience) break;  // as fine as it gets
+    if (merit <= settings.tol && (!settings.fine || settings.fine(barrier.point().x, barrier.point().y))) {
+      best = barrier.point();
       result.status = Status::solved;
       result.reason = text("residuals and gap are below ", settings.tol);
       break;
@@ -110,15 +115,18 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
     result.x = Vector::Zero(program.unknowns()), result.y = Vector::Zero(program.rows());
   } else {
     const Scaled scaled = scale(program);
-    result = run(scaled.program, settings, 30, monitor);
+    InteriorPoint inner = settings;
+    if (settings.fine) inner.fine = [&](const Vector& x, const Vector& y) { return settings.fine(scaled.x(x), scaled.y(y)); };
+    result = run(scaled.program, inner, 30, monitor);
     if (result.status == Status::stopped && !monitor.stop()) {
       const int before = result.iterations;
-      result = run(scaled.program, settings, 1000, monitor);
+      result = run(scaled.program, inner, 1000, monitor);
       result.iterations += before;
       result.reason += ", at the second start";
     }
     if (result.status == Status::unbounded) {  // or without any point, which shows where the objective is strictly convex
-      const Result nearest = run(nearest_point(scaled.program), settings, 30, monitor);
+      inner.fine = nullptr;
+      const Result nearest = run(nearest_point(scaled.program), inner, 30, monitor);
       if (nearest.status == Status::infeasible) {
         result.status = nearest.status, result.reason = nearest.reason, result.direction = nearest.direction;
       }

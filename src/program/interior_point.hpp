@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "base/monitor.hpp"
 #include "program/program.hpp"
 
@@ -8,6 +10,8 @@ namespace dotyk::program {
 struct InteriorPoint {
   double tol = 1e-9;  ///< on residuals and gap, relative, in the scaled program
   int max_iterations = 200;
+  /// Asked of iterates (x, y as of Result) that are within tol: where it says no, the method goes on as long as it gets nearer.
+  std::function<bool(const Vector& x, const Vector& y)> fine = nullptr;
 };
 
 /// Mehrotra's predictor–corrector method (1992) for convex quadratic programs, infeasible start, one
