@@ -11,6 +11,7 @@
 
 #include "script/lua.hpp"
 #include "script/position.hpp"
+#include "script/replaced.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -141,11 +142,11 @@ class Running {
   lua_State* caller_;
 };
 
-// coroutine.resume and coroutine.close. Upvalue 1 is Lua's own function; its messages name the script's line.
+// coroutine.resume and coroutine.close.
 int with_thread(lua_State* L) {
   lua_State* thread = lua_tothread(L, 1);
   const Running now(L, thread ? thread : L);
-  return lua_tocfunction(L, lua_upvalueindex(1))(L);
+  return original(L);
 }
 
 // A function that coroutine.wrap makes, upvalue 1; its thread is upvalue 2.
@@ -160,7 +161,7 @@ int call_wrapped(lua_State* L) {
 // A coroutine begins to count afresh: what it might do before the first look is counted at once.
 int create(lua_State* L) {
   used += interval;
-  return lua_tocfunction(L, lua_upvalueindex(1))(L);
+  return original(L);
 }
 
 // coroutine.wrap: the function Lua makes has its thread as first upvalue.
@@ -180,13 +181,7 @@ int set_metatable(lua_State* L) {
     if (lua_rawget(L, 2) != LUA_TNIL) raise(L, "setmetatable", "no __gc where instructions are counted (--instructions)");
     lua_pop(L, 1);
   }
-  return lua_tocfunction(L, lua_upvalueindex(1))(L);
-}
-
-void replace_field(lua_State* L, const char* name, lua_CFunction function) {
-  lua_getfield(L, -1, name);
-  lua_pushcclosure(L, function, 1);
-  lua_setfield(L, -2, name);
+  return original(L);
 }
 
 }  // namespace
@@ -222,21 +217,17 @@ void request_interrupt() {
 void limit_instructions(lua_State* L, long long count) {
   allowed = count;
   interval = static_cast<int>(std::clamp(count, 1LL, 1000LL));
-  lua_pushglobaltable(L);
-  replace_field(L, "setmetatable", set_metatable);
-  lua_pop(L, 1);
+  replace(L, "_G", "setmetatable", set_metatable);
   disarm(L);
 }
 
 void watch_interrupts(lua_State* L) {
   running = L;
   measure_stack();
-  lua_getglobal(L, "coroutine");
-  replace_field(L, "resume", with_thread);
-  replace_field(L, "close", with_thread);
-  replace_field(L, "wrap", wrap);
-  replace_field(L, "create", create);
-  lua_pop(L, 1);
+  replace(L, "coroutine", "resume", with_thread);
+  replace(L, "coroutine", "close", with_thread);
+  replace(L, "coroutine", "wrap", wrap);
+  replace(L, "coroutine", "create", create);
   lua_getglobal(L, "xpcall");
   lua_xpcall = lua_tocfunction(L, -1);
   lua_pop(L, 1);

@@ -5,14 +5,12 @@
 #include "script/interrupt.hpp"
 #include "script/lua.hpp"
 #include "script/position.hpp"
+#include "script/replaced.hpp"
 
 namespace dotyk::script {
 namespace {
 
 constexpr lua_Integer piece = 1 << 20;  // places moved between two looks at Ctrl-C
-
-// Lua's own function, upvalue 1, in this very frame: its messages name the script's line.
-int original(lua_State* L) { return lua_tocfunction(L, lua_upvalueindex(1))(L); }
 
 int repeat(lua_State* L) {
   const bool nothing = lua_type(L, 1) == LUA_TSTRING && lua_rawlen(L, 1) == 0 && lua_isinteger(L, 2) &&
@@ -107,14 +105,6 @@ int set_user_value(lua_State* L) {
   return original(L);
 }
 int get_registry(lua_State* L) { refuse(L, "debug.getregistry", "the registry is Lua's and dotyk's own"); }
-
-void replace(lua_State* L, const char* library, const char* name, lua_CFunction function) {
-  lua_getglobal(L, library);
-  lua_getfield(L, -1, name);
-  lua_pushcclosure(L, function, 1);
-  lua_setfield(L, -2, name);
-  lua_pop(L, 1);
-}
 
 }  // namespace
 

@@ -7,12 +7,10 @@
 #include "script/guard.hpp"
 #include "script/library.hpp"
 #include "script/lua.hpp"
+#include "script/replaced.hpp"
 
 namespace dotyk::script {
 namespace {
-
-// Lua's own function, upvalue 1, in this very frame: its messages name the script's line.
-int original(lua_State* L) { return lua_tocfunction(L, lua_upvalueindex(1))(L); }
 
 void require_below(lua_State* L, int index) {
   const std::string name = lua_tostring(L, index);
@@ -99,15 +97,6 @@ int no_variable(lua_State* L) {
   luaL_checkstring(L, 1);
   lua_pushnil(L);
   return 1;
-}
-
-void replace(lua_State* L, const char* library, const char* name, lua_CFunction function) {
-  lua_getglobal(L, library);
-  lua_getfield(L, -1, name);
-  lua_pushstring(L, name);
-  lua_pushcclosure(L, function, 2);
-  lua_setfield(L, -2, name);
-  lua_pop(L, 1);
 }
 
 void take_away(lua_State* L, const char* library, const char* name, const char* option = "--safe") {
