@@ -111,13 +111,13 @@ std::optional<std::string> Interpreter::run_loaded(int load_status) {
 
 std::optional<std::string> Interpreter::run_file(const std::string& path) {
   const int status = luaL_loadfilex(L_, path == "-" ? nullptr : path.c_str(), "t");
-  if (status == LUA_OK && keep_locals_ && path != "-" && !load_keeping_locals(L_, script_text(path), "@" + path).empty()) lua_remove(L_, -2);
+  if (status == LUA_OK && keep_locals_ && path != "-") script::keep_locals(L_, script_text(path), "@" + path);
   return run_loaded(status);
 }
 
 std::optional<std::string> Interpreter::run_text(const std::string& text, const std::string& chunk) {
   const int status = luaL_loadbufferx(L_, text.data(), text.size(), ("=" + chunk).c_str(), "t");
-  if (status == LUA_OK && keep_locals_ && !load_keeping_locals(L_, text, "=" + chunk).empty()) lua_remove(L_, -2);
+  if (status == LUA_OK && keep_locals_) script::keep_locals(L_, text, "=" + chunk);
   return run_loaded(status);
 }
 

@@ -170,13 +170,14 @@ std::string as_globals(const std::string& text) {
   return global.replace(declared.first_local, std::strlen("local"), std::strlen("local"), ' ');
 }
 
-std::string load_keeping_locals(lua_State* L, const std::string& text, const std::string& chunk) {
+std::string keep_locals(lua_State* L, const std::string& text, const std::string& chunk) {
   const Declarations declared(text);
   const auto whole = std::string("local ") + first_name + " <close> = " + first_name + "() " + declared.text_;
   if (luaL_loadbufferx(L, whole.data(), whole.size(), chunk.c_str(), "t") != LUA_OK) {
     lua_pop(L, 1);
-    return "";
+    return text;
   }
+  lua_remove(L, -2);
   lua_newtable(L);
   lua_createtable(L, 0, 1);
   lua_pushcfunction(L, keep_at_end);

@@ -106,7 +106,7 @@ class Prompt {
   // The input as Lua compiles it: "= expr" without its sign, and, as each input
   // is a chunk of its own, "local x = …" without "local", so that x can be used
   // in the next line as in the script it was copied from. (Further locals of the
-  // input stay by load_keeping_locals.)
+  // input stay by keep_locals.)
   std::string plain(const std::string& input) {
     if (!input.empty() && input[0] == '=') return input.substr(1);
     const auto global = as_globals(input);
@@ -147,9 +147,7 @@ class Prompt {
     lua_pop(L_, 1);
     if (load(text)) {
       const bool declares = text.find("local") != std::string::npos;
-      compiled_ = declares ? load_keeping_locals(L_, text, chunk_name) : "";
-      if (compiled_.empty()) compiled_ = text;
-      else lua_remove(L_, -2);
+      compiled_ = declares ? keep_locals(L_, text, chunk_name) : text;
       return Compiled::statement;
     }
     const std::string message = lua_tostring(L_, -1);
