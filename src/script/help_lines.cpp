@@ -1,10 +1,9 @@
 #include "script/help_lines.hpp"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <sstream>
+
+#include "script/terminal.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -39,9 +38,8 @@ std::string name_part(const std::string& name) {
 
 std::size_t line_width(std::size_t more) {
   const std::size_t pleasant = 96 + more, least = 40;
-  winsize terminal{};
-  if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &terminal) != 0 || terminal.ws_col == 0) return pleasant;
-  return std::clamp<std::size_t>(terminal.ws_col - 1u, least, pleasant);
+  const std::size_t width = terminal_size(STDOUT_FILENO).ws_col;
+  return width > 0 ? std::clamp(width - 1, least, pleasant) : pleasant;
 }
 
 std::size_t letters(const std::string& text) {

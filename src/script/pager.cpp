@@ -1,6 +1,5 @@
 #include "script/pager.hpp"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,13 +8,14 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "script/terminal.hpp"
+
 namespace dotyk::script {
 namespace {
 
 bool fits(const std::string& text) {
-  winsize terminal{};
-  if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &terminal) != 0 || terminal.ws_row == 0) return true;
-  return std::count(text.begin(), text.end(), '\n') < terminal.ws_row;
+  const int rows = terminal_size(STDOUT_FILENO).ws_row;
+  return rows == 0 || !isatty(STDIN_FILENO) || std::count(text.begin(), text.end(), '\n') < rows;
 }
 
 bool on_path(const std::string& program) {

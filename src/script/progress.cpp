@@ -1,11 +1,10 @@
 #include "script/progress.hpp"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+
+#include "script/terminal.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -18,8 +17,8 @@ struct {
 } line;
 
 int columns() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  const int width = terminal_size(STDERR_FILENO).ws_col;
+  return width > 0 ? width : 80;
 }
 
 }  // namespace
