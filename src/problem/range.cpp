@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/moderate.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::problem {
@@ -12,9 +13,9 @@ namespace {
 constexpr double kMostStiffness = 1e120, kMostDisplacement = 1e175;
 
 void require(double size, double most, const char* what) {
-  if (size == 0 || (size <= most && size >= 1 / most)) return;
-  throw InputError(text("values beyond the range of numbers: ", what, " are about ", size, ", and what is beyond ", most, " or below ", 1 / most,
-                        " is lost where it is squared; choose units in which stiffness, loads and sizes are moderate"));
+  if (!moderate(size, most))
+    throw InputError(text("values beyond the range of numbers: ", what, " are about ", size, ", and what is beyond ", most, " or below ", 1 / most,
+                          " is lost where it is squared; choose units in which stiffness, loads and sizes are moderate"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "algebra/quasi_definite.hpp"
 #include "base/error.hpp"
+#include "base/moderate.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 
@@ -136,8 +137,8 @@ double largest(const double* values, Eigen::Index count) {
 /// Squares of what is larger or smaller leave the range of numbers, in the end.
 void require_moderate(const char* what, double size) {
   constexpr double kMost = 1e100;
-  if (size == 0 || (size <= kMost && size >= 1 / kMost)) return;
-  throw InputError(text("values beyond the range of numbers: the greatest entry of ", what, " is ", size, "; choose units in which it is moderate"));
+  if (!moderate(size, kMost))
+    throw InputError(text("values beyond the range of numbers: the greatest entry of ", what, " is ", size, "; choose units in which it is moderate"));
 }
 
 /// What the objective is divided by: penalties, M and what counts as no curvature are about numbers like 1, and are left to mean
@@ -145,7 +146,7 @@ void require_moderate(const char* what, double size) {
 double cost(const QuadraticProgram& p) {
   constexpr double kLikeOne = 1e6;
   const double size = std::max(largest(p.P.valuePtr(), p.P.nonZeros()), largest(p.q.data(), p.q.size()));
-  return size == 0 || (size <= kLikeOne && size >= 1 / kLikeOne) ? 1 : size;
+  return moderate(size, kLikeOne) ? 1 : size;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/moderate.hpp"
 #include "base/text.hpp"
 #include "scene/boundary_tractions.hpp"
 
@@ -98,12 +99,9 @@ void require_squares(const elasticity::MaterialField& material, int cells, const
   double peak = 0;
   for (const elasticity::Stress& at : stress)
     for (const double s : at) peak = std::max(peak, std::abs(s));
-  bool moderate = peak == 0 || (peak < kMost && peak > 1 / kMost);
-  for (int c = 0; moderate && c < (material.varies() ? cells : 1); ++c) {
-    const double stiffness = material.at(c).c[0][0][0][0];
-    moderate = stiffness < kMost && stiffness > 1 / kMost;
-  }
-  if (!moderate)
+  bool lost = !moderate(peak, kMost);
+  for (int c = 0; !lost && c < (material.varies() ? cells : 1); ++c) lost = !moderate(material.at(c).c[0][0][0][0], kMost);
+  if (lost)
     throw InputError("the error estimate has values beyond the range of numbers: squares of stresses or stiffnesses are too large or too "
                      "small; choose units in which they are moderate");
 }
