@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -46,6 +47,23 @@ std::unordered_map<int, double> curvature_of(const Face& face) {
   return curvature;
 }
 
+/// The greater curvature of two parts, where sides of the one have partners on the other.
+class Curvature {
+ public:
+  Curvature(const Face& first, const Face& second) : here_(curvature_of(first)), across_(curvature_of(second)) {}
+  double at(int node, const std::vector<NodeWeight>& partners) const {
+    double most = here_.at(node);
+    for (const NodeWeight& partner : partners) most = std::max(most, across_.at(partner.node));
+    return most;
+  }
+
+ private:
+  std::unordered_map<int, double> here_, across_;
+};
+
+/// How far chords that wide are from what they are chords of.
+double height_of_chord(double curvature, double width) { return curvature * width * width / 8; }
+
 /// Rows with partners found by `pairing`; of chords that overlap no more than they must the gap is 0.
 std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pairing, const elasticity::ScalarField& added,
                                bool interference) {
@@ -62,14 +80,11 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
     if (!interference) refuse_overlap(rows, first, second);
     return rows;
   }
-  std::unordered_map<int, double> curved, curved_across;
-  if (!interference) curved = curvature_of(first), curved_across = curvature_of(second);
+  std::optional<Curvature> curvature;
+  if (!interference) curvature.emplace(first, second);
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (all[k].partners.empty()) continue;
-    double curvature = interference ? 0 : curved.at(list[k].node);
-    if (!interference)
-      for (const NodeWeight& partner : all[k].partners) curvature = std::max(curvature, curved_across.at(partner.node));
-    const double chord = curvature * all[k].widest * all[k].widest / 8;  // the height of facets that wide
+    const double chord = curvature ? height_of_chord(curvature->at(list[k].node, all[k].partners), all[k].widest) : 0;
     list[k].weight = all[k].weight;
     if (means) list[k].own = std::move(all[k].own);
     rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, first, second));
@@ -123,7 +138,7 @@ class Apart {
       for (int i = 0; i < 3; ++i) d[i] -= own.weight * first_.mesh.point(own.node)[i];
     for (const NodeWeight& partner : tie.partners)
       for (int i = 0; i < 3; ++i) d[i] += partner.weight * second_.mesh.point(partner.node)[i];
-    const double distance = mesh::length(d), allowed = 0.1 * widest + 4 * curvature * widest * widest / 8;
+    const double distance = mesh::length(d), allowed = 0.1 * widest + 4 * height_of_chord(curvature, widest);
     if (distance > allowed && distance > greatest_) greatest_ = distance, node_ = tie.node;
   }
 
@@ -183,13 +198,11 @@ PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairin
   const bool means = first.mesh.topology().order == 2 && result.pairing == Pairing::mortar;
   const std::vector<NodeSide> list = means ? corner_nodes(first.mesh, first.facets) : nodes(first.mesh, first.facets);
   std::vector<Across> all = across(first, second, result.pairing, list);
-  const auto curved = curvature_of(first), curved_across = curvature_of(second);
+  const Curvature curvature(first, second);
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (all[k].partners.empty()) continue;
-    double curvature = curved.at(list[k].node);
-    for (const NodeWeight& partner : all[k].partners) curvature = std::max(curvature, curved_across.at(partner.node));
     result.ties.push_back({list[k].node, means ? std::move(all[k].own) : list[k].own, std::move(all[k].partners)});
-    apart.see(result.ties.back(), all[k].widest, curvature);
+    apart.see(result.ties.back(), all[k].widest, curvature.at(list[k].node, result.ties.back().partners));
   }
   apart.refuse();
   return result;
