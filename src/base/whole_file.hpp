@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <string>
 
 #include "base/error.hpp"
@@ -26,17 +27,24 @@ inline const char* no_file(mode_t mode) {
 }  // namespace detail
 
 /// The name under which a result is to be written: the file's own, or where it leads as a symbolic link, so that the link
-/// stays. Throws InputError where something is there that is no file: to put one in its place would take away a device.
+/// stays. Throws InputError where something is there that is no file: to put one in its place would take away a device; and
+/// where its folder is not there or cannot be written. Asked of a file before what it is to hold is computed.
 inline std::string place_to_write(const std::string& file) {
   if (file.empty()) throw InputError("a file name is needed");
+  const auto fail = [&](const std::string& why) { throw InputError("cannot write '" + file + "': " + why); };
   struct stat info {};
   const bool link = lstat(file.c_str(), &info) == 0 && S_ISLNK(info.st_mode);
   std::string place = link ? place_of(file).string() : file;
   for (const char* system : {"/dev/", "/proc/"})
-    if (link && file.rfind(system, 0) == 0) throw InputError("cannot write '" + file + "': it leads to what is open already; results are written to files");
+    if (link && file.rfind(system, 0) == 0) fail("it leads to what is open already; results are written to files");
   if (stat(file.c_str(), &info) == 0)
-    if (const char* kind = detail::no_file(info.st_mode))
-      throw InputError("cannot write '" + file + "': it " + (link ? "leads to '" + place + "', " : "is ") + kind + "; results are written to files");
+    if (const char* kind = detail::no_file(info.st_mode)) fail((link ? "it leads to '" + place + "', " : std::string("it is ")) + kind + "; results are written to files");
+  const auto above = std::filesystem::path(place).parent_path().string();
+  const std::string folder = above.empty() ? "." : above;
+  if (stat(folder.c_str(), &info) != 0)
+    fail("folder " + folder + ": " + std::strerror(errno) + (errno == ENOENT ? "; it must be there first: mkdir -p " + folder : ""));
+  if (!S_ISDIR(info.st_mode)) fail(folder + " is not a folder");
+  if (access(folder.c_str(), W_OK | X_OK) != 0) fail("folder " + folder + ": " + std::strerror(errno));
   return place;
 }
 

@@ -1,12 +1,7 @@
 #include "check.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <stdexcept>
 #include <tuple>
 
@@ -60,15 +55,7 @@ void check_file(const std::string& file, const std::string& ending) {
   require(!file.empty(), "a file name is needed, one that ends in " + ending);
   require(file.size() > ending.size() && file.ends_with(ending),
           "cannot write " + file + ": the file name must end in " + ending);
-  const std::string place = place_to_write(file);
-  const auto slash = place.rfind('/');
-  const std::string folder = slash == std::string::npos ? "." : slash == 0 ? "/" : place.substr(0, slash);
-  struct stat info {};
-  if (stat(folder.c_str(), &info) != 0)
-    throw std::runtime_error("cannot write " + file + ": folder " + folder + ": " + std::strerror(errno));
-  require(S_ISDIR(info.st_mode), "cannot write " + file + ": " + folder + " is not a folder");
-  if (access(folder.c_str(), W_OK | X_OK) != 0)
-    throw std::runtime_error("cannot write " + file + ": folder " + folder + ": " + std::strerror(errno));
+  place_to_write(file);
 }
 
 void check_size(const std::string& file, int width, int height) {

@@ -1,8 +1,7 @@
 // Does a value fit its key?
 #include <cmath>
-#include <filesystem>
-#include <system_error>
 
+#include "base/whole_file.hpp"
 #include "script/arguments.hpp"
 #include "script/library.hpp"
 #include "script/nearest.hpp"
@@ -52,11 +51,7 @@ void check_file(lua_State* L, int index, const Key& key, const std::string& what
   const std::string name(start, length);
   if (name.find('\0') != std::string::npos) throw ArgumentError(what + " must be the name of a file, it has a zero byte");
   if (const auto& folder = Library::of(L).folder) folder->require(name);
-  const auto folder = std::filesystem::path(name).parent_path().string();
-  std::error_code error;
-  if (key.output && !folder.empty() && !std::filesystem::exists(folder, error))
-    throw ArgumentError("cannot write " + name + ": folder " + folder + ": " + (error ? error : std::make_error_code(std::errc::no_such_file_or_directory)).message() +
-                        "; it must be there first: mkdir -p " + folder);
+  if (key.output && !name.empty()) place_to_write(name);
 }
 
 void check_choice(lua_State* L, int index, const Key& key, const std::string& what) {

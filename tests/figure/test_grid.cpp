@@ -176,7 +176,7 @@ TEST_CASE("a file that cannot be written leaves nothing, and says why") {
   using figure::write;
   CHECK(message_of([] { write(triangle("a.vtk")); }) == "cannot write a.vtk: the file name must end in .vtu");
   CHECK(message_of([] { write(triangle("nowhere/a.vtu")); }) ==
-        "cannot write nowhere/a.vtu: folder nowhere: No such file or directory");
+        "cannot write 'nowhere/a.vtu': folder nowhere: No such file or directory; it must be there first: mkdir -p nowhere");
   GridFile grid = triangle("refused.vtu");
   grid.bodies[0].cells = {0, 1, 3};
   CHECK(message_of([&] { write(grid); }) == "body \"wedge\", cells: node 3 does not exist, there are 3");

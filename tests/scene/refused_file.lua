@@ -23,10 +23,10 @@ local nowhere <const> = folder .. "/nowhere/"
 local curve <const> = { { x = { 1, 2 }, y = { 1, 2 } } }
 
 -- A folder that does not exist.
-refused(function() s:render{ file = nowhere .. "a.png" } end, "render: cannot write " .. nowhere .. "a.png", "No such file or directory")
-refused(function() dotyk.chart{ file = nowhere .. "a.png", series = curve } end, "chart: cannot write " .. nowhere .. "a.png")
-refused(function() s:write(nowhere .. "a.vtu") end, "write: cannot write " .. nowhere .. "a.vtu", "No such file or directory")
-refused(function() s:write_contact(nowhere .. "a.csv") end, "write_contact: cannot write " .. nowhere .. "a.csv", "No such file or directory")
+refused(function() s:render{ file = nowhere .. "a.png" } end, "render: cannot write '" .. nowhere .. "a.png'", "No such file or directory")
+refused(function() dotyk.chart{ file = nowhere .. "a.png", series = curve } end, "chart: cannot write '" .. nowhere .. "a.png'")
+refused(function() s:write(nowhere .. "a.vtu") end, "write: cannot write '" .. nowhere .. "a.vtu'", "No such file or directory")
+refused(function() s:write_contact(nowhere .. "a.csv") end, "write_contact: cannot write '" .. nowhere .. "a.csv'", "No such file or directory")
 -- A folder in place of the file.
 for _, name in ipairs{ "a.png", "a.vtu", "a.csv" } do assert(os.execute(("mkdir '%s/%s'"):format(folder, name))) end
 local before <const> = files()

@@ -75,4 +75,4 @@ assert(co() == 1 and select(2, co(5)) == 5)
 
 -- A picture has nowhere to go: said before it is drawn, and what to do.
 refused(function() dotyk.chart{ file = "nowhere/x.png", series = { { x = { 0, 1 }, y = { 0, 1 } } } } end,
-  "chart: cannot write nowhere/x.png: folder nowhere: No such file or directory; it must be there first: mkdir -p nowhere")
+  "chart: cannot write 'nowhere/x.png': folder nowhere: No such file or directory; it must be there first: mkdir -p nowhere")
