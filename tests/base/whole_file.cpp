@@ -7,18 +7,13 @@
 #include <sys/wait.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+
+#include "../support/file.hpp"
 
 using namespace dotyk;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string content(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// An empty folder to work in, gone at the end.
 class Scratch {
@@ -48,8 +43,8 @@ TEST_CASE("a link is followed, and what it leads to is replaced, or made") {
   fs::create_symlink("elsewhere/new", "dangling");
   write_whole_file("b", "new");
   write_whole_file("dangling", "made");
-  CHECK(content("elsewhere/a") == "new");
-  CHECK(content("elsewhere/new") == "made");
+  CHECK(test::bytes_of("elsewhere/a") == "new");
+  CHECK(test::bytes_of("elsewhere/new") == "made");
   for (const char* link : {"a", "b", "dangling"}) CHECK(fs::is_symlink(link));
   CHECK(std::distance(fs::directory_iterator("elsewhere"), {}) == 2);
   fs::create_symlink("round", "round");
@@ -87,8 +82,8 @@ TEST_CASE("what lies where the file is prepared is not written through") {
   write_whole_file("kept", "old");
   fs::create_symlink("kept", "a.part-" + std::to_string(getpid()));
   write_whole_file("a", "new");
-  CHECK(content("kept") == "old");
-  CHECK(content("a") == "new");
+  CHECK(test::bytes_of("kept") == "old");
+  CHECK(test::bytes_of("a") == "new");
   CHECK(scratch.files() == 3);
 }
 
@@ -109,7 +104,7 @@ TEST_CASE("a file that is begun is gone where a signal ends the program, and wha
     waitpid(child, &status, 0);
     CHECK(WIFSIGNALED(status));
     CHECK(WTERMSIG(status) == signal);
-    CHECK(content("a") == "old");
+    CHECK(test::bytes_of("a") == "old");
     CHECK(scratch.files() == 2);
   }
   // Those who ignore a signal (nohup) go on.
@@ -121,5 +116,5 @@ TEST_CASE("a file that is begun is gone where a signal ends the program, and wha
     part.finish();
   }
   CHECK((std::signal(SIGHUP, before) == SIG_IGN));
-  CHECK(content("a") == "new");
+  CHECK(test::bytes_of("a") == "new");
 }

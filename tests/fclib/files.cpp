@@ -1,7 +1,7 @@
 #include <fstream>
 #include <map>
-#include <sstream>
 
+#include "../support/file.hpp"
 #include "reference.hpp"
 
 using namespace dotyk;
@@ -15,13 +15,6 @@ struct Facts {
 };
 constexpr auto local = ContactProblem::Kind::local;
 constexpr auto global = ContactProblem::Kind::global;
-
-std::string content_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 /// Reads a file of this content; the message of its refusal, empty where it is taken.
 std::string refusal(const std::string& content, const std::string& name = "made.dat") {
@@ -200,7 +193,7 @@ TEST_CASE("text files of a few bytes do not ask for memory, nor for hours") {
 TEST_CASE("a truncated text file is refused wherever it ends") {
   if (!reference::present()) return;
   for (const std::string name : {"dat/GFC3D_Example0_SBM.dat", "dat/gfc2d_granularflowonwall_00069_00350.dat", "dat/Rover1039.dat"}) {
-    const std::string whole = content_of(reference::folder() + name);
+    const std::string whole = test::bytes_of(reference::folder() + name);
     REQUIRE(!whole.empty());
     // At the end of a line short of the last two: a flag, and the friction coefficients.
     for (int tenth = 0; tenth < 10; ++tenth) {
@@ -234,7 +227,7 @@ TEST_CASE("truncated and damaged HDF5 files") {
   if (!reference::present()) return;
   ContactProblem p;
   if (!reference::read("CubeH8.hdf5", p)) return;
-  const std::string whole = content_of(reference::folder() + "CubeH8.hdf5");
+  const std::string whole = test::bytes_of(reference::folder() + "CubeH8.hdf5");
   for (const double part : {0.001, 0.2, 0.5, 0.9, 0.999}) {
     CAPTURE(part);
     const std::string message = refusal(whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))), "made.hdf5");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/file.hpp"
 #include "figure/picture.hpp"
 
 struct Pixels {
@@ -18,7 +19,7 @@ struct Pixels {
 // Throws where the file is no complete PNG.
 Pixels read_png(const std::string& file);
 
-std::string bytes_of(const std::string& file);
+using dotyk::test::bytes_of;
 bool exists(const std::string& file);
 
 // The message of what f throws, "" if it does not.

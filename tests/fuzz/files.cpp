@@ -8,6 +8,7 @@
 #include <fstream>
 #include <random>
 
+#include "../support/file.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "machine.hpp"
@@ -47,8 +48,7 @@ std::string quoted(const std::string& bytes) {
 std::vector<Seed> seeds() {
   std::vector<Seed> all;
   const auto add = [&](const std::filesystem::path& file, const std::string& ending) {
-    std::ifstream in(file, std::ios::binary);
-    all.push_back({ending, std::string{std::istreambuf_iterator<char>(in), {}}});
+    all.push_back({ending, dotyk::test::bytes_of(file)});
   };
   for (const auto& entry : std::filesystem::directory_iterator(DOTYK_FUZZ_DIR "/files")) add(entry.path(), entry.path().extension());
   for (const auto& entry : std::filesystem::directory_iterator(DOTYK_FUZZ_DIR "/../meshfile/files"))

@@ -15,6 +15,7 @@
 #include <sanitizer/common_interface_defs.h>
 #endif
 
+#include "../support/file.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "base/whole_file.hpp"
@@ -32,10 +33,8 @@ char crash_file[512];
 int terminal = 1;
 
 const char* prelude() {
-  static const std::string* const text = [] {  // for ever: leaks are reported after all that is static has ended
-    std::ifstream in(DOTYK_FUZZ_DIR "/prelude.lua");
-    return new std::string{std::istreambuf_iterator<char>(in), {}};
-  }();
+  // For ever: leaks are reported after all that is static has ended.
+  static const auto* const text = new std::string(test::bytes_of(DOTYK_FUZZ_DIR "/prelude.lua"));
   return text->c_str();
 }
 

@@ -1,12 +1,8 @@
 -- Meshes of ../shared/reference/meshes (GetFEM's gears, Serac's and Tribol's blocks): counts as their README has them,
 -- positive cells (loading checks them), and contact problems on them.
 local check <const> = require "check"
-local folder <const> = debug.getinfo(1, "S").source:match "^@(.*)/" .. "/../../../shared/reference/meshes/"
-do
-  local f <const> = io.open(folder .. "README.md")
-  if not f then print "skipped: no ../shared/reference/meshes" return end
-  f:close()
-end
+local folder <const> = require "reference_meshes"
+if not folder then return end
 
 local function counts(m) return { m.node_count, m.cell_count, #m.parts, #m.regions, #m:pieces() } end
 

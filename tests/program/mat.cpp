@@ -5,8 +5,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "../support/file.hpp"
 #include "base/error.hpp"
 #include "program/lcp.hpp"
 #include "program/mat_file.hpp"
@@ -19,13 +19,6 @@ namespace {
 
 // minimise x² + y² − 2x − 5y + 0.5 where x + y ≤ 2, x ≥ 0, y ≥ 0: the solution is (1/4, 7/4).
 const std::string kFile = DOTYK_TEST_DIR "/../fuzz/files/small.mat";
-
-std::string content() {
-  std::ifstream in(kFile, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 program::QuadraticProgram read(const std::string& bytes) {
   { std::ofstream("made.mat", std::ios::binary) << bytes; }
@@ -49,7 +42,7 @@ bool readable() {
 
 /// The variables of kFile, with their tags.
 std::vector<std::string> variables() {
-  const std::string whole = content();
+  const std::string whole = test::bytes_of(kFile);
   std::vector<std::string> all;
   for (std::size_t at = 128; at < whole.size(); at += all.back().size()) {
     std::uint32_t size = 0;
@@ -95,7 +88,7 @@ TEST_CASE("a MATLAB file of sparse and full matrices") {
 
 TEST_CASE("a MATLAB file cut short anywhere is refused") {
   if (!readable()) return;
-  const std::string whole = content();
+  const std::string whole = test::bytes_of(kFile);
   for (std::size_t size = 0; size < whole.size(); size += 7) {
     CAPTURE(size);
     CHECK_THROWS_AS(read(whole.substr(0, size)), InputError);
@@ -105,7 +98,7 @@ TEST_CASE("a MATLAB file cut short anywhere is refused") {
 TEST_CASE("a damaged MATLAB file is refused by the name of what is wrong") {
   if (!readable()) return;
   const auto refused = [](const std::string& from, const std::string& to, const std::string& message) {
-    std::string bytes = content();
+    std::string bytes = test::bytes_of(kFile);
     REQUIRE(bytes.find(from) != std::string::npos);
     bytes.replace(bytes.find(from), from.size(), to);
     CHECK_THROWS_WITH_AS(read(bytes), doctest::Contains(message.c_str()), InputError);
@@ -119,14 +112,14 @@ TEST_CASE("a damaged MATLAB file is refused by the name of what is wrong") {
 
 TEST_CASE("compressed variables are read as others are; what is damaged or missing in them is not taken for zeros") {
   if (!readable()) return;
-  const std::string head = content().substr(0, 128);
+  const std::string head = test::bytes_of(kFile).substr(0, 128);
   const std::vector<std::string> each = variables();
   const auto file = [&](std::size_t changed, const std::string& to) {
     std::string bytes = head;
     for (std::size_t k = 0; k < each.size(); ++k) bytes += k == changed ? to : compressed(each[k]);
     return bytes;
   };
-  const auto as_it_is = read(content()), p = read(file(each.size(), ""));
+  const auto as_it_is = read(test::bytes_of(kFile)), p = read(file(each.size(), ""));
   CHECK(p.q == as_it_is.q);
   CHECK(p.r == as_it_is.r);
   CHECK(p.low == as_it_is.low);
@@ -155,7 +148,7 @@ TEST_CASE("compressed variables are read as others are; what is damaged or missi
 
 TEST_CASE("MATLAB files of other versions are refused: of 7.3, which may lead to other files, and of 4, which are believed every size") {
   if (!readable()) return;
-  std::string bytes = content();
+  std::string bytes = test::bytes_of(kFile);
   REQUIRE(bytes.substr(124, 4) == std::string("\0\1IM", 4));
   bytes.replace(124, 2, std::string("\0\2", 2));
   CHECK_THROWS_WITH_AS(read(bytes), "'made.mat': it is a MATLAB file of version 7.3, which is not read: save it with -v7", InputError);

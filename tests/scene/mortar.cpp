@@ -2,8 +2,9 @@
 
 #include <numbers>
 
-#include "../support/feti.hpp"
+#include "../support/block_pair.hpp"
 #include "../support/scenes.hpp"
+#include "../support/stacks.hpp"
 #include "base/error.hpp"
 #include "scene/moved.hpp"
 
@@ -11,6 +12,7 @@ using namespace dotyk;
 using contact::Pairing;
 using mesh::Family;
 using mesh::Point;
+using test::Stack;
 
 namespace {
 
@@ -18,34 +20,19 @@ constexpr double kPressure = 3;
 // The patch test's measure, relative to the pressure.
 constexpr double kExact = 1e-11;
 
-struct Stack {
-  std::shared_ptr<scene::Body> low, high;
-  std::shared_ptr<scene::Scene> scene;
-  std::shared_ptr<const scene::Contact> contact;
-};
-
 /// Blocks of n and m cells along each edge of their own on top of each other, turned by an angle in the plane of the first and
 /// the last axis, free to widen; the upper one pressed. The upper's bottom is the first part, or the lower's top.
 Stack stack(int dim, Family one, Family other, int n, int m, std::optional<Pairing> pairing, double angle = 0, bool upper_first = true,
             const scene::Friction& friction = {}) {
+  test::BlockPair blocks = test::block_pair(dim, one, other, n, m, angle);
   Stack s;
-  mesh::Mesh meshes[2] = {test::unit(dim, one, n), test::unit(dim, other, m)};
-  for (int b : {0, 1})
-    mesh::transform(meshes[b], [&](Point x) {
-      x[dim - 1] += b;
-      const double along = x[0], high = x[dim - 1];
-      x[0] = std::cos(angle) * along - std::sin(angle) * high;
-      x[dim - 1] = std::sin(angle) * along + std::cos(angle) * high;
-      return x;
-    });
-  s.low = test::body("low", std::move(meshes[0]), 210, 0.3);
-  s.high = test::body("high", std::move(meshes[1]), 70, 0.2);
+  s.low = test::body("low", std::move(blocks.low), 210, 0.3);
+  s.high = test::body("high", std::move(blocks.high), 70, 0.2);
   for (const auto& b : {s.low, s.high}) test::symmetric(b);
   test::slide(s.low, "bottom");
   test::press(s.high, "top", kPressure);
   s.scene = scene::make_scene({s.low, s.high});
-  const auto below = test::part(s.low, "top"), above = test::part(s.high, "bottom");
-  s.contact = scene::add_contact(*s.scene, upper_first ? above : below, upper_first ? below : above, {}, friction, false, {}, pairing);
+  test::touch(s, upper_first, friction, pairing);
   return s;
 }
 

@@ -28,6 +28,15 @@ for ending, write in pairs(dofile "writers.lua") do
 end
 LUA
 endings='csv vtu png lua'
+# linked FROM TO: two folders; of each ending a link to a file, FROM/a, and one to none, FROM/new.
+linked() {
+  mkdir "$1" "$2"
+  for e in $endings; do
+    echo old >"$2/a.$e"
+    ln -s "../$2/a.$e" "$1/a.$e"
+    ln -s "../$2/new.$e" "$1/new.$e"
+  done
+}
 mkdir t
 for e in $endings; do
   mkfifo t/pipe.$e
@@ -52,12 +61,7 @@ else
 fi
 
 # Links: what they lead to is replaced, or made; they stay.
-mkdir l m
-for e in $endings; do
-  echo old >m/a.$e
-  ln -s ../m/a.$e l/a.$e
-  ln -s ../m/new.$e l/new.$e
-done
+linked l m
 "$dotyk" -e 'for ending, write in pairs(dofile "writers.lua") do write("l/a." .. ending) write("l/new." .. ending) end' || fail "links"
 for e in $endings; do
   [[ -L l/a.$e && -L l/new.$e && -f m/a.$e && -s m/a.$e && -f m/new.$e && $(<m/a.$e) != old ]] 2>/dev/null || fail "links of .$e: $(ls -lA l m)"
@@ -65,12 +69,7 @@ done
 [[ $(ls -A l m | grep -c .) == 18 ]] || fail "something stays beside: $(ls -A l m)"
 
 # What leads out of the folder of --safe stays refused.
-mkdir below outside
-for e in $endings; do
-  echo kept >outside/a.$e
-  ln -s ../outside/a.$e below/a.$e
-  ln -s ../outside/new.$e below/new.$e
-done
+linked below outside
 cp writers.lua below
 "$dotyk" --safe below -e 'for ending, write in pairs(dofile "below/writers.lua") do
   for _, name in ipairs{ "below/a.", "below/new." } do
@@ -78,6 +77,6 @@ cp writers.lua below
     if ok or not message:find("is not below", 1, true) then error(name .. ending .. ": " .. tostring(message)) end
   end
 end' || fail "--safe"
-[[ $(ls outside) == $'a.csv\na.lua\na.png\na.vtu' && $(cat outside/*) == $'kept\nkept\nkept\nkept' ]] || fail "--safe: something outside has changed"
+[[ $(ls outside) == $'a.csv\na.lua\na.png\na.vtu' && $(cat outside/*) == $'old\nold\nold\nold' ]] || fail "--safe: something outside has changed"
 
 exit $((failures > 0))
