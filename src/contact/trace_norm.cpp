@@ -169,7 +169,7 @@ DenseMatrix moments(const Refined& refined, int vertices, int facets, const std:
 }  // namespace
 
 DenseMatrix trace_gram(const Surface& surface, const std::vector<char>& moves, const std::vector<Density>& densities,
-                       double length) {
+                       double length, Monitor& monitor) {
   const auto count = static_cast<Eigen::Index>(densities.size());
   const Refined refined(surface, moves);
   if (refined.nodes() == 0 || count == 0) return DenseMatrix::Zero(count, count);
@@ -189,6 +189,7 @@ DenseMatrix trace_gram(const Surface& surface, const std::vector<char>& moves, c
   algebra::Cholesky factor(matrix.A, node, {});
   DenseMatrix gram = DenseMatrix::Zero(count, count);
   for (int k = 0; k <= steps; ++k) {
+    monitor.check();
     const double t = std::exp(from + k * kStep);
     SparseMatrix shifted = matrix.A;
     Eigen::Map<Eigen::VectorXd>(shifted.valuePtr(), shifted.nonZeros()) +=

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "algebra/types.hpp"
+#include "base/monitor.hpp"
 #include "contact/multipliers.hpp"
 
 namespace dotyk::contact {
@@ -21,9 +22,10 @@ using Density = std::vector<DensityPiece>;
 /// Where `moves` is false traces vanish, and the space is the one between L² and H¹ functions that vanish there.
 /// On a straight line or plane the norm of a wave cos(kx) is its L² norm times (k² + 1/ℓ²)^{-1/4}. Surfaces that
 /// hang together only at their edges' nodes are normed one by one.
-/// Returns the Gram matrix of the densities. The integral is taken by the trapezoidal rule in log t, to 1e-4.
+/// Returns the Gram matrix of the densities. The integral is taken by the trapezoidal rule in log t, to 1e-4. Throws Interrupted
+/// where the monitor asks to stop.
 algebra::DenseMatrix trace_gram(const Surface& surface, const std::vector<char>& moves,
-                                const std::vector<Density>& densities, double length);
+                                const std::vector<Density>& densities, double length, Monitor& monitor);
 
 /// Parts that a facet's edge is cut into: functions constant on facets are seen by some φ inside each.
 inline constexpr int kCuts = 4;

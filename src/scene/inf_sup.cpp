@@ -98,15 +98,15 @@ std::vector<char> moving(const Scene& scene, const Contact& contact, const Model
   return result;
 }
 
-DenseMatrix gram(const Basis& basis, const contact::Surface& surface, const std::vector<char>& moves, double length) {
-  DenseMatrix N = contact::trace_gram(surface, moves, basis.densities, length);
+DenseMatrix gram(const Basis& basis, const contact::Surface& surface, const std::vector<char>& moves, double length, Monitor& monitor) {
+  DenseMatrix N = contact::trace_gram(surface, moves, basis.densities, length, monitor);
   for (Eigen::Index j = 0; j < N.cols(); ++j)
     for (Eigen::Index i = 0; i < N.rows(); ++i) N(i, j) *= mesh::dot(basis.directions[i], basis.directions[j]);
   return N;
 }
 
 /// B A₁⁻¹ Bᵀ on the rows picked; oblique sliding supports (the bilateral rows behind the contact's) hold.
-DenseMatrix compliance(Model& model, const std::vector<int>& picked, double length) {
+DenseMatrix compliance(Model& model, const std::vector<int>& picked, double length, Monitor& monitor) {
   for (std::size_t b = 0; b < model.problem.blocks.size(); ++b) {
     problem::Block& block = model.problem.blocks[b];
     block.K = elasticity::h1_gram(*model.bodies[b].mesh, model.numbering[b], length);
@@ -114,9 +114,8 @@ DenseMatrix compliance(Model& model, const std::vector<int>& picked, double leng
     block.motions.clear();
   }
   problem::Clock clock;
-  Monitor quiet;
   const problem::CondensedProblem condensed(model.problem, problem::rigid_motions(model.problem),
-                                            algebra::Ordering::automatic, clock, quiet);
+                                            algebra::Ordering::automatic, clock, monitor);
   std::vector<int> held;
   for (const auto& slides : model.slide_row)
     for (const int r : slides)
@@ -157,7 +156,7 @@ Basis join(Basis a, const Basis& b) {
 
 }  // namespace
 
-InfSup inf_sup(const Contact& given, MultiplierPart part, bool share_fixed) {
+InfSup inf_sup(const Contact& given, MultiplierPart part, bool share_fixed, Monitor& monitor) {
   if (given.kind == Contact::Kind::glue) throw InputError(given.name + " is a glue; only contacts have multipliers");
   if (given.pairing != contact::Pairing::matching)
     throw InputError(given.name + " has nodes that do not match; inf-sup constants are computed for matching nodes");
@@ -168,8 +167,7 @@ InfSup inf_sup(const Contact& given, MultiplierPart part, bool share_fixed) {
   if (contact.second.body && contact.second.body != contact.first.body) scene.bodies.push_back(contact.second.body);
   scene.contacts.push_back(std::make_shared<const Contact>(contact));
   problem::Clock clock;
-  Monitor quiet;
-  Model model = build(scene, clock, quiet);
+  Model model = build(scene, clock, monitor);
   const contact::Surface surface = surface_of(contact);
   const Basis none, normal = part == MultiplierPart::tangential ? none : normal_basis(contact, surface, model),
                     tangential = part == MultiplierPart::normal ? none : tangential_basis(contact, surface, model);
@@ -180,9 +178,9 @@ InfSup inf_sup(const Contact& given, MultiplierPart part, bool share_fixed) {
   const double length = diagonal(contact);
   const auto n = static_cast<Eigen::Index>(normal.rows.size()), t = static_cast<Eigen::Index>(tangential.rows.size());
   DenseMatrix N = DenseMatrix::Zero(n + t, n + t);
-  if (n > 0) N.topLeftCorner(n, n) = gram(normal, surface, moving(scene, contact, model, true), length);
-  if (t > 0) N.bottomRightCorner(t, t) = gram(tangential, surface, moving(scene, contact, model, false), length);
-  const algebra::Vector beta = constants(compliance(model, all.rows, length), N);
+  if (n > 0) N.topLeftCorner(n, n) = gram(normal, surface, moving(scene, contact, model, true), length, monitor);
+  if (t > 0) N.bottomRightCorner(t, t) = gram(tangential, surface, moving(scene, contact, model, false), length, monitor);
+  const algebra::Vector beta = constants(compliance(model, all.rows, length, monitor), N);
   InfSup result;
   // β² of a kernel is rounding, 1e-12 of the greatest at most; β itself then 1e-6.
   while (result.kernel < beta.size() && beta[result.kernel] < 1e-5 * beta[beta.size() - 1]) ++result.kernel;

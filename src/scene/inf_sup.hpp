@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/monitor.hpp"
 #include "scene/scene.hpp"
 
 namespace dotyk::scene {
@@ -23,7 +24,8 @@ struct InfSup {
 };
 
 /// With `share_fixed` false multipliers stay at nodes that supports hold on both sides. Throws InputError for a
-/// glue, for nodes that do not match, and where the contact has no multiplier of that part (no friction).
-InfSup inf_sup(const Contact& contact, MultiplierPart part, bool share_fixed);
+/// glue, for nodes that do not match, and where the contact has no multiplier of that part (no friction); Interrupted where the
+/// monitor asks to stop.
+InfSup inf_sup(const Contact& contact, MultiplierPart part, bool share_fixed, Monitor& monitor);
 
 }  // namespace dotyk::scene

@@ -2,6 +2,7 @@
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/setups.hpp"
+#include "script/watch.hpp"
 #include "script/wrapped.hpp"
 
 namespace dotyk::script {
@@ -11,7 +12,8 @@ using scene::Contact;
 
 int inf_sup(Call& call) {
   const auto part = static_cast<scene::MultiplierPart>(call.choice("part"));
-  const scene::InfSup s = scene::inf_sup(*call.self<Contact>(), part, call.choice("fixed_nodes") == 0);
+  Watch watch(call.state(), "inf-sup constants");
+  const scene::InfSup s = scene::inf_sup(*call.self<Contact>(), part, call.choice("fixed_nodes") == 0, watch);
   return call.give(Record{"inf-sup",
                           {{"constant", s.constant},
                            {"above_kernel", s.above_kernel},

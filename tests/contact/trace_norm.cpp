@@ -13,6 +13,8 @@ using mesh::Point;
 
 namespace {
 
+Monitor quiet;
+
 struct Top {
   mesh::Mesh mesh;
   std::vector<contact::ContactRow> rows;
@@ -53,7 +55,7 @@ TEST_CASE("the trace norm of waves: the L2 norm times (k² + 1/ℓ²)^(-1/4)") {
       const double length = 0.7;
       std::vector<contact::Density> waves;
       for (int k : {0, 1, 3}) waves.push_back(top.density([=](const Point& x) { return std::cos(k * std::numbers::pi * x[0]); }));
-      const auto gram = contact::trace_gram(top.surface, top.all(), waves, length);
+      const auto gram = contact::trace_gram(top.surface, top.all(), waves, length, quiet);
       const int number[3] = {0, 1, 3};
       for (int a = 0; a < 3; ++a) {
         const double k = number[a] * std::numbers::pi, l2 = number[a] == 0 ? 1 : 0.5;
@@ -75,7 +77,7 @@ TEST_CASE("where traces vanish at the ends, a sine is the wave") {
   }
   for (int n : {1, 2, 5}) {
     const double k = n * std::numbers::pi;
-    const auto gram = contact::trace_gram(top.surface, moves, {top.density([=](const Point& x) { return std::sin(k * x[0]); })}, 2);
+    const auto gram = contact::trace_gram(top.surface, moves, {top.density([=](const Point& x) { return std::sin(k * x[0]); })}, 2, quiet);
     CHECK(gram(0, 0) == doctest::Approx(0.5 / std::sqrt(k * k + 0.25)).epsilon(0.02));
   }
 }
@@ -84,12 +86,12 @@ TEST_CASE("the trace norm has the units of its formula, and adds up over halves"
   for (const auto family : test::kFamilies) {
     const Top one(2, family, 4), large(2, family, 4, 1000);
     const auto f = [](double scale) { return [=](const Point& x) { return 1 + 3 * x[0] / scale; }; };
-    const double a = contact::trace_gram(one.surface, one.all(), {one.density(f(1))}, 0.5)(0, 0);
-    const double b = contact::trace_gram(large.surface, large.all(), {large.density(f(1000))}, 500)(0, 0);
+    const double a = contact::trace_gram(one.surface, one.all(), {one.density(f(1))}, 0.5, quiet)(0, 0);
+    const double b = contact::trace_gram(large.surface, large.all(), {large.density(f(1000))}, 500, quiet)(0, 0);
     CHECK(b == doctest::Approx(1e6 * a).epsilon(1e-4));  // ∫∫ in the plane: length²
     contact::Density halves;
     for (const auto& piece : one.density(f(1)))
       for (int half : {0, 1}) halves.push_back({piece.facet, half, {piece.corner[0], piece.corner[1], 0, 0}});
-    CHECK(contact::trace_gram(one.surface, one.all(), {halves}, 0.5)(0, 0) == doctest::Approx(a).epsilon(1e-12));
+    CHECK(contact::trace_gram(one.surface, one.all(), {halves}, 0.5, quiet)(0, 0) == doctest::Approx(a).epsilon(1e-12));
   }
 }
