@@ -9,6 +9,7 @@
 #include "base/moderate.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "program/scaling.hpp"
 
 namespace dotyk::program {
 namespace {
@@ -128,25 +129,11 @@ class Iteration {
   Result result_;
 };
 
-double largest(const double* values, Eigen::Index count) {
-  double most = 0;
-  for (Eigen::Index k = 0; k < count; ++k) most = std::max(most, std::abs(values[k]));
-  return most;
-}
-
 /// Squares of what is larger or smaller leave the range of numbers, in the end.
 void require_moderate(const char* what, double size) {
   constexpr double kMost = 1e100;
   if (!moderate(size, kMost))
     throw InputError(text("values beyond the range of numbers: the greatest entry of ", what, " is ", size, "; choose units in which it is moderate"));
-}
-
-/// What the objective is divided by: penalties, M and what counts as no curvature are about numbers like 1, and are left to mean
-/// what they say where the objective is of such.
-double cost(const QuadraticProgram& p) {
-  constexpr double kLikeOne = 1e6;
-  const double size = std::max(largest(p.P.valuePtr(), p.P.nonZeros()), largest(p.q.data(), p.q.size()));
-  return moderate(size, kLikeOne) ? 1 : size;
 }
 
 }  // namespace
@@ -157,12 +144,12 @@ Result solve(const QuadraticProgram& program, const AugmentedLagrangian& setting
     if (!program.equality(r))
       throw InputError(text("row ", r + 1, " is an inequality; augmented Lagrangians take equalities only (use "
                             "\"active_set\" or \"interior_point\")"));
-  require_moderate("B", largest(program.P.valuePtr(), program.P.nonZeros()));
-  require_moderate("c", largest(program.q.data(), program.q.size()));
-  require_moderate("D", largest(program.A.valuePtr(), program.A.nonZeros()));
-  require_moderate("d", largest(program.low.data(), program.low.size()));
+  require_moderate("B", greatest(program.P));
+  require_moderate("c", greatest(program.q));
+  require_moderate("D", greatest(program.A));
+  require_moderate("d", greatest(program.low));
   Stopwatch clock;
-  const double size = cost(program);
+  const double size = objective_unit(program);
   QuadraticProgram scaled = program;
   scaled.P /= size, scaled.q /= size, scaled.r /= size;
   Result result = Iteration(scaled, settings, monitor).run();

@@ -1,6 +1,9 @@
 #include "program/scaling.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "base/moderate.hpp"
 
 namespace dotyk::program {
 namespace {
@@ -13,18 +16,25 @@ void divide(Vector& factor, const Vector& largest) {
 
 }  // namespace
 
+double objective_unit(const QuadraticProgram& p) {
+  constexpr double kLikeOne = 1e6;
+  const double size = std::max(greatest(p.P), greatest(p.q));
+  return moderate(size, kLikeOne) ? 1 : std::max(size, 1e-300);  // of which there is an inverse
+}
+
 Scaled scale(const QuadraticProgram& p) {
   const int n = p.unknowns(), m = p.rows();
-  Scaled s{p, Vector::Ones(n), Vector::Ones(m)};
+  Scaled s{p, Vector::Ones(n), Vector::Ones(m), 1 / objective_unit(p)};
   QuadraticProgram& t = s.program;
   const auto apply = [&] {
     for (int j = 0; j < n; ++j)
       for (SparseMatrix::InnerIterator it(p.P, j); it; ++it)
-        t.P.valuePtr()[&it.value() - p.P.valuePtr()] = it.value() * s.column[j] * s.column[it.row()];
+        t.P.valuePtr()[&it.value() - p.P.valuePtr()] = it.value() * s.cost * s.column[j] * s.column[it.row()];
     for (int i = 0; i < m; ++i)
       for (SparseRows::InnerIterator it(p.A, i); it; ++it)
         t.A.valuePtr()[&it.value() - p.A.valuePtr()] = it.value() * s.row[i] * s.column[it.col()];
   };
+  apply();
   for (int round = 0; round < 10; ++round) {
     Vector columns = Vector::Zero(n), rows = Vector::Zero(m);
     for (int j = 0; j < n; ++j)
@@ -41,14 +51,12 @@ Scaled scale(const QuadraticProgram& p) {
     divide(s.row, rows);
     apply();
   }
-  t.q = p.q.cwiseProduct(s.column);
+  t.q = s.cost * p.q.cwiseProduct(s.column);
   for (int i = 0; i < m; ++i) t.low[i] *= s.row[i], t.high[i] *= s.row[i];
-  double size = t.q.lpNorm<Eigen::Infinity>(), P = 0;
-  for (int k = 0; k < t.P.nonZeros(); ++k) P = std::max(P, std::abs(t.P.valuePtr()[k]));
-  size = std::max(size, P);
-  if (size > 0) s.cost = 1 / size;
-  t.P *= s.cost;
-  t.q *= s.cost;
+  const double size = std::max(greatest(t.q), greatest(t.P)), rest = size > 0 ? 1 / size : 1;
+  t.P *= rest;
+  t.q *= rest;
+  s.cost *= rest;
   t.r *= s.cost;
   return s;
 }

@@ -14,8 +14,19 @@ struct Scaled {
   Vector y(const Vector& scaled) const { return row.cwiseProduct(scaled) / cost; }
 };
 
+/// The greatest size of an entry.
+inline double greatest(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0; }
+template <class Sparse>
+double greatest(const Sparse& a) {
+  return greatest(Vector(a.coeffs()));
+}
+
+/// The greatest entry of P and q where that is beyond 1e±6, else 1: divided by it, an objective is of numbers like 1.
+double objective_unit(const QuadraticProgram& program);
+
 /// Ruiz's equilibration (2001) of the KKT matrix [P Aᵀ; A 0]: ten times every row and column is
-/// divided by the root of its largest entry; then the objective is divided by its gradient's size.
+/// divided by the root of its largest entry; then the objective is divided by its gradient's size. Before that, by its unit: what
+/// is beyond all rows' size would make them nothing.
 Scaled scale(const QuadraticProgram& program);
 
 }  // namespace dotyk::program

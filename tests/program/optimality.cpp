@@ -51,6 +51,25 @@ TEST_CASE("programs of some size: optimality conditions hold, from cold and from
   }
 }
 
+TEST_CASE("the size of the objective does not matter, to any method") {
+  Random random(305);
+  Monitor quiet;
+  for (int trial = 0; trial < 10; ++trial) {
+    const auto p = test::boxed(random, 4, 3, 4);
+    const Vector known = program::solve(p, test::one(), quiet).x;
+    for (const double size : {1e-300, 1e-99, 1e-20, 1e20, 1e99, 1e300}) {
+      INFO(trial << ": " << size);
+      auto other = p;
+      other.P *= size, other.q *= size;
+      for (const auto& r : {program::solve(other, test::one(), quiet), program::solve(other, test::many(), quiet),
+                            program::solve(other, program::InteriorPoint{}, quiet)}) {
+        REQUIRE_MESSAGE(r.status == program::Status::solved, r.reason);
+        CHECK((r.x - known).norm() <= 1e-5 * (1 + known.norm()));
+      }
+    }
+  }
+}
+
 TEST_CASE("degenerate: more rows through the optimum than unknowns, and rows twice") {
   Random random(303);
   Monitor quiet;
