@@ -3,12 +3,18 @@ local core <const> = ...
 
 local picture = {}
 
+local known <const> = { "kitty", "iterm", "sixel", "none" }
+local refused
+
 -- "kitty", "iterm", "sixel", or nil. DOTYK_PICTURES decides where it is set; none: no pictures.
 local function protocol()
   local wish <const> = os.getenv "DOTYK_PICTURES"
-  if wish then
-    local known <const> = { kitty = "kitty", iterm = "iterm", sixel = "sixel" }
-    return known[wish]
+  for _, name in ipairs(known) do
+    if wish == name then return name ~= "none" and name or nil end
+  end
+  if wish and wish ~= "" and not refused then
+    refused = true
+    io.stderr:write(("dotyk: DOTYK_PICTURES is '%s', which is left out; it can be %s\n"):format(wish, table.concat(known, ", ")))
   end
   if not core.terminal "stdout" or os.getenv "TMUX" or os.getenv "STY" then return nil end
   local term <const>, program <const> = os.getenv "TERM" or "", os.getenv "TERM_PROGRAM" or ""

@@ -67,13 +67,17 @@ void Watch::limit(double seconds) {
 }
 
 bool Watch::stop() {
+  told_ = told_ || interrupted();
   return refused_ || interrupted() || (deadline_ && std::chrono::steady_clock::now() > *deadline_);
 }
 
 void Watch::answer(const char* advice) {
   const bool at_prompt = position(L_).rfind(std::string(prompt_chunk) + ":", 0) == 0;
   if (!at_prompt) return;
-  if (interrupted()) {
+  if (interrupted() && !told_) {
+    clear_progress();
+    std::fputs("it had ended before it could be stopped: the result is whole\n", stderr);
+  } else if (interrupted()) {
     clear_progress();
     const std::string place = !last_ ? "" : last_->step > 0 ? text(" in step ", last_->step, " after iteration ", last_->iteration) : text(" after iteration ", last_->iteration);
     std::fprintf(stderr, "stopped%s: the result is the state so far; %s\n", place.c_str(), advice);

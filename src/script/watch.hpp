@@ -34,10 +34,10 @@ class Watch : public Monitor {
   void iteration(const IterationInfo& info) override;
   bool stop() override;
 
-  // To be called with the partial result in hand. At the prompt the request to
-  // stop is thereby answered and the user gets the result to look at; in a
+  // To be called with the result in hand, partial or not. At the prompt a request
+  // to stop is thereby answered and the user gets the result to look at; in a
   // script it goes on to end the script.
-  // `advice` ends what is said of it.
+  // `advice` ends what is said of a partial one.
   void answer(const char* advice = "look at it or leave it");
 
  private:
@@ -45,6 +45,7 @@ class Watch : public Monitor {
   std::string work_;
   std::vector<Function> on_iteration_;
   bool verbose_, refused_ = false;
+  bool told_ = false;  // the work of a request to stop
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::optional<IterationInfo> last_;
 };

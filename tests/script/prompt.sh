@@ -88,9 +88,12 @@ shape = dotyk.shape{ scene = scene, moves = { { part = block:part "bottom", cont
 END
 expect "Ctrl-C in an optimisation" 'ended: stopped, 4 variables' "dofile \"$folder/shape.lua\"\n" 'best = shape:optimise{ max_designs = 100000, tol_design = 1e-300, tol_gap = 0 }\n' '' '' '' '' '' '' \
   '\003' '' 'print(("ended: %s, %d variables"):format(best.reason, #best.alpha))\n' &
-expect "Ctrl-C in a solve" 'stopped after iteration' "$block" 'scene = dotyk.scene{ block } block:part "top":load{ 0, -1 } block:part "left":fix "x"\n' \
+expect "Ctrl-C in a solve that ends by itself" 'it had ended before it could be stopped: the result is whole' "$block" 'scene = dotyk.scene{ block } block:part "top":load{ 0, -1 } block:part "left":fix "x"\n' \
   'scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }\n' \
   's = dotyk.solver.pdas{ on_iteration = function() while os.clock() < 1.2 do end end }:solve(scene)\n' '\003' '' '' '' &
+expect "Ctrl-C in a solve" 'stopped after iteration 1' "$block" 'scene = dotyk.scene{ block } block:part "top":load{ 0, -1 } block:part "left":fix "x"\n' \
+  'scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }\n' \
+  's = dotyk.solver.psor{ on_iteration = function() while os.clock() < 1.2 do end end }:solve(scene)\n' '\003' '' '' '' &
 solves='b = 0 for i = 1, 9 do b = i s = slow:solve(scene) end\n'
 expect "Ctrl-C in a loop of solves" 'loop 1: 11' "$block" 'scene = dotyk.scene{ block } block:part "top":load{ 0, -1 } block:part "left":fix "x"\n' \
   'scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }\n' \
@@ -109,4 +112,6 @@ picture=$folder/picture.png
 printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" |
   DOTYK_PICTURES=kitty timeout 60 "$dotyk" | tr -d '\033\n' | sed 's/_G[^;]*;//g; s/\\//g; s/".*//' | base64 -d >"$folder/shown" 2>/dev/null
 cmp "$folder/shown" "$picture" || fail "a picture in the terminal"
+told=$(printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" "$picture" | DOTYK_PICTURES=kity timeout 60 "$dotyk" 2>&1 >/dev/null)
+[[ $told == "dotyk: DOTYK_PICTURES is 'kity', which is left out; it can be kitty, iterm, sixel, none" ]] || fail "a protocol that is none: $told"
 [[ $failures == 0 && ! -e $folder/failed ]]
