@@ -197,6 +197,7 @@ local function level_rows(at, runners, options, reference)
 end
 
 function work_precision.run(options)
+  report.check(options)
   local levels <const> = levels_of(options)
   local first = scene_at(options, levels[1])
   local methods <const> = options.methods or default_methods(first, options.budget)

@@ -192,6 +192,16 @@ function report.series(all, tolerances)
   return out
 end
 
+-- What would fail after all the runs is said before them.
+function report.check(options)
+  if options.file and not options.file:find "[^/]%.png$" then
+    core.fail(("work_precision: cannot write %s: the file name must end in .png"):format(options.file))
+  end
+  for _, key in ipairs{ "title", "label" } do
+    if options[key] and not utf8.len(options[key]) then core.fail(("work_precision: '%s' is not valid UTF-8"):format(key)) end
+  end
+end
+
 function report.write(all, options)
   local csv = options.csv
   if csv == nil or csv == true then csv = options.file and options.file:gsub("%.png$", "") .. ".csv" end

@@ -76,7 +76,9 @@ Key read_key(lua_State* L, int index) {
   key.default_text = key.default_text.empty() ? text_field(L, index, "otherwise") : key.default_text;
   lua_getfield(L, index, "required");
   key.needed = lua_toboolean(L, -1);
-  lua_pop(L, 1);
+  lua_getfield(L, index, "written");
+  key.output = lua_toboolean(L, -1);
+  lua_pop(L, 2);
   number_field(L, index, "above", [&](double value) { key.above(value); });
   number_field(L, index, "at_least", [&](double value) { key.at_least(value); });
   number_field(L, index, "at_most", [&](double value) { key.greatest = value; });

@@ -198,6 +198,12 @@ refused(function() dotyk.work_precision{ scene = cantilever, methods = pdas, lev
 refused(function() dotyk.work_precision{ scene = cantilever, methods = pdas, levels = 1, error = function() return "x" end } end, "returned x, expected a number")
 refused(function() dotyk.work_precision{ scene = cantilever, methods = pdas, levels = 1, reference = dotyk.solve((pressed(1, 2))) } end, "another scene")
 refused(function() dotyk.work_precision{ scene = cantilever, methods = pdas, levels = 1, repeats = 1, file = "none/a.png" } end, "none")
+-- Said before hours of runs.
+local function never() error "a run" end
+for key, bad in pairs{ file = "none/a.png", csv = "none/a.csv", title = "\xff", label = "\xff" } do
+  refused(function() dotyk.work_precision{ scene = never, methods = pdas, [key] = bad } end, key == "file" and "folder none" or key == "csv" and "folder none" or key .. "' is not valid UTF-8")
+end
+refused(function() dotyk.work_precision{ scene = never, methods = pdas, file = "a.svg" } end, "work_precision: cannot write a.svg: the file name must end in .png")
 
 -- 6. The same method with another tol, and a limit on seconds.
 do
