@@ -217,17 +217,15 @@ void request_interrupt() {
 void limit_instructions(lua_State* L, long long count) {
   allowed = count;
   interval = static_cast<int>(std::clamp(count, 1LL, 1000LL));
-  replace(L, "_G", "setmetatable", set_metatable);
+  replace(L, {{"_G", "setmetatable", set_metatable}});
   disarm(L);
 }
 
 void watch_interrupts(lua_State* L) {
   running = L;
   measure_stack();
-  replace(L, "coroutine", "resume", with_thread);
-  replace(L, "coroutine", "close", with_thread);
-  replace(L, "coroutine", "wrap", wrap);
-  replace(L, "coroutine", "create", create);
+  constexpr const char* threads = "coroutine";
+  replace(L, {{threads, "resume", with_thread}, {threads, "close", with_thread}, {threads, "wrap", wrap}, {threads, "create", create}});
   lua_getglobal(L, "xpcall");
   lua_xpcall = lua_tocfunction(L, -1);
   lua_pop(L, 1);

@@ -109,15 +109,9 @@ int get_registry(lua_State* L) { refuse(L, "debug.getregistry", "the registry is
 }  // namespace
 
 void guard_lua(lua_State* L) {
-  replace(L, "string", "rep", repeat);
-  replace(L, "table", "move", move);
-  replace(L, "table", "insert", insert);
-  replace(L, "table", "remove", remove);
-  replace(L, "debug", "setupvalue", set_upvalue);
-  replace(L, "debug", "setlocal", set_local);
-  replace(L, "debug", "setmetatable", set_metatable);
-  replace(L, "debug", "setuservalue", set_user_value);
-  replace(L, "debug", "getregistry", get_registry);
+  replace(L, {{"string", "rep", repeat}, {"table", "move", move}, {"table", "insert", insert}, {"table", "remove", remove}});
+  replace(L, {{"debug", "setupvalue", set_upvalue}, {"debug", "setlocal", set_local}, {"debug", "setmetatable", set_metatable},
+              {"debug", "setuservalue", set_user_value}, {"debug", "getregistry", get_registry}});
 }
 
 }  // namespace dotyk::script

@@ -139,13 +139,9 @@ void close_debug(lua_State* L, const char* option) {
 
 void make_safe(lua_State* L, const Folder& folder) {
   Library::of(L).folder = folder;
-  for (const char* name : {"open", "lines", "input", "output"}) replace(L, "io", name, with_file);
-  replace(L, "os", "remove", with_file);
-  replace(L, "os", "rename", with_two_files);
-  replace(L, "os", "getenv", no_variable);
-  replace(L, "_G", "load", load_text);
-  replace(L, "_G", "loadfile", load_text_file);
-  replace(L, "_G", "dofile", run_file);
+  replace(L, {{"io", "open", with_file}, {"io", "lines", with_file}, {"io", "input", with_file}, {"io", "output", with_file},
+              {"os", "remove", with_file}, {"os", "rename", with_two_files}, {"os", "getenv", no_variable},
+              {"_G", "load", load_text}, {"_G", "loadfile", load_text_file}, {"_G", "dofile", run_file}});
   for (const char* name : {"popen", "tmpfile"}) take_away(L, "io", name);
   for (const char* name : {"execute", "tmpname"}) take_away(L, "os", name);
   for (const char* name : {"loadlib", "searchpath"}) take_away(L, "package", name);
