@@ -43,7 +43,8 @@ int gmsh(Call& call) {
                                   .size = call.has("size") ? call.number("size") : 0};
   Watch watch(call.state(), "meshing");
   if (call.has("file")) return give(call, meshfile::mesh_geometry(call.text("file"), meshing, choice(call), watch));
-  return give(call, meshfile::mesh_text(call.text("text"), meshing, choice(call), watch));
+  const std::string text = call.is("text", LUA_TFUNCTION) ? call.function("text").text() : call.text("text");
+  return give(call, meshfile::mesh_text(text, meshing, choice(call), watch));
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ void bind_mesh_file(Library& library) {
   library.function(
       {.name = "dotyk.mesh.gmsh",
        .help = "Has Gmsh mesh a geometry: a file of its own language (.geo) or from a CAD program (.step, .stp, .brep, "
-               ".iges, .igs), or a text in that language. Physical groups become regions and boundary parts as in "
+               ".iges, .igs), or a text in that language, which a function may make. A file name or such a function alone may stand in place of the table. Physical groups become regions and boundary parts as in "
                "dotyk.mesh.load; nodes of curved boundaries lie on them, with order = 2 those between corners, too, so that "
                "sides are parabolas there, not chords. A .geo file is a program that can read any file, but "
                "start no other program and write none. In a text, files to be included need full paths.",
@@ -78,7 +79,7 @@ void bind_mesh_file(Library& library) {
                   "  BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };\n"
                   "  Physical Surface(\"plate\") = {3}; Physical Curve(\"hole\") = {5};\n"
                   "]] }",
-       .arguments = {key::table({key::file("file", "the geometry; or text"), key::string("text", "the geometry, in Gmsh's language; or file"),
+       .arguments = {key::table({key::file("file", "the geometry; or text"), key::either("text", {key::string("", ""), key::function("", "")}, "the geometry, in Gmsh's language, or a function that returns it; or file"),
                                  key::positive("size", "greatest length of an edge").unit("length").otherwise("as the geometry says"),
                                  key::integer("dimension", "of the cells").within(2, 3).otherwise("3 where there is a volume, else 2"),
                                  order_key("second order, with curved boundaries"), region_key()})},

@@ -1,5 +1,7 @@
 #include "script/call.hpp"
 
+#include <algorithm>
+
 #include "script/nearest.hpp"
 #include "script/position.hpp"
 
@@ -22,12 +24,10 @@ void Call::open_table(int first) {
     throw ArgumentError("takes one table of keys, got " + std::to_string(lua_gettop(L) - first + 1) +
                         " arguments");
   if (lua_gettop(L) < first) lua_newtable(L);
-  // A string alone stands for a file name where that comes first: dotyk.qp "name.qps".
-  const auto& table = descriptor_.arguments[0].keys;
-  if (lua_type(L, first) == LUA_TSTRING && !table.empty() && table.front().kind == Kind::file) {
+  if (const auto* key = meant(first)) {
     lua_createtable(L, 0, 1);
     lua_insert(L, first);
-    lua_setfield(L, first, table.front().name.c_str());
+    lua_setfield(L, first, key->name.c_str());
   }
   if (lua_type(L, first) != LUA_TTABLE) {
     const auto& keys = descriptor_.arguments[0].keys;
@@ -40,6 +40,15 @@ void Call::open_table(int first) {
     throw ArgumentError("expected " + wanted + ", got " + describe_value(L, first));
   }
   static_cast<Arguments&>(*this) = Arguments(L, first, descriptor_.arguments[0], callee_);
+}
+
+const Key* Call::meant(int first) const {
+  const auto& keys = descriptor_.arguments[0].keys;
+  if (keys.empty() || keys[0].kind != Kind::file) return nullptr;
+  if (lua_type(L_, first) == LUA_TSTRING) return &keys[0];
+  const auto is_function = [](const Key& key) { return key.kind == Kind::function; };
+  const bool may_be = keys.size() > 1 && keys[1].kind == Kind::either && std::any_of(keys[1].keys.begin(), keys[1].keys.end(), is_function);
+  return may_be && lua_type(L_, first) == LUA_TFUNCTION ? &keys[1] : nullptr;
 }
 
 void Call::check_self() const {

@@ -54,6 +54,9 @@ class Call : public Arguments {
  private:
   void check_self() const;
   void open_table(int first);
+  // What a value given in place of the table stands for: a string for a file, where that comes first (dotyk.qp "name.qps"),
+  // a function for what else it may be, where that comes next (dotyk.mesh.gmsh(f)); null: nothing.
+  const Key* meant(int first) const;
   void open_positional(int first);
 
   const Descriptor& descriptor_;

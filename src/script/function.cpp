@@ -93,6 +93,17 @@ std::vector<double> Function::numbers(std::span<const double> arguments, std::si
   return values;
 }
 
+std::string Function::text() const {
+  begin(0);
+  call(0, 1);
+  if (lua_type(L_, -1) != LUA_TSTRING) throw std::runtime_error("function '" + key_ + "' returned " + describe_value(L_, -1) + ", expected a string");
+  std::size_t length = 0;
+  const char* start = lua_tolstring(L_, -1, &length);
+  std::string text(start, length);
+  lua_pop(L_, 1);
+  return text;
+}
+
 bool Function::truth(std::span<const double> arguments) const {
   begin(static_cast<int>(arguments.size()));
   for (const double x : arguments) lua_pushnumber(L_, x);

@@ -31,6 +31,9 @@ class Function {
     return std::static_pointer_cast<T>(object(arguments, Wrapped<T>::name));
   }
 
+  // f() -> a string.
+  std::string text() const;
+
   // f(arguments...) -> anything, read as Lua's truth.
   bool truth(std::span<const double> arguments) const;
 

@@ -1,5 +1,6 @@
 -- Meshing by Gmsh: what it is told, and that nodes of curved boundaries lie on them.
 local check <const> = require "check"
+local refused <const> = require "refused"
 if require "without_gmsh" then return end
 
 local ring <const> = [[
@@ -31,6 +32,12 @@ local fine <const> = dotyk.mesh.gmsh{ text = ring, size = 0.05 }
 check.that(fine.cell_count > 3 * m.cell_count and fine.cell_count < 5 * m.cell_count)
 -- The same geometry gives the same mesh.
 check.equal(dotyk.mesh.gmsh{ text = ring, size = 0.1 }.node_count, m.node_count)
+-- Made by a function, with or without a table; and what such a function can do wrong.
+check.equal(dotyk.mesh.gmsh{ text = function() return ring end, size = 0.1 }.node_count, m.node_count)
+check.equal(dotyk.mesh.gmsh(function() return "Mesh.MeshSizeMax = 0.1;" .. ring end).node_count, m.node_count)
+refused(function() dotyk.mesh.gmsh(function() return 5 end) end, "function 'text' returned the number 5, expected a string")
+refused(function() dotyk.mesh.gmsh(function() error "no geometry" end) end, "no geometry (in 'text' of gmsh")
+refused(function() dotyk.mesh.gmsh(5) end, "expected a table of keys (file, text,", "got the number 5")
 
 -- Order 2: nodes between corners lie on the circles, too, two for each facet of these closed curves; the area, which is
 -- the reaction to a unit force per area, converges as h^4, with chords as h^2. (In the ring the chords' errors cancel: they
