@@ -39,6 +39,19 @@ double objective(const QuadraticProgram& p, const Vector& x) {
   return 0.5 * x.dot(times(p.P, x)) + p.q.dot(x) + p.r;
 }
 
+/// max |y_r| Σ A_rj²/P_jj over rows r, those j left out that nothing holds.
+static double moved(const QuadraticProgram& p, const Vector& y) {
+  const Vector stiffness = p.P.diagonal();
+  double most = 0;
+  for (int r = 0; r < p.rows(); ++r) {
+    double by = 0;
+    for (SparseRows::InnerIterator it(p.A, r); it; ++it)
+      if (stiffness[it.col()] > 0) by += it.value() * it.value() / stiffness[it.col()];
+    most = std::max(most, std::abs(y[r]) * by);
+  }
+  return most;
+}
+
 Residuals residuals(const QuadraticProgram& p, const Vector& x, const Vector& y) {
   Residuals out;
   const auto peak = [](const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; };
@@ -59,7 +72,7 @@ Residuals residuals(const QuadraticProgram& p, const Vector& x, const Vector& y)
       complementary += y[r] * (std::isfinite(limit) ? limit : Ax[r] + (y[r] > 0 ? 1 : -1) * (1 + std::abs(Ax[r])));
     }
   }
-  out.feasibility_scale = std::max(peak(size), limits);
+  out.feasibility_scale = std::max({peak(size), limits, 1e-6 * moved(p, y)});
   out.complementarity = std::abs(complementary);
   out.complementarity_scale = 1 + std::abs(objective(p, x));
   if (out.stationarity > 0) out.stationarity /= out.stationarity_scale;

@@ -39,7 +39,8 @@ double objective(const QuadraticProgram& program, const Vector& x);
 /// How far x (n) and the multipliers y (m; positive at high, negative at low) are from optimal.
 struct Residuals {
   double stationarity = 0;     ///< max |Px + q + Aᵀy| over max(|P||x|, |q|, |A|ᵀ|y|)
-  double feasibility = 0;      ///< max violation of a row over max(|A||x|, |limits exceeded|)
+  double feasibility = 0;      ///< max violation of a row over max(|A||x|, |limits exceeded|) and a millionth of what the
+                               ///< multipliers move the rows they pull at by, |y_r| Σ A_rj²/P_jj: x may be nothing but rounding
   double complementarity = 0;  ///< |xᵀPx + qᵀx + highᵀy⁺ − lowᵀy⁻| over 1 + |objective|
   double stationarity_scale = 1, feasibility_scale = 1, complementarity_scale = 1;  ///< those divisors
 };
