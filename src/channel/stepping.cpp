@@ -74,12 +74,14 @@ void Stepping::step(double length) {
 
 void Stepping::step() { step(step_); }
 
-void Stepping::advance(double time) {
+void Stepping::advance(double time, Monitor& monitor) {
   if (!(time >= time_ && std::isfinite(time)))
     throw InputError(text("cannot step to the time ", time, ": it is ", time_, " already; times must be finite and not before"));
   const double start = time_, count = std::ceil((time - start) / step_ * (1 - 1e-12));
   if (count > 1e7) throw InputError(text("to the time ", time, " it takes ", count, " steps, at most 1e7 are allowed"));
   for (double i = 0; i < count; ++i) {
+    monitor.check();
+    if (std::fmod(i, 100) == 0) monitor.phase(text("time ", time_, " of ", time));
     step((time - start) / count);
     time_ = start + (time - start) * ((i + 1) / count);
   }

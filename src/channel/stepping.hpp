@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "algebra/sparse_lu.hpp"
+#include "base/monitor.hpp"
 #include "channel/data.hpp"
 #include "channel/elements.hpp"
 
@@ -16,8 +17,10 @@ class Stepping {
   /// Throws InputError: data as check(), cells and degree as Elements, step positive and finite.
   Stepping(const Data& data, double step, int cells = 16, int degree = 8);
 
-  void step();               ///< by one step
-  void advance(double time); ///< by equal steps, none longer than the step, to this time, not before now
+  void step();  ///< by one step
+  /// By equal steps, none longer than the step, to this time, not before now. Throws Interrupted where the monitor asks to
+  /// stop: it is at the time reached then, and can go on from it.
+  void advance(double time, Monitor& monitor);
 
   double time() const { return time_; }
   long long steps() const { return steps_; }

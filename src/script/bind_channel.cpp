@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/watch.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -171,7 +172,8 @@ void add_states(TypeOf<ChannelFlow>& type) {
 
 int advance(Call& call) {
   const auto s = call.self<Stepping>();
-  s->advance(call.number("time"));
+  Watch watch(call.state(), "stepping");
+  s->advance(call.number("time"), watch);
   return call.give_self();
 }
 

@@ -12,6 +12,8 @@ using namespace dotyk::channel;
 
 namespace {
 
+dotyk::Monitor quiet;
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
 
 template <class F>
@@ -66,9 +68,9 @@ TEST_CASE("places and times refused") {
   Stepping s(flows::electric(), 0.1);
   s.step();
   refused([&] { s.velocity(1.5); }, "outside");
-  refused([&] { s.advance(0.05); }, "it is 0.1 already");
-  refused([&] { s.advance(kNan); }, "nan");
-  refused([&] { s.advance(1e9); }, "at most 1e7");
+  refused([&] { s.advance(0.05, quiet); }, "it is 0.1 already");
+  refused([&] { s.advance(kNan, quiet); }, "nan");
+  refused([&] { s.advance(1e9, quiet); }, "at most 1e7");
   refused([&] { Stepping(flows::electric(), 0); }, "step is 0");
   refused([&] { Stepping(flows::electric(), 0.1, 0); }, "cells is 0");
   refused([&] { Stepping(flows::electric(), 0.1, 4, 17); }, "degree is 17");

@@ -12,6 +12,8 @@ using namespace dotyk::channel;
 
 namespace {
 
+dotyk::Monitor quiet;
+
 double difference(const Series& series, const Stepping& stepping) {
   double greatest = 0;
   for (int i = -20; i <= 20; ++i) {
@@ -23,7 +25,7 @@ double difference(const Series& series, const Stepping& stepping) {
 
 double error_at(const Data& data, double time, double step, int cells, int degree) {
   Stepping stepping(data, step, cells, degree);
-  stepping.advance(time);
+  stepping.advance(time, quiet);
   return difference(Series(data), stepping);
 }
 
@@ -37,7 +39,7 @@ TEST_CASE("series and time stepping agree to 1e-8") {
       const Series series(data);
       Stepping stepping(data, 1.0 / 400, 10, 8);
       for (const double t : {0.5, 1.0}) {
-        stepping.advance(t);
+        stepping.advance(t, quiet);
         CHECK(difference(series, stepping) < 1e-8 * std::max(1.0, speed));
       }
     }
@@ -48,7 +50,7 @@ TEST_CASE("stepping tends to the stationary profile when the oscillation is take
   Data data = flows::electric();
   data.drive = 0;
   Stepping stepping(data, 0.05, 10, 10);
-  stepping.advance(10);
+  stepping.advance(10, quiet);
   for (const double y : {0.0, 0.3, -0.95, 1.0}) CHECK(std::abs(stepping.velocity(y) - stationary(data, y)) < 1e-12);
 }
 
@@ -82,7 +84,7 @@ TEST_CASE("a slow magnetic field is stepped where the series refuses: near the s
   data.omega = 0.1;
   data.initial_speed = 0;
   Stepping stepping(data, 0.02, 8, 8);
-  stepping.advance(5);  // cos wt = 0.8776, 60 cos^2 = 46, changing by 0.1 a unit of time
+  stepping.advance(5, quiet);  // cos wt = 0.8776, 60 cos^2 = 46, changing by 0.1 a unit of time
   Data frozen = data;
   frozen.oscillating = Oscillating::electric;
   frozen.c = resistance(data, 5);
@@ -92,10 +94,10 @@ TEST_CASE("a slow magnetic field is stepped where the series refuses: near the s
 
 TEST_CASE("time lands where it is told to, and steps add up") {
   Stepping a(flows::electric(), 0.03), b(flows::electric(), 0.03);
-  a.advance(0.1);
+  a.advance(0.1, quiet);
   CHECK(a.time() == 0.1);
   CHECK(a.steps() == 4);
-  a.advance(0.1);
+  a.advance(0.1, quiet);
   CHECK(a.steps() == 4);
   b.step();
   CHECK(b.time() == 0.03);
