@@ -46,15 +46,15 @@ function adapt.run(o)
   local begun <const> = core.clock()
   local refinement <const> = dotyk.refinement(core.type_name(o.mesh) == "mesh" and { o.mesh } or o.mesh)
   local history <const> = { converged = false }
-  local s, made
-  for round = 1, math.huge do
+  local last, of_last  -- the solution of the last whole round, and what its scene's function returned
+  local function go_on(round)
     local meshes <const> = refinement.meshes
-    made = build(o, meshes)
-    s = solve(o, made[1], s)
+    local made <const> = build(o, meshes)
+    local s <const> = solve(o, made[1], last)
     local relative <const>, parts <const> = s:error_estimate()
     local entry <const> = { unknowns = s.unknowns, cells = cells(meshes), estimate = relative, absolute = parts.absolute,
                             iterations = s.iterations, seconds = core.clock() - begun }
-    history[round] = entry
+    history[round], last, of_last = entry, s, made
     if core.terminal "stderr" then
       core.progress(("adapt: round %d, %d unknowns, estimated error %.3g, %.1f s"):format(round, s.unknowns, relative, entry.seconds))
     end
@@ -62,15 +62,19 @@ function adapt.run(o)
     history.reason, history.converged = ended(o, entry, s, round)
     history.converged = history.converged or false
     if not goes_on then history.reason = history.reason or "stopped by on_round" end
-    if history.reason then break end
+    if history.reason then return end
     refine(o, refinement, s)
-    if components(refinement.meshes) > (o.max_unknowns or 200000) then
-      history.reason = "max_unknowns reached"
-      break
-    end
+    if components(refinement.meshes) > (o.max_unknowns or 200000) then history.reason = "max_unknowns reached" end
   end
+  local function rounds()
+    repeat go_on(#history + 1) until history.reason
+  end
+  local function kept()
+    return last and ("the result is that of round %d, the last whole one; look at it or leave it"):format(#history)
+  end
+  if not core.unless_interrupted(rounds, kept) then history.reason = "interrupted; this is the last whole round" end
   core.progress()
-  return s, history, table.unpack(made, 2, made.n)
+  return last, history, table.unpack(of_last, 2, of_last.n)
 end
 
 return adapt

@@ -205,16 +205,23 @@ function work_precision.run(options)
   local reference <const> = reference_of(options, levels)
   if not reference.solution then solve(runners[1], first, options.budget) end  -- nothing measured is the process's first solve
   local all <const> = {}
-  for _, level in ipairs(levels) do
-    local at <const> = first or scene_at(options, level)
-    first = nil
-    table.move(level_rows(at, runners, options, reference), 1, #runners, #all + 1, all)
-    collectgarbage()
+  local function run()
+    for _, level in ipairs(levels) do
+      local at <const> = first or scene_at(options, level)
+      first = nil
+      table.move(level_rows(at, runners, options, reference), 1, #runners, #all + 1, all)
+      collectgarbage()
+    end
   end
+  local function kept()
+    return #all > 0 and ("the rows are those of the levels up to %d%s"):format(all[#all].level,
+      (options.file or options.csv) and "; they are written to no file" or "") or nil
+  end
+  local whole <const> = core.unless_interrupted(run, kept)
   core.progress()
   rows.mark_front(all)
   report.print(all, options, reference)
-  report.write(all, options)
+  if whole then report.write(all, options) end
   return all
 end
 

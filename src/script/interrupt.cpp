@@ -59,11 +59,19 @@ void pass_handler_over(lua_State* L) {
   }
 }
 
+// What closes variables of a chunk that has ended by an error has no frame in Lua beneath it. That error names the place; one
+// raised here would take its place, and could not.
+bool closes_after_error(lua_State* L, lua_Debug* event) {
+  lua_getinfo(L, "S", event);
+  return event->what[0] == 'C' && position(L).empty();
+}
+
 // Raises in whatever code runs next, again and again until the request is
 // answered, so that a pcall in a loop cannot swallow it.
 void stop_here(lua_State* L, lua_Debug* event) {
   const bool counting = lua_gethookmask(L) == LUA_MASKCOUNT;
   if (counting && event->event == LUA_HOOKCOUNT) used += interval;
+  if ((pending || spent()) && closes_after_error(L, event)) return;
   if (pending || spent()) pass_handler_over(L);
   if (pending) raise(L, "", "interrupted");
   if (!spent()) {

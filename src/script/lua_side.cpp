@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,9 +14,11 @@
 #include "script/describe.hpp"
 #include "script/enter.hpp"
 #include "script/guard.hpp"
+#include "script/interrupt.hpp"
 #include "script/library.hpp"
 #include "script/manifest.hpp"
 #include "script/nearest.hpp"
+#include "script/position.hpp"
 #include "script/progress.hpp"
 
 namespace dotyk::script {
@@ -54,6 +57,29 @@ int progress(lua_State* L) {
     else show_progress(luaL_checkstring(L, 1));
     return 0;
   });
+}
+
+int unless_interrupted(lua_State* L) {
+  lua_pushvalue(L, 1);
+  int status = LUA_OK;
+  if (runs_for_prompt(L)) status = lua_pcall(L, 0, 0, 0);
+  else lua_call(L, 0, 0);  // errors show the stack of calls they come from (--traceback)
+  if (status == LUA_OK) {
+    lua_pushboolean(L, true);
+    return 1;
+  }
+  if (!interrupted()) return lua_error(L);
+  answer_interrupt();  // or kept() could not run
+  lua_pushvalue(L, 2);
+  lua_call(L, 0, 1);
+  if (lua_type(L, -1) != LUA_TSTRING) {
+    lua_pop(L, 1);
+    return lua_error(L);
+  }
+  clear_progress();
+  std::fprintf(stderr, "stopped: %s\n", lua_tostring(L, -1));
+  lua_pushboolean(L, false);
+  return 1;
 }
 
 int write(lua_State* L) {
@@ -181,7 +207,8 @@ void load_lua_side(lua_State* L) {
   static const luaL_Reg functions[] = {
       {"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
       {"progress", progress}, {"clock", clock},       {"write", write},               {"type_name", type_name},
-      {"describe", describe}, {"signature", signature},   {"read_own", read_own},     {nullptr, nullptr}};
+      {"describe", describe}, {"signature", signature},   {"read_own", read_own},
+      {"unless_interrupted", unless_interrupted},         {nullptr, nullptr}};
   luaL_setfuncs(L, functions, 0);
   lua_getglobal(L, "debug");
   lua_getfield(L, -1, "getinfo");

@@ -11,6 +11,8 @@
 //   write(f, text)  writes a file whole or not at all
 //   clock()         seconds, of a clock that never jumps
 //   lazily(f, name) a function that loads lua/<f>.lua when first called
+//   unless_interrupted(f, kept)  calls f(); true where it returns, false where Ctrl-C at the prompt ended it and kept()
+//                   says what is left of it to look at; nil from kept() and any other error go on
 //   getinfo(…)      debug.getinfo, which scripts lack under --safe
 //   inputs          what was typed at the prompt and has functions: { typed = text, compiled = text } each
 //   read_own(name)  the text of lua/<name>.lua

@@ -7,16 +7,40 @@
 
 namespace dotyk::script {
 
+namespace {
+
+bool own(const lua_Debug& frame) { return std::strncmp(frame.source, own_chunk, sizeof own_chunk - 1) == 0; }
+
+}  // namespace
+
 std::string position(lua_State* L, const std::string& callee) {
   const std::string prefix = callee.empty() ? "" : callee + ": ";
   lua_Debug frame;
   for (int level = 0; lua_getstack(L, level, &frame); ++level) {
     lua_getinfo(L, "Sl", &frame);
-    const bool own = std::strncmp(frame.source, own_chunk, sizeof own_chunk - 1) == 0;
-    if (frame.currentline <= 0 || own) continue;
+    if (frame.currentline <= 0 || own(frame)) continue;
     return std::string(frame.short_src) + ":" + std::to_string(frame.currentline) + ": " + prefix;
   }
   return prefix;
+}
+
+bool runs_for_prompt(lua_State* L) {
+  const std::string prompt = std::string(prompt_chunk) + ":";
+  lua_Debug frame;
+  for (int level = 0; lua_getstack(L, level, &frame); ++level) {
+    lua_getinfo(L, "S", &frame);
+    if (std::strcmp(frame.what, "main") == 0 && !own(frame)) return frame.short_src == std::string(prompt_chunk);
+  }
+  return position(L).rfind(prompt, 0) == 0;  // a coroutine begins with a function
+}
+
+bool called_by_own(lua_State* L) {
+  lua_Debug frame;
+  for (int level = 0; lua_getstack(L, level, &frame); ++level) {
+    lua_getinfo(L, "S", &frame);
+    if (frame.what[0] != 'C') return own(frame);
+  }
+  return false;
 }
 
 std::string describe_value(lua_State* L, int index) {

@@ -16,6 +16,12 @@ inline constexpr char prompt_chunk[] = "prompt";
 // or "" when there is none. With a name, "hertz.lua:3: contact: ".
 std::string position(lua_State* L, const std::string& callee = "");
 
+// Is what runs an input of the prompt, with no script (dofile, require) running in between?
+bool runs_for_prompt(lua_State* L);
+
+// Is the innermost function in Lua one of dotyk's own?
+bool called_by_own(lua_State* L);
+
 // What a value is, to a person: "nil", "the number 3", "a body", "a function".
 std::string describe_value(lua_State* L, int index);
 

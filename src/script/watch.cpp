@@ -72,8 +72,7 @@ bool Watch::stop() {
 }
 
 void Watch::answer(const char* advice) {
-  const bool at_prompt = position(L_).rfind(std::string(prompt_chunk) + ":", 0) == 0;
-  if (!at_prompt) return;
+  if (!runs_for_prompt(L_) || called_by_own(L_)) return;  // dotyk's own functions in Lua have results of their own
   if (interrupted() && !told_) {
     clear_progress();
     std::fputs("it had ended before it could be stopped: the result is whole\n", stderr);

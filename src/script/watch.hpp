@@ -34,9 +34,9 @@ class Watch : public Monitor {
   void iteration(const IterationInfo& info) override;
   bool stop() override;
 
-  // To be called with the result in hand, partial or not. At the prompt a request
-  // to stop is thereby answered and the user gets the result to look at; in a
-  // script it goes on to end the script.
+  // To be called with the result in hand, partial or not. At the prompt, and in
+  // functions called there, a request to stop is thereby answered and the user gets
+  // the result to look at; in a script it goes on to end the script.
   // `advice` ends what is said of a partial one.
   void answer(const char* advice = "look at it or leave it");
 

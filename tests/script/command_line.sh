@@ -90,6 +90,13 @@ kill -INT $!
 wait $!
 [[ $? == 1 && $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || fail "interrupt: $(<err.txt)"
 
+printf 'local x <const> = 7\nwhile true do end' >loop.lua
+(echo x; sleep 2) | "$dotyk" -i loop.lua >out.txt 2>err.txt &
+sleep 0.5
+kill -INT "$(pgrep -n -f 'loop.lua')"
+wait $!
+[[ $(<err.txt) == 'dotyk: loop.lua:2: interrupted' && $(<out.txt) == 7 ]] || fail "interrupt of -i: $(<err.txt)"
+
 # What Lua's library does for ever, one Ctrl-C ends, too.
 for code in 'table.move({}, 1, math.maxinteger - 1, 2)' 'table.insert(setmetatable({}, { __len = function() return 1 << 62 end }), 1, 0)' \
   'table.remove(setmetatable({}, { __len = function() return 1 << 62 end }), 1)' 'xpcall(error, function() while true do end end)' \

@@ -88,6 +88,23 @@ shape = dotyk.shape{ scene = scene, moves = { { part = block:part "bottom", cont
 END
 expect "Ctrl-C in an optimisation" 'ended: stopped, 4 variables' "dofile \"$folder/shape.lua\"\n" 'best = shape:optimise{ max_designs = 100000, tol_design = 1e-300, tol_gap = 0 }\n' '' '' '' '' '' '' \
   '\003' '' 'print(("ended: %s, %d variables"):format(best.reason, #best.alpha))\n' &
+cat >"$folder/called.lua" <<'END'
+function slowly(k) local t = os.clock() while os.clock() < t + 0.3 do end end
+function run(scene) return dotyk.solver.psor{ on_iteration = slowly }:solve(scene) end
+function make(mesh)
+  local body = dotyk.body{ mesh = mesh, material = dotyk.material{ E = 1, nu = 0.3 } }
+  body:part "top":load{ 0, -1 }
+  body:part "left":fix "x"
+  local scene = dotyk.scene{ body }
+  scene:contact{ body:part "bottom", rigid = dotyk.rigid.ball{ center = { 0.5, -5 }, radius = 5 } }
+  return scene
+end
+unit = dotyk.mesh.rectangle{ from = { 0, 0 }, to = { 1, 1 }, cells = { 2, 2 } }
+function refined() return dotyk.adapt{ mesh = unit, scene = make, tol = 1e-9, on_round = slowly } end
+END
+expect "Ctrl-C in a function of a file" 'so far 1' "dofile '$folder/called.lua'\n" 's = run(make(unit))\n' '\003' '' 'print("so far " .. s.iterations // s.iterations)\n' &
+expect "Ctrl-C in an adaptive solve" 'ended: interrupted; this is the last whole round' "dofile '$folder/called.lua'\n" 's, h = refined()\n' '' '\003' '' 'print("ended: " .. h.reason, #h)\n' &
+expect "Ctrl-C in a script that is run" 'called.lua:2: interrupted' "dofile '$folder/called.lua'\n" 'load "s = run(make(unit))" ()\n' '\003' '' &
 expect "Ctrl-C in a solve that ends by itself" 'it had ended before it could be stopped: the result is whole' "$block" 'scene = dotyk.scene{ block } block:part "top":load{ 0, -1 } block:part "left":fix "x"\n' \
   'scene:contact{ block:part "bottom", rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }\n' \
   's = dotyk.solver.pdas{ on_iteration = function() while os.clock() < 1.2 do end end }:solve(scene)\n' '\003' '' '' '' &
