@@ -144,8 +144,9 @@ double matrix_bytes(const Mesh& mesh) {
       case mesh::Element::triangle_p2: return 11.5;
       case mesh::Element::quadrilateral_q2: return 16.0;
       case mesh::Element::tetrahedron_p2: return 29.0;
-      default: return 64.0;
+      case mesh::Element::hexahedron_q2: break;
     }
+    return 64.0;
   };
   const double dim = mesh.dimension();
   return 12 * 0.5 * mesh.node_count() * dim * (dim * neighbours() + 1);

@@ -46,8 +46,9 @@ auto dispatch(mesh::Element element, Body&& body) {
     case mesh::Element::triangle_p2: return body.template operator()<TriangleP2>();
     case mesh::Element::quadrilateral_q2: return body.template operator()<QuadrilateralQ2>();
     case mesh::Element::tetrahedron_p2: return body.template operator()<TetrahedronP2>();
-    default: return body.template operator()<HexahedronQ2>();
+    case mesh::Element::hexahedron_q2: break;
   }
+  return body.template operator()<HexahedronQ2>();
 }
 
 }  // namespace dotyk::elasticity

@@ -15,8 +15,13 @@ int enough_cells(mesh::Element element) {
     case mesh::Element::triangle_p1: return 5;
     case mesh::Element::quadrilateral_q1: return 4;
     case mesh::Element::tetrahedron_p1: return 12;
-    default: return 8;
+    case mesh::Element::hexahedron_q1:
+    case mesh::Element::triangle_p2:
+    case mesh::Element::quadrilateral_q2:
+    case mesh::Element::tetrahedron_p2:
+    case mesh::Element::hexahedron_q2: break;
   }
+  return 8;
 }
 
 /// The cells about a node; if they are too few, also those about its neighbours.

@@ -7,12 +7,17 @@
 namespace dotyk::figure {
 
 inline CellShape cell_shape(mesh::Element element) {
-  switch (mesh::first_order(element)) {
-    case mesh::Element::triangle_p1: return CellShape::triangle;
-    case mesh::Element::quadrilateral_q1: return CellShape::quad;
-    case mesh::Element::tetrahedron_p1: return CellShape::tetrahedron;
-    default: return CellShape::hexahedron;
+  switch (element) {
+    case mesh::Element::triangle_p1:
+    case mesh::Element::triangle_p2: return CellShape::triangle;
+    case mesh::Element::quadrilateral_q1:
+    case mesh::Element::quadrilateral_q2: return CellShape::quad;
+    case mesh::Element::tetrahedron_p1:
+    case mesh::Element::tetrahedron_p2: return CellShape::tetrahedron;
+    case mesh::Element::hexahedron_q1:
+    case mesh::Element::hexahedron_q2: break;
   }
+  return CellShape::hexahedron;
 }
 
 }  // namespace dotyk::figure

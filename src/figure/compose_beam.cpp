@@ -59,8 +59,12 @@ SupportState state(const SupportLaw& law, double v, double r, const Scales& scal
     case Kind::breaking:
       if (-law.value * v > law.limit) return SupportState::broken;
       return pushes ? SupportState::pushing : SupportState::open;
-    default: return SupportState::acting;
+    case Kind::free:
+    case Kind::prescribed:
+    case Kind::load:
+    case Kind::elastic: break;
   }
+  return SupportState::acting;
 }
 
 SupportElement element(const ViewedLaw& at, const Scales& scale) {

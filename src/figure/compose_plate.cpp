@@ -51,8 +51,14 @@ double within(const SupportLaw& law, double reaction) {
     case Kind::one_sided_friction: return std::clamp(reaction, 0.0, law.value);
     case Kind::friction: return std::clamp(reaction, -law.value, law.value);
     case Kind::capped_elastic: return std::clamp(reaction, -law.limit, law.limit);
-    default: return reaction;
+    case Kind::free:
+    case Kind::prescribed:
+    case Kind::load:
+    case Kind::elastic:
+    case Kind::unequal_elastic:
+    case Kind::breaking: break;
   }
+  return reaction;
 }
 
 // A corner's own force stands for itself: beside it the strip goes on as between the next two points, as corner_forces() has it,

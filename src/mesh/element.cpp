@@ -61,8 +61,9 @@ const ElementTopology& topology(Element element) {
     case Element::triangle_p2: return all.triangle_p2;
     case Element::quadrilateral_q2: return all.quadrilateral_q2;
     case Element::tetrahedron_p2: return all.tetrahedron_p2;
-    default: return all.hexahedron_q2;
+    case Element::hexahedron_q2: break;
   }
+  return all.hexahedron_q2;
 }
 
 double corner_hat(const ElementTopology& t, int corner, int k) {
@@ -79,8 +80,12 @@ Element first_order(Element element) {
     case Element::quadrilateral_q2: return Element::quadrilateral_q1;
     case Element::tetrahedron_p2: return Element::tetrahedron_p1;
     case Element::hexahedron_q2: return Element::hexahedron_q1;
-    default: return element;
+    case Element::triangle_p1:
+    case Element::quadrilateral_q1:
+    case Element::tetrahedron_p1:
+    case Element::hexahedron_q1: break;
   }
+  return element;
 }
 
 Element second_order(Element element) {
@@ -89,8 +94,12 @@ Element second_order(Element element) {
     case Element::quadrilateral_q1: return Element::quadrilateral_q2;
     case Element::tetrahedron_p1: return Element::tetrahedron_p2;
     case Element::hexahedron_q1: return Element::hexahedron_q2;
-    default: return element;
+    case Element::triangle_p2:
+    case Element::quadrilateral_q2:
+    case Element::tetrahedron_p2:
+    case Element::hexahedron_q2: break;
   }
+  return element;
 }
 
 }  // namespace dotyk::mesh

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "mesh/mesh.hpp"
 
@@ -29,12 +30,17 @@ double first_order_jacobian(const Mesh& mesh, const int* n) {
       for (int k = 0; k < 4; ++k)
         least = std::min(least, determinant(edge(k, kQuadCorner[k][0]), edge(k, kQuadCorner[k][1]), kUp));
       return least;
-    default:
+    case Element::hexahedron_q1:
       for (int k = 0; k < 8; ++k)
         least = std::min(least, determinant(edge(k, kHexCorner[k][0]), edge(k, kHexCorner[k][1]),
                                             edge(k, kHexCorner[k][2])));
       return least;
+    case Element::triangle_p2:
+    case Element::quadrilateral_q2:
+    case Element::tetrahedron_p2:
+    case Element::hexahedron_q2: break;
   }
+  throw std::logic_error("not of order 1");
 }
 
 void add(Point& sum, double weight, const Point& x) {

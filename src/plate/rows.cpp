@@ -22,8 +22,15 @@ int rigidity(Kind kind) {
     case Kind::signorini: return 3;
     case Kind::friction: return 2;
     case Kind::one_sided_friction: return 1;
-    default: return 0;
+    case Kind::free:
+    case Kind::load:
+    case Kind::elastic:
+    case Kind::one_sided_elastic:
+    case Kind::capped_elastic:
+    case Kind::unequal_elastic:
+    case Kind::breaking: break;
   }
+  return 0;
 }
 
 bool same(const SupportLaw& a, const SupportLaw& b) { return a.kind == b.kind && a.value == b.value && a.limit == b.limit && a.pull == b.pull; }

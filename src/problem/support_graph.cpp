@@ -45,8 +45,13 @@ std::vector<double> kinks(const SupportLaw& law) {
     case Kind::one_sided_friction: return {0};
     case Kind::capped_elastic: return {-yield, yield};
     case Kind::breaking: return {-yield, 0};
-    default: return {};
+    case Kind::free:
+    case Kind::prescribed:
+    case Kind::load:
+    case Kind::elastic:
+    case Kind::signorini: break;
   }
+  return {};
 }
 
 void add(Curve& curve, double x, double y) { curve.x.push_back(x), curve.y.push_back(y); }
@@ -103,8 +108,14 @@ double energy(const SupportLaw& law, double v) {
     case Kind::prescribed: return v == law.value ? 0 : kInfinite;
     case Kind::signorini: return v >= 0 ? 0 : kInfinite;
     case Kind::breaking: return row->energy(0, std::min(-v, yield_displacement(law)));
-    default: return row->energy(0, -v);
+    case Kind::elastic:
+    case Kind::one_sided_elastic:
+    case Kind::friction:
+    case Kind::one_sided_friction:
+    case Kind::capped_elastic:
+    case Kind::unequal_elastic: break;
   }
+  return row->energy(0, -v);
 }
 
 SupportGraph graph(const SupportLaw& law, const GraphWindow& window) {
