@@ -1,8 +1,15 @@
 #include "algebra/blas_threads.hpp"
 
+#include <dlfcn.h>
+
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <mutex>
+#include <vector>
 
 #include "base/memory.hpp"
+#include "base/parallel.hpp"
 
 extern "C" {
 int openblas_get_num_threads();
@@ -58,5 +65,21 @@ OneBlasThread::OneBlasThread() {
 }
 
 OneBlasThread::~OneBlasThread() { --held_to_one; }
+
+int OneBlasThread::workers() const {
+  constexpr double kBuffer = 140e6, kOther = 64e6;  // of the work itself
+  static std::mutex taking;
+  static int taken = 1;
+  if (std::isinf(address_space_left())) return cores();
+  const std::lock_guard lock(taking);
+  static const auto take = reinterpret_cast<void* (*)(int)>(dlsym(RTLD_DEFAULT, "blas_memory_alloc"));
+  static const auto give = reinterpret_cast<void (*)(void*)>(dlsym(RTLD_DEFAULT, "blas_memory_free"));
+  std::vector<void*> held;
+  while (take && give && static_cast<int>(held.size()) < cores() &&
+         (static_cast<int>(held.size()) < taken || address_space_left() > kBuffer + kOther))
+    held.push_back(take(0));
+  for (void* one : held) give(one);
+  return taken = std::max<int>(taken, held.size());
+}
 
 }  // namespace dotyk::algebra

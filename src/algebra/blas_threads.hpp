@@ -28,6 +28,9 @@ class OneBlasThread {
  public:
   OneBlasThread();
   ~OneBlasThread();
+  /// How many threads can do that work: one a core; fewer where a limit of the address space leaves no room for OpenBLAS's
+  /// buffer of each, which is taken here.
+  int workers() const;
   OneBlasThread(const OneBlasThread&) = delete;
   OneBlasThread& operator=(const OneBlasThread&) = delete;
 };

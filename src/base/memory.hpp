@@ -24,6 +24,22 @@ inline double number_in(const char* file) {
 
 }  // namespace detail
 
+/// Bytes of address space that this process's own limit (ulimit -v, --memory) leaves; infinite without one.
+inline double address_space_left() {
+  rlimit own{};
+  if (getrlimit(RLIMIT_AS, &own) != 0 || own.rlim_cur == RLIM_INFINITY) return INFINITY;
+  const double used = detail::number_in("/proc/self/statm") * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::isfinite(used) ? std::max(0.0, static_cast<double>(own.rlim_cur) - used) : INFINITY;
+}
+
+/// Throws InputError where that is less than `bytes`, for libraries that end the program, or ask for ever, where they do not
+/// get what they need. `what` begins the message.
+inline void require_address_space(double bytes, const std::string& what) {
+  const double left = address_space_left();
+  if (bytes > left)
+    throw InputError(text(what, " needs ", std::ceil(bytes * 1e-6), " MB of memory, and the limit (--memory, ulimit -v) leaves ", std::floor(left * 1e-6), " MB"));
+}
+
 /// Bytes this process may still take without swapping: what the machine has available, its control
 /// group leaves and its own limit (ulimit -v) allows. Infinite where none of them is known.
 inline double available_memory() {
@@ -37,13 +53,7 @@ inline double available_memory() {
     const double used = detail::number_in("/sys/fs/cgroup/memory.current");
     if (std::isfinite(used)) available = std::min(available, std::max(0.0, group - used));
   }
-  rlimit own{};
-  if (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY) {
-    const double used = detail::number_in("/proc/self/statm") * static_cast<double>(sysconf(_SC_PAGESIZE));
-    if (std::isfinite(used))
-      available = std::min(available, std::max(0.0, static_cast<double>(own.rlim_cur) - used));
-  }
-  return available;
+  return std::min(available, address_space_left());
 }
 
 /// Throws InputError where `bytes` are more than are available: Linux would promise them, and end the

@@ -11,13 +11,15 @@
 
 namespace dotyk {
 
-/// Calls work(0), …, work(count − 1), each once, on as many threads as there are cores; an idle thread takes
+inline int cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+/// Calls work(0), …, work(count − 1), each once, on as many threads as there are cores, or `most`; an idle thread takes
 /// the next number. The calls must not touch what another one writes. Serial on one core and for count ≤ 1.
 ///
 /// Where calls throw, no further ones begin, and the exception of the least number that threw is rethrown:
 /// the one that a serial loop would meet, since every lesser number had begun before.
-inline void parallel_for(int count, const std::function<void(int)>& work) {
-  const int workers = std::min(count, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+inline void parallel_for(int count, const std::function<void(int)>& work, int most = cores()) {
+  const int workers = std::min(count, most);
   if (workers <= 1) {
     for (int k = 0; k < count; ++k) work(k);
     return;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory.hpp"
 #include "check.hpp"
 #include "grid_file.hpp"
 #include "page_picture.hpp"
@@ -52,6 +53,7 @@ void* open_library() {
       tried += "\n  not at " + place;
       continue;
     }
+    require_address_space(280e6, "the drawing library");  // measured: 250 MB
     if (void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
     const char* reason = dlerror();
     for (const char* short_of : {"failed to map", "cannot allocate", "Cannot allocate"})

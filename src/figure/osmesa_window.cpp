@@ -7,13 +7,17 @@
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <thread>
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkUnsignedCharArray.h>
+
+#include "base/memory.hpp"
 
 using GlFunction = void (*)();
 
@@ -42,6 +46,14 @@ namespace dotyk::figure {
 
 namespace {
 
+/// Mesa and VTK crash where they do not get the memory for their buffers (measured: 44 to 69 bytes a pixel and 50 MB; a stack each for
+/// Mesa's threads, one a core, 16 at most).
+void require_room(int width, int height) {
+  const double threads = std::min(16u, std::max(1u, std::thread::hardware_concurrency()));
+  require_address_space(150e6 + 10e6 * threads + 72.0 * width * height,
+                        "a picture (drawn with " + std::to_string(width) + " x " + std::to_string(height) + " pixels, then reduced; smaller ones by 'size')");
+}
+
 void answer_is_current(vtkObject*, unsigned long, void*, void* answer) {
   *static_cast<bool*>(answer) = true;
 }
@@ -67,6 +79,7 @@ struct OsmesaWindow::Impl {
 };
 
 OsmesaWindow::OsmesaWindow(int width, int height) : impl_(std::make_unique<Impl>()) {
+  require_room(width, height);
   impl_->width = width;
   impl_->height = height;
   impl_->buffer.resize(4 * static_cast<std::size_t>(width) * height);

@@ -8,11 +8,13 @@
 
 #include <cerrno>
 #include <climits>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/text.hpp"
 
 extern char** environ;
@@ -108,6 +110,9 @@ std::string output_of(const std::string& program, const std::vector<std::string>
   const int status = child.wait();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return out;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 1) throw InputError(what + ": " + out);
+  constexpr int cannot_begin = 127;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == cannot_begin && std::isfinite(address_space_left()))
+    throw std::runtime_error(what + ": " + program + " cannot begin within the limit of memory (--memory, ulimit -v)");
   if (!WIFSIGNALED(status)) throw std::runtime_error(text(what, ": ", program, " failed with status ", WEXITSTATUS(status)));
   switch (const int signal = WTERMSIG(status)) {
     case SIGINT: throw Interrupted();

@@ -1,5 +1,6 @@
 #include "script/process_limits.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "base/memory.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::script {
@@ -72,6 +74,7 @@ void set_limits(const ProcessLimits& limits) {
       throw std::runtime_error(text("--memory ", *limits.memory * 1e-6, "M is less than dotyk needs to start (about ", std::ceil(least * 1e-6), "M)"));
     limit(RLIMIT_AS, *limits.memory);
   }
+  if (std::isfinite(address_space_left())) mallopt(M_ARENA_MAX, 1);  // each thread's arena would take 64 MB of it
   if (!limits.seconds) return;
   std::signal(SIGXCPU, time_is_up);
   limit(RLIMIT_CPU, std::ceil(*limits.seconds));

@@ -30,7 +30,7 @@ void factor_in_threads(const std::vector<double>& flops, const std::string& what
   };
   if (order.size() == 1) return one(0);
   const algebra::OneBlasThread single;
-  parallel_for(static_cast<int>(order.size()), one);
+  parallel_for(static_cast<int>(order.size()), one, single.workers());
 }
 
 void refuse_singular(const Piece& piece, int unknown) {

@@ -33,7 +33,7 @@ namespace {
 
 void for_batches(const std::vector<Batch>& batches, const std::function<void(const Batch&)>& work) {
   const algebra::OneBlasThread one;
-  parallel_for(static_cast<int>(batches.size()), [&](int b) { work(batches[b]); });
+  parallel_for(static_cast<int>(batches.size()), [&](int b) { work(batches[b]); }, one.workers());
 }
 
 }  // namespace
