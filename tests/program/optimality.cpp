@@ -130,3 +130,13 @@ TEST_CASE("a program without rows, and one whose rows never matter") {
     CHECK((program::solve(p, program::InteriorPoint{}, quiet).x - exact).norm() < 1e-7);
   }
 }
+
+TEST_CASE("a solution that is nothing but rounding is one: rows are measured by what their multipliers move them by") {
+  Monitor quiet;
+  const auto p = test::quadratic(DenseMatrix::Constant(1, 1, 2), Vector::Ones(1), DenseMatrix::Identity(1, 1), Vector::Zero(1), Vector::Constant(1, INFINITY));
+  for (const auto& r : {program::solve(p, test::one(), quiet), program::solve(p, test::many(), quiet), program::solve(p, program::InteriorPoint{}, quiet)}) {
+    CHECK_MESSAGE(r.status == program::Status::solved, r.reason);
+    CHECK(r.y[0] == doctest::Approx(-1));
+  }
+  CHECK(program::residuals(p, Vector::Constant(1, -1e-5), -Vector::Ones(1)).feasibility > 0.9);  // beyond rounding it is none
+}
