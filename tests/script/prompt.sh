@@ -55,6 +55,11 @@ block='block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}
 expect "completion of a part" 'bottom: 2 facets' "$block" 'block:part "bo\t:fix()\n' &
 expect "all completions at the first Tab" 'bottom  left    right   top' "$block" 'block:part("\t' '\003' &
 expect "completion of what a key may be" '"P1"  "P2"  "Q1"  "Q2"' 'dotyk.mesh.rectangle{ element = \t' '\003' &
+expect "completion where a line begins" 'seconds = ' 'dotyk.solve(1, {\n' '\t' '\003' &
+expect "completion where a line begins forgets the last one" 'seconds = ' 'dotyk.beam{ \t' '\003' 'dotyk.solve(1, {\n' '\t' '\003' &
+mkdir "$folder/a file at home"
+echo 'print("at " .. "home")' >"$folder/a file at home/tilde.lua"
+expect "a file at home" 'at home' 'dofile("~/til\t")\n' &
 expect "a question" 'Made by dotyk.body' "$block" 'block?\n' &
 expect "Ctrl-D in an unfinished input" 'still here' 'if true then\n' '\004' 'print("still" .. " here")\n' &
 expect "an unfinished input left is recalled" 'seven-7' 'print(("seven-" .. 7\n' '\003' '\033[A' '))\n' &
