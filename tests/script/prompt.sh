@@ -119,4 +119,8 @@ printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\
 cmp "$folder/shown" "$picture" || fail "a picture in the terminal"
 told=$(printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" "$picture" | DOTYK_PICTURES=kity timeout 60 "$dotyk" 2>&1 >/dev/null)
 [[ $told == "dotyk: DOTYK_PICTURES is 'kity', which is left out; it can be kitty, iterm, sixel, none" ]] || fail "a protocol that is none: $told"
+mkdir "$folder/few"
+ln -s "$(command -v sh)" "$folder/few/sh"
+told=$(printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" "$picture" | PATH=$folder/few DOTYK_PICTURES=sixel "$dotyk" 2>&1 >/dev/null)
+[[ $told == "dotyk: img2sixel is missing"* && $(wc -l <<<"$told") == 1 ]] || fail "sixel without img2sixel: $told"
 [[ $failures == 0 && ! -e $folder/failed ]]
