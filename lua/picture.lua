@@ -52,9 +52,16 @@ end
 
 function show.iterm(bytes) io.write("\27]1337;File=inline=1;size=", #bytes, ":", base64(bytes), "\7\n") end
 
+local missing <const> = 127 -- what a shell says of a program that it does not find
+local missed
+
 function show.sixel(_, path)
   io.flush()
-  os.execute(("img2sixel '%s' 2>/dev/null"):format(path:gsub("'", "'\\''")))
+  local _, _, code <const> = os.execute(("img2sixel '%s' 2>/dev/null"):format(path:gsub("'", "'\\''")))
+  if code == missing and not missed then
+    missed = true
+    io.stderr:write("dotyk: img2sixel is missing (in the package libsixel-bin), so no pictures are shown here; DOTYK_PICTURES=none asks for none\n")
+  end
 end
 
 -- Shows the picture where the terminal can; true if it did.

@@ -13,9 +13,9 @@ local bracket <const> = dotyk.body{ name = "bracket", mesh = mesh, material = st
 bracket:part"left":fix()
 bracket:part"top":load{ 0, -1 } -- per length: 1 N/mm on a plate 1 mm thick
 
--- A scene is what is solved together. Printed, it says what it is and what is free to move.
+-- A scene is what is solved together. Its plan says what it is, what is free to move and how it is solved.
 local scene <const> = dotyk.scene{ bracket }
-print(scene)
+print(scene:plan())
 
 local s <const> = dotyk.solve(scene)
 print(s)

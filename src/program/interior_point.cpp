@@ -44,9 +44,10 @@ double rounding(const QuadraticProgram& p, const Vector& y) {
   return std::numeric_limits<double>::epsilon() * peak(p.A.cwiseAbs().transpose() * y.cwiseAbs()) / (1 + peak(p.q));
 }
 
-/// One run from a start with multipliers `far` inside.
-Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far, Monitor& monitor) {
+/// One run from a start with multipliers `far` inside; iterations are counted on from those `done`.
+Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far, int done, Monitor& monitor) {
   Result result;
+  result.iterations = done;
   Stopwatch clock;
   Barrier barrier(p);
   barrier.start(far);
@@ -54,7 +55,7 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
   double least = INFINITY;
   int since_best = 0;
   result.reason = text("no end within ", settings.max_iterations, " iterations");
-  for (int k = 0; k < settings.max_iterations; ++k) {
+  for (int k = done; k < settings.max_iterations; ++k) {
     barrier.evaluate();
     const double merit = barrier.merit();
     if (merit < least) {
@@ -64,6 +65,7 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
       result.reason = text("the residual has stopped falling at ", least);
       break;
     }
+    result.iterations = k + 1;
     monitor.iteration({.iteration = k + 1, .residual = merit, .seconds = clock.seconds()});
     const bool within = least <= settings.tol;
     if (within && settings.fine && since_best >= kFinerPatience) break;  // as fine as it gets
@@ -73,7 +75,7 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
       result.reason = text("residuals and gap are below ", settings.tol);
       break;
     }
-    if (k > 2 && diverged(p, barrier, result)) break;
+    if (k - done > 2 && diverged(p, barrier, result)) break;
     if (monitor.stop()) {
       result.reason = "stopped on request";
       break;
@@ -82,7 +84,6 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
       result.reason = "the KKT system could not be factored";
       break;
     }
-    result.iterations = k + 1;
   }
   if (result.status == Status::stopped && least <= kEnough * settings.tol) {
     result.status = Status::solved;
@@ -117,16 +118,15 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
     const Scaled scaled = scale(program);
     InteriorPoint inner = settings;
     if (settings.fine) inner.fine = [&](const Vector& x, const Vector& y) { return settings.fine(scaled.x(x), scaled.y(y)); };
-    result = run(scaled.program, inner, 30, monitor);
-    if (result.status == Status::stopped && !monitor.stop()) {
-      const int before = result.iterations;
-      result = run(scaled.program, inner, 1000, monitor);
-      result.iterations += before;
+    result = run(scaled.program, inner, 30, 0, monitor);
+    if (result.status == Status::stopped && result.iterations < settings.max_iterations && !monitor.stop()) {
+      result = run(scaled.program, inner, 1000, result.iterations, monitor);
       result.reason += ", at the second start";
     }
     if (result.status == Status::unbounded) {  // or without any point, which shows where the objective is strictly convex
       inner.fine = nullptr;
-      const Result nearest = run(nearest_point(scaled.program), inner, 30, monitor);
+      const Result nearest = run(nearest_point(scaled.program), inner, 30, result.iterations, monitor);
+      result.iterations = nearest.iterations;
       if (nearest.status == Status::infeasible) {
         result.status = nearest.status, result.reason = nearest.reason, result.direction = nearest.direction;
       }

@@ -157,7 +157,7 @@ void bind_beam_figure(Library& library) {
                                                                                 key::string("title", "above the row").otherwise("none")}, ""),
                                                         "from above").count(1, 12).required(),
                                               key::string("title", "above all").otherwise("none"),
-                                              size_key("{1600, 380 a row}")})},
+                                              size_key("{1600, 60 and 380 a row}")})},
                     .run = gallery});
   add_thermoelastic(library);
 }

@@ -166,7 +166,7 @@ void add_states(TypeOf<ChannelFlow>& type) {
                .help = "A bound, for all y, of what the terms left out of velocity(y, t) could add; rounding is not in it. Large only "
                        "for times so short that all the terms do not suffice.",
                .example = "print(c:error_bound(1e-6), c:error_bound(1e-2))",
-               .arguments = {t_key().above(0)},
+               .arguments = {key::positive("t", "time; at 0 velocity is the profile it starts from, and no series").required().unit("time")},
                .run = [at](Call& call) { return call.give(at(call).truncation_bound(call.number("t"))); }});
 }
 

@@ -2,6 +2,7 @@
 
 #include "script/enter.hpp"
 #include "script/help.hpp"
+#include "script/help_lines.hpp"
 #include "script/nearest.hpp"
 #include "script/pager.hpp"
 #include "script/position.hpp"
@@ -9,7 +10,15 @@
 namespace dotyk::script {
 namespace {
 
+// A result that is a text, scene:plan() say, is not repeated as if it were a name.
+void require_name(const std::string& text) {
+  constexpr std::size_t longest = 60;
+  if (text.size() <= longest && text.find('\n') == std::string::npos) return;
+  throw ArgumentError("nothing is called by a text of " + std::to_string(letters(text)) + " letters; help() lists everything");
+}
+
 std::string help_on_name(const Library& library, const std::string& name) {
+  require_name(name);
   if (name == "prompt") return help_on_prompt();
   for (const auto& module : library.modules()) {
     if (module.name == name) return help_text(library, module);

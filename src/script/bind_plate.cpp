@@ -36,7 +36,7 @@ Key edge_law_key(const char* name, const char* help) {
 }
 
 std::vector<Key> edge_keys() {
-  return {edge_law_key("rotation", "of the slope along the outward normal, per length: a law of dotyk.law, or f(x, y) → law"),
+  return {edge_law_key("rotation", "of the slope along the outward normal, per length: a law of dotyk.law but breaking, or f(x, y) → law"),
           edge_law_key("deflection", "of the deflection, per length: the same")};
 }
 
@@ -177,7 +177,7 @@ void bind_plate(Library& library) {
                                                key::number("force", "per length, upwards").unit("force/length").required()}, ""), "along lines"),
             key::table("edge", edge_keys(), "laws of the whole edge"),
             key::any("edges", "laws part by part: { left = { rotation = law, deflection = law }, … }; a part that the mesh does not have is chosen by where = function(x, y, nx, ny)"),
-            key::list("supports", key::table("", {point_key("x"), point_key("y"), law_key("deflection", "a law of dotyk.law")}, ""), "at points"),
+            key::list("supports", key::table("", {point_key("x"), point_key("y"), law_key("deflection", "a law of dotyk.law but breaking")}, ""), "at points"),
             key::field("obstacle", "height of what lies under the plate: a number or a function of x, y").unit("length").otherwise("none")})},
        .returns = "plate",
        .run = make_plate});

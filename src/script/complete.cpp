@@ -1,6 +1,7 @@
 #include "script/complete.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "script/complete_context.hpp"
 #include "script/complete_meaning.hpp"
@@ -48,8 +49,10 @@ std::vector<std::string> free_names(lua_State* L) {
   std::vector<std::string> words = {"and", "break",    "do",     "else", "elseif", "end",   "false",
                                     "for", "function", "if",     "in",   "local",  "nil",   "not",
                                     "or",  "repeat",   "return", "then", "true",   "until", "while"};
+  const auto keywords = words.size();
   lua_pushglobaltable(L);
   add_table_members(L, words, false);
+  words.erase(std::remove_if(words.begin() + static_cast<std::ptrdiff_t>(keywords), words.end(), std::not_fn(is_name)), words.end());
   return words;
 }
 
@@ -110,7 +113,7 @@ std::vector<std::string> objects(lua_State* L, const Library& library, const Key
     lua_rawget(L, -2);
     const auto* type = library.type_at(L, -1);
     lua_pop(L, 1);
-    if (!type || name == "_") continue;
+    if (!type || name == "_" || !is_name(name)) continue;
     if (is_of(key, type->name)) held.push_back(name);
     for (const auto& method : type->methods) {
       if (is_of(key, method.returns)) makers.push_back(name + ":" + method.short_name());
@@ -137,6 +140,7 @@ Completion candidates(lua_State* L, const Library& library, const Context& conte
   Completion result;
   if (context.joint != Step::name) {
     result.words = members(L, library, context.chain, context.joint);
+    std::erase_if(result.words, std::not_fn(is_name));  // which only an index in brackets reaches
     return result;
   }
   const auto* table = context.key_position ? table_around(L, library, context).key : nullptr;

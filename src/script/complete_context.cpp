@@ -217,4 +217,8 @@ class Reader {
 
 Context read_context(const std::string& text) { return Reader(text).read(); }
 
+bool is_name(const std::string& word) {
+  return !word.empty() && begins_name(word[0]) && std::all_of(word.begin(), word.end(), continues_name) && !is_keyword(word);
+}
+
 }  // namespace dotyk::script

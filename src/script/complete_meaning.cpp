@@ -63,6 +63,17 @@ Meaning advance(lua_State* L, const Library& library, const Meaning& from, const
   return of_value(L, library);
 }
 
+// What a table here is to be: the key itself, or the one of its kinds that is a table; its own keys rather than its items.
+const Key* as_table(const Key* key) {
+  if (!key || key->kind != Kind::either) return key;
+  for (const auto kind : {Kind::table, Kind::list}) {
+    for (const auto& one : key->keys) {
+      if (one.kind == kind) return &one;
+    }
+  }
+  return nullptr;
+}
+
 // The table among the arguments that stands after `before` others.
 const Key* table_argument(const Descriptor& callable, std::size_t before) {
   const auto& all = callable.arguments;
@@ -106,7 +117,7 @@ Place table_around(lua_State* L, const Library& library, const Context& context)
   if (in_parentheses && !path.empty()) path.pop_back();
   for (auto name = path.rbegin(); table && name != path.rend(); ++name) {
     const bool item = name->empty() && !table->items.empty();
-    table = item ? &table->items.front() : find_key(*table, *name);
+    table = as_table(item ? &table->items.front() : find_key(*table, *name));
   }
   return {table, meaning};
 }

@@ -160,6 +160,16 @@ std::string Key::expected() const {
   return "a value";
 }
 
+std::vector<Key> named_keys(const Key& key) {
+  if (key.kind == Kind::table) return key.keys;
+  std::vector<Key> all;
+  for (std::size_t i = 0; key.kind == Kind::either && i < key.keys.size(); ++i) {
+    const auto inner = named_keys(key.keys[i]);
+    all.insert(all.end(), inner.begin(), inner.end());
+  }
+  return all;
+}
+
 std::string Descriptor::short_name() const {
   const auto at = name.find_last_of(".:");
   return at == std::string::npos ? name : name.substr(at + 1);

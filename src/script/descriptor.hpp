@@ -81,6 +81,9 @@ struct Key {
   std::string expected() const;
 };
 
+// The named keys of a table, or of the tables among the kinds of an either.
+std::vector<Key> named_keys(const Key& key);
+
 // A Lua callable: its text, its arguments and the C++ function behind it.
 struct Descriptor {
   std::string name = {};               // "dotyk.material", or "body:part" for a method

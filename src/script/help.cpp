@@ -31,11 +31,9 @@ void list_key(std::string& out, const Key& key, const std::string& indent) {
   const auto further = indent + std::string(column, ' ');
   out += wrapped(key.help, indent + name + pad, further) + wrapped("(" + facts(key) + ")", further);
   for (const auto& item : key.items) {
-    for (const auto& inner : item.keys) list_key(out, inner, indent + "    ");
+    for (const auto& inner : named_keys(item)) list_key(out, inner, indent + "    ");
   }
-  if (key.kind == Kind::table) {
-    for (const auto& inner : key.keys) list_key(out, inner, indent + "    ");
-  }
+  for (const auto& inner : named_keys(key)) list_key(out, inner, indent + "    ");
 }
 
 void list_arguments(std::string& out, const Descriptor& descriptor) {
@@ -102,8 +100,8 @@ std::vector<std::string> missing_help(const Library& library) {
     for (const auto& key : keys) {
       const auto name = owner + ", '" + key.name + "'";
       if (key.help.empty()) missing.push_back(name + ": no help");
-      if (key.kind == Kind::table) self(self, name, key.keys);
-      for (const auto& item : key.items) self(self, name, item.keys);
+      self(self, name, named_keys(key));
+      for (const auto& item : key.items) self(self, name, named_keys(item));
     }
   };
   const auto check = [&](const Descriptor& one) {

@@ -36,7 +36,7 @@ void look() {
   session.found = (*session.complete)(std::string(rl_line_buffer, static_cast<std::size_t>(rl_point)));
 }
 
-// Inside a string a word is all of it; elsewhere a name.
+// Inside a string a word is all of it; elsewhere a name. readline asks for them where something stands before the cursor.
 char* word_breaks() {
   look();
   static char in_string[] = "\"'";
@@ -45,9 +45,11 @@ char* word_breaks() {
 }
 
 char** attempt(const char* text, int, int) {
+  if (rl_point == 0) look();
   rl_completion_append_character = '\0';
   if (session.found.file_names) {
     rl_filename_completion_desired = 1;
+    rl_variable_bind("expand-tilde", "on");  // files are opened as written, by no shell
     return nullptr;  // readline's own file names
   }
   rl_attempted_completion_over = 1;

@@ -18,8 +18,8 @@ void add_rows(std::string& out, const std::vector<Key>& keys, const std::string&
                                                    : "`" + key.default_text + "`";
     out += "| `" + name + "` | " + cell(key.expected()) + " | " + cell(key.units) + " | " + absent + " | " +
            cell(key.help) + " |\n";
-    if (key.kind == Kind::table) add_rows(out, key.keys, name + ".");
-    for (const auto& item : key.items) add_rows(out, item.keys, name + "[i].");
+    add_rows(out, named_keys(key), name + ".");
+    for (const auto& item : key.items) add_rows(out, named_keys(item), name + "[i].");
   }
 }
 

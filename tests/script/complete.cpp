@@ -55,12 +55,30 @@ TEST_CASE("completion inside a table argument") {
   CHECK(words("dotyk.test.toy{ error = 'en") == Words{"energy"});
   CHECK(words("dotyk.test.toy{ size = prin") == Words{"print"});
   CHECK(words("dotyk.test.box{ ") == Words{"dotyk.test.toy", "gap = "});
+  // an item that is an object or a table, and a list that is one of several kinds
+  CHECK(words("dotyk.work_precision{ methods = { { ") == Words{"method = ", "name = "});
+  CHECK(words("dotyk.work_precision{ methods = { dotyk.solver.pdas{}, { na") == Words{"name = "});
+  CHECK(words("dotyk.work_precision{ methods = { { method = dotyk.solver.pd") == Words{"pdas"});
+  CHECK(words("dotyk.work_precision{ levels = { ").size() > 20);
+  CHECK(words("dotyk.work_precision{ error = { ").size() > 20);
+  CHECK(words("dotyk.solve(dotyk.test.other(), {\n") == words("dotyk.solve(dotyk.test.other(), {"));
   CHECK(words("help 'toy:") == Words{"toy:grow", "toy:part"});
   CHECK(words("help(\"dotyk.refe") == Words{"dotyk.reference"});
   CHECK(complete(bench.interpreter.state(), "io.open('/et").file_names);
   CHECK(complete(bench.interpreter.state(), "dotyk.qp{ file = 'x").file_names);
   CHECK(complete(bench.interpreter.state(), "dotyk.qp 'x").file_names);
   CHECK(!complete(bench.interpreter.state(), "dotyk.test.toy{ name = 'x").file_names);
+}
+
+TEST_CASE("completion offers after a dot, and for a variable, only what is a name") {
+  Bench bench;
+  REQUIRE(bench.error("t = { ['two words'] = 1, ['end'] = 2, two = 3 } _G['two words'] = t _G['a toy'] = dotyk.test.toy{ name = 'a' }") == "");
+  const auto words = [&](const std::string& text) { return complete(bench.interpreter.state(), text).words; };
+  CHECK(words("t.") == Words{"two"});
+  CHECK(words("t['t") == Words{"two", "two words"});
+  CHECK(words("tw").empty());
+  CHECK(words("en") == Words{"end"});
+  CHECK(words("dotyk.test.toy{ parent = ") == Words{"dotyk.test.toy"});
 }
 
 TEST_CASE("completion of what a key or an argument may be") {

@@ -92,6 +92,33 @@ TEST_CASE("signatures and help texts") {
   CHECK(reference_page(library).find("| `colour` |") != std::string::npos);
 }
 
+TEST_CASE("help and the reference list the keys of tables that are one of several kinds") {
+  Interpreter interpreter;
+  const auto& library = interpreter.library();
+  const auto text = help_text(*library.find("dotyk.work_precision"));
+  CHECK(text.find("\n      …") == std::string::npos);
+  CHECK(text.find("\n      name            in table and legend\n") != std::string::npos);
+  const auto page = reference_page(library);
+  CHECK(page.find("| `methods[i].name` |") != std::string::npos);
+  CHECK(page.find("….") == std::string::npos);
+}
+
+TEST_CASE("help says what the code does") {
+  Interpreter interpreter;
+  const auto& library = interpreter.library();
+  const auto bound = help_text(*library.find_type("channel")->method("error_bound"));
+  CHECK(bound.find("not negative") == std::string::npos);  // 0 is refused
+  const auto plate = help_text(*library.find("dotyk.plate"));
+  CHECK(plate.find("a law of dotyk.law but breaking") != std::string::npos);  // which plates refuse
+}
+
+TEST_CASE("help on a text that is no name does not repeat it") {
+  Bench bench;
+  CHECK(bench.error("help 'plan:\\n  one'") == "t.lua:1: help: nothing is called by a text of 11 letters; help() lists everything");
+  CHECK(bench.error("help(('x'):rep(1000))").find("xxx") == std::string::npos);
+  CHECK(bench.error("help 'dotyk.refernce'").find("did you mean 'dotyk.reference'?") != std::string::npos);
+}
+
 TEST_CASE("callables written in Lua are checked like the others") {
   Bench bench;
   lua_State* L = bench.interpreter.state();

@@ -55,6 +55,11 @@ block='block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}
 expect "completion of a part" 'bottom: 2 facets' "$block" 'block:part "bo\t:fix()\n' &
 expect "all completions at the first Tab" 'bottom  left    right   top' "$block" 'block:part("\t' '\003' &
 expect "completion of what a key may be" '"P1"  "P2"  "Q1"  "Q2"' 'dotyk.mesh.rectangle{ element = \t' '\003' &
+expect "completion where a line begins" 'seconds = ' 'dotyk.solve(1, {\n' '\t' '\003' &
+expect "completion where a line begins forgets the last one" 'seconds = ' 'dotyk.beam{ \t' '\003' 'dotyk.solve(1, {\n' '\t' '\003' &
+mkdir "$folder/a file at home"
+echo 'print("at " .. "home")' >"$folder/a file at home/tilde.lua"
+expect "a file at home" 'at home' 'dofile("~/til\t")\n' &
 expect "a question" 'Made by dotyk.body' "$block" 'block?\n' &
 expect "Ctrl-D in an unfinished input" 'still here' 'if true then\n' '\004' 'print("still" .. " here")\n' &
 expect "an unfinished input left is recalled" 'seven-7' 'print(("seven-" .. 7\n' '\003' '\033[A' '))\n' &
@@ -131,4 +136,8 @@ printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\
 cmp "$folder/shown" "$picture" || fail "a picture in the terminal"
 told=$(printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" "$picture" | DOTYK_PICTURES=kity timeout 60 "$dotyk" 2>&1 >/dev/null)
 [[ $told == "dotyk: DOTYK_PICTURES is 'kity', which is left out; it can be kitty, iterm, sixel, none" ]] || fail "a protocol that is none: $told"
+mkdir "$folder/few"
+ln -s "$(command -v sh)" "$folder/few/sh"
+told=$(printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" "$picture" | PATH=$folder/few DOTYK_PICTURES=sixel "$dotyk" 2>&1 >/dev/null)
+[[ $told == "dotyk: img2sixel is missing"* && $(wc -l <<<"$told") == 1 ]] || fail "sixel without img2sixel: $told"
 [[ $failures == 0 && ! -e $folder/failed ]]

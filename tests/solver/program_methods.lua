@@ -32,6 +32,16 @@ check.that(not stopped.converged and seen == 1)
 local s = dotyk.solver.interior_point{}:solve(scene())
 check.that(s.converged and math.abs(s.energy - exact.energy) < 1e-7 * math.abs(exact.energy))
 
+-- Iterations are those of the history, those of a second start go on counting, and the limit holds for all.
+check.equal(#s.history, s.iterations)
+for limit = 1, s.iterations - 1 do
+  local last
+  local few = dotyk.solver.interior_point{ max_iterations = limit, on_iteration = function(k) last = k end }:solve(scene())
+  check.equal({ few.converged, few.iterations, #few.history, last }, { false, limit, limit, limit })
+  local ended = dotyk.solver.interior_point{ on_iteration = function(k) return k < limit end }:solve(scene())
+  check.equal({ ended.converged, ended.iterations, #ended.history }, { false, limit, limit })
+end
+
 local p = dotyk.solver.penalty{ factor = 1e4 }:solve(scene())
 check.that(p.converged and p.penalty.factor == 1e4 and p.penalty.penetration > 0)
 check.that(p.residual.penetration > 0 and p.reason:find "penetration up to")
