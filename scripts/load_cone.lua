@@ -118,10 +118,11 @@ end
 print(("space: %d directions of the lower hemisphere, %d wrong"):format(count, spherical))
 
 table.insert(series, 1, { name = "refused", x = all_refused[1], y = all_refused[2], style = "points" })
+local around <const>, ball <const> = { -1.3, 1.3 }, { -1.1, 1.1 } -- one range on both axes: circles are round
 dotyk.chart{ file = "images/load_cone.png", x = "x component of the load's direction (times the ring)",
-             y = "y component", series = series, size = { 900, 840 } }
+             y = "y component", series = series, x_range = around, y_range = around, size = { 900, 960 } }
 dotyk.chart{ file = "images/load_hemisphere.png", x = "x component of the load's direction", y = "y component",
-             size = { 820, 760 },
+             x_range = ball, y_range = ball, size = { 820, 840 },
              series = { { name = "refused", x = sphere.refused[1], y = sphere.refused[2], style = "points" },
                         { name = "carried by three planes", x = sphere.carried[1], y = sphere.carried[2], style = "points" },
                         { name = "carried by a floor with friction 0.4", x = sphere.rubs[1], y = sphere.rubs[2], style = "points" } } }

@@ -108,7 +108,7 @@ end
 print(("greatest difference %.1e; %d moves in all"):format(worst, moved))
 
 -- 4. The figure: the contact seen from above, case by case; every screw from where it was to where it went.
-local series, names = {}, {}
+local series, names, named = {}, {}, false
 local function points(name, style)
   series[#series + 1] = { name = name, x = {}, y = {}, style = style }
   return series[#series]
@@ -125,11 +125,12 @@ for k, d in ipairs(drawn) do
     local from, to = d.nodes[d.screws[1].rows[m]], d.nodes[d.screws[#d.screws].rows[m]]
     add(first, from.x + shift, from.y)
     add(last, to.x + shift, to.y)
-    local path = points("", "line")
+    local moves = points(named and "" or "their moves", "line")
+    moves.twin, named = true, true -- in the colour of the screws at the end
     local before
     for _, placed in ipairs(d.screws) do
       local node = d.nodes[placed.rows[m]]
-      if node ~= before then add(path, node.x + shift, node.y) end
+      if node ~= before then add(moves, node.x + shift, node.y) end
       before = node
     end
   end

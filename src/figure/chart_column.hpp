@@ -14,6 +14,7 @@ struct ChartFrame {
   double em = 20;
   ChartMargins least;   // left and right
   bool x_labels = true;
+  bool alone = false;   // may be narrower than the picture
 };
 
 // From the canvas's origin, of the picture's size; returns the margins taken.

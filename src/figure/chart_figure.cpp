@@ -84,9 +84,18 @@ private:
       room_.bottom = frame_.x_labels ? 0.4 * em_ + (picture_.x_label.empty() && !x_ticks_.exponent ? 0 : 1.35 * em_) + 1.6 * em_ : 0.2 * em_;
       room_.right = w - std::max(0.6 * em_ + last / 2, frame_.least.right);
       room_.top = h - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - legend_height;
+      if (frame_.alone && equal()) make_square();
     }
     x_.from = room_.left, x_.to = room_.right;
     y_.from = room_.bottom, y_.to = room_.top;
+  }
+
+  bool equal() const { return !x_.log && !y_.log && picture_.x_range && picture_.x_range == picture_.y_range; }
+
+  void make_square() {
+    const double side = std::min(room_.width(), room_.height());
+    indent_ = (room_.width() - side) / 2;
+    room_ = {room_.left + indent_, room_.bottom, room_.right - indent_, room_.bottom + side};
   }
 
   void occupy() {
@@ -210,7 +219,7 @@ private:
     style.upright = true;
     style.up = Align::middle;
     style.across = Align::low;
-    canvas_.text({0.45 * em_, (room_.bottom + room_.top) / 2}, y_name, style);
+    canvas_.text({indent_ + 0.45 * em_, (room_.bottom + room_.top) / 2}, y_name, style);
     TextStyle title;
     title.size = fitting_size(picture_.title, 1.1 * em_, picture_.width - em_, true);
     title.bold = true;
@@ -253,13 +262,13 @@ private:
     const double size = 0.85 * em_;
     const Point extent = text_extent(label, size);
     const double pad = 0.35 * em_;
-    // With room for the labels on the right and below.
+    // With room for the labels on the right, and on the level side: below where the line rises, else above.
     const double width = run + extent.x + 2 * pad, height = up + 1.2 * em_ + pad;
     const std::optional<Point> place = near_place(occupied_, like(ratio), room_, width, height, 0.5 * em_);
     if (!place) return false;
     const Point at = *place;
     occupied_.add(Box{at.x, at.y, at.x + width, at.y + height});
-    const double y0 = at.y + 1.2 * em_;
+    const double y0 = at.y + (rise >= 0 ? 1.2 * em_ : pad);
     const Point a{at.x, rise >= 0 ? y0 : y0 + up}, b{at.x + run, rise >= 0 ? y0 + up : y0};
     const Point corner{b.x, a.y};
     const std::array<Point, 3> triangle{a, corner, b};
@@ -284,6 +293,7 @@ private:
   Axis x_, y_;
   Ticks x_ticks_, y_ticks_;
   Box room_;
+  double indent_ = 0;  // of a plot narrower than it might be
   Occupied occupied_;
 };
 
@@ -293,7 +303,7 @@ ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFra
 
 void draw_chart(const ChartPicture& picture) {
   Canvas canvas(oversampling(picture.width, picture.height));
-  draw_on(canvas, picture, {0.034 * std::min<double>(picture.height, 0.8 * picture.width), {}, true});
+  draw_on(canvas, picture, {0.034 * std::min<double>(picture.height, 0.8 * picture.width), {}, true, true});
   write_canvas(canvas, picture.width, picture.height, picture.file);
 }
 

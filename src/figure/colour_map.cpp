@@ -39,7 +39,7 @@ Ticks bar_ticks(const ColourScale& scale) { return linear_ticks(scale.low, scale
 
 constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small = 0.85, ends = 0.55;  // in em
 
-std::string extreme(const char* name, double value) { return std::string(name) + " " + number(value); }
+std::string extreme(const char* name, double value, const Ticks& ticks) { return std::string(name) + " " + scaled_number(value, ticks.exponent); }
 
 }  // namespace
 
@@ -93,10 +93,11 @@ vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale) {
 
 double colour_bar_width(const ColourScale& scale, const ScenePicture& p, double em) {
   if (!scale.shown || p.field_label.empty()) return 0;
+  const Ticks ticks = bar_ticks(scale);
   double widest = 0;
-  for (const Tick& t : bar_ticks(scale).ticks) widest = std::max(widest, text_extent(t.label, em).x);
+  for (const Tick& t : ticks.ticks) widest = std::max(widest, text_extent(t.label, em).x);
   const double beside = (bar + tick + pad) * em + widest + 0.4 * em + 1.3 * em;
-  const double above = std::max(text_extent(extreme("max", scale.greatest), small * em).x, text_extent(extreme("min", scale.least), small * em).x);
+  const double above = std::max(text_extent(extreme("max", scale.greatest, ticks), small * em).x, text_extent(extreme("min", scale.least, ticks), small * em).x);
   return std::max(beside, above);
 }
 
@@ -126,9 +127,9 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePictur
   end.size = small * em;
   end.colour = {70, 70, 70};
   end.up = Align::low;
-  canvas.text({box.left, box.top + ends * em}, extreme("max", scale.greatest), end);
+  canvas.text({box.left, box.top + ends * em}, extreme("max", scale.greatest, ticks), end);
   end.up = Align::high;
-  canvas.text({box.left, box.bottom - ends * em}, extreme("min", scale.least), end);
+  canvas.text({box.left, box.bottom - ends * em}, extreme("min", scale.least, ticks), end);
   style.upright = true;
   const std::string name = label(p, ticks.exponent);
   style.size = fitting_size(name, em, box.height());

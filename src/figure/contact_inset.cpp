@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spread.hpp"
 #include "stage.hpp"
 
 namespace dotyk::figure {
@@ -11,28 +12,15 @@ namespace {
 
 constexpr Colour ink{30, 30, 30};
 
-// The coordinates that span the plan: those across the normal, never mirrored.
-struct Plan {
-  std::size_t across, up;
-};
-
-Plan plan_of(const ContactPicture& contact) {
-  Vec3 mean{0, 0, 0};
-  for (const ContactNode& node : contact.nodes) mean = plus(mean, node.normal);
-  const std::size_t axis = std::abs(mean[2]) >= std::max(std::abs(mean[0]), std::abs(mean[1])) ? 2 : std::abs(mean[1]) >= std::abs(mean[0]) ? 1 : 0;
-  if (axis == 2) return {0, 1};
-  return axis == 1 ? Plan{0, 2} : Plan{1, 2};
-}
-
-// The contact that carries most, of those that have facets.
+// The contact that carries most, of those that have facets; of equals (but for rounding) the first.
 const ContactPicture* chosen(const ScenePicture& picture) {
   const ContactPicture* best = nullptr;
-  double most = -1;
+  double most = 0;
   for (const ContactPicture& contact : picture.contacts) {
     if (contact.nodes_per_facet < 3 || contact.facets.empty()) continue;
     double peak = 0;
     for (const ContactNode& node : contact.nodes) peak = std::max(peak, node.pressure);
-    if (peak > most) most = peak, best = &contact;
+    if (!best || peak > (1 + 1e-6) * most) most = peak, best = &contact;
   }
   return best;
 }
@@ -68,6 +56,14 @@ void fill(Stage& stage, const ContactPicture& contact, const std::vector<Point>&
 
 }  // namespace
 
+Plan plan_of(const ContactPicture& contact) {
+  Vec3 mean{0, 0, 0};
+  for (const ContactNode& node : contact.nodes) mean = plus(mean, node.normal);
+  const std::size_t axis = std::abs(mean[2]) >= std::max(std::abs(mean[0]), std::abs(mean[1])) ? 2 : std::abs(mean[1]) >= std::abs(mean[0]) ? 1 : 0;
+  if (axis == 2) return {0, 1};
+  return axis == 1 ? Plan{0, 2} : Plan{1, 2};
+}
+
 double inset_width(const Stage& stage) {
   if (stage.plane || !chosen(stage.picture)) return 0;
   return std::min(10.5 * stage.em, 0.3 * stage.picture.width);
@@ -79,7 +75,7 @@ void draw_inset(Stage& stage, const Box& room) {
   const double em = stage.em;
   const Plan plan = plan_of(*contact);
   Bounds bounds;
-  for (const ContactNode& node : contact->nodes) bounds.add({node.position[plan.across], node.position[plan.up]});
+  for (const ContactNode& node : contact->nodes) bounds.add(plan(node.position));
   // Title above, names of the axes to the left and below.
   const Box plot{room.left + 0.9 * em, room.bottom + 2.2 * em, room.right - 0.2 * em, room.top - 1.5 * em};
   const double scale = std::min(plot.width() / std::max(bounds.width(), 1e-300), plot.height() / std::max(bounds.height(), 1e-300));
@@ -93,7 +89,7 @@ void draw_inset(Stage& stage, const Box& room) {
   // Dots whose area is the pressure.
   const double spacing = 0.55 * em;
   if (stage.greatest_pressure > 0 && stage.picture.pressure != PressureStyle::none)
-    for (const std::size_t i : stage.spaced(at, spacing)) {
+    for (const std::size_t i : spread(at, at, spacing)) {
       const double share = contact->nodes[i].pressure / stage.greatest_pressure;
       if (share > 0.002) stage.over.disc(at[i], 0.45 * spacing * std::sqrt(share), pressure_line);
     }

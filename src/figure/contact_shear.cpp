@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "spread.hpp"
 #include "stage.hpp"
 
 namespace dotyk::figure {
@@ -14,13 +15,14 @@ constexpr double longest = 1.5, least_share = 0.1;  // of an arrow: em, and of t
 double size(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 // The nodes whose arrows are drawn: of those that rub, some that stand apart.
-std::vector<std::size_t> chosen(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, double spacing) {
+template <class Choice>
+std::vector<std::size_t> chosen(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, Choice choice) {
   std::vector<std::size_t> rubbing;
   std::vector<Point> places;
   for (std::size_t i = 0; i < at.size(); ++i)
     if (size(contact.nodes[i].shear) >= least_share * stage.greatest_shear) rubbing.push_back(i), places.push_back(at[i]);
   std::vector<std::size_t> out;
-  for (const std::size_t k : stage.spaced(places, spacing)) out.push_back(rubbing[k]);
+  for (const std::size_t k : choice(places)) out.push_back(rubbing[k]);
   return out;
 }
 
@@ -42,7 +44,8 @@ void draw_shear(Stage& stage, const ContactPicture& contact) {
   if (!(stage.greatest_shear > 0)) return;
   std::vector<Point> at;
   for (const ContactNode& node : contact.nodes) at.push_back(stage.view.flat(stage.place(node)));
-  for (const std::size_t i : chosen(stage, contact, at, 1.1 * longest * stage.em)) {
+  const auto along_edge = [&](const std::vector<Point>& places) { return stage.spaced(places, 1.1 * longest * stage.em); };
+  for (const std::size_t i : chosen(stage, contact, at, along_edge)) {
     const auto [tail, head] = shear_arrow(stage, contact.nodes[i]);
     draw(stage, tail, head);
   }
@@ -51,7 +54,8 @@ void draw_shear(Stage& stage, const ContactPicture& contact) {
 void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, std::size_t across, std::size_t up) {
   if (!(stage.greatest_shear > 0)) return;
   const double half = 0.5 * stage.em / stage.greatest_shear;
-  for (const std::size_t i : chosen(stage, contact, at, 0.85 * stage.em)) {
+  const auto on_plan = [&](const std::vector<Point>& places) { return spread(places, places, 0.85 * stage.em); };
+  for (const std::size_t i : chosen(stage, contact, at, on_plan)) {
     const Vec3& shear = contact.nodes[i].shear;
     const double x = half * shear[across], y = half * shear[up];
     draw(stage, {at[i].x - x, at[i].y - y}, {at[i].x + x, at[i].y + y});

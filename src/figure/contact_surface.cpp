@@ -7,6 +7,7 @@
 #include <vtkActor.h>
 #include <vtkRenderer.h>
 
+#include "spread.hpp"
 #include "stage.hpp"
 #include "vtk_data.hpp"
 
@@ -90,11 +91,15 @@ struct Arrows {
 
 void add_arrows(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
   if (!(stage.greatest_pressure > 0)) return;
-  std::vector<Point> at;
-  for (const ContactNode& node : contact.nodes) at.push_back(stage.view.flat(stage.place(node)));
+  const Plan plan = plan_of(contact);
+  std::vector<Point> at, in_plan;
+  for (const ContactNode& node : contact.nodes) {
+    at.push_back(stage.view.flat(stage.place(node)));
+    in_plan.push_back(plan(node.position));
+  }
   const double em = stage.em, width = std::max(1.3, em / 13), rim = std::max(0.8, em / 28);
   Arrows dark, white;
-  for (const std::size_t i : stage.spaced(at, 0.8 * em)) {
+  for (const std::size_t i : spread(at, in_plan, 0.8 * em)) {
     const ContactNode& node = contact.nodes[i];
     const double share = node.pressure / stage.greatest_pressure;
     if (share < 0.02) continue;

@@ -176,7 +176,9 @@ struct ChartPicture {
   bool log_x = false, log_y = false;
   std::vector<SeriesPicture> series;
   std::vector<SlopeGuide> slopes;
-  std::optional<std::array<double, 2>> x_range, y_range;  // default: the data with a margin
+  // Default: the data with a margin. One range given to both linear axes of a chart of its own: a
+  // square plot, so that a circle is round.
+  std::optional<std::array<double, 2>> x_range, y_range;
 };
 
 // Charts one below the other. The panels' files and sizes are not looked at.

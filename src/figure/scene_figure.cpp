@@ -2,8 +2,6 @@
 // below, then bodies in VTK's own renderer, then symbols, legends and texts.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <unordered_map>
 
 #include <vtkCamera.h>
 #include <vtkLight.h>
@@ -13,6 +11,7 @@
 
 #include "figures.hpp"
 #include "osmesa_window.hpp"
+#include "spread.hpp"
 #include "stage.hpp"
 
 namespace dotyk::figure {
@@ -50,51 +49,6 @@ Vec3 Stage::deformed(const Vec3& position, const Vec3& displacement) const {
   return plus(position, displacement, picture.deformation);
 }
 
-namespace {
-
-std::vector<std::size_t> greedy(const std::vector<Point>& at, const std::vector<std::size_t>& order, double spacing) {
-  // Kept points by squares of side `spacing`: only neighbours are compared.
-  std::unordered_map<long long, std::vector<std::size_t>> squares;
-  const auto key = [](long long i, long long j) { return i * 1000003LL + j; };
-  std::vector<std::size_t> kept;
-  for (const std::size_t i : order) {
-    if (!(std::abs(at[i].x) < 1e7 && std::abs(at[i].y) < 1e7)) continue;
-    const auto sx = static_cast<long long>(std::floor(at[i].x / spacing)), sy = static_cast<long long>(std::floor(at[i].y / spacing));
-    bool free = true;
-    for (long long dx = -1; dx <= 1 && free; ++dx)
-      for (long long dy = -1; dy <= 1 && free; ++dy) {
-        const auto found = squares.find(key(sx + dx, sy + dy));
-        if (found == squares.end()) continue;
-        for (const std::size_t j : found->second)
-          free = free && std::hypot(at[i].x - at[j].x, at[i].y - at[j].y) >= spacing;
-      }
-    if (!free) continue;
-    squares[key(sx, sy)].push_back(i);
-    kept.push_back(i);
-  }
-  return kept;
-}
-
-std::vector<std::size_t> even_choice(const std::vector<Point>& at, double spacing) {
-  std::vector<std::size_t> all(at.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  const std::vector<std::size_t> kept = greedy(at, all, spacing);
-  // Along an edge with even nodes: as many, but evenly from end to end.
-  if (kept.size() < 3 || kept.size() == at.size()) return kept;
-  const std::size_t last = at.size() - 1, least = (last + kept.size() - 2) / (kept.size() - 1);
-  std::vector<std::size_t> even;
-  for (std::size_t stride = least; 2 * stride <= 3 * least && even.empty(); ++stride)
-    if (last % stride == 0)
-      for (std::size_t i = 0; i <= last; i += stride) even.push_back(i);
-  if (!even.empty() && greedy(at, even, 0.85 * spacing).size() == even.size()) return even;
-  even.clear();
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    even.push_back((2 * k * (at.size() - 1) + kept.size() - 1) / (2 * (kept.size() - 1)));
-  return greedy(at, even, 0.85 * spacing).size() == even.size() ? even : kept;
-}
-
-}  // namespace
-
 std::vector<bool> Stage::shown(const ContactPicture& contact) const {
   std::vector<bool> out;
   std::vector<Point> at;
@@ -128,7 +82,7 @@ std::vector<std::size_t> Stage::spaced(const std::vector<Point>& positions, doub
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (shows(positions[i], within)) at.push_back(positions[i]), numbers.push_back(i);
-  std::vector<std::size_t> out = even_choice(at, spacing);
+  std::vector<std::size_t> out = spread(at, spacing);
   for (std::size_t& i : out) i = numbers[i];
   return out;
 }

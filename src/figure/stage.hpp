@@ -58,8 +58,8 @@ struct Stage {
   // Of each node, whether it or some of its facets is seen.
   std::vector<bool> shown(const ContactPicture& contact) const;
   void set_greatest();
-  // Numbers of those positions that are shown, `within` the frame, and stand
-  // at least `spacing` pixels apart, taken in the order given.
+  // Numbers of those positions, given in the order of an edge's nodes, that
+  // are shown, `within` the frame, and stand `spacing` pixels apart.
   std::vector<std::size_t> spaced(const std::vector<Point>& at, double spacing, double within = 0) const;
 };
 
@@ -81,6 +81,12 @@ void draw_contacts(Stage& stage, vtkRenderer* renderer);
 // A plan of the contact of a scene in space: the width it wants (0: none),
 // and its drawing in the room given to it.
 double inset_width(const Stage& stage);
+// The coordinates that span the plan: those across the normal, never mirrored.
+struct Plan {
+  std::size_t across, up;
+  Point operator()(const Vec3& p) const { return {p[across], p[up]}; }
+};
+Plan plan_of(const ContactPicture& contact);
 void draw_inset(Stage& stage, const Box& room);
 // Arrows of the shear, in the plane beside the contact line on the side of the
 // first part, which they act on; on the plan of a contact in space, whose

@@ -29,4 +29,8 @@ std::string power_of_ten(int k);
 // A number with `digits` significant digits, without a machine's "e+05".
 std::string number(double value, int digits = 3);
 
+// The same in the unit of an axis, 10^exponent, as its labels are: no second
+// power of ten; what is nearer to zero than 0.001 is said to be so.
+std::string scaled_number(double value, int exponent);
+
 }  // namespace dotyk::figure

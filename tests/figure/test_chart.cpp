@@ -186,3 +186,42 @@ TEST_CASE("whiskers run from x_low to x_high, a front lies pale beneath, crossed
   chart.series[1].x_low.pop_back();
   CHECK_THROWS_WITH(draw(chart), "series \"\": whiskers need as many x_low and x_high values as points");
 }
+
+TEST_CASE("one range for both axes makes the plot square") {
+  ChartPicture chart = chart_of("round.png", {0, 1}, {0, 1});
+  chart.x_range = chart.y_range = {-1, 2};
+  chart.y_label = "y";
+  draw(chart);
+  Frame f = frame_of(read_png("round.png"));
+  CHECK(f.right - f.left > 300);
+  CHECK(std::abs((f.right - f.left) - (f.bottom - f.top)) <= 1);
+  chart.y_range = {-1, 3};
+  draw(chart);
+  f = frame_of(read_png("round.png"));
+  CHECK(f.right - f.left > f.bottom - f.top + 50);
+}
+
+TEST_CASE("what a slope guide says keeps clear of the frame") {
+  // Curves leave room only above them, from too little to enough.
+  for (double room = 0.5; room < 2.5; room += 0.1) {
+    CAPTURE(room);
+    ChartPicture chart = chart_of("guide_frame.png", {}, {});
+    const SeriesPicture empty = chart.series[0];
+    chart.series.clear();
+    for (int k = 0; k < 10; ++k) {
+      chart.series.push_back(empty);
+      chart.series.back().x = {1, 1e4}, chart.series.back().y = {std::pow(10, -0.5 * k), std::pow(10, -1 - 0.5 * k)};
+    }
+    chart.log_x = chart.log_y = true;
+    chart.x_range = {1, 1e4};
+    chart.y_range = {1e-6, std::pow(10, room)};
+    chart.slopes = {{-0.25, ""}};
+    draw(chart);
+    const Pixels p = read_png("guide_frame.png");
+    const Frame f = frame_of(p);
+    int dark = 0;  // just above and just below the frame's line
+    for (const int y : {f.top - 4, f.top - 3, f.top + 3, f.top + 4})
+      for (int x = f.left + 10; x < f.right - 10; ++x) dark += p.at(x, y).r < 180;
+    CHECK(dark == 0);
+  }
+}

@@ -1,7 +1,10 @@
 // Scenes: what must be seen is seen, in the place where it belongs.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "pixels.hpp"
 
@@ -202,4 +205,121 @@ TEST_CASE("odd scenes are drawn all the same") {
   BodyPicture empty;
   scene.bodies = {empty};
   CHECK(message_of([&] { draw(scene); }) == "");
+}
+
+TEST_CASE("the least and the greatest value are read as the ticks are, in the bar's power of ten") {
+  const auto drawn = [](double factor, const std::string& file) {
+    ScenePicture scene = scene_of(square(8, [factor](double x, double) { return factor * (0.125 + 149.25 * x); }), file);
+    scene.field_label = "stress";
+    draw(scene);
+    return read_png(file);
+  };
+  const Pixels plain = drawn(1, "ones.png"), thousands = drawn(1000, "thousands.png");
+  // The same numbers, and "[× 10³]" more in the upright label.
+  int left = plain.width, right = -1;
+  for (int y = 0; y < plain.height; ++y)
+    for (int x = 0; x < plain.width; ++x)
+      if (plain.at(x, y) != thousands.at(x, y)) left = std::min(left, x), right = std::max(right, x);
+  CHECK(left <= right);
+  CHECK(right - left < 20);
+}
+
+namespace {
+
+// The middles of the spots of a colour right of `from`.
+std::vector<std::array<double, 2>> spots(const Pixels& p, Colour colour, int from) {
+  std::vector<bool> seen(static_cast<std::size_t>(p.width * p.height), false);
+  std::vector<std::array<double, 2>> out;
+  for (int y0 = 0; y0 < p.height; ++y0)
+    for (int x0 = from; x0 < p.width; ++x0) {
+      std::vector<std::array<int, 2>> todo{{x0, y0}};
+      double x_sum = 0, y_sum = 0, n = 0;
+      while (!todo.empty()) {
+        const auto [x, y] = todo.back();
+        todo.pop_back();
+        if (x < from || x >= p.width || y < 0 || y >= p.height || p.at(x, y) != colour) continue;
+        const auto at = static_cast<std::size_t>(y * p.width + x);
+        if (seen[at]) continue;
+        seen[at] = true;
+        x_sum += x, y_sum += y, n += 1;
+        for (const auto& [dx, dy] : {std::array{1, 0}, std::array{-1, 0}, std::array{0, 1}, std::array{0, -1}}) todo.push_back({x + dx, y + dy});
+      }
+      if (n > 2) out.push_back({x_sum / n, y_sum / n});
+    }
+  return out;
+}
+
+// The different ones of places, a pixel being none.
+std::vector<double> different(std::vector<double> places) {
+  std::sort(places.begin(), places.end());
+  std::vector<double> out;
+  for (const double v : places)
+    if (out.empty() || v - out.back() > 1.5) out.push_back(v);
+  return out;
+}
+
+bool even(const std::vector<double>& places) {
+  for (std::size_t i = 2; i < places.size(); ++i)
+    if (std::abs(places[i] - 2 * places[i - 1] + places[i - 2]) > 2.5) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("the arrows of a uniform load are equally far apart, whatever their number") {
+  for (const int n : {50, 53, 61}) {
+    CAPTURE(n);
+    ScenePicture scene = scene_of(square(4, [](double, double) { return 0.0; }), "uniform.png");
+    scene.bodies[0].values.clear();
+    for (int i = 0; i < n; ++i) {
+      LoadArrow load;
+      load.position = {(i + 0.5) / n, 1, 0};
+      load.vector = {0, -1, 0};
+      scene.loads.push_back(load);
+    }
+    draw(scene);
+    const Pixels p = read_png("uniform.png");
+    std::vector<double> x;
+    for (const auto& spot : spots(p, {0, 70, 110}, 0))
+      if (spot[1] < 0.75 * p.height) x.push_back(spot[0]);  // not the legend's
+    CHECK(x.size() > 8);
+    CHECK(different(x).size() == x.size());
+    CHECK(even(different(x)));
+  }
+}
+
+TEST_CASE("dots of the pressure on the plan of a grid stand in its rows and columns") {
+  ScenePicture scene;
+  scene.file = "dots.png";
+  scene.width = 700, scene.height = 500;
+  BodyPicture body;
+  body.dimension = 3;
+  body.shape = CellShape::hexahedron;
+  body.points = {0, 0, 0, 1, 0, 0, 1, 2, 0, 0, 2, 0, 0, 0, 1, 1, 0, 1, 1, 2, 1, 0, 2, 1};
+  body.cells = {0, 1, 2, 3, 4, 5, 6, 7};
+  body.nodes_per_facet = 4;
+  scene.bodies = {body};
+  ContactPicture contact;
+  contact.nodes_per_facet = 4;
+  const int nx = 23, ny = 38;  // neither leaves dots on the rim, whose line would cut them
+  for (int j = 0; j <= ny; ++j)
+    for (int i = 0; i <= nx; ++i) {
+      ContactNode node;
+      node.position = {static_cast<double>(i) / nx, 2.0 * j / ny, 0};
+      node.normal = {0, 0, -1};
+      node.pressure = 1;
+      node.status = Status::closed;
+      contact.nodes.push_back(node);
+      if (i > 0 && j > 0) contact.facets.insert(contact.facets.end(), {(j - 1) * (nx + 1) + i - 1, (j - 1) * (nx + 1) + i, j * (nx + 1) + i, j * (nx + 1) + i - 1});
+    }
+  scene.contacts = {contact};
+  draw(scene);
+  const Pixels p = read_png("dots.png");
+  std::vector<double> x, y;
+  for (const auto& spot : spots(p, {45, 50, 90}, static_cast<int>(0.72 * p.width)))
+    if (spot[1] < 0.85 * p.height) x.push_back(spot[0]), y.push_back(spot[1]);
+  CHECK(x.size() > 30);
+  CHECK(x.size() == different(x).size() * different(y).size());
+  CHECK(even(different(x)));
+  CHECK(even(different(y)));
 }
