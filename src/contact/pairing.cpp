@@ -71,28 +71,32 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
   std::vector<NodeSide> list = means && pairing == Pairing::node_to_segment ? nodes(first.mesh, first.facets)
                                                                           : corner_sides(first.mesh, first.facets);
   std::vector<Across> all = across(first, second, pairing, list);
+  std::unordered_map<int, double> widest;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    double& most = widest[list[k].node];  // a corner has two sides
+    most = std::max(most, all[k].widest);
+  }
   std::vector<ContactRow> rows;
   if (means && pairing == Pairing::node_to_segment) {
     std::unordered_map<int, std::vector<NodeWeight>> feet;
     for (std::size_t k = 0; k < list.size(); ++k)
       if (!all[k].partners.empty()) feet.emplace(list[k].node, std::move(all[k].partners));
     rows = mean_rows(first, second, std::move(feet), added);
-    if (!interference) refuse_overlap(rows, first, second);
-    return rows;
+  } else {
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      if (all[k].partners.empty()) continue;
+      list[k].weight = all[k].weight;
+      if (means) list[k].own = std::move(all[k].own);
+      rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, first, second));
+    }
   }
-  std::optional<Curvature> curvature;
-  if (!interference) curvature.emplace(first, second);
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    if (all[k].partners.empty()) continue;
-    const double chord = curvature ? height_of_chord(curvature->at(list[k].node, all[k].partners), all[k].widest) : 0;
-    list[k].weight = all[k].weight;
-    if (means) list[k].own = std::move(all[k].own);
-    rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, first, second));
-    ContactRow& row = rows.back();
+  if (interference) return rows;
+  const Curvature curvature(first, second);
+  for (ContactRow& row : rows) {
     const double own = row.gap - row.added;
-    if (own < 0 && own >= -chord) row.gap = row.added;
+    if (own < 0 && own >= -height_of_chord(curvature.at(row.node, row.partners), widest.at(row.node))) row.gap = row.added;
   }
-  if (!interference) refuse_overlap(rows, first, second);
+  refuse_overlap(rows, first, second);
   return rows;
 }
 

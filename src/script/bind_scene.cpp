@@ -202,7 +202,8 @@ Key pairing_key() {
   return key::choice("pairing", {"matching", "node_to_segment", "mortar"},
                      "matching: nodes across from each other, refused where one has none. mortar: displacements of the second part in the mean over "
                      "a node's surroundings, weighted with dual multipliers; a uniform pressure is exact. node_to_segment: at the "
-                     "node's foot; a uniform pressure is not exact").otherwise("matching where nodes match, else mortar");
+                     "node's foot; a uniform pressure is not exact. Curved parts that fit, meshed by chords that do not match, have gaps of the chords' "
+                     "heights (h²/8R), which count as they are: meshes of order 2 follow the curve").otherwise("matching where nodes match, else mortar");
 }
 
 }  // namespace

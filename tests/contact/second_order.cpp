@@ -260,3 +260,23 @@ TEST_CASE("a rigid shape: the gap is the mean of the nodes' gaps, exact for quad
       CHECK(whole == doctest::Approx(0.2 + 1.0 / 6 + 0.5).epsilon(1e-13));
     }
 }
+
+TEST_CASE("curved parts of order 2 that fit but do not match touch, by either pairing") {
+  const auto arc = [](Family family, double inner, double outer, int n) {
+    Mesh m = test::rectangle(family, n, 2);
+    mesh::transform(m, [&](const Point& x) {
+      const double r = inner + (outer - inner) * x[1], angle = 1.5 * (1 - x[0]);
+      return Point{r * std::cos(angle), r * std::sin(angle), 0};
+    });
+    return m;
+  };
+  for (const Family family : test::kSecondOrder)
+    for (const auto& [n, m] : {std::pair{6, 9}, std::pair{9, 6}, std::pair{7, 20}}) {
+      const Mesh shaft = arc(family, 1, 2, n), bush = arc(family, 2, 3, m);
+      for (const Pairing pairing : {Pairing::mortar, Pairing::node_to_segment})
+        for (const auto& row : contact::pair_rows(test::face(shaft, "top"), test::face(bush, "bottom"), pairing, {}, false).rows) {
+          CHECK(row.gap >= 0);
+          CHECK(row.gap < 1e-4);  // the parabola through three points of a circle
+        }
+    }
+}
