@@ -64,8 +64,8 @@ std::vector<Facet> select(const Mesh& mesh,
 /// node), repeated, a coordinate is not finite, or a node belongs to no cell. `what` names the mesh in the message.
 void check(const Mesh& mesh, const std::string& what);
 
-/// Twice the area (triangle), the volume times six (tetrahedron), or the least
-/// corner Jacobian (quadrilateral, hexahedron), of second order the least one at a node: positive for a valid cell.
+/// Twice the area (triangle), the volume times six (tetrahedron), the least corner Jacobian (quadrilateral), or the least one
+/// at the places of nodes of order 2 (hexahedron, cells of second order): positive for a valid cell.
 double least_jacobian(const Mesh& mesh, int cell);
 
 /// Moves every node to `map(x)`. Throws InputError where a cell inverts or a

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <map>
 #include <stdexcept>
+#include <type_traits>
 #include <unordered_map>
 
 #include "cell_of.hpp"
@@ -100,9 +102,27 @@ Type type_of(int element) {
   return type;
 }
 
+struct Element {
+  int type = 0;
+  std::vector<std::size_t> nodes;
+};
+
+/// From 4.9 on Gmsh says too where the element is.
+template <class Get>
+Element element(Get get, std::size_t number) {
+  Element e;
+  [[maybe_unused]] int dimension = 0, tag = 0;
+  if constexpr (std::is_invocable_v<Get, std::size_t, int&, std::vector<std::size_t>&>)
+    get(number, e.type, e.nodes);
+  else
+    get(number, e.type, e.nodes, dimension, tag);
+  return e;
+}
+
 class Reader {
  public:
   Contents read() {
+    gmsh::model::mesh::renumberElements();  // a file of version 4 can have two of one number
     read_nodes();
     read_groups();
     gmsh::vectorpair entities;
@@ -142,18 +162,42 @@ class Reader {
     std::vector<std::vector<std::size_t>> elements, nodes;
     gmsh::model::mesh::getElements(types, elements, nodes, dimension, tag);
     for (std::size_t t = 0; t < types.size(); ++t) {
-      const Type type = type_of(types[t]);
-      if (!type.known || type.nodes < 1) throw std::runtime_error("it has elements of an unknown type");
-      Block block{type.shape, groups_[{dimension, tag}], {}, type.order};
-      const std::size_t count = nodes[t].size() / type.nodes;
-      block.nodes.reserve(count * type.corners);
-      block.between.reserve(count * type.between.size());
-      for (std::size_t i = 0; i < count * type.nodes; i += type.nodes) {
-        for (int k = 0; k < type.corners; ++k) block.nodes.push_back(place(nodes[t][i + k]));
-        for (const int k : type.between) block.between.push_back(k < 0 ? -1 : place(nodes[t][i + k]));
-      }
-      contents_.blocks.push_back(std::move(block));
+      add(dimension, tag, types[t], nodes[t]);
+      read_others(dimension, tag, types[t], elements[t].size());
     }
+  }
+
+  /// Gmsh lists elements of a shape only as far as they are of the type of the first of them; these are the others, say of
+  /// another order.
+  void read_others(int dimension, int tag, int first, std::size_t listed) {
+    std::vector<std::size_t> numbers, none;
+    gmsh::model::mesh::preallocateElementsByType(first, true, false, numbers, none, tag);
+    if (numbers.size() == listed) return;
+    gmsh::model::mesh::getElementsByType(first, numbers, none, tag);  // by its name; it gives the whole shape
+    std::map<int, std::vector<std::size_t>> nodes;
+    std::size_t again = 0;
+    for (const std::size_t number : numbers) {
+      const Element e = element(gmsh::model::mesh::getElement, number);
+      if (e.type == first) ++again;
+      else nodes[e.type].insert(nodes[e.type].end(), e.nodes.begin(), e.nodes.end());
+    }
+    if (again != listed) throw std::runtime_error("its elements of several orders cannot be told apart; save all with one order");
+    for (const auto& [type, all] : nodes) add(dimension, tag, type, all);
+  }
+
+  /// A block of elements of a type of Gmsh's, with their nodes one after the other.
+  void add(int dimension, int tag, int element_type, const std::vector<std::size_t>& nodes) {
+    const Type type = type_of(element_type);
+    if (!type.known || type.nodes < 1) throw std::runtime_error("it has elements of an unknown type");
+    Block block{type.shape, groups_[{dimension, tag}], {}, type.order};
+    const std::size_t count = nodes.size() / type.nodes;
+    block.nodes.reserve(count * type.corners);
+    block.between.reserve(count * type.between.size());
+    for (std::size_t i = 0; i < count * type.nodes; i += type.nodes) {
+      for (int k = 0; k < type.corners; ++k) block.nodes.push_back(place(nodes[i + k]));
+      for (const int k : type.between) block.between.push_back(k < 0 ? -1 : place(nodes[i + k]));
+    }
+    contents_.blocks.push_back(std::move(block));
   }
 
   int place(std::size_t node) const {
@@ -174,12 +218,38 @@ std::string lone_name(const std::string& file) {
   return "/proc/self/fd/" + std::to_string(opened);
 }
 
+/// How many elements the file has, as Gmsh's log says; 0 where it does not say.
+std::size_t elements_in_file() {
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  std::size_t all = 0;
+  for (const std::string& line : log) {
+    std::size_t count = 0;
+    int end = 0;
+    if (std::sscanf(line.c_str(), "Info: %zu element%n", &count, &end) == 1 && end > 0) all += count;
+  }
+  return all;
+}
+
+/// Gmsh drops elements without a word: of those that share a number in a file of version 2, all but the last.
+void refuse_loss(const Contents& c) {
+  std::vector<std::size_t> points, none;
+  gmsh::model::mesh::preallocateElementsByType(15, true, false, points, none);
+  std::size_t count = points.size();
+  for (const Block& b : c.blocks) count += b.nodes.size() / kind(b.shape).nodes;
+  const std::size_t said = elements_in_file();
+  if (count < said)
+    throw std::runtime_error(std::to_string(said - count) + " of its " + std::to_string(said) +
+                             " elements are lost: their numbers are given more than once, or Gmsh's library does not hand over such elements");
+}
+
 Contents load(const std::string& file) {
   const std::string name = lone_name(file);
   start();
   run([&] { gmsh::merge(name); });
   Contents result;
   run([&] { result = Reader().read(); });
+  refuse_loss(result);
   return result;
 }
 

@@ -89,7 +89,9 @@ std::string exact(double value) {
 
 Loaded mesh_file(const std::string& file, const Meshing& meshing, const Choice& choice, const std::string& what, Monitor& monitor) {
   const std::vector<std::string> arguments{"mesh", plain(file), std::to_string(meshing.dimension), exact(meshing.size), std::to_string(choice.order)};
-  return assemble(read(output_of(gmsh_program(), arguments, what, monitor)), choice, what);
+  const std::string answer = output_of(gmsh_program(), arguments, what, monitor);
+  if (answer.empty()) throw InputError(what + ": Gmsh ended without a mesh; does the geometry say Exit?");  // which ends the program
+  return assemble(read(answer), choice, what);
 }
 
 /// A file in the folder for temporary files, gone at the end.

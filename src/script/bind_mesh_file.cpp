@@ -38,7 +38,8 @@ int load(Call& call) {
 
 int gmsh(Call& call) {
   if (Library::of(call.state()).folder) throw ArgumentError("not for scripts run with --safe: a geometry can read any file");
-  if (call.has("file") == call.has("text")) throw ArgumentError("one of 'file' and 'text' is needed");
+  if (call.has("file") && call.has("text")) throw ArgumentError("'file' and 'text' are both given; give the geometry by one of them");
+  if (!call.has("file") && !call.has("text")) throw ArgumentError("one of 'file' and 'text' is needed");
   const meshfile::Meshing meshing{.dimension = call.has("dimension") ? static_cast<int>(call.integer("dimension")) : 0,
                                   .size = call.has("size") ? call.number("size") : 0};
   Watch watch(call.state(), "meshing");

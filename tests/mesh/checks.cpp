@@ -2,6 +2,7 @@
 
 #include "../support/meshes.hpp"
 #include "base/error.hpp"
+#include "mesh/second_order.hpp"
 
 using namespace dotyk;
 
@@ -74,6 +75,33 @@ TEST_CASE("a coordinate that is no number is refused with its node") {
     auto m = test::rectangle(mesh::Family::p1, 2, 2);
     m.coordinates[7] = bad;
     CHECK_THROWS_WITH_AS(mesh::check(m, "m"), "m: node 4 has a coordinate that is not finite", InputError);
+  }
+}
+
+TEST_CASE("a hexahedron that is inverted or flat between sound corners is refused, as of either order") {
+  const auto with_corners = [](const double x[8][3]) {
+    auto m = test::box(mesh::Family::q1, 1, 1, 1);
+    for (int k = 0; k < 8; ++k) std::copy_n(x[k], 3, &m.coordinates[3 * static_cast<std::size_t>(m.cell(0)[k])]);
+    return m;
+  };
+  const auto refused = [](const mesh::Mesh& m, const char* message) {
+    CHECK_THROWS_WITH_AS(mesh::check(m, "m"), doctest::Contains(message), InputError);
+    CHECK_THROWS_WITH_AS(mesh::check(mesh::second_order(m), "m"), doctest::Contains(message), InputError);
+  };
+  // Its top turned by half a turn: a point at mid-height.
+  const double twisted[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 1, 1}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}};
+  refused(with_corners(twisted), "is flat: its least Jacobian, 0,");
+  // At its corners 0.188 and more, in the middle of an edge -1.485.
+  const double bent[8][3] = {{-0.9, 0.1, -0.7}, {1.5, -0.8, 0}, {1, 1.2, -0.6}, {-0.9, 1.9, -0.3}, {0.7, 0.4, 0.3}, {1.6, 0.6, 1.9}, {1.1, 1.1, 0.5}, {-0.1, 0.2, 1.9}};
+  refused(with_corners(bent), "is inverted; its least Jacobian is -1.485, it must be positive: check the order of nodes");
+}
+
+TEST_CASE("straight hexahedra have the least Jacobian of the same ones of order 2") {
+  for (const double by : {0.05, 0.1, 0.15}) {
+    auto m = test::box(mesh::Family::q1, 4, 4, 4);
+    test::distort(m, by);
+    const mesh::Mesh second = mesh::second_order(m);
+    for (int c = 0; c < m.cell_count(); ++c) CHECK(std::abs(mesh::least_jacobian(m, c) - mesh::least_jacobian(second, c)) < 1e-14);
   }
 }
 

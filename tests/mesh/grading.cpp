@@ -36,3 +36,13 @@ TEST_CASE("gradings that do not increase, miss the ends or give no number are re
   refused([](double s) { return 0.1 + 0.9 * s; }, "must map 0 to 0");
   refused([](double) { return 0.5; }, "must increase");
 }
+
+TEST_CASE("where the numbers have no room for the cells that is said, not that the grading is wrong") {
+  const auto refused = [](double a, double b, const mesh::Grading& g, const char* message) {
+    CHECK_THROWS_WITH_AS(mesh::ticks(a, b, 100, g, "y"), doctest::Contains(message), InputError);
+  };
+  for (const mesh::Grading& g : {mesh::Grading(), mesh::Grading([](double s) { return s * s; })}) {
+    refused(-1e308, 1e308, g, "the extent along y, from -1e+308 to 1e+308, is beyond the range of numbers; choose another unit of length");
+    refused(1e16, 1e16 + 100, g, "the 100 cells along y, from 1e+16, are so narrow that their nodes coincide in rounding");
+  }
+}
