@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "axes.hpp"
@@ -168,7 +169,7 @@ private:
   void draw_spread(int k) {
     const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
     if (s.low.empty()) return;
-    const auto at = [&](std::size_t i, double v) { return Point{x_.pixel(s.x[i]), y_.pixel(y_.log ? std::max(v, y_.low * 1e-6) : v)}; };
+    const auto at = [&](std::size_t i, double v) { return Point{x_.pixel(s.x[i]), y_.pixel(y_.log ? std::max({v, y_.low * 1e-6, std::numeric_limits<double>::denorm_min()}) : v)}; };
     for (std::size_t i = 0; i + 1 < s.x.size(); ++i) {
       if (!x_.shows(s.x[i]) || !x_.shows(s.x[i + 1])) continue;
       canvas_.convex(std::array<Point, 4>{{at(i, s.low[i]), at(i + 1, s.low[i + 1]), at(i + 1, s.high[i + 1]), at(i, s.high[i])}}, colour(k), 0.2);
@@ -244,7 +245,7 @@ private:
   }
 
   bool draw_guide(const SlopeGuide& guide, double share) {
-    const double ratio = guide.slope * y_.pixels_per_unit() / x_.pixels_per_unit();
+    const double ratio = steepness(x_, y_, guide.slope);
     double run = share * room_.width();
     if (std::abs(ratio) * run > 1.6 * share * room_.height()) run = 1.6 * share * room_.height() / std::abs(ratio);
     const double rise = ratio * run, up = std::abs(rise);

@@ -1,6 +1,7 @@
 // Charts: curves pass where the numbers say, on logarithmic axes too.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -55,6 +56,13 @@ ChartPicture chart_of(const std::string& file, const std::vector<double>& x, con
   s.style = SeriesStyle::line;
   chart.series = {s};
   return chart;
+}
+
+// Grid lines from left to right in a row without curve or text.
+int grid_columns(const Pixels& p, const Frame& f, int row) {
+  int n = 0;
+  for (int x = f.left + 3; x < f.right - 2; ++x) n += p.at(x, row).r < 240 && p.at(x - 1, row).r >= 240;
+  return n;
 }
 
 }  // namespace
@@ -127,6 +135,56 @@ TEST_CASE("curves far beyond the axes cost nothing and stay outside") {
   CHECK(white_rim(p));
   CHECK(drawn_at(p, f, 0.3, 0.7, series_colour(0)));
   chart.x_range = {1e15, 1e15 + 1};
+  CHECK(message_of([&] { draw(chart); }) == "");
+}
+
+TEST_CASE("numbers next to nothing and near the greatest are drawn where they belong") {
+  const double least = 5e-324, greatest = std::numeric_limits<double>::max();
+  const auto drawn = [](const ChartPicture& chart) {
+    draw(chart);
+    return read_png("extreme.png");
+  };
+  ChartPicture chart = chart_of("extreme.png", {1, 2}, {least, 1e-310});
+  chart.x_range = {0, 3};
+  chart.slopes = {{1, ""}, {-1e9, ""}};
+  Pixels p = drawn(chart);  // from 0 to 1.05e-310
+  Frame f = frame_of(p);
+  CHECK(drawn_at(p, f, 1.5 / 3, 0.5 / 1.05, series_colour(0)));
+  chart.log_y = true;  // no room for a margin below: 13.3 decades and 0.06 of them above
+  p = drawn(chart), f = frame_of(p);
+  CHECK(drawn_at(p, f, 1.5 / 3, 0.5 / 1.06, series_colour(0)));
+
+  // 500 decades, and the same margin at both ends.
+  chart = chart_of("extreme.png", {1e-250, 1, 1e250}, {1e-10, 1, 1e10});
+  chart.log_x = chart.log_y = true;
+  p = drawn(chart), f = frame_of(p);
+  CHECK(drawn_at(p, f, 0.25, 0.25, series_colour(0)));
+  CHECK(drawn_at(p, f, 0.9, 0.9, series_colour(0)));
+  const int columns = grid_columns(p, f, f.bottom - (f.bottom - f.top) / 100 - 14);
+  CHECK(columns >= 4);
+  CHECK(columns <= 14);
+
+  chart = chart_of("extreme.png", {-greatest, greatest}, {-greatest, greatest});
+  p = drawn(chart), f = frame_of(p);
+  CHECK(drawn_at(p, f, 0.25, 0.25, series_colour(0)));
+
+  for (const bool log : {false, true})
+    for (const auto& [low, high] : {std::array{least, least}, {least, 2 * least}, {1e-300, 1e-300}, {least, greatest}, {1e-300, 1e300}, {greatest, greatest}, {1.0, std::nextafter(1.0, 2.0)}, {1e308, greatest}}) {
+      chart = chart_of("extreme.png", {low, high}, {low, high});
+      chart.series[0].style = SeriesStyle::both;
+      chart.series[0].low = {0, low}, chart.series[0].high = chart.series[0].y;
+      chart.log_x = chart.log_y = log;
+      chart.slopes = {{1, ""}};
+      CHECK(drawn(chart).count(series_colour(0), 6) > 20);
+      if (low < high) chart.x_range = chart.y_range = {low, high};
+      CHECK(drawn(chart).count(series_colour(0), 6) > 20);
+    }
+}
+
+TEST_CASE("a dashed curve from beyond all rounding ends") {
+  ChartPicture chart = chart_of("extreme.png", {-1e30, 1e30}, {-1e30, 1e30});
+  chart.series[0].reference = true;
+  chart.x_range = chart.y_range = {0, 1};
   CHECK(message_of([&] { draw(chart); }) == "");
 }
 
