@@ -203,6 +203,33 @@ TEST_CASE("each series has its colour; the legend does not hide a curve") {
   for (int k = 0; k < 7; ++k) CHECK(p.count(series_colour(k), 6) > 150);
 }
 
+TEST_CASE("texts too long for their places are broken and shortened, not cut off") {
+  const auto often = [](const std::string& words, int n) {
+    std::string out;
+    for (int i = 0; i < n; ++i) out += words;
+    return out;
+  };
+  for (const int n : {1, 2, 4, 12})
+    for (const std::string& words : {often("a long label, ", 3), often("ü", 40)}) {
+      ChartPicture chart = chart_of("long.png", {1, 2}, {1e6, 2e6});
+      chart.title = chart.x_label = chart.y_label = chart.series[0].name = often(words, n);
+      chart.series[0].style = SeriesStyle::points;
+      draw(chart);
+      const Pixels p = read_png("long.png");
+      CAPTURE(words);
+      CAPTURE(n);
+      int cut = 0;
+      for (int y = 0; y < p.height; ++y) cut += p.at(0, y).r < 200 || p.at(p.width - 1, y).r < 200;
+      for (int x = 0; x < p.width; ++x) cut += p.at(x, 0).r < 200 || p.at(x, p.height - 1).r < 200;
+      CHECK(cut == 0);
+      // The legend has its marker, above the plot where the name is long.
+      int above = 0;
+      for (int y = 0; y < 70; ++y)
+        for (int x = 0; x < p.width; ++x) above += near(p.at(x, y), series_colour(0));
+      if (n > 1) CHECK(above > 20);
+    }
+}
+
 TEST_CASE("charts without data, or with one point, are drawn") {
   for (const bool log : {false, true}) {
     ChartPicture chart = chart_of("bare.png", {}, {});
