@@ -79,7 +79,9 @@ bool crop(Point& p, Point& q, const Box& box) {
   const Point from = p;
   p = {from.x + t0 * (q.x - from.x), from.y + t0 * (q.y - from.y)};
   q = {from.x + t1 * (q.x - from.x), from.y + t1 * (q.y - from.y)};
-  return true;
+  // Of ends too far off, rounding leaves nothing in the box.
+  const double margin = 0.01 * (box.width() + box.height());
+  return box.holds(p, margin) && box.holds(q, margin);
 }
 
 void Canvas::emit(Point p, Colour c, double opacity) {

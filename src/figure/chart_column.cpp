@@ -7,6 +7,7 @@
 
 #include "chart_layout.hpp"
 #include "figures.hpp"
+#include "text_fit.hpp"
 
 namespace dotyk::figure {
 
@@ -25,12 +26,14 @@ std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
 // Over all panels; returns the height it takes.
 double draw_title(Canvas& canvas, const ChartColumn& picture, double em) {
   if (picture.title.empty()) return 0;
+  const FittedText title = fitted(picture.title, 1.15 * em, picture.width - em, true);
   TextStyle style;
-  style.size = fitting_size(picture.title, 1.15 * em, picture.width - em, true);
+  style.size = title.size;
   style.bold = true;
   style.across = Align::middle;
   style.up = Align::high;
-  canvas.text({picture.width / 2.0, picture.height - 0.6 * em}, picture.title, style);
+  for (std::size_t i = 0; i < title.lines.size(); ++i)
+    canvas.text({picture.width / 2.0, picture.height - 0.6 * em - 1.25 * static_cast<double>(i) * title.size}, title.lines[i], style);
   return 1.9 * em;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "axes.hpp"
@@ -12,6 +13,7 @@
 #include "chart_layout.hpp"
 #include "figures.hpp"
 #include "legend.hpp"
+#include "text_fit.hpp"
 #include "ticks.hpp"
 
 namespace dotyk::figure {
@@ -20,6 +22,7 @@ namespace {
 
 constexpr Colour reference_grey{90, 90, 90};
 constexpr Colour front_yellow{255, 232, 150};
+constexpr double line_height = 1.25;  // of the letters
 constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
                              Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
 
@@ -177,7 +180,7 @@ private:
   void draw_spread(int k) {
     const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
     if (s.low.empty()) return;
-    const auto at = [&](std::size_t i, double v) { return Point{x_.pixel(s.x[i]), y_.pixel(y_.log ? std::max(v, y_.low * 1e-6) : v)}; };
+    const auto at = [&](std::size_t i, double v) { return Point{x_.pixel(s.x[i]), y_.pixel(y_.log ? std::max({v, y_.low * 1e-6, std::numeric_limits<double>::denorm_min()}) : v)}; };
     for (std::size_t i = 0; i + 1 < s.x.size(); ++i) {
       if (!x_.shows(s.x[i]) || !x_.shows(s.x[i + 1])) continue;
       canvas_.convex(std::array<Point, 4>{{at(i, s.low[i]), at(i + 1, s.low[i + 1]), at(i + 1, s.high[i + 1]), at(i, s.high[i])}}, colour(k), 0.2);
@@ -209,25 +212,44 @@ private:
   void draw_axes() {
     draw_grid(canvas_, axes());
     draw_ticks(canvas_, axes(), frame_.x_labels);
+    draw_names();
+    draw_title();
+  }
+
+  // Lines one below the other need no more room than one: their letters are half as high.
+  void draw_names() {
     TextStyle style;
-    style.size = em_;
     style.across = Align::middle;
-    const std::string x_name = frame_.x_labels ? axis_name(picture_.x_label, x_ticks_) : "", y_name = axis_name(picture_.y_label, y_ticks_);
-    style.size = fitting_size(x_name, em_, picture_.width - em_);
-    canvas_.text({(room_.left + room_.right) / 2, 0.4 * em_}, x_name, style);
-    style.size = fitting_size(y_name, em_, room_.height());
+    const FittedText x = fitted(frame_.x_labels ? picture_.x_label : "", em_, picture_.width - em_, false, frame_.x_labels ? axis_name("", x_ticks_) : "");
+    style.size = x.size;
+    for (std::size_t i = 0; i < x.lines.size(); ++i)
+      canvas_.text({within(x), 0.4 * em_ + static_cast<double>(x.lines.size() - 1 - i) * line_height * x.size}, x.lines[i], style);
+    const FittedText y = fitted(picture_.y_label, em_, room_.height(), false, axis_name("", y_ticks_));
+    style.size = y.size;
     style.upright = true;
     style.up = Align::middle;
     style.across = Align::low;
-    canvas_.text({indent_ + 0.45 * em_, (room_.bottom + room_.top) / 2}, y_name, style);
-    TextStyle title;
-    title.size = fitting_size(picture_.title, 1.1 * em_, picture_.width - em_, true);
-    title.bold = true;
-    title.across = Align::middle;
-    title.up = Align::high;
-    // Over the plot, unless it is so long that the whole width is needed.
-    const double half = text_extent(picture_.title, title.size, true).x / 2, centre = (room_.left + room_.right) / 2;
-    canvas_.text({std::clamp(centre, half, std::max(half, picture_.width - half)), picture_.height - 0.6 * em_}, picture_.title, title);
+    for (std::size_t i = 0; i < y.lines.size(); ++i)
+      canvas_.text({indent_ + 0.45 * em_ + static_cast<double>(i) * line_height * y.size, (room_.bottom + room_.top) / 2}, y.lines[i], style);
+  }
+
+  void draw_title() {
+    const FittedText title = fitted(picture_.title, 1.1 * em_, picture_.width - em_, true);
+    TextStyle style;
+    style.size = title.size;
+    style.bold = true;
+    style.across = Align::middle;
+    style.up = Align::high;
+    for (std::size_t i = 0; i < title.lines.size(); ++i)
+      canvas_.text({within(title, true), picture_.height - 0.6 * em_ - static_cast<double>(i) * line_height * title.size}, title.lines[i], style);
+  }
+
+  // The middle of the plot, unless the text is so long that the whole width is needed.
+  double within(const FittedText& text, bool bold = false) const {
+    double half = 0;
+    for (const std::string& line : text.lines) half = std::max(half, text_extent(line, text.size, bold).x / 2);
+    half += text.lines.size() > 1 ? 0.5 * em_ : 2;  // off the edge
+    return std::clamp((room_.left + room_.right) / 2, half, std::max(half, picture_.width - half));
   }
 
   Axes axes() const { return {room_, x_, y_, x_ticks_, y_ticks_, em_}; }
@@ -253,7 +275,7 @@ private:
   }
 
   bool draw_guide(const SlopeGuide& guide, double share) {
-    const double ratio = guide.slope * y_.pixels_per_unit() / x_.pixels_per_unit();
+    const double ratio = steepness(x_, y_, guide.slope);
     double run = share * room_.width();
     if (std::abs(ratio) * run > 1.6 * share * room_.height()) run = 1.6 * share * room_.height() / std::abs(ratio);
     const double rise = ratio * run, up = std::abs(rise);

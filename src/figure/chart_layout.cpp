@@ -9,12 +9,36 @@ namespace dotyk::figure {
 
 bool Axis::shows(double value) const { return std::isfinite(value) && (!log || value > 0); }
 
-double Axis::pixel(double value) const {
-  const double a = log ? std::log10(low) : low, b = log ? std::log10(high) : high;
-  return from + (to - from) * ((log ? std::log10(value) : value) - a) / (b - a);
+namespace {
+
+// Differences of any two numbers: a double would overflow, or underflow to nothing.
+using Wide = long double;
+
+// The nearest that a double can be.
+double held(Wide value, double least = std::numeric_limits<double>::lowest()) {
+  return static_cast<double>(std::clamp(value, Wide{least}, Wide{std::numeric_limits<double>::max()}));
 }
 
-double Axis::pixels_per_unit() const { return (to - from) / (log ? std::log10(high / low) : high - low); }
+constexpr double least_positive = std::numeric_limits<double>::denorm_min();
+
+Wide place(const Axis& axis, double value) { return axis.log ? Wide{std::log10(value)} : Wide{value}; }
+
+}  // namespace
+
+double Axis::pixel(double value) const {
+  const Wide a = place(*this, low), b = place(*this, high);
+  const Wide at = from + (to - from) * ((place(*this, value) - a) / (b - a));
+  return static_cast<double>(std::clamp<Wide>(at, -most_pixels, most_pixels));
+}
+
+double Axis::pixels_per_unit() const {
+  return static_cast<double>(std::min<Wide>((to - from) / (place(*this, high) - place(*this, low)), most_pixels));
+}
+
+double steepness(const Axis& x, const Axis& y, double slope) {
+  const auto per_unit = [](const Axis& axis) { return (axis.to - axis.from) / (place(axis, axis.high) - place(axis, axis.low)); };
+  return static_cast<double>(std::clamp<Wide>(slope * per_unit(y) / per_unit(x), -most_pixels, most_pixels));
+}
 
 Axis fit_axis(const ChartPicture& chart, bool vertical) {
   Axis axis;
@@ -43,20 +67,22 @@ Axis fit_axis(const ChartPicture& chart, bool vertical) {
     return axis;
   }
   if (axis.log) {
-    if (high / low < 1.5) low /= 1.5, high *= 1.5;
-    const double margin = std::pow(high / low, 0.06);
-    axis.low = low / margin, axis.high = high * margin;
+    Wide a = low, b = high;
+    if (b / a < 1.5) a /= 1.5, b *= 1.5;
+    const Wide margin = std::pow(b / a, Wide{0.06});
+    axis.low = held(a / margin, least_positive), axis.high = held(b * margin);
     return axis;
   }
-  if (high - low <= 1e-12 * std::max(std::abs(low), std::abs(high))) {
-    const double half = low == 0 ? 1 : 0.5 * std::abs(low);
-    axis.low = low - half, axis.high = high + half;
+  const Wide range = Wide{high} - low;
+  if (range <= 1e-12 * std::max(std::abs(low), std::abs(high))) {
+    const Wide half = low == 0 ? 1 : 0.5 * std::abs(Wide{low});
+    axis.low = held(low - half), axis.high = held(high + half);
     return axis;
   }
-  const double margin = 0.05 * (high - low);
+  const Wide margin = 0.05 * range;
   // An axis that nearly reaches zero starts there.
-  axis.low = low >= 0 && low < 0.25 * high ? 0 : low - margin;
-  axis.high = high <= 0 && high > 0.25 * low ? 0 : high + margin;
+  axis.low = low >= 0 && low < 0.25 * high ? 0 : held(low - margin);
+  axis.high = high <= 0 && high > 0.25 * low ? 0 : held(high + margin);
   return axis;
 }
 

@@ -9,6 +9,9 @@
 
 namespace dotyk::figure {
 
+// What lies farther off, or would rise more steeply, counts as so far.
+constexpr double most_pixels = 1e300;
+
 // An axis: values in [low, high] run over the pixels [from, to].
 struct Axis {
   bool log = false;
@@ -19,6 +22,9 @@ struct Axis {
   double pixel(double value) const;
   double pixels_per_unit() const;            // or per decade
 };
+
+// A slope in units (or decades) as one in pixels.
+double steepness(const Axis& x, const Axis& y, double slope);
 
 // The axis range of the data: that given, or the finite values with a margin.
 Axis fit_axis(const ChartPicture& chart, bool vertical);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "text_fit.hpp"
+
 namespace dotyk::figure {
 
 namespace {
@@ -13,8 +15,10 @@ Legend::Legend(std::vector<LegendEntry> entries, double em, double columns_withi
     : entries_(std::move(entries)), em_(em) {
   double x = 0, y = 0;
   std::vector<double> row_ends;  // width of the row of each entry, so far
-  for (const LegendEntry& entry : entries_) {
-    const double width = (entry.sample ? sample_width + gap : 0) * em + text_extent(entry.name, em).x;
+  for (LegendEntry& entry : entries_) {
+    const double sample = (entry.sample ? sample_width + gap : 0) * em;
+    if (columns_within > 0) entry.name = shortened(entry.name, em, columns_within - 2 * padding * em - sample);
+    const double width = sample + text_extent(entry.name, em).x;
     if (columns_within > 0 && x > 0 && x + width > columns_within - 2 * padding * em) x = 0, y -= row * em;
     places_.push_back({x, y - row * em});
     row_ends.push_back(x + width);

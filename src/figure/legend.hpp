@@ -18,7 +18,7 @@ struct LegendEntry {
 class Legend {
 public:
   // em: height of the letters in pixels. columns_within: entries run in rows
-  // no wider than this; 0: one entry below the other.
+  // no wider than this, longer names shortened; 0: one entry below the other.
   Legend(std::vector<LegendEntry> entries, double em, double columns_within = 0);
 
   bool empty() const { return entries_.empty(); }

@@ -43,7 +43,7 @@ void fit_y(const BeamDrawing& beam, Axes& axes) {
   const double height = axes.room.height();
   double most = 0;
   for (const double u : beam.deflection) most = std::max(most, std::abs(u));
-  const bool rests = most == 0;
+  const bool rests = !std::isfinite(height / most);  // also a deflection that no scale makes seen
   // Needs grow with the scale: the greatest that fits, by bisection.
   double low = 0, high = rests ? 0 : height / most;
   for (int i = 0; i < 60 && !rests; ++i) {

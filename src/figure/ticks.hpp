@@ -16,10 +16,12 @@ struct Ticks {
   int exponent = 0;  // labels are to be multiplied by 10^exponent
 };
 
-// Ticks at 1, 2 or 5 times a power of ten in [low, high], about `wanted`.
+// Ticks at 1, 2 or 5 times a power of ten in [low, high], about `wanted`; of
+// any finite ends, no more than some hundred.
 Ticks linear_ticks(double low, double high, int wanted);
 
-// Decades in [low, high], both positive; about `wanted` at most have labels.
+// Decades in [low, high], both positive; about `wanted` at most have labels,
+// and of hundreds of decades only some have ticks.
 // Ranges of about two decades and below have labels between decades too.
 Ticks log_ticks(double low, double high, int wanted);
 

@@ -1,6 +1,8 @@
 #include "script/enter.hpp"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "script/guard.hpp"
 #include "script/library.hpp"
@@ -51,14 +53,25 @@ int run_lua(lua_State* L, const Descriptor& descriptor) {
   return lua_gettop(L);
 }
 
+// The files that the call is to write, as far as they are named.
+std::vector<std::string> output_files(const Call& call) {
+  std::vector<std::string> out;
+  const auto& descriptor = call.descriptor();
+  for (const auto& key : descriptor.takes_table() ? descriptor.arguments[0].keys : descriptor.arguments)
+    if (key.output && call.has(key.name) && !call.text(key.name).empty()) out.push_back(call.text(key.name));
+  return out;
+}
+
+// Before the call, so that no file is left without its manifest.
+void require_manifests(const Call& call) {
+  for (const auto& file : output_files(call)) Manifest::require_place(call.state(), file);
+}
+
 // Beside every file that the call has written.
 void write_manifests(const Call& call) {
   const auto& descriptor = call.descriptor();
-  for (const auto& key : descriptor.takes_table() ? descriptor.arguments[0].keys : descriptor.arguments) {
-    if (!key.output || !call.has(key.name) || !std::filesystem::exists(call.text(key.name))) continue;
-    const auto& manifest = *Library::of(call.state()).manifest;
-    manifest.write(call.state(), call.text(key.name), descriptor.name, descriptor.owner().empty() ? 0 : 1);
-  }
+  for (const auto& file : output_files(call))
+    if (std::filesystem::exists(file)) Library::of(call.state()).manifest->write(call.state(), file, descriptor.name, descriptor.owner().empty() ? 0 : 1);
 }
 
 int enter(lua_State* L) {
@@ -66,8 +79,10 @@ int enter(lua_State* L) {
   return guarded(L, descriptor.short_name(), [&] {
     if (!descriptor.run) return run_lua(L, descriptor);
     Call call(L, descriptor);
+    const bool manifest = Library::of(L).manifest != nullptr;
+    if (manifest) require_manifests(call);
     const int results = descriptor.run(call);
-    if (Library::of(L).manifest) write_manifests(call);
+    if (manifest) write_manifests(call);
     return results;
   });
 }

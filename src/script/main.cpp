@@ -7,6 +7,7 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <locale>
 #include <new>
@@ -138,9 +139,20 @@ int after_printing(int status) {
   return status == 0 ? 1 : status;
 }
 
-dotyk::script::Manifest manifest_of(const Command& command) {
-  auto text = command.code;
-  if (command.file && *command.file != "-") {
+std::string standard_input() {
+  return {std::istreambuf_iterator<char>(std::cin), {}};
+}
+
+// What Lua skips at the beginning of a file: a byte order mark, and a first line with '#'.
+std::string script_in(std::string text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  return text.starts_with('#') ? text.erase(0, std::min(text.find('\n'), text.size())) : text;
+}
+
+// `input`: the script from standard input.
+dotyk::script::Manifest manifest_of(const Command& command, const std::optional<std::string>& input) {
+  auto text = input ? input : command.code;
+  if (command.file && !input) {
     std::ifstream in(*command.file, std::ios::binary);
     text = std::string{std::istreambuf_iterator<char>(in), {}};
   }
@@ -163,12 +175,14 @@ int run(const Command& command) {
   if (command.safe || command.instructions)
     dotyk::script::limit_instructions(interpreter.state(), static_cast<long long>(command.instructions.value_or(1e9)));
 
-  if (command.manifest) interpreter.library().manifest = std::make_shared<dotyk::script::Manifest>(manifest_of(command));
+  std::optional<std::string> input;  // read before it runs where a manifest is to have its hash
+  if (command.manifest && command.file == "-") input = standard_input();
+  if (command.manifest) interpreter.library().manifest = std::make_shared<dotyk::script::Manifest>(manifest_of(command, input));
 
   if (command.prompt) interpreter.keep_locals();
   std::optional<std::string> error;
   if (command.code) error = interpreter.run_text(*command.code, "-e");
-  if (command.file) error = interpreter.run_file(*command.file);
+  if (command.file) error = input ? interpreter.run_text(script_in(*input), "stdin") : interpreter.run_file(*command.file);
   dotyk::script::clear_interrupt();
   if (error) {
     std::fflush(stdout);

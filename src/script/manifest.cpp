@@ -57,10 +57,17 @@ std::string about_solution(lua_State* L, int object) {
   return lines;
 }
 
+std::string beside(const std::string& file) { return file + ".manifest"; }
+
 }  // namespace
 
 Manifest::Manifest(std::string script, std::optional<std::string> text, std::vector<std::string> arguments)
     : script_(std::move(script)), hash_(text ? sha256(*text) : "not known"), arguments_(std::move(arguments)) {}
+
+void Manifest::require_place(lua_State* L, const std::string& file) {
+  if (const auto& folder = Library::of(L).folder) folder->require(beside(file));
+  place_to_write(beside(file));
+}
 
 void Manifest::write(lua_State* L, const std::string& file, const std::string& call, int object) const {
   std::string lines = line("file", file) + line("call", call) + line("script", script_) + line("script sha256", hash_);
@@ -69,9 +76,8 @@ void Manifest::write(lua_State* L, const std::string& file, const std::string& c
   lines += line("dotyk", DOTYK_VERSION) + line("commit", commit) + line("processor", processor()) +
            line("cores", std::to_string(std::thread::hardware_concurrency())) + line("date", date()) +
            line("seconds", text(clock_.seconds()));
-  const std::string beside = file + ".manifest";
-  if (const auto& folder = Library::of(L).folder) folder->require(beside);
-  write_whole_file(beside, lines);
+  require_place(L, file);
+  write_whole_file(beside(file), lines);
 }
 
 }  // namespace dotyk::script

@@ -246,3 +246,20 @@ TEST_CASE("pages that cannot be drawn are refused") {
   std::get<CurveDrawing>(page.rows[0][0].drawing).curves[0].y[0] = NAN;
   CHECK(message_of([&] { draw(page); }).find("finite") != std::string::npos);
 }
+
+TEST_CASE("a deflection that no scale makes seen leaves the beam straight") {
+  beam::Beam b = beam_of(held, nothing);
+  b.q = -1e-310;
+  PagePicture page = compose(view(*solutions(b)[0].solution), {BeamPanel::deflection, BeamPanel::moment}, {});
+  page.file = "straight.png";
+  page.width = 800, page.height = 600;
+  draw(page);
+  const Pixels p = read_png("straight.png");
+  int rows = 0;
+  for (int y = 60; y < p.height / 2; ++y) {  // below the frame's upper line
+    int n = 0;
+    for (int x = 0; x < p.width; ++x) n += near(p.at(x, y), frame_ink);
+    rows += n > p.width / 2;
+  }
+  CHECK(rows >= 2);
+}

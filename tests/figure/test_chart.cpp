@@ -1,6 +1,7 @@
 // Charts: curves pass where the numbers say, on logarithmic axes too.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -55,6 +56,13 @@ ChartPicture chart_of(const std::string& file, const std::vector<double>& x, con
   s.style = SeriesStyle::line;
   chart.series = {s};
   return chart;
+}
+
+// Grid lines from left to right in a row without curve or text.
+int grid_columns(const Pixels& p, const Frame& f, int row) {
+  int n = 0;
+  for (int x = f.left + 3; x < f.right - 2; ++x) n += p.at(x, row).r < 240 && p.at(x - 1, row).r >= 240;
+  return n;
 }
 
 }  // namespace
@@ -130,6 +138,56 @@ TEST_CASE("curves far beyond the axes cost nothing and stay outside") {
   CHECK(message_of([&] { draw(chart); }) == "");
 }
 
+TEST_CASE("numbers next to nothing and near the greatest are drawn where they belong") {
+  const double least = 5e-324, greatest = std::numeric_limits<double>::max();
+  const auto drawn = [](const ChartPicture& chart) {
+    draw(chart);
+    return read_png("extreme.png");
+  };
+  ChartPicture chart = chart_of("extreme.png", {1, 2}, {least, 1e-310});
+  chart.x_range = {0, 3};
+  chart.slopes = {{1, ""}, {-1e9, ""}};
+  Pixels p = drawn(chart);  // from 0 to 1.05e-310
+  Frame f = frame_of(p);
+  CHECK(drawn_at(p, f, 1.5 / 3, 0.5 / 1.05, series_colour(0)));
+  chart.log_y = true;  // no room for a margin below: 13.3 decades and 0.06 of them above
+  p = drawn(chart), f = frame_of(p);
+  CHECK(drawn_at(p, f, 1.5 / 3, 0.5 / 1.06, series_colour(0)));
+
+  // 500 decades, and the same margin at both ends.
+  chart = chart_of("extreme.png", {1e-250, 1, 1e250}, {1e-10, 1, 1e10});
+  chart.log_x = chart.log_y = true;
+  p = drawn(chart), f = frame_of(p);
+  CHECK(drawn_at(p, f, 0.25, 0.25, series_colour(0)));
+  CHECK(drawn_at(p, f, 0.9, 0.9, series_colour(0)));
+  const int columns = grid_columns(p, f, f.bottom - (f.bottom - f.top) / 100 - 14);
+  CHECK(columns >= 4);
+  CHECK(columns <= 14);
+
+  chart = chart_of("extreme.png", {-greatest, greatest}, {-greatest, greatest});
+  p = drawn(chart), f = frame_of(p);
+  CHECK(drawn_at(p, f, 0.25, 0.25, series_colour(0)));
+
+  for (const bool log : {false, true})
+    for (const auto& [low, high] : {std::array{least, least}, {least, 2 * least}, {1e-300, 1e-300}, {least, greatest}, {1e-300, 1e300}, {greatest, greatest}, {1.0, std::nextafter(1.0, 2.0)}, {1e308, greatest}}) {
+      chart = chart_of("extreme.png", {low, high}, {low, high});
+      chart.series[0].style = SeriesStyle::both;
+      chart.series[0].low = {0, low}, chart.series[0].high = chart.series[0].y;
+      chart.log_x = chart.log_y = log;
+      chart.slopes = {{1, ""}};
+      CHECK(drawn(chart).count(series_colour(0), 6) > 20);
+      if (low < high) chart.x_range = chart.y_range = {low, high};
+      CHECK(drawn(chart).count(series_colour(0), 6) > 20);
+    }
+}
+
+TEST_CASE("a dashed curve from beyond all rounding ends") {
+  ChartPicture chart = chart_of("extreme.png", {-1e30, 1e30}, {-1e30, 1e30});
+  chart.series[0].reference = true;
+  chart.x_range = chart.y_range = {0, 1};
+  CHECK(message_of([&] { draw(chart); }) == "");
+}
+
 TEST_CASE("each series has its colour; the legend does not hide a curve") {
   ChartPicture chart = chart_of("series.png", {}, {});
   chart.series.clear();
@@ -143,6 +201,33 @@ TEST_CASE("each series has its colour; the legend does not hide a curve") {
   draw(chart);
   const Pixels p = read_png("series.png");
   for (int k = 0; k < 7; ++k) CHECK(p.count(series_colour(k), 6) > 150);
+}
+
+TEST_CASE("texts too long for their places are broken and shortened, not cut off") {
+  const auto often = [](const std::string& words, int n) {
+    std::string out;
+    for (int i = 0; i < n; ++i) out += words;
+    return out;
+  };
+  for (const int n : {1, 2, 4, 12})
+    for (const std::string& words : {often("a long label, ", 3), often("ü", 40)}) {
+      ChartPicture chart = chart_of("long.png", {1, 2}, {1e6, 2e6});
+      chart.title = chart.x_label = chart.y_label = chart.series[0].name = often(words, n);
+      chart.series[0].style = SeriesStyle::points;
+      draw(chart);
+      const Pixels p = read_png("long.png");
+      CAPTURE(words);
+      CAPTURE(n);
+      int cut = 0;
+      for (int y = 0; y < p.height; ++y) cut += p.at(0, y).r < 200 || p.at(p.width - 1, y).r < 200;
+      for (int x = 0; x < p.width; ++x) cut += p.at(x, 0).r < 200 || p.at(x, p.height - 1).r < 200;
+      CHECK(cut == 0);
+      // The legend has its marker, above the plot where the name is long.
+      int above = 0;
+      for (int y = 0; y < 70; ++y)
+        for (int x = 0; x < p.width; ++x) above += near(p.at(x, y), series_colour(0));
+      if (n > 1) CHECK(above > 20);
+    }
 }
 
 TEST_CASE("charts without data, or with one point, are drawn") {

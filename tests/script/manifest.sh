@@ -40,6 +40,18 @@ grep -q '^sol' chart.png.manifest && fail "a chart has no solution"
 mkdir chart.png.manifest.d && rm chart.png.manifest && mv chart.png.manifest.d chart.png.manifest
 got=$("$dotyk" --manifest block.lua 2>&1)
 [[ $? == 1 && $got == "dotyk: block.lua:10: chart: cannot write 'chart.png.manifest': "* ]] || fail "a folder in its place: $got"
+rm chart.png
+"$dotyk" --manifest block.lua 2>/dev/null
+[[ ! -e chart.png ]] || fail "a chart without its manifest"
+
+# A script from standard input has its hash too; what Lua skips of a file is skipped.
+printf '#!/usr/bin/dotyk\n%s' "$(<block.lua)" >piped.lua
+rm -r chart.png.manifest
+"$dotyk" --manifest - <piped.lua || fail "from standard input"
+grep -qx "script sha256: $(sha256sum <piped.lua | cut -d' ' -f1)" chart.png.manifest || fail "standard input: $(<chart.png.manifest)"
+grep -qx 'script: standard input' chart.png.manifest || fail "standard input: name"
+got=$(printf '#!/usr/bin/dotyk\nerror "here"' | "$dotyk" --manifest - 2>&1)
+[[ $? == 1 && $got == "dotyk: stdin:2: here" ]] || fail "standard input: line: $got"
 
 # A manifest is below the folder too, as its file is, and a link in its place may not lead out.
 mkdir below && echo kept >outside.txt && ln -s ../outside.txt below/x.png.manifest
