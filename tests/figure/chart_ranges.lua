@@ -10,3 +10,9 @@ refused(function() dotyk.chart{ file = file, series = series, x_range = { 2, 1 }
 refused(function() dotyk.chart{ file = file, series = series, y_range = { 0, 1 }, log = "y" } end, "'y_range' begins at 0", "logarithmic")
 refused(function() dotyk.chart{ file = file, series = series, x_range = { 1 } } end, "2 numbers")
 refused(function() dotyk.chart{ file = file, series = series, panels = { { series = series } }, x_range = { 0, 1 } } end, "panels")
+
+-- Whatever the numbers, a chart is drawn at once.
+for _, values in ipairs{ { 5e-324, 1e-310 }, { 1e-300, 1e300 }, { -1.7e308, 1.7e308 } } do
+  dotyk.chart{ file = file, log = values[1] > 0 and "xy" or nil, series = { { name = "a", x = values, y = values } }, slopes = { 1 } }
+  assert(os.remove(file))
+end
