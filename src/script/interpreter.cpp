@@ -37,15 +37,6 @@ int to_traced_message(lua_State* L) {
   return 1;
 }
 
-// What stands before a script that the system starts (#!, a byte order mark) is no Lua.
-std::string script_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
-  if (!text.empty() && text[0] == '#') text.erase(0, std::min(text.find('\n'), text.size()));
-  return text;
-}
-
 void fill(lua_State* L, Library& library) {
   luaL_openlibs(L);
   guard_lua(L);
@@ -109,9 +100,18 @@ std::optional<std::string> Interpreter::run_loaded(int load_status) {
   return call(0, 0);
 }
 
+std::string script_in(std::string text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.starts_with('#')) text.erase(0, std::min(text.find('\n'), text.size()));
+  return text;
+}
+
 std::optional<std::string> Interpreter::run_file(const std::string& path) {
   const int status = luaL_loadfilex(L_, path == "-" ? nullptr : path.c_str(), "t");
-  if (status == LUA_OK && keep_locals_ && path != "-") script::keep_locals(L_, script_text(path), "@" + path);
+  if (status == LUA_OK && keep_locals_ && path != "-") {
+    std::ifstream file(path, std::ios::binary);
+    script::keep_locals(L_, script_in({std::istreambuf_iterator<char>(file), {}}), "@" + path);
+  }
   return run_loaded(status);
 }
 

@@ -11,6 +11,9 @@ namespace dotyk::script {
 
 class Library;
 
+// The Lua of a file: without what may stand before it where the system starts it, a byte order mark and a first line with '#'.
+std::string script_in(std::string text);
+
 class Interpreter {
  public:
   // Opens Lua's libraries, registers the bindings, runs lua/init.lua, makes

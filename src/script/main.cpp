@@ -143,12 +143,6 @@ std::string standard_input() {
   return {std::istreambuf_iterator<char>(std::cin), {}};
 }
 
-// What Lua skips at the beginning of a file: a byte order mark, and a first line with '#'.
-std::string script_in(std::string text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-  return text.starts_with('#') ? text.erase(0, std::min(text.find('\n'), text.size())) : text;
-}
-
 // `input`: the script from standard input.
 dotyk::script::Manifest manifest_of(const Command& command, const std::optional<std::string>& input) {
   auto text = input ? input : command.code;
@@ -182,7 +176,7 @@ int run(const Command& command) {
   if (command.prompt) interpreter.keep_locals();
   std::optional<std::string> error;
   if (command.code) error = interpreter.run_text(*command.code, "-e");
-  if (command.file) error = input ? interpreter.run_text(script_in(*input), "stdin") : interpreter.run_file(*command.file);
+  if (command.file) error = input ? interpreter.run_text(dotyk::script::script_in(*input), "stdin") : interpreter.run_file(*command.file);
   dotyk::script::clear_interrupt();
   if (error) {
     std::fflush(stdout);
