@@ -34,7 +34,8 @@ do
   b, scene = column{ material = dotyk.material{ E = 1e308, nu = 0.3 } }
   refused(function() dotyk.solve(scene) end, "beyond the range of numbers")
 end
-local wide <const> = dotyk.mesh.rectangle{ from = {-1e308,0}, to = {1e308,1}, cells = {1,1} }
+refused(function() dotyk.mesh.rectangle{ from = {-1e308,0}, to = {1e308,1}, cells = {1,1} } end, "the extent along x", "choose another unit of length")
+local wide <const> = dotyk.mesh.rectangle{ from = {0,0}, to = {1e308,1}, cells = {1,1} }
 refused(function() dotyk.body{ mesh = wide, material = it.material } end, "cell 1 is so large", "choose another unit of length")
 local tiny <const> = dotyk.mesh.rectangle{ from = {0,0}, to = {1e-200,1e-200}, cells = {1,1} }
 refused(function() dotyk.body{ mesh = tiny, material = it.material } end, "cell 1 is so small", "choose another unit of length")
