@@ -27,13 +27,7 @@ std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
 double draw_title(Canvas& canvas, const ChartColumn& picture, double em) {
   if (picture.title.empty()) return 0;
   const FittedText title = fitted(picture.title, 1.15 * em, picture.width - em, true);
-  TextStyle style;
-  style.size = title.size;
-  style.bold = true;
-  style.across = Align::middle;
-  style.up = Align::high;
-  for (std::size_t i = 0; i < title.lines.size(); ++i)
-    canvas.text({picture.width / 2.0, picture.height - 0.6 * em - 1.25 * static_cast<double>(i) * title.size}, title.lines[i], style);
+  draw_lines(canvas, {picture.width / 2.0, picture.height - 0.6 * em}, title, title_style());
   return 1.9 * em;
 }
 

@@ -22,7 +22,6 @@ namespace {
 
 constexpr Colour reference_grey{90, 90, 90};
 constexpr Colour front_yellow{255, 232, 150};
-constexpr double line_height = 1.25;  // of the letters
 constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
                              Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
 
@@ -221,27 +220,17 @@ private:
     TextStyle style;
     style.across = Align::middle;
     const FittedText x = fitted(frame_.x_labels ? picture_.x_label : "", em_, picture_.width - em_, false, frame_.x_labels ? axis_name("", x_ticks_) : "");
-    style.size = x.size;
-    for (std::size_t i = 0; i < x.lines.size(); ++i)
-      canvas_.text({within(x), 0.4 * em_ + static_cast<double>(x.lines.size() - 1 - i) * line_height * x.size}, x.lines[i], style);
+    draw_lines(canvas_, {within(x), 0.4 * em_ + depth(x)}, x, style);
     const FittedText y = fitted(picture_.y_label, em_, room_.height(), false, axis_name("", y_ticks_));
-    style.size = y.size;
     style.upright = true;
     style.up = Align::middle;
     style.across = Align::low;
-    for (std::size_t i = 0; i < y.lines.size(); ++i)
-      canvas_.text({indent_ + 0.45 * em_ + static_cast<double>(i) * line_height * y.size, (room_.bottom + room_.top) / 2}, y.lines[i], style);
+    draw_lines(canvas_, {indent_ + 0.45 * em_, (room_.bottom + room_.top) / 2}, y, style);
   }
 
   void draw_title() {
     const FittedText title = fitted(picture_.title, 1.1 * em_, picture_.width - em_, true);
-    TextStyle style;
-    style.size = title.size;
-    style.bold = true;
-    style.across = Align::middle;
-    style.up = Align::high;
-    for (std::size_t i = 0; i < title.lines.size(); ++i)
-      canvas_.text({within(title, true), picture_.height - 0.6 * em_ - static_cast<double>(i) * line_height * title.size}, title.lines[i], style);
+    draw_lines(canvas_, {within(title, true), picture_.height - 0.6 * em_}, title, title_style());
   }
 
   // The middle of the plot, unless the text is so long that the whole width is needed.

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "canvas.hpp"
-
 namespace dotyk::figure {
 
 namespace {
+
+constexpr double line_height = 1.25;  // of the letters
 
 // Where characters begin, and the end.
 std::vector<std::size_t> boundaries(const std::string& text) {
@@ -47,5 +47,23 @@ FittedText fitted(const std::string& text, double size, double pixels, bool bold
   const std::size_t rest = std::min(text.find_first_not_of(" \n", first.size()), text.size());
   return {smaller, {first, shortened(text.substr(rest), smaller, pixels - text_extent(end, smaller, bold).x, bold) + end}};
 }
+
+TextStyle title_style() {
+  TextStyle style;
+  style.bold = true;
+  style.across = Align::middle;
+  style.up = Align::high;
+  return style;
+}
+
+void draw_lines(Canvas& canvas, Point first, const FittedText& text, TextStyle style) {
+  style.size = text.size;
+  for (const std::string& line : text.lines) {
+    canvas.text(first, line, style);
+    (style.upright ? first.x : first.y) += (style.upright ? 1 : -1) * line_height * text.size;
+  }
+}
+
+double depth(const FittedText& text) { return static_cast<double>(text.lines.size() - 1) * line_height * text.size; }
 
 }  // namespace dotyk::figure

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "canvas.hpp"
+
 namespace dotyk::figure {
 
 // The text, or its beginning and "…", no wider than so many pixels.
@@ -13,6 +15,14 @@ struct FittedText {
   double size = 20;  // of the letters, pixels
   std::vector<std::string> lines;
 };
+
+// Of titles: bold, centred, hanging from their place.
+TextStyle title_style();
+
+// From the place of the first line on, the others below it; of an upright text, to the right.
+void draw_lines(Canvas& canvas, Point first, const FittedText& text, TextStyle style);
+// How far the last line is from the first.
+double depth(const FittedText& text);
 
 // In one line of letters down to half of `size`; else in two lines of these, broken between words, the second
 // shortened where that does not suffice either. `end` stays whatever is left out before it.
