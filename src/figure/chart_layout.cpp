@@ -5,14 +5,13 @@
 #include <limits>
 #include <numbers>
 
+#include "ticks.hpp"
+
 namespace dotyk::figure {
 
 bool Axis::shows(double value) const { return std::isfinite(value) && (!log || value > 0); }
 
 namespace {
-
-// Differences of any two numbers: a double would overflow, or underflow to nothing.
-using Wide = long double;
 
 // The nearest that a double can be.
 double held(Wide value, double least = std::numeric_limits<double>::lowest()) {

@@ -11,9 +11,6 @@ namespace {
 
 const char* const minus = "\u2212";
 
-// Differences and shares of any two numbers: a double would overflow, or underflow to nothing.
-using Wide = long double;
-
 // Numbers next to nothing are so coarse that a tick may have to stand elsewhere: then it is none.
 bool can_stand(Wide value, Wide low, Wide high) {
   const auto at = static_cast<double>(value);

@@ -6,6 +6,9 @@
 
 namespace dotyk::figure {
 
+// For differences and shares of any two numbers: a double would overflow, or underflow to nothing.
+using Wide = long double;
+
 struct Tick {
   double value = 0;
   std::string label;  // empty: a minor tick
