@@ -15,8 +15,6 @@ namespace {
 constexpr double kStationary = 1e-6;  ///< gradient left at a solution, beside the data
 constexpr double kFeasible = 1e-7;    ///< relative violation with which a solution is still one
 
-double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
-
 /// A first working set, point and multipliers, in the scaled program.
 struct Guess {
   std::vector<Side> working;

@@ -17,8 +17,6 @@ constexpr double kSmall = 1e-6;      ///< greatest correction of a solution, rel
 constexpr double kStill = 1e-11;     ///< a step this much shorter than x is none
 constexpr int kLeaves = 10;          ///< times a row may leave among many before rows change one by one
 
-double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
-
 }  // namespace
 
 ActiveSetIteration::ActiveSetIteration(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monitor)

@@ -9,8 +9,6 @@ namespace {
 
 constexpr int kRounds = 50;  ///< at most
 
-double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
-
 }  // namespace
 
 bool ActiveSetIteration::whole_sets() {

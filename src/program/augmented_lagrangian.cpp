@@ -144,10 +144,10 @@ Result solve(const QuadraticProgram& program, const AugmentedLagrangian& setting
     if (!program.equality(r))
       throw InputError(text("row ", r + 1, " is an inequality; augmented Lagrangians take equalities only (use "
                             "\"active_set\" or \"interior_point\")"));
-  require_moderate("B", greatest(program.P));
-  require_moderate("c", greatest(program.q));
-  require_moderate("D", greatest(program.A));
-  require_moderate("d", greatest(program.low));
+  require_moderate("B", peak(program.P));
+  require_moderate("c", peak(program.q));
+  require_moderate("D", peak(program.A));
+  require_moderate("d", peak(program.low));
   Stopwatch clock;
   const double size = objective_unit(program);
   QuadraticProgram scaled = program;

@@ -11,8 +11,6 @@ namespace {
 /// Least regularisation of the KKT matrix, in units of a scaled program.
 constexpr double kRegular = 1e-12;
 
-double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
-
 }  // namespace
 
 Barrier::Barrier(const QuadraticProgram& p) : p_(p), n_(p.unknowns()), m_(p.rows()), kkt_(p), taken_(m_, 0), D_(m_) {

@@ -40,7 +40,6 @@ bool diverged(const QuadraticProgram& p, const Barrier& barrier, Result& result)
 
 /// What rounding of Aᵀy leaves of stationarity, in the measure of the merit.
 double rounding(const QuadraticProgram& p, const Vector& y) {
-  const auto peak = [](const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; };
   return std::numeric_limits<double>::epsilon() * peak(p.A.cwiseAbs().transpose() * y.cwiseAbs()) / (1 + peak(p.q));
 }
 

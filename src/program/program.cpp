@@ -39,8 +39,10 @@ double objective(const QuadraticProgram& p, const Vector& x) {
   return 0.5 * x.dot(times(p.P, x)) + p.q.dot(x) + p.r;
 }
 
+namespace {
+
 /// max |y_r| Σ A_rj²/P_jj over rows r, those j left out that nothing holds.
-static double moved(const QuadraticProgram& p, const Vector& y) {
+double moved(const QuadraticProgram& p, const Vector& y) {
   const Vector stiffness = p.P.diagonal();
   double most = 0;
   for (int r = 0; r < p.rows(); ++r) {
@@ -52,9 +54,10 @@ static double moved(const QuadraticProgram& p, const Vector& y) {
   return most;
 }
 
+}  // namespace
+
 Residuals residuals(const QuadraticProgram& p, const Vector& x, const Vector& y) {
   Residuals out;
-  const auto peak = [](const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; };
   const Vector Px = times(p.P, x), Ay = p.A.transpose() * y, Ax = p.A * x;
   const Vector size = p.A.cwiseAbs() * x.cwiseAbs();
   const SparseMatrix sizes = p.P.cwiseAbs();
@@ -99,8 +102,7 @@ void measure(const QuadraticProgram& program, Result& result) {
 }
 
 Vector negative_curvature(const SparseMatrix& lower, double tolerance) {
-  double largest = 0;
-  for (int k = 0; k < lower.nonZeros(); ++k) largest = std::max(largest, std::abs(lower.valuePtr()[k]));
+  const double largest = peak(lower);
   if (largest == 0) return {};
   SparseMatrix shifted = lower, unit(lower.rows(), lower.cols());
   unit.setIdentity();

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "program/program.hpp"
+
 namespace dotyk::program {
 
 using algebra::DenseMatrix;
 using algebra::Vector;
 
 namespace {
-
-double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
 
 /// One cycle of GMRES with right preconditioning from z = 0: the correction to z.
 Vector cycle(const Apply& K, const Apply& regularised, const Vector& residual, double target, int most, int& steps) {

@@ -18,7 +18,7 @@ void divide(Vector& factor, const Vector& largest) {
 
 double objective_unit(const QuadraticProgram& p) {
   constexpr double kLikeOne = 1e6;
-  const double size = std::max(greatest(p.P), greatest(p.q));
+  const double size = std::max(peak(p.P), peak(p.q));
   return moderate(size, kLikeOne) ? 1 : std::max(size, 1e-300);  // of which there is an inverse
 }
 
@@ -53,7 +53,7 @@ Scaled scale(const QuadraticProgram& p) {
   }
   t.q = s.cost * p.q.cwiseProduct(s.column);
   for (int i = 0; i < m; ++i) t.low[i] *= s.row[i], t.high[i] *= s.row[i];
-  const double size = std::max(greatest(t.q), greatest(t.P)), rest = size > 0 ? 1 / size : 1;
+  const double size = std::max(peak(t.q), peak(t.P)), rest = size > 0 ? 1 / size : 1;
   t.P *= rest;
   t.q *= rest;
   s.cost *= rest;

@@ -14,13 +14,6 @@ struct Scaled {
   Vector y(const Vector& scaled) const { return row.cwiseProduct(scaled) / cost; }
 };
 
-/// The greatest size of an entry.
-inline double greatest(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0; }
-template <class Sparse>
-double greatest(const Sparse& a) {
-  return greatest(Vector(a.coeffs()));
-}
-
 /// The greatest entry of P and q where that is beyond 1e±6, else 1: divided by it, an objective is of numbers like 1.
 double objective_unit(const QuadraticProgram& program);
 

@@ -15,8 +15,6 @@ constexpr double kSafe = 1e-7;
 constexpr std::size_t kBorders = 60;   ///< changes before the next factorisation
 constexpr double kRefined = 1e-13, kConsistent = 1e-8;
 
-double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
-
 }  // namespace
 
 WorkingKkt::WorkingKkt(const QuadraticProgram& program)
