@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <thread>
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -18,6 +17,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "base/memory.hpp"
+#include "base/parallel.hpp"
 
 using GlFunction = void (*)();
 
@@ -49,7 +49,7 @@ namespace {
 /// Mesa and VTK crash where they do not get the memory for their buffers (measured: 44 to 69 bytes a pixel and 50 MB; a stack each for
 /// Mesa's threads, one a core, 16 at most).
 void require_room(int width, int height) {
-  const double threads = std::min(16u, std::max(1u, std::thread::hardware_concurrency()));
+  const int threads = std::min(16, cores());
   require_address_space(150e6 + 10e6 * threads + 72.0 * width * height,
                         "a picture (drawn with " + std::to_string(width) + " x " + std::to_string(height) + " pixels, then reduced; smaller ones by 'size')");
 }

@@ -6,22 +6,13 @@
 #include "mesh/second_order.hpp"
 
 namespace dotyk::mesh {
-namespace {
-
-/// Why lines that should follow each other do not, with a grading that increases or none.
-std::string lost(double a, double b, int n, const char* axis) {
-  if (!std::isfinite(b - a)) return text("the extent along ", axis, ", from ", a, " to ", b, ", is beyond the range of numbers; choose another unit of length");
-  return text("the ", n, " cells along ", axis, ", from ", a, ", are so narrow that their nodes coincide in rounding; ",
-              "take fewer cells, or move them nearer to the origin");
-}
-
-}  // namespace
 
 std::vector<double> ticks(double a, double b, int n, const Grading& grading, const char* axis) {
   if (n < 1) throw InputError(text("cells along ", axis, " is ", n, "; it must be at least 1"));
   if (!(b > a))
     throw InputError(text("'to' must exceed 'from' along ", axis, " (from ", a, " to ", b, ")"));
-  if (!std::isfinite(b - a)) throw InputError(lost(a, b, n, axis));
+  if (!std::isfinite(b - a))
+    throw InputError(text("the extent along ", axis, ", from ", a, " to ", b, ", is beyond the range of numbers; choose another unit of length"));
   std::vector<double> t(n + 1);
   double before = -INFINITY;
   for (int i = 0; i <= n; ++i) {
@@ -31,7 +22,9 @@ std::vector<double> ticks(double a, double b, int n, const Grading& grading, con
     if (!std::isfinite(t[i]) || !(s > before))
       throw InputError(text("grading.", axis, " must increase and be finite; at s = ",
                             static_cast<double>(i) / n, " it gives ", s));
-    if (i > 0 && !(t[i] > t[i - 1])) throw InputError(lost(a, b, n, axis));
+    if (i > 0 && !(t[i] > t[i - 1]))
+      throw InputError(text("the ", n, " cells along ", axis, ", from ", a, ", are so narrow that their nodes coincide in rounding; ",
+                            "take fewer cells, or move them nearer to the origin"));
     before = s;
   }
   if (grading && (std::abs(t[0] - a) > 1e-9 * (b - a) || std::abs(t[n] - b) > 1e-9 * (b - a)))

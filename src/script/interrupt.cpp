@@ -71,8 +71,10 @@ bool closes_after_error(lua_State* L, lua_Debug* event) {
 void stop_here(lua_State* L, lua_Debug* event) {
   const bool counting = lua_gethookmask(L) == LUA_MASKCOUNT;
   if (counting && event->event == LUA_HOOKCOUNT) used += interval;
-  if ((pending || spent()) && closes_after_error(L, event)) return;
-  if (pending || spent()) pass_handler_over(L);
+  if (pending || spent()) {
+    if (closes_after_error(L, event)) return;
+    pass_handler_over(L);
+  }
   if (pending) raise(L, "", "interrupted");
   if (!spent()) {
     if (!counting) disarm(L);

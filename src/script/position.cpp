@@ -25,13 +25,12 @@ std::string position(lua_State* L, const std::string& callee) {
 }
 
 bool runs_for_prompt(lua_State* L) {
-  const std::string prompt = std::string(prompt_chunk) + ":";
   lua_Debug frame;
   for (int level = 0; lua_getstack(L, level, &frame); ++level) {
     lua_getinfo(L, "S", &frame);
     if (std::strcmp(frame.what, "main") == 0 && !own(frame)) return frame.short_src == std::string(prompt_chunk);
   }
-  return position(L).rfind(prompt, 0) == 0;  // a coroutine begins with a function
+  return position(L).starts_with(std::string(prompt_chunk) + ":");  // a coroutine begins with a function
 }
 
 bool called_by_own(lua_State* L) {

@@ -11,9 +11,9 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include "base/memory.hpp"
+#include "base/parallel.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::script {
@@ -57,7 +57,7 @@ void leave_threads_if_tight(const ProcessLimits& limits, char** words) {
   rlimit own{};
   double memory = limits.memory.value_or(INFINITY);
   if (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY) memory = std::min(memory, static_cast<double>(own.rlim_cur));
-  if (4 * bytes_of_a_thread * std::thread::hardware_concurrency() <= memory) return;
+  if (4 * bytes_of_a_thread * cores() <= memory) return;
   const char* name = "OPENBLAS_NUM_THREADS";
   const char* threads = std::getenv(name);
   if (threads && std::string(threads) == "1") return;
