@@ -55,6 +55,17 @@ ScenePicture scene_of(const BodyPicture& body, const std::string& file) {
   return scene;
 }
 
+// One hexahedron, so deep along y.
+BodyPicture brick(double depth) {
+  BodyPicture body;
+  body.dimension = 3;
+  body.shape = CellShape::hexahedron;
+  body.nodes_per_facet = 4;
+  body.points = {0, 0, 0, 1, 0, 0, 1, depth, 0, 0, depth, 0, 0, 0, 1, 1, 0, 1, 1, depth, 1, 0, depth, 1};
+  body.cells = {0, 1, 2, 3, 4, 5, 6, 7};
+  return body;
+}
+
 }  // namespace
 
 TEST_CASE("statuses present are drawn in their colours, others are not") {
@@ -160,12 +171,7 @@ TEST_CASE("a solid shows its statuses through the obstacle and in the plan besid
   ScenePicture scene;
   scene.file = "solid.png";
   scene.width = 600, scene.height = 450;
-  BodyPicture body;
-  body.dimension = 3;
-  body.shape = CellShape::hexahedron;
-  body.nodes_per_facet = 4;
-  body.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
-  body.cells = {0, 1, 2, 3, 4, 5, 6, 7};
+  BodyPicture body = brick(1);
   body.values = {0, 0, 0, 0, 1, 1, 1, 1};
   scene.bodies = {body};
   scene.field_label = "uz";
@@ -292,13 +298,7 @@ TEST_CASE("dots of the pressure on the plan of a grid stand in its rows and colu
   ScenePicture scene;
   scene.file = "dots.png";
   scene.width = 700, scene.height = 500;
-  BodyPicture body;
-  body.dimension = 3;
-  body.shape = CellShape::hexahedron;
-  body.points = {0, 0, 0, 1, 0, 0, 1, 2, 0, 0, 2, 0, 0, 0, 1, 1, 0, 1, 1, 2, 1, 0, 2, 1};
-  body.cells = {0, 1, 2, 3, 4, 5, 6, 7};
-  body.nodes_per_facet = 4;
-  scene.bodies = {body};
+  scene.bodies = {brick(2)};
   ContactPicture contact;
   contact.nodes_per_facet = 4;
   const int nx = 23, ny = 38;  // neither leaves dots on the rim, whose line would cut them
