@@ -1,6 +1,7 @@
 #!/bin/bash
 # Where numbers are written with a comma (LC_ALL=cs_CZ.UTF-8), dotyk reads and writes them with a point: scripts,
 # files, the prompt. Skipped where that locale cannot be made.
+typist=$(realpath "$2")
 . "$(dirname "$0")/scratch.sh"
 command -v localedef >/dev/null && localedef -i cs_CZ -f UTF-8 "$folder/cs_CZ.UTF-8" 2>/dev/null && export LOCPATH=$folder
 { export LC_ALL=cs_CZ.UTF-8; } 2>/dev/null # this shell itself may be too late for it
@@ -54,5 +55,5 @@ LUA
 "$dotyk" --traceback numbers.lua || exit 1
 
 terminals || exit 0
-screen=$({ sleep 0.5; printf '0.25 + 0.5\n'; sleep 0.3; printf '\004'; } | timeout 60 script -qec "$dotyk" /dev/null | tr -d '\r')
+screen=$("$typist" "$dotyk" '0.25 + 0.5\n')
 grep -qF 0.75 <<<"$screen" || { echo "the prompt shows no 0.75:"; echo "$screen"; exit 1; }

@@ -1,33 +1,26 @@
 #!/bin/bash
 # The prompt on a pseudo-terminal: editing, several lines, completion, questions,
-# Ctrl-C, Ctrl-D, pasting, history. Needs script(1).
+# Ctrl-C, Ctrl-D, pasting, history. Words are keys for the typist.
 tutorial=$(<"$(dirname "$0")/../../scripts/tutorial/01_a_body.lua")
+typist=$(realpath "$2")
 . "$(dirname "$0")/scratch.sh"
 terminals || exit 77
 export TERM=xterm
 unset XDG_STATE_HOME
+mkfifo "$folder/turns"
+exec 9<>"$folder/turns"
+printf '%8s' '' >&9
 
-# Types the words of "$@" one after the other and shows the screen.
-session() {
-  {
-    sleep 0.5
-    for keys in "$@"; do
-      printf '%b' "$keys"
-      sleep 0.3
-    done
-    printf '\004'
-    sleep 0.3
-  } | timeout 60 script -qec "$dotyk" /dev/null | tr -d '\r\000'
-}
-
-# expect NAME TEXT KEYS…: the text is on the screen. Sessions mostly wait, so all
-# run at the same time, each with a home folder of its own.
+# expect NAME TEXT KEYS…: the text is on the screen. Sessions mostly wait, so eight run
+# at the same time, each with a home folder of its own.
 expect() {
   local name=$1 text=$2 screen
   shift 2
   export HOME=$folder/$name
   mkdir -p "$HOME"
-  screen=$(session "$@")
+  IFS= read -rn 1 -u 9
+  screen=$("$typist" "$dotyk" "$@")
+  printf ' ' >&9
   grep -qF -- "$text" <<<"$screen" && return
   fail "$name: no '$text' in"
   echo "$screen"

@@ -10,9 +10,20 @@ fail() {
   failures=$((failures + 1))
 }
 
-# Are there terminals to type at? A bare chroot has no /dev/pts.
+# Are there terminals for $typist? A bare chroot has no /dev/pts.
 terminals() {
-  script -qec true /dev/null >/dev/null 2>&1 && return
-  echo "no pseudo-terminals (script(1), /dev/pts): the prompt is left out"
+  "$typist" true >/dev/null 2>&1 && return
+  echo "no pseudo-terminals (/dev/pts): the prompt is left out"
   return 1
+}
+
+# Waits until process $1 is dotyk and catches Ctrl-C, and then a little, so that it is at work.
+catches_interrupts() {
+  local caught
+  for _ in {1..600}; do
+    caught=$(sed -n 's/^SigCgt:\t*//p' "/proc/$1/status" 2>/dev/null) || return
+    [[ $(<"/proc/$1/comm") == dotyk ]] && ((0x$caught & 2)) && break
+    sleep 0.1
+  done
+  sleep 0.3
 }

@@ -2,6 +2,7 @@
 # A full disk, a folder that is read only, no fonts, no home, no terminal, a program killed while it writes: each is
 # answered in one line or does not matter, and a file once written stays whole. What needs mounts runs where a
 # namespace of mounts can be had (as root), and says so where not.
+typist=$(realpath "$2")
 . "$(dirname "$0")/scratch.sh"
 
 cat >solved.lua <<'LUA'
@@ -69,7 +70,7 @@ for terminal in 'env -u TERM' 'env TERM=dumb' 'env TERM=nonsense'; do
   got=$(printf '6 * 7\n' | env -u HOME -u XDG_STATE_HOME $terminal "$dotyk" 2>&1)
   [[ $got == 42 ]] || fail "$terminal: $got"
   if [[ $typed ]]; then
-    got=$({ sleep 0.5; printf '6 * 7\n'; sleep 0.3; printf '\004'; } | env -u HOME -u XDG_STATE_HOME $terminal timeout 60 script -qec "$dotyk" /dev/null | tr -d '\r')
+    got=$(env -u HOME -u XDG_STATE_HOME $terminal "$typist" "$dotyk" '6 * 7\n')
     grep -qx '42' <<<"$got" || fail "$terminal, a prompt: $got"
   fi
 done
