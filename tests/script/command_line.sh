@@ -85,16 +85,15 @@ if ldd "$dotyk" | grep -q vtk; then fail "linked with VTK"; fi
 
 # Ctrl-C ends a script.
 "$dotyk" -e 'while true do end' 2>err.txt &
-catches_interrupts $!
+await_handler $!
 kill -INT $!
 wait $!
 [[ $? == 1 && $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || fail "interrupt: $(<err.txt)"
 
 printf 'local x <const> = 7\nwhile true do end' >loop.lua
 (echo x; sleep 2) | "$dotyk" -i loop.lua >out.txt 2>err.txt &
-until program=$(pgrep -n -f 'loop.lua'); do sleep 0.1; done
-catches_interrupts "$program"
-kill -INT "$program"
+await_handler $! # a pipeline's last
+kill -INT $!
 wait $!
 [[ $(<err.txt) == 'dotyk: loop.lua:2: interrupted' && $(<out.txt) == 7 ]] || fail "interrupt of -i: $(<err.txt)"
 
@@ -103,12 +102,13 @@ for code in 'table.move({}, 1, math.maxinteger - 1, 2)' 'table.insert(setmetatab
   'table.remove(setmetatable({}, { __len = function() return 1 << 62 end }), 1)' 'xpcall(error, function() while true do end end)' \
   'while true do xpcall(function() while true do end end, function() while true do end end) end'; do
   "$dotyk" -e "$code" 2>err.txt &
-  catches_interrupts $!
+  await_handler $!
   kill -INT $!
   wait $!
   [[ $? == 1 && $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || fail "interrupt of $code: $(<err.txt)"
 done
 # A finalizer runs without hooks: at the end of the program one Ctrl-C ends it, else the second, whenever it comes.
+rm out.txt
 "$dotyk" -e 'print "kept" setmetatable({}, { __gc = function() while true do end end })' >out.txt &
 for _ in {1..600}; do [[ -s out.txt ]] && break; sleep 0.1; done # by then it catches none
 sleep 0.3
@@ -116,7 +116,7 @@ kill -INT $!
 wait $!
 [[ $? == 130 && $(<out.txt) == kept ]] || fail "interrupt at the end: $(<out.txt)"
 "$dotyk" -e 'setmetatable({}, { __gc = function() while true do end end }) collectgarbage()' &
-catches_interrupts $!
+await_handler $!
 kill -INT $!
 sleep 1.2
 kill -INT $!

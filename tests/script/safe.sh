@@ -150,7 +150,7 @@ got=$("$dotyk" --instructions 1e6 -e 'debug.sethook()' 2>&1)
 got=$("$dotyk" --instructions 1e6 -e 'local n = 0 for i = 1, 1e4 do n = n + i end print(n)' 2>&1)
 [[ $got == 50005000 ]] || fail "within the limit: $got"
 "$dotyk" --instructions 1e12 -e 'while true do pcall(function() while true do end end) end' 2>err.txt &
-catches_interrupts $!
+await_handler $!
 kill -INT $!
 wait $!
 [[ $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || fail "Ctrl-C beside the limit: $(<err.txt)"
@@ -170,7 +170,7 @@ endless "a pattern of balances" 'for i = 1, 1e6 do (("("):rep(3e5)):find "%b()" 
 endless "a substitution" '(("a"):rep(3e5)):gsub(".-b", "")'
 endless "a long string" 'local s = {} for i = 1, 1e6 do s[i] = ("x"):rep(1 << 30) end'
 "$dotyk" --safe below -e 'while true do end' 2>/dev/null &
-catches_interrupts $!
+await_handler $!
 limits=$(</proc/$!/limits)
 kill -9 $!
 wait $! 2>/dev/null

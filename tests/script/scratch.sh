@@ -12,18 +12,19 @@ fail() {
 
 # Are there terminals for $typist? A bare chroot has no /dev/pts.
 terminals() {
-  "$typist" true >/dev/null 2>&1 && return
+  "$typist" true >/dev/null 2>&1
+  [[ $? != 77 ]] && return
   echo "no pseudo-terminals (/dev/pts): the prompt is left out"
   return 1
 }
 
 # Waits until process $1 is dotyk and catches Ctrl-C, and then a little, so that it is at work.
-catches_interrupts() {
+await_handler() {
   local caught
   for _ in {1..600}; do
-    caught=$(sed -n 's/^SigCgt:\t*//p' "/proc/$1/status" 2>/dev/null) || return
-    [[ $(<"/proc/$1/comm") == dotyk ]] && ((0x$caught & 2)) && break
+    caught=$(sed -n 's/^SigCgt:\t*//p' "/proc/$1/status" 2>/dev/null)
+    [[ $caught && $(<"/proc/$1/comm") == dotyk ]] && ((0x$caught & 2)) && sleep 0.3 && return
     sleep 0.1
   done
-  sleep 0.3
+  fail "process $1 does not catch Ctrl-C"
 }

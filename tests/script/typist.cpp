@@ -3,11 +3,13 @@
 //   typist COMMAND [KEYS …]
 //
 // COMMAND is for sh. KEYS are typed when the prompt ("> ") asks for them, however long that takes; they may hold \n, \r,
-// \t, \\ and octal \033. KEYS that are one Ctrl-C (\003) are typed 0.3 s after those before them have been read; empty
-// KEYS let 0.3 s go by. Ctrl-D comes last. Exit status 77: there are no pseudo-terminals.
+// \t, \\ and octal \033. KEYS that are one Ctrl-C (\003) are typed 0.3 s after the line before them has been taken; empty
+// KEYS let 0.3 s go by. Ctrl-D comes last. Exit status 1: for a minute nothing came that had to; 77: there are no
+// pseudo-terminals.
 #include <poll.h>
 #include <pty.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -31,8 +33,6 @@ class Screen {
   bool ended() const { return ended_; }
   const std::string& text() const { return text_; }
   std::size_t size() const { return text_.size(); }
-  bool asks() const { return text_.ends_with("> "); }
-
   void type(std::string_view keys) const {
     while (!keys.empty()) {
       const ssize_t written = write(terminal_, keys.data(), keys.size());
@@ -51,20 +51,33 @@ class Screen {
 
   /// Reads for that long.
   void watch(milliseconds time) {
-    for (const auto end = steady_clock::now() + time; !ended_ && steady_clock::now() < end;)
-      read_within(std::chrono::ceil<milliseconds>(end - steady_clock::now()));
+    const auto end = steady_clock::now() + time;
+    for (auto rest = time; !ended_ && rest.count() > 0; rest = std::chrono::ceil<milliseconds>(end - steady_clock::now()))
+      read_within(rest);
   }
 
-  /// Reads until there is more than `size` and, if asked for, a prompt that stays; gives up after a minute.
-  void await(std::size_t size, bool prompt) {
-    const auto last = steady_clock::now() + patience;
-    while (!ended_ && steady_clock::now() < last) {
-      if (this->size() > size && (!prompt || (asks() && !settle(milliseconds(100))))) return;
-      read_within(milliseconds(100));
+  /// Reads until there is more than at `before` and that holds, or the program ends; false after a minute.
+  template <class Holds>
+  bool await(std::size_t before, const Holds& holds) {
+    for (const auto last = steady_clock::now() + patience; !ended_; read_within(milliseconds(50))) {
+      if (text_.size() > before && holds()) return true;
+      if (steady_clock::now() > last) return false;
     }
+    return true;
+  }
+  bool await_echo(std::size_t before) { return await(before, [] { return true; }); }
+  bool await_prompt(std::size_t before) { return await(before, [&] { return asks() && !settle(milliseconds(100)); }); }
+  /// Until readline has given the line away (its terminal takes lines again), or asks for the next.
+  bool await_taken(std::size_t before) {
+    return await(before, [&] {
+      termios modes;
+      return asks() || (tcgetattr(terminal_, &modes) == 0 && (modes.c_lflag & ICANON));
+    });
   }
 
  private:
+  bool asks() const { return text_.ends_with("> "); }
+
   bool read_within(milliseconds time) {
     pollfd waiting{terminal_, POLLIN, 0};
     if (ended_ || poll(&waiting, 1, static_cast<int>(time.count())) <= 0) return false;
@@ -98,9 +111,9 @@ std::string unescaped(std::string_view keys) {
 
 const std::string interrupt = "\003", leave = "\004";
 
-/// False: the last keys stay in a line that has not been entered.
+/// False: what had to come did not.
 bool type_all(Screen& screen, char** words) {
-  std::size_t before = 0;  // of the screen, when the last answer was asked for
+  std::size_t before = 0;  // of the screen, when the last keys were typed
   bool answer_due = true;
   for (; *words && !screen.ended(); ++words) {
     const std::string keys = unescaped(*words);
@@ -108,15 +121,21 @@ bool type_all(Screen& screen, char** words) {
       screen.watch(moment);
       continue;
     }
-    if (answer_due && keys != interrupt) screen.await(before, true);
+    if (answer_due && keys != interrupt && !screen.await_prompt(before)) return false;
     before = screen.size();
     screen.type(keys);
-    screen.await(before, false);
-    answer_due = keys == interrupt || keys.ends_with('\n') || keys.ends_with('\r');
+    const bool entered = keys.ends_with('\n') || keys.ends_with('\r');
+    if (!(entered ? screen.await_taken(before) : screen.await_echo(before))) return false;
+    answer_due = entered || keys == interrupt;
     if (answer_due) screen.watch(moment); else screen.settle();
   }
-  if (answer_due) screen.await(before, true);
-  return answer_due;
+  if (!answer_due) return true;  // in the midst of a line Ctrl-D does not end it
+  if (!screen.await_prompt(before)) return false;
+  for (int times = 0; times < 3 && !screen.ended(); ++times) {  // an unfinished input takes one of its own
+    screen.type(leave);
+    screen.watch(milliseconds(3000));
+  }
+  return true;
 }
 
 }  // namespace
@@ -135,13 +154,11 @@ int main(int count, char** arguments) {
     _exit(127);
   }
   Screen screen(terminal);
-  if (type_all(screen, arguments + 2))
-    for (int times = 0; times < 3 && !screen.ended(); ++times) {  // an unfinished input takes one of its own
-      screen.type(leave);
-      screen.watch(milliseconds(3000));
-    }
+  const bool came = type_all(screen, arguments + 2);
   std::fwrite(screen.text().data(), 1, screen.size(), stdout);
+  if (!came) std::puts("\ntypist: this is all that came in a minute");
   close(terminal);
   if (!screen.ended()) kill(program, SIGKILL);
   waitpid(program, nullptr, 0);
+  return came ? 0 : 1;
 }
