@@ -37,9 +37,9 @@ Vector times(const SparseMatrix& lower, const Vector& x);
 double objective(const QuadraticProgram& program, const Vector& x);
 
 /// The greatest size of an entry; 0 where there is none.
-inline double peak(const Vector& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0; }
-inline double peak(const SparseMatrix& a) { return peak(Vector(a.coeffs())); }
-inline double peak(const SparseRows& a) { return peak(Vector(a.coeffs())); }
+inline double peak(const Vector& v) { return v.lpNorm<Eigen::Infinity>(); }
+inline double peak(const SparseMatrix& a) { return a.coeffs().matrix().lpNorm<Eigen::Infinity>(); }
+inline double peak(const SparseRows& a) { return a.coeffs().matrix().lpNorm<Eigen::Infinity>(); }
 
 /// How far x (n) and the multipliers y (m; positive at high, negative at low) are from optimal.
 struct Residuals {

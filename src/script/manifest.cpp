@@ -2,9 +2,9 @@
 
 #include <ctime>
 #include <fstream>
-#include <thread>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "base/whole_file.hpp"
 #include "script/commit.hpp"
@@ -74,7 +74,7 @@ void Manifest::write(lua_State* L, const std::string& file, const std::string& c
   for (const auto& argument : arguments_) lines += line("argument", argument);
   if (object > 0) lines += about_solution(L, object);
   lines += line("dotyk", DOTYK_VERSION) + line("commit", commit) + line("processor", processor()) +
-           line("cores", std::to_string(std::thread::hardware_concurrency())) + line("date", date()) +
+           line("cores", std::to_string(cores())) + line("date", date()) +
            line("seconds", text(clock_.seconds()));
   require_place(L, file);
   write_whole_file(beside(file), lines);

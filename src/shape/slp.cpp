@@ -23,8 +23,6 @@ struct Step {
   std::string failure;   ///< of the simplex method; empty: none
 };
 
-double size(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; }
-
 class Stepper {
  public:
   Stepper(const ScaledProblem& problem, double penalty) : problem_(problem), penalty_(penalty) {}
@@ -105,7 +103,7 @@ class Iteration {
     const Step step = stepper_.step(best_, radius_);
     if (!step.failure.empty()) return end(false, "no step: " + step.failure);
     if (step.predicted <= kRounding) return end(true, "the first order promises no more");
-    const double length = size(step.d), sought = radius_;
+    const double length = step.d.lpNorm<Eigen::Infinity>(), sought = radius_;
     auto trial = problem_.evaluate(best_.x + step.d);
     if (problem_.interrupted()) return;
     const double ratio = trial ? (stepper_.merit(best_) - stepper_.merit(*trial)) / step.predicted : -INFINITY;
