@@ -11,6 +11,8 @@
 namespace dotyk::mesh {
 namespace {
 
+constexpr std::size_t kWatched = 4096;  // cells between two looks at the monitor
+
 /// The node of a simplex that its facet `local` does not have.
 int opposite(const ElementTopology& t, int local) {
   int sum = t.nodes * (t.nodes - 1) / 2;
@@ -158,20 +160,22 @@ void Bisection::begin(const std::vector<int>& cells) {
 }
 
 /// Bisects what is wanted and what hangs, until nothing is or does. True where anything was.
-bool Bisection::close() {
+bool Bisection::close(Monitor& monitor) {
   bool any = false;
   for (bool again = true; again;) {
     again = false;
-    for (std::size_t c = 0; c < cells_.size(); ++c)
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (c % kWatched == 0) monitor.check();
       while (cells_[c].wanted > 0 || hangs(cells_[c])) {
         bisect(static_cast<int>(c));
         again = any = true;
       }
+    }
   }
   return any;
 }
 
-Refined Bisection::end() {
+Refined Bisection::end(Monitor& monitor) {
   auto fine = std::make_shared<Mesh>();
   fine->element = mesh_->element;
   fine->coordinates = std::move(coordinates_);
@@ -179,6 +183,7 @@ Refined Bisection::end() {
   std::vector<std::vector<Facet>> facets(names_.size());
   Refined result;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (c % kWatched == 0) monitor.check();
     fine->cells.insert(fine->cells.end(), cells_[c].node.begin(), cells_[c].node.begin() + dim_ + 1);
     for (int l = 0; l < t.facets; ++l)
       for (const int part : tags_[cells_[c].tag[opposite(t, l)]]) facets[part].push_back({static_cast<int>(c), l});
@@ -194,9 +199,8 @@ Refined Bisection::end() {
 }
 
 Refined Bisection::refine(const std::vector<int>& cells) {
-  begin(cells);
-  close();
-  return end();
+  Monitor unwatched;
+  return mesh::refine({this}, {cells}, {}, unwatched).front();
 }
 
 void Bisection::project(const std::string& part, const std::function<Point(const Point&)>& map) {

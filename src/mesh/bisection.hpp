@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::mesh {
@@ -65,8 +66,8 @@ class Bisection {
   void bisect(int c);
   Cell child(const Cell& cell, int kept, int replaced, int node) const;
   void begin(const std::vector<int>& cells);
-  bool close();
-  Refined end();
+  bool close(Monitor& monitor);
+  Refined end(Monitor& monitor);
 
   int dim_;
   std::shared_ptr<const Mesh> mesh_;
@@ -86,7 +87,9 @@ struct Joint {
 };
 
 /// A round for several meshes at once, cells[m] of mesh m: what is bisected on one side of a joint is on the other.
+/// Throws InputError for a cell out of range, Interrupted where the monitor asks to stop; whatever it throws, the meshes
+/// are as they were.
 std::vector<Refined> refine(const std::vector<Bisection*>& meshes, const std::vector<std::vector<int>>& cells,
-                            const std::vector<Joint>& joints);
+                            const std::vector<Joint>& joints, Monitor& monitor);
 
 }  // namespace dotyk::mesh

@@ -8,7 +8,8 @@ namespace dotyk::mesh {
 /// A round on meshes that are joined.
 class Rounds {
  public:
-  Rounds(const std::vector<Bisection*>& meshes, const std::vector<Joint>& joints) : meshes_(meshes), joints_(joints) {
+  Rounds(std::vector<Bisection>& meshes, const std::vector<Joint>& joints, Monitor& monitor)
+      : meshes_(meshes), joints_(joints), monitor_(monitor) {
     for (const Joint& joint : joints_) {
       partner_.emplace_back();
       for (const auto& [a, b] : joint.nodes) {
@@ -19,14 +20,14 @@ class Rounds {
   }
 
   std::vector<Refined> run(const std::vector<std::vector<int>>& cells) {
-    for (std::size_t m = 0; m < meshes_.size(); ++m) meshes_[m]->begin(cells[m]);
+    for (std::size_t m = 0; m < meshes_.size(); ++m) meshes_[m].begin(cells[m]);
     for (bool again = true; again;) {
-      for (Bisection* mesh : meshes_) mesh->close();
+      for (Bisection& mesh : meshes_) mesh.close(monitor_);
       again = false;
       for (std::size_t j = 0; j < joints_.size(); ++j) again = carry_over(j) || again;
     }
     std::vector<Refined> result;
-    for (Bisection* mesh : meshes_) result.push_back(mesh->end());
+    for (Bisection& mesh : meshes_) result.push_back(mesh.end(monitor_));
     return result;
   }
 
@@ -35,8 +36,8 @@ class Rounds {
 
   bool carry_over(std::size_t j) {
     auto& [forth, back] = partner_[j];
-    const bool one = carry_over(*meshes_[joints_[j].first], *meshes_[joints_[j].second], forth, back);
-    return carry_over(*meshes_[joints_[j].second], *meshes_[joints_[j].first], back, forth) || one;
+    const bool one = carry_over(meshes_[joints_[j].first], meshes_[joints_[j].second], forth, back);
+    return carry_over(meshes_[joints_[j].second], meshes_[joints_[j].first], back, forth) || one;
   }
 
   /// Every edge split here whose ends have partners that are an edge there is split there; the midpoints are partners.
@@ -73,14 +74,19 @@ class Rounds {
     return edges;
   }
 
-  std::vector<Bisection*> meshes_;
-  std::vector<Joint> joints_;
+  std::vector<Bisection>& meshes_;
+  const std::vector<Joint>& joints_;
+  Monitor& monitor_;
   std::vector<std::pair<Map, Map>> partner_;
 };
 
 std::vector<Refined> refine(const std::vector<Bisection*>& meshes, const std::vector<std::vector<int>>& cells,
-                            const std::vector<Joint>& joints) {
-  return Rounds(meshes, joints).run(cells);
+                            const std::vector<Joint>& joints, Monitor& monitor) {
+  std::vector<Bisection> fine;
+  for (const Bisection* mesh : meshes) fine.push_back(*mesh);
+  std::vector<Refined> result = Rounds(fine, joints, monitor).run(cells);
+  for (std::size_t m = 0; m < meshes.size(); ++m) *meshes[m] = std::move(fine[m]);
+  return result;
 }
 
 }  // namespace dotyk::mesh

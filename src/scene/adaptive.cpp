@@ -41,13 +41,14 @@ std::vector<mesh::Joint> Adaptive::joints(const Solution& solution) const {
   return result;
 }
 
-std::vector<mesh::Refined> Adaptive::apply(const std::vector<std::vector<int>>& cells, const std::vector<mesh::Joint>& joints) {
+std::vector<mesh::Refined> Adaptive::apply(const std::vector<std::vector<int>>& cells, const std::vector<mesh::Joint>& joints,
+                                           Monitor& monitor) {
   std::vector<mesh::Bisection*> all;
   for (mesh::Bisection& mesh : meshes_) all.push_back(&mesh);
-  return mesh::refine(all, cells, joints);
+  return mesh::refine(all, cells, joints, monitor);
 }
 
-int Adaptive::refine(const Solution& solution, double share) {
+int Adaptive::refine(const Solution& solution, double share, Monitor& monitor) {
   const ErrorEstimate& estimate = solution.error_estimate();
   if (!(share > 0) || !(share <= 1)) throw InputError(text("the share of the error to be refined is ", share, "; it must be in (0, 1]"));
   struct Entry {
@@ -80,23 +81,23 @@ int Adaptive::refine(const Solution& solution, double share) {
     cells[entry.mesh].push_back(entry.cell);
     ++marked;
   }
-  apply(cells, joints(solution));
+  apply(cells, joints(solution), monitor);
   return marked;
 }
 
-void Adaptive::refine(const std::vector<std::vector<int>>& cells) {
+void Adaptive::refine(const std::vector<std::vector<int>>& cells, Monitor& monitor) {
   if (static_cast<int>(cells.size()) != count())
     throw InputError(text(cells.size(), " lists of cells are given for ", count(), count() == 1 ? " mesh" : " meshes", "; give one a mesh"));
-  apply(cells, {});
+  apply(cells, {}, monitor);
 }
 
-void Adaptive::refine() {
+void Adaptive::refine(Monitor& monitor) {
   std::vector<std::vector<int>> cells(meshes_.size());
   for (int m = 0; m < count(); ++m) {
     cells[m].resize(mesh(m)->cell_count());
     std::iota(cells[m].begin(), cells[m].end(), 0);
   }
-  apply(cells, {});
+  apply(cells, {}, monitor);
 }
 
 void Adaptive::project(const std::string& part, const std::function<mesh::Point(const mesh::Point&)>& map) {

@@ -22,18 +22,20 @@ class Adaptive {
   /// a stronger singularity than elasticity has would ask for. Surfaces in contact or glued go on matching. Returns
   /// how many cells were marked. Throws InputError where no body has one of the meshes as it is now, where one is joined to a body that does not
   /// take part, and for a share outside (0, 1].
-  int refine(const Solution& solution, double share);
-  /// Bisects these cells, a list a mesh. Throws InputError as mesh::Bisection::refine.
-  void refine(const std::vector<std::vector<int>>& cells);
+  int refine(const Solution& solution, double share, Monitor& monitor);
+  /// Bisects these cells, a list a mesh.
+  void refine(const std::vector<std::vector<int>>& cells, Monitor& monitor);
   /// Bisects all cells.
-  void refine();
+  void refine(Monitor& monitor);
+  // All three throw as mesh::refine, and then leave the meshes as they were.
   /// See mesh::Bisection::project: of every mesh that has the part. Throws InputError where none has.
   void project(const std::string& part, const std::function<mesh::Point(const mesh::Point&)>& map);
 
  private:
   int mesh_of(const Body& body) const;
   std::vector<mesh::Joint> joints(const Solution& solution) const;
-  std::vector<mesh::Refined> apply(const std::vector<std::vector<int>>& cells, const std::vector<mesh::Joint>& joints);
+  std::vector<mesh::Refined> apply(const std::vector<std::vector<int>>& cells, const std::vector<mesh::Joint>& joints,
+                                   Monitor& monitor);
   std::vector<mesh::Bisection> meshes_;
 };
 

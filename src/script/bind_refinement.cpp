@@ -5,6 +5,7 @@
 #include "scene/adaptive.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/watch.hpp"
 #include "script/wrapped.hpp"
 
 namespace dotyk::script {
@@ -34,10 +35,11 @@ std::vector<std::shared_ptr<MeshHandle>> meshes(const Adaptive& refinement) {
 
 int refine(Call& call) {
   const auto refinement = call.self<Adaptive>();
+  Watch watch(call.state(), "refining");
   if (!call.has("where")) {
-    refinement->refine();
+    refinement->refine(watch);
   } else if (call.holds<scene::Solution>("where")) {
-    refinement->refine(*call.object<scene::Solution>("where"), call.number("share"));
+    refinement->refine(*call.object<scene::Solution>("where"), call.number("share"), watch);
   } else {
     std::vector<std::vector<int>> cells;
     for (const auto& list : call.matrix("where")) {
@@ -47,7 +49,7 @@ int refine(Call& call) {
         cells.back().push_back(static_cast<int>(cell) - 1);
       }
     }
-    refinement->refine(cells);
+    refinement->refine(cells, watch);
   }
   return call.give_self();
 }

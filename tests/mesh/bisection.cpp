@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -162,6 +163,7 @@ TEST_CASE("bodies that match on a surface still do after refinement of one of th
                                 : test::box(mesh::Family::p1, 3, 2, 3, {0, 0, 1.25}, {1, 1, 2});
     mesh::Bisection below(lower), above(upper);
     std::mt19937 random(3);
+    Monitor unwatched;
     for (int round = 0; round < 6; ++round) {
       mesh::Joint joint{0, 1, {}};
       const mesh::Mesh &a = *below.mesh(), &b = *above.mesh();
@@ -181,7 +183,7 @@ TEST_CASE("bodies that match on a surface still do after refinement of one of th
         return facets;
       };
       CHECK(traces(a, 1) == traces(b, 1.25));
-      mesh::refine({&below, &above}, {some(a, 3, random), round % 2 ? some(b, 3, random) : std::vector<int>()}, {joint});
+      mesh::refine({&below, &above}, {some(a, 3, random), round % 2 ? some(b, 3, random) : std::vector<int>()}, {joint}, unwatched);
       CHECK(mesh::boundary(*below.mesh()).size() > 0);
     }
     CHECK(above.mesh()->cell_count() > upper.cell_count());
@@ -207,6 +209,35 @@ TEST_CASE("new nodes of a curved boundary go where the projection puts them") {
   const auto unmoved = bisection.mesh();
   CHECK_THROWS_AS(bisection.project("boundary", [](const mesh::Point&) { return mesh::Point{50, 0, 0}; }), InputError);
   CHECK(bisection.mesh() == unmoved);
+}
+
+TEST_CASE("a round that is stopped leaves the meshes as they were") {
+  struct StopAt final : Monitor {
+    explicit StopAt(int time) : left(time) {}
+    bool stop() override { return left-- == 0; }
+    int left;
+  };
+  mesh::Bisection stopped(test::rectangle(mesh::Family::p1, 40, 40)), beside(test::rectangle(mesh::Family::p1, 3, 3));
+  std::vector<int> all(stopped.mesh()->cell_count());
+  std::iota(all.begin(), all.end(), 0);
+  const auto before = stopped.mesh(), before_beside = beside.mesh();
+  int stops = 0;
+  for (bool whole = false; !whole;) {
+    StopAt monitor(stops);
+    try {
+      mesh::refine({&stopped, &beside}, {all, {0}}, {}, monitor);
+      whole = true;
+    } catch (const Interrupted&) {
+      ++stops;
+      CHECK(stopped.mesh() == before);
+      CHECK(beside.mesh() == before_beside);
+    }
+  }
+  CHECK(stops > 4);  // among others in the midst of the first and of the second
+  mesh::Bisection whole(*before);
+  whole.refine(all);
+  CHECK(stopped.mesh()->cells == whole.mesh()->cells);
+  CHECK(stopped.mesh()->coordinates == whole.mesh()->coordinates);
 }
 
 TEST_CASE("meshes that cannot be bisected and cells that are not there are refused") {
