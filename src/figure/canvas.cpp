@@ -222,6 +222,16 @@ void Canvas::marker(Marker kind, Point c, double size, Colour colour) {
   }
 }
 
+Marker status_marker(Status status) {
+  switch (status) {
+    case Status::open: return Marker::ring;
+    case Status::closed: return Marker::disc;
+    case Status::stick: return Marker::square;
+    case Status::slip: return Marker::triangle;
+  }
+  return Marker::disc;
+}
+
 void Canvas::crossed_marker(Marker kind, Point c, double size, Colour colour) {
   const auto pale = [](unsigned char value) { return static_cast<unsigned char>(255 - (255 - value) / 3); };
   marker(kind, c, 1.2 * size, {pale(colour.r), pale(colour.g), pale(colour.b)});

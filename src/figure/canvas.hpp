@@ -49,6 +49,7 @@ Point text_extent(const std::string& text, double size, bool bold = false);
 double fitting_size(const std::string& text, double size, double pixels, bool bold = false);
 
 enum class Marker { disc, square, triangle, diamond, down_triangle, plus, cross, ring };
+Marker status_marker(Status status);
 
 class Canvas {
 public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -51,26 +52,39 @@ ChartMargins share(std::vector<ChartPicture>& panels, const std::vector<ChartFra
 
 }  // namespace
 
-void draw_charts(const ChartColumn& picture) {
-  const std::size_t n = picture.panels.size();
-  const double em = std::min(0.022 * picture.width, 0.075 * picture.height / static_cast<double>(n));
-  Canvas canvas(oversampling(picture.width, picture.height));
-  const double height = picture.height - draw_title(canvas, picture, em);
-  std::vector<ChartPicture> panels = picture.panels;
-  std::vector<ChartFrame> frames(panels.size(), {em, {}, !picture.shared_x});
-  for (ChartPicture& panel : panels) {
-    panel.width = picture.width, panel.height = static_cast<int>(height / static_cast<double>(n));
-    if (picture.shared_x) panel.x_range = common_x(picture.panels);
-  }
+namespace {
+
+// One column into its part of the canvas, from `height` downwards.
+void draw_column(Canvas& canvas, std::vector<ChartPicture> panels, double left, double bottom, double height, double em, bool shared_x) {
+  std::vector<ChartFrame> frames(panels.size(), {em, {}, !shared_x});
   frames.back().x_labels = true;
   ChartMargins least;
   for (int round = 0; round < 2; ++round) least = share(panels, frames, height);
-  double bottom = 0;
   for (std::size_t i = panels.size(); i-- > 0;) {
-    canvas.origin({0, bottom});
+    canvas.origin({left, bottom});
     frames[i].least = least;
     draw_on(canvas, panels[i], frames[i]);
     bottom += panels[i].height;
+  }
+}
+
+}  // namespace
+
+void draw_charts(const ChartColumn& picture) {
+  const auto columns = static_cast<std::size_t>(picture.columns), rows = (picture.panels.size() + columns - 1) / columns;
+  const double width = static_cast<double>(picture.width) / picture.columns;
+  const double em = std::min(0.022 * picture.width / std::sqrt(picture.columns), 0.075 * picture.height / static_cast<double>(rows));
+  Canvas canvas(oversampling(picture.width, picture.height));
+  const double height = (picture.height - draw_title(canvas, picture, em)) / static_cast<double>(rows);
+  for (std::size_t column = 0; column < columns; ++column) {
+    std::vector<ChartPicture> panels;
+    for (std::size_t i = column; i < picture.panels.size(); i += columns) {
+      ChartPicture& panel = panels.emplace_back(picture.panels[i]);
+      panel.width = static_cast<int>(width), panel.height = static_cast<int>(height);
+      if (picture.shared_x) panel.x_range = common_x(picture.panels);
+    }
+    const double used = height * static_cast<double>(panels.size());
+    draw_column(canvas, panels, width * static_cast<double>(column), height * static_cast<double>(rows) - used, used, em, picture.shared_x);
   }
   write_canvas(canvas, picture.width, picture.height, picture.file);
 }

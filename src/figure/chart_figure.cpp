@@ -25,12 +25,16 @@ constexpr Colour front_yellow{255, 232, 150};
 constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
                              Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
 
+constexpr double small = 0.85, strip_gap = 0.45;  // in em
+
 class Chart {
 public:
   // Draws itself, from the canvas's origin.
   Chart(const ChartPicture& picture, Canvas& canvas, const ChartFrame& frame) : picture_(picture), canvas_(canvas), frame_(frame), em_(frame.em) {
     x_ = fit_axis(picture, false);
     y_ = fit_axis(picture, true);
+    for (std::size_t k = 0; k < picture.series.size(); ++k)
+      if (picture.series[k].y.empty() && !picture.series[k].x.empty()) failed_.push_back(static_cast<int>(k));
     place(0);
     Legend legend(entries(), 0.92 * em_);
     occupy();
@@ -41,9 +45,10 @@ public:
       place(legend.height());
       occupied_ = {};
       occupy();
-      corner = Point{room_.left + (room_.width() - legend.width()) / 2, room_.top + 0.1 * em_};
+      corner = Point{room_.left + (room_.width() - legend.width()) / 2, room_.top + strip_height() + 0.1 * em_};
     }
     draw_axes();
+    draw_strip();
     canvas_.clip(room_);
     for (const SeriesPicture& s : picture.series) draw_front(s);
     for (std::size_t k = 0; k < picture.series.size(); ++k) draw_spread(static_cast<int>(k));
@@ -79,13 +84,14 @@ private:
       y_ticks_ = y_.log ? log_ticks(y_.low, y_.high, static_cast<int>(labels_y) + 1) : few_ticks(y_.low, y_.high, std::min(8.0, labels_y));
       double widest = 0;
       for (const Tick& t : y_ticks_.ticks) widest = std::max(widest, text_extent(t.label, em_).x);
+      if (!failed_.empty()) widest = std::max(widest, text_extent("converged", small * em_).x);
       double last = 0;
       for (const Tick& t : x_ticks_.ticks) last = std::max(last, text_extent(t.label, em_).x);
       room_.left = 0.6 * em_ + (picture_.y_label.empty() && !y_ticks_.exponent ? 0 : 1.7 * em_) + widest + 0.5 * em_;
       room_.left = std::max(room_.left, frame_.least.left);
       room_.bottom = frame_.x_labels ? 0.4 * em_ + (picture_.x_label.empty() && !x_ticks_.exponent ? 0 : 1.35 * em_) + 1.6 * em_ : 0.2 * em_;
       room_.right = w - std::max(0.6 * em_ + last / 2, frame_.least.right);
-      room_.top = h - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - legend_height;
+      room_.top = h - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - legend_height - strip_height();
       if (frame_.alone && equal()) make_square();
     }
     x_.from = room_.left, x_.to = room_.right;
@@ -133,15 +139,24 @@ private:
     return out;
   }
 
-  // Reference curves and twins take no colour of their own, so the k-th series keeps its own.
+  // Reference curves, statuses and twins take no colour of their own, so the k-th series keeps its own.
   int index(int k) const {
-    const auto own = [](const SeriesPicture& s) { return !s.reference && !s.twin && !s.front; };
+    const auto own = [](const SeriesPicture& s) { return !s.reference && !s.twin && !s.front && !s.status; };
     return std::max(0, static_cast<int>(std::count_if(picture_.series.begin(), picture_.series.begin() + k + 1, own)) - 1);
   }
+  // Beside statuses only colours that are none of theirs.
   Colour colour(int k) const {
-    return picture_.series[static_cast<std::size_t>(k)].reference ? reference_grey : series_colour(index(k));
+    const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
+    if (s.reference) return reference_grey;
+    if (s.status) return status_colour(*s.status);
+    constexpr std::array clear{0, 2, 6};
+    const bool statuses = std::any_of(picture_.series.begin(), picture_.series.end(), [](const SeriesPicture& other) { return other.status.has_value(); });
+    return series_colour(statuses ? clear[static_cast<std::size_t>(index(k)) % clear.size()] : index(k));
   }
-  Marker marker(int k) const { return markers[static_cast<std::size_t>(index(k)) % markers.size()]; }
+  Marker marker(int k) const {
+    const SeriesPicture& s = picture_.series[static_cast<std::size_t>(k)];
+    return s.status ? status_marker(*s.status) : markers[static_cast<std::size_t>(index(k)) % markers.size()];
+  }
 
   void stroke(Canvas& canvas, std::span<const Point> points, const SeriesPicture& s, int k) const {
     const std::array<double, 2> dash{0.42 * em_, 0.26 * em_};
@@ -208,6 +223,33 @@ private:
     }
   }
 
+  double strip_height() const { return failed_.empty() ? 0 : strip_gap * em_ + std::max(2.3, 0.4 + 0.8 * static_cast<double>(failed_.size())) * em_; }
+
+  // Above a break of the y axis: where there is no ordinate.
+  void draw_strip() {
+    if (failed_.empty()) return;
+    const double foot = room_.top + strip_gap * em_;
+    const Axes strip{{room_.left, foot, room_.right, room_.top + strip_height()}, x_, {}, x_ticks_, {}, em_};
+    draw_grid(canvas_, strip);
+    for (const double x : {room_.left, room_.right})
+      for (const double y : {room_.top, foot}) canvas_.line({x - 0.3 * em_, y - 0.12 * em_}, {x + 0.3 * em_, y + 0.12 * em_}, std::max(1.2, em_ / 18), axes_ink);
+    TextStyle style;
+    style.size = small * em_;
+    style.across = Align::high;
+    const double middle = (strip.room.bottom + strip.room.top) / 2;
+    style.up = Align::low;
+    canvas_.text({room_.left - 0.4 * em_, middle}, "not", style);
+    style.up = Align::high;
+    canvas_.text({room_.left - 0.4 * em_, middle}, "converged", style);
+    for (std::size_t row = 0; row < failed_.size(); ++row) {
+      const SeriesPicture& s = picture_.series[static_cast<std::size_t>(failed_[row])];
+      const double y = foot + strip.room.height() * (static_cast<double>(row) + 0.5) / static_cast<double>(failed_.size());
+      for (const double x : s.x)
+        if (const Point at{x_.shows(x) ? x_.pixel(x) : -1e9, y}; strip.room.holds(at, 0.5)) mark(canvas_, s, failed_[row], at);
+    }
+    draw_frame(canvas_, strip);
+  }
+
   void draw_axes() {
     draw_grid(canvas_, axes());
     draw_ticks(canvas_, axes(), frame_.x_labels);
@@ -270,7 +312,7 @@ private:
     const double rise = ratio * run, up = std::abs(rise);
     const bool plain = guide.label.empty();
     const std::string label = plain ? number(guide.slope) : guide.label;
-    const double size = 0.85 * em_;
+    const double size = small * em_;
     const Point extent = text_extent(label, size);
     const double pad = 0.35 * em_;
     // With room for the labels on the right, and on the level side: below where the line rises, else above.
@@ -304,6 +346,7 @@ private:
   Axis x_, y_;
   Ticks x_ticks_, y_ticks_;
   Box room_;
+  std::vector<int> failed_;  // series of the strip
   double indent_ = 0;  // of a plot narrower than it might be
   Occupied occupied_;
 };

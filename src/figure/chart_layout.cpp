@@ -54,13 +54,15 @@ Axis fit_axis(const ChartPicture& chart, bool vertical) {
   const auto see = [&](double v) {
     if (axis.shows(v)) low = std::min(low, v), high = std::max(high, v);
   };
-  for (const SeriesPicture& s : chart.series)
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
+  for (const SeriesPicture& s : chart.series) {
+    if (!vertical && s.y.empty()) std::for_each(s.x.begin(), s.x.end(), see);  // in the strip
+    for (std::size_t i = 0; i < s.y.size(); ++i) {
       if (!other.shows(vertical ? s.x[i] : s.y[i])) continue;
       see(vertical ? s.y[i] : s.x[i]);
       if (vertical && !s.low.empty()) see(s.low[i]), see(s.high[i]);
       if (!vertical && !s.x_low.empty()) see(s.x_low[i]), see(s.x_high[i]);
     }
+  }
   if (low > high) {
     axis.low = axis.log ? 1 : 0, axis.high = axis.log ? 10 : 1;
     return axis;
@@ -87,7 +89,7 @@ Axis fit_axis(const ChartPicture& chart, bool vertical) {
 
 std::vector<std::vector<Point>> curves(const SeriesPicture& s, const Axis& x, const Axis& y) {
   std::vector<std::vector<Point>> out(1);
-  for (std::size_t i = 0; i < s.x.size(); ++i) {
+  for (std::size_t i = 0; i < s.y.size(); ++i) {
     if (x.shows(s.x[i]) && y.shows(s.y[i]))
       out.back().push_back({x.pixel(s.x[i]), y.pixel(s.y[i])});
     else if (!out.back().empty())

@@ -160,7 +160,8 @@ static void check_chart(const ChartPicture& p) {
   for (std::size_t k = 0; k < p.series.size(); ++k) check_text("'name' of series " + count(k + 1), p.series[k].name);
   for (const SeriesPicture& s : p.series) {
     const std::string who = "series \"" + s.name + "\"";
-    require(s.x.size() == s.y.size(), who + ": " + count(s.x.size()) + " x for " + count(s.y.size()) + " y");
+    require(s.x.size() == s.y.size() || (s.crossed && s.y.empty()), who + ": " + count(s.x.size()) + " x for " + count(s.y.size()) + " y");
+    require(!s.y.empty() || (s.low.empty() && s.x_low.empty()), who + ": points without y have no spread and no whiskers");
     require(s.low.size() == s.high.size() && (s.low.empty() || s.low.size() == s.x.size()),
             who + ": the spread needs as many low and high values as points");
     require(s.x_low.size() == s.x_high.size() && (s.x_low.empty() || s.x_low.size() == s.x.size()),
@@ -183,6 +184,7 @@ void check(const ChartColumn& p) {
   check_file(p.file, ".png");
   check_size(p.file, p.width, p.height);
   require(!p.panels.empty(), "the picture " + p.file + " has no panels");
+  require(p.columns >= 1 && p.columns <= static_cast<int>(p.panels.size()), count(p.panels.size()) + " panels in " + number(p.columns) + " columns");
   check_text("'title'", p.title);
   for (const ChartPicture& panel : p.panels) {
     check_chart(panel);

@@ -37,7 +37,7 @@ std::string label(const ScenePicture& p, int exponent) {
 
 Ticks bar_ticks(const ColourScale& scale) { return linear_ticks(scale.low, scale.high, 6); }
 
-constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small = 0.85, ends = 0.55;  // in em
+constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small = 0.85, ends = 0.55, tip = 0.9;  // in em
 
 std::string extreme(const char* name, double value, const Ticks& ticks) { return std::string(name) + " " + scaled_number(value, ticks.exponent); }
 
@@ -101,10 +101,26 @@ double colour_bar_width(const ColourScale& scale, const ScenePicture& p, double 
   return std::max(beside, above);
 }
 
+namespace {
+
+// The field goes on beyond that end of the bar.
+bool beyond(const ColourScale& scale, bool above) { return above ? scale.greatest > scale.high : scale.least < scale.low; }
+
+// A triangle on that end, in its colour.
+void draw_tip(Canvas& canvas, const ColourScale& scale, const Box& box, double em, bool above) {
+  const double foot = above ? box.top : box.bottom;
+  const std::array<Point, 3> corners{{{box.left, foot}, {box.right, foot}, {(box.left + box.right) / 2, foot + (above ? 1 : -1) * tip * em}}};
+  canvas.convex(corners, scale.at(above ? scale.high : scale.low));
+  canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
+}
+
+}  // namespace
+
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& p, double em, double left, double bottom, double top) {
   if (!scale.shown || p.field_label.empty()) return;
   const Ticks ticks = bar_ticks(scale);
-  const Box box{left, bottom + (ends + 1.0) * em, left + bar * em, top - (ends + 1.0) * em};
+  const double tip_below = beyond(scale, false) ? tip * em : 0, tip_above = beyond(scale, true) ? tip * em : 0;
+  const Box box{left, bottom + (ends + 1.0) * em + tip_below, left + bar * em, top - (ends + 1.0) * em - tip_above};
   const int n = std::max(2, static_cast<int>(box.height()));
   for (int i = 0; i < n; ++i) {
     const double y = box.bottom + box.height() * i / n;
@@ -112,6 +128,8 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePictur
   }
   const std::array<Point, 4> edge{{{box.left, box.bottom}, {box.right, box.bottom}, {box.right, box.top}, {box.left, box.top}}};
   canvas.polyline(edge, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
+  for (const bool above : {false, true})
+    if (beyond(scale, above)) draw_tip(canvas, scale, box, em, above);
   TextStyle style;
   style.size = em;
   style.up = Align::middle;
@@ -127,9 +145,9 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePictur
   end.size = small * em;
   end.colour = {70, 70, 70};
   end.up = Align::low;
-  canvas.text({box.left, box.top + ends * em}, extreme("max", scale.greatest, ticks), end);
+  canvas.text({box.left, box.top + tip_above + ends * em}, extreme("max", scale.greatest, ticks), end);
   end.up = Align::high;
-  canvas.text({box.left, box.bottom - ends * em}, extreme("min", scale.least, ticks), end);
+  canvas.text({box.left, box.bottom - tip_below - ends * em}, extreme("min", scale.least, ticks), end);
   style.upright = true;
   const std::string name = label(p, ticks.exponent);
   style.size = fitting_size(name, em, box.height());

@@ -27,8 +27,9 @@ ColourScale colour_scale(const ScenePicture& picture, const std::optional<Window
 
 vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale);
 
-// The upright bar with ticks, extremes and label: its width, and its drawing
-// with the left edge at `left` between bottom and top.
+// The upright bar with ticks, extremes and label, and a triangle on an end beyond
+// which the field goes on: its width, and its drawing with the left edge at
+// `left` between bottom and top.
 double colour_bar_width(const ColourScale& scale, const ScenePicture& picture, double em);
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& picture, double em, double left, double bottom, double top);
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "base/error.hpp"
 #include "figure/cell_shape.hpp"
+#include "figure/compose_contact.hpp"
 #include "mesh/second_order.hpp"
 
 namespace dotyk::figure {
@@ -89,95 +89,6 @@ BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
   return picture;
 }
 
-/// Positions in `nodes` of each contact facet's nodes; at a corner the entry of the facet's own side.
-std::vector<int> contact_facets(const Contact& contact, const std::vector<scene::ContactNode>& nodes) {
-  std::multimap<int, int> entries;
-  for (std::size_t k = 0; k < nodes.size(); ++k) entries.emplace(nodes[k].node, static_cast<int>(k));
-  const mesh::Mesh& mesh = *contact.first.body->mesh;
-  std::vector<int> result;
-  for (const mesh::Facet f : contact.first.facets) {
-    const mesh::Point normal = mesh.facet_area_vector(f);
-    std::vector<int> found;
-    for (int k = 0; k < mesh.topology().facet_corners; ++k) {
-      const auto [first, last] = entries.equal_range(mesh.facet_node(f, k));
-      int best = -1;
-      double most = -INFINITY;
-      for (auto it = first; it != last; ++it) {
-        const double along = mesh::dot(normal, nodes[it->second].normal);
-        if (along > most) most = along, best = it->second;
-      }
-      if (best >= 0) found.push_back(best);
-    }
-    if (static_cast<int>(found.size()) == mesh.topology().facet_corners)
-      result.insert(result.end(), found.begin(), found.end());
-  }
-  return result;
-}
-
-ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result) {
-  ContactPicture picture;
-  picture.name = contact.first.body->name + " " + contact.first.name;
-  picture.nodes_per_facet = contact.first.body->mesh->topology().facet_corners;
-  picture.facets = contact_facets(contact, result.nodes);
-  for (const scene::ContactNode& n : result.nodes)
-    picture.nodes.push_back({n.x, n.displacement, n.normal, n.pressure, n.weight,
-                             static_cast<Status>(static_cast<int>(n.status)), n.shear});
-  return picture;
-}
-
-constexpr double kBeyond = 0.06;  // of the scene's size
-
-/// The obstacle as the contact nodes see it: each node's place on it, the gap magnified by `factor`. In the
-/// plane a half-space, which ends nowhere, is drawn a little beyond the contact.
-RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult& result, double factor,
-                              double size) {
-  RigidPicture picture;
-  std::vector<int> place(result.nodes.size(), -1);
-  Vec3 outward{0, 0, 0};
-  std::vector<std::pair<double, Vec3>> line;
-  for (std::size_t k = 0; k < result.nodes.size(); ++k) {
-    const double gap = factor * contact.rows[k].gap;
-    if (gap > 0.25 * size) continue;  // far from contact: of no interest, and out of the picture
-    Vec3 x = result.nodes[k].x;
-    for (int i = 0; i < 3; ++i) {
-      x[i] += gap * contact.rows[k].normal[i];
-      outward[i] += contact.rows[k].normal[i];
-    }
-    place[k] = static_cast<int>(picture.points.size()) / 3;
-    picture.points.insert(picture.points.end(), x.begin(), x.end());
-  }
-  if (mesh::length(outward) > 0) outward = mesh::unit(outward);
-  picture.into_solid = outward;
-  const auto facets = contact_facets(contact, result.nodes);
-  if (contact.first.body->dimension() == 3) {
-    const int per_facet = contact.first.body->mesh->topology().facet_corners;
-    for (std::size_t f = 0; f + per_facet <= facets.size(); f += per_facet)
-      for (int t = 0; t + 2 < per_facet; ++t) {
-        const int corner[3] = {place[facets[f]], place[facets[f + t + 1]], place[facets[f + t + 2]]};
-        if (corner[0] >= 0 && corner[1] >= 0 && corner[2] >= 0)
-          picture.triangles.insert(picture.triangles.end(), corner, corner + 3);
-      }
-    return picture;
-  }
-  // A polyline in the order along the part: by the coordinate across the mean normal.
-  std::vector<std::pair<double, Vec3>> ordered;
-  for (std::size_t k = 0; k + 2 < picture.points.size(); k += 3) {
-    const Vec3 x{picture.points[k], picture.points[k + 1], picture.points[k + 2]};
-    ordered.emplace_back(x[1] * outward[0] - x[0] * outward[1], x);
-  }
-  std::sort(ordered.begin(), ordered.end());
-  picture.points.clear();
-  if (const auto* plane = std::get_if<contact::RigidPlane>(&contact.shape); plane && !ordered.empty()) {
-    const Vec3 along{plane->normal[1], -plane->normal[0], 0};  // the way of the order, as `outward` is −normal
-    const auto beyond = [&](const Vec3& end, double by) { return Vec3{end[0] + by * along[0], end[1] + by * along[1], 0}; };
-    const Vec3 first = beyond(ordered.front().second, -kBeyond * size), last = beyond(ordered.back().second, kBeyond * size);
-    ordered.insert(ordered.begin(), {0, first});
-    ordered.emplace_back(0, last);
-  }
-  for (const auto& [t, x] : ordered) picture.points.insert(picture.points.end(), x.begin(), x.end());
-  return picture;
-}
-
 SupportKind kind_of(scene::SupportKind kind) {
   return kind == scene::SupportKind::fix     ? SupportKind::fix
          : kind == scene::SupportKind::slide ? SupportKind::slide
@@ -240,8 +151,9 @@ double scene_size(const Solution& s) {
 }
 
 /// The greatest factor at which bodies that moved into a gap are drawn overlapping by no more than 1 % of
-/// the scene's size: the gap is not magnified, the way into it is.
-double overlap_limit(const Solution& s, double size) {
+/// the scene's size, and those that an interference presses apart no further apart than that: between bodies
+/// the gap at rest is not magnified, the way is.
+double gap_limit(const Solution& s, double size) {
   double limit = INFINITY;
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact || !contact->second.body) continue;
@@ -249,6 +161,7 @@ double overlap_limit(const Solution& s, double size) {
     for (std::size_t k = 0; k < contact->rows.size(); ++k) {
       const double gap = contact->rows[k].gap, way = gap - result.nodes[k].gap;
       if (gap > 0 && way > 0) limit = std::min(limit, (gap + 0.01 * size) / way);
+      if (gap < 0 && result.nodes[k].status != problem::Status::open) limit = std::min(limit, 1 - 0.01 * size / gap);
     }
   }
   return limit;
@@ -261,7 +174,7 @@ double visible_deformation(const Solution& s) {
   for (std::size_t b = 0; b < s.scene().bodies.size(); ++b)
     for (double u : s.displacement(static_cast<int>(b))) largest = std::max(largest, std::abs(u));
   if (!(largest > 0)) return 1;
-  const double size = scene_size(s), wanted = std::min(0.1 * size / largest, overlap_limit(s, size));
+  const double size = scene_size(s), wanted = std::min(0.1 * size / largest, gap_limit(s, size));
   if (wanted <= 1) return 1;
   const double power = std::pow(10, std::floor(std::log10(wanted)));
   return power * (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1);
@@ -287,7 +200,7 @@ ScenePicture compose(const Solution& s, const SceneOptions& options) {
     const scene::ContactResult result = s.contact(*contact);
     picture.contacts.push_back(contact_picture(*contact, result));
     if (!contact->second.body && options.obstacle) {
-      RigidPicture obstacle = obstacle_picture(*contact, result, picture.deformation, size);
+      RigidPicture obstacle = obstacle_picture(*contact, result, s.loading().move_of(s.scene().index_of(*contact)), picture.deformation, size);
       if (obstacle.points.size() >= 6) picture.obstacles.push_back(std::move(obstacle));
     }
   }

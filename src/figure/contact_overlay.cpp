@@ -12,16 +12,6 @@ namespace {
 constexpr Colour white{255, 255, 255}, pressure_fill{205, 214, 235};
 constexpr std::array statuses{Status::open, Status::closed, Status::stick, Status::slip};
 
-Marker status_marker(Status status) {
-  switch (status) {
-    case Status::open: return Marker::ring;
-    case Status::closed: return Marker::disc;
-    case Status::stick: return Marker::square;
-    case Status::slip: return Marker::triangle;
-  }
-  return Marker::disc;
-}
-
 std::vector<Point> places(const Stage& stage, const ContactPicture& contact) {
   std::vector<Point> at;
   for (const ContactNode& node : contact.nodes) at.push_back(stage.view.flat(stage.place(node)));
@@ -99,6 +89,22 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
   }
 }
 
+// A magnification draws the sides of a closed contact of two bodies apart, or into each other, by m − 1 times their gap
+// at rest: a band in the colour of the status joins what touches.
+void draw_joint(Stage& stage, const ContactPicture& contact) {
+  const auto across = [&](const ContactNode& node) {
+    return stage.view.flat(plus(stage.place(node), node.normal, (1 - stage.picture.deformation) * node.rest_gap));
+  };
+  for (std::size_t f = 0; f + 1 < contact.facets.size(); f += 2) {
+    const ContactNode &a = contact.nodes[static_cast<std::size_t>(contact.facets[f])], &b = contact.nodes[static_cast<std::size_t>(contact.facets[f + 1])];
+    const auto middle = [](Point p, Point q) { return Point{(p.x + q.x) / 2, (p.y + q.y) / 2}; };
+    const Point own = middle(stage.view.flat(stage.place(a)), stage.view.flat(stage.place(b))), other = middle(across(a), across(b));
+    for (const ContactNode* node : {&a, &b})
+      if (node->status != Status::open && node->rest_gap != 0)
+        stage.over.convex(std::array<Point, 4>{{stage.view.flat(stage.place(*node)), own, other, across(*node)}}, status_colour(node->status), 0.45);
+  }
+}
+
 }  // namespace
 
 std::vector<LegendEntry> contact_legend(const Stage& stage) {
@@ -150,6 +156,7 @@ void draw_contacts(Stage& stage, vtkRenderer* renderer) {
   for (const ContactPicture& contact : stage.picture.contacts) {
     if (stage.plane) {
       if (stage.strips()) draw_strip(stage, contact);
+      if (contact.nodes_per_facet == 2) draw_joint(stage, contact);
       if (contact.nodes_per_facet == 2) draw_line(stage, contact);
       if (stage.arrows()) draw_arrows(stage, contact);
       draw_shear(stage, contact);

@@ -56,7 +56,7 @@ struct BodyPicture {
   std::vector<int> edges;                   // mesh lines, two nodes each; empty: the edges of the cells
 };
 
-// A rigid obstacle, drawn in neutral grey, never deformed.
+// A rigid obstacle, drawn in neutral grey, where its points are: they are not displaced.
 struct RigidPicture {
   std::vector<double> points;               // 3 n: in the plane the vertices of a polyline, in order
   std::vector<int> triangles;               // in space: 3 nodes a triangle; in the plane empty
@@ -72,6 +72,7 @@ struct ContactNode {
   double weight = 0;                        // length or area the node stands for; 0: unknown
   Status status = Status::open;
   Vec3 shear = {0, 0, 0};                   // friction on the first part, as the pressure
+  double rest_gap = 0;                      // to another body at rest, along the normal; negative: an interference
 };
 
 // One contact: its nodes on the first part, and how they hang together.
@@ -122,7 +123,7 @@ struct ScenePicture {
 
   std::string field_label;                  // "von Mises stress"; empty: no colour bar
   std::string field_unit;                   // "MPa"; may be empty
-  std::optional<std::array<double, 2>> field_range;  // {least, greatest}; values beyond keep the end colour
+  std::optional<std::array<double, 2>> field_range;  // {least, greatest}; values beyond keep the end colour, a triangle on the bar tells of them
   MapKind map = MapKind::automatic;
 
   double deformation = 1;                   // factor on every displacement
@@ -151,14 +152,17 @@ enum class SeriesStyle { line, points, both };
 
 struct SeriesPicture {
   std::string name;                         // empty: not in the legend
-  std::vector<double> x, y;                 // n each; points that are not finite (or not positive on a log axis) are gaps
+  std::vector<double> x, y;                 // n each, see `crossed`; points that are not finite (or not positive on a log axis) are gaps
   SeriesStyle style = SeriesStyle::both;
   std::vector<double> low, high;            // n each or empty: a spread about y, drawn as a band
   bool reference = false;                   // a reference curve: dashed, dark grey, no markers
   std::vector<double> x_low, x_high;        // n each or empty: a spread about x, drawn as whiskers
-  bool crossed = false;                     // markers pale and crossed out: points that do not count
+  // Markers pale and crossed out: runs that failed. Where these have no ordinate y is empty: they stand in a strip above
+  // the plot, beyond a break of the y axis, "not converged"; each such series in a row of its own, the first lowest.
+  bool crossed = false;
   bool front = false;                       // a broad pale line beneath everything, no markers
   bool twin = false;                        // dashed, with colour and marker of the series before it
+  std::optional<Status> status;             // in the colour and with the marker that contact nodes of this status have
 };
 
 // A guide of the given slope. With both axes logarithmic y ~ x^slope;
@@ -181,13 +185,14 @@ struct ChartPicture {
   std::optional<std::array<double, 2>> x_range, y_range;
 };
 
-// Charts one below the other. The panels' files and sizes are not looked at.
+// Charts one below the other, or row by row in several columns. The panels' files and sizes are not looked at.
 struct ChartColumn {
   std::string file;                         // ends in .png; its folder must exist
   int width = 1000, height = 900;           // pixels, 160 to 8192 each
   std::string title;
   bool shared_x = false;                    // one x axis, named below the last panel; all or none logarithmic
-  std::vector<ChartPicture> panels;         // from above
+  int columns = 1;
+  std::vector<ChartPicture> panels;         // from above, within a row from the left
 };
 
 // ---------------------------------------------------------------- drawing

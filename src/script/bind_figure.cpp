@@ -68,18 +68,20 @@ figure::SeriesPicture series_of(const Arguments& given) {
   figure::SeriesPicture series;
   series.name = given.has("name") ? given.text("name") : "";
   series.x = given.vector("x");
-  series.y = given.vector("y");
-  if (series.x.size() != series.y.size())
+  series.crossed = given.boolean("crossed");
+  if (given.has("y")) series.y = given.vector("y");
+  else if (!series.crossed) throw InputError(text("series '", series.name, "': missing key 'y'; only points that are crossed may have none"));
+  if (given.has("y") && series.x.size() != series.y.size())
     throw InputError(text("series '", series.name, "' has ", series.x.size(), " x and ", series.y.size(), " y"));
   if (given.has("low")) series.low = given.vector("low");
   if (given.has("high")) series.high = given.vector("high");
   if (given.has("x_low")) series.x_low = given.vector("x_low");
   if (given.has("x_high")) series.x_high = given.vector("x_high");
-  series.crossed = given.boolean("crossed");
   series.front = given.boolean("front");
   series.style = static_cast<figure::SeriesStyle>(given.choice("style"));
   series.reference = given.boolean("reference");
   series.twin = given.boolean("twin");
+  if (given.has("status")) series.status = static_cast<figure::Status>(given.choice("status"));
   return series;
 }
 
@@ -90,7 +92,7 @@ std::string not_shown(const figure::ChartPicture& picture) {
     const figure::SeriesPicture& series = picture.series[k];
     std::size_t lost = 0;
     for (std::size_t i = 0; i < series.x.size(); ++i)
-      lost += (picture.log_x && series.x[i] <= 0) || (picture.log_y && series.y[i] <= 0);
+      lost += (picture.log_x && series.x[i] <= 0) || (picture.log_y && !series.y.empty() && series.y[i] <= 0);
     if (lost == 0) continue;
     out += text(out.empty() ? "" : ", ", lost, " of ", series.x.size(), " points of ");
     out += series.name.empty() ? text("series ", k + 1) : "'" + series.name + "'";
@@ -142,7 +144,9 @@ int chart_column(Call& call) {
     if (column.shared_x && chart.log_x != column.panels.front().log_x)
       throw InputError(text("panel ", column.panels.size(), " is ", chart.log_x ? "" : "not ", "logarithmic in x, the first one is", chart.log_x ? " not" : "", ", but there is one x axis for all panels"));
   }
-  column.height = 60 + 260 * static_cast<int>(column.panels.size());
+  if (call.has("columns")) column.columns = static_cast<int>(std::min<long long>(call.integer("columns"), column.panels.size() + 1));
+  const int rows = (static_cast<int>(column.panels.size()) + column.columns - 1) / column.columns;
+  column.height = 60 + 260 * rows;
   read_size(call, column.width, column.height);
   figure::draw(column);
   for (const figure::ChartPicture& chart : column.panels) tell_not_shown(chart, column.file);
@@ -152,6 +156,7 @@ int chart_column(Call& call) {
 int chart(Call& call) {
   if (call.has("panels")) return chart_column(call);
   if (!call.has("series")) throw InputError("missing key 'series', or 'panels'");
+  if (call.has("columns")) throw InputError("'columns' without 'panels'");
   figure::ChartPicture picture;
   read_chart(call, picture);
   picture.file = call.text("file");
@@ -164,14 +169,17 @@ int chart(Call& call) {
 Key series_key() {
   return key::list("series",
                    key::table("", {key::string("name", "its name in the legend"),
-                                   key::vector("x", "abscissas").required(), key::vector("y", "ordinates").required(),
+                                   key::vector("x", "abscissas").required(), key::vector("y", "ordinates; crossed points may have none"),
                                    key::vector("low", "lower end of a spread"), key::vector("high", "upper end of a spread"),
                                    key::vector("x_low", "left end of a whisker at each point"), key::vector("x_high", "right end of it"),
                                    key::choice("style", {"line", "points", "both"}, "how it is drawn").fallback("both"),
                                    key::boolean("reference", "a reference curve: dashed, without markers").fallback(false),
-                                   key::boolean("crossed", "markers pale and crossed out, for points that do not count").fallback(false),
+                                   key::boolean("crossed", "markers pale and crossed out, for runs that failed; without y in a strip above "
+                                                "the plot, \"not converged\", a row for each such series").fallback(false),
                                    key::boolean("front", "a broad pale line beneath all others, for what is best").fallback(false),
-                                   key::boolean("twin", "dashed, with the colour and marker of the series before it").fallback(false)},
+                                   key::boolean("twin", "dashed, with the colour and marker of the series before it").fallback(false),
+                                   key::choice("status", {"open", "closed", "stick", "slip"},
+                                               "with the colour and marker that contact nodes of this status have in scenes").otherwise("none")},
                               "one curve"),
                    "the curves").count(1, std::numeric_limits<std::size_t>::max());
 }
@@ -193,7 +201,8 @@ std::vector<Key> figure_keys() {
   keys.insert(keys.begin(), key::file("file", "where to; ends in .png, its folder must exist").written().required());
   keys.push_back(key::list("panels", key::table("", chart_keys(series_key().required()), ""),
                            "instead of series, y, log and slopes: charts one below the other; an x beside them is one axis for all").count(1, 12));
-  keys.push_back(size_key("{1000, 750}; with panels {1000, 60 and 260 for each}"));
+  keys.push_back(key::integer("columns", "of the panels, which follow row by row").at_least(1).otherwise("1"));
+  keys.push_back(size_key("{1000, 750}; with panels {1000, 60 and 260 for each row}"));
   return keys;
 }
 
@@ -201,7 +210,7 @@ std::vector<Key> figure_keys() {
 
 void bind_figure(Library& library) {
   library.function({.name = "dotyk.chart",
-                    .help = "Draws curves into a PNG file, in one chart or in panels one below the other, and returns its name.",
+                    .help = "Draws curves into a PNG file, in one chart or in panels one below the other (or in columns), and returns its name.",
                     .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
                                "  series = { { name = \"P1\", x = { 1, 0.5 }, y = { 0.1, 0.03 } } } }",
                     .arguments = {key::table(figure_keys())},

@@ -107,6 +107,76 @@ TEST_CASE("columns that cannot be drawn are refused, any size is drawn") {
   }
 }
 
+TEST_CASE("runs without an ordinate stand in a strip above the plot, a row for each series, and leave the y axis as it is") {
+  ChartPicture chart = panel(line({1, 10, 100}, {0.2, 0.5, 0.8}));
+  chart.file = "failed.png", chart.width = 600, chart.height = 450;
+  chart.log_x = true;
+  chart.x_range = {1, 1e4}, chart.y_range = {0, 1};
+  draw(chart);
+  REQUIRE(frames_of(read_png("failed.png")).size() == 1);
+  SeriesPicture failed;
+  failed.x = {1e3}, failed.twin = failed.crossed = true, failed.style = SeriesStyle::points;
+  chart.series.push_back(failed);
+  chart.series.push_back(failed);
+  chart.series.back().x = {10, 1e3};
+  draw(chart);
+  const Pixels p = read_png("failed.png");
+  const auto frames = frames_of(p);
+  REQUIRE(frames.size() == 2);
+  const Frame strip = frames[0], plot = frames[1];
+  CHECK(strip.bottom < plot.top - 3);
+  CHECK(std::abs(strip.left - plot.left) <= 2);  // the marks of the break adjoin
+  CHECK(std::abs(strip.right - plot.right) <= 2);
+  const auto pale = [&](double x, double y) {  // crossed markers are a third of their colour
+    const Colour blue = series_colour(0);
+    const int px = static_cast<int>(std::lround(strip.left + x * (strip.right - strip.left))), py = static_cast<int>(std::lround(strip.bottom - y * (strip.bottom - strip.top)));
+    int n = 0;
+    for (int dy = -4; dy <= 4; ++dy)
+      for (int dx = -4; dx <= 4; ++dx) {
+        const Colour c = p.at(px + dx, py + dy);
+        n += c.b > c.r + 20 && c.r > blue.r + 40;
+      }
+    return n > 5;
+  };
+  CHECK(pale(0.75, 0.25));
+  CHECK(pale(0.75, 0.75));
+  CHECK(pale(0.25, 0.75));
+  CHECK_FALSE(pale(0.25, 0.25));
+  CHECK_FALSE(pale(0.5, 0.5));
+  CHECK(drawn_at(p, plot, 0.25, 0.5));
+  CHECK(drawn_at(p, plot, 0.5, 0.8));
+
+  // The x axis holds them where no range is given.
+  chart.x_range.reset();
+  chart.series[2].x = {1e9};
+  CHECK(message_of([&] { draw(chart); }) == "");
+  chart.series[2].crossed = false;
+  CHECK(message_of([&] { draw(chart); }).find("1 x for 0 y") != std::string::npos);
+}
+
+TEST_CASE("panels in two columns follow row by row") {
+  ChartColumn column;
+  column.file = "grid.png", column.width = 800, column.height = 600, column.columns = 2;
+  column.panels = std::vector<ChartPicture>(3, panel(line({0, 1}, {0, 1})));
+  for (std::size_t k = 0; k < 3; ++k) column.panels[k].series[0].status = static_cast<Status>(k);
+  draw(column);
+  const Pixels p = read_png("grid.png");
+  CHECK(white_rim(p));
+  for (std::size_t k = 0; k < 3; ++k) {
+    int inside = 0, all = 0;
+    for (int y = 0; y < p.height; ++y)
+      for (int x = 0; x < p.width; ++x)
+        if (p.at(x, y) == status_colour(static_cast<Status>(k))) {
+          ++all;
+          inside += (x >= 400) == (k == 1) && (y >= 300) == (k == 2);
+        }
+    CHECK(all > 200);
+    CHECK(inside == all);
+  }
+  column.columns = 4;
+  CHECK(message_of([&] { draw(column); }) == "3 panels in 4 columns");
+}
+
 TEST_CASE("a guide stands beside the curve whose slope it has") {
   for (const double slope : {1.0, 2.0}) {
     ChartPicture chart = panel(line({1e-2, 1}, {1e-2, 1}));

@@ -137,6 +137,55 @@ TEST_CASE("a signed field is white at zero, and equal sizes are equally strong")
   CHECK(p.count({247, 247, 247}, 1) > 50);
 }
 
+TEST_CASE("an end of the colour bar beyond which the field goes on is a triangle") {
+  ScenePicture scene = scene_of(square(8, [](double x, double) { return x; }), "beyond.png");
+  scene.field_label = "field";
+  // Rows of the bar's colours from its end on that get narrower.
+  const auto widths = [&](double low, double high, bool above) {
+    scene.field_range = {low, high};
+    draw(scene);
+    const Pixels p = read_png("beyond.png");
+    const Colour end = above ? Colour{253, 231, 37} : Colour{68, 1, 84};
+    std::vector<int> out;
+    for (int y = 0; y < p.height; ++y) {
+      int n = 0;
+      for (int x = 4 * p.width / 5; x < p.width; ++x) {
+        const Colour c = p.at(x, y);
+        n += std::abs(c.r - end.r) + std::abs(c.g - end.g) + std::abs(c.b - end.b) < 25;
+      }
+      if (n > 0) out.push_back(n);
+    }
+    if (!above) std::reverse(out.begin(), out.end());
+    return out;
+  };
+  const auto pointed = [](const std::vector<int>& w) { return w.size() > 8 && w[1] < w[4] && w[4] < w[7] && w[7] < w.back(); };
+  CHECK_FALSE(pointed(widths(0, 1, true)));
+  CHECK_FALSE(pointed(widths(0, 1, false)));
+  CHECK(pointed(widths(0, 0.7, true)));
+  CHECK_FALSE(pointed(widths(0, 0.7, false)));
+  CHECK(pointed(widths(0.3, 1, false)));
+  CHECK_FALSE(pointed(widths(0.3, 1, true)));
+}
+
+TEST_CASE("a closed contact that magnification draws apart is joined by a band") {
+  const auto band = [](double rest_gap, double deformation) {
+    ScenePicture scene = scene_of(square(6, [](double, double) { return 0.0; }), "joined.png");
+    scene.bodies[0].values.clear();
+    scene.deformation = deformation;
+    scene.pressure = PressureStyle::none;
+    scene.contacts = {top_contact(6, {Status::closed})};
+    for (ContactNode& node : scene.contacts[0].nodes) node.rest_gap = rest_gap;
+    draw(scene);
+    const Pixels p = read_png("joined.png");
+    const Colour full = status_colour(Status::closed);
+    const auto tint = [](int c) { return static_cast<unsigned char>(255 - 0.45 * (255 - c)); };
+    return p.count({tint(full.r), tint(full.g), tint(full.b)}, 4);
+  };
+  CHECK(band(-0.02, 1) < 50);
+  CHECK(band(0, 5) < 50);
+  CHECK(band(-0.02, 5) > 1000);
+}
+
 TEST_CASE("axes are equal: a square is a square") {
   ScenePicture scene = scene_of(square(1, [](double, double) { return 0.0; }), "equal.png");
   scene.bodies[0].values.clear();
