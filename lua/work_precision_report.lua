@@ -164,12 +164,16 @@ local function failure(some)
   return #order > 0 and table.concat(order, ", ") or nil
 end
 
+-- Rows that count, those that failed with an error that can be measured, and without.
 local function split(some)
-  local good, poor = {}, {}
+  local good, poor, lost = {}, {}, {}
   for _, row in ipairs(some) do
-    if row.error and row.seconds then table.insert(row.status == "converged" and good or poor, row) end
+    if row.error and row.seconds then
+      local to <const> = row.status == "converged" and good or (row.error > 0 and row.error < math.huge) and poor or lost
+      to[#to + 1] = row
+    end
   end
-  return good, poor
+  return good, poor, lost
 end
 
 -- The series of the chart.
@@ -179,13 +183,18 @@ function report.series(all, tolerances)
   local failed, known = {}, {}
   for _, row in ipairs(all) do failed[row.method] = failed[row.method] or {}; table.insert(failed[row.method], row) end
   for _, curve in ipairs(curves_of(all, tolerances)) do
-    local good <const>, poor <const> = split(curve.rows)
+    local good <const>, poor <const>, lost <const> = split(curve.rows)
     local why <const> = not known[curve.method] and failure(failed[curve.method])
     local named <const> = not known[curve.method] and not (why and #good == 0)  -- not in the legend twice
     out[#out + 1] = series_of(named and curve.method or nil, good, { twin = known[curve.method] })
     if why or #poor > 0 then
       out[#out + 1] = series_of(why and ("%s: %s"):format(curve.method, why) or nil, poor,
         { twin = true, crossed = true, style = "points" })
+    end
+    if #lost > 0 then
+      local failed <const> = series_of(nil, lost, { twin = true, crossed = true, style = "points" })
+      failed.y, failed.x_low, failed.x_high = nil, nil, nil
+      out[#out + 1] = failed
     end
     known[curve.method] = true
   end

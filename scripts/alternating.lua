@@ -83,13 +83,12 @@ for half = 0, 12 do
   header = header .. ("%7s"):format(half % 2 == 0 and "1e" .. half // 2 or "")
 end
 print(header .. "  Newton")
-local series, lost_x, lost_y, order = {}, {}, {}, 0
+local series = {}
 local shown <const> = math.min(128, finest)
 for _, case in ipairs{ { "T2", scenes.blocks, given, 16 }, { "T2", scenes.blocks, given, shown }, { "C2", scenes.blocks, coulomb, 16 },
                        { "C2", scenes.blocks, coulomb, shown }, { "S3T", scenes.cube, hard, 8 }, { "S3C", scenes.cube, coulomb, 8 }, { "S3P", cells, soft, 8 } } do
   local name, build, law, n = table.unpack(case)
-  order = order + 1
-  local scene, line, x, y, limit = build(n, law), "", {}, {}, nil
+  local scene, line, x, y, lost, limit = build(n, law), "", {}, {}, {}, nil
   for _, rho in ipairs(rhos) do
     local s = alternate(scene, rho, "force/displacement")
     limit = limit or bound(s)
@@ -97,15 +96,15 @@ for _, case in ipairs{ { "T2", scenes.blocks, given, 16 }, { "T2", scenes.blocks
     if s.converged then
       x[#x + 1], y[#y + 1] = rho, s.iterations
     else
-      lost_x[#lost_x + 1], lost_y[#lost_y + 1] = rho, most * 1.18^order
+      lost[#lost + 1] = rho
     end
   end
   local newton = dotyk.solver.newton{}:solve(scene)
   print(("%-5s %5d  %8.3g%s  %6d"):format(name, n, limit, line, newton.iterations))
   newton_most = math.max(newton_most, newton.iterations)
-  if #x > 0 then series[#series + 1] = { name = ("%s, n = %d (bound %.3g)"):format(name, n, limit), x = x, y = y } end
+  series[#series + 1] = { name = ("%s, n = %d (bound %.3g)"):format(name, n, limit), x = x, y = y }
+  if #lost > 0 then series[#series + 1] = { x = lost, twin = true, crossed = true, style = "points" } end
 end
-series[#series + 1] = { name = "no convergence: a row each, T2 lowest, S3P highest", x = lost_x, y = lost_y, style = "points" }
 series[#series + 1] = { name = ("Newton: %d at most"):format(newton_most), x = { 1, 1e6 }, y = { newton_most, newton_most }, reference = true }
 
 dotyk.chart{ file = "images/alternating.png", log = "xy", x = "rho [force/displacement]", y = "iterations", series = series }

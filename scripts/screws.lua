@@ -108,35 +108,33 @@ end
 print(("greatest difference %.1e; %d moves in all"):format(worst, moved))
 
 -- 4. The figure: the contact seen from above, case by case; every screw from where it was to where it went.
-local series, names, named = {}, {}, false
-local function points(name, style)
-  series[#series + 1] = { name = name, x = {}, y = {}, style = style }
-  return series[#series]
-end
-local closed, open, first, last = points("closed", "points"), points("open", "points"), points("screws, first", "points"), points("screws, at the end", "points")
-local function add(to, x, y) to.x[#to.x + 1], to.y[#to.y + 1] = x, y end
+local panels <const> = {}
 for k, d in ipairs(drawn) do
-  local shift = 1.3 * (k - 1)
-  series[#series + 1] = { name = "", reference = true, style = "line", -- the edge of the contact
-    x = { shift - 0.08, shift + 1.08, shift + 1.08, shift - 0.08, shift - 0.08 }, y = { -0.08, -0.08, 1.08, 1.08, -0.08 } }
-  names[k] = d.case.name:gsub("space, ", "")
-  for _, node in ipairs(d.nodes) do add(node.status == "open" and open or closed, node.x + shift, node.y) end
+  local series = {}
+  local function curve(name, options)
+    local it = { name = k <= 2 and name or "", x = {}, y = {}, style = "points" } -- a legend for each column
+    for key, value in pairs(options) do it[key] = value end
+    series[#series + 1] = it
+    return it
+  end
+  local function add(to, node) to.x[#to.x + 1], to.y[#to.y + 1] = node.x, node.y end
+  local open, closed = curve("open", { status = "open" }), curve("closed", { status = "closed" })
+  for _, node in ipairs(d.nodes) do add(node.status == "open" and open or closed, node) end
+  local first, last = curve("screws, first", {}), curve("screws, at the end", {})
   for m = 1, #d.screws[1].rows do
-    local from, to = d.nodes[d.screws[1].rows[m]], d.nodes[d.screws[#d.screws].rows[m]]
-    add(first, from.x + shift, from.y)
-    add(last, to.x + shift, to.y)
-    local moves = points(named and "" or "their moves", "line")
-    moves.twin, named = true, true -- in the colour of the screws at the end
-    local before
+    add(first, d.nodes[d.screws[1].rows[m]])
+    add(last, d.nodes[d.screws[#d.screws].rows[m]])
+    local moves, before = curve(m == 1 and "their moves" or "", { style = "line", twin = true }), nil -- in the colour of the screws at the end
     for _, placed in ipairs(d.screws) do
       local node = d.nodes[placed.rows[m]]
-      if node ~= before then add(moves, node.x + shift, node.y) end
+      if node ~= before then add(moves, node) end
       before = node
     end
   end
+  panels[k] = { title = d.case.name:gsub("space, ", ""):gsub("^%l", string.upper), y = "x2", series = series,
+                x_range = { -0.1, 1.1 }, y_range = { -0.1, 1.1 } }
 end
-dotyk.chart{ file = "images/screws.png", x = "x1; from left to right: " .. table.concat(names, ", "), y = "x2",
-             series = series, size = { 1600, 560 } }
+dotyk.chart{ file = "images/screws.png", x = "x1", panels = panels, columns = 2, size = { 1100, 1150 } }
 print "images/screws.png"
 if worst > 1e-8 then error "screws end elsewhere than the exact kernel" end
 if moved == 0 then error "no screw was placed wrong" end

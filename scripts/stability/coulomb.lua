@@ -20,15 +20,15 @@ local common <const>, scenes <const> = dofile(here .. "/common.lua"), dofile(her
 -- 1. The loop.
 local wrong, worst, newton_most, newton_lost = 0, 0, 0, 0
 local apart_at = {} -- from the half-plane, by n
-local map <const> = common.map{ "ν = 0: converges", "ν = 0: does not", "ν = 0.3: converges", "ν = 0.3: does not" }
-local law, half_plane = common.curve("limit by its contraction", { style = "points" }), {}
+local panels <const> = {}
 print "   ν    n  contraction / μ  limit by it   found   off [%]   half-plane   Newton's iterations at most"
 for _, nu in ipairs{ 0, 0.3 } do
   local theory = 2 * (1 - nu) / (1 - 2 * nu)
-  half_plane[#half_plane + 1] = common.curve(("half-plane, ν = %g: μ = %g"):format(nu, theory), { reference = true })
+  local map <const> = common.map{ "converges", "does not" }
+  local law, half_plane = common.curve("limit by its contraction", { style = "points" }), common.curve(("half-plane: μ = %.4g"):format(theory), { reference = true })
   for n = 16, finest do
     if n & (n - 1) == 0 then
-      local y, newton_here = n * (nu == 0 and 1 or 1.12), 0
+      local newton_here = 0
       local function loop(mu)
         local scene, contact = scenes.foot(n, dotyk.friction.coulomb(mu), nu)
         local s = dotyk.solver.coulomb_loop{ max_iterations = 1500 }:solve(scene)
@@ -36,24 +36,24 @@ for _, nu in ipairs{ 0, 0.3 } do
         if t.converged then newton_here = math.max(newton_here, t.iterations) else newton_lost = newton_lost + 1 end
         if s.converged and (not t.converged or common.apart(s, t, contact) > 1e-6) then wrong = wrong + 1 end
         if t.converged and common.residual(t) > 1e-8 then wrong = wrong + 1 end
-        map:add(("ν = %g: %s"):format(nu, s.converged and "converges" or "does not"), mu, y)
+        map:add(s.converged and "converges" or "does not", mu, n)
         return s
       end
       local constant = tonumber(loop(0.9 * theory).reason:match "multiplied by ([%d%.e+-]+) a step") / (0.9 * theory)
       for _, part in ipairs{ 0.25, 0.5, 0.75, 1.25, 1.5 } do loop(part * theory) end
       local at = common.boundary(0.5 * theory, 2 * theory, function(mu) return loop(mu).converged end, 0.01)
-      law:add(1 / constant, y)
-      half_plane[#half_plane]:add(theory, y)
+      law:add(1 / constant, n)
+      half_plane:add(theory, n)
       worst, apart_at[n] = math.max(worst, math.abs(at * constant - 1)), math.max(apart_at[n] or 0, math.abs(at / theory - 1))
       newton_most = math.max(newton_most, newton_here)
       print(("%4g  %3d  %15.4f  %11.3f  %6.3f  %8.2f  %11.3f   %d"):format(nu, n, constant, 1 / constant, at, 100 * (at * constant - 1), theory, newton_here))
     end
   end
+  local series = map:series()
+  table.move({ law, half_plane }, 1, 2, #series + 1, series)
+  panels[#panels + 1] = { title = ("ν = %g"):format(nu), y = "cells along the block", log = "y", series = series }
 end
-local series = map:series()
-series[#series + 1] = law
-for _, curve in ipairs(half_plane) do series[#series + 1] = curve end
-dotyk.chart{ file = "images/stability_coulomb.png", log = "y", x = "coefficient of friction μ", y = "cells along the block", series = series }
+dotyk.chart{ file = "images/stability_coulomb.png", x = "coefficient of friction μ", panels = panels, size = { 1000, 900 } }
 
 -- 2. The strut, inclined by an angle to the floor; of its foot only the first node is near the floor.
 local function strut(angle, friction, gap)
@@ -109,7 +109,7 @@ for angle = 40, 75, 5 do
   for k, name in ipairs(order) do text[k] = states[name] .. " x energy " .. name end
   print(("%7d°   %16.6f   %8.6f   %7.0e   %s"):format(angle, star, at, at / star - 1, table.concat(text, ", ")))
 end
-series = several:series()
+local series = several:series()
 series[#series + 1], series[#series + 2] = found, limit
 dotyk.chart{ file = "images/stability_coulomb_several.png", x = "angle between strut and floor [degrees]", y = "coefficient of friction μ", series = series }
 print "images/stability_coulomb.png, images/stability_coulomb_several.png"

@@ -73,10 +73,13 @@ local function largest(W, rows)
   return value
 end
 
--- 3. Bisection for the step, in units of 1/W_rr, and the map.
-local map <const> = common.map{ "flat: converged", "flat: not", "parabola: converged", "parabola: not" }
-local theory, found = common.curve("theory: none beyond", { reference = true }), common.curve("boundary found", { style = "points" })
-local certain = common.curve("parabola, theory: all below", { style = "points" })
+-- 3. Bisection for the step, in units of 1/W_rr, and the map of each shape.
+local maps, found, theory = {}, {}, {}
+for shape in pairs(shapes) do
+  maps[shape] = common.map{ "converged", "not converged" }
+  found[shape], theory[shape] = common.curve("boundary found", { style = "points" }), common.curve("theory: none beyond", { reference = true })
+end
+local certain <const> = common.curve("theory: all below", { style = "points" })
 local worst, outside, wrong, above = 0, 0, 0, 0
 print "shape       n  closed rows  2/λ_max all rows  of the closed rows     found   off [%]  dotyk's own bound"
 for n = 8, finest do
@@ -93,27 +96,31 @@ for n = 8, finest do
       end
       local bound, limit = 2 / largest(W, all), 2 / largest(W, closed)
       local own = tonumber(dotyk.solver.uzawa{ max_iterations = 1 }:solve(scene).reason:match "bound 2/λ_max of ([%d%.e+-]+)")
-      local y = n * (shape == "flat" and 1 or 1.15)
       local function converges(rho)
         local s = dotyk.solver.uzawa{ rho = rho / own, max_iterations = 10000 }:solve(scene)
         if s.converged and (common.apart(s, exact, contact) > 1e-6 or common.residual(s) > 1e-8) then wrong = wrong + 1 end
-        map:add(shape .. (s.converged and ": converged" or ": not"), rho / limit, y)
+        maps[shape]:add(s.converged and "converged" or "not converged", rho / limit, n)
         return s.converged
       end
       for tenth = 2, 16, 2 do converges(limit * tenth / 10) end
       local at = common.boundary(0.5 * limit, 2 * limit, converges, 0.005)
-      found:add(at / limit, y)
-      if shape == "flat" then worst = math.max(worst, math.abs(at / limit - 1)) else certain:add(bound / limit, y) end
+      found[shape]:add(at / limit, n)
+      theory[shape]:add(1, n)
+      if shape == "flat" then worst = math.max(worst, math.abs(at / limit - 1)) else certain:add(bound / limit, n) end
       outside, above = math.max(outside, at / limit - 1, bound / at - 1), math.max(above, own / bound - 1)
       print(("%-8s  %3d  %11d  %16.5f  %18.5f  %8.5f  %8.2f  %17.5f"):format(shape, n, #closed, bound, limit, at, 100 * (at / limit - 1), own))
-      theory:add(1, y)
     end
   end
 end
 
-local series = map:series()
-for _, curve in ipairs{ certain, found, theory } do series[#series + 1] = curve end
-dotyk.chart{ file = "images/stability_uzawa.png", x = "step ρ over 2/λ_max of the closed rows", y = "cells along the contact", log = "y", series = series }
+local panels = {}
+for k, shape in ipairs{ "flat", "parabola" } do
+  local series = maps[shape]:series()
+  if shape == "parabola" then series[#series + 1] = certain end
+  table.move({ found[shape], theory[shape] }, 1, 2, #series + 1, series)
+  panels[k] = { title = shape == "flat" and "A flat punch: all rows close" or "A parabola: some rows close", y = "cells along the contact", log = "y", series = series }
+end
+dotyk.chart{ file = "images/stability_uzawa.png", x = "step ρ over 2/λ_max of the closed rows", panels = panels, size = { 1000, 900 } }
 print "images/stability_uzawa.png"
 common.verdict(worst < 0.05 and outside < 0.01 and wrong == 0 and above < 1e-6, ("Uzawa's method ceases to converge at ρ = 2/λ_max "
   .. "where all rows are closed (found within %.1f %%), else between that and 2/λ_max of the closed rows; dotyk measures ρ by a "
