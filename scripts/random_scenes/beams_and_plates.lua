@@ -105,7 +105,7 @@ local normal <const> = { left = { -1, 0 }, right = { 1, 0 }, bottom = { 0, -1 },
 function models.plate()
   local width <const>, height <const>, D <const>, q <const> = dice.between(0.5, 2), dice.between(0.5, 2), dice.power(-2, 4), dice.power(-2, 2) * -1
   local plate = { kind = "plate", width = width, height = height, D = D, q = q, force = -q, sides = {}, points = {}, supports = {},
-    element = dice.pick{ "morley", "morley", "hct" } }
+    element = dice.pick{ "morley", "morley", "hct" }, cells = { dice.pick{ 4, 8 }, dice.pick{ 4, 8 } } }
   local edges, loads, supports = {}, {}, {}
   for _, side in ipairs{ "left", "right", "bottom", "top" } do
     local edge = {}
@@ -127,7 +127,7 @@ function models.plate()
   end
   plate.obstacle = dice.chance(0.3) and -dice.power(-4, -1) * plate.force / D
   plate.lines = { ("return dotyk.plate{ mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {%g, %g}, cells = {%d, %d} },"):format(width, height,
-      dice.pick{ 4, 8 }, dice.pick{ 4, 8 }),
+      plate.cells[1], plate.cells[2]),
     ("  element = %q, D = %g, nu = %g, load = %g%s,"):format(plate.element, D, dice.between(0, 0.45), q,
       plate.obstacle and (", obstacle = %.17g"):format(plate.obstacle) or ""),
     ("  edges = { %s },"):format(table.concat(edges, ", ")), ("  loads = { %s },"):format(table.concat(loads, ", ")),
@@ -179,13 +179,13 @@ local function problem_of_plate(plate)
     for k, v in ipairs{ 1, p.x, p.y } do problem.load[k] = problem.load[k] + v * p.force end
   end
   for _, p in ipairs(plate.supports) do resist(problem, p.deflection, { 1, p.x, p.y }, 1) end
-  local cells <const> = 64 -- of a side, for what is bounded per length
   for side, edge in pairs(plate.sides) do
     local n = normal[side]
-    local length = n[1] ~= 0 and plate.height or plate.width
+    local length, cells = n[1] ~= 0 and plate.height or plate.width, plate.cells[n[1] ~= 0 and 2 or 1]
     if edge.rotation then resist(problem, edge.rotation, { 0, -n[1], -n[2] }, length) end
+    local inwards = plate.element == "hct" and 1 / 3 or 0 -- at the ends, where the mean about a vertex is
     for k = 0, edge.deflection and cells or -1 do
-      local t = k / cells
+      local t = (k == 0 and inwards or k == cells and cells - inwards or k) / cells
       local x = n[1] ~= 0 and (n[1] > 0 and plate.width or 0) or t * plate.width
       local y = n[2] ~= 0 and (n[2] > 0 and plate.height or 0) or t * plate.height
       resist(problem, edge.deflection, { 1, x, y }, length / cells * ((k == 0 or k == cells) and 0.5 or 1))

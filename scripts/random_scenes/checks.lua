@@ -19,6 +19,9 @@ local function point(scene, node) return { node.x, node.y, scene.dimension == 3 
 -- 1. Scales: the greatest pressure or traction, and the greatest displacement.
 local function scales(scene, contacts, supports, displacement)
   local scale = { stress = 0.01 * scene.stress }
+  for _, body in ipairs(scene.bodies) do
+    for _, load in ipairs(body.loads) do scale.stress = math.max(scale.stress, norm(load.force) / scene.size^(scene.dimension - 1)) end
+  end
   scale.length = math.max(displacement, scale.stress / scene.stiffest * scene.size)
   local function see(nodes)
     for _, node in ipairs(nodes) do
@@ -45,9 +48,10 @@ local function check_friction(at, node, bound, tol, wrong, held)
   end
 end
 
--- A node held on both sides has no condition of its own along the directions held, though the mean across from it may move.
+-- A node whose distance is held, by supports on both sides, has no condition of its own, and no friction, though the mean across
+-- from it may move.
 local function is_held(contact)
-  return contact.second and contact.first.body.held > 0 and contact.second.body.held > 0
+  return contact.first.body.held > 0 and (not contact.second or contact.second.body.held > 0)
 end
 
 local function check_contact(contact, result, tol, wrong)
@@ -60,7 +64,8 @@ local function check_contact(contact, result, tol, wrong)
     if p > tol.p and gap > tol.u then wrong("pressure %.3g across a gap of %.3g at %s", p, gap, at) end
     if node.status == "open" and math.abs(p) > tol.p then wrong("open with pressure %.3g at %s", p, at) end
     if node.status ~= "open" and gap > tol.u then wrong("%s with gap %.3g at %s", node.status, gap, at) end
-    if law then check_friction(at, node, law.kind == "tresca" and law.value or law.value * math.max(p, 0), tol, wrong, is_held(contact))
+    if law then check_friction(at, node, law.kind == "tresca" and law.value or law.value * math.max(p, 0), tol, wrong,
+      is_held(contact) and (contact.second or p == 0))
     elseif norm(node.shear) > tol.p then wrong("shear without friction at %s", at) end
   end
 end
