@@ -2,8 +2,9 @@
 -- loads integrated there. Loaded by dofile with laws; returns check(scene, made, solution), a list of what is wrong.
 --
 -- Tolerances. Methods end at a natural residual of 1e-10 of the greatest force and lose some digits where stiffnesses differ by six
--- orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest one; where nothing is loaded, to 1e-8
--- of what usual loads would make. Rounding of large motions is 1e-12 of the forces that strains of their size would make.
+-- orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest one; where nothing is pressed,
+-- forces to 1e-9 of the stiffness and displacements to 1e-15 of the size. Rounding of large motions is 1e-12 of the forces that strains
+-- of their size would make.
 
 local laws = ...
 local accuracy <const> = 1e-6
@@ -18,11 +19,11 @@ local function point(scene, node) return { node.x, node.y, scene.dimension == 3 
 
 -- 1. Scales: the greatest pressure or traction, and the greatest displacement.
 local function scales(scene, contacts, supports, displacement)
-  local scale = { stress = 0.01 * scene.stress }
+  local scale = { stress = 0 }
   for _, body in ipairs(scene.bodies) do
     for _, load in ipairs(body.loads) do scale.stress = math.max(scale.stress, norm(load.force) / scene.size^(scene.dimension - 1)) end
   end
-  scale.length = math.max(displacement, scale.stress / scene.stiffest * scene.size)
+  scale.length = math.max(displacement, 1e-9 * scene.size)
   local function see(nodes)
     for _, node in ipairs(nodes) do
       scale.stress = math.max(scale.stress, math.abs(node.pressure), norm(node.shear))
@@ -32,6 +33,7 @@ local function scales(scene, contacts, supports, displacement)
   for _, contact in ipairs(contacts) do see(contact.nodes) end
   for _, support in ipairs(supports) do see(support.nodes) end
   scale.stress = math.max(scale.stress, 1e-6 * scene.stiffest * scale.length / scene.size)
+  if scale.stress < 1e-8 * scene.stiffest then scale.stress = 1e-3 * scene.stiffest end -- nothing is pressed
   return { p = accuracy * scale.stress, u = accuracy * scale.length, stress = scale.stress, length = scale.length }
 end
 
@@ -199,7 +201,12 @@ return function(scene, made, solution)
     if support.law then check_support(support, supports[k], tol, wrong) end
   end
   check_equilibrium(scene, made, solution, contacts, supports, tol, wrong)
-  tol.energy = 1e-9 * tol.gross * tol.length + 1e-12 * scene.stiffest * tol.length^2 * scene.size^(scene.dimension - 2)
+  local rubbing = 0 -- given friction's bounds, of which slips known to 1e-7 make work
+  for k, contact in ipairs(scene.contacts) do
+    local given = contact.friction and contact.friction.kind == "tresca"
+    for _, node in ipairs(given and contacts[k].nodes or {}) do rubbing = rubbing + contact.friction.value * node.weight end
+  end
+  tol.energy = (1e-9 * tol.gross + 1e-7 * rubbing) * tol.length + 1e-12 * scene.stiffest * tol.length^2 * scene.size^(scene.dimension - 2)
   if tol.gross < 1e-6 * scene.stress then -- nothing is loaded
     tol.energy = tol.energy + 1e-10 * scene.stiffest * scene.size^scene.dimension
   end

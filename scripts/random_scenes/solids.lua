@@ -238,8 +238,12 @@ function solids.finish(scene)
     scene.stiffest = math.max(scene.stiffest, body.E)
     for k = 1, up do scene.extent = math.max(scene.extent, math.abs(body.high[k]), math.abs(body.low[k])) end
   end
+  -- What a contact holds by a hair is not told exactly where its conditions are means of places beside its nodes, on curved parts, nor
+  -- where supports hold nodes of it, which then have no friction.
   for _, contact in ipairs(scene.contacts) do
-    scene.curved = scene.curved or (contact.curved and (contact.second or contact.first.body.element:sub(2) == "2"))
+    local curved = contact.curved and (contact.second or contact.first.body.element:sub(2) == "2")
+    local held = contact.friction and contact.first.body.held + (contact.second and contact.second.body.held or 0) > 0
+    scene.inexact = scene.inexact or curved or held
   end
   -- The middle of a body and, where it is a box, places next to its sides to the left and right.
   scene.samples = function(body)
