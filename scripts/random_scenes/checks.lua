@@ -37,15 +37,15 @@ local function scales(scene, contacts, supports, displacement)
   return { p = accuracy * scale.stress, u = accuracy * scale.length, stress = scale.stress, length = scale.length }
 end
 
--- 2. Laws. Friction: at most `bound`; below it no slip, against the slip where there is some. A slip known up to tol.u has a
--- direction known up to tol.u / |slip|.
+-- 2. Laws. Friction: at most `bound`; below it no slip, against the slip where there is some. A slip known up to 10 tol.u
+-- has a direction known up to that / |slip|.
 local function check_friction(at, node, bound, tol, wrong, held)
   local shear, slip = norm(node.shear), norm(node.slip)
   if shear > bound + tol.p then wrong("shear %.3g beyond its bound %.3g at %s", shear, bound, at) end
   if slip <= tol.u or held then return end
   local off = {}
   for k, s in ipairs(node.slip) do off[k] = node.shear[k] + bound * s / slip end
-  if norm(off) > tol.p + 2 * bound * tol.u / slip then
+  if norm(off) > tol.p + 10 * bound * tol.u / slip then
     wrong("slip %.3g, shear %.6g of %.6g, off by %.3g at %s", slip, shear, bound, norm(off), at)
   end
 end

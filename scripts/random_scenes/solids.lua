@@ -184,9 +184,9 @@ local function join(scene, one, other, one_side, gap)
   local opposite = { left = "right", bottom = "top" }
   local a, b = { body = one, side = one_side }, { body = other, side = opposite[one_side] }
   if dice.chance(0.5) then a, b = b, a end
-  local covered = a.body.disc or not b.body.disc -- does b's side cover all of a's? Else no node of a may have a foot on it
+  local covered = not b.body.disc -- does b's side cover all of a's? Else no node of a may have a foot on it
   for axis = 1, scene.dimension do
-    local along = axis ~= side_of(scene, one_side) and not a.body.disc
+    local along = axis ~= side_of(scene, one_side)
     if along and (a.body.low[axis] < b.body.low[axis] or a.body.high[axis] > b.body.high[axis]) then covered = false end
   end
   local overlap = gap < -1e-9 * scene.size
