@@ -1,6 +1,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
+#include "scene/doubts.hpp"
 #include "scene/model.hpp"
 #include "scene/scene.hpp"
 #include "solver/require_solvable.hpp"
@@ -90,7 +91,7 @@ std::string plan(const Scene& scene) {
                        " unknowns factored once): finite and exact for frictionless contact",
                        free > 0 ? "; rigid motions exactly, as constraints of the dual (to compare: magnetic screws, "
                                   "pdas{ kernel = \"screws\" })" : "");
-  return out + "\n  " + verdict(scene, free > 0);
+  return out + "\n  " + verdict(scene, free > 0) + describe(doubts(scene));
 }
 
 }  // namespace dotyk::scene

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "scene/doubts.hpp"
 #include "scene/locate.hpp"
 
 namespace dotyk::scene {
@@ -200,7 +201,7 @@ std::string describe(const Solution& s) {
   const problem::Clock& t = s.clock();
   out += text(std::setprecision(3), "  seconds: total ", t.total, " (assembly ", t.assembly, ", ordering ", t.ordering,
               ", factor ", t.factor, ", iterate ", t.iterate, ", recover ", t.recover, ")");
-  return out;
+  return out + describe(doubts(s.scene()));
 }
 
 }  // namespace dotyk::scene
