@@ -6,8 +6,9 @@
 -- enough friction it may as well stay jammed. For each load (a force per area, ANGLES directions) and
 -- coefficient all solutions are found by enumeration of open, stick and slip at each contact node. On one load:
 -- which of its three solutions Newton's method finds from STARTS random starts, and what the fixed-point
--- iteration over given friction, g = mu times the last pressure, does. Draws images/several_solutions.png and the
--- three states, images/several_open.png, several_stick.png and several_slip.png.
+-- iteration over given friction, g = mu times the last pressure, does. At last a triangle that has a continuum of
+-- solutions at one coefficient. Draws images/several_solutions.png, the
+-- three states, images/several_open.png, several_stick.png and several_slip.png, and images/several_family.png.
 
 local angles <const>, starts <const> = tonumber(arg[1]) or 45, tonumber(arg[2]) or 1000
 local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
@@ -137,4 +138,39 @@ for _, s in ipairs(all) do
   local name = c.slip + c.stick == 0 and "open" or c.stick > 0 and "stick" or "slip"
   s:render{ file = "images/several_" .. name .. ".png", field = "displacement", deform = 10, supports = true, size = { 800, 800 } }
 end
-print "images/several_solutions.png, several_open.png, several_stick.png, several_slip.png"
+
+-- 7. A continuum. The triangle O (0,0), B (1,0), P (1/5, 4/15) on a rigid floor; O and P are held (P displaced), B is loaded and free: at mu = 3 its slip
+-- lowers the friction that it meets exactly as much as the force that drives it, so that it may stop anywhere between
+-- sticking and lifting off. Enumeration finds the singular combination and the ends of its solutions.
+local function triangle(mu)
+  local mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {1, 1}, element = "P1" }
+  mesh:transform(function(x, y) -- the upper left triangle is held whole
+    if y < 0.5 then return x, y end
+    return x / 5, x > 0.5 and 4 / 15 or 1
+  end)
+  local body = dotyk.body{ mesh = mesh, material = dotyk.material{ E = 2.2, nu = 0.1 } }
+  body:part"left":fix()
+  body:part"top":displace{ x = function(x) return 2 * x end, y = function(x) return -8 * x / 27 end }
+  body:part"right":load{ 40 / (9 * math.sqrt(10)), 0 }
+  local scene = dotyk.scene{ body }
+  return scene, scene:contact{ body:part"bottom", rigid = dotyk.rigid.gap{ normal = {0, -1}, gap = 0 }, friction = dotyk.friction.coulomb(mu) }, body
+end
+local at <const> = {}
+print "\nthe triangle:"
+for _, mu in ipairs{ 2.5, 3, 3.5 } do
+  local one, floor, body = triangle(mu)
+  local found, told, families = dotyk.all_solutions(one)
+  print(("   mu = %g: %s"):format(mu, told))
+  at[mu] = { name = ("mu = %g"):format(mu), style = mu ~= 3 and "points" or nil, x = {}, y = {} }
+  for k, s in ipairs(found) do
+    at[mu].x[k], at[mu].y[k] = s:displacement(body, 1, 0), s:contact(floor).force[2]
+    print(("      B moves by %.6f, normal force %.6f"):format(at[mu].x[k], at[mu].y[k]))
+  end
+  assert((#families == 1) == (mu == 3))
+  if mu == 3 then
+    assert(families[1].dimension == 1 and #families[1].ends == 2 and not families[1].unbounded)
+    assert(math.abs(math.abs(at[mu].x[1] - at[mu].x[2]) - 2) < 1e-9)
+  end
+end
+dotyk.chart{ file = "images/several_family.png", x = "displacement of B along the floor", y = "normal force", series = { at[2.5], at[3], at[3.5] } }
+print "images/several_solutions.png, several_open.png, several_stick.png, several_slip.png, several_family.png"

@@ -11,11 +11,19 @@ AllSolutions all_solutions(std::shared_ptr<const Scene> scene, Monitor& monitor)
   problem::Clock clock;
   const Model model = build(*scene, clock, monitor);
   solver::Enumeration found = solver::enumerate(model.problem, monitor);
-  AllSolutions all{{}, found.summary()};
-  for (solver::Enumeration::Solution& each : found.solutions) {
+  AllSolutions all{{}, {}, found.summary()};
+  const auto add = [&](solver::Enumeration::Solution& each) {
     each.result.clock.assembly += clock.assembly;
     all.solutions.push_back(std::make_shared<Solution>(scene, model, nullptr, std::move(each.result), Past{}));
     all.solutions.back()->set_total(watch.seconds());
+  };
+  for (solver::Enumeration::Solution& each : found.solutions) add(each);
+  for (solver::Enumeration::Family& family : found.families) {
+    all.families.push_back({family.dimension, {}, family.unbounded > 0, family.forces_only, family.connected});
+    for (solver::Enumeration::Solution& end : family.ends) {
+      all.families.back().ends.push_back(static_cast<int>(all.solutions.size()));
+      add(end);
+    }
   }
   return all;
 }

@@ -1,9 +1,10 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
+#include "scene/doubts.hpp"
 #include "scene/model.hpp"
 #include "scene/scene.hpp"
-#include "solver/require_solvable.hpp"
+#include "scene/uniqueness.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -28,7 +29,7 @@ std::string describe_contact(const Contact& contact) {
 }
 
 /// Whether the load can be carried, and by supports worth the name; needs everything assembled.
-std::string verdict(const Scene& scene, bool any_free) {
+std::string verdict(const Scene& scene) {
   problem::Clock clock;
   Monitor quiet;
   try {
@@ -37,10 +38,7 @@ std::string verdict(const Scene& scene, bool any_free) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       if (!model.nearly_free[b].empty())
         warnings += "\n  warning: '" + scene.bodies[b]->name + "' is " + model.nearly_free[b];
-    if (!any_free) return "a unique solution exists: every body is held by its supports" + warnings;
-    const std::string note = solver::require_solvable(model.problem, problem::rigid_motions(model.problem));
-    return (note.empty() ? "a unique solution exists: the load presses every free body against what holds it"
-                         : "a solution exists, " + note) + warnings;
+    return known_before(model.problem, problem::rigid_motions(model.problem)).text + warnings;
   } catch (const InputError& error) {
     return std::string("no solution: ") + error.what();
   }
@@ -90,7 +88,7 @@ std::string plan(const Scene& scene) {
                        " unknowns factored once): finite and exact for frictionless contact",
                        free > 0 ? "; rigid motions exactly, as constraints of the dual (to compare: magnetic screws, "
                                   "pdas{ kernel = \"screws\" })" : "");
-  return out + "\n  " + verdict(scene, free > 0);
+  return out + "\n  " + verdict(scene) + describe(doubts(scene));
 }
 
 }  // namespace dotyk::scene

@@ -10,6 +10,8 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "scene/after_solve.hpp"
+#include "scene/doubts.hpp"
 #include "scene/locate.hpp"
 
 namespace dotyk::scene {
@@ -69,6 +71,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     : scene_(std::move(scene)), model_(std::move(model)), result_(std::move(result)), past_(std::move(past)),
       stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
   const problem::Problem& problem = with_stiffness ? *with_stiffness : model_.problem;
+  settle(*scene_, model_, problem, result_);
   residual_ = problem::residual(problem, result_.state);
   energy_ = problem::energy(problem, result_.state);
   friction_energy_ = problem::friction_energy(problem, result_.state);
@@ -84,6 +87,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     if (!model_.nearly_free[b].empty()) result_.reason += "; '" + scene_->bodies[b]->name + "' is " + model_.nearly_free[b];
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
+  for (std::size_t b = 0; b < scene_->bodies.size(); ++b) result_.reason += great_rotation(*scene_->bodies[b], displacement_[b]);
 }
 
 void Solution::add_step(const problem::Problem& problem) {
@@ -200,7 +204,7 @@ std::string describe(const Solution& s) {
   const problem::Clock& t = s.clock();
   out += text(std::setprecision(3), "  seconds: total ", t.total, " (assembly ", t.assembly, ", ordering ", t.ordering,
               ", factor ", t.factor, ", iterate ", t.iterate, ", recover ", t.recover, ")");
-  return out;
+  return out + describe(doubts(s.scene()));
 }
 
 }  // namespace dotyk::scene

@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "scene/uniqueness.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/setups.hpp"
@@ -100,13 +101,24 @@ int balance(Call& call) {
   const scene::Model model = scene::build(*scene, clock, watch);
   const auto rigid = problem::rigid_motions(model.problem);
   const auto s = problem::solvability(rigid, model.problem);
-  static const char* verdicts[] = {"unique", "up to motion", "unsolvable"};
+  using Verdict = problem::Solvability::Verdict;
+  const bool one = s.verdict == Verdict::unique && problem::uniqueness(rigid, model.problem).unique;
+  const char* verdict = s.verdict == Verdict::unsolvable ? "unsolvable" : s.verdict == Verdict::up_to_motion ? "up to motion" : one ? "unique" : "unknown";
   return call.give(Record{"balance",
-                          {{"verdict", std::string(verdicts[static_cast<int>(s.verdict)])},
-                           {"solvable", s.verdict != problem::Solvability::Verdict::unsolvable},
+                          {{"verdict", std::string(verdict)},
+                           {"solvable", s.verdict != Verdict::unsolvable},
                            {"limit", s.limit},
                            {"motion", s.motion.size() ? describe(rigid.motions, s.motion) : std::string()},
                            {"work", s.work}}});
+}
+
+int uniqueness(Call& call) {
+  const auto scene = call.self<Scene>();
+  Watch watch(call.state(), "assembling");
+  const scene::UniquenessOfScene u = scene::uniqueness(*scene, watch);
+  std::vector<Entry> entries{{"text", u.text}, {"exists", u.exists}, {"unique", u.unique}};
+  if (u.factor) entries.push_back({"factor", *u.factor});
+  return call.give(Record{"uniqueness", entries, {"factor"}});
 }
 
 int rigid_gap(Call& call) {
@@ -257,10 +269,18 @@ void bind_scene(Library& library) {
                .run = [](Call& call) { return call.give(scene::plan(*call.self<Scene>())); }})
       .method({.name = "scene:balance",
                .help = "Can supports and contacts carry the load? Looks at rigid motions only, solves nothing: verdict "
-                       "(\"unique\", \"up to motion\", \"unsolvable\"), solvable, limit (the least turn of the load "
+                       "(\"unique\" where that is proved, \"up to motion\", \"unknown\" before solving, \"unsolvable\"; without Coulomb friction "
+                       "the stress is unique in all but the last), solvable (rigid bodies would be in balance: with Coulomb friction "
+                       "elastic ones may still find no pressure great enough), limit (the least turn of the load "
                        "makes it unsolvable), motion (what is free) and the load's work on it.",
                .example = "print(scene:balance().verdict)",
                .run = balance})
+      .method({.name = "scene:uniqueness",
+               .help = "Is there a solution, and only one? What is proved, in words (text) and as exists and unique. With Coulomb friction on "
+                       "bodies that are held: factor, the solution is unique for coefficients below this times the scene's (condenses "
+                       "the scene, as long as a solve; falls as the mesh is refined); nil where none is known.",
+               .example = "print(scene:uniqueness().text)",
+               .run = uniqueness})
       .text([](const Scene& s) { return scene::describe(s); });
   bind_contact(library);
   bind_rigid(library);

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "scene/distance.hpp"
+#include "scene/doubts.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/result_records.hpp"
@@ -197,6 +198,8 @@ void bind_solution(Library& library) {
       .field("method", "which method", [](const Solution& s) { return s.result().method; })
       .field("iterations", "how many", [](const Solution& s) { return s.result().iterations; })
       .field("reason", "why it ended", [](const Solution& s) { return s.result().reason; })
+      .field("warnings", "what makes the answer doubtful though the method has converged: a list of sentences, mostly empty",
+             [](const Solution& s) { return scene::doubts(s.scene()); })
       .field("screw_moves", "magnetic screws moved because they pulled", [](const Solution& s) { return s.result().screw_moves; })
       .field("screws", "magnetic screws, first and after each move: rows, regularity (least over greatest singular value "
                        "of their equilibrium), determinant", screws)

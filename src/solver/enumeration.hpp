@@ -8,20 +8,29 @@ namespace dotyk::solver {
 enum class Piece : char { open, closed, forward, backward };
 
 /// All solutions of a problem in the plane with few contact points. On each combination of pieces the natural
-/// map is affine: one linear system, whose solution solves the problem where the map vanishes there.
+/// map is affine: one linear system, whose solution solves the problem where the signs and bounds of the pieces hold. A singular
+/// system that is consistent has an affine space of solutions, which these inequalities cut to a polyhedron.
 struct Enumeration {
   struct Solution {
     Result result;
     /// Every combination of pieces, row by row, that gives it: several where it lies on their edges.
     std::vector<std::vector<Piece>> pieces;
   };
-  std::vector<Solution> solutions;  ///< distinct ones, in the order found: open before stick before slip
+  /// A polyhedron of solutions, in multipliers and motions: all convex combinations of its ends, on one combination of pieces.
+  struct Family {
+    int dimension = 1;
+    std::vector<Solution> ends;
+    int unbounded = 0;       ///< directions in which it has no end
+    bool forces_only = false;  ///< its members differ in multipliers, not in displacements
+    int connected = 0;       ///< number of the connected set that it belongs to, from 0
+  };
+  std::vector<Solution> solutions;  ///< the isolated ones, distinct, in the order found: open before stick before slip
+  std::vector<Family> families;     ///< none a part of another one
   long tried = 0;
-  /// Combinations with a singular, consistent system: a whole line or plane of candidates, of which only the
-  /// least was tried. Solutions there may be missing; they are not isolated.
-  long undecided = 0;
+  long singular = 0;                ///< combinations with a singular system
   bool complete = true;             ///< false where the user stopped
-  std::string summary() const;      ///< "3 solutions; all 64 combinations of pieces tried", …
+  /// "3 solutions; all 64 combinations of pieces tried", "no isolated solution and a continuum of them: …".
+  std::string summary() const;
 };
 
 /// Tries all combinations: 2 for a contact row, 4 for one with Coulomb friction, 3 for a point with given

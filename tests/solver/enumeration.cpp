@@ -61,7 +61,8 @@ void compare(double mu, double ft, double fn, const std::vector<Expected>& expec
     CHECK((lambda - Vector{{e.Rn, e.Rt}}).norm() < 1e-14);
   }
   CHECK(all.tried == 4);
-  CHECK(all.undecided == 0);
+  CHECK(all.singular == 0);
+  CHECK(all.families.empty());
 }
 
 }  // namespace
@@ -147,9 +148,106 @@ TEST_CASE("what enumeration cannot treat it says before it starts") {
                        doctest::Contains("it takes up to 1048576"), InputError);
 }
 
-TEST_CASE("at the critical coefficient a continuum of solutions is said to be there") {
+namespace {
+
+/// Every convex combination of a family's ends solves; returns the ends' displacements.
+std::vector<Vector> check_family(const problem::Problem& p, const solver::Enumeration::Family& family) {
+  std::vector<Vector> ends;
+  for (const auto& end : family.ends) ends.push_back(end.result.state.u);
+  for (int k = 0; k <= 10; ++k) {
+    problem::State state{Vector::Zero(p.unknowns()), Vector::Zero(p.rows())};
+    for (std::size_t e = 0; e < family.ends.size(); ++e) {
+      const double part = family.ends.size() == 1 ? 1 : (e == 0 ? 0.1 * k : (1 - 0.1 * k) / static_cast<double>(family.ends.size() - 1));
+      state.u += part * family.ends[e].result.state.u;
+      state.lambda += part * family.ends[e].result.state.lambda;
+    }
+    const auto residual = problem::residual(p, state);
+    CHECK(residual.equilibrium < 1e-12);
+    CHECK(residual.penetration < 1e-12);
+    CHECK(residual.complementarity < 1e-12);
+    CHECK((state.lambda.norm() < 1e-12 || residual.law < 1e-9));
+  }
+  return ends;
+}
+
+}  // namespace
+
+TEST_CASE("at the critical coefficient a continuum of solutions is found with its ends") {
   Monitor quiet;
-  const auto all = solver::enumerate(one_node(2, -2, -1), quiet);
-  CHECK(all.undecided == 1);
-  CHECK(all.summary().find("singular: solutions there are not isolated") != std::string::npos);
+  const auto p = one_node(2, -2, -1);  // slip by any amount from where it sticks to where it lifts off
+  const auto all = solver::enumerate(p, quiet);
+  CHECK(all.singular == 1);
+  CHECK(all.solutions.empty());  // stick and open are its ends
+  REQUIRE(all.families.size() == 1);
+  CHECK(all.families[0].dimension == 1);
+  CHECK(all.families[0].unbounded == 0);
+  CHECK(!all.families[0].forces_only);
+  CHECK(all.summary() == "no isolated solution and a continuum of solutions: a family of dimension 1 with 2 ends; all 4 combinations of pieces tried");
+  const auto ends = check_family(p, all.families[0]);
+  REQUIRE(ends.size() == 2);
+  CHECK(std::abs(std::abs(ends[0][0] - ends[1][0]) - 2) < 1e-12);
+}
+
+TEST_CASE("a triangle on a floor, μ = 3, slips by any amount between sticking and lifting off") {
+  // O (0,0), B (1,0), P (1/5, 4/15); ν = 1/10, E = 2.2: at B K = [3/8 −1/8; −1/8 29/96]. OP is displaced by (2x, −8x/27), BP loaded by
+  // (40/(9√10), 0): f = (3/4, −1/4). With u_y = 0, u_x = a: R_n = (2 − a)/8, R_t = −3 (2 − a)/8 = −3 R_n for every a, so that all 0 ≤ a ≤ 2 solve.
+  Monitor quiet;
+  for (const double rounding : {0.0, 1e-16, -1e-16}) {
+    auto p = test::program(DenseMatrix{{3.0 / 8, -1.0 / 8}, {-1.0 / 8, 29.0 / 96}}, Vector{{0.75 * (1 + 2 * rounding), -0.25}}, DenseMatrix{{0, -1}, {-1, 0}}, Vector::Zero(2));
+    p.groups = {test::group(problem::unilateral(), 0, 1)};
+    p.friction = {{"friction", problem::coulomb({3.0}), 1, 1, {0}}};
+    const auto all = solver::enumerate(p, quiet);
+    CHECK(all.solutions.empty());
+    REQUIRE(all.families.size() == 1);
+    const auto ends = check_family(p, all.families[0]);
+    REQUIRE(ends.size() == 2);
+    CHECK(std::abs(std::min(ends[0][0], ends[1][0])) < 1e-12);
+    CHECK(std::abs(std::max(ends[0][0], ends[1][0]) - 2) < 1e-12);
+  }
+}
+
+TEST_CASE("two such nodes: a square of solutions, all pieces of it in one continuum; beside them isolated nodes keep theirs") {
+  Monitor quiet;
+  for (const double second : {2.0, 1.0}) {
+    DenseMatrix K = DenseMatrix::Zero(4, 4), B = DenseMatrix::Zero(4, 4);
+    Vector f(4);
+    for (int k : {0, 2}) {
+      K.block(k, k, 2, 2) = DenseMatrix{{1, 0.5}, {0.5, 1}};
+      f.segment(k, 2) = Vector{{-2, -1}};
+      B(k / 2, k + 1) = B(2 + k / 2, k) = -1;
+    }
+    auto p = test::program(K, f, B, Vector::Zero(4));
+    p.groups = {test::group(problem::unilateral(), 0, 2)};
+    p.friction = {{"friction", problem::coulomb({2.0, second}), 2, 1, {0, 1}}};
+    const auto all = solver::enumerate(p, quiet);
+    CHECK(all.solutions.empty());
+    REQUIRE(all.families.size() == 1);  // its sides and corners, where one of them sticks or lifts off, are parts of it
+    CHECK(all.families[0].dimension == (second == 2 ? 2 : 1));
+    CHECK(all.families[0].ends.size() == (second == 2 ? 4 : 2));
+    check_family(p, all.families[0]);
+  }
+}
+
+TEST_CASE("two rows that say the same leave their forces free and no displacement") {
+  Monitor quiet;
+  auto p = test::program(DenseMatrix{{2.0}}, Vector{{3.0}}, DenseMatrix{{1.0}, {1.0}}, Vector::Zero(2));
+  p.groups = {test::group(problem::unilateral(), 0, 2)};
+  const auto all = solver::enumerate(p, quiet);
+  CHECK(all.solutions.empty());
+  REQUIRE(all.families.size() == 1);
+  CHECK(all.families[0].forces_only);
+  CHECK(all.families[0].ends.size() == 2);
+  for (const auto& end : all.families[0].ends) CHECK(end.result.state.lambda.sum() == doctest::Approx(3));
+}
+
+TEST_CASE("families without an end in some direction are said to be unbounded") {
+  // A node between two walls that press it from both sides by any force: with u = 0 held by both rows.
+  Monitor quiet;
+  auto p = test::program(DenseMatrix{{2.0}}, Vector{{0.5}}, DenseMatrix{{1.0}, {-1.0}}, Vector::Zero(2));
+  p.groups = {test::group(problem::unilateral(), 0, 2)};
+  const auto all = solver::enumerate(p, quiet);
+  REQUIRE(all.families.size() == 1);
+  CHECK(all.families[0].unbounded == 1);
+  CHECK(all.families[0].ends.size() == 1);
+  CHECK(all.summary().find("unbounded, of forces alone") != std::string::npos);
 }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "problem/problem.hpp"
+#include "problem/rigid_motions.hpp"
+
+namespace dotyk::problem {
+
+/// The rigid motions r that lead from one solution to others with the same multipliers: K r = 0 and x + B r ∈ ∂φ*(λ), row by row.
+/// Without Coulomb friction these are all solutions (the saddle points of a convex problem are a product of two sets), and Kr = 0
+/// makes the stress unique. TR965's theorem 3.3 says so before solving where |S(w)| > j(w), (3.31); this says it after.
+struct FreeMotions {
+  algebra::DenseMatrix motions;  ///< amounts of the modes, modes × count: what rows that hold leave free and some row notices
+  algebra::DenseMatrix unnoticed;  ///< those that no row notices, modes × count
+  /// Of a single motion: how far it may go, in units of it, low ≤ 0 ≤ high; ±∞ where nothing stops it.
+  Interval range{0, 0};
+  /// Where none is free, of up to kMostModes modes: the motion that rows which hold resist least, greatest amount 1, and the greatest
+  /// jump that it makes on one of them. Modes have greatest displacement 1.
+  algebra::Vector weakest;
+  double grip = 0;
+};
+inline constexpr int kMostModes = 30;
+
+/// `tolerance`: multipliers within this part of the greatest of a bound are on it.
+FreeMotions free_motions(const Problem& problem, const State& state, double tolerance);
+
+}  // namespace dotyk::problem

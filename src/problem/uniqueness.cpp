@@ -1,0 +1,151 @@
+#include "problem/uniqueness.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "algebra/dense.hpp"
+
+namespace dotyk::problem {
+
+using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using algebra::SparseRows;
+using algebra::Vector;
+
+namespace {
+
+constexpr double kNotAtAll = 1e-9;  ///< of a unit motion
+
+bool has_coulomb(const Problem& problem) {
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k)
+      if (group.law->bound_slope(k) > 0) return true;
+  return false;
+}
+
+/// The noticed motions that no row holds both ways, an orthonormal basis: modes × count.
+DenseMatrix two_sided(const RigidMotions& rigid, const Problem& problem) {
+  std::vector<int> holding;
+  for (const RowGroup& group : problem.groups)
+    for (int k = 0; k < group.count; ++k)
+      if (group.law->linear_stiffness(k).value_or(0) > 0) holding.push_back(group.first + k);
+  if (holding.empty()) return rigid.noticed;
+  const Eigen::Index modes = rigid.noticed.cols();
+  DenseMatrix N = DenseMatrix::Zero(std::max<Eigen::Index>(modes, static_cast<Eigen::Index>(holding.size())), modes);
+  for (std::size_t k = 0; k < holding.size(); ++k) N.row(static_cast<Eigen::Index>(k)) = rigid.N.row(holding[k]) * rigid.noticed;
+  const Eigen::JacobiSVD<DenseMatrix> svd(N, Eigen::ComputeFullV);
+  Eigen::Index rank = 0;
+  while (rank < modes && svd.singularValues()[rank] > kNotAtAll * std::max(1.0, svd.singularValues()[0])) ++rank;
+  return rigid.noticed * svd.matrixV().rightCols(modes - rank);
+}
+
+/// The most that laws other than unilateral ones can resist a motion with, or give it: j(w). Infinite where one has no limit.
+double resistance(const RigidMotions& rigid, const Problem& problem, const Vector& w) {
+  const Vector jump = rigid.N * w;
+  double sum = 0;
+  for (const RowGroup& group : problem.groups)
+    for (int k = 0; k < group.count && !group.law->unilateral(); ++k) {
+      const Interval bounds = group.law->multipliers(k);
+      const double moved = std::abs(jump[group.first + k]);
+      if (moved > kNotAtAll) sum += moved * std::max(std::abs(bounds.low), std::abs(bounds.high));
+    }
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k) sum += group.law->bound(k, 0) * jump.segment(group.row(k), group.components).norm();
+  return sum;
+}
+
+/// Are the rows of B independent? Each of unit length, a pivot of BBᵀ is the square of a row's distance from the span of others.
+bool full_rank(const SparseRows& B) {
+  if (B.rows() == 0) return true;
+  Vector inverse(B.rows());
+  for (int r = 0; r < B.rows(); ++r) {
+    const double length = B.row(r).norm();
+    if (!(length > 0)) return false;
+    inverse[r] = 1 / length;
+  }
+  const SparseRows unit = inverse.asDiagonal() * B;
+  const SparseMatrix gram = unit * SparseRows(unit.transpose());
+  const Eigen::SimplicialLDLT<SparseMatrix> ldlt(gram);
+  return ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > 1e-12;
+}
+
+/// Would the problem without friction keep its motions bounded?
+bool coercive_without_friction(const Problem& problem) {
+  Problem bare;
+  for (const Block& block : problem.blocks) {
+    bare.blocks.push_back({block.name, {}, block.f, 0, {}, block.kernel, block.motions, block.first});
+  }
+  bare.c = problem.c;
+  bare.groups = problem.groups;
+  for (const FrictionGroup& group : problem.friction)  // free rows
+    bare.groups.push_back({group.name, elastic(std::vector<double>(static_cast<std::size_t>(group.points() * group.components), 0.0)), group.first,
+                           group.points() * group.components});
+  Vector kept = Vector::Ones(problem.rows());
+  for (const FrictionGroup& group : problem.friction) kept.segment(group.first, group.points() * group.components).setZero();
+  bare.B = kept.asDiagonal() * problem.B;
+  const RigidMotions rigid = rigid_motions(bare);
+  const Solvability s = solvability(rigid, bare);
+  return s.verdict == Solvability::Verdict::unique && !s.limit;
+}
+
+double greatest_eigenvalue(const DenseMatrix& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<DenseMatrix>(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+}
+
+}  // namespace
+
+Uniqueness uniqueness(const RigidMotions& rigid, const Problem& problem) {
+  Uniqueness u;
+  u.coulomb = has_coulomb(problem);
+  const DenseMatrix free = two_sided(rigid, problem);
+  u.held = free.cols() + rigid.unnoticed.cols() == 0;
+  if (u.coulomb) {
+    u.exists = full_rank(problem.B) && (u.held || coercive_without_friction(problem));
+    return u;
+  }
+  if (free.cols() == 1) {
+    u.motion = free.col(0) / free.col(0).lpNorm<Eigen::Infinity>();
+    const double resists = resistance(rigid, problem, u.motion), work = std::abs(rigid.e.dot(u.motion));
+    u.unique = work > (1 + 1e-9) * resists;
+  } else {
+    u.unique = free.cols() == 0;
+  }
+  if (u.unique) u.motion.resize(0);
+  return u;
+}
+
+std::optional<double> uniqueness_factor(const Problem& problem, const CondensedProblem& condensed) {
+  struct Point {
+    int normal, first, components;
+    double coefficient, scale;
+  };
+  std::vector<Point> points;
+  const DenseMatrix& W = condensed.W();
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k)
+      if (const double mu = group.law->bound_slope(k); mu > 0)
+        points.push_back({group.normal[k], group.row(k), group.components, mu, W.diagonal().segment(group.row(k), group.components).mean()});
+  if (points.empty()) return std::numeric_limits<double>::infinity();
+  if (condensed.kernel_size() > 0) return std::nullopt;
+  DenseMatrix L = W;
+  if (!(W.diagonal().minCoeff() > 0)) return std::nullopt;
+  if (!algebra::cholesky(L) || !(L.diagonal().minCoeff() > 1e-7 * std::sqrt(W.diagonal().maxCoeff()))) return std::nullopt;
+  const Eigen::Index count = static_cast<Eigen::Index>(points.size());
+  DenseMatrix columns = DenseMatrix::Zero(W.rows(), count);  // s^½ μ L⁻¹ P_nᵀ
+  for (Eigen::Index i = 0; i < count; ++i) columns(points[i].normal, i) = std::sqrt(points[i].scale) * points[i].coefficient;
+  algebra::solve_lower(L, columns);
+  std::vector<int> rows;
+  std::vector<double> scales;
+  for (const Point& point : points)
+    for (int i = 0; i < point.components; ++i) rows.push_back(point.first + i), scales.push_back(1 / std::sqrt(point.scale));
+  DenseMatrix tangential = W(rows, rows);
+  const Eigen::Map<const Vector> s(scales.data(), static_cast<Eigen::Index>(scales.size()));
+  tangential = s.asDiagonal() * tangential * s.asDiagonal();
+  return 2 / std::sqrt(greatest_eigenvalue(algebra::gram(columns)) * greatest_eigenvalue(tangential));
+}
+
+}  // namespace dotyk::problem

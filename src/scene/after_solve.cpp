@@ -1,0 +1,128 @@
+#include "scene/after_solve.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/dense.hpp"
+#include "base/text.hpp"
+#include "problem/free_motions.hpp"
+
+namespace dotyk::scene {
+
+using algebra::Vector;
+
+namespace {
+
+/// Multipliers within this part of the greatest are none, or are on their bound.
+constexpr double kOnBound = 1e-8;
+/// Smaller ones are rounding.
+constexpr double kRounding = 1e-12;
+/// Half the width of contact, in cells, that does not tell a rotation from none.
+constexpr double kNarrow = 1.5;
+/// A rotation whose square, which small displacements neglect, is a thousandth.
+constexpr double kGreatRotation = 0.03;
+
+std::string end(double amount) { return std::isfinite(amount) ? text(amount) : amount < 0 ? "-infinity" : "infinity"; }
+
+/// Rows whose multiplier is rounding bear nothing.
+void open_without_force(const problem::Problem& problem, solver::Result& result) {
+  if (result.active_sets.empty()) return;
+  const Vector& lambda = result.state.lambda;
+  const double none = kRounding * lambda.lpNorm<Eigen::Infinity>();
+  for (const problem::RowGroup& group : problem.groups)
+    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
+      if (lambda[r] <= none) result.active_sets.back()[r] = 0;
+}
+
+/// The one motion, its range, and of all states that differ by it the least.
+void take_least(const problem::Problem& problem, const problem::FreeMotions& free, solver::Result& result) {
+  const Vector motion = free.motions.col(0);
+  Vector d = problem::displacement(problem, motion);
+  if (free.unnoticed.cols() > 0) d = problem::least(algebra::orthonormal(problem::displacement(problem, free.unnoticed)), d);
+  const double least = std::clamp(-result.state.u.dot(d) / d.squaredNorm(), free.range.low, free.range.high);
+  result.state.u += least * d;
+  const double size = d.lpNorm<Eigen::Infinity>();
+  if ((free.range.high - free.range.low) * size <= 1e-9 * result.state.u.lpNorm<Eigen::Infinity>()) return;  // it has nowhere to go
+  result.reason += text("; unique stress, displacement up to ", describe(problem::body_motions(problem), motion), ", by ",
+                        end((free.range.low - least) * size), " to ", end((free.range.high - least) * size),
+                        " at the most: the contacts that hold leave it free until the next node closes or sticks, so that the mesh decides how "
+                        "far; this is the least");
+}
+
+/// The width of the widest cell of contact that presses.
+double widest_cell(const Scene& scene, const Model& model, const Vector& lambda) {
+  double widest = 0;
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c)
+    for (std::size_t k = 0; k < model.contact_row[c].size(); ++k)
+      if (const int r = model.contact_row[c][k]; r >= 0 && lambda[r] > kOnBound * lambda.lpNorm<Eigen::Infinity>())
+        widest = std::max(widest, std::pow(scene.contacts[c]->rows[k].weight, 1.0 / (scene.dimension() - 1)));
+  return widest;
+}
+
+/// Half of the longest side of the box about a body.
+double half_extent(const Body& body) {
+  double longest = 0;
+  for (int i = 0; i < body.dimension(); ++i) {
+    double low = INFINITY, high = -INFINITY;
+    for (int k = 0; k < body.mesh->node_count(); ++k) low = std::min(low, body.mesh->point(k)[i]), high = std::max(high, body.mesh->point(k)[i]);
+    longest = std::max(longest, high - low);
+  }
+  return longest / 2;
+}
+
+/// A rotation that contact hardly wider than its cells resists.
+std::string resisted_by_cells(const Scene& scene, const Model& model, const problem::Problem& problem, const problem::FreeMotions& free,
+                              const Vector& lambda) {
+  if (free.weakest.size() == 0) return "";
+  const auto motions = problem::body_motions(problem);
+  Eigen::Index mode;
+  free.weakest.cwiseAbs().maxCoeff(&mode);
+  if (motions.size() != static_cast<std::size_t>(free.weakest.size()) || motions[mode].motion.kind != Motion::Kind::rotation) return "";
+  for (const auto& body : scene.bodies)
+    if (body->name == motions[mode].body && free.grip * half_extent(*body) <= kNarrow * widest_cell(scene, model, lambda))
+      return text("; ", motions[mode].text(), " is resisted only by terms of the order of the mesh (contact is hardly wider than its cells): how far it goes "
+                  "is the mesh's");
+  return "";
+}
+
+}  // namespace
+
+void settle(const Scene& scene, const Model& model, const problem::Problem& problem, solver::Result& result) {
+  if (!result.converged || problem.rows() == 0) return;
+  open_without_force(problem, result);
+  const problem::FreeMotions free = problem::free_motions(problem, result.state, kOnBound);
+  if (free.motions.cols() == 1)
+    take_least(problem, free, result);
+  else if (free.motions.cols() > 1)
+    result.reason += text("; unique stress, displacement up to ", free.motions.cols(), " motions that the contacts that hold leave free, one of them ",
+                          describe(problem::body_motions(problem), free.motions.col(0)));
+  else
+    result.reason += resisted_by_cells(scene, model, problem, free, result.state.lambda);
+}
+
+std::string great_rotation(const Body& body, const std::vector<double>& u) {
+  const int dim = body.dimension(), count = body.mesh->node_count();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), mean = centre, moment = centre;
+  const auto vector = [&](const double* values) {
+    Eigen::Vector3d v = Eigen::Vector3d::Zero();
+    for (int i = 0; i < dim; ++i) v[i] = values[i];
+    return v;
+  };
+  for (int k = 0; k < count; ++k) {
+    centre += vector(body.mesh->point(k).data()) / count;
+    mean += vector(&u[static_cast<std::size_t>(k) * dim]) / count;
+  }
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < count; ++k) {  // the rotation nearest to u: Σ x × (u − ω × x) = 0
+    const Eigen::Vector3d x = vector(body.mesh->point(k).data()) - centre;
+    moment += x.cross(vector(&u[static_cast<std::size_t>(k) * dim]) - mean);
+    inertia += x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose();
+  }
+  const double angle = dim == 2 ? std::abs(moment[2]) / inertia(2, 2) : Eigen::Vector3d(inertia.ldlt().solve(moment)).norm();
+  if (!(angle > kGreatRotation)) return "";
+  return text("; '", body.name, "' turns by ", angle, " (as a whole, in radians): equations of small displacements do not hold beyond about ",
+              kGreatRotation);
+}
+
+}  // namespace dotyk::scene

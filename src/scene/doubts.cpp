@@ -1,0 +1,50 @@
+#include "scene/doubts.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+
+namespace dotyk::scene {
+
+namespace {
+
+/// Linear elements lock where the material is nearly incompressible: constant volume in every cell leaves them too few motions.
+constexpr double kLocks = 0.45;
+
+/// Poisson's ratio of the isotropic tensor nearest to this one (by its two linear invariants, c_iijj and c_ijij): λ/2(λ + μ) in its own
+/// dimension, so that ½ is where the ratio of bulk to shear modulus is infinite; in plane stress below ⅓ always.
+double poisson_ratio(const elasticity::Hooke& hooke) {
+  const int d = hooke.dimension;
+  double bulk = 0, all = 0;  // isotropic: d²λ + 2dμ and dλ + (d² + d)μ
+  for (int i = 0; i < d; ++i)
+    for (int j = 0; j < d; ++j) bulk += hooke.c[i][i][j][j], all += hooke.c[i][j][i][j];
+  const double mu = (d * all - bulk) / (d * (d * d + d - 2)), lambda = (bulk - 2 * d * mu) / (d * d);
+  return lambda / (2 * (lambda + mu));
+}
+
+void add_locking(const Body& body, std::vector<std::string>& all) {
+  const mesh::ElementTopology& cells = body.mesh->topology();
+  if (cells.order > 1) return;
+  double nu = poisson_ratio(body.material.at(0));
+  for (int c = 1; body.material.varies() && c < body.mesh->cell_count(); ++c) nu = std::max(nu, poisson_ratio(body.material.at(c)));
+  if (nu > kLocks)
+    all.push_back(text("'", body.name, "' is nearly incompressible (nu = ", nu, "): ", cells.name, " ", cells.shapes,
+                       " lock, displacements come out too small, and error_estimate() notices too little of it; take second-order cells (",
+                       cells.nodes == cells.dimension + 1 ? "element = \"P2\"" : "element = \"Q2\" or \"P2\"", ")"));
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const Scene& scene) {
+  std::vector<std::string> all;
+  for (const auto& body : scene.bodies) add_locking(*body, all);
+  return all;
+}
+
+std::string describe(const std::vector<std::string>& doubts) {
+  std::string out;
+  for (const std::string& one : doubts) out += "\n  warning: " + one;
+  return out;
+}
+
+}  // namespace dotyk::scene
