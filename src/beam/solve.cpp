@@ -15,6 +15,17 @@ namespace {
 
 constexpr int kMostBreaking = 12;
 
+/// The condensed problem knows deflections between near supports as differences of those of the whole beam: beyond so many rows PDAS works on the
+/// banded stiffness, which knows them from near by.
+constexpr int kMostCondensed = 16;
+
+solver::Pdas by_size(const problem::Problem& problem) {
+  solver::Pdas pdas;
+  pdas.reduced = problem.rows() <= kMostCondensed;
+  pdas.held = !pdas.reduced;
+  return pdas;
+}
+
 /// Where the choice of broken supports is what the displacements say.
 bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std::vector<Broken>& broken, const Solution& s) {
   for (std::size_t k = 0; k < which.size(); ++k) {
@@ -29,7 +40,7 @@ bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std:
 }
 
 solver::Result run(const Model& model, const std::string& note, const solver::Method& method, Monitor& monitor) {
-  const solver::Method chosen = method ? method : solver::Method(solver::Pdas{});
+  const solver::Method chosen = method ? method : solver::Method(by_size(model.problem));
   solver::Result result = chosen.run(model.problem, {}, monitor);
   if (result.converged && !balanced(model.problem, result.state.lambda)) {
     result.converged = false;

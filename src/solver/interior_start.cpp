@@ -15,6 +15,8 @@ namespace {
 constexpr int kMostIterations = 40;
 constexpr double kBalanced = 1e-6;  ///< enough of residuals, of which rounding leaves more than of the gap μ
 constexpr double kBack = 0.995;     ///< of the way to the nearest bound
+constexpr double kStays = 0.7, kFalls = 0.3;  ///< of its last value, in a step
+constexpr double kLeast = 1e-12;    ///< of the gap asked for: rows that are undecided there touch without force
 constexpr double kNever = 1e6;      ///< so many displacements away a row never closes
 constexpr double kRigid = 1e-10;    ///< D of rigid rows, of the compliance that the body has there
 
@@ -107,7 +109,16 @@ class Interior {
 
   bool done() const {
     const double gap = gap_at(z_low_, z_high_, lambda_) / (force_ * length_);
-    return gap <= tol_ && (off() <= kBalanced || gap <= kBalanced * tol_);
+    return gap <= tol_ && (off() <= kBalanced || gap <= kBalanced * tol_) && (decided() || gap <= kLeast * tol_);
+  }
+  /// Has one of λ − low and z⁻ (likewise above) ceased to fall in every row, while the other falls on?
+  bool decided() const {
+    const auto clear = [](double a, double b) { return std::min(a, b) < kFalls * std::max(a, b) && std::max(a, b) > kStays; };
+    for (int r = 0; r < rows(); ++r) {
+      if (bounded_below(r) && !clear((lambda_[r] - low_[r]) / (before_.lambda[r] - low_[r]), z_low_[r] / before_.z_low[r])) return false;
+      if (bounded_above(r) && !clear((high_[r] - lambda_[r]) / (high_[r] - before_.lambda[r]), z_high_[r] / before_.z_high[r])) return false;
+    }
+    return true;
   }
   Vector equilibrium() const { return f_ - problem::stiffness_times(problem_, u_) - problem_.B.transpose() * lambda_; }
   Vector compatibility() const {

@@ -1,8 +1,8 @@
 #include "solver/pdas.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <set>
 
@@ -67,16 +67,7 @@ class Iteration {
     Stopwatch iterating;
     begin_on_few(l);
     begin_inside(l);
-    while (result_.iterations < settings_.max_iterations) {
-      if (monitor_.stop()) {
-        result_.reason = "interrupted; this is the state so far";
-        break;
-      }
-      if (!advance(l)) break;
-    }
-    if (result_.reason.empty())
-      result_.reason = text("no repeated active set within ", settings_.max_iterations,
-                            " iterations; rows that still change: ", places(problem_, changed_));
+    conclude(iterate_and_rescue(l));
     result_.reason += begun_;
     if (!note.empty()) result_.reason += "; " + note;
     result_.clock.iterate += iterating.lap();
@@ -100,15 +91,14 @@ class Iteration {
     result_.screws.push_back({screws_->rows(), screws_->regularity(), screws_->determinant()});
   }
 
-  /// At the end: are the screws where something presses? Otherwise they move, and the iteration goes on.
+  double noise_of_screws() const { return 1e-9 * lambda_.lpNorm<Eigen::Infinity>(); }
+
+  /// At the end: are there screws where nothing presses?
+  bool pulling() const { return screws_ && screws_->pulls(lambda_, noise_of_screws()); }
+
+  /// Then they move, and the iteration goes on.
   bool move_screws(Linearisation& l) {
-    const double noise = 1e-9 * lambda_.lpNorm<Eigen::Infinity>();
-    if (!screws_ || !screws_->pulls(lambda_, noise)) return false;
-    if (screws_->moves() >= settings_.max_moves || !screws_->move(lambda_, noise)) {
-      result_.reason = text("a screw still pulls after ", screws_->moves(), " moves");
-      misplaced_ = true;
-      return false;
-    }
+    if (screws_->moves() >= settings_.max_moves || !screws_->move(lambda_, noise_of_screws())) return false;
     result_.screw_moves = screws_->moves();
     note_screws();
     l = held(std::move(l), x_);
@@ -155,11 +145,8 @@ class Iteration {
   /// Where an interior point method ends.
   void begin_inside(Linearisation& l) {
     if (!stiffness_ || !settings_.start.empty()) return;
-    monitor_.phase("an interior point method");
-    const InteriorPointState s = interior_start(problem_, rigid_, *stiffness_, kBeginning, monitor_);
-    if (s.iterations == 0) return;
-    l = held(linearise(problem_, s.lambda, s.x, rho_, noise(s.lambda, s.x), nullptr), s.x);
-    begun_ = text(", begun with ", s.iterations, " steps of an interior point method");
+    const std::string how = by_interior_point(End::exhausted, l);
+    if (!how.empty()) begun_ = ", begun with " + how;
   }
 
   /// The linearisation with rows added where a rigid motion would be free.
@@ -183,33 +170,90 @@ class Iteration {
     return changed;
   }
 
-  /// One linear solve and the next linearisation in `l`; false at the end.
-  bool advance(Linearisation& l) {
+  /// How Newton steps ended; `misplaced`: a screw pulls and has nowhere to go.
+  enum class End { repeated, misplaced, cycle, singular, exhausted, interrupted };
+
+  /// Newton steps; where they do not come to rest, from where the rescues end, one after the other. A rescue begins while steps are left,
+  /// and has steps of its own to be confirmed.
+  End iterate_and_rescue(Linearisation& l) {
+    constexpr std::array rescues{&Iteration::by_sweeps, &Iteration::by_barrier, &Iteration::by_interior_point};
+    const auto left = [&] { return settings_.max_iterations - result_.iterations; };
+    End end = iterate(l, left(), kPatience);
+    for (const auto rescue : rescues) {
+      if (left() <= 0 || !(end == End::cycle || end == End::singular || end == End::exhausted)) break;
+      const std::string why = cause(end);
+      const std::string how = (this->*rescue)(end, l);
+      if (how.empty()) continue;
+      rescued_ = why + "; left by " + how;
+      end = iterate(l, kConfirmations, kConfirmations);
+    }
+    if (end == End::exhausted && left() > 0) end = iterate(l, left(), left());
+    return end;
+  }
+
+  /// What made Newton steps end, as a rescue's reason begins.
+  std::string cause(End end) const {
+    if (end == End::cycle) return "active sets repeated at " + places(problem_, changed_);
+    if (end == End::singular) return text("the linear problem of iteration ", result_.iterations, " was singular");
+    return text("no repeated active set in ", result_.iterations, " iterations");
+  }
+
+  void conclude(End end) {
+    result_.converged = end == End::repeated;
+    switch (end) {
+      case End::repeated: result_.reason = rescued_.empty() ? "the active set repeats" : rescued_; break;
+      case End::misplaced: result_.reason = text("a screw still pulls after ", screws_->moves(), " moves"); break;
+      case End::interrupted: result_.reason = "interrupted; this is the state so far"; break;
+      case End::singular:
+        result_.reason = text("the linear problem of iteration ", result_.iterations,
+                              " is singular: active rows contradict each other or do not hold a body");
+        break;
+      case End::cycle: by_active_set(); break;
+      case End::exhausted:
+        result_.reason = text("no repeated active set within ", settings_.max_iterations,
+                              " iterations; rows that still change: ", places(problem_, changed_));
+    }
+  }
+
+  /// At most so many Newton steps; fewer where they crawl after more than `patience`.
+  End iterate(Linearisation& l, int most, int patience) {
+    seen_.clear();
+    for (int k = 0; k < most && (k < patience || !crawls()); ++k) {
+      if (monitor_.stop()) return End::interrupted;
+      if (const auto end = advance(l)) return *end;
+    }
+    return End::exhausted;
+  }
+
+  /// Do more than half as many rows change as a few steps ago?
+  bool crawls() const {
+    const auto& h = result_.history;
+    return h.size() > kStretch && 2 * h.back().changed > h[h.size() - 1 - kStretch].changed;
+  }
+
+  /// One linear solve and the next linearisation in `l`; nothing where it is new.
+  std::optional<End> advance(Linearisation& l) {
     ++result_.iterations;
     result_.active_sets.push_back(l.active);
     seen_.insert(l.fingerprint());
     Vector lambda, x;
-    if (!step_->solve(l, lambda, x)) {  // the state stays that of the last solve
-      result_.reason = text("the linear problem of iteration ", result_.iterations,
-                            " is singular: active rows contradict each other or do not hold a body");
-      return false;
-    }
+    if (!step_->solve(l, lambda, x)) return End::singular;  // the state stays that of the last solve
     lambda_ = std::move(lambda);
     x_ = std::move(x);
+    left_alpha_.reset();
     Linearisation next = held(linearise(problem_, lambda_, x_, rho_, noise(lambda_, x_), &l), x_);
     changed_.clear();
     for (int r = 0; r < problem_.rows(); ++r)
       if (!next.same_piece(l, r)) changed_.push_back(r);
     record(next);
     if (changed_.empty()) {
-      if (move_screws(l)) return true;
-      result_.converged = !misplaced_;
-      if (result_.reason.empty()) result_.reason = "the active set repeats";
-      return false;
+      if (!pulling()) return End::repeated;
+      if (!move_screws(l)) return End::misplaced;
+      return std::nullopt;
     }
     l = std::move(next);
-    if (seen_.count(l.fingerprint())) return leave_cycle(l);
-    return true;
+    if (seen_.count(l.fingerprint())) return End::cycle;
+    return std::nullopt;
   }
 
   bool same_pieces(const Linearisation& a, const Linearisation& b) const {
@@ -245,86 +289,59 @@ class Iteration {
     monitor_.iteration(info);
   }
 
-  /// The sets repeat but are no solution: descend the dual energy, trying a Newton step after
-  /// each sweep, until the step confirms its own active set.
-  bool leave_cycle(Linearisation& l) {
-    const std::string where = places(problem_, changed_);
-    if (stiffness_ && problem_.rows() > kMostDense) {
-      result_.reason = text("active sets repeat at ", where, "; the methods that leave that are for at most ", kMostDense, " rows");
-      return false;
-    }
+  /// Descends the dual energy, trying a Newton step after every few sweeps, until the step confirms its own active set: settles small cycles.
+  std::string by_sweeps(End end, Linearisation& l) {
+    if (end != End::cycle || (!condensed_ && problem_.rows() > kMostDense)) return "";
     if (!condensed_) condense();
     DualDescent descent(problem_, *condensed_, lambda_);
     const auto newton = reduced_step(*condensed_, rho_);
-    const bool finite = unilateral_or_linear(problem_);  // the active-set method ends where descent crawls
-    for (int round = 0; result_.iterations < settings_.max_iterations && !monitor_.stop(); ++round) {
-      if (round == kSweepRounds && by_barrier(l, descent, where)) return true;
-      if (finite && round == kRounds) return settle(where);
-      ++result_.iterations;
+    for (int round = 0; round < kSweepRounds && !monitor_.stop(); ++round) {
       for (int k = 0; k < kSweeps; ++k) descent.sweep();
       descent.update_equilibrium();
-      l = linearise(problem_, descent.lambda(), descent.jump(), rho_, noise(descent.lambda(), descent.jump()),
-                    nullptr);
+      l = linearise(problem_, descent.lambda(), descent.jump(), rho_, noise(descent.lambda(), descent.jump()), nullptr);
       Vector lambda, x;
       if (!newton->solve(l, lambda, x)) continue;
       const Linearisation next = linearise(problem_, lambda, x, rho_, noise(lambda, x), &l);
-      if (same_pieces(l, next)) {
-        result_.reason = "active sets repeated at " + where + "; left by sweeps that decrease the dual energy";
-        return true;  // the ordinary iteration confirms it
-      }
+      if (same_pieces(l, next)) return "sweeps that decrease the dual energy";
       descent.take_if_lower(lambda);
     }
     lambda_ = descent.lambda();
     x_ = descent.jump();
     left_alpha_ = descent.alpha();
-    result_.reason = "active sets repeat at " + where + "; descent did not settle within max_iterations";
-    return false;
+    return "";
   }
 
-  /// The pieces that a barrier method ends on, where a Newton step confirms them; else descent goes on from there.
-  bool by_barrier(Linearisation& l, DualDescent& descent, const std::string& where) {
-    if (problem_.rows() > kMostDense) return false;
-    monitor_.phase("active sets repeat: a barrier method on the rows");
+  /// A barrier method on the condensed rows.
+  std::string by_barrier(End, Linearisation& l) {
+    if (!condensed_ || problem_.rows() > kMostDense) return "";
+    monitor_.phase("the active sets do not come to rest: a barrier method on the rows");
     std::vector<int> rows(problem_.rows());
     std::iota(rows.begin(), rows.end(), 0);
     const BoxSolution s = solve_by_barrier(box_program(problem_, *condensed_, rows, std::vector<double>(rows.size(), 1)), kBarrierTol);
-    result_.iterations += s.iterations;
-    if (!s.converged) return false;
-    const Vector jump = condensed_->jump(s.lambda, s.alpha);
-    if (!confirmed(l, s.lambda, jump) && !confirmed(l, s.lambda, without_error(jump, s))) {
-      descent.take_if_lower(s.lambda);
-      return false;
-    }
-    result_.reason = text("active sets repeated at ", where, "; left by ", s.iterations, " steps of a barrier method");
-    return true;
-  }
-
-  /// Of a row between its bounds the jump is the barrier's error, which ρ can blow up until it leaves them.
-  static Vector without_error(Vector jump, const BoxSolution& s) {
+    if (!s.converged) return "";
+    Vector jump = condensed_->jump(s.lambda, s.alpha);
     for (int r = 0; r < jump.size(); ++r)
-      if (s.side[r] == 0) jump[r] = 0;
-    return jump;
+      if (s.side[r] == 0) jump[r] = 0;  // the barrier's error, which ρ can blow up until it leaves the bounds
+    l = held(linearise(problem_, s.lambda, jump, rho_, noise(s.lambda, -problem_.c), nullptr), jump);
+    return text(s.iterations, " steps of a barrier method");
   }
 
-  /// Do a few Newton steps from there end on pieces that repeat? Then these are in `l`.
-  bool confirmed(Linearisation& l, const Vector& lambda, const Vector& jump) {
-    Linearisation from = linearise(problem_, lambda, jump, rho_, noise(lambda, -problem_.c), nullptr);
-    const auto newton = reduced_step(*condensed_, rho_);
-    for (int k = 0; k < kConfirmations; ++k) {
-      Vector next_lambda, x;
-      if (!newton->solve(from, next_lambda, x)) return false;
-      Linearisation next = linearise(problem_, next_lambda, x, rho_, noise(next_lambda, x), &from);
-      const bool same = same_pieces(from, next);
-      from = std::move(next);
-      if (!same) continue;
-      l = std::move(from);
-      return true;
-    }
-    return false;
+  /// An interior point method on the unknowns.
+  std::string by_interior_point(End, Linearisation& l) {
+    if (inside_) return "";
+    inside_ = true;
+    if (!stiffness_) analyse();
+    monitor_.phase("an interior point method");
+    const InteriorPointState s = interior_start(problem_, rigid_, *stiffness_, kBeginning, monitor_);
+    if (s.iterations == 0) return "";
+    l = held(linearise(problem_, s.lambda, s.x, rho_, noise(s.lambda, s.x), nullptr), s.x);
+    return text(s.iterations, " steps of an interior point method");
   }
 
-  /// The active-set method of programs, from rest: false, as all is done.
-  bool settle(const std::string& where) {
+  /// The active-set method of programs, from rest, which ends where laws are unilateral or linear.
+  void by_active_set() {
+    result_.reason = "active sets repeat at " + places(problem_, changed_);
+    if (!unilateral_or_linear(problem_) || problem_.rows() > kMostDense) return;
     ActiveSet method;
     method.tol = settings_.tol;
     method.ordering = settings_.ordering;
@@ -336,19 +353,18 @@ class Iteration {
     result_.working_set = settled.working_set;
     result_.active_sets.push_back(settled.active_sets.back());
     result_.clock.factor += settled.clock.factor;
-    result_.reason = text("active sets repeated at ", where, "; left by ", settled.iterations, " steps of active_set",
-                          settled.converged ? "" : ", in vain: " + settled.reason);
+    result_.reason += text("; left by ", settled.iterations, " steps of active_set", settled.converged ? "" : ", in vain: " + settled.reason);
     lambda_ = settled.state.lambda;
     settled_ = std::move(settled.state.u);
-    return false;
   }
 
-  /// Sweeps between two Newton steps of the descent (and two updates of the free bodies' equilibrium).
-  static constexpr int kSweeps = 3;
-  /// Newton steps of the descent before the barrier method is asked, and that of active sets; steps granted to that.
-  static constexpr int kSweepRounds = 3, kConfirmations = 5, kMostDense = 3000;
+  /// Newton steps before rescues are asked, and to confirm what one found.
+  static constexpr int kPatience = 10, kConfirmations = 8;
+  static constexpr std::size_t kStretch = 4;
+  /// Sweeps between two Newton steps of the descent (and two updates of the free bodies' equilibrium), and how often.
+  static constexpr int kSweeps = 3, kSweepRounds = 3;
+  static constexpr int kMostDense = 3000, kStepsPerRow = 20;
   static constexpr double kBarrierTol = 1e-10, kBeginning = 1e-10;
-  static constexpr int kRounds = 20, kStepsPerRow = 20;
 
   const Problem& problem_;
   const Pdas& settings_;
@@ -360,15 +376,15 @@ class Iteration {
   problem::Condenser own_;
   const CondensedProblem* condensed_ = nullptr;
   std::optional<Screws> screws_;
-  bool misplaced_ = false;  ///< a screw pulls and has nowhere to go
-  std::optional<HeldStiffness> stiffness_;  ///< of the held form
+  std::optional<HeldStiffness> stiffness_;  ///< of the held form, and of the interior point method
   std::unique_ptr<Step> step_;
   Vector lambda_, x_;
   std::vector<int> changed_;
   std::optional<Vector> left_alpha_;  ///< of the descent, where λ is the descent's and not the last step's
   std::optional<Vector> settled_;     ///< u of another method
   std::set<std::uint64_t> seen_;
-  std::string begun_;
+  bool inside_ = false;         ///< the interior point method has been tried
+  std::string begun_, rescued_; ///< what is said of starts, and of rescues
   Stopwatch watch_;
 };
 
