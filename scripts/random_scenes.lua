@@ -11,7 +11,8 @@
 -- its seed: SEED 1 runs that one again. Exit status 1 where anything is wrong.
 --
 -- Classes: solved (two methods agree), one method (no second one converges), several (Coulomb friction: two methods find two states
--- that are both right), refused (rightly), undecided (refused; the criterion cannot tell), not converged; WRONG, REFUSED (a scene that has a solution) and ERROR.
+-- that are both right), refused (rightly), undecided (refused; the criterion cannot tell), not converged;
+-- WRONG, REFUSED (a scene that has a solution) and ERROR.
 
 local folder <const> = (arg[0]:match "^(.*)/[^/]*$" or ".") .. "/random_scenes/"
 local first_seed <const>, count <const>, show <const> = tonumber(arg[1]) or 1, tonumber(arg[2]) or 200, arg[3] == "show"
@@ -74,7 +75,9 @@ end
 local function refused(scene, message)
   message = message:gsub("^.-:%d+: ", "")
   if not (message:find "not held" or message:find "no solution" or message:find "nothing holds it") then return "ERROR", message end
-  if message:find "is not held: nothing stops its" or message:find "nothing holds it" then return "refused" end -- no row touches it
+  -- Nothing at all happens to a body that is free and not loaded: refused by custom, since it could be anywhere.
+  local idle <const> = tonumber(message:match "^solve: 'b(%d+)' is not held: nothing stops its")
+  if message:find "nothing loads it" or (idle and #scene.bodies[idle].loads == 0) then return "refused" end
   local verdict, left
   if scene.dimension then
     local good, held = pcall(make, scene, true)

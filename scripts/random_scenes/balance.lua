@@ -195,7 +195,8 @@ local function nearest_motion(load, size, forces, factor)
   for k = 1, #linear do least[k] = k <= modes and -math.huge or 0 end
   for k = 1, modes do diagonal[k], ones[k] = k, 1 end
   local rows = count > 0 and { i = i, j = j, value = value } or nil
-  local result = dotyk.qp{ B = { i = diagonal, j = diagonal, value = ones }, c = linear, A = rows, high = rows and 0, x_low = least, method = "active_set" }
+  local result = dotyk.qp{ B = { i = diagonal, j = diagonal, value = ones }, c = linear, A = rows, high = rows and 0, x_low = least,
+                           method = "active_set" }
   return { table.unpack(result.x, 1, modes) }
 end
 
@@ -209,7 +210,9 @@ local function resistance(forces, v)
       if bound == math.huge then wrong = math.max(wrong, math.abs(along)) else work = work + bound * math.abs(along) end
     else
       for k = force.mu and 2 or 1, #force.dense do length = length + dot(force.dense[k], v)^2 end
-      if force.mu then wrong = math.max(wrong, along + force.mu * length^0.5) else work = work + force.radius * length^0.5 end
+      if force.mu then wrong = math.max(wrong, along + force.mu * length^0.5)
+      elseif force.radius == math.huge then wrong = math.max(wrong, length^0.5)
+      else work = work + force.radius * length^0.5 end
     end
   end
   return work, wrong

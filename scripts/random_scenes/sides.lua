@@ -72,7 +72,8 @@ end
 
 local along <const> = { "prescribed", 1, "elastic", 2, "one_sided_elastic", 3, "unequal_elastic", 1, "signorini", 4, "friction", 1,
                         "one_sided_friction", 1, "capped_elastic", 1, "load", 1 }
-local across <const> = { { "prescribed", 1, "elastic", 2, "friction", 3, "capped_elastic", 1, "load", 1 }, { "prescribed", 1, "elastic", 2, "friction", 3 } }
+local across <const> = { { "prescribed", 1, "elastic", 2, "friction", 3, "capped_elastic", 1, "load", 1 },
+                         { "prescribed", 1, "elastic", 2, "friction", 3 } }
 
 function act.law(scene, body, name)
   if body.held > 0 then return end
@@ -177,8 +178,9 @@ local function touch(scene)
       elseif body.below and dice.chance(0.93) then solids.join(scene, body, body.below, "bottom", body.gap) end
       local left = k > 1 and scene.columns[k - 1][row]
       if left and dice.chance(0.5) then
-        local overlap = math.min(left.high[scene.dimension], body.high[scene.dimension]) - math.max(left.low[scene.dimension], body.low[scene.dimension])
-        if overlap > 0.1 * scene.size then solids.join(scene, body, left, "left", body.low[1] - left.high[1]) end
+        local up <const> = scene.dimension
+        local common <const> = math.min(left.high[up], body.high[up]) - math.max(left.low[up], body.low[up])
+        if common > 0.1 * scene.size then solids.join(scene, body, left, "left", body.low[1] - left.high[1]) end
       end
     end
   end

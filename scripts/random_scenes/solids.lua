@@ -146,7 +146,9 @@ local function add_body(scene, low, size, glued)
   body.element = dice.chance(0.6) and scene.element or dice.pick{ "P1", "Q1", "P2", "Q2" }
   body.disc = scene.dimension == 2 and not glued and dice.chance(0.15)
   for axis = 1, scene.dimension do body.high[axis] = low[axis] + size[body.disc and 1 or axis] end
-  if not body.disc and not glued and dice.chance(0.12) then body.bend = (body.high[scene.dimension] - low[scene.dimension]) * dice.sign() * dice.power(-3, -0.7) end
+  if not body.disc and not glued and dice.chance(0.12) then
+    body.bend = (body.high[scene.dimension] - low[scene.dimension]) * dice.sign() * dice.power(-3, -0.7)
+  end
   table.insert(scene.bodies, body)
   if body.disc then add_disc(scene, body) else add_box(scene, body) end
   return body
@@ -165,9 +167,9 @@ end
 local function friction(scene)
   local kind = scene.friction
   if kind == "none" or dice.chance(0.25) then return nil, "" end
-  local value = kind == "coulomb" and (dice.chance(0.05) and 0 or dice.between(0, dice.pick{ 0.3, 1, 3 }))
-    or scene.stress * dice.power(-2, 1)
-  return { kind = kind, value = value }, (", friction = dotyk.friction.%s(%s)"):format(kind, format(value))
+  local value = kind == "coulomb" and dice.between(0, dice.pick{ 0.3, 1, 3 }) or scene.stress * dice.power(-2, 1)
+  if dice.chance(0.05) then value = kind == "tresca" and dice.chance(0.7) and math.huge or 0 end
+  return { kind = kind, value = value }, (", friction = dotyk.friction.%s(%s)"):format(kind, value == math.huge and "math.huge" or format(value))
 end
 
 local function add_contact(scene, text, contact)
@@ -218,7 +220,8 @@ local function obstacle(scene, body, name)
     centre[axis] = centre[axis] + sign * R
     against = ("dotyk.rigid.ball{ center = %s, radius = %s }"):format(format(solids.turn(scene, centre)), format(R))
   end
-  add_contact(scene, part(scene, body, name) .. ", rigid = " .. against, { first = { body = body, side = name }, overlap = overlap, curved = body.disc or body.bend ~= 0 })
+  add_contact(scene, part(scene, body, name) .. ", rigid = " .. against,
+    { first = { body = body, side = name }, overlap = overlap, curved = body.disc or body.bend ~= 0 })
 end
 
 local function glue(scene, one, other)
