@@ -14,7 +14,8 @@ local function support(scene, body, name, text, law)
 end
 
 -- No point of the side moves along these directions.
-local function constrain(scene, body, name, directions)
+local function constrain(scene, body, name, directions, springs)
+  if not springs then body.holding = body.holding or {}; table.insert(body.holding, { side = name, directions = directions }) end
   for _, p in ipairs(g.points_of({ g.side_box(scene, body, name) }, g.corner)) do
     for _, n in ipairs(directions) do table.insert(body.constraints, { x = solids.turn(scene, p.x), n = n }) end
   end
@@ -66,7 +67,7 @@ end
 function act.spring(scene, body, name)
   local k = format(body.E / scene.size * dice.power(-3, 1))
   body.sprung = true
-  constrain(scene, body, name, axes(scene))
+  constrain(scene, body, name, axes(scene), true)
   support(scene, body, name, (":spring{ x = %s, y = %s%s }"):format(k, k, scene.dimension == 3 and ", z = " .. k or ""))
 end
 

@@ -231,6 +231,21 @@ local function glue(scene, one, other)
   table.insert(scene.glues, tie)
 end
 
+-- Do supports hold the normal displacement of a side at x, so that there is no condition and no friction?
+local function rests(scene, where, x)
+  local normal = solids.turn(scene, normal_of(scene, where.side))
+  for _, held in ipairs(where.body.holding or {}) do
+    local n, p = solids.turn(scene, normal_of(scene, held.side)), solids.turn(scene, (side_box(scene, where.body, held.side)))
+    local distance, along = 0, 0
+    for k in ipairs(x) do
+      distance = distance + n[k] * (x[k] - p[k])
+      along = along + held.directions[1][k] * normal[k]
+    end
+    if math.abs(distance) < 1e-9 * scene.size and (#held.directions > 1 or math.abs(along) > 1 - 1e-9) then return true end
+  end
+  return false
+end
+
 -- What checks ask of the geometry of a scene that is whole.
 function solids.finish(scene)
   local up = scene.dimension
@@ -241,13 +256,16 @@ function solids.finish(scene)
     scene.stiffest = math.max(scene.stiffest, body.E)
     for k = 1, up do scene.extent = math.max(scene.extent, math.abs(body.high[k]), math.abs(body.low[k])) end
   end
-  -- What a contact holds by a hair is not told exactly where its conditions are means of places beside its nodes, on curved parts, nor
-  -- where supports hold nodes of it, which then have no friction.
+  -- On curved parts conditions are means of places beside the node: what they measure of rigid motions is asked for (probe.lua) where
+  -- contacts have them. Of supports by laws it is not told exactly.
   for _, contact in ipairs(scene.contacts) do
-    local curved = contact.curved and (contact.second or contact.first.body.element:sub(2) == "2")
-    local held = contact.friction and contact.first.body.held + (contact.second and contact.second.body.held or 0) > 0
-    scene.inexact = scene.inexact or curved or held
+    scene.curved = scene.curved or (contact.curved and (contact.second or contact.first.body.element:sub(2) == "2"))
   end
+  for _, support in ipairs(scene.supports) do
+    local body = scene.bodies[support.body]
+    scene.inexact = scene.inexact or (support.law and body.element:sub(2) == "2" and (body.disc or body.bend ~= 0))
+  end
+  scene.rests = function(contact, x) return rests(scene, contact.first, x) and (not contact.second or rests(scene, contact.second, x)) end
   -- The middle of a body and, where it is a box, places next to its sides to the left and right.
   scene.samples = function(body)
     local points = {}
