@@ -11,7 +11,8 @@
 -- its seed: SEED 1 runs that one again. Exit status 1 where anything is wrong.
 --
 -- Classes: solved (two methods agree), one method (no second one converges), several (Coulomb friction: two methods find two states
--- that are both right), refused (rightly), undecided (refused; the criterion cannot tell), not converged; WRONG, REFUSED (a scene that has a solution) and ERROR.
+-- that are both right), refused (rightly), undecided (refused; the criterion cannot tell), not converged;
+-- WRONG, REFUSED (a scene that has a solution) and ERROR.
 
 local folder <const> = (arg[0]:match "^(.*)/[^/]*$" or ".") .. "/random_scenes/"
 local first_seed <const>, count <const>, show <const> = tonumber(arg[1]) or 1, tonumber(arg[2]) or 200, arg[3] == "show"
@@ -21,10 +22,12 @@ local laws <const> = part("laws", dice)
 local solids <const> = part("solids", dice, laws)
 local random_solids <const> = part("sides", dice, laws, solids)
 local models <const> = part("beams_and_plates", dice, laws)
-local balance <const>, check_solids <const> = part("balance", laws), part("checks", laws)
+local balance <const>, probe <const>, check_solids <const> = part("balance", laws), part "probe", part("checks", laws)
 
 -- 1. A scene from its source. `held`: with springs on all bodies, which hold any scene.
 local function run(lines) return assert(load(table.concat(lines, "\n"), "=scene"))() end
+
+local function boundary_of(body) return body.disc and { "boundary" } or solids.geometry.side_names[#body.low - 1] end
 
 local function make(scene, held)
   if not scene.dimension then return { scene = run(scene.lines) } end
@@ -33,7 +36,7 @@ local function make(scene, held)
   for k, support in ipairs(scene.supports) do names.supports[k] = support.name end
   for k, body in ipairs(scene.bodies) do
     names.bodies[k] = body.name
-    for _, side in ipairs(held and (body.disc and { "boundary" } or solids.geometry.side_names[scene.dimension - 1]) or {}) do
+    for _, side in ipairs(held and boundary_of(body) or {}) do
       local stiffness = body.E / scene.size
       table.insert(lines, ("%s:part%q:spring{ x = %g, y = %g%s }"):format(body.name, side, stiffness, stiffness,
         scene.dimension == 3 and (", z = %g"):format(stiffness) or ""))
@@ -74,12 +77,16 @@ end
 local function refused(scene, message)
   message = message:gsub("^.-:%d+: ", "")
   if not (message:find "not held" or message:find "no solution" or message:find "nothing holds it") then return "ERROR", message end
-  if message:find "is not held: nothing stops its" or message:find "nothing holds it" then return "refused" end -- no row touches it
+  -- Nothing at all happens to a body that is free and not loaded: refused by custom, since it could be anywhere.
+  local idle <const> = tonumber(message:match "^solve: 'b(%d+)' is not held: nothing stops its")
+  if message:find "nothing loads it" or (idle and #scene.bodies[idle].loads == 0) then return "refused" end
   local verdict, left
   if scene.dimension then
     local good, held = pcall(make, scene, true)
     if not good then return "ERROR", tostring(held) end
-    verdict, left = balance.scene(scene, held)
+    local function motion(b, mode) return balance.motion(scene, b, mode) end
+    local probed = scene.curved and probe(scene, run, boundary_of, motion, 3 * scene.dimension - 3)
+    verdict, left = balance.scene(scene, held, probed)
   else verdict, left = balance.verdict(models.problem(scene)) end
   if verdict == "unsolvable" then return "refused" end
   message = ("%s (%.3g of the load left)"):format(message, left)

@@ -42,9 +42,18 @@ local function tangents(n)
   return { t, { n[2] * t[3] - n[3] * t[2], n[3] * t[1] - n[1] * t[3], n[1] * t[2] - n[2] * t[1] } }
 end
 
+-- The row of the slip along t.
+local function along(slip, t)
+  local row = {}
+  for c, component in ipairs(slip) do
+    for mode, v in pairs(component) do row[mode] = (row[mode] or 0) + t[c] * v end
+  end
+  return row
+end
+
 -- The forces that resist: `fixed` (of any size), others an amount of `rows[1]` from `low` to `high`, a vector of amounts of all rows of
--- length up to `radius`, or one in Coulomb's cone, the normal force first.
-local function collect(scene, held)
+-- length up to `radius`, or one in Coulomb's cone, the normal force first. `probed`: rows of the contacts where curved ones are (probe.lua).
+local function collect(scene, held, probed)
   local problem = { dimension = scene.dimension, size = scene.size, first = {}, centre = {}, modes = 0,
                     fixed = {}, forces = {}, load = {} }
   for b, body in ipairs(scene.bodies) do
@@ -61,10 +70,13 @@ local function collect(scene, held)
     return contact.second and row_of(problem, contact.second.body.index, x, back, row) or row
   end
   for k, contact in ipairs(scene.contacts) do
-    for _, node in ipairs(held.solution:contact(held.contacts[k]).nodes) do
+    for i, node in ipairs(held.solution:contact(held.contacts[k]).nodes) do
       local x, rows = { node.x, node.y, scene.dimension == 3 and node.z or nil }, {}
-      local normal, law = jump(contact, x, node.normal), contact.friction
-      for i, t in ipairs(law and tangents(node.normal) or {}) do rows[i] = jump(contact, x, t) end
+      local normal, law = probed and probed[k][i].normal or jump(contact, x, node.normal), contact.friction
+      for _, t in ipairs(law and not scene.rests(contact, x) and tangents(node.normal) or {}) do
+        table.insert(rows, probed and along(probed[k][i].slip, t) or jump(contact, x, t))
+      end
+      if #rows == 0 then law = nil end
       if law and law.kind == "coulomb" then
         table.insert(problem.forces, { rows = { normal, table.unpack(rows) }, mu = law.value })
       else
@@ -195,7 +207,8 @@ local function nearest_motion(load, size, forces, factor)
   for k = 1, #linear do least[k] = k <= modes and -math.huge or 0 end
   for k = 1, modes do diagonal[k], ones[k] = k, 1 end
   local rows = count > 0 and { i = i, j = j, value = value } or nil
-  local result = dotyk.qp{ B = { i = diagonal, j = diagonal, value = ones }, c = linear, A = rows, high = rows and 0, x_low = least, method = "active_set" }
+  local result = dotyk.qp{ B = { i = diagonal, j = diagonal, value = ones }, c = linear, A = rows, high = rows and 0, x_low = least,
+                           method = "active_set" }
   return { table.unpack(result.x, 1, modes) }
 end
 
@@ -209,7 +222,9 @@ local function resistance(forces, v)
       if bound == math.huge then wrong = math.max(wrong, math.abs(along)) else work = work + bound * math.abs(along) end
     else
       for k = force.mu and 2 or 1, #force.dense do length = length + dot(force.dense[k], v)^2 end
-      if force.mu then wrong = math.max(wrong, along + force.mu * length^0.5) else work = work + force.radius * length^0.5 end
+      if force.mu then wrong = math.max(wrong, along + force.mu * length^0.5)
+      elseif force.radius == math.huge then wrong = math.max(wrong, length^0.5)
+      else work = work + force.radius * length^0.5 end
     end
   end
   return work, wrong
@@ -241,9 +256,28 @@ function balance.verdict(problem)
   return dot(others, others)^0.5 < 1e-7 and "solvable" or "undecided", left
 end
 
+-- How fast a point moves with the mode-th motion of a body: translations, then rotations, as row_of counts them.
+function balance.motion(scene, b, mode)
+  local d, body, c = scene.dimension, scene.bodies[b], {}
+  for k = 1, d do c[k] = (body.low[k] + body.high[k]) / 2 end
+  c = scene.turn(c)
+  return function(x)
+    local v, r = { 0, 0, 0 }, {}
+    for k = 1, d do r[k] = (x[k] - c[k]) / scene.size end
+    if mode <= d then v[mode] = 1
+    elseif d == 2 then v[1], v[2] = -r[2], r[1]
+    else
+      local k = mode - 3
+      local i, j = k % 3 + 1, (k + 1) % 3 + 1
+      v[i], v[j] = -r[j], r[i]
+    end
+    return v
+  end
+end
+
 -- Of a scene of bodies; `held` has its nodes.
-function balance.scene(scene, held)
-  local problem = collect(scene, held)
+function balance.scene(scene, held, probed)
+  local problem = collect(scene, held, probed)
   add_supports(scene, held, problem)
   return balance.verdict(problem)
 end

@@ -17,10 +17,10 @@ end
 local function balanced(forces, moments, wrong)
   local sum, gross = 0, 1e-300
   for _, f in ipairs(forces) do sum, gross = sum + f, gross + math.abs(f) end
-  if math.abs(sum) > 1e-6 * gross then wrong("forces do not balance: %.3g of %.3g", sum, gross) end
+  if not (math.abs(sum) <= 1e-6 * gross) then wrong("forces do not balance: %.3g of %.3g", sum, gross) end
   sum = 0
   for _, m in ipairs(moments) do sum, gross = sum + m, gross + math.abs(m) end
-  if math.abs(sum) > 1e-6 * gross then wrong("moments do not balance: %.3g of %.3g", sum, gross) end
+  if not (math.abs(sum) <= 1e-6 * gross) then wrong("moments do not balance: %.3g of %.3g", sum, gross) end
 end
 
 -- 1. Beams: of unit length, with supports at the ends and within. Laws of a rotation act on v = -slope, see help "law".
@@ -174,7 +174,8 @@ end
 
 local function problem_of_plate(plate)
   local area <const> = plate.width * plate.height
-  local problem = { modes = 3, fixed = {}, forces = {}, load = { plate.q * area, plate.q * area * plate.width / 2, plate.q * area * plate.height / 2 } }
+  local whole <const> = plate.q * area
+  local problem = { modes = 3, fixed = {}, forces = {}, load = { whole, whole * plate.width / 2, whole * plate.height / 2 } }
   for _, p in ipairs(plate.points) do
     for k, v in ipairs{ 1, p.x, p.y } do problem.load[k] = problem.load[k] + v * p.force end
   end

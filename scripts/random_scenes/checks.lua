@@ -43,6 +43,7 @@ local function check_friction(at, node, bound, tol, wrong, held)
   local shear, slip = norm(node.shear), norm(node.slip)
   if shear > bound + tol.p then wrong("shear %.3g beyond its bound %.3g at %s", shear, bound, at) end
   if slip <= tol.u or held then return end
+  if bound == math.huge then return wrong("slip %.3g where there is none at %s", slip, at) end
   local off = {}
   for k, s in ipairs(node.slip) do off[k] = node.shear[k] + bound * s / slip end
   if norm(off) > tol.p + 10 * bound * tol.u / slip then
@@ -171,7 +172,7 @@ local function check_equilibrium(scene, made, solution, contacts, supports, tol,
   for k, sum in pairs(sums) do
     -- Beside the accuracy of forces: rounding of inner forces, a body's stiffness times its motion.
     local rounding = 1e-12 * scene.stiffest * tol.length * scene.size^(scene.dimension - 2) + 1e-9 * tol.gross
-    if norm(sum.force) > accuracy * sum.gross + rounding then
+    if not (norm(sum.force) <= accuracy * sum.gross + rounding) then -- also where it is not a number
       wrong("forces on b%d do not balance: %.3g of %.3g", k, norm(sum.force), sum.gross)
     elseif sum.whole and norm(sum.moment) > accuracy * sum.gross_moment + rounding * extent then
       wrong("moments on b%d do not balance: %.3g of %.3g", k, norm(sum.moment), sum.gross_moment)
@@ -203,7 +204,7 @@ return function(scene, made, solution)
   check_equilibrium(scene, made, solution, contacts, supports, tol, wrong)
   local rubbing = 0 -- given friction's bounds, of which slips known to 1e-7 make work
   for k, contact in ipairs(scene.contacts) do
-    local given = contact.friction and contact.friction.kind == "tresca"
+    local given = contact.friction and contact.friction.kind == "tresca" and contact.friction.value < math.huge
     for _, node in ipairs(given and contacts[k].nodes or {}) do rubbing = rubbing + contact.friction.value * node.weight end
   end
   tol.energy = (1e-9 * tol.gross + 1e-7 * rubbing) * tol.length + 1e-12 * scene.stiffest * tol.length^2 * scene.size^(scene.dimension - 2)

@@ -7,13 +7,14 @@ local laws = {}
 
 local function clamp(x, low, high) return math.max(low, math.min(high, x)) end
 
--- Each law: numbers drawn as multiples of a stiffness and a stress; its graph, r at v, of
--- which jumps may stand on either side; `bounds`: the least and the greatest r, where they are not the number g.
+-- Each law: which numbers it has (stiffnesses k and k2, a bound g, a load f); its graph, r at v, on either side of its jumps; `bounds`:
+-- the least and the greatest r, where they are not the number g.
 local kinds = {
   prescribed = { graph = function(v) return v >= 0 and -math.huge or math.huge end, bounds = { -math.huge, math.huge } },
   elastic = { k = true, graph = function(v, k) return -k * v end, bounds = { -math.huge, math.huge } },
   one_sided_elastic = { k = true, graph = function(v, k) return k * math.max(-v, 0) end, bounds = { 0, math.huge } },
-  unequal_elastic = { k = true, k2 = true, graph = function(v, k, pull) return v < 0 and -k * v or -pull * v end, bounds = { -math.huge, math.huge } },
+  unequal_elastic = { k = true, k2 = true, graph = function(v, k, pull) return v < 0 and -k * v or -pull * v end,
+                      bounds = { -math.huge, math.huge } },
   signorini = { graph = function(v) return v >= 0 and 0 or math.huge end, bounds = { 0, math.huge } },
   friction = { g = true, graph = function(v, g) return v >= 0 and -g or g end },
   one_sided_friction = { g = true, graph = function(v, g) return v >= 0 and 0 or g end },
@@ -39,6 +40,7 @@ end
 -- How far r is from what the law gives at v, in units of tr, where v is known up to tv: up to 1 it is on the law's graph.
 -- The graph falls with v, so that r must lie between its values at v + tv and v - tv.
 function laws.distance(law, v, r, tv, tr)
+  if v ~= v or r ~= r then return math.huge end -- not numbers
   local graph, a, b = law.kind.graph, law.numbers[1], law.numbers[2]
   local low, high = graph(v + tv, a, b), graph(v - tv, a, b)
   if r < low then return (low - r) / tr end

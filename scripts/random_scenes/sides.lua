@@ -14,7 +14,8 @@ local function support(scene, body, name, text, law)
 end
 
 -- No point of the side moves along these directions.
-local function constrain(scene, body, name, directions)
+local function constrain(scene, body, name, directions, springs)
+  if not springs then body.holding = body.holding or {}; table.insert(body.holding, { side = name, directions = directions }) end
   for _, p in ipairs(g.points_of({ g.side_box(scene, body, name) }, g.corner)) do
     for _, n in ipairs(directions) do table.insert(body.constraints, { x = solids.turn(scene, p.x), n = n }) end
   end
@@ -66,13 +67,14 @@ end
 function act.spring(scene, body, name)
   local k = format(body.E / scene.size * dice.power(-3, 1))
   body.sprung = true
-  constrain(scene, body, name, axes(scene))
+  constrain(scene, body, name, axes(scene), true)
   support(scene, body, name, (":spring{ x = %s, y = %s%s }"):format(k, k, scene.dimension == 3 and ", z = " .. k or ""))
 end
 
 local along <const> = { "prescribed", 1, "elastic", 2, "one_sided_elastic", 3, "unequal_elastic", 1, "signorini", 4, "friction", 1,
                         "one_sided_friction", 1, "capped_elastic", 1, "load", 1 }
-local across <const> = { { "prescribed", 1, "elastic", 2, "friction", 3, "capped_elastic", 1, "load", 1 }, { "prescribed", 1, "elastic", 2, "friction", 3 } }
+local across <const> = { { "prescribed", 1, "elastic", 2, "friction", 3, "capped_elastic", 1, "load", 1 },
+                         { "prescribed", 1, "elastic", 2, "friction", 3 } }
 
 function act.law(scene, body, name)
   if body.held > 0 then return end
@@ -177,8 +179,9 @@ local function touch(scene)
       elseif body.below and dice.chance(0.93) then solids.join(scene, body, body.below, "bottom", body.gap) end
       local left = k > 1 and scene.columns[k - 1][row]
       if left and dice.chance(0.5) then
-        local overlap = math.min(left.high[scene.dimension], body.high[scene.dimension]) - math.max(left.low[scene.dimension], body.low[scene.dimension])
-        if overlap > 0.1 * scene.size then solids.join(scene, body, left, "left", body.low[1] - left.high[1]) end
+        local up <const> = scene.dimension
+        local common <const> = math.min(left.high[up], body.high[up]) - math.max(left.low[up], body.low[up])
+        if common > 0.1 * scene.size then solids.join(scene, body, left, "left", body.low[1] - left.high[1]) end
       end
     end
   end

@@ -146,7 +146,9 @@ local function add_body(scene, low, size, glued)
   body.element = dice.chance(0.6) and scene.element or dice.pick{ "P1", "Q1", "P2", "Q2" }
   body.disc = scene.dimension == 2 and not glued and dice.chance(0.15)
   for axis = 1, scene.dimension do body.high[axis] = low[axis] + size[body.disc and 1 or axis] end
-  if not body.disc and not glued and dice.chance(0.12) then body.bend = (body.high[scene.dimension] - low[scene.dimension]) * dice.sign() * dice.power(-3, -0.7) end
+  if not body.disc and not glued and dice.chance(0.12) then
+    body.bend = (body.high[scene.dimension] - low[scene.dimension]) * dice.sign() * dice.power(-3, -0.7)
+  end
   table.insert(scene.bodies, body)
   if body.disc then add_disc(scene, body) else add_box(scene, body) end
   return body
@@ -165,9 +167,9 @@ end
 local function friction(scene)
   local kind = scene.friction
   if kind == "none" or dice.chance(0.25) then return nil, "" end
-  local value = kind == "coulomb" and (dice.chance(0.05) and 0 or dice.between(0, dice.pick{ 0.3, 1, 3 }))
-    or scene.stress * dice.power(-2, 1)
-  return { kind = kind, value = value }, (", friction = dotyk.friction.%s(%s)"):format(kind, format(value))
+  local value = kind == "coulomb" and dice.between(0, dice.pick{ 0.3, 1, 3 }) or scene.stress * dice.power(-2, 1)
+  if dice.chance(0.05) then value = kind == "tresca" and dice.chance(0.7) and math.huge or 0 end
+  return { kind = kind, value = value }, (", friction = dotyk.friction.%s(%s)"):format(kind, value == math.huge and "math.huge" or format(value))
 end
 
 local function add_contact(scene, text, contact)
@@ -218,7 +220,8 @@ local function obstacle(scene, body, name)
     centre[axis] = centre[axis] + sign * R
     against = ("dotyk.rigid.ball{ center = %s, radius = %s }"):format(format(solids.turn(scene, centre)), format(R))
   end
-  add_contact(scene, part(scene, body, name) .. ", rigid = " .. against, { first = { body = body, side = name }, overlap = overlap, curved = body.disc or body.bend ~= 0 })
+  add_contact(scene, part(scene, body, name) .. ", rigid = " .. against,
+    { first = { body = body, side = name }, overlap = overlap, curved = body.disc or body.bend ~= 0 })
 end
 
 local function glue(scene, one, other)
@@ -226,6 +229,21 @@ local function glue(scene, one, other)
   local tie = { one = one.index, other = other.index, points = {} }
   for _, p in ipairs(points_of({ side_box(scene, one, "bottom") }, corner)) do table.insert(tie.points, solids.turn(scene, p.x)) end
   table.insert(scene.glues, tie)
+end
+
+-- Do supports hold the normal displacement of a side at x, so that there is no condition and no friction?
+local function rests(scene, where, x)
+  local normal = solids.turn(scene, normal_of(scene, where.side))
+  for _, held in ipairs(where.body.holding or {}) do
+    local n, p = solids.turn(scene, normal_of(scene, held.side)), solids.turn(scene, (side_box(scene, where.body, held.side)))
+    local distance, along = 0, 0
+    for k in ipairs(x) do
+      distance = distance + n[k] * (x[k] - p[k])
+      along = along + held.directions[1][k] * normal[k]
+    end
+    if math.abs(distance) < 1e-9 * scene.size and (#held.directions > 1 or math.abs(along) > 1 - 1e-9) then return true end
+  end
+  return false
 end
 
 -- What checks ask of the geometry of a scene that is whole.
@@ -238,13 +256,16 @@ function solids.finish(scene)
     scene.stiffest = math.max(scene.stiffest, body.E)
     for k = 1, up do scene.extent = math.max(scene.extent, math.abs(body.high[k]), math.abs(body.low[k])) end
   end
-  -- What a contact holds by a hair is not told exactly where its conditions are means of places beside its nodes, on curved parts, nor
-  -- where supports hold nodes of it, which then have no friction.
+  -- On curved parts conditions are means of places beside the node: what they measure of rigid motions is asked for (probe.lua) where
+  -- contacts have them. Of supports by laws it is not told exactly.
   for _, contact in ipairs(scene.contacts) do
-    local curved = contact.curved and (contact.second or contact.first.body.element:sub(2) == "2")
-    local held = contact.friction and contact.first.body.held + (contact.second and contact.second.body.held or 0) > 0
-    scene.inexact = scene.inexact or curved or held
+    scene.curved = scene.curved or (contact.curved and (contact.second or contact.first.body.element:sub(2) == "2"))
   end
+  for _, support in ipairs(scene.supports) do
+    local body = scene.bodies[support.body]
+    scene.inexact = scene.inexact or (support.law and body.element:sub(2) == "2" and (body.disc or body.bend ~= 0))
+  end
+  scene.rests = function(contact, x) return rests(scene, contact.first, x) and (not contact.second or rests(scene, contact.second, x)) end
   -- The middle of a body and, where it is a box, places next to its sides to the left and right.
   scene.samples = function(body)
     local points = {}
