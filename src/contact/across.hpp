@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/monitor.hpp"
 #include "contact/matching.hpp"
 
 namespace dotyk::contact {
@@ -32,7 +33,8 @@ std::vector<Across> node_to_segment(const Face& first, const Face& second, const
 /// in the rows: means on both sides, see ContactRow. Curved facets are projected as if the straight ones through their corners had their nodes.
 /// Where the first part's facets are covered by the second in part, φ, ψ and D are those of the covered part (Cichosz and
 /// Bischoff 2011), and ψ stays dual. What is covered in less than kSliver of a facet counts as not covered.
-std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides);
+/// `monitor` may be null; throws Interrupted.
+std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides, Monitor* monitor = nullptr);
 
 /// Below it a cut is rounding of coordinates, relative to the facet's length or area.
 inline constexpr double kSliver = 1e-10;

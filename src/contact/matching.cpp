@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "contact/corner_means.hpp"
+#include "contact/second_facets.hpp"
 
 namespace dotyk::contact {
 namespace {
@@ -27,43 +28,22 @@ double extent(const Mesh& mesh, const std::vector<NodeSide>& list) {
   return size;
 }
 
+double rounding_of(const Mesh& mesh) {
+  double greatest = 0;
+  for (const double x : mesh.coordinates) greatest = std::max(greatest, std::abs(x));
+  return 64 * std::numeric_limits<double>::epsilon() * greatest;
+}
+
+/// How far apart two places may be that are meant to be one. In `size` coordinates, of files too, are rounded; but beside the way to
+/// the next node it is little, however small that is.
+struct Tolerance {
+  double size, rounding;
+  double operator()(double way) const { return std::max(std::min(kTouching * size, 1e-3 * way), rounding); }
+};
+
 /// Do the two sides look at each other? At corners and edges the mean normals may be far from parallel;
 /// perpendicular ones belong to sides that only meet.
 bool opposed(const Point& a, const Point& b) { return dot(a, b) < -0.1; }
-
-/// Nodes of the second part in cells of the tolerance's size, to find coinciding ones.
-class CoincidentSearch {
- public:
-  CoincidentSearch(const Mesh& mesh, const std::vector<NodeSide>& list, double tolerance)
-      : mesh_(mesh), tolerance_(tolerance) {
-    for (const NodeSide& n : list) bins_[key(mesh.point(n.node), 0)].push_back(n);
-  }
-  /// Empty where none is there whose normal is opposed.
-  const NodeSide* find(const Point& x, const Point& normal) const {
-    for (int shift = 0; shift < 27; ++shift) {
-      const auto bin = bins_.find(key(x, shift));
-      if (bin == bins_.end()) continue;
-      for (const NodeSide& n : bin->second)
-        if (length(minus(mesh_.point(n.node), x)) <= tolerance_ && opposed(normal, n.normal)) return &n;
-    }
-    return nullptr;
-  }
-
- private:
-  /// `shift` 0 is the bin of x itself; 1 … 26 its neighbours.
-  std::size_t key(const Point& x, int shift) const {
-    static const int step[3] = {0, -1, 1};
-    std::size_t h = 0;
-    for (int i = 0; i < 3; ++i, shift /= 3) {
-      const auto k = static_cast<long long>(std::floor(x[i] / (2 * tolerance_))) + step[shift % 3];
-      h = h * 1000003u + static_cast<std::size_t>(k);
-    }
-    return h;
-  }
-  const Mesh& mesh_;
-  double tolerance_;
-  std::unordered_map<std::size_t, std::vector<NodeSide>> bins_;
-};
 
 /// How far d leads off the line along `normal`.
 double off_line(const Point& d, const Point& normal) {
@@ -71,21 +51,82 @@ double off_line(const Point& d, const Point& normal) {
   return length(minus(d, mesh::times(along, normal)));
 }
 
-/// The nearest node of the second part across the gap from x: on the line through x along x's normal,
-/// or with x on the line along its own normal; -1 if none.
-int across(const Mesh& mesh, const std::vector<NodeSide>& list, const Point& x, const Point& normal,
-           double tolerance) {
-  int best = -1;
-  double nearest = INFINITY;
-  for (const NodeSide& n : list) {
-    const Point d = minus(mesh.point(n.node), x);
-    if (length(d) >= nearest || !opposed(normal, n.normal)) continue;
-    if (std::min(off_line(d, normal), off_line(d, n.normal)) <= tolerance) {
-      nearest = length(d);
-      best = n.node;
-    }
+/// A part's nodes, to be found near lines.
+class Nodes {
+ public:
+  explicit Nodes(const Face& face) : mesh(face.mesh), list(nodes(face.mesh, face.facets)), way_(face.mesh.node_count(), INFINITY), tree_(points()) {
+    const int count = mesh.topology().nodes_per_facet;
+    for (const mesh::Facet f : face.facets)
+      for (int a = 0; a < count; ++a)
+        for (int b = 0; b < a; ++b) {
+          const int i = mesh.facet_node(f, a), j = mesh.facet_node(f, b);
+          const double way = length(minus(mesh.point(i), mesh.point(j)));
+          way_[i] = std::min(way_[i], way), way_[j] = std::min(way_[j], way);
+        }
   }
-  return best;
+  Point at(std::size_t k) const { return mesh.point(list[k].node); }
+  /// To the nearest node of the same facet.
+  double way(int node) const { return way_[node]; }
+  /// Those whose distance from the line through x along `normal` may be `radius`.
+  std::vector<int> near(const Point& x, const Point& normal, double radius) const {
+    const Tube tube(x, View(x, normal, mesh.dimension()).axis, radius);
+    return tree_.find([&](const Box& box) { return tube.meets(box); });
+  }
+
+  const Mesh& mesh;
+  const std::vector<NodeSide> list;
+
+ private:
+  std::vector<Box> points() const {
+    std::vector<Box> all(list.size());
+    for (std::size_t k = 0; k < list.size(); ++k) all[k].add(at(k));
+    return all;
+  }
+  std::vector<double> way_;
+  BoxTree tree_;
+};
+
+/// A node of the first part and one of the second on the line along either's normal.
+struct Candidate {
+  double distance;
+  int first, second;  ///< in their lists
+  auto operator<=>(const Candidate&) const = default;
+};
+
+std::vector<Candidate> candidates(const Nodes& from, const Nodes& to, const Tolerance& tolerance) {
+  std::vector<Candidate> all;
+  const auto look = [&](const Nodes& here, const Nodes& there, bool turned) {
+    for (std::size_t k = 0; k < here.list.size(); ++k) {
+      const NodeSide& n = here.list[k];
+      for (const int j : there.near(here.at(k), n.normal, tolerance(here.way(n.node)))) {
+        const NodeSide& other = there.list[j];
+        const Point d = minus(there.at(j), here.at(k));
+        if (!opposed(n.normal, other.normal)) continue;
+        if (off_line(d, n.normal) > tolerance(std::min(here.way(n.node), there.way(other.node)))) continue;
+        const int i = static_cast<int>(k);
+        all.push_back({length(d), turned ? j : i, turned ? i : j});
+      }
+    }
+  };
+  look(from, to, false);
+  look(to, from, true);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// Partner of each node of the first part in the second's list, -1 for none: the nearest candidate that no nearer node
+/// has, but for nodes at one place (the lips of a crack), which may share it.
+std::vector<int> partners(const Nodes& from, const Nodes& to, const Tolerance& tolerance) {
+  std::vector<int> partner(from.list.size(), -1), owner(to.list.size(), -1);
+  for (const Candidate& c : candidates(from, to, tolerance)) {
+    if (partner[c.first] >= 0) continue;
+    int& holds = owner[c.second];
+    const auto apart = [&] { return length(minus(from.at(c.first), from.at(holds))) > tolerance(from.way(from.list[c.first].node)); };
+    if (holds >= 0 && apart()) continue;
+    if (holds < 0) holds = c.first;
+    partner[c.first] = c.second;
+  }
+  return partner;
 }
 
 /// Does a node at x project into the facet, no further away than the facet is wide, normals opposed?
@@ -110,30 +151,20 @@ bool faces(const Mesh& mesh, mesh::Facet f, const Point& x, const Point& x_norma
 }
 
 /// Says which node without partner nevertheless faces the other part; empty: none.
-std::string mismatch(const Face& face, const std::vector<NodeSide>& lonely, const Face& other) {
+std::string mismatch(const Face& face, const std::vector<NodeSide>& lonely, const Face& other, const Nodes& others, const Tolerance& tolerance) {
   if (lonely.empty()) return "";
-  const auto list = nodes(other.mesh, other.facets);
-  const double tolerance = 1e-6 * extent(other.mesh, list);
-  Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  double width = 0;
-  for (const mesh::Facet f : other.facets) {
-    const double area = length(other.mesh.facet_area_vector(f));
-    width = std::max(width, other.mesh.dimension() == 2 ? area : std::sqrt(area));
-  }
-  for (const NodeSide& n : list) {
-    const Point p = other.mesh.point(n.node);
-    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i] - width), high[i] = std::max(high[i], p[i] + width);
-  }
+  const BoxTree tree(boxes(other, 1.01));
   for (const NodeSide& n : lonely) {
     const Point x = face.mesh.point(n.node);
-    bool near = true;
-    for (int i = 0; i < 3; ++i) near = near && x[i] >= low[i] && x[i] <= high[i];
-    if (!near) continue;
-    for (const mesh::Facet f : other.facets)
-      if (faces(other.mesh, f, x, n.normal, tolerance))
+    for (const int k : tree.find([&](const Box& box) { return box.holds(x); })) {
+      const mesh::Facet f = other.facets[k];
+      double way = INFINITY;
+      for (int a = 0; a < other.mesh.topology().facet_corners; ++a) way = std::min(way, others.way(other.mesh.facet_node(f, a)));
+      if (faces(other.mesh, f, x, n.normal, tolerance(way)))
         return text("the nodes of ", face.name, " and ", other.name, " do not match: the node at ",
                     point_text(x.data(), face.mesh.dimension()), " of ", face.name, " has no partner on the other side; use "
                     "meshes with matching nodes on the contact, or pairing = \"mortar\"");
+    }
   }
   return "";
 }
@@ -154,24 +185,23 @@ std::string unlike(const Face& first, const Face& second) {
 
 Matching find_matching(const Face& first, const Face& second) {
   if (const std::string why = unlike(first, second); !why.empty()) return {{}, why};
-  const auto from = nodes(first.mesh, first.facets), to = nodes(second.mesh, second.facets);
-  const double size = std::max(extent(first.mesh, from), extent(second.mesh, to));
-  const double tolerance = 1e-6 * size;
-  const CoincidentSearch coincident(second.mesh, to, tolerance);
+  const Nodes from(first), to(second);
+  const Tolerance tolerance{std::max(extent(first.mesh, from.list), extent(second.mesh, to.list)),
+                            std::max(rounding_of(first.mesh), rounding_of(second.mesh))};
+  const std::vector<int> partner = partners(from, to, tolerance);
   Matching result;
   std::vector<NodeSide> lonely;
-  std::unordered_set<int> taken;
-  for (const NodeSide& n : from) {
-    const Point x = first.mesh.point(n.node);
-    const NodeSide* same = coincident.find(x, n.normal);
-    const int partner = same ? same->node : across(second.mesh, to, x, n.normal, tolerance);
-    if (partner < 0) {
+  std::vector<char> taken(to.list.size(), 0);
+  for (std::size_t k = 0; k < partner.size(); ++k) {
+    const NodeSide& n = from.list[k];
+    if (partner[k] < 0) {
       lonely.push_back(n);
       continue;
     }
-    taken.insert(partner);
-    if (&first.mesh == &second.mesh && partner == n.node) continue;  // the tip of a crack moves with itself
-    result.pairs.push_back({n.node, partner});
+    taken[partner[k]] = 1;
+    const int across = to.list[partner[k]].node;
+    if (&first.mesh == &second.mesh && across == n.node) continue;  // the tip of a crack moves with itself
+    result.pairs.push_back({n.node, across});
   }
   if (result.pairs.empty()) {
     result.mismatch = text(first.name, " and ", second.name, " do not face each other: no node of one has a node of "
@@ -179,12 +209,12 @@ Matching find_matching(const Face& first, const Face& second) {
     return result;
   }
   // Parts may overhang each other, but where they face each other every node must have its partner.
-  result.mismatch = mismatch(first, lonely, second);
+  result.mismatch = mismatch(first, lonely, second, to, tolerance);
   if (!result.mismatch.empty()) return result;
   lonely.clear();
-  for (const NodeSide& n : to)
-    if (!taken.count(n.node)) lonely.push_back(n);
-  result.mismatch = mismatch(second, lonely, first);
+  for (std::size_t j = 0; j < taken.size(); ++j)
+    if (!taken[j]) lonely.push_back(to.list[j]);
+  result.mismatch = mismatch(second, lonely, first, from, tolerance);
   return result;
 }
 
@@ -208,6 +238,23 @@ ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double
   return {side.node, side.own, std::move(partners), side.normal, gap, side.weight, side.facets, added};
 }
 
+namespace {
+
+/// Overlap at rest that is rounding of coordinates, where these facets are; `size`: the mesh's.
+double touching(const Face& face, double size, const std::vector<int>& facets) {
+  double way = INFINITY, greatest = 0;
+  const int count = face.mesh.topology().facet_corners;
+  for (const int f : facets)
+    for (int a = 0; a < count; ++a) {
+      const Point x = face.mesh.point(face.mesh.facet_node(face.facets[f], a)), y = face.mesh.point(face.mesh.facet_node(face.facets[f], (a + 1) % count));
+      way = std::min(way, length(minus(x, y)));
+      greatest = std::max(greatest, length(x));
+    }
+  return Tolerance{size, 64 * std::numeric_limits<double>::epsilon() * greatest}(way);
+}
+
+}  // namespace
+
 std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,
                                   const elasticity::ScalarField& added) {
   if (&first.mesh == &second.mesh)  // a crack's tip is its own partner: no jump there
@@ -219,6 +266,7 @@ std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::un
     used.push_back(all);
   }
   std::vector<ContactRow> rows;
+  const double size = first.mesh.size();
   for (const NodeSide& side : corner_sides(first.mesh, first.facets, used)) {
     double more = 0, least = INFINITY;
     std::map<int, double> across;
@@ -236,19 +284,20 @@ std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::un
     for (const auto& [node, weight] : across) partners.push_back({node, weight});
     rows.push_back(row_of(side, std::move(partners), more, first, second));
     ContactRow& row = rows.back();
-    if (least >= -kTouching * first.mesh.size()) row.gap = std::max(row.gap, row.added);  // a dual hat is negative in places: a mean of gaps may be
+    if (least >= -touching(first, size, side.facets)) row.gap = std::max(row.gap, row.added);  // a dual hat is negative in places: a mean of gaps may be
   }
   return rows;
 }
 
 void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, const Face& second) {
+  const double size = first.mesh.size();
   double deepest = 0;
   int node = -1;
   for (const ContactRow& row : rows) {
     const double overlap = std::max(row.gap, row.gap - row.added);  // a negative `added` is meant
-    if (overlap < deepest) deepest = overlap, node = row.node;
+    if (overlap < deepest && overlap < -touching(first, size, row.facets)) deepest = overlap, node = row.node;
   }
-  if (deepest < -kTouching * first.mesh.size())
+  if (node >= 0)
     throw InputError(text(first.name, " and ", second.name, " overlap by ", -deepest, " at ",
                           point_text(first.mesh.node(node), first.mesh.dimension()),
                           " before any load; move one, or say interference = true if the overlap is meant"));

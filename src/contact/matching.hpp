@@ -18,7 +18,8 @@ struct Face {
 };
 
 /// Node of `first` → node of `second`, for the nodes that have one at the same place or straight
-/// across the gap along either's normal. Tolerance: 1e-6 of the parts' size.
+/// across the gap along either's normal: the nearest, and none has the partner of another, but for nodes at one place. Tolerance: 1e-6 of
+/// the parts' size, but a thousandth of the way to the next node of the same facet at most, on either side (rounding of coordinates at least).
 struct NodePair {
   int first, second;
 };
@@ -33,7 +34,8 @@ Matching find_matching(const Face& first, const Face& second);
 /// of either part has none though it lies before a facet of the other, naming the first such node.
 std::vector<NodePair> match(const Face& first, const Face& second);
 
-/// Overlap at rest that is rounding of coordinates, relative to the first mesh's size.
+/// What may be rounding of coordinates, relative to a mesh's size; where facets are so small that this is more than a thousandth of them,
+/// that thousandth.
 inline constexpr double kTouching = 1e-6;
 
 /// The row of a side whose partners are known: the gap is (Σ weight x_partner − x)·normal + added. Throws InputError
@@ -52,7 +54,7 @@ std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const 
 
 /// Rows at the matching nodes, one a side of the first part at each; `added` (may be empty) is added
 /// to the geometric gap. Throws as match(), for a gap that is not finite, and unless `interference` is
-/// set for parts that overlap at rest (by more than 1e-6 of the first mesh's size; a negative `added` is no overlap).
+/// set for parts that overlap at rest (by more than kTouching; a negative `added` is no overlap).
 std::vector<ContactRow> between(const Face& first, const Face& second,
                                 const elasticity::ScalarField& added, bool interference = false);
 

@@ -46,7 +46,7 @@ class Mortar {
     for (int a = 0; a < corners_; ++a) radius = std::max(radius, std::hypot(own.at[a][0], own.at[a][1]));
     widest = std::max(widest, 2 * radius);
     std::vector<Cut> cuts;
-    all_.for_each_near(view, {0, 0}, radius, [&](int f, double width) {
+    all_.for_each_near(view, radius, [&](int f, double width) {
       Cut c{f, Shadow(second_.mesh, second_.facets[f], view), {}};
       c.polygon = common(own, c.shadow);
       if (!(size(c.polygon) > 1e-3 * kSliver * own.size())) return;
@@ -121,7 +121,7 @@ std::vector<NodeWeight> mean_over(const std::map<int, double>& shares) {
 
 }  // namespace
 
-std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides) {
+std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides, Monitor* monitor) {
   const Mortar facets(first, second);
   std::vector<std::vector<std::pair<std::size_t, int>>> sides_of(first.facets.size());  // side, corner
   for (std::size_t s = 0; s < sides.size(); ++s)
@@ -131,6 +131,7 @@ std::vector<Across> mortar(const Face& first, const Face& second, const std::vec
   std::vector<Across> result(sides.size());
   std::vector<std::map<int, double>> shares(sides.size()), own(sides.size());
   for (std::size_t f = 0; f < first.facets.size(); ++f) {
+    if (monitor && f % 100 == 0) monitor->check();
     double widest = 0;
     const std::array<Corner, 4> corner = facets.of(first.facets[f], widest);
     for (const auto& [s, a] : sides_of[f]) {

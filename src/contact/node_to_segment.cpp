@@ -13,7 +13,7 @@ std::vector<Across> node_to_segment(const Face& first, const Face& second, const
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const View view(first.mesh.point(sides[k].node), sides[k].normal, dim);
     double nearest = INFINITY;
-    all.for_each_near(view, {0, 0}, 0, [&](int f, double width) {
+    all.for_each_near(view, 0, [&](int f, double width) {
       const Shadow shadow(second.mesh, second.facets[f], view);
       if (!shadow.holds({0, 0}, kRim)) return;
       const double distance = std::abs(shadow.height_at({0, 0}));

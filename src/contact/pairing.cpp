@@ -1,6 +1,7 @@
 #include "contact/pairing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -17,8 +18,9 @@ namespace {
 using mesh::Point;
 
 /// What lies across; throws InputError where that is nothing.
-std::vector<Across> across(const Face& first, const Face& second, Pairing pairing, const std::vector<NodeSide>& sides) {
-  auto all = pairing == Pairing::mortar ? mortar(first, second, sides) : node_to_segment(first, second, sides);
+std::vector<Across> across(const Face& first, const Face& second, Pairing pairing, const std::vector<NodeSide>& sides,
+                           Monitor* monitor) {
+  auto all = pairing == Pairing::mortar ? mortar(first, second, sides, monitor) : node_to_segment(first, second, sides);
   // A crack's tip that would be its own partner moves with itself.
   for (std::size_t k = 0; k < all.size(); ++k)
     if (&first.mesh == &second.mesh && all[k].partners.size() == 1 && all[k].partners.front().node == sides[k].node)
@@ -66,11 +68,11 @@ double height_of_chord(double curvature, double width) { return curvature * widt
 
 /// Rows with partners found by `pairing`; of chords that overlap no more than they must the gap is 0.
 std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pairing, const elasticity::ScalarField& added,
-                               bool interference) {
+                               bool interference, Monitor* monitor) {
   const bool means = first.mesh.topology().order == 2;
   std::vector<NodeSide> list = means && pairing == Pairing::node_to_segment ? nodes(first.mesh, first.facets)
                                                                           : corner_sides(first.mesh, first.facets);
-  std::vector<Across> all = across(first, second, pairing, list);
+  std::vector<Across> all = across(first, second, pairing, list, monitor);
   std::unordered_map<int, double> widest;
   for (std::size_t k = 0; k < list.size(); ++k) {
     double& most = widest[list[k].node];  // a corner has two sides
@@ -161,27 +163,62 @@ class Apart {
   int node_ = -1;
 };
 
+/// Node → the height of the edges there as chords. With n the normals at an edge's ends, e·(n₂ − n₁)/8, of a circle |e|²/8R; edges along a
+/// cylinder have none.
+std::unordered_map<int, double> chords(const Face& face) {
+  std::unordered_map<int, double> height;
+  const int corners = face.mesh.topology().facet_corners;
+  if (face.mesh.topology().order > 1) return height;
+  std::vector<std::array<Point, 4>> normal(face.facets.size());
+  for (const NodeSide& side : sides(face.mesh, face.facets))
+    for (const int f : side.facets)
+      for (int a = 0; a < corners; ++a)
+        if (face.mesh.facet_node(face.facets[f], a) == side.node) normal[f][a] = side.normal;
+  for (std::size_t f = 0; f < normal.size(); ++f)
+    for (int a = 0; a < corners; ++a) {
+      const int b = (a + 1) % corners, i = face.mesh.facet_node(face.facets[f], a), j = face.mesh.facet_node(face.facets[f], b);
+      const Point edge = mesh::minus(face.mesh.point(j), face.mesh.point(i));
+      const double here = std::abs(mesh::dot(edge, mesh::minus(normal[f][b], normal[f][a]))) / 8;
+      for (const int node : {i, j}) height[node] = std::max(height[node], here);
+    }
+  return height;
+}
+
+/// Sets `chord`; `first` and `second` as the rows have them.
+PairedRows chords_seen(PairedRows paired, const Face& first, const Face& second) {
+  const auto here = chords(first), across = chords(second);
+  const auto see = [&](const std::unordered_map<int, double>& heights, int node) {
+    const auto found = heights.find(node);
+    if (found != heights.end()) paired.chord = std::max(paired.chord, found->second);
+  };
+  for (const ContactRow& row : paired.rows) {
+    see(here, row.node);
+    for (const NodeWeight& partner : row.partners) see(across, partner.node);
+  }
+  return paired;
+}
+
 }  // namespace
 
 PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairing> pairing,
-                     const elasticity::ScalarField& added, bool interference) {
+                     const elasticity::ScalarField& added, bool interference, Monitor* monitor) {
   if (tried_first(first, second, pairing) == Pairing::matching) {
     const Matching found = find_matching(first, second);
     if (found.mismatch.empty()) return {Pairing::matching, matching_rows(found.pairs, first, second, added, interference)};
     if (pairing) throw InputError(found.mismatch);
   }
   const Pairing used = pairing.value_or(Pairing::mortar);
-  std::vector<ContactRow> rows = paired(first, second, used, added, interference);
+  std::vector<ContactRow> rows = paired(first, second, used, added, interference, monitor);
   const bool wavers = first.mesh.element == mesh::Element::triangle_p1 || first.mesh.element == mesh::Element::tetrahedron_p1;
   if (used == Pairing::mortar && wavers && coarser_across(rows)) {
-    std::vector<ContactRow> turned = paired(second, first, used, added, interference);
+    std::vector<ContactRow> turned = paired(second, first, used, added, interference, monitor);
     // Parts that lie above themselves cover more seen from the other side.
-    if (measure(turned) < 1.1 * measure(rows)) return {used, std::move(turned), true};
+    if (measure(turned) < 1.1 * measure(rows)) return chords_seen({used, std::move(turned), true}, second, first);
   }
-  return {used, std::move(rows)};
+  return chords_seen({used, std::move(rows)}, first, second);
 }
 
-PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing) {
+PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing, Monitor* monitor) {
   PairedTies result{pairing.value_or(Pairing::mortar), {}};
   Apart apart(first, second);
   if (tried_first(first, second, pairing) == Pairing::matching) {
@@ -201,7 +238,7 @@ PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairin
   }
   const bool means = first.mesh.topology().order == 2 && result.pairing == Pairing::mortar;
   const std::vector<NodeSide> list = means ? corner_nodes(first.mesh, first.facets) : nodes(first.mesh, first.facets);
-  std::vector<Across> all = across(first, second, result.pairing, list);
+  std::vector<Across> all = across(first, second, result.pairing, list, monitor);
   const Curvature curvature(first, second);
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (all[k].partners.empty()) continue;

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "base/monitor.hpp"
 #include "contact/across.hpp"
 
 namespace dotyk::contact {
@@ -14,6 +15,9 @@ struct PairedRows {
   Pairing pairing;
   std::vector<ContactRow> rows;
   bool turned = false;  ///< the rows are at nodes of `second`, their partners of `first`
+  /// How far facets are from the curved sides that they are chords of, the greatest where rows are: what gaps are uncertain by. 0 at matching
+  /// nodes, whose chords are the same, and of order 2, whose facets follow the curve.
+  double chord = 0;
 };
 
 /// Rows of contact by the pairing asked for; none asked for: at nodes where all match and facets are of one kind, else mortar. Mortar's multipliers are the first
@@ -21,9 +25,9 @@ struct PairedRows {
 /// (scripts/mortar.lua: Hertz's contact 80 cells on 112, 0.9 of the error of matching nodes; the other way round 1.4). Throws InputError
 /// where nodes do not match though that was asked for, where parts do not face each other, and as matching_rows().
 /// A mortar row's weight is the covered part's alone. Facets of curved parts that fit each other are chords of different
-/// places: without `interference` an overlap of their height is taken as touching.
+/// places: without `interference` an overlap of their height is taken as touching. `monitor` may be null; throws Interrupted.
 PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairing> pairing,
-                     const elasticity::ScalarField& added, bool interference);
+                     const elasticity::ScalarField& added, bool interference, Monitor* monitor = nullptr);
 
 struct PairedTies {
   Pairing pairing;
@@ -32,6 +36,6 @@ struct PairedTies {
 
 /// The same to tie parts together, one entry a node of the first part. Throws InputError where they lie apart by more than a tenth of a
 /// facet's width and what chords of curved parts make of it.
-PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing);
+PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing, Monitor* monitor = nullptr);
 
 }  // namespace dotyk::contact

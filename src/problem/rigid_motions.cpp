@@ -1,9 +1,9 @@
 #include "problem/rigid_motions.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "algebra/dense.hpp"
+#include "algebra/null_space.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::problem {
@@ -15,18 +15,11 @@ namespace {
 
 /// Splits the motions into those that rows notice and the null space of N.
 void split(RigidMotions& rigid) {
-  const int modes = rigid.count();
-  rigid.noticed = rigid.unnoticed = DenseMatrix(modes, 0);
-  if (modes == 0) return;
-  DenseMatrix square = DenseMatrix::Zero(std::max<Eigen::Index>(rigid.N.rows(), modes), modes);
-  square.topRows(rigid.N.rows()) = rigid.N;
-  const Eigen::JacobiSVD<DenseMatrix> svd(square, Eigen::ComputeFullV);
-  int rank = 0;
   // Modes have greatest displacement 1: 1e-9 of that is "not at all".
-  while (rank < modes && svd.singularValues()[rank] > 1e-9 * std::max(1.0, svd.singularValues()[0])) ++rank;
-  rigid.noticed = svd.matrixV().leftCols(rank);
-  if (rank == modes) rigid.noticed.setIdentity();  // the modes as they are named
-  rigid.unnoticed = svd.matrixV().rightCols(modes - rank);
+  algebra::RangeAndNull two = algebra::range_and_null(rigid.N, 1e-9);
+  rigid.noticed = std::move(two.seen);
+  rigid.unnoticed = std::move(two.unseen);
+  if (rigid.unnoticed.cols() == 0) rigid.noticed.setIdentity();  // the modes as they are named
 }
 
 /// Loads that cancel to this part of what they are without their signs are balanced: the rest is rounding.
@@ -56,7 +49,7 @@ RigidMotions rigid_motions(const Problem& problem) {
   }
   rigid.motions = body_motions(problem);
   split(rigid);
-  rigid.noticed_N = rigid.N * rigid.noticed;
+  rigid.noticed_N = rigid.unnoticed.cols() == 0 ? rigid.N : DenseMatrix(algebra::SparseMatrix(rigid.N.sparseView()) * rigid.noticed);
   take_load(problem, rigid);
   return rigid;
 }

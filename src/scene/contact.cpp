@@ -3,6 +3,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "scene/scene.hpp"
 
@@ -160,16 +161,18 @@ contact::Surface surface_of(const Contact& contact) {
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
                                            const elasticity::ScalarField& added_gap, const Friction& friction,
                                            bool interference, const Discretisation& discretisation,
-                                           std::optional<contact::Pairing> pairing) {
+                                           std::optional<contact::Pairing> pairing, Monitor* monitor) {
   require_member(scene, first);
   require_member(scene, second);
+  const Stopwatch watch;
   Contact contact;
   contact.name = "contact of " + first.label() + " with " + second.label();
   contact.first = first;
   contact.second = second;
   contact.interference = interference;
-  contact::PairedRows paired = contact::pair_rows(first.face(), second.face(), pairing, added_gap, interference);
+  contact::PairedRows paired = contact::pair_rows(first.face(), second.face(), pairing, added_gap, interference, monitor);
   contact.pairing = paired.pairing;
+  contact.chord = paired.chord;
   contact.rows = std::move(paired.rows);
   contact.turned = paired.turned;
   if (contact.turned) std::swap(contact.first, contact.second);
@@ -177,6 +180,7 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   set_friction(contact, friction);
   set_discretisation(contact, discretisation);
   refuse_repetition(scene, contact);
+  contact.seconds = watch.seconds();
   return keep(scene, std::move(contact));
 }
 
@@ -198,18 +202,20 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const
 }
 
 std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second,
-                                        std::optional<contact::Pairing> pairing) {
+                                        std::optional<contact::Pairing> pairing, Monitor* monitor) {
   require_member(scene, first);
   require_member(scene, second);
+  const Stopwatch watch;
   Contact contact;
   contact.kind = Contact::Kind::glue;
   contact.name = "glue of " + first.label() + " to " + second.label();
   contact.first = first;
   contact.second = second;
-  contact::PairedTies paired = contact::pair_ties(first.face(), second.face(), pairing);
+  contact::PairedTies paired = contact::pair_ties(first.face(), second.face(), pairing, monitor);
   contact.pairing = paired.pairing;
   contact.glued = std::move(paired.ties);
   refuse_repetition(scene, contact);
+  contact.seconds = watch.seconds();
   return keep(scene, std::move(contact));
 }
 

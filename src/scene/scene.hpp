@@ -43,6 +43,8 @@ struct Contact {
   std::vector<contact::Tie> glued;         ///< of a glue
   contact::RigidShape shape;               ///< a gap function is not kept
   bool interference = false;               ///< an overlap at rest is meant
+  double chord = 0;                        ///< see contact::PairedRows
+  double seconds = 0;                      ///< that finding the pairs took
   /// The contact that this one is another design of (its nodes moved), never one that is itself another's; null: of none.
   std::shared_ptr<const Contact> origin = nullptr;
 };
@@ -72,11 +74,11 @@ contact::Surface surface_of(const Contact& contact);
 /// in the scene, and for a friction value that is negative or not a number (an infinite bound of
 /// given friction is allowed: the parts then do not slip at all). Multipliers p1_p0 refuse Coulomb friction
 /// (the bound is in the rows' weights, before the pressure is known), a bound infinite in places only, and nodes that
-/// do not match.
+/// do not match. `monitor` may be null; throws Interrupted.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
                                            const elasticity::ScalarField& added_gap, const Friction& friction = {},
                                            bool interference = false, const Discretisation& discretisation = {},
-                                           std::optional<contact::Pairing> pairing = {});
+                                           std::optional<contact::Pairing> pairing = {}, Monitor* monitor = nullptr);
 /// Contact of a part with a rigid shape. Throws as contact::against, and for friction as above.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
                                            const elasticity::ScalarField& added_gap, bool interference,
@@ -84,7 +86,7 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const
                                            const Discretisation& discretisation = {});
 /// Ties two parts together: no jump of the displacement, at nodes of the first part or in the mortar mean. Throws as contact::pair_ties.
 std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second,
-                                        std::optional<contact::Pairing> pairing = {});
+                                        std::optional<contact::Pairing> pairing = {}, Monitor* monitor = nullptr);
 
 /// What will be modelled, what is free to move, whether a solution exists, which method and why.
 std::string plan(const Scene& scene);

@@ -85,13 +85,15 @@ int add_contact(Call& call) {
   }
   if (parts.size() != 2)
     throw InputError("give two parts, or one part and 'rigid'");
+  Watch watch(call.state(), "pairing");
   return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, law, call.boolean("interference"),
-                                      discretisation(call), pairing(call)));
+                                      discretisation(call), pairing(call), &watch));
 }
 
 int add_glue(Call& call) {
   const auto parts = call.items<Part>();
-  return call.give(scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1], pairing(call)));
+  Watch watch(call.state(), "pairing");
+  return call.give(scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1], pairing(call), &watch));
 }
 
 int balance(Call& call) {

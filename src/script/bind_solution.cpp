@@ -190,6 +190,14 @@ int error_estimate(Call& call) {
   return 2;
 }
 
+Record times(const Solution& s) {
+  Record record = time_record(s.clock());
+  double pairing = 0;
+  for (const auto& contact : s.scene().contacts) pairing += contact->seconds;
+  record.entries.push_back({"pairing", pairing});
+  return record;
+}
+
 }  // namespace
 
 void bind_solution(Library& library) {
@@ -209,7 +217,8 @@ void bind_solution(Library& library) {
       .field("steps", "the solutions of a history's steps, the last is this one", [](const Solution& s) { return s.steps(); })
       .field("unknowns", "displacement unknowns", [](const Solution& s) { return s.unknowns(); })
       .field("rows", "interface conditions", [](const Solution& s) { return s.rows(); })
-      .field("time", "seconds, of a history since its first step: total assembly ordering factor iterate recover", [](const Solution& s) { return time_record(s.clock()); }, "s")
+      .field("time", "seconds, of a history since its first step: total assembly ordering factor iterate recover; pairing, before and not in "
+                     "total: what scene:contact and scene:glue took", times, "s")
       .field("residual", "relative: equilibrium penetration complementarity friction law", [](const Solution& s) { return residual_record(s.residual()); })
       .field("working_set", "of active_set, else nil: added dropped singular survived factorisations repeats", working_set_record)
       .field("penalty", "of penalty, else nil: factor, penetration (length), energy (force·length, too low by)", penalty_record)

@@ -1,9 +1,9 @@
 #include "solver/hold.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/null_space.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -17,17 +17,13 @@ namespace {
 
 /// Motions that the active rows leave free, as an orthonormal basis.
 DenseMatrix free_motions(const DenseMatrix& N, const std::vector<char>& active) {
-  const Eigen::Index modes = N.cols();
   const Eigen::Index count = std::count(active.begin(), active.end(), 1);
-  DenseMatrix held = DenseMatrix::Zero(std::max(count, modes), modes);
+  DenseMatrix held(count, N.cols());
   Eigen::Index k = 0;
   for (std::size_t r = 0; r < active.size(); ++r)
     if (active[r]) held.row(k++) = N.row(static_cast<Eigen::Index>(r));
-  const Eigen::JacobiSVD<DenseMatrix> svd(held, Eigen::ComputeFullV);
-  Eigen::Index rank = 0;
   // Modes have greatest displacement 1: 1e-9 of that is "not at all".
-  while (rank < modes && svd.singularValues()[rank] > 1e-9 * std::max(1.0, svd.singularValues()[0])) ++rank;
-  return svd.matrixV().rightCols(modes - rank);
+  return algebra::range_and_null(held, 1e-9).unseen;
 }
 
 constexpr double kApproaches = 1e-9;  // of a unit motion; less is sliding along the row

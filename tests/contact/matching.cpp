@@ -2,6 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 #include "../support/block_pair.hpp"
 #include "../support/facets.hpp"
 #include "base/error.hpp"
@@ -49,6 +53,73 @@ TEST_CASE("across a gap partners lie along the normal, and the gap is the distan
       CHECK(rows.size() == (dim == 2 ? 4u : 16u));
       for (const auto& r : rows) CHECK(r.gap == doctest::Approx(distance + 10 * low.node(r.node)[0]));
     }
+}
+
+namespace {
+
+/// Cells that grow by one factor along every axis but the last: of twelve the first is 1e-8 of the whole, 2000 long.
+Point graded(Point x, int dim) {
+  for (int i = 0; i + 1 < dim; ++i) x[i] = 2000 * std::expm1(20 * x[i]) / std::expm1(20);
+  return x;
+}
+
+int node_at(const mesh::Mesh& m, const Point& x) {
+  for (int n = 0; n < m.node_count(); ++n)
+    if (m.point(n) == x) return n;
+  return -1;
+}
+
+}  // namespace
+
+TEST_CASE("on graded meshes nodes have the partners that they have on even ones, however small facets are beside the part") {
+  for (int dim : {2, 3})
+    for (const auto family : test::kFamilies)
+      for (const double distance : {0.0, 0.3, -0.05}) {
+        auto low = test::unit(dim, family, dim == 2 ? 12 : 6);
+        auto high = test::reversed(low);
+        mesh::transform(high, [&](Point x) { return x[dim - 1] += 1 + distance, x; });
+        const auto even = contact::match(test::face(low, "top"), test::face(high, "bottom"));
+        for (mesh::Mesh* m : {&low, &high}) mesh::transform(*m, [&](const Point& x) { return graded(x, dim); });
+        const auto pairs = contact::match(test::face(low, "top"), test::face(high, "bottom"));
+        CHECK(std::equal(pairs.begin(), pairs.end(), even.begin(), even.end(),
+                         [](const auto& a, const auto& b) { return a.first == b.first && a.second == b.second; }));
+        for (const auto& row : contact::between(test::face(low, "top"), test::face(high, "bottom"), {}, true))
+          CHECK(row.gap == doctest::Approx(distance).epsilon(1e-12));
+        if (distance != 0) continue;
+        const auto glued = contact::pair_ties(test::face(low, "top"), test::face(high, "bottom"), contact::Pairing::matching);
+        CHECK(glued.ties.size() == even.size());
+      }
+}
+
+TEST_CASE("an overlap that is much beside small facets is no rounding of coordinates") {
+  for (int dim : {2, 3}) {
+    auto low = test::unit(dim, Family::p1, 6);
+    auto high = low;
+    mesh::transform(high, [&](Point x) { return x[dim - 1] += 1, x; });
+    for (mesh::Mesh* m : {&low, &high}) mesh::transform(*m, [&](const Point& x) { return graded(x, dim); });
+    CHECK_NOTHROW(contact::between(test::face(low, "top"), test::face(high, "bottom"), {}));
+    mesh::transform(high, [&](Point x) { return x[dim - 1] -= 1e-5, x; });
+    CHECK_THROWS_WITH_AS(contact::between(test::face(low, "top"), test::face(high, "bottom"), {}), doctest::Contains("overlap by 1e-05"), InputError);
+  }
+}
+
+TEST_CASE("a node has one partner, the nearest; nodes at one place share it") {
+  // A slit from the top: its lips' ends lie above one node of the other body.
+  auto low = test::rectangle(Family::q1, 4, 4);
+  const int end = node_at(low, {0.5, 1, 0}), copy = low.node_count();
+  low.coordinates.insert(low.coordinates.end(), {0.5, 1});
+  for (int c = 0; c < low.cell_count(); ++c)
+    if (low.cell_centre(c)[0] > 0.5)
+      for (int a = 0; a < 4; ++a)
+        if (int& node = low.cells[static_cast<std::size_t>(c) * 4 + a]; node == end) node = copy;
+  const auto high = test::rectangle(Family::q1, 4, 4, 0, 1, 1, 2);
+  std::map<int, int> times;
+  for (const auto& pair : contact::match(test::face(low, "top"), test::face(high, "bottom"))) {
+    CHECK(low.point(pair.first) == high.point(pair.second));
+    ++times[pair.second];
+  }
+  CHECK(times.size() == 5);
+  CHECK(times.at(node_at(high, {0.5, 1, 0})) == 2);
 }
 
 TEST_CASE("parts that overlap at rest are refused with depth and place, unless that is meant or made up for") {

@@ -1,0 +1,80 @@
+#include "scene/doubts.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../support/scenes.hpp"
+
+using namespace dotyk;
+using mesh::Family;
+using mesh::Point;
+
+namespace {
+
+/// A quarter of a ring (in space of a pipe, a cell long), n cells around; "left" is its inside, "right" its outside.
+std::shared_ptr<scene::Body> ring(const std::string& name, int dim, Family family, double from, double to, int n) {
+  mesh::Mesh m = dim == 2 ? test::rectangle(family, 2, n) : test::box(family, 2, n, 1);
+  mesh::transform(m, [&](const Point& x) {
+    const double r = from + (to - from) * x[0], t = std::numbers::pi / 2 * x[1];
+    return Point{r * std::cos(t), r * std::sin(t), x[2]};
+  });
+  return test::body(name, std::move(m));
+}
+
+std::vector<std::string> doubts_of_fit(int dim, Family family, int inside, int outside, double overlap) {
+  const auto inner = ring("inner", dim, family, 0.5, 1 + overlap, inside), outer = ring("outer", dim, family, 1, 1.5, outside);
+  const auto s = scene::make_scene({inner, outer});
+  const auto contact = scene::add_contact(*s, test::part(inner, "right"), test::part(outer, "left"), {}, {}, overlap > 0);
+  // Height of the greatest chord of radius 1.
+  const int coarser = std::min(inside, outside);
+  const bool chords = family == Family::p1 || family == Family::q1, match = contact->pairing == contact::Pairing::matching;
+  CHECK(contact->chord == doctest::Approx(chords && !match ? std::pow(std::numbers::pi / 2 / coarser, 2) / 8 : 0).epsilon(0.11));
+  return scene::doubts(*s);
+}
+
+}  // namespace
+
+TEST_CASE("chords of curved parts that do not match are doubtful beside the interference or the clearance") {
+  for (const int dim : {2, 3})
+    for (const Family family : test::kFamilies) {
+      // 8 cells a quarter: height (π/16)²/8 = 0.0048.
+      for (const double overlap : {1e-3, 0.0, -1e-3}) {
+        const auto doubts = doubts_of_fit(dim, family, 8, 11, overlap);
+        REQUIRE(doubts.size() == 1);
+        CHECK(doubts[0].find("facets are chords up to 0.004") != std::string::npos);
+        CHECK((doubts[0].find("the interference") != std::string::npos) == (overlap > 0));
+      }
+      CHECK(doubts_of_fit(dim, family, 8, 11, 0.1).empty());
+      if (dim == 2) CHECK(doubts_of_fit(dim, family, 80, 110, 1e-3).empty());
+      CHECK(doubts_of_fit(dim, family, 8, 8, 0).empty());
+    }
+  CHECK(doubts_of_fit(2, Family::p2, 8, 11, 1e-3).empty());
+  CHECK(doubts_of_fit(2, Family::q2, 8, 11, 0).empty());
+}
+
+TEST_CASE("flat parts, and a curved one on a flat one, are not doubtful for their chords") {
+  for (const int dim : {2, 3}) {
+    const auto low = test::block("low", dim, Family::p1, 3), high = test::block("high", dim, Family::p1, 4, 1);
+    const auto s = scene::make_scene({low, high});
+    scene::add_contact(*s, test::part(high, "bottom"), test::part(low, "top"), {});
+    CHECK(scene::doubts(*s).empty());
+  }
+  const auto wheel = ring("wheel", 2, Family::p1, 0.5, 1, 20);
+  mesh::Mesh m = test::rectangle(Family::p1, 4, 7, 1, 0, 2, 1);
+  const auto wall = test::body("wall", std::move(m));
+  const auto s = scene::make_scene({wheel, wall});
+  scene::add_contact(*s, test::part(wheel, "right"), test::part(wall, "left"), {});
+  CHECK(scene::doubts(*s).empty());
+}
+
+TEST_CASE("the plan and a printed solution say what is doubtful") {
+  const auto inner = ring("inner", 2, Family::p1, 0.5, 1.001, 8), outer = ring("outer", 2, Family::p1, 1, 1.5, 11);
+  for (const auto& body : {inner, outer}) test::slide(body, "bottom"), test::slide(body, "top");
+  const auto s = scene::make_scene({inner, outer});
+  scene::add_contact(*s, test::part(inner, "right"), test::part(outer, "left"), {}, {}, true);
+  CHECK(scene::plan(*s).find("\n  warning: contact of 'inner' right with 'outer' left: facets are chords") != std::string::npos);
+  CHECK(scene::describe(*test::solve(s)).find("\n  warning: contact of 'inner' right") != std::string::npos);
+}
