@@ -97,17 +97,11 @@ void put_on_bounds(const QuadraticProgram& p, Result& result) {
   }
 }
 
-}  // namespace
-
-Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor& monitor) {
-  check(program);
-  Stopwatch clock;
-  Result result, predicted;
-  const Vector curved = negative_curvature(program.P);
-  if (curved.size()) return solve(program, InteriorPoint{}, monitor);
-  const Scaled scaled = scale(program);
+/// In units of its own.
+Result attempt(const QuadraticProgram& program, const Scaled& scaled, const ActiveSet& settings, Monitor& monitor) {
+  Result predicted;
   const Guess start = guess(program, scaled, settings, monitor, predicted);
-  result = ActiveSetIteration(scaled.program, settings, monitor).run(start.working, start.x, start.y);
+  Result result = ActiveSetIteration(scaled.program, settings, monitor).run(start.working, start.x, start.y);
   doubt_stationarity(scaled.program, result);
   doubt(scaled.program, settings, monitor, result);
   result.x = scaled.x(result.x);
@@ -120,6 +114,25 @@ Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor
   if (result.status == Status::solved) put_on_bounds(program, result);
   result.predictor_iterations = predicted.iterations;
   result.factorisations += predicted.factorisations;
+  return result;
+}
+
+}  // namespace
+
+Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor& monitor) {
+  check(program);
+  Stopwatch clock;
+  const Vector curved = negative_curvature(program.P);
+  if (curved.size()) return solve(program, InteriorPoint{}, monitor);
+  Result result = attempt(program, scale(program), settings, monitor);
+  const auto off = [&](const Result& r) { return r.status == Status::solved ? imbalance(program, r.x, r.y) : INFINITY; };
+  const bool may_go_on = result.iterations < settings.max_iterations && !monitor.stop();
+  if (const bool ended = result.status == Status::solved || (result.status == Status::stopped && may_go_on); ended && off(result) > kImbalanced)
+    if (const auto units = scale_by_curvature(program)) {
+      Result other = attempt(program, *units, settings, monitor);
+      if (off(other) < off(result)) result = std::move(other);
+    }
+  if (result.status == Status::solved && off(result) > kHidden) result.status = Status::stopped, result.reason = kHiddenReason;
   measure(program, result);
   result.seconds = clock.seconds();
   return result;

@@ -129,7 +129,8 @@ void ActiveSetIteration::iterate() {
   const bool flat = objective_ ? std::abs(fall) <= 1e-14 * (1 + std::abs(objective(p_, x_)))
                                : peak(times(p_.P, s.p)) <= settings_.tol * (1 + peak(g));
   if (s.consistent && (peak(s.p) <= still || (flat && !restoring_))) {
-    if (peak(s.p) <= still) x_ += s.p;
+    const Vector speed = p_.A * s.p;
+    if (peak(s.p) <= still || rows_.meeting(activity, speed, p_.A.cwiseAbs() * s.p.cwiseAbs(), cautious_, many()).step >= 1) x_ += s.p;
     y_ = s.y;
     return stationary(elastic, s.p);
   }

@@ -100,6 +100,30 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
   return result;
 }
 
+/// In units of its own.
+Result attempt(const Scaled& scaled, const InteriorPoint& settings, Monitor& monitor) {
+  InteriorPoint inner = settings;
+  if (settings.fine) inner.fine = [&](const Vector& x, const Vector& y) { return settings.fine(scaled.x(x), scaled.y(y)); };
+  Result result = run(scaled.program, inner, 30, 0, monitor);
+  if (result.status == Status::stopped && result.iterations < settings.max_iterations && !monitor.stop()) {
+    result = run(scaled.program, inner, 1000, result.iterations, monitor);
+    result.reason += ", at the second start";
+  }
+  if (result.status == Status::unbounded) {  // or without any point, which shows where the objective is strictly convex
+    inner.fine = nullptr;
+    const Result nearest = run(nearest_point(scaled.program), inner, 30, result.iterations, monitor);
+    result.iterations = nearest.iterations;
+    if (nearest.status == Status::infeasible) {
+      result.status = nearest.status, result.reason = nearest.reason, result.direction = nearest.direction;
+    }
+  }
+  result.x = scaled.x(result.x);
+  result.y = scaled.y(result.y);
+  if (result.status == Status::unbounded) result.direction = scaled.x(result.direction).normalized();
+  if (result.status == Status::infeasible) result.direction = scaled.row.cwiseProduct(result.direction);
+  return result;
+}
+
 }  // namespace
 
 Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Monitor& monitor) {
@@ -114,26 +138,15 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
     result.direction = curved;
     result.x = Vector::Zero(program.unknowns()), result.y = Vector::Zero(program.rows());
   } else {
-    const Scaled scaled = scale(program);
-    InteriorPoint inner = settings;
-    if (settings.fine) inner.fine = [&](const Vector& x, const Vector& y) { return settings.fine(scaled.x(x), scaled.y(y)); };
-    result = run(scaled.program, inner, 30, 0, monitor);
-    if (result.status == Status::stopped && result.iterations < settings.max_iterations && !monitor.stop()) {
-      result = run(scaled.program, inner, 1000, result.iterations, monitor);
-      result.reason += ", at the second start";
+    result = attempt(scale(program), settings, monitor);
+    const auto off = [&](const Vector& x, const Vector& y) { return imbalance(program, x, y); };
+    if (result.status == Status::solved && off(result.x, result.y) > kHidden) {
+      InteriorPoint finer = settings;
+      finer.fine = [&](const Vector& x, const Vector& y) { return off(x, y) <= kHidden && (!settings.fine || settings.fine(x, y)); };
+      const Result other = attempt(*scale_by_curvature(program), finer, monitor);
+      if (other.status == Status::solved && off(other.x, other.y) < off(result.x, result.y)) result = other;
+      if (off(result.x, result.y) > kHidden) result.status = Status::stopped, result.reason = text(kHiddenReason, "; active_set may");
     }
-    if (result.status == Status::unbounded) {  // or without any point, which shows where the objective is strictly convex
-      inner.fine = nullptr;
-      const Result nearest = run(nearest_point(scaled.program), inner, 30, result.iterations, monitor);
-      result.iterations = nearest.iterations;
-      if (nearest.status == Status::infeasible) {
-        result.status = nearest.status, result.reason = nearest.reason, result.direction = nearest.direction;
-      }
-    }
-    result.x = scaled.x(result.x);
-    result.y = scaled.y(result.y);
-    if (result.status == Status::unbounded) result.direction = scaled.x(result.direction).normalized();
-    if (result.status == Status::infeasible) result.direction = scaled.row.cwiseProduct(result.direction);
   }
   measure(program, result);
   result.seconds = clock.seconds();

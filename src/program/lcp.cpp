@@ -81,6 +81,9 @@ class Solver {
     } else if (r.ray && semidefinite(lcp_.M)) {
       out_.status = LcpStatus::none;
       out_.reason = before + "Lemke's method ends on a ray, and M is positive semidefinite: there is no solution";
+    } else if (!r.ray && !r.solved) {
+      out_.reason = before + text("Lemke's method stops at its limit of ", r.pivots, " pivots",
+                                  settings_.method == LcpSettings::Method::lemke ? ": try newton_min" : "");
     } else {
       out_.reason = before + "Lemke's method ends " + (r.ray ? "on a ray" : "without a solution") + ", which decides nothing for this M";
     }

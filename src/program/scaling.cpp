@@ -61,4 +61,48 @@ Scaled scale(const QuadraticProgram& p) {
   return s;
 }
 
+std::optional<Scaled> scale_by_curvature(const QuadraticProgram& p) {
+  const Vector curvature = p.P.diagonal();
+  if (p.unknowns() == 0 || !(curvature.minCoeff() > 0)) return std::nullopt;
+  Scaled s{p, curvature.cwiseSqrt().cwiseInverse(), Vector::Ones(p.rows())};
+  const double size = peak(p.q.cwiseProduct(s.column));
+  if (!(size > 0) || !std::isfinite(size)) return std::nullopt;
+  s.column *= size;
+  s.cost = 1 / size / size;
+  if (!s.column.allFinite() || !(s.cost > 0) || !std::isfinite(s.cost)) return std::nullopt;
+  QuadraticProgram& t = s.program;
+  t.P = SparseMatrix(s.column.asDiagonal() * p.P * s.column.asDiagonal()) * s.cost;
+  t.q = s.cost * p.q.cwiseProduct(s.column);
+  t.r *= s.cost;
+  t.A = p.A * s.column.asDiagonal();
+  for (int i = 0; i < p.rows(); ++i) {
+    const double largest = peak(Vector(t.A.row(i).transpose()));
+    if (largest > 0) s.row[i] = 1 / largest;
+    t.low[i] *= s.row[i], t.high[i] *= s.row[i];
+  }
+  t.A = SparseRows(s.row.asDiagonal() * t.A);
+  return s;
+}
+
+double imbalance(const QuadraticProgram& program, const Vector& x, const Vector& y) {
+  constexpr double kRounding = 1e-15;
+  const auto scaled = scale_by_curvature(program);
+  if (!scaled) return 0;
+  const QuadraticProgram& p = scaled->program;
+  const Vector u = x.cwiseQuotient(scaled->column), v = scaled->cost * y.cwiseQuotient(scaled->row), Au = p.A * u;
+  const SparseRows sizes = p.A.cwiseAbs();
+  const Vector terms = times(p.P.cwiseAbs(), u.cwiseAbs()) + p.q.cwiseAbs() + sizes.transpose() * v.cwiseAbs(), moved = sizes * terms;
+  const double rounding = kRounding * peak(terms);
+  const auto share = [&](double left, double of) { return left > rounding ? left / of : 0; };
+  double worst = 0;
+  Vector apart = v.cwiseAbs();
+  for (int r = 0; r < p.rows(); ++r) {
+    worst = std::max(worst, share(std::max(p.low[r] - Au[r], Au[r] - p.high[r]), moved[r]));
+    apart[r] *= std::min(1.0, share(std::abs(Au[r] - (v[r] > 0 ? p.high[r] : p.low[r])), moved[r]));
+  }
+  const Vector left = (times(p.P, u) + p.q + p.A.transpose() * v).cwiseAbs() + sizes.transpose() * apart;
+  for (int j = 0; j < p.unknowns(); ++j) worst = std::max(worst, share(left[j], terms[j]));
+  return worst;
+}
+
 }  // namespace dotyk::program

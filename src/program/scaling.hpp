@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "program/program.hpp"
 
 namespace dotyk::program {
@@ -21,5 +23,17 @@ double objective_unit(const QuadraticProgram& program);
 /// divided by the root of its largest entry; then the objective is divided by its gradient's size. Before that, by its unit: what
 /// is beyond all rows' size would make them nothing.
 Scaled scale(const QuadraticProgram& program);
+
+/// In units of which programs that differ in the units of their unknowns, rows and objective are the same: P has the diagonal 1, q the greatest entry 1, and
+/// so have rows. Where P_jj > 0 for all j and q is not zero; else nothing.
+std::optional<Scaled> scale_by_curvature(const QuadraticProgram& program);
+
+/// How far (x, y) is from optimal for single unknowns and rows, not beside others. In units of scale_by_curvature() the greatest of: what is left of an
+/// unknown's gradient, multipliers counted by how far their row is from its limit, against the gradient's terms; violations of rows against what their unknowns'
+/// terms move them by; rounding of the greatest terms is nothing. 0 where there are no such units.
+double imbalance(const QuadraticProgram& program, const Vector& x, const Vector& y);
+/// Where the imbalance is more, other units are tried; and where the result is no solution.
+constexpr double kImbalanced = 1e-7, kHidden = 1e-3;
+constexpr const char* kHiddenReason = "unknowns are of so different size that the great ones hide the others: these are not found";
 
 }  // namespace dotyk::program

@@ -37,6 +37,8 @@ namespace {
 
 constexpr int kMostIterations = 80;
 constexpr double kBack = 0.995;  ///< of the way to the nearest bound
+constexpr double kStays = 0.7, kFalls = 0.3;  ///< of its last value, in a step
+constexpr double kLeast = 1e-8;  ///< of the tolerance: bounds that are undecided there touch without pressing
 
 /// The scaled program, without rows that have one multiplier only.
 class Barrier {
@@ -50,10 +52,14 @@ class Barrier {
   BoxSolution operator()() {
     BoxSolution out;
     start();
-    while (out.iterations < kMostIterations && !out.converged) {
-      if (!step()) break;
+    while (out.iterations < kMostIterations && step()) {
       ++out.iterations;
-      out.converged = error() <= tol_;
+      if (error() > tol_) {
+        if (out.converged) break;  // rounding has taken over
+        continue;
+      }
+      out.converged = true;
+      if (decided() || gap_at(x_, z_low_, z_high_) <= kLeast * tol_) break;
     }
     out.lambda = whole_.low;
     out.alpha = alpha_.cwiseProduct(motion_unit_);
@@ -61,8 +67,8 @@ class Barrier {
     for (int k = 0; k < size(); ++k) {
       const int i = rows_[k];
       out.lambda[i] = std::clamp(x_[k] * unit_[k] * force_, whole_.low[i], whole_.high[i]);
-      if (z_low_[k] > x_[k] - low_[k]) out.side[i] = -1;
-      else if (z_high_[k] > high_[k] - x_[k]) out.side[i] = 1;
+      if (bounded_below(k) && slower(z_low_[k], before_.z_low[k], x_[k] - low_[k], before_.x[k] - low_[k])) out.side[i] = -1;
+      else if (bounded_above(k) && slower(z_high_[k], before_.z_high[k], high_[k] - x_[k], high_[k] - before_.x[k])) out.side[i] = 1;
     }
     return out;
   }
@@ -120,6 +126,7 @@ class Barrier {
       else if (bounded_above(k)) x_[k] = high_[k] - 1;
       z_low_[k] = bounded_below(k), z_high_[k] = bounded_above(k);
     }
+    before_ = {x_, z_low_, z_high_, {}};
   }
 
   double middle(int k) const { return (low_[k] + high_[k]) / 2; }
@@ -145,6 +152,19 @@ class Barrier {
   struct Direction {
     Vector x, z_low, z_high, alpha;
   };
+
+  /// Has z fallen by less than the distance to its bound in the last step, whatever their units?
+  static bool slower(double z, double z_before, double distance, double distance_before) { return z * distance_before > distance * z_before; }
+
+  /// Has one of the two ceased to fall at every bound, while the other falls on?
+  bool decided() const {
+    const auto clear = [](double a, double b) { return std::min(a, b) < kFalls * std::max(a, b) && std::max(a, b) > kStays; };
+    for (int k = 0; k < size(); ++k) {
+      if (bounded_below(k) && !clear((x_[k] - low_[k]) / (before_.x[k] - low_[k]), z_low_[k] / before_.z_low[k])) return false;
+      if (bounded_above(k) && !clear((high_[k] - x_[k]) / (high_[k] - before_.x[k]), z_high_[k] / before_.z_high[k])) return false;
+    }
+    return true;
+  }
 
   bool factor() {
     M_ = H_;
@@ -214,6 +234,7 @@ class Barrier {
     const Direction d = direction(centring * gap, &predictor);
     if (!d.x.allFinite()) return false;
     const double t = std::min(1.0, kBack * length(d));
+    before_ = {x_, z_low_, z_high_, {}};
     x_ += t * d.x, z_low_ += t * d.z_low, z_high_ += t * d.z_high, alpha_ += t * d.alpha;
     return true;
   }
@@ -226,6 +247,7 @@ class Barrier {
   DenseMatrix H_, N_, M_, Y_;
   Vector g_, low_, high_, e_;
   Vector x_, z_low_, z_high_, alpha_;
+  Direction before_;  ///< where the last step began
   Eigen::CompleteOrthogonalDecomposition<DenseMatrix> schur_;
 };
 

@@ -359,7 +359,7 @@ class Iteration {
   }
 
   /// Newton steps before rescues are asked, and to confirm what one found.
-  static constexpr int kPatience = 10, kConfirmations = 8;
+  static constexpr int kPatience = 14, kConfirmations = 8;
   static constexpr std::size_t kStretch = 4;
   /// Sweeps between two Newton steps of the descent (and two updates of the free bodies' equilibrium), and how often.
   static constexpr int kSweeps = 3, kSweepRounds = 3;

@@ -93,6 +93,28 @@ TEST_CASE("Murty's matrix, exponential for least-index pivoting, takes n + 1 sol
   }
 }
 
+TEST_CASE("Murty's matrix again, with the right-hand side that takes Lemke's method 2ⁿ − 1 pivots: its limit is told, and what to try") {
+  Monitor quiet;
+  for (const int n : {10, 20}) {
+    DenseMatrix M = DenseMatrix::Constant(n, n, 2).triangularView<Eigen::StrictlyLower>();
+    M.diagonal().setOnes();
+    Vector q(n);
+    for (int i = 0; i < n; ++i) q[i] = std::ldexp(1, n - 1 - i) - std::ldexp(1, n);
+    program::LcpSettings by_lemke;
+    by_lemke.method = program::LcpSettings::Method::lemke;
+    by_lemke.unique = false;
+    const auto r = program::solve(Lcp{M, q}, by_lemke, quiet), other = program::solve(Lcp{M, q}, {}, quiet);
+    CHECK(other.status == program::LcpStatus::solved);
+    if (n == 10) {
+      CHECK(r.status == program::LcpStatus::solved);
+      CHECK(r.pivots == 1023);
+    } else {
+      CHECK(r.status == program::LcpStatus::stopped);
+      CHECK(r.reason == "Lemke's method stops at its limit of 100000 pivots: try newton_min");
+    }
+  }
+}
+
 TEST_CASE("symmetric problems are bound-constrained programs") {
   Random random(352);
   Monitor quiet;

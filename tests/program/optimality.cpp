@@ -117,6 +117,46 @@ TEST_CASE("scales from 1e-6 to 1e6 in rows, unknowns and objective change nothin
   }
 }
 
+TEST_CASE("unknowns in other units, 1e-8 to 1e8 of them, are the same unknowns") {
+  Random random(306);
+  Monitor quiet;
+  for (int trial = 0; trial < 100; ++trial) {
+    const int n = 6;
+    const auto p = test::boxed(random, n, trial % 5, n);
+    const auto plain = program::solve(p, test::one(), quiet);
+    REQUIRE(plain.status == program::Status::solved);
+    Vector unit(n), row = Vector::Ones(p.rows());
+    for (double& u : unit) u = std::pow(10.0, random.between(-8, 8));
+    row.tail(n) = unit.cwiseInverse();
+    auto other = p;
+    other.P = test::lower(unit.asDiagonal() * test::full(p.P) * unit.asDiagonal());
+    other.q = unit.cwiseProduct(p.q);
+    other.A = DenseMatrix(row.asDiagonal() * DenseMatrix(p.A) * unit.asDiagonal()).sparseView(0, 0);
+    other.low = row.cwiseProduct(p.low), other.high = row.cwiseProduct(p.high);
+    for (const auto& settings : {test::one(), test::many()}) {
+      const auto r = program::solve(other, settings, quiet);
+      INFO(trial << ": " << r.reason);
+      REQUIRE(r.status == program::Status::solved);
+      CHECK((r.x.cwiseProduct(unit) - plain.x).norm() <= 1e-6 * (1 + plain.x.norm()));
+    }
+  }
+}
+
+TEST_CASE("an unknown whose energy is nothing beside another's is found as well") {
+  Monitor quiet;
+  for (const double great : {1e6, 1e12}) {
+    const auto p = test::quadratic(Vector{{great, 1 / great}}.asDiagonal(), Vector{{-great, -1 / great}}, DenseMatrix::Identity(2, 2), Vector::Zero(2),
+                                   Vector::Constant(2, INFINITY));
+    const auto interior = program::solve(p, program::InteriorPoint{}, quiet);
+    const bool found = (interior.x - Vector::Ones(2)).lpNorm<Eigen::Infinity>() < 1e-2;
+    CHECK_MESSAGE(found == (interior.status == program::Status::solved), interior.reason);  // or it is told
+    for (const auto& r : {program::solve(p, test::one(), quiet), program::solve(p, test::many(), quiet)}) {
+      REQUIRE_MESSAGE(r.status == program::Status::solved, r.reason);
+      CHECK((r.x - Vector::Ones(2)).lpNorm<Eigen::Infinity>() < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("a program without rows, and one whose rows never matter") {
   Random random(305);
   Monitor quiet;
