@@ -155,22 +155,21 @@ local function triangle(mu)
   local scene = dotyk.scene{ body }
   return scene, scene:contact{ body:part"bottom", rigid = dotyk.rigid.gap{ normal = {0, -1}, gap = 0 }, friction = dotyk.friction.coulomb(mu) }, body
 end
-local at <const> = {}
+local isolated <const>, continuum <const> = { name = "isolated solutions", style = "points", x = {}, y = {} }, { name = "a continuum", x = {}, y = {} }
 print "\nthe triangle:"
-for _, mu in ipairs{ 2.5, 3, 3.5 } do
+for quarters = 8, 16 do
+  local mu = quarters / 4
   local one, floor, body = triangle(mu)
   local found, told, families = dotyk.all_solutions(one)
-  print(("   mu = %g: %s"):format(mu, told))
-  at[mu] = { name = ("mu = %g"):format(mu), style = mu ~= 3 and "points" or nil, x = {}, y = {} }
+  assert((#families == 1) == (mu == 3), told)
+  local into = mu == 3 and continuum or isolated
+  if mu % 0.5 == 0 then print(("   mu = %g: %s"):format(mu, told)) end
   for k, s in ipairs(found) do
-    at[mu].x[k], at[mu].y[k] = s:displacement(body, 1, 0), s:contact(floor).force[2]
-    print(("      B moves by %.6f, normal force %.6f"):format(at[mu].x[k], at[mu].y[k]))
-  end
-  assert((#families == 1) == (mu == 3))
-  if mu == 3 then
-    assert(families[1].dimension == 1 and #families[1].ends == 2 and not families[1].unbounded)
-    assert(math.abs(math.abs(at[mu].x[1] - at[mu].x[2]) - 2) < 1e-9)
+    local moved = s:displacement(body, 1, 0)
+    into.x[#into.x + 1], into.y[#into.y + 1] = mu, moved
+    if mu % 0.5 == 0 then print(("      B moves by %.6f, normal force %.6f"):format(moved + 0, s:contact(floor).force[2])) end
   end
 end
-dotyk.chart{ file = "images/several_family.png", x = "displacement of B along the floor", y = "normal force", series = { at[2.5], at[3], at[3.5] } }
+assert(#continuum.y == 2 and math.abs(math.abs(continuum.y[1] - continuum.y[2]) - 2) < 1e-9)
+dotyk.chart{ file = "images/several_family.png", x = "coefficient of friction", y = "displacement of B along the floor", series = { isolated, continuum } }
 print "images/several_solutions.png, several_open.png, several_stick.png, several_slip.png, several_family.png"

@@ -105,6 +105,7 @@ class Conditions {
 /// A basis of the null space: columns.
 DenseMatrix null_space(const SparseMatrix& held) {
   const Eigen::Index n = held.cols();
+  if (held.nonZeros() == 0) return DenseMatrix::Identity(n, n);
   SparseMatrix A = held;
   A.conservativeResize(std::max(held.rows(), n), n);
   A.makeCompressed();

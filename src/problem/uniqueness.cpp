@@ -33,8 +33,8 @@ DenseMatrix two_sided(const RigidMotions& rigid, const Problem& problem) {
   for (const RowGroup& group : problem.groups)
     for (int k = 0; k < group.count; ++k)
       if (group.law->linear_stiffness(k).value_or(0) > 0) holding.push_back(group.first + k);
-  if (holding.empty()) return rigid.noticed;
   const Eigen::Index modes = rigid.noticed.cols();
+  if (holding.empty() || modes == 0) return rigid.noticed;
   DenseMatrix N = DenseMatrix::Zero(std::max<Eigen::Index>(modes, static_cast<Eigen::Index>(holding.size())), modes);
   for (std::size_t k = 0; k < holding.size(); ++k) N.row(static_cast<Eigen::Index>(k)) = rigid.N.row(holding[k]) * rigid.noticed;
   const Eigen::JacobiSVD<DenseMatrix> svd(N, Eigen::ComputeFullV);

@@ -35,19 +35,19 @@ void open_without_force(const problem::Problem& problem, solver::Result& result)
       if (lambda[r] <= none) result.active_sets.back()[r] = 0;
 }
 
-/// The one motion, its range, and of all states that differ by it the least.
-void take_least(const problem::Problem& problem, const problem::FreeMotions& free, solver::Result& result) {
+/// The one motion, its range, and of all states that differ by it the one nearest to `before`.
+void take_nearest(const problem::Problem& problem, const problem::FreeMotions& free, const Vector& before, solver::Result& result) {
   const Vector motion = free.motions.col(0);
   Vector d = problem::displacement(problem, motion);
   if (free.unnoticed.cols() > 0) d = problem::least(algebra::orthonormal(problem::displacement(problem, free.unnoticed)), d);
-  const double least = std::clamp(-result.state.u.dot(d) / d.squaredNorm(), free.range.low, free.range.high);
-  result.state.u += least * d;
+  const double nearest = std::clamp((before - result.state.u).dot(d) / d.squaredNorm(), free.range.low, free.range.high);
+  result.state.u += nearest * d;
   const double size = d.lpNorm<Eigen::Infinity>();
   if ((free.range.high - free.range.low) * size <= 1e-9 * result.state.u.lpNorm<Eigen::Infinity>()) return;  // it has nowhere to go
   result.reason += text("; unique stress, displacement up to ", describe(problem::body_motions(problem), motion), ", by ",
-                        end((free.range.low - least) * size), " to ", end((free.range.high - least) * size),
+                        end((free.range.low - nearest) * size), " to ", end((free.range.high - nearest) * size),
                         " at the most: the contacts that hold leave it free until the next node closes or sticks, so that the mesh decides how "
-                        "far; this is the least");
+                        "far; this is the ", before.isZero(0) ? "least" : "nearest to the step before");
 }
 
 /// The width of the widest cell of contact that presses.
@@ -88,12 +88,12 @@ std::string resisted_by_cells(const Scene& scene, const Model& model, const prob
 
 }  // namespace
 
-void settle(const Scene& scene, const Model& model, const problem::Problem& problem, solver::Result& result) {
+void settle(const Scene& scene, const Model& model, const problem::Problem& problem, const Vector& before, solver::Result& result) {
   if (!result.converged || problem.rows() == 0) return;
   open_without_force(problem, result);
   const problem::FreeMotions free = problem::free_motions(problem, result.state, kOnBound);
   if (free.motions.cols() == 1)
-    take_least(problem, free, result);
+    take_nearest(problem, free, before, result);
   else if (free.motions.cols() > 1)
     result.reason += text("; unique stress, displacement up to ", free.motions.cols(), " motions that the contacts that hold leave free, one of them ",
                           describe(problem::body_motions(problem), free.motions.col(0)));

@@ -10,9 +10,10 @@
 namespace dotyk::scene {
 
 /// Of a state that has converged, what problem::free_motions() finds: adds to the reason which motion its displacement is unique up to, and
-/// how far that may go. Where it is one, the state becomes the least of those that differ by it, which no method then decides. A
-/// rotation that contact no wider than its cells resists is named as well. Contact rows whose pressure is rounding are open.
-void settle(const Scene& scene, const Model& model, const problem::Problem& problem, solver::Result& result);
+/// how far that may go. Where it is one, the state becomes, of those that differ by it, the one nearest to `before` (unknowns; at rest: the
+/// least), which no method then decides. A rotation that contact no wider than its cells resists is named as well. Contact rows whose
+/// pressure is rounding are open.
+void settle(const Scene& scene, const Model& model, const problem::Problem& problem, const algebra::Vector& before, solver::Result& result);
 
 /// "; 'disc' turns by 0.097 …" where a body's mean rotation is beyond what small displacements allow; else empty.
 /// `u`: nodes × dimension.

@@ -64,6 +64,12 @@ void refuse_lost_motions(double softest, solver::Result& result) {
   result.reason = text("rounding may leave ", lost, " of a motion that supports hardly hold");
 }
 
+/// What a displacement that is not unique shall be near to: the step before, at the beginning rest; u itself where that step is not at hand.
+algebra::Vector state_before(const Past& past, const algebra::Vector& u) {
+  if (!past.steps.empty()) return past.steps.back()->result().state.u;
+  return past.slip.size() > 0 ? u : algebra::Vector(algebra::Vector::Zero(u.size()));
+}
+
 }  // namespace
 
 Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const problem::Problem* with_stiffness,
@@ -71,7 +77,8 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     : scene_(std::move(scene)), model_(std::move(model)), result_(std::move(result)), past_(std::move(past)),
       stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
   const problem::Problem& problem = with_stiffness ? *with_stiffness : model_.problem;
-  settle(*scene_, model_, problem, result_);
+  if (result_.method != "enumeration")  // which gives every one
+    settle(*scene_, model_, problem, state_before(past_, result_.state.u), result_);
   residual_ = problem::residual(problem, result_.state);
   energy_ = problem::energy(problem, result_.state);
   friction_energy_ = problem::friction_energy(problem, result_.state);

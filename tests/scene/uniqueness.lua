@@ -140,4 +140,21 @@ do
   local scene = dotyk.scene{ b }
   has(scene:plan(), "a unique solution exists: every body is held by its supports")
   check.that(scene:balance().verdict == "unique")
+  b:part"top":support{ normal = dotyk.law.elastic(1) } -- rows, and nothing to move
+  has(scene:plan(), "a unique solution exists: every body is held by its supports")
+end
+
+-- 8. The range of a free motion is that of the family which enumeration finds.
+do
+  local b = dotyk.body{ name = "block", mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {3,1}, element = "Q1" },
+    material = dotyk.material{ E = 1000, nu = 0.3 } }
+  b:part"top":load{ 0, -1 }
+  local scene = dotyk.scene{ b }
+  scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} }, friction = dotyk.friction.tresca(0.001) }
+  local all, tried, families = dotyk.all_solutions(scene)
+  check.that(#families == 1 and families[1].dimension == 1 and not families[1].unbounded and not families[1].forces_only, tried)
+  local range = math.abs(all[families[1].ends[1]]:displacement(b, 0.5, 0) - all[families[1].ends[2]]:displacement(b, 0.5, 0))
+  local s = dotyk.solve(scene)
+  local low, high = s.reason:match "by (%-[%d.e-]+) to ([%d.e-]+) at the most"
+  near(high - low, range, 1e-5 * range) -- two ways to the same range
 end

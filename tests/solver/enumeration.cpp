@@ -161,11 +161,10 @@ std::vector<Vector> check_family(const problem::Problem& p, const solver::Enumer
       state.u += part * family.ends[e].result.state.u;
       state.lambda += part * family.ends[e].result.state.lambda;
     }
-    const auto residual = problem::residual(p, state);
-    CHECK(residual.equilibrium < 1e-12);
-    CHECK(residual.penetration < 1e-12);
-    CHECK(residual.complementarity < 1e-12);
-    CHECK((state.lambda.norm() < 1e-12 || residual.law < 1e-9));
+    CHECK(problem::residual(p, state).equilibrium < 1e-12);
+    // Forces and displacements are of size 1, and vanish at ends: ‖λ − P(λ + x)‖ as it is.
+    const double force = state.lambda.norm(), off = problem::natural_residual(p, p.B * state.u - p.c, state.lambda, Vector::Ones(p.rows()));
+    CHECK(off * (force > 0 ? force : 1) < 1e-12);
   }
   return ends;
 }
