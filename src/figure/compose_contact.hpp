@@ -13,9 +13,10 @@ ContactPicture contact_picture(const scene::Contact& contact, const scene::Conta
 // it: of g₀ at most c = max(0, greatest w·n) is magnified, as far as some node has come towards it. Here w = u − d is a
 // node's displacement relative to the obstacle and n the direction towards that; for other shapes c = ∞. The obstacle
 // passes through
-//   x + g₀ n + m d + (m − 1)(w_t + min(g₀, c) n).
-// At m = 1 this is where the obstacle is. A closed node (w·n = g₀) lies on it at any m ≥ 1, but for its way w_t along
-// it; an open one stands off it by between its gap and m times its gap.
+//   x + g₀ n + m d + (m − 1)(w_t + min(g₀, c) n),
+// without w_t where no node is closed: then it does not follow the body. At m = 1 this is where the obstacle is. A closed
+// node (w·n = g₀) lies on it at any m ≥ 1, but for its way w_t along it; an open one stands off it by between its gap and
+// m times its gap.
 // Left out are nodes that do not face the obstacle, and those that would stand off it by a quarter of the scene's `size`.
 // In the plane a half-space, which ends nowhere, is drawn a little beyond the contact.
 RigidPicture obstacle_picture(const scene::Contact& contact, const scene::ContactResult& result, const Vec3& move, double factor,
