@@ -6,8 +6,9 @@
 -- it: for δ ≥ 0 there is no force, for δ < 0 it is −δp, at every node alike. At δ = 0 both force and gap are zero
 -- everywhere (no strict complementarity), and the sign that active sets are chosen by is rounding. δ goes from −1/2
 -- through 0 to 1/2, as near as 5e-19; force and iterations of each method, without friction and (where it can) with
--- Coulomb's, beside the closed form. An interior point, whose forces times gaps are all of the size tol, is off by
--- √tol there; methods that choose a set have no such loss.
+-- Coulomb's, beside the closed form. An interior point, whose forces times gaps are all of the size tol, would be off by
+-- √tol there; it goes on beyond tol until forces violate their laws by 1e-8 of them at most, or rounding ends it, which
+-- costs it ten steps. Methods that choose a set have no such loss.
 -- Draws images/stability_degenerate.png.
 
 local n <const> = tonumber(arg[1]) or 16
@@ -63,4 +64,4 @@ dotyk.chart{ file = "images/stability_degenerate.png", size = { 1000, 1100 }, x 
   { title = "pressed, δ < 0", y = "iterations", log = "xy", series = pressed }, { title = "apart, δ > 0", y = "iterations", log = "xy", series = apart } } }
 print "images/stability_degenerate.png"
 common.verdict(wrong == 0 and unconverged == 0 and worst < 1e-8 and most <= 10, ("touching without force costs nobody convergence: active sets settle in %d iterations at most and forces are right to %.0e of p at "
-  .. "every δ, active_set's to %.0e, and the interior point's to %.0e, where theory says √tol = 1e-5"):format(most, worst, sets, inner))
+  .. "every δ, active_set's to %.0e, and the interior point's to %.0e, where tol alone would leave √tol = 1e-5"):format(most, worst, sets, inner))

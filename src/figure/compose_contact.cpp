@@ -52,12 +52,13 @@ Vec3 sum(const Vec3& a, const Vec3& b, double factor) { return {a[0] + factor * 
 
 /// Where the obstacle is drawn, as each node sees it; see the header.
 std::vector<Vec3> seen_by_nodes(const Contact& contact, const scene::ContactResult& result, const Vec3& move, double factor) {
-  double most = 0;
+  const bool plane = std::holds_alternative<contact::RigidPlane>(contact.shape), touches = result.area > 0;
+  double most = plane ? 0 : INFINITY;
   for (std::size_t k = 0; k < contact.rows.size(); ++k) most = std::max(most, contact.rows[k].gap - result.nodes[k].gap);
   std::vector<Vec3> at;
   for (std::size_t k = 0; k < contact.rows.size(); ++k) {
     const contact::ContactRow& row = contact.rows[k];
-    const Vec3 way = sum(result.nodes[k].displacement, move, -1);
+    const Vec3 way = touches ? sum(result.nodes[k].displacement, move, -1) : Vec3{0, 0, 0};
     const double magnified = std::min(row.gap, most) - mesh::dot(way, row.normal);  // with `way`: along n in place of w·n
     Vec3 x = sum(result.nodes[k].x, row.normal, row.gap + (factor - 1) * magnified);
     x = sum(sum(x, move, factor), way, factor - 1);
@@ -120,10 +121,11 @@ RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult
   const std::vector<Vec3> at = seen_by_nodes(contact, result, move, factor);
   const std::vector<bool> faces = facing(contact);
   const bool any = std::find(faces.begin(), faces.end(), true) != faces.end();  // else a corner alone looks at it
+  const double magnified = std::holds_alternative<contact::RigidPlane>(contact.shape) ? 1 : factor;
   std::vector<int> place(at.size(), -1);
   Vec3 outward{0, 0, 0};
   for (std::size_t k = 0; k < at.size(); ++k) {
-    if ((any && !faces[k]) || contact.rows[k].gap > 0.25 * size) continue;
+    if ((any && !faces[k]) || magnified * contact.rows[k].gap > 0.25 * size) continue;
     outward = sum(outward, contact.rows[k].normal, 1);
     place[k] = static_cast<int>(picture.points.size()) / 3;
     picture.points.insert(picture.points.end(), at[k].begin(), at[k].end());

@@ -106,3 +106,17 @@ TEST_CASE("a rigid plane is drawn where it has been moved to, and closed nodes l
     CHECK(plane.points[1] == doctest::Approx(plane.points[7]).epsilon(1e-3));
   }
 }
+
+TEST_CASE("an obstacle that nothing touches stays where it is") {
+  auto body = block("block", 0);
+  auto moved = scene::named_part(body, "top");
+  scene::displace(moved, {[](const mesh::Point&) { return 0.2; }, [](const mesh::Point&) { return 0.1; }, {}});
+  const auto s = scene::make_scene({body});
+  scene::add_contact(*s, scene::named_part(body, "bottom"), contact::RigidGap{{0, -1, 0}, [](const mesh::Point&) { return 0.0; }}, {}, false);
+  Monitor quiet;
+  figure::SceneOptions options;
+  options.deform = 5;
+  const figure::ScenePicture picture = figure::compose(*scene::solve(s, {}, {}, quiet), options);
+  REQUIRE(picture.obstacles.size() == 1);
+  CHECK(picture.obstacles[0].points == std::vector<double>{0, 0, 0, 0.5, 0, 0, 1, 0, 0});
+}
