@@ -50,6 +50,8 @@ local function make(scene, held)
   return made
 end
 
+local limit <const> = { seconds = 600 } -- much more than a scene takes, also where others want the machine
+
 -- 2. Second methods, tried in a random order until one converges.
 local frictionless <const> = { "interior_point", "active_set", "proximal", "psor", "projected_cg" }
 local rubbing <const> = { "proximal", "psor", "coulomb_loop", "projected_cg" }
@@ -58,7 +60,7 @@ local function second_solution(scene, made)
   local names <const> = { table.unpack(scene.friction == "none" and frictionless or rubbing) }
   while #names > 0 do
     local name = table.remove(names, dice.whole(1, #names))
-    local options = scene.dimension and { seconds = 5 } or nil
+    local options = scene.dimension and limit or nil
     local good, other = pcall(function() return dotyk.solver[name]{}:solve(made.scene, options) end)
     if good and other.converged then return other, name end
   end
@@ -106,7 +108,7 @@ end
 local function judge(scene)
   local good, made = pcall(make, scene)
   if not good then return refused(scene, tostring(made)) end
-  local solved, s = pcall(dotyk.solve, made.scene, scene.dimension and { seconds = 20 } or nil)
+  local solved, s = pcall(dotyk.solve, made.scene, scene.dimension and limit or nil)
   if not solved then return refused(scene, tostring(s)) end
   local other, name = second_solution(scene, made)
   if not s.converged then
