@@ -11,8 +11,9 @@
 -- its seed: SEED 1 runs that one again. Exit status 1 where anything is wrong.
 --
 -- Classes: solved (two methods agree), one method (no second one converges), several (Coulomb friction: two methods find two states
--- that are both right), refused (rightly), undecided (refused; the criterion cannot tell), not converged;
--- WRONG, REFUSED (a scene that has a solution) and ERROR.
+-- that are both right), refused (rightly), undecided (refused; the criterion cannot tell), in doubt (no method converges, and Coulomb
+-- friction must bear loads that nothing else balances: there may be no solution, while without such loads there is one whatever the
+-- coefficient, by Brouwer's theorem on the bounds of friction), not converged; WRONG, REFUSED (it has a solution) and ERROR.
 
 local folder <const> = (arg[0]:match "^(.*)/[^/]*$" or ".") .. "/random_scenes/"
 local first_seed <const>, count <const>, show <const> = tonumber(arg[1]) or 1, tonumber(arg[2]) or 200, arg[3] == "show"
@@ -49,15 +50,17 @@ local function make(scene, held)
   return made
 end
 
+local limit <const> = { seconds = 600 } -- much more than a scene takes, also where others want the machine
+
 -- 2. Second methods, tried in a random order until one converges.
-local frictionless <const> = { "interior_point", "active_set", "proximal", "psor" }
+local frictionless <const> = { "interior_point", "active_set", "proximal", "psor", "projected_cg" }
 local rubbing <const> = { "proximal", "psor", "coulomb_loop", "projected_cg" }
 
 local function second_solution(scene, made)
   local names <const> = { table.unpack(scene.friction == "none" and frictionless or rubbing) }
   while #names > 0 do
     local name = table.remove(names, dice.whole(1, #names))
-    local options = scene.dimension and { seconds = 5 } or nil
+    local options = scene.dimension and limit or nil
     local good, other = pcall(function() return dotyk.solver[name]{}:solve(made.scene, options) end)
     if good and other.converged then return other, name end
   end
@@ -73,6 +76,14 @@ local function names_methods(reason)
   return false
 end
 
+-- Do rigid motions allow a solution? `smooth`: were there no friction at contacts.
+local function balanced(scene, smooth)
+  if not scene.dimension then return balance.verdict(models.problem(scene)) end
+  local function motion(b, mode) return balance.motion(scene, b, mode) end
+  local probed <const> = scene.curved and probe(scene, run, boundary_of, motion, 3 * scene.dimension - 3)
+  return balance.scene(scene, make(scene, true), probed, smooth)
+end
+
 -- 3. The class of a scene, and what there is to say about it.
 local function refused(scene, message)
   message = message:gsub("^.-:%d+: ", "")
@@ -80,14 +91,7 @@ local function refused(scene, message)
   -- Nothing at all happens to a body that is free and not loaded: refused by custom, since it could be anywhere.
   local idle <const> = tonumber(message:match "^solve: 'b(%d+)' is not held: nothing stops its")
   if message:find "nothing loads it" or (idle and #scene.bodies[idle].loads == 0) then return "refused" end
-  local verdict, left
-  if scene.dimension then
-    local good, held = pcall(make, scene, true)
-    if not good then return "ERROR", tostring(held) end
-    local function motion(b, mode) return balance.motion(scene, b, mode) end
-    local probed = scene.curved and probe(scene, run, boundary_of, motion, 3 * scene.dimension - 3)
-    verdict, left = balance.scene(scene, held, probed)
-  else verdict, left = balance.verdict(models.problem(scene)) end
+  local verdict, left = balanced(scene)
   if verdict == "unsolvable" then return "refused" end
   message = ("%s (%.3g of the load left)"):format(message, left)
   return (verdict == "solvable" and not scene.inexact) and "REFUSED" or "undecided", message
@@ -104,11 +108,12 @@ end
 local function judge(scene)
   local good, made = pcall(make, scene)
   if not good then return refused(scene, tostring(made)) end
-  local solved, s = pcall(dotyk.solve, made.scene, scene.dimension and { seconds = 20 } or nil)
+  local solved, s = pcall(dotyk.solve, made.scene, scene.dimension and limit or nil)
   if not solved then return refused(scene, tostring(s)) end
   local other, name = second_solution(scene, made)
   if not s.converged then
     local text = ("%s: %s (%s)"):format(s.method, s.reason, name and name .. " converges" or "no second method converges")
+    if not other and scene.coulomb and balanced(scene, true) ~= "solvable" then return "in doubt", text end
     return "not converged", names_methods(s.reason) and text or text .. ": THE REASON NAMES NO METHOD THAT WAS TRIED"
   end
   local tol, wrong = check(scene, made, s, s.method)
@@ -131,7 +136,7 @@ local function random_scene(seed)
   return scene, ("%s, %s"):format(family, kinds[scene.friction])
 end
 
-local classes <const> = { "solved", "one method", "several", "refused", "undecided", "not converged", "WRONG", "REFUSED", "ERROR" }
+local classes <const> = { "solved", "one method", "several", "refused", "undecided", "in doubt", "not converged", "WRONG", "REFUSED", "ERROR" }
 local families <const> = { "plane, no friction", "plane, given friction", "plane, Coulomb friction", "space, no friction",
                            "space, given friction", "space, Coulomb friction", "beams", "plates", "all" }
 local counts <const> = {}

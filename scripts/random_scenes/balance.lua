@@ -53,7 +53,7 @@ end
 
 -- The forces that resist: `fixed` (of any size), others an amount of `rows[1]` from `low` to `high`, a vector of amounts of all rows of
 -- length up to `radius`, or one in Coulomb's cone, the normal force first. `probed`: rows of the contacts where curved ones are (probe.lua).
-local function collect(scene, held, probed)
+local function collect(scene, held, probed, smooth)
   local problem = { dimension = scene.dimension, size = scene.size, first = {}, centre = {}, modes = 0,
                     fixed = {}, forces = {}, load = {} }
   for b, body in ipairs(scene.bodies) do
@@ -72,7 +72,7 @@ local function collect(scene, held, probed)
   for k, contact in ipairs(scene.contacts) do
     for i, node in ipairs(held.solution:contact(held.contacts[k]).nodes) do
       local x, rows = { node.x, node.y, scene.dimension == 3 and node.z or nil }, {}
-      local normal, law = probed and probed[k][i].normal or jump(contact, x, node.normal), contact.friction
+      local normal, law = probed and probed[k][i].normal or jump(contact, x, node.normal), not smooth and contact.friction
       for _, t in ipairs(law and not scene.rests(contact, x) and tangents(node.normal) or {}) do
         table.insert(rows, probed and along(probed[k][i].slip, t) or jump(contact, x, t))
       end
@@ -275,9 +275,9 @@ function balance.motion(scene, b, mode)
   end
 end
 
--- Of a scene of bodies; `held` has its nodes.
-function balance.scene(scene, held, probed)
-  local problem = collect(scene, held, probed)
+-- Of a scene of bodies; `held` has its nodes. `smooth`: as if contacts had no friction.
+function balance.scene(scene, held, probed, smooth)
+  local problem = collect(scene, held, probed, smooth)
   add_supports(scene, held, problem)
   return balance.verdict(problem)
 end
