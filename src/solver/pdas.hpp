@@ -34,10 +34,10 @@ struct Pdas : Settings {
   int max_moves = 50;
 };
 
-/// Solves. Where active sets repeat without being a solution, the nodes concerned are put into
-/// `reason` and Gauss–Seidel sweeps that decrease the dual energy take over between Newton steps; where these have not
-/// settled it after twenty such steps and all laws are unilateral or linear, ActiveSet solves the problem from rest
-/// (its steps are not among `iterations`).
+/// Solves. Where Newton steps repeat active sets, meet a singular problem or crawl (after fourteen steps still as many rows change), rescues follow one
+/// another: Gauss–Seidel sweeps that decrease the dual energy (for cycles), a barrier method on the condensed rows, an interior point method on the unknowns.
+/// Each has steps of its own, told in `reason` and not among `iterations`; Newton steps confirm what it found, whatever max_iterations says. Where sets repeat
+/// even so and all laws are unilateral or linear, ActiveSet solves the problem from rest.
 /// Throws InputError where a body is not held, naming its motion.
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
 
