@@ -102,19 +102,31 @@ class Conditions {
   std::vector<double> slack_;
 };
 
+using SparseQr = Eigen::SparseQR<SparseMatrix, Eigen::COLAMDOrdering<int>>;
+
+/// Of a matrix with at least one entry; rows of zeros below make it as high as wide.
+void factor(SparseQr& qr, SparseMatrix A) {
+  A.conservativeResize(std::max(A.rows(), A.cols()), A.cols());
+  A.makeCompressed();
+  qr.setPivotThreshold(kNotAtAll);
+  qr.compute(A);
+}
+
+int rank_of(const SparseMatrix& A) {
+  if (A.nonZeros() == 0) return 0;
+  SparseQr qr;
+  factor(qr, A);
+  return static_cast<int>(qr.rank());
+}
+
 /// A basis of the null space: columns.
 DenseMatrix null_space(const SparseMatrix& held) {
   const Eigen::Index n = held.cols();
   if (held.nonZeros() == 0) return DenseMatrix::Identity(n, n);
-  SparseMatrix A = held;
-  A.conservativeResize(std::max(held.rows(), n), n);
-  A.makeCompressed();
-  Eigen::SparseQR<SparseMatrix, Eigen::COLAMDOrdering<int>> qr;
-  qr.setPivotThreshold(kNotAtAll);
-  qr.compute(A);
+  SparseQr qr;
+  factor(qr, held);
   const Eigen::Index rank = qr.rank();
   DenseMatrix basis = DenseMatrix::Zero(n, n - rank);
-  if (rank == n) return basis;
   const DenseMatrix R = DenseMatrix(SparseMatrix(qr.matrixR())).topRows(rank);
   basis.bottomRows(n - rank).setIdentity();
   basis.topRows(rank) = -R.leftCols(rank).triangularView<Eigen::Upper>().solve(R.rightCols(n - rank));
@@ -135,14 +147,17 @@ FreeMotions free_motions(const Problem& problem, const State& state, double tole
   if (N.cols() == 0) return free;
   const Conditions conditions(problem, state, tolerance);
   const SparseMatrix held = conditions.held(N);
-  const DenseMatrix basis = null_space(held);
-  if (basis.cols() == 0) {
+  const int holds = rank_of(held);
+  if (holds == N.cols()) {
     if (N.cols() > kMostModes) return free;
     free.weakest = Eigen::JacobiSVD<DenseMatrix>(DenseMatrix(held), Eigen::ComputeThinV).matrixV().col(N.cols() - 1);
     free.weakest /= free.weakest.lpNorm<Eigen::Infinity>();
     free.grip = (held * free.weakest).lpNorm<Eigen::Infinity>();
     return free;
   }
+  free.count = rank_of(N) - holds;
+  if (free.count <= 0 || N.cols() > kMostFree) return free;
+  const DenseMatrix basis = null_space(held);
   DenseMatrix jumps = DenseMatrix::Zero(std::max(N.rows(), basis.cols()), basis.cols());
   jumps.topRows(N.rows()) = N * basis;
   const Eigen::JacobiSVD<DenseMatrix> svd(jumps, Eigen::ComputeFullV);
@@ -150,6 +165,7 @@ FreeMotions free_motions(const Problem& problem, const State& state, double tole
   while (rank < basis.cols() && svd.singularValues()[rank] > kNotAtAll * std::max(1.0, svd.singularValues()[0])) ++rank;
   free.motions = basis * svd.matrixV().leftCols(rank);
   free.unnoticed = basis * svd.matrixV().rightCols(basis.cols() - rank);
+  free.count = static_cast<int>(rank);
   if (rank == 0) return free;
   normalise(free.motions);
   if (rank > 1) return free;

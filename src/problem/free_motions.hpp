@@ -9,8 +9,9 @@ namespace dotyk::problem {
 /// Without Coulomb friction these are all solutions (the saddle points of a convex problem are a product of two sets), and Kr = 0
 /// makes the stress unique. TR965's theorem 3.3 says so before solving where |S(w)| > j(w), (3.31); this says it after.
 struct FreeMotions {
-  algebra::DenseMatrix motions;  ///< amounts of the modes, modes × count: what rows that hold leave free and some row notices
-  algebra::DenseMatrix unnoticed;  ///< those that no row notices, modes × count
+  int count = 0;  ///< of independent motions that rows which hold leave free and some row notices
+  /// These, amounts of the modes, modes × count, and beside them those that no row notices; of more than kMostFree modes neither.
+  algebra::DenseMatrix motions, unnoticed;
   /// Of a single motion: how far it may go, in units of it, low ≤ 0 ≤ high; ±∞ where nothing stops it.
   Interval range{0, 0};
   /// Where none is free, of up to kMostModes modes: the motion that rows which hold resist least, greatest amount 1, and the greatest
@@ -18,7 +19,7 @@ struct FreeMotions {
   algebra::Vector weakest;
   double grip = 0;
 };
-inline constexpr int kMostModes = 30;
+inline constexpr int kMostModes = 30, kMostFree = 600;
 
 /// `tolerance`: multipliers within this part of the greatest of a bound are on it.
 FreeMotions free_motions(const Problem& problem, const State& state, double tolerance);

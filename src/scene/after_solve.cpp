@@ -94,9 +94,9 @@ void settle(const Scene& scene, const Model& model, const problem::Problem& prob
   const problem::FreeMotions free = problem::free_motions(problem, result.state, kOnBound);
   if (free.motions.cols() == 1)
     take_nearest(problem, free, before, result);
-  else if (free.motions.cols() > 1)
-    result.reason += text("; unique stress, displacement up to ", free.motions.cols(), " motions that the contacts that hold leave free, one of them ",
-                          describe(problem::body_motions(problem), free.motions.col(0)));
+  else if (free.count > 0)
+    result.reason += text("; unique stress, displacement up to ", free.count, " motions that the contacts that hold leave free",
+                          free.motions.cols() > 0 ? ", one of them " + describe(problem::body_motions(problem), free.motions.col(0)) : "");
   else
     result.reason += resisted_by_cells(scene, model, problem, free, result.state.lambda);
 }
