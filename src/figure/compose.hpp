@@ -21,14 +21,14 @@ struct SceneOptions {
 };
 
 // Fills bodies, contacts, obstacles, symbols, the field with its label, and the
-// deformation factor. File, size, titles and styles are the caller's. With a
-// factor other than 1 a rigid obstacle is drawn at the magnified gap, so that
-// what touches is seen to touch. Throws InputError for a field that the
-// dimension does not have.
+// deformation factor. File, size, titles and styles are the caller's. Where
+// rigid obstacles are drawn: see compose_contact.hpp. Throws InputError for a
+// field that the dimension does not have.
 ScenePicture compose(const scene::Solution& solution, const SceneOptions& options);
 
 // 1, 2 or 5 times a power of ten, at least 1, such that the greatest displacement comes to 4 to
-// 10 % of the scene's size; less where bodies that crossed a gap would be drawn into each other.
+// 10 % of the scene's size; less where bodies that crossed a gap would be drawn into each other, or
+// those that an interference presses apart from each other.
 double visible_deformation(const scene::Solution& solution);
 
 }  // namespace dotyk::figure

@@ -218,8 +218,8 @@ void bind_figure(Library& library) {
   library.extend<Solution>().method(
       {.name = "solution:render",
        .help = "Draws the deformed bodies coloured by a field, with contact status and pressure, into a PNG file and "
-               "returns its name. With a deformation factor other than 1 a rigid obstacle is drawn at the magnified "
-               "gap, so that what touches is seen to touch.",
+               "returns its name. A deformation factor magnifies the gap and the motion of "
+               "rigid obstacles as well, so that what touches is seen to touch.",
        .example = "s:render{ file = \"a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
        .arguments = {key::table(
            {key::file("file", "where to; ends in .png, its folder must exist").written().required(),
