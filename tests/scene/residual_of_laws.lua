@@ -39,7 +39,7 @@ do
   local scene = dotyk.scene{ b }
   scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} } }
   local soft = dotyk.solver.penalty{ factor = 10 }:solve(scene)
-  assert(soft.converged and soft.residual.law > 1e-3 and soft.residual.law == soft.residual.penetration)
+  assert(soft.converged and soft.residual.law > 1e-3, tostring(soft))
 end
 
 -- Beams and plates print it, too.

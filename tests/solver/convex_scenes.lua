@@ -118,9 +118,9 @@ for number = 1, count do
     local second = dotyk.solver.proximal{ max_iterations = 200 }:solve(scene)
     if not second.converged then second = dotyk.solver.projected_cg{ max_iterations = 20000 }:solve(scene) end
     local mine, other = s.energy + s.friction_energy, second.energy + second.friction_energy
-    -- Energies are known up to the error in the laws times a force and a displacement of the problem.
+    -- Energies are known up to the error in the laws times a force and a displacement of the problem, row by row.
     local error = (s.residual.law + second.residual.law) * forces * greatest(s, bodies)
-    if second.converged and math.abs(mine - other) > 1e-7 * (math.abs(s.energy) + s.friction_energy) + 10 * error then
+    if second.converged and math.abs(mine - other) > 1e-7 * (math.abs(s.energy) + s.friction_energy) + 10 * s.rows * error then
       note(number, ("energy %.15g by %s, %.15g by %s"):format(mine, s.method, other, second.method))
     end
     if verbose and not second.converged then print(number, "no second method", second.reason) end
