@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "beam/element.hpp"
+#include "solver/verdict.hpp"
 
 namespace dotyk::beam {
 
 Solution::Solution(Beam beam, Model model, solver::Result result)
     : beam_(std::move(beam)), model_(std::move(model)), result_(std::move(result)),
-      residual_(problem::residual(model_.problem, result_.state)), energy_(problem::energy(model_.problem, result_.state)) {
-  if (!result_.state.u.allFinite() || !result_.state.lambda.allFinite() || !std::isfinite(energy_))
-    throw std::runtime_error("the solution has values beyond the range of numbers; choose units in which loads and stiffnesses are moderate");
+      residual_(solver::judge(model_.problem, result_)), energy_(problem::energy(model_.problem, result_.state)) {
   sum_loads();
 }
 

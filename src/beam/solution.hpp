@@ -15,6 +15,7 @@ struct Reaction {
 /// A solved beam. All of x must lie on the beam, else InputError.
 class Solution {
  public:
+  /// The result is judged: see solver::judge(), also for what it throws.
   Solution(Beam beam, Model model, solver::Result result);
 
   const Beam& beam() const { return beam_; }

@@ -40,8 +40,7 @@ class Kept final : public problem::Law {
   double conjugate(int row, double lambda) const override { return law_->conjugate(rows_[row], lambda); }
   problem::Interval multipliers(int row) const override { return law_->multipliers(rows_[row]); }
   bool unilateral() const override { return law_->unilateral(); }
-  problem::Interval following(int row) const override { return law_->following(rows_[row]); }
-  problem::Springs springs(int row) const override { return law_->springs(rows_[row]); }
+  std::optional<problem::Springs> springs(int row) const override { return law_->springs(rows_[row]); }
   std::optional<double> linear_stiffness(int row) const override { return law_->linear_stiffness(rows_[row]); }
 
  private:

@@ -13,8 +13,8 @@ namespace {
 problem::Interval allowed(const problem::Law& law, int row, double lambda, double x, double noise) {
   const problem::Interval bounds = law.multipliers(row);
   problem::Interval out{x, x};
-  if (lambda <= bounds.low + noise) out.low = -INFINITY, out.high = law.following(row).low;
-  if (lambda >= bounds.high - noise) out.high = INFINITY, out.low = lambda <= bounds.low + noise ? -INFINITY : law.following(row).high;
+  if (lambda <= bounds.low + noise) out.low = -INFINITY, out.high = problem::following(law, row).low;
+  if (lambda >= bounds.high - noise) out.high = INFINITY, out.low = lambda <= bounds.low + noise ? -INFINITY : problem::following(law, row).high;
   return out;
 }
 

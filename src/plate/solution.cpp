@@ -1,10 +1,10 @@
 #include "plate/solution.hpp"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "solver/verdict.hpp"
 
 namespace dotyk::plate {
 
@@ -12,10 +12,8 @@ using algebra::Vector;
 using Eigen::Vector2d;
 
 Solution::Solution(std::shared_ptr<const Model> model, solver::Result result, std::optional<Family> family)
-    : model_(std::move(model)), result_(std::move(result)), residual_(problem::residual(model_->problem, result_.state)),
+    : model_(std::move(model)), result_(std::move(result)), residual_(solver::judge(model_->problem, result_)),
       energy_(problem::energy(model_->problem, result_.state)), u_(model_->freedoms(result_.state.u)), family_(std::move(family)), finder_(model_->space) {
-  if (!u_.allFinite() || !result_.state.lambda.allFinite() || !std::isfinite(energy_))
-    throw std::runtime_error("the solution has values beyond the range of numbers; choose units in which loads and stiffnesses are moderate");
 }
 
 Eigen::Matrix<double, 6, 1> Solution::values(const Place& place, const Vector& freedoms) const {

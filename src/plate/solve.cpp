@@ -29,14 +29,6 @@ void normalise(const Model& model, Vector& unknowns) {
   unknowns -= R * (moments.transpose() * R).inverse() * (moments.transpose() * unknowns);
 }
 
-void refuse_noise(const problem::Residual& r, solver::Result& result) {
-  if (!result.converged) return;
-  const double allowed = std::max(result.noise, result.penalty || result.feti ? 0 : result.asked);
-  if (r.equilibrium <= allowed) return;
-  result.converged = false;
-  result.reason = text("the equilibrium residual is ", r.equilibrium, ": what rounding leaves is no solution; ", result.reason);
-}
-
 /// What is known before in place of what methods say of it in general.
 void tell(const std::string& note, std::string& reason) {
   if (note.empty()) return;
@@ -62,7 +54,6 @@ std::shared_ptr<const Solution> solve(std::shared_ptr<const Model> model, const 
   }
   tell(verdict.note, result.reason);
   if (model->problem.rows() == 0 && model->problem.blocks.front().kernel.cols() == 3) normalise(*model, result.state.u);
-  refuse_noise(problem::residual(model->problem, result.state), result);
   result.clock.assembly += model->seconds;
   result.clock.total = model->seconds + total.seconds();
   return std::make_shared<const Solution>(std::move(model), std::move(result), std::move(all));

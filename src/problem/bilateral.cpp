@@ -10,6 +10,7 @@ class Bilateral final : public Law {
   double energy(int, double) const override { return 0; }
   double conjugate(int, double) const override { return 0; }
   Interval multipliers(int) const override { return {-kUnbounded, kUnbounded}; }
+  std::optional<Springs> springs(int) const override { return Springs{kUnbounded, kUnbounded}; }
   std::optional<double> linear_stiffness(int) const override { return kUnbounded; }
 };
 

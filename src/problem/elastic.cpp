@@ -23,7 +23,7 @@ class Elastic final : public Law {
   Interval multipliers(int row) const override {
     return k_[row] > 0 ? Interval{-kUnbounded, kUnbounded} : Interval{0, 0};
   }
-  Springs springs(int row) const override { return {k_[row], k_[row]}; }
+  std::optional<Springs> springs(int row) const override { return Springs{k_[row], k_[row]}; }
   std::optional<double> linear_stiffness(int row) const override { return k_[row]; }
 
  private:

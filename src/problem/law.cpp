@@ -1,5 +1,7 @@
 #include "problem/law.hpp"
 
+#include <cmath>
+
 namespace dotyk::problem {
 
 const char* status_name(Status status) {
@@ -12,8 +14,17 @@ const char* status_name(Status status) {
 }
 
 bool kinked_at_zero(const Law& law, int row) {
-  const Springs k = law.springs(row);
-  return k.below != k.above;
+  const auto k = law.springs(row);
+  return k && k->below != k->above;
+}
+
+Interval following(const Law& law, int row) {
+  const Springs k = law.springs(row).value();
+  const auto [low, high] = law.multipliers(row);
+  const auto stretched = [](double lambda, double stiffness) {
+    return lambda == 0 || !std::isfinite(lambda) ? lambda : lambda / stiffness;
+  };
+  return {stretched(low, k.below), stretched(high, k.above)};
 }
 
 }  // namespace dotyk::problem

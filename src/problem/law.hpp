@@ -33,8 +33,9 @@ struct Springs {
 /// f (force, integrated over the node's share of the boundary); of x: of u.
 ///
 /// λ ∈ ∂φ(x) is equivalent to λ = P(λ + ρx) for every ρ > 0, with P the law's
-/// projection (the proximal map of the conjugate energy ρφ*(·/…)); a solver sees
-/// nothing else of the law. A law knows no solver.
+/// projection (the proximal map of the conjugate energy ρφ*(·/…)); a law knows no solver.
+/// What it must tell is pure. What it may tell is absent unless it does: methods that need that refuse the law by name
+/// before they begin (solver/treatable.hpp).
 class Law {
  public:
   static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -50,10 +51,8 @@ class Law {
   virtual Interval multipliers(int row) const = 0;
   /// λ ≥ 0 pushes, and only where x reaches 0: penetration and complementarity are defined.
   virtual bool unilateral() const { return false; }
-  /// Where λ follows x (or x is held and λ free): at lesser x λ is the least multiplier, at greater x the greatest.
-  virtual Interval following(int /*row*/) const { return {-kUnbounded, kUnbounded}; }
-  /// Of φ* on multipliers().
-  virtual Springs springs(int /*row*/) const { return {kUnbounded, kUnbounded}; }
+  /// Of φ* on multipliers(), where that is one parabola or two: λ(x) is then piecewise linear.
+  virtual std::optional<Springs> springs(int /*row*/) const { return std::nullopt; }
   /// k where φ(x) = ½kx² for every x (infinite: x = 0); nothing where the law has branches.
   virtual std::optional<double> linear_stiffness(int /*row*/) const { return std::nullopt; }
 };
@@ -74,7 +73,11 @@ std::shared_ptr<const Law> elastic(std::vector<double> stiffness);
 /// `stiffness[row]` in force per displacement; throws InputError unless each is ≥ 0 and finite.
 std::shared_ptr<const Law> unequal_elastic(std::vector<Springs> stiffness);
 
-/// Has φ* two parabolas, so that λ(x) has a kink at λ = 0?
+/// Is φ* known to be two parabolas, so that λ(x) has a kink at λ = 0?
 bool kinked_at_zero(const Law& law, int row);
+
+/// Where λ follows x (or x is held and λ free): at lesser x λ is the least multiplier, at greater x the greatest.
+/// Of a law that tells its springs.
+Interval following(const Law& law, int row);
 
 }  // namespace dotyk::problem

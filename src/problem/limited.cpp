@@ -44,12 +44,7 @@ class Limited final : public Law {
     return l.stiffness > 0 ? Interval{l.low, l.high} : Interval{0, 0};
   }
 
-  Springs springs(int row) const override { return {limits_[row].stiffness, limits_[row].stiffness}; }
-
-  Interval following(int row) const override {
-    const auto [k, low, high] = limits_[row];
-    return {std::isfinite(low) ? low / k : -kUnbounded, std::isfinite(high) ? high / k : kUnbounded};
-  }
+  std::optional<Springs> springs(int row) const override { return Springs{limits_[row].stiffness, limits_[row].stiffness}; }
 
  private:
   std::string name_;

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+
+#include "base/text.hpp"
 
 namespace dotyk::problem {
 
@@ -150,6 +153,48 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
   return result;
 }
 
+namespace {
+
+/// The greatest distance of a row, or of a friction point, from its law's graph; see Residual.
+double distance_from_laws(const Problem& problem, const Vector& lambda, const Vector& x, const Scales& scales) {
+  const auto rho = [&](double gap) { return scales.force / std::max(scales.length, gap); };
+  double most = 0;
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r) {
+      const double k = rho(std::abs(problem.c[r]));
+      most = std::max(most, std::abs(lambda[r] - group.law->project(r - group.first, lambda[r] + k * x[r], k).lambda));
+    }
+  for (const FrictionGroup& group : problem.friction)
+    for (int i = 0; i < group.points(); ++i) {
+      const int r = group.row(i), n = group.components;
+      const auto own = lambda.segment(r, n);
+      const Vector y = own + rho(problem.c.segment(r, n).lpNorm<Eigen::Infinity>()) * x.segment(r, n);
+      most = std::max(most, (own - project_disc(y, group.bound(i, lambda)).value).norm());
+    }
+  return most / scales.force;
+}
+
+double greatest(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0; }
+
+/// What the multipliers would move a row of the greatest stiffness by, times a millionth. Where loads meet their reactions at the
+/// contact itself nothing moves but by rounding: this is the least scale.
+double yielding(const Problem& problem, const State& state) {
+  const double stiffest = problem.rows() > 0 ? problem.row_stiffness().maxCoeff() : 0;
+  return stiffest > 0 ? 1e-6 * greatest(state.lambda) / stiffest : 0;
+}
+
+}  // namespace
+
+Scales scales(const Problem& problem, const State& state) {
+  Scales result;
+  const Forces all = forces(problem, state);
+  const double least = problem::least(problem, state, all.load.stableNorm()).force;
+  if (const double force = std::max({greatest(state.lambda), greatest(all.load), least}); force > 0) result.force = force;
+  const double length = std::max({greatest(problem.B * state.u), greatest(state.u), yielding(problem, state)});
+  if (length > 0) result.length = length;
+  return result;
+}
+
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
   const Forces all = forces(problem, state);
@@ -158,19 +203,13 @@ Residual residual(const Problem& problem, const State& state) {
   if (scale > 0) result.equilibrium = (all.internal + all.contact - all.load).stableNorm() / scale;
   if (problem.rows() == 0) return result;
 
-  const Vector jump = problem.B * state.u, x = jump - problem.c;
-  const double moved = std::max(jump.lpNorm<Eigen::Infinity>(), state.u.lpNorm<Eigen::Infinity>());
-  // Where loads meet their reactions at the contact itself nothing moves but by rounding: a millionth
-  // of what the multipliers would move a row of the greatest stiffness by is the least scale.
-  const Vector stiffness = problem.row_stiffness();
-  const double yielding =
-      stiffness.maxCoeff() > 0 ? 1e-6 * state.lambda.lpNorm<Eigen::Infinity>() / stiffness.maxCoeff() : 0;
-  double work = state.lambda.lpNorm<1>() * yielding, product = 0;
+  const Vector x = problem.B * state.u - problem.c;
+  const Scales scales = problem::scales(problem, state);
+  double work = state.lambda.lpNorm<1>() * yielding(problem, state), product = 0;
   for (const RowGroup& group : problem.groups) {
     if (!group.law->unilateral()) continue;
     for (int r = group.first; r < group.first + group.count; ++r) {
-      const double length = std::max({moved, std::abs(problem.c[r]), yielding});
-      if (length > 0) result.penetration = std::max(result.penetration, x[r] / length);
+      result.penetration = std::max(result.penetration, x[r] / std::max(scales.length, std::abs(problem.c[r])));
       product += std::abs(state.lambda[r] * x[r]);
       work += std::abs(state.lambda[r] * problem.c[r]);
     }
@@ -178,8 +217,13 @@ Residual residual(const Problem& problem, const State& state) {
   work += least.work + std::abs(0.5 * state.u.dot(all.internal)) + std::abs(state.u.dot(all.load));
   if (work > 0) result.complementarity = product / work;
   result.friction = friction_violation(problem, state);
-  result.law = natural_residual(problem, x, state.lambda, stiffness);
+  result.law = distance_from_laws(problem, state.lambda, x, scales);
   return result;
+}
+
+std::string describe(const Residual& r) {
+  return text(std::setprecision(3), "equilibrium ", r.equilibrium, ", penetration ", r.penetration, ", complementarity ", r.complementarity,
+              ", friction ", r.friction, ", law ", r.law);
 }
 
 }  // namespace dotyk::problem

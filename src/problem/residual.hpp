@@ -5,17 +5,33 @@
 namespace dotyk::problem {
 
 /// How far a state is from optimal; each number is relative and its scale named.
+///
+/// The forces of a problem are measured by F, the greatest of |λ|, |f| (where f = 0: of |λ| and √ε ‖|K||u|‖), its
+/// displacements by X, the greatest of |Bu|, |u| and a millionth of what a force of max|λ| would move a row by; a row of
+/// a gap c_r > X by |c_r|. A row is right where a change of its force by a small part of F, or of its gap by a small part
+/// of X, puts it on its law's graph. In the units F and X the distance from the graph is, up to a factor of √2, the natural
+/// residual |λ − P(λ + ρx)|/F with ρ = F/X. Hence it depends neither on units, nor (without gaps) on the size of the load
+/// or of the stiffness. With ρ the stiffness that a row sees, the rounding of a displacement that is great beside the
+/// strains would count as a force.
 struct Residual {
   double equilibrium = 0;      ///< ‖Ku + Bᵀλ − f‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖); where f = 0, / √ε ‖|K||u|‖ if that is more
-  double penetration = 0;      ///< greatest (Bu − c)⁺ over unilateral rows / greatest of all |Bu|, |u|, the row's |c|,
-                               ///< and a millionth of what the multipliers would move a row by
+  double penetration = 0;      ///< greatest (Bu − c)⁺ over unilateral rows / X
   double complementarity = 0;  ///< Σ|λ (Bu − c)| over unilateral rows / (|energy| + Σ|λ c| + that movement's work);
                                ///< where f = 0, + √ε |u|ᵀ|K||u|
-  double law = 0;              ///< ‖λ − P(λ + ρx)‖ / ‖λ‖, all rows, ρ the row stiffness
-  double friction = 0;         ///< greatest violation of a friction bound / that bound
+  double law = 0;              ///< greatest |λ − P(λ + ρx)| / F of all rows, ρ = F/X: whatever the law, friction included
+  double friction = 0;         ///< greatest violation of a friction bound / the greatest bound
 };
 
 Residual residual(const Problem& problem, const State& state);
+
+/// F and X; 1 where they would vanish.
+struct Scales {
+  double force = 1, length = 1;
+};
+Scales scales(const Problem& problem, const State& state);
+
+/// "equilibrium 1e-16, penetration 0, complementarity 0, friction 0, law 2e-16".
+std::string describe(const Residual& residual);
 
 /// The equilibrium residual told apart from the rounding of motions as a whole. A block that is free but for its rows
 /// moves by w = the part of u in its kernel, R; Kw = 0, but of a w that is rounded, to Kw about ε|K||w|, however small the

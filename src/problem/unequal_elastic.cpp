@@ -28,9 +28,10 @@ class UnequalElastic final : public Law {
     return k > 0 ? 0.5 * lambda * lambda / k : 0;
   }
 
-  Interval multipliers(int row) const override { return sides_that_bear(row); }
-  Interval following(int row) const override { return sides_that_bear(row); }
-  Springs springs(int row) const override { return k_[row]; }
+  Interval multipliers(int row) const override {
+    return {k_[row].below > 0 ? -kUnbounded : 0, k_[row].above > 0 ? kUnbounded : 0};
+  }
+  std::optional<Springs> springs(int row) const override { return k_[row]; }
 
   std::optional<double> linear_stiffness(int row) const override {
     return linear_ ? std::optional<double>(k_[row].above) : std::nullopt;
@@ -38,9 +39,6 @@ class UnequalElastic final : public Law {
 
  private:
   double of_side(int row, double at) const { return at < 0 ? k_[row].below : k_[row].above; }
-  Interval sides_that_bear(int row) const {
-    return {k_[row].below > 0 ? -kUnbounded : 0, k_[row].above > 0 ? kUnbounded : 0};
-  }
 
   std::vector<Springs> k_;
   bool linear_;  ///< in every row, as those ask who ask of one

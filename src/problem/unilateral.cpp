@@ -12,7 +12,7 @@ class Unilateral final : public Law {
   double energy(int, double) const override { return 0; }
   double conjugate(int, double) const override { return 0; }
   Interval multipliers(int) const override { return {0, kUnbounded}; }
-  Interval following(int) const override { return {0, kUnbounded}; }
+  std::optional<Springs> springs(int) const override { return Springs{kUnbounded, kUnbounded}; }
   bool unilateral() const override { return true; }
 };
 

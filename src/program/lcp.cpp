@@ -158,6 +158,11 @@ LcpResult solve(const Lcp& lcp, const LcpSettings& settings, Monitor& monitor) {
   if (out.other.size()) out.other = scale.cwiseProduct(out.other);
   out.w = lcp.M * out.z + lcp.q;
   out.residual = residual(lcp, out.z);
+  const bool found = out.status == LcpStatus::solved || out.status == LcpStatus::several;
+  if (found && !(out.z.allFinite() && out.w.allFinite() && std::isfinite(out.residual))) {
+    out.status = LcpStatus::stopped;
+    out.reason = "values beyond the range of numbers: z or Mz + q is not finite; choose units in which the numbers are moderate";
+  }
   return out;
 }
 

@@ -98,7 +98,12 @@ const char* text_of(Status status) {
 
 void measure(const QuadraticProgram& program, Result& result) {
   result.objective = objective(program, result.x);
-  result.residual = residuals(program, result.x, result.y);
+  const Residuals& r = result.residual = residuals(program, result.x, result.y);
+  const double sum = result.objective + r.stationarity + r.feasibility + r.complementarity + r.stationarity_scale +
+                     r.feasibility_scale + r.complementarity_scale;
+  if (result.status != Status::solved || (result.x.allFinite() && result.y.allFinite() && std::isfinite(sum))) return;
+  result.status = Status::stopped;
+  result.reason = "values beyond the range of numbers: what was found cannot be measured; choose units in which the numbers are moderate";
 }
 
 Vector negative_curvature(const SparseMatrix& lower, double tolerance) {

@@ -79,7 +79,8 @@ struct Result {
   double seconds = 0;
 };
 
-/// Fills objective and residual of a result from its x and y.
+/// Fills objective and residual of a result from its x and y. Nothing is solved of which one of these numbers is not finite: status is then
+/// stopped.
 void measure(const QuadraticProgram& program, Result& result);
 
 /// A vector v with vᵀPv < −tolerance·max|P| vᵀv, empty where P is positive semidefinite up to that.

@@ -92,8 +92,8 @@ class Rows {
       const contact::ContactRow& row = contact_.rows[k];
       const double value = contact_.friction_value[k];
       const int n = model_.contact_row.back()[k], index = static_cast<int>(k);
-      if (n < 0 || value == 0) continue;
       const double bound = contact_.friction == Friction::Kind::tresca ? value * row.weight : value;
+      if (n < 0 || bound == 0) continue;  // a product below all numbers is no friction, either
       Candidate point{{{{index, 1}}, {{index, 1}}, bound, row.weight, {}}, std::isfinite(value), n, {}};
       point.tangents = free_tangents(point.cell, row.normal);
       points.push_back(std::move(point));
@@ -123,7 +123,7 @@ class Rows {
         if (n >= 0 && jump.weight > most) most = jump.weight, point.normal = n;
       }
       point.tangents = free_tangents(point.cell, mesh::unit(mean));
-      if (point.normal >= 0) points.push_back(std::move(point));
+      if (point.normal >= 0 && point.cell.bound > 0) points.push_back(std::move(point));
     }
     return points;
   }

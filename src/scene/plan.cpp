@@ -5,6 +5,7 @@
 #include "scene/model.hpp"
 #include "scene/scene.hpp"
 #include "scene/uniqueness.hpp"
+#include "solver/default_method.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -44,6 +45,25 @@ std::string verdict(const Scene& scene) {
   }
 }
 
+/// The method that solves the scene where none is named, and why.
+std::string method(const Scene& scene, bool any_free) {
+  problem::Clock clock;
+  Monitor quiet;
+  try {
+    const problem::Problem problem = build(scene, clock, quiet).problem;
+    const std::string factored = text(" (", problem.unknowns(), " unknowns factored once)");
+    switch (solver::default_method(problem)) {
+      case solver::DefaultMethod::linear: return text("one linear solve of ", problem.unknowns(), " unknowns");
+      case solver::DefaultMethod::newton: return "newton on the condensed rows of contact and friction" + factored;
+      case solver::DefaultMethod::pdas: break;
+    }
+    return text("pdas on ", problem.rows(), " condensed rows", factored, ": finite and exact for frictionless contact",
+                any_free ? "; rigid motions exactly, as constraints of the dual (to compare: magnetic screws, pdas{ kernel = \"screws\" })" : "");
+  } catch (const InputError&) {
+    return "none, since there is no solution";
+  }
+}
+
 }  // namespace
 
 std::string describe(const Scene& scene) {
@@ -57,38 +77,19 @@ std::string describe(const Scene& scene) {
 
 std::string plan(const Scene& scene) {
   std::string out = "plan:";
-  int unknowns = 0, rows = 0, free = 0;
-  bool rubs = false;
+  int free = 0;
   for (const auto& body : scene.bodies) {
     const auto numbering = number(*body);
     const auto rigid = elasticity::rigid_modes(*body->mesh, numbering, body->facet_springs());
-    unknowns += numbering.count();
     free += static_cast<int>(rigid.motions.size());
-    rows += static_cast<int>(body->slides.size());
-    for (const LawSupport& on : body->laws) {
-      rows += static_cast<int>(on.nodes.size());
-      rubs = rubs || on.tangential.kind == problem::SupportLaw::Kind::friction;
-    }
     out += "\n" + describe_body(*body) + text(", ", numbering.count(), " unknowns");
     out += rigid.motions.empty() ? "; held by its supports" : body->laws.empty() ? "; free to move but for contact: "
                                    : "; free to move but for contact and laws of supports: ";
     for (std::size_t k = 0; k < rigid.motions.size(); ++k) out += (k ? ", " : "") + rigid.motions[k].text();
     for (const LawSupport& on : body->laws) out += text("\n    on ", on.part.name, " (", on.nodes.size(), " nodes): ", describe(on));
   }
-  for (const auto& contact : scene.contacts) {
-    rows += static_cast<int>(contact->kind == Contact::Kind::glue ? contact->glued.size() * scene.dimension()
-                                                                  : contact->rows.size());
-    rubs = rubs || contact->friction != Friction::Kind::none;
-    out += "\n" + describe_contact(*contact);
-  }
-  out += rows == 0 ? text("\n  method: one linear solve of ", unknowns, " unknowns")
-         : rubs ? text("\n  method: newton on the condensed rows of contact and friction (", unknowns,
-                       " unknowns factored once)")
-                : text("\n  method: pdas on ", rows, " condensed rows (", unknowns,
-                       " unknowns factored once): finite and exact for frictionless contact",
-                       free > 0 ? "; rigid motions exactly, as constraints of the dual (to compare: magnetic screws, "
-                                  "pdas{ kernel = \"screws\" })" : "");
-  return out + "\n  " + verdict(scene) + describe(doubts(scene));
+  for (const auto& contact : scene.contacts) out += "\n" + describe_contact(*contact);
+  return out + "\n  method: " + method(scene, free > 0) + "\n  " + verdict(scene) + describe(doubts(scene));
 }
 
 }  // namespace dotyk::scene

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
-#include <limits>
-#include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
@@ -13,56 +11,13 @@
 #include "scene/after_solve.hpp"
 #include "scene/doubts.hpp"
 #include "scene/locate.hpp"
+#include "solver/verdict.hpp"
 
 namespace dotyk::scene {
 
 using mesh::Point;
 
 namespace {
-
-/// Of forces; stresses of which so much is rounding are no result.
-constexpr double kMostGranted = 0.1;
-
-/// The equilibrium residual less what rounding of motions as a whole makes of it, where that is what is too great: the
-/// reason then says whose stresses suffer.
-double honest_equilibrium(const problem::Problem& problem, double raw, double allowed, solver::Result& result) {
-  if (raw <= allowed || raw > kMostGranted) return raw;
-  const problem::MotionResidual motion = problem::motion_residual(problem, result.state);
-  const double honest = std::max(motion.beyond, motion.resultants);
-  if (motion.most >= 0 && honest <= allowed)
-    result.reason += text("; '", problem.blocks[motion.most].name, "' moves as a whole far more than it deforms: rounding "
-                          "of the displacements leaves its stresses uncertain by about ", raw);
-  return honest;
-}
-
-bool loaded(const problem::Problem& problem) {
-  return std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& block) { return !block.f.isZero(0); });
-}
-
-/// Where rounding is most of what a method returns, that is no solution.
-void refuse_noise(const problem::Problem& problem, const problem::Residual& r, solver::Result& result) {
-  if (!result.converged) return;
-  const bool equilibrium_alone = result.penalty || result.feti;  // the rest is what was asked for
-  const double allowed = equilibrium_alone ? result.noise : std::max(result.noise, result.asked);
-  const double equilibrium = honest_equilibrium(problem, r.equilibrium, allowed, result);
-  const double worst = equilibrium_alone ? equilibrium : std::max({equilibrium, r.penetration, r.complementarity});
-  if (worst <= allowed) return;
-  result.converged = false;
-  result.reason = text("rounding leaves ", equilibrium_alone ? "the displacements out of equilibrium by " : "a residual of ",
-                       worst, loaded(problem) ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)",
-                       ": stiffnesses, supports or sizes are too far apart ",
-                       result.feti ? "for this decomposition, or tol is too great"
-                                   : "(a material nearly incompressible, a spring nearly absent, cells nearly flat)");
-}
-
-/// A motion held by a part of the body's own stiffness is known to rounding over that part, whatever the residuals say:
-/// a factor of K is no better.
-void refuse_lost_motions(double softest, solver::Result& result) {
-  const double lost = std::numeric_limits<double>::epsilon() / softest;
-  if (!result.converged || lost <= result.noise) return;
-  result.converged = false;
-  result.reason = text("rounding may leave ", lost, " of a motion that supports hardly hold");
-}
 
 /// What a displacement that is not unique shall be near to: the step before, at the beginning rest; u itself where that step is not at hand.
 algebra::Vector state_before(const Past& past, const algebra::Vector& u) {
@@ -79,16 +34,9 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
   const problem::Problem& problem = with_stiffness ? *with_stiffness : model_.problem;
   if (result_.method != "enumeration")  // which gives every one
     settle(*scene_, model_, problem, state_before(past_, result_.state.u), result_);
-  residual_ = problem::residual(problem, result_.state);
+  residual_ = solver::judge(problem, result_, model_.softest);
   energy_ = problem::energy(problem, result_.state);
   friction_energy_ = problem::friction_energy(problem, result_.state);
-  const double sum = energy_ + residual_.equilibrium + residual_.penetration + residual_.complementarity;
-  if (!result_.state.u.allFinite() || !result_.state.lambda.allFinite() || !std::isfinite(sum))
-    throw std::runtime_error(
-        "the solution has values beyond the range of numbers: stiffness, loads or sizes are too large or too "
-        "small; choose units in which they are moderate");
-  refuse_noise(problem, residual_, result_);
-  refuse_lost_motions(model_.softest, result_);
   add_step(problem);
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     if (!model_.nearly_free[b].empty()) result_.reason += "; '" + scene_->bodies[b]->name + "' is " + model_.nearly_free[b];
@@ -192,8 +140,7 @@ std::string describe(const Solution& s) {
   std::string out = text("solution: ", r.converged ? "converged" : "NOT CONVERGED", " (", r.method, ", ",
                          r.iterations, r.iterations == 1 ? " iteration" : " iterations", "; ", r.reason, ")\n");
   out += text("  unknowns ", s.unknowns(), ", rows ", s.rows(), ", energy ", s.energy(), "\n");
-  out += text(std::setprecision(3), "  residual: equilibrium ", s.residual().equilibrium, ", penetration ", s.residual().penetration,
-              ", complementarity ", s.residual().complementarity, "\n");
+  out += "  residual: " + problem::describe(s.residual()) + "\n";
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact) continue;
     const ContactResult c = s.contact(*contact);

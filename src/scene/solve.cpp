@@ -5,8 +5,7 @@
 #include "base/text.hpp"
 #include "scene/breaking.hpp"
 #include "scene/solution.hpp"
-#include "solver/newton.hpp"
-#include "solver/pdas.hpp"
+#include "solver/default_method.hpp"
 
 namespace dotyk::scene {
 
@@ -134,11 +133,7 @@ class History {
   }
 
   solver::Result iterate(Monitor& monitor) const {
-    if (model_.problem.rows() == 0 && !method_.decomposition()) return solver::solve_linear(model_.problem, method_.ordering(), monitor);
-    const solver::Method method = method_                         ? method_
-                                  : model_.problem.friction.empty() ? solver::Method(solver::Pdas{})
-                                                                    : solver::Method(solver::Newton{});
-    return method.run(model_.problem, {flags(), condenser_, state()}, monitor);
+    return solver::solve(model_.problem, method_, {flags(), condenser_, state()}, monitor);
   }
 
   bool begins() const { return !last_ || last_ == start_.after; }

@@ -105,6 +105,7 @@ std::string show_result(const BeamResult& r) {
   std::string out = text("beam solution: ", result.converged ? "converged" : "NOT CONVERGED", " (", result.method, ", ", result.iterations,
                          result.iterations == 1 ? " iteration" : " iterations", "; ", result.reason, ")\n  energy ", s.energy());
   if (r.branches.size() > 1) out += text(", the ", r.shown + 1, ". of ", r.branches.size(), " local minima");
+  out += "\n  residual: " + problem::describe(s.residual());
   for (std::size_t i = 0; i < s.beam().supports.size(); ++i) {
     const beam::Reaction at = s.reaction(static_cast<int>(i));
     out += text("\n  ", s.beam().supports[i].name, ": force ", at.force, ", moment ", at.moment, ", deflection ", at.deflection, ", rotation ", at.rotation);
@@ -118,6 +119,7 @@ void bind_beam_solution(Library& library) {
       .field("method", "which method", [](const BeamResult& r) { return r.solution().result().method; })
       .field("iterations", "how many", [](const BeamResult& r) { return r.solution().result().iterations; })
       .field("reason", "why it ended", [](const BeamResult& r) { return r.solution().result().reason; })
+      .field("residual", "relative: equilibrium penetration complementarity law", [](const BeamResult& r) { return residual_record(r.solution().residual()); })
       .field("energy", "with the supports'", [](const BeamResult& r) { return r.solution().energy(); }, "force·length")
       .field("unknowns", "deflections and slopes of the nodes", [](const BeamResult& r) { return r.solution().model().problem.unknowns(); })
       .field("rows", "conditions of the supports", [](const BeamResult& r) { return r.solution().model().problem.rows(); })

@@ -83,7 +83,8 @@ class Branches {
     const Law& law = *group.law;
     const auto [low, high] = law.multipliers(i);
     if (low == high) return;
-    const problem::Springs springs = law.springs(i);
+    if (!law.springs(i)) throw InputError(text(group.name, ": the ", law.name(), " law does not tell its springs; there is no derivative of its solutions"));
+    const problem::Springs springs = *law.springs(i);
     const bool at_low = lambda_[r] - low <= nothing_.force[r], at_high = high - lambda_[r] <= nothing_.force[r];
     if (!at_low && !at_high) {
       if (springs.below != springs.above && std::abs(lambda_[r]) <= nothing_.force[r])
@@ -92,7 +93,7 @@ class Branches {
       unknown_[r] = add(r, 1, lambda_[r] < 0 ? springs.below : springs.above);
       return;
     }
-    const auto [from, to] = law.following(i);
+    const auto [from, to] = problem::following(law, i);
     if (at_low ? x_[r] < from - nothing_.gap[r] : x_[r] > to + nothing_.gap[r]) return;
     require_precise(r, at_low ? lambda_[r] - low : high - lambda_[r], at_low ? from - x_[r] : x_[r] - to);
     weak_[r] = 1;

@@ -51,7 +51,8 @@ Sensitivity::Sensitivity(std::shared_ptr<const scene::Solution> solution, std::s
   require_differentiable();
   const Problem& problem = solution_->model().problem;
   const problem::State& state = solution_->result().state;
-  law_ = law_derivative(problem, state, settings.touching, kResiduals * solution_->residual().law * state.lambda.norm());
+  const double error = problem::natural_residual(problem, problem.B * state.u - problem.c, state.lambda, problem.row_stiffness());
+  law_ = law_derivative(problem, state, settings.touching, kResiduals * error * state.lambda.norm());
   if (!condenser_) condenser_ = std::make_shared<problem::Condenser>();
   rigid_ = problem::rigid_motions(problem);
   const CondensedProblem& condensed = condenser_->condense(problem, rigid_, settings.ordering, clock_, monitor);

@@ -21,7 +21,7 @@ BoxProgram box_program(const problem::Problem& problem, const problem::Condensed
     const int r = rows[j], k = r - groups[r]->first;
     const double f = stands_for[r];
     for (int i = 0; i < n; ++i) p.H(i, j) = condensed.W()(rows[i], r);
-    const problem::Springs springs = groups[r]->law->springs(k);
+    const problem::Springs springs = groups[r]->law->springs(k).value();
     const auto compliance = [](double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; };
     p.H(j, j) += (compliance(springs.below) + compliance(springs.above)) / 2 / f;
     const problem::Interval bounds = groups[r]->law->multipliers(k);

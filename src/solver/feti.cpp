@@ -18,6 +18,7 @@
 #include "solver/projection.hpp"
 #include "solver/require_solvable.hpp"
 #include "solver/settling_bounds.hpp"
+#include "solver/treatable.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -282,6 +283,7 @@ class Run {
 }  // namespace
 
 Result solve(const Problem& problem, const Feti& method, Monitor& monitor) {
+  require_springs(problem, "feti");
   if (has_two_springs(problem)) return joined(solve(opposed_springs(problem), method, monitor), problem);
   int motions = 0;
   for (const problem::Block& block : problem.blocks) motions += static_cast<int>(block.kernel.cols());

@@ -36,7 +36,7 @@ Holder::Holder(const Problem& problem, const problem::RigidMotions& rigid)
   multipliers_ = following_;
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
-      following_[r] = group.law->following(r - group.first), multipliers_[r] = group.law->multipliers(r - group.first);
+      following_[r] = problem::following(*group.law, r - group.first), multipliers_[r] = group.law->multipliers(r - group.first);
 }
 
 double Holder::distance(int row, double approach, const Rows& at) const {

@@ -48,7 +48,7 @@ class Interior {
       for (int k = 0; k < group.count; ++k) {
         const int r = group.first + k;
         const problem::Interval bounds = group.law->multipliers(k);
-        const problem::Springs springs = group.law->springs(k);
+        const problem::Springs springs = group.law->springs(k).value();
         low_[r] = bounds.low, high_[r] = bounds.high;
         below_[r] = compliance(springs.below), above_[r] = compliance(springs.above);
       }

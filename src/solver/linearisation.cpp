@@ -31,7 +31,7 @@ bool at_kink(const problem::Law& law, int row, double lambda, double x, double f
   const auto [low, high] = law.multipliers(row);
   if (previous.active[r] && problem::kinked_at_zero(law, row)) return std::abs(lambda) <= force;
   if (previous.active[r]) return std::min(std::abs(lambda - low), std::abs(lambda - high)) <= force;
-  const auto [from, to] = law.following(row);
+  const auto [from, to] = problem::following(law, row);
   return std::abs(x - (previous.value[r] >= high ? to : from)) <= gap;
 }
 

@@ -4,12 +4,17 @@
 #include <random>
 
 #include "base/text.hpp"
+#include "solver/handover.hpp"
 #include "solver/newton_stepper.hpp"
 
 namespace dotyk::solver {
 namespace {
 
 using algebra::Vector;
+
+/// Newton's method has lost its way after so many iterations, or rounds of the fixed point iteration in their place: where it
+/// converges it takes some ten, and few of these.
+constexpr int kPatience = 40, kMostStuck = 3;
 
 /// Moves to random multipliers and rigid motions, in a box sized by those of the iterate.
 void scatter(RowIteration& iteration, unsigned seed) {
@@ -30,12 +35,16 @@ void Newton::iterate(RowIteration& iteration) const {
   // Everything that touches at rest (or is told to) sticks: one linear problem.
   if (!iteration.begun()) stepper.start(iteration.map.sticking(start));
   if (seed) scatter(iteration, *seed);
+  bool astray = false;
   // On the right pieces a step of given friction in the plane is exact; others converge quadratically.
   while (iteration.next()) {
     stepper.step();
     if (iteration.record({.singular_value = stepper.singular_value()})) break;
+    astray = iteration.iterations() >= kPatience || stepper.stuck() >= kMostStuck;
+    if (astray) break;
   }
   for (const std::string& remark : stepper.remarks()) iteration.remark(remark);
+  if (astray) hand_over(iteration);
 }
 
 }  // namespace dotyk::solver

@@ -30,6 +30,8 @@ class NewtonStepper {
   /// Of the last step's derivative G: exact when watched, else 1/‖G⁻¹‖₁ as estimated from its factors. 1, that
   /// of the identity, where everything is open.
   double singular_value() const { return singular_value_; }
+  /// Rounds of the fixed point iteration.
+  int stuck() const { return singular_ + stuck_; }
   /// What had to be done beyond Newton steps.
   std::vector<std::string> remarks() const;
 

@@ -21,7 +21,7 @@ bool has_two_springs(const RowGroup& group) {
 std::shared_ptr<const Law> half(const RowGroup& group, bool above) {
   std::vector<Limits> rows;
   for (int r = 0; r < group.count; ++r) {
-    const problem::Springs k = group.law->springs(r);
+    const problem::Springs k = group.law->springs(r).value();
     rows.push_back(above ? Limits{k.above, 0, Law::kUnbounded} : Limits{k.below, -Law::kUnbounded, 0});
   }
   return problem::limited(group.law->name(), std::move(rows));

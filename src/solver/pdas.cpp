@@ -45,6 +45,7 @@ class Iteration {
         holder_(problem, rigid_),
         rho_(settings.rho * problem.row_stiffness()) {
     require_frictionless(problem, "pdas");
+    require_springs(problem, "pdas");
     // A row that no unknown moves has no stiffness; any ρ will do.
     const double largest = rho_.size() ? rho_.maxCoeff() : 1;
     for (double& r : rho_)

@@ -8,6 +8,7 @@
 #include "solver/face.hpp"
 #include "solver/projection.hpp"
 #include "solver/stationary_iteration.hpp"
+#include "solver/treatable.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -141,6 +142,8 @@ class Run {
 };
 
 }  // namespace
+
+void ProjectedCg::require_treatable(const problem::Problem& problem) const { require_springs(problem, name()); }
 
 void ProjectedCg::iterate(RowIteration& iteration) const { Run(iteration).iterate(); }
 

@@ -14,6 +14,7 @@ namespace dotyk::solver {
 /// problem is solved to a tenth of what they are off by.
 struct ProjectedCg : RowMethod {
   const char* name() const override { return "projected_cg"; }
+  void require_treatable(const problem::Problem& problem) const override;
   void iterate(RowIteration& iteration) const override;
 };
 

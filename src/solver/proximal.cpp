@@ -2,8 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.hpp"
+#include "solver/projection.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -17,6 +19,11 @@ constexpr int kHalvings = 10;         // of one step
 constexpr double kPrecision = 0.1;    // ‖F‖ against ‖λ − λ_k‖ where an iteration ends
 constexpr double kSofter = 100, kHarder = 10;
 constexpr double kLeast = 1e-10, kGreatest = 1e6;  // of σ; beyond the latter nothing moves
+constexpr double kLeastConvex = 1e-8;  // where ρ = 1/σC: less, and rounding of x counts
+constexpr int kConvexSteps = 40;      // of one iteration, where they cannot go astray
+constexpr int kSections = 30;         // of one such step
+constexpr double kFlat = 1e-3;        // a slope against the first one
+constexpr double kSigma = 0.1, kHolding = 3e-3;  // springs that hold free bodies, against C, at this σ; proportional to σ below it
 
 struct Place {
   Vector lambda, alpha;
@@ -34,21 +41,26 @@ Vector compliance_of_rows(const RowIteration& on) {
       if (n >= 0) compliance[n] = mean;
       compliance.segment(group.row(k), group.components).setConstant(mean);
     }
+  for (const problem::FrictionGroup& group : on.problem.friction)  // cells of friction may share a normal row
+    for (int k = 0; k < group.points(); ++k)
+      compliance.segment(group.row(k), group.components).setConstant(compliance[group.scale_row(k)]);
   return compliance;
 }
 
-/// Newton's method on the problem with springs, from λ_k on.
+/// Newton's method on the problem with springs, from (λ_k, α_k) on.
 class Springs {
  public:
-  Springs(const RowIteration& on, const Vector& springs)
-      : centre_(on.lambda()), softened_(on.condensed.softened(springs, centre_)),
-        map_(on.problem, softened_, (on.map.rho().cwiseInverse() + springs).cwiseInverse()),
-        place_{on.lambda(), on.alpha()}, value_(map_.at(place_.lambda, place_.alpha)) {}
+  /// `convex`: the bounds of friction are given.
+  Springs(const RowIteration& on, const Vector& springs, double sigma, bool convex)
+      : convex_(convex), centre_(on.lambda()), W_(on.condensed.W()), softened_(on.condensed.softened(springs, centre_)),
+        map_(on.problem, softened_, convex ? Vector(springs.cwiseInverse()) : Vector((on.map.rho().cwiseInverse() + springs).cwiseInverse())),
+        anchor_(map_.scaled_alpha(on.alpha())), holding_(convex ? sigma * std::min(kHolding, kHolding * sigma / kSigma) : 0),
+        unit_(map_.rho().size() > 0 ? std::sqrt(map_.rho().maxCoeff()) : 1), place_{on.lambda(), on.alpha()}, value_(map_.at(place_.lambda, place_.alpha)) {}
 
   /// False where it did not come near a solution.
   bool solve(double tol) {
-    for (; steps_ < kNewtonSteps; ++steps_) {
-      if (value_.norm <= std::max(kPrecision * (place_.lambda - centre_).norm(), tol * place_.lambda.norm())) return true;
+    for (const int most = convex_ ? kConvexSteps : kNewtonSteps; steps_ < most; ++steps_) {
+      if (error() <= std::max(kPrecision * moved(), tol * place_.lambda.norm())) return true;
       if (!step()) return false;
     }
     return false;
@@ -59,26 +71,83 @@ class Springs {
 
  private:
   bool step() {
-    const NaturalMap::System system = map_.linearise(value_);
+    NaturalMap::System system = map_.linearise(value_);
+    system.matrix.diagonal().tail(anchor_.size()).array() += holding_;
+    system.right_side.tail(anchor_.size()) += holding_ * anchor_;
     Vector solved(0);
     if (system.matrix.size() > 0) solved = Eigen::PartialPivLU<DenseMatrix>(system.matrix).solve(system.right_side);
     if (!solved.allFinite()) return false;
-    Vector lambda, alpha;
-    map_.take(system, solved, lambda, alpha);
+    Place to;
+    map_.take(system, solved, to.lambda, to.alpha);
     const Place from = place_;
-    const double norm = value_.norm;
-    double length = 1;
-    for (int halving = 0; halving <= kHalvings; ++halving, length /= 2) {
-      place_ = {from.lambda + length * (lambda - from.lambda), from.alpha + length * (alpha - from.alpha)};
-      value_ = map_.at(place_.lambda, place_.alpha);
-      if (value_.norm <= (1 - 1e-4 * length) * norm) break;
-    }
+    const Place way{to.lambda - from.lambda, to.alpha - from.alpha};
+    if (convex_) descend(from, way);
+    else damp(from, way);
     return true;  // a short step that increases ‖F‖ a little may lead out of a corner
   }
 
+  /// a − a_k.
+  Vector motion() const { return map_.scaled_alpha(place_.alpha) - anchor_; }
+
+  /// Of the problem with springs, a force: ‖F‖, and with springs on α, in the map's units, of the equation Qᵀv + δ(a − a_k) = ê.
+  double error() const {
+    if (holding_ == 0 || anchor_.size() == 0) return value_.norm;
+    return std::hypot((place_.lambda - value_.projected).norm(), unit_ * (value_.unbalanced - holding_ * motion()).norm());
+  }
+
+  /// How far from (λ_k, α_k), a force.
+  double moved() const {
+    const double far = (place_.lambda - centre_).norm();
+    return anchor_.size() == 0 ? far : std::hypot(far, unit_ * holding_ * motion().norm());
+  }
+
+  void move(const Place& from, const Place& way, double length) {
+    place_ = {from.lambda + length * way.lambda, from.alpha + length * way.alpha};
+    value_ = map_.at(place_.lambda, place_.alpha);
+  }
+
+  void damp(const Place& from, const Place& way) {
+    const double norm = value_.norm;
+    double length = 1;
+    for (int halving = 0; halving <= kHalvings; ++halving, length /= 2) {
+      move(from, way, length);
+      if (value_.norm <= (1 - 1e-4 * length) * norm) break;
+    }
+  }
+
+  /// The derivative of the energy along the way, at the place where we are.
+  double slope(const Place& way) const {
+    const double along = way.lambda.dot(W_ * (place_.lambda - value_.projected));
+    if (anchor_.size() == 0) return along;
+    return along + map_.scaled_alpha(way.alpha).dot(holding_ * motion() - map_.unbalanced(value_.projected));
+  }
+
+  /// To where the energy, convex along the way, still falls, but by less than half as steeply as at first; the whole way where it falls all along.
+  void descend(const Place& from, const Place& way) {
+    const double steepest = slope(way);
+    const double norm = error();
+    double low = 0, high = 1, at_low = steepest;
+    move(from, way, 1);
+    double at_high = slope(way);
+    if (!(steepest < 0) || at_high <= -kFlat * steepest || error() <= kFlat * norm) return;
+    for (int k = 0; k < kSections && at_low < 0.5 * steepest; ++k) {
+      const double secant = low - at_low * (high - low) / (at_high - at_low), margin = 0.05 * (high - low);
+      const double length = std::clamp(secant, low + margin, high - margin);
+      move(from, way, length);
+      if (const double here = slope(way); here <= 0) low = length, at_low = here;
+      else high = length, at_high = here;
+    }
+    move(from, way, low > 0 ? low : high);
+  }
+
+  const bool convex_;
   const Vector centre_;
+  const DenseMatrix& W_;
   const CondensedProblem softened_;
   const NaturalMap map_;
+  const Vector anchor_;
+  const double holding_;  ///< δ
+  const double unit_;     ///< √ρ, the greatest: of λ against v
   Place place_;
   NaturalMap::Value value_;
   int steps_ = 0;
@@ -88,15 +157,16 @@ class Springs {
 
 void Proximal::iterate(RowIteration& iteration) const {
   const Vector compliance = compliance_of_rows(iteration);
+  const bool convex = !bounds_depend_on_normal(iteration.problem);
   double softness = sigma;
   int steps = 0;
   while (iteration.next()) {
-    Springs springs(iteration, softness * compliance);
+    Springs springs(iteration, softness * compliance, softness, convex);
     const bool solved = springs.solve(0.1 * tol);
     steps += springs.steps();
     if (solved) {
       iteration.move_to(std::move(springs.place().lambda), std::move(springs.place().alpha));
-      softness = std::max(softness / kHarder, kLeast);
+      softness = std::max(softness / kHarder, convex ? kLeastConvex : kLeast);
     } else {
       softness *= kSofter;
     }

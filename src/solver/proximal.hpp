@@ -11,7 +11,14 @@ namespace dotyk::solver {
 /// multipliers than motions, so that λ need not be unique), and a fixed point solves the problem itself. With
 /// given friction it descends the dual energy for every σ; with Coulomb's nothing is proved, the residual decides.
 ///
-/// Newton's steps are damped until ‖F‖ decreases, and end where ‖F‖ is a tenth of ‖λ − λ_k‖. Where they get
+/// With given friction the problem of an iteration is to minimise a convex energy without kinks: with w = P(y),
+/// y = λ_k + (x₀ − Wλ + Nα)/σC, it is ½λᵀWλ − eᵀα + Σ(Moreau's envelope of φ_r), its derivatives are W(λ − w) and Nᵀw − e,
+/// and Newton's step, which solves λ' = w + S(y' − y), Nᵀλ' = e, is one of Newton's on it. Springs of stiffness δ hold α at
+/// α_k, so that the step exists where everything slips or opens. A line search on the energy's derivative along the step,
+/// which grows with the length as the energy is convex, asks for no energies of laws; with it the method converges from
+/// everywhere (Rockafellar's proximal method of multipliers).
+///
+/// Otherwise Newton's steps are damped until ‖F‖ decreases, and end where ‖F‖ is a tenth of ‖λ − λ_k‖. Where they get
 /// there, σ is divided by ten, and iterations become Newton's own; where not, λ_k stays and σ grows a hundredfold.
 /// W need not be symmetric.
 struct Proximal : RowMethod {

@@ -16,9 +16,10 @@ using problem::Problem;
 RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
                            Monitor& monitor)
     : problem(on), condensed(rows), map(on, rows, rho * stiffness_of_rows(rows)), settings_(settings),
-      monitor_(monitor), stiffness_(stiffness_of_rows(rows)), light_(rho < 1) {
+      monitor_(monitor), stiffness_(stiffness_of_rows(rows)), light_(rho < 1), allowed_(settings.max_iterations) {
   move_to(Vector::Zero(rows.rows()), Vector::Zero(rows.kernel_size()));
   recorded_ = value_;
+  first_lambda_ = lambda_, first_alpha_ = alpha_;
 }
 
 double RowIteration::residual() const {
@@ -37,11 +38,12 @@ void RowIteration::begin_at(Vector lambda, Vector alpha) {
   move_to(std::move(lambda), std::move(alpha));
   recorded_ = value_;
   best_ = {lambda_, alpha_, residual()};
+  first_lambda_ = lambda_, first_alpha_ = alpha_;
   begun_ = true;
 }
 
 bool RowIteration::next() {
-  if (result_.iterations >= settings_.max_iterations || monitor_.stop()) return false;
+  if (result_.iterations >= allowed_ || monitor_.stop()) return false;
   ++result_.iterations;
   return true;
 }
@@ -64,6 +66,13 @@ bool RowIteration::record(const IterationDetail& detail) {
   if (info.residual < best_.residual) best_ = {lambda_, alpha_, info.residual};
   if (info.residual < 0.99 * milestone_) milestone_ = info.residual, at_milestone_ = info.iteration;
   return result_.converged = info.residual <= settings_.tol;
+}
+
+void RowIteration::grant(int more) {
+  allowed_ = result_.iterations + more;
+  result_.reason.clear();
+  milestone_ = std::numeric_limits<double>::infinity();
+  move_to(first_lambda_, first_alpha_);
 }
 
 bool RowIteration::stalled(int patience) {
@@ -110,6 +119,7 @@ Vector rigid_motion_of(const problem::State& state, const Problem& problem, cons
 }  // namespace
 
 Result solve(const Problem& problem, const CondensedProblem& condensed, const RowMethod& method, Monitor& monitor) {
+  method.require_treatable(problem);
   Stopwatch watch;
   RowIteration iteration(problem, condensed, method, method.map_weight(), monitor);
   if (method.from) iteration.begin_at(method.from->lambda, rigid_motion_of(*method.from, problem, condensed));
@@ -126,6 +136,7 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
 }
 
 Result solve(const Problem& problem, const RowMethod& method, Monitor& monitor) {
+  method.require_treatable(problem);
   const problem::RigidMotions rigid = problem::rigid_motions(problem);
   const std::string note = require_solvable(problem, rigid);
   problem::Clock clock;

@@ -52,6 +52,11 @@ class RowIteration {
   /// The residual's least value has not fallen by a hundredth in the last `patience` iterations, or the
   /// multipliers are beyond all measure. Gives up then.
   bool stalled(int patience = 2000);
+  /// Allows so many iterations more, to another method, from where this one began.
+  void grant(int more);
+  /// Was the last iterate recorded within tol?
+  bool converged() const { return result_.converged; }
+  const std::string& reason() const { return result_.reason; }
   /// Gives up, for this reason.
   void give_up(std::string reason) { result_.reason = std::move(reason); }
   /// Adds a remark to the reason, however the method ends.
@@ -83,6 +88,8 @@ class RowIteration {
   NaturalMap::Value value_, recorded_;
   std::vector<std::string> remarks_;
   Stopwatch watch_;
+  int allowed_;  ///< iterations
+  algebra::Vector first_lambda_, first_alpha_;  ///< where it began
 };
 
 /// A method that works on the condensed problem alone.
@@ -93,6 +100,8 @@ struct RowMethod : Settings {
   /// natural map.
   virtual double map_weight() const { return 1.0; }
   virtual void iterate(RowIteration& iteration) const = 0;
+  /// Throws InputError where it cannot treat a law, naming the law.
+  virtual void require_treatable(const problem::Problem& /*problem*/) const {}
 };
 
 /// Condenses, iterates and recovers the displacements. Throws InputError where there is no solution,

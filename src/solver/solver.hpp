@@ -68,11 +68,9 @@ struct Result {
   std::vector<ScrewPlacement> screws;  ///< first and after each move; empty without screws
   problem::Clock clock;
   double factor_bytes = 0;
-  /// A relative residual beyond this is rounding, not a solution: of equilibrium, penetration and complementarity for
-  /// methods that end exactly, of equilibrium for penalty and for those as precise as was asked for (feti).
+  /// See judge(). A relative residual beyond this is no solution; rounding leaves less.
   double noise = 1e-6;
-  /// Of other methods than these two: residuals up to this are what tol left (of equilibrium, too, where bodies are held
-  /// by contact alone), not rounding.
+  /// Residuals up to this are what tol left (of equilibrium, too, where bodies are held by contact alone; not with penalty or feti).
   double asked = 0;
   std::string ordering;  ///< the ordering used, "AMD", "METIS", …
 };

@@ -99,7 +99,7 @@ Vector law_compliance(const Problem& problem) {
   Vector compliance = Vector::Zero(problem.rows());
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
-      if (const double k = group.law->springs(r - group.first).above; k > 0) compliance[r] = 1 / k;
+      if (const double k = group.law->springs(r - group.first).value().above; k > 0) compliance[r] = 1 / k;
   return compliance;
 }
 

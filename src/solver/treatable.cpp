@@ -15,11 +15,24 @@ void require_frictionless(const problem::Problem& problem, const std::string& me
 
 namespace {
 
+bool tells_no_springs(const problem::RowGroup& group) { return group.count > 0 && !group.law->springs(0); }
+
 bool is_other(const problem::RowGroup& group) {
   return group.count > 0 && !group.law->unilateral() && !group.law->linear_stiffness(0);
 }
 
 }  // namespace
+
+bool tells_springs(const problem::Problem& problem) {
+  return std::none_of(problem.groups.begin(), problem.groups.end(), tells_no_springs);
+}
+
+void require_springs(const problem::Problem& problem, const std::string& method) {
+  const auto found = std::find_if(problem.groups.begin(), problem.groups.end(), tells_no_springs);
+  if (found != problem.groups.end())
+    throw InputError(text(method, " cannot treat the ", found->law->name(), " law of the ", found->name,
+                          ", which does not tell its springs; newton, proximal, uzawa and psor can"));
+}
 
 bool unilateral_or_linear(const problem::Problem& problem) {
   return problem.friction.empty() && std::none_of(problem.groups.begin(), problem.groups.end(), is_other);

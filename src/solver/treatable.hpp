@@ -14,6 +14,12 @@ inline constexpr const char* kFrictionMethods = "newton, proximal, uzawa, uzawa_
 /// Throws InputError where the problem has friction: `method` cannot treat it, and those that can are named.
 void require_frictionless(const problem::Problem& problem, const std::string& method);
 
+/// Does every law tell its springs (Law::springs), so that λ(x) is piecewise linear?
+bool tells_springs(const problem::Problem& problem);
+
+/// Throws InputError where one does not, naming it: `method` needs them.
+void require_springs(const problem::Problem& problem, const std::string& method);
+
 /// Neither friction nor a law that is neither unilateral nor linear?
 bool unilateral_or_linear(const problem::Problem& problem);
 

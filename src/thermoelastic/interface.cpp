@@ -9,6 +9,7 @@
 #include "beam/solvable.hpp"
 #include "problem/solvability.hpp"
 #include "solver/pdas.hpp"
+#include "solver/verdict.hpp"
 
 namespace dotyk::thermoelastic {
 
@@ -98,7 +99,8 @@ Vector Interface::solve(Vector g, const Vector& resultants, double t, const solv
     return S.completeOrthogonalDecomposition().solve(g);
   }
   const solver::Method chosen = method ? method : solver::Method(solver::Pdas{});
-  const solver::Result result = chosen.run(problem_, {{}, condenser_}, monitor);
+  solver::Result result = chosen.run(problem_, {{}, condenser_}, monitor);
+  solver::judge(problem_, result);
   if (!result.converged) {
     monitor.check();
     throw InputError(text("", result.method, " did not converge at t = ", t, ": ", result.reason));

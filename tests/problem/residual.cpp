@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../support/chain.hpp"
+#include "problem/limited.hpp"
 
 using namespace dotyk;
 using namespace dotyk::problem;
@@ -83,6 +84,33 @@ TEST_CASE("residuals do not depend on units") {
       CHECK(r.complementarity == doctest::Approx(reference.complementarity));
       CHECK(r.law == doctest::Approx(reference.law));
     }
+}
+
+TEST_CASE("the residual of the laws does not depend on the size of the load or of the stiffness, and sees each law") {
+  // One unknown of stiffness 2k under f; u is off the law by a tenth.
+  const auto law_at = [](double f, double k, const std::shared_ptr<const Law>& law, double u, double lambda) {
+    Problem p = one_spring(f, 0, law);
+    p.blocks[0].K *= k;
+    return residual(p, state(u, lambda)).law;
+  };
+  for (const double f : {1e-9, 1.0, 1e12})
+    for (const double k : {1e-6, 1.0, 1e9}) {
+      const double u = f / (5 * k), lambda = 3 * f / 5;  // held by an elastic row of 3k: 2ku + 3ku = f
+      CHECK(law_at(f, k, elastic({3 * k}), u, lambda) < 1e-15);
+      CHECK(law_at(f, k, elastic({3 * k}), u, 0.9 * lambda) == doctest::Approx(law_at(1, 1, elastic({3}), 0.2, 0.54)));
+      CHECK(law_at(f, k, elastic({3 * k}), u, 0.9 * lambda) > 0.01);
+      CHECK(law_at(f, k, bilateral(), 0.1 * u, lambda) == doctest::Approx(law_at(1, 1, bilateral(), 0.02, 0.6)));
+      CHECK(law_at(f, k, limited("capped", {{3 * k, -0.5 * f, 0.5 * f}}), u, lambda) == doctest::Approx(0.1));  // of F = f
+    }
+}
+
+TEST_CASE("multipliers and gaps that are rounding violate no law") {
+  // Nothing touches, and what an iteration left of λ is no force beside the load.
+  CHECK(residual(one_spring(-10, 1, unilateral()), state(-5, 1e-12)).law < 1e-12);
+  // A row that holds far from where the body was, by a displacement of 1e9: its gap is rounding, however stiff the row.
+  Problem far = one_spring(0, 1e9, bilateral());
+  far.blocks[0].K *= 1e6;
+  CHECK(residual(far, state(1e9 * (1 + 1e-15), -2e15)).law < 1e-14);
 }
 
 TEST_CASE("energy is the minimum at the solution") {

@@ -6,7 +6,11 @@
 #include "../support/programs.hpp"
 #include "problem/residual.hpp"
 #include "solver/active_set.hpp"
+#include "solver/default_method.hpp"
+#include "solver/feti.hpp"
 #include "solver/newton.hpp"
+#include "solver/pdas.hpp"
+#include "solver/projected_cg.hpp"
 #include "solver/proximal.hpp"
 #include "solver/psor.hpp"
 #include "solver/uzawa.hpp"
@@ -70,5 +74,19 @@ TEST_CASE_TEMPLATE("an added law is solved", Chosen, solver::Newton, solver::Pro
 
 TEST_CASE("methods that ask for more than a law's projection say that they cannot treat it") {
   Monitor quiet;
-  CHECK_THROWS_WITH_AS(solver::solve(pressed(4), solver::ActiveSet{}, quiet), doctest::Contains("pad"), InputError);
+  const auto refused = [&](const auto& method) {
+    CHECK_THROWS_WITH_AS(solver::solve(pressed(4), method, quiet), doctest::Contains("pad"), InputError);
+  };
+  refused(solver::ActiveSet{});
+  refused(solver::Pdas{});
+  refused(solver::Feti{});
+  refused(solver::ProjectedCg{});
+}
+
+TEST_CASE("a law that does not tell its springs is not taken for a rigid one: the default method is one that needs none") {
+  Monitor quiet;
+  CHECK(solver::default_method(pressed(4)) == solver::DefaultMethod::newton);
+  const auto by_default = solver::solve(pressed(12), solver::Method(), {}, quiet), by_psor = solver::solve(pressed(12), solver::Psor{}, quiet);
+  REQUIRE(by_default.converged);
+  CHECK((by_default.state.u - by_psor.state.u).norm() < 1e-8 * by_psor.state.u.norm());
 }

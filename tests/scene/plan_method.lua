@@ -1,0 +1,47 @@
+-- The plan names the method that solves the scene where none is named.
+local function block(name)
+  return dotyk.body{ name = name, material = dotyk.material{ E = 1000, nu = 0.3 },
+    mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {3, 3} } }
+end
+local floor <const> = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} }
+local function on_floor(friction)
+  return function(b, scene)
+    b:part"left":fix "x"
+    scene:contact{ b:part"bottom", rigid = floor, friction = friction }
+  end
+end
+local function with_support(laws)
+  return function(b)
+    b:part"bottom":fix()
+    b:part"right":support(laws)
+  end
+end
+local cases <const> = {
+  ["no rows"] = { "one linear solve", function(b) b:part"bottom":fix() end },
+  ["law.load"] = { "one linear solve", with_support{ normal = dotyk.law.load(1) } },
+  ["law.free"] = { "one linear solve", with_support{ normal = dotyk.law.free() } },
+  ["law.friction(0)"] = { "one linear solve", with_support{ tangential = dotyk.law.friction(0) } },
+  ["law.friction"] = { "newton", with_support{ tangential = dotyk.law.friction(1) } },
+  ["law.elastic"] = { "pdas", with_support{ normal = dotyk.law.elastic(10) } },
+  ["contact on a fixed part"] = { "one linear solve", function(b, scene)
+    b:part"bottom":fix()
+    scene:contact{ b:part"bottom", rigid = floor }
+  end },
+  ["frictionless"] = { "pdas", on_floor() },
+  ["coulomb(0)"] = { "pdas", on_floor(dotyk.friction.coulomb(0)) },
+  ["tresca(0)"] = { "pdas", on_floor(dotyk.friction.tresca(0)) },
+  ["tresca(math.huge)"] = { "pdas", on_floor(dotyk.friction.tresca(math.huge)) },
+  ["coulomb"] = { "newton", on_floor(dotyk.friction.coulomb(0.1)) },
+  ["tresca"] = { "newton", on_floor(dotyk.friction.tresca(0.1)) },
+}
+local names <const> = { ["one linear solve"] = "linear" }
+for name, case in pairs(cases) do
+  local b = block "block"
+  local scene = dotyk.scene{ b }
+  case[2](b, scene)
+  b:part"top":load{ 0, -1 }
+  local said = scene:plan():match "method: ([^\n]*)"
+  assert(said:find(case[1], 1, true) == 1, ("%s: the plan says %s"):format(name, said))
+  local used = dotyk.solve(scene).method
+  assert(used == (names[case[1]] or case[1]), ("%s: solved by %s"):format(name, used))
+end
