@@ -114,6 +114,8 @@ const ErrorEstimate& Solution::error_estimate() const {
 }
 
 ErrorEstimate Solution::make_error_estimate() const {
+  if (!result_.converged)
+    throw InputError("the solution has not converged, so that the error estimate, which is of a solution, does not apply (" + result_.reason + ")");
   for (const auto& body : scene_->bodies)
     if (body->mesh->topology().order == 2)
       throw InputError(text("'", body->name, "' is of ", body->mesh->topology().name, "; errors are estimated for cells of order 1, whose stresses have "

@@ -11,6 +11,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "scene/locate.hpp"
+#include "solver/ending.hpp"
 
 namespace dotyk::scene {
 
@@ -177,9 +178,7 @@ std::string force_text(std::array<double, 3> force, int dimension) {
 }  // namespace
 
 std::string describe(const Solution& s) {
-  const solver::Result& r = s.result();
-  std::string out = text("solution: ", r.converged ? "converged" : "NOT CONVERGED", " (", r.method, ", ",
-                         r.iterations, r.iterations == 1 ? " iteration" : " iterations", "; ", r.reason, ")\n");
+  std::string out = "solution: " + solver::ending(s.result()) + "\n";
   out += text("  unknowns ", s.unknowns(), ", rows ", s.rows(), ", energy ", s.energy(), "\n");
   out += text(std::setprecision(3), "  residual: equilibrium ", s.residual().equilibrium, ", penetration ", s.residual().penetration,
               ", complementarity ", s.residual().complementarity, "\n");

@@ -75,9 +75,9 @@ class Iteration {
       if (!advance(l)) break;
     }
     if (result_.reason.empty())
-      result_.reason = text("no repeated active set within ", settings_.max_iterations,
+      result_.reason = text("no confirmed active set within ", settings_.max_iterations,
                             " iterations; rows that still change: ", places(problem_, changed_));
-    result_.reason += begun_;
+    result_.reason += begun_ + left_;
     if (!note.empty()) result_.reason += "; " + note;
     result_.clock.iterate += iterating.lap();
     monitor_.phase("recovering the displacement");
@@ -137,7 +137,8 @@ class Iteration {
     std::vector<char> active = settings_.start;
     if (active.empty()) {
       active.resize(problem_.rows());
-      for (int r = 0; r < problem_.rows(); ++r) active[r] = problem_.c[r] <= touching;
+      for (const problem::RowGroup& group : problem_.groups)
+        for (int r = group.first; r < group.first + group.count; ++r) active[r] = !group.law->unilateral() || problem_.c[r] <= touching;
     }
     Linearisation l = from_flags(problem_, active, rho_);
     return held(std::move(l), -problem_.c);
@@ -204,7 +205,7 @@ class Iteration {
     if (changed_.empty()) {
       if (move_screws(l)) return true;
       result_.converged = !misplaced_;
-      if (result_.reason.empty()) result_.reason = "the active set repeats";
+      if (result_.reason.empty()) result_.reason = "active set confirmed";
       return false;
     }
     l = std::move(next);
@@ -269,7 +270,7 @@ class Iteration {
       if (!newton->solve(l, lambda, x)) continue;
       const Linearisation next = linearise(problem_, lambda, x, rho_, noise(lambda, x), &l);
       if (same_pieces(l, next)) {
-        result_.reason = "active sets repeated at " + where + "; left by sweeps that decrease the dual energy";
+        left_ = "; before, active sets repeated at " + where + ", left by sweeps that decrease the dual energy";
         return true;  // the ordinary iteration confirms it
       }
       descent.take_if_lower(lambda);
@@ -295,7 +296,7 @@ class Iteration {
       descent.take_if_lower(s.lambda);
       return false;
     }
-    result_.reason = text("active sets repeated at ", where, "; left by ", s.iterations, " steps of a barrier method");
+    left_ = text("; before, active sets repeated at ", where, ", left by ", s.iterations, " steps of a barrier method");
     return true;
   }
 
@@ -336,8 +337,8 @@ class Iteration {
     result_.working_set = settled.working_set;
     result_.active_sets.push_back(settled.active_sets.back());
     result_.clock.factor += settled.clock.factor;
-    result_.reason = text("active sets repeated at ", where, "; left by ", settled.iterations, " steps of active_set",
-                          settled.converged ? "" : ", in vain: " + settled.reason);
+    result_.reason = settled.converged ? text("active set confirmed; before, active sets repeated at ", where, ", left by ", settled.iterations, " steps of active_set")
+                                       : text("active sets repeat at ", where, "; ", settled.iterations, " steps of active_set in vain: ", settled.reason);
     lambda_ = settled.state.lambda;
     settled_ = std::move(settled.state.u);
     return false;
@@ -368,7 +369,7 @@ class Iteration {
   std::optional<Vector> left_alpha_;  ///< of the descent, where λ is the descent's and not the last step's
   std::optional<Vector> settled_;     ///< u of another method
   std::set<std::uint64_t> seen_;
-  std::string begun_;
+  std::string begun_, left_;  // what the reason says of the beginning, and of a cycle on the way
   Stopwatch watch_;
 };
 
