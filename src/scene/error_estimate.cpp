@@ -6,6 +6,7 @@
 #include "base/moderate.hpp"
 #include "base/text.hpp"
 #include "scene/boundary_tractions.hpp"
+#include "scene/energy_norm.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -151,7 +152,7 @@ ErrorEstimate Solution::make_error_estimate() const {
     auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement_[b], cell_forces(own), boundary[b].all(),
                                               own.material.varies() ? nullptr : &stress(b));
     estimate.cells.push_back(std::move(of_body.cells));
-    solution += of_body.solution_squared;
+    solution += squared_energy_norm(*this, b, displacement_[b]);
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
     if (!results[c]) continue;
