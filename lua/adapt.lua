@@ -51,12 +51,13 @@ function adapt.run(o)
     local meshes <const> = refinement.meshes
     local made <const> = build(o, meshes)
     local s <const> = solve(o, made[1], last)
-    local relative <const>, parts <const> = s:error_estimate()
-    local entry <const> = { unknowns = s.unknowns, cells = cells(meshes), estimate = relative, absolute = parts.absolute,
+    local relative, parts
+    if s.converged then relative, parts = s:error_estimate() end
+    local entry <const> = { unknowns = s.unknowns, cells = cells(meshes), estimate = relative, absolute = parts and parts.absolute,
                             iterations = s.iterations, seconds = core.clock() - begun }
     history[round], last, of_last = entry, s, made
     if core.terminal "stderr" then
-      core.progress(("adapt: round %d, %d unknowns, estimated error %.3g, %.1f s"):format(round, s.unknowns, relative, entry.seconds))
+      core.progress(("adapt: round %d, %d unknowns, estimated error %s, %.1f s"):format(round, s.unknowns, relative and ("%.3g"):format(relative) or "none", entry.seconds))
     end
     local goes_on <const> = not o.on_round or o.on_round(round, entry, s, table.unpack(made, 2, made.n)) ~= false
     history.reason, history.converged = ended(o, entry, s, round)

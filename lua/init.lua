@@ -30,7 +30,7 @@ core.describe{
   name = "dotyk.adapt",
   help = "Refines meshes where a solution errs, until the error estimate is small: solves, estimates (solution:error_estimate), bisects "
     .. "the fewest cells that have a share of the squared error (refinement:refine), and again, each solve starting from the "
-    .. "contacts of the last. Returns the last solution; the history: for each round unknowns, cells, estimate (relative), "
+    .. "contacts of the last. Returns the last solution; the history: for each round unknowns, cells, estimate (relative; nil, as absolute, where the solve has not converged), "
     .. "absolute, iterations and seconds (since the beginning), and in fields of its own converged (is the estimate at most tol) "
     .. "and reason; then what the scene's function returned after the last scene. Boundary parts that the mesh brings keep "
     .. "their names; a part chosen by a function is chosen again on every mesh, so let it end where it does on the first. "

@@ -138,7 +138,7 @@ for _, slender in ipairs{ 5, 7, 10, 14, 20, 28, 40, 57, 80, 113, 160 } do
     local load = 100 * 1000^((k - 1) / (loads - 1))
     local scene = strip(8 / slender, load, 3 * random())
     local s, t = dotyk.solver.pdas{}:solve(scene), dotyk.solver.active_set{}:solve(scene)
-    local again, by_steps = s.reason:find("active sets repeat", 1, true) ~= nil, s.reason:find("; left by %d+ steps of ") ~= nil
+    local again, by_steps = s.reason:find("active sets repeat", 1, true) ~= nil, s.reason:find("left by %d+ steps of ") ~= nil
     solves, repeats, given_up, helped = solves + 1, repeats + (again and 1 or 0), given_up + (s.converged and 0 or 1), helped + (again and by_steps and 1 or 0)
     if again then slenderest = math.min(slenderest, slender) end
     if not t.converged or s.converged and math.abs(s.energy - t.energy) > 1e-8 * math.abs(t.energy) then wrong = wrong + 1 end

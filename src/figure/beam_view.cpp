@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/ending.hpp"
+
 namespace dotyk::figure {
 
 namespace {
@@ -60,6 +62,7 @@ BeamView view(const beam::Solution& s) {
   const beam::Beam& b = s.beam();
   BeamView out;
   out.length = b.length;
+  out.doubt = solver::doubt(s.result());
   out.nodes = s.model().nodes;
   out.deflection = [&s](double x) { return s.deflection(x); };
   if (b.q_of || b.q != 0) out.load = [&b](double x) { return b.q_of ? b.q_of(x) : b.q; };

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "beam/solution.hpp"
@@ -58,6 +59,7 @@ struct BeamView {
   std::vector<ViewedSupport> supports;
   std::map<BeamPanel, Diagram> diagrams;
   Scales bending, axial;               // of forces and lengths
+  std::string doubt;                   // of a solution that has not converged; else empty
 };
 
 Scales scales(const BeamView& view, LawSide of);

@@ -7,6 +7,7 @@
 #include "figure/cell_shape.hpp"
 #include "figure/compose_contact.hpp"
 #include "mesh/second_order.hpp"
+#include "solver/ending.hpp"
 
 namespace dotyk::figure {
 namespace {
@@ -186,6 +187,7 @@ ScenePicture compose(const Solution& s, const SceneOptions& options) {
   if (missing(FieldChoice::uz) || missing(FieldChoice::yz) || missing(FieldChoice::xz))
     throw InputError(std::string("field ") + label(options.field) + " does not exist: the scene is 2-D");
   ScenePicture picture;
+  picture.caption = solver::doubt(s.result());
   picture.field_label = label(options.field);
   picture.deformation = options.deform.value_or(visible_deformation(s));
   const double size = scene_size(s);

@@ -176,6 +176,7 @@ PagePicture compose(const BeamView& view, const std::vector<BeamPanel>& panels, 
   double weight = 0;
   for (const double w : page.row_weights) weight += w;
   page.height = 60 + static_cast<int>(std::lround(250 * weight));
+  page.rows.front().front().title = view.doubt;
   return page;
 }
 

@@ -117,7 +117,11 @@ WorkingPoint working_point(const ViewedLaw& at, const Scales& scale) {
 
 PagePicture compose(const SupportLaw& law, LawSide of, const Units& units) { return law_page(law_cells(law, of, turned(law, of), std::nullopt, {}, units)); }
 
-PagePicture compose(const BeamView& view, int support, LawSide of, const Units& units) { return law_page(law_cells(view, support, of, units)); }
+PagePicture compose(const BeamView& view, int support, LawSide of, const Units& units) {
+  PagePicture page = law_page(law_cells(view, support, of, units));
+  page.rows.front().front().title = view.doubt;
+  return page;
+}
 
 PagePicture compose(const std::vector<GalleryRow>& rows) {
   PagePicture page;
@@ -125,7 +129,7 @@ PagePicture compose(const std::vector<GalleryRow>& rows) {
   page.column_weights = {1.55, 1, 1};
   for (const GalleryRow& row : rows) {
     PageCell beam;
-    beam.title = row.title;
+    beam.title = row.title + (row.title.empty() || row.view.doubt.empty() ? "" : ", ") + row.view.doubt;
     beam.x_label = "x", beam.y_label = "deflection u";
     beam.drawing = beam_drawing(row.view);
     std::vector<PageCell> cells = law_cells(row.view, row.support, row.of, {});

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "plate/reaction.hpp"
+#include "solver/ending.hpp"
 
 namespace dotyk::figure {
 
@@ -214,6 +215,7 @@ double visible_deflection(const plate::Solution& s) {
 
 PlatePicture compose(const plate::Solution& s, const PlateOptions& options) {
   PlatePicture picture;
+  picture.caption = solver::doubt(s.result());
   const mesh::Mesh& mesh = *s.plate().mesh;
   picture.view = options.view;
   for (int i = 0; i < mesh.node_count(); ++i) {

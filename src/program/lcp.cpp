@@ -66,7 +66,7 @@ class Solver {
     const NewtonMin r = newton_min(lcp_, settings_.start);
     out_.solves = r.solves;
     out_.cycle = r.cycle;
-    if (r.end == NewtonMin::End::solved && accept(r.z, "newton_min")) out_.reason = "the active set repeats";
+    if (r.end == NewtonMin::End::solved && accept(r.z, "newton_min")) out_.reason = "active set confirmed";
     else if (r.end == NewtonMin::End::cycle) out_.reason = text("the active set goes round among ", r.cycle.size(), " sets");
     else out_.reason = r.end == NewtonMin::End::singular ? "M is singular on an active set" : "no end";
     if (!found_ && r.z.size()) out_.z = r.z;

@@ -16,6 +16,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "reader/processor_time.hpp"
 
 extern char** environ;
 
@@ -65,6 +66,7 @@ class Child {
     std::string all;
     std::vector<char> some(1 << 16);
     for (;;) {
+      count_running(pid_);
       pollfd ready{out_, POLLIN, 0};
       if (poll(&ready, 1, 100) <= 0) {
         monitor.check();
@@ -82,6 +84,7 @@ class Child {
     while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
     }
     pid_ = 0;
+    count_ended();
     return status;
   }
 

@@ -20,8 +20,11 @@
 
 namespace dotyk::reader {
 
+/// Beneath what dotyk has itself.
 inline void limit(int resource, double most) {
-  const rlimit value{static_cast<rlim_t>(most), static_cast<rlim_t>(most)};
+  rlimit value{};
+  getrlimit(resource, &value);
+  value.rlim_cur = value.rlim_max = std::min(static_cast<rlim_t>(most), value.rlim_cur);
   setrlimit(resource, &value);
 }
 

@@ -99,7 +99,8 @@ ContactResult Solution::contact(const Contact& asked) const {
   const int second = scene_->index_of(contact.second.body.get());
   const int dim = scene_->dimension();
   ContactResult result;
-  result.dissipated = dissipated_[index];
+  for (const FrictionRows& rows : model_.friction[index])
+    for (int i = 0; i < rows.count; ++i) result.dissipated += dissipated_[rows.row[i]];
   const std::vector<double> pressure = pressures(contact, model_, index, result_.state.lambda);
   const std::vector<Point> force = model_.contact_force(contact, index, result_.state.lambda);
   const std::vector<Point> rubbed = model_.contact_force(contact, index, friction_part(model_.friction[index], result_.state.lambda));

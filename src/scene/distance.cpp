@@ -6,9 +6,9 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "elasticity/assembly.hpp"
 #include "elasticity/interpolation.hpp"
 #include "elasticity/load.hpp"
+#include "scene/energy_norm.hpp"
 #include "scene/locate.hpp"
 
 namespace dotyk::scene {
@@ -76,21 +76,14 @@ struct Squares {
   }
 };
 
-double product(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-  return sum;
-}
-
 void add_body(const Solution& s, const Solution& reference, int index, Squares& energy, Squares& volume) {
   const Body& body = reference.body(index);
   const Mesh& mesh = *body.mesh;
   const std::vector<double>& exact = reference.displacement(index);
   std::vector<double> off = carried(s.body(index), s.displacement(index), mesh);
   for (std::size_t k = 0; k < off.size(); ++k) off[k] -= exact[k];
-  const auto springs = body.facet_springs();
-  energy.difference += product(off, elasticity::internal_force(mesh, body.material, springs, off));
-  energy.whole += product(exact, elasticity::internal_force(mesh, body.material, springs, exact));
+  energy.difference += squared_energy_norm(reference, index, off);
+  energy.whole += squared_energy_norm(reference, index, exact);
   std::vector<double> share(off.size(), 0);
   elasticity::add_body_force(mesh, [](const Point&) { return Point{1, 1, 1}; }, share);
   for (std::size_t k = 0; k < off.size(); ++k) {

@@ -9,7 +9,7 @@ namespace dotyk::scene {
 /// How far a solution is from another one of the same bodies and contacts, which is taken for exact: usually that of a
 /// finer mesh. All relative to the reference's own size.
 struct Distance {
-  /// |u − ū|_E / |ū|_E, |v|_E² = Σ over bodies of ∫ ε(v):c:ε(v) + ∫ v·k v (springs), on the reference's meshes: u is
+  /// |u − ū|_E / |ū|_E in the energy norm (energy_norm.hpp) on the reference's meshes: u is
   /// interpolated to their nodes, which is exact where the reference's meshes refine the solution's.
   double energy = 0;
   /// ‖u − ū‖ / ‖ū‖ in L2 over the bodies, at the nodes of the reference's meshes by their share ∫φ of the volume.

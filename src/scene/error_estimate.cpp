@@ -6,6 +6,7 @@
 #include "base/moderate.hpp"
 #include "base/text.hpp"
 #include "scene/boundary_tractions.hpp"
+#include "scene/energy_norm.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -114,6 +115,8 @@ const ErrorEstimate& Solution::error_estimate() const {
 }
 
 ErrorEstimate Solution::make_error_estimate() const {
+  if (!result_.converged)
+    throw InputError("the solution has not converged, so that the error estimate, which is of a solution, does not apply (" + result_.reason + ")");
   for (const auto& body : scene_->bodies)
     if (body->mesh->topology().order == 2)
       throw InputError(text("'", body->name, "' is of ", body->mesh->topology().name, "; errors are estimated for cells of order 1, whose stresses have "
@@ -149,7 +152,7 @@ ErrorEstimate Solution::make_error_estimate() const {
     auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement_[b], cell_forces(own), boundary[b].all(),
                                               own.material.varies() ? nullptr : &stress(b));
     estimate.cells.push_back(std::move(of_body.cells));
-    solution += of_body.solution_squared;
+    solution += squared_energy_norm(*this, b, displacement_[b]);
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
     if (!results[c]) continue;

@@ -11,6 +11,7 @@
 #include "scene/after_solve.hpp"
 #include "scene/doubts.hpp"
 #include "scene/locate.hpp"
+#include "solver/ending.hpp"
 #include "solver/verdict.hpp"
 
 namespace dotyk::scene {
@@ -48,18 +49,11 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
 void Solution::add_step(const problem::Problem& problem) {
   const algebra::Vector x = problem.B * result_.state.u - problem.c;
   slip_ = past_.slip.size() ? past_.slip : algebra::Vector::Zero(x.size());
-  dissipated_ = past_.dissipated.empty() ? std::vector<double>(scene_->contacts.size(), 0.0) : past_.dissipated;
-  for (std::size_t c = 0; c < model_.friction.size(); ++c)
-    for (const FrictionRows& rows : model_.friction[c])
-      for (int i = 0; i < rows.count; ++i) {
-        slip_[rows.row[i]] += x[rows.row[i]];
-        dissipated_[c] += result_.state.lambda[rows.row[i]] * x[rows.row[i]];
-      }
-  for (std::size_t b = 0; b < model_.support_row.size(); ++b)
-    for (std::size_t s = 0; s < model_.support_row[b].size(); ++s) {
-      if (model_.bodies[b].laws[s].tangential.kind != problem::SupportLaw::Kind::friction) continue;
-      for (const SupportRows& rows : model_.support_row[b][s])
-        for (int i = 0; i < rows.count; ++i) slip_[rows.row[i]] += x[rows.row[i]];
+  dissipated_ = past_.dissipated.empty() ? std::vector<double>(x.size(), 0.0) : past_.dissipated;
+  for (const problem::FrictionGroup& group : problem.friction)
+    for (int r = group.first; r < group.first + group.points() * group.components; ++r) {
+      slip_[r] += x[r];
+      dissipated_[r] += result_.state.lambda[r] * x[r];
     }
 }
 
@@ -136,9 +130,7 @@ std::string force_text(std::array<double, 3> force, int dimension) {
 }  // namespace
 
 std::string describe(const Solution& s) {
-  const solver::Result& r = s.result();
-  std::string out = text("solution: ", r.converged ? "converged" : "NOT CONVERGED", " (", r.method, ", ",
-                         r.iterations, r.iterations == 1 ? " iteration" : " iterations", "; ", r.reason, ")\n");
+  std::string out = "solution: " + solver::ending(s.result()) + "\n";
   out += text("  unknowns ", s.unknowns(), ", rows ", s.rows(), ", energy ", s.energy(), "\n");
   out += "  residual: " + problem::describe(s.residual()) + "\n";
   for (const auto& contact : s.scene().contacts) {

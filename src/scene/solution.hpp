@@ -67,10 +67,12 @@ struct SupportResult {
   double max_pressure = 0;
   int open = 0, closed = 0, stick = 0, slip = 0, broken = 0;  ///< nodes, by their status along the normal
   int tangential_stick = 0, tangential_slip = 0;
+  double dissipated = 0;  ///< as of a contact
   std::vector<SupportNode> nodes;
 };
 
-/// Of the energy norm of u − u_h, all bodies together; see elasticity/error_estimate.hpp for the parts.
+/// Of the energy norm (energy_norm.hpp) of u − u_h, all bodies together; see elasticity/error_estimate.hpp for the parts. A
+/// spring is taken as a load that its displacement says, which is admissible: the bound there is then one of this norm. Not measured: what laws lose by acting at nodes.
 struct ErrorEstimate {
   double absolute = 0;  ///< √Σ of the parts: √(force·length)
   double relative = 0;  ///< absolute / √(absolute² + ‖u_h‖²)
@@ -85,7 +87,7 @@ class Solution;
 struct Past {
   Loading loading;                 ///< of the solution itself
   algebra::Vector slip;            ///< on the rows of friction, up to the last step; empty at the beginning
-  std::vector<double> dissipated;  ///< of each contact, up to the last step; empty at the beginning
+  std::vector<double> dissipated;  ///< likewise, the work of friction
   std::vector<std::shared_ptr<const Solution>> steps;  ///< the steps before in the same call of solve
 };
 
@@ -113,7 +115,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   /// Σ bound ‖increment of slip‖: what friction dissipates in this step.
   double friction_energy() const { return friction_energy_; }
   const Loading& loading() const { return past_.loading; }
-  /// Slip on the rows of friction since the beginning (0 on others), and what each contact has dissipated.
+  /// On the rows of friction, of contacts and supports (0 on others): slip since the beginning, and what it has dissipated.
   const algebra::Vector& slip() const { return slip_; }
   const std::vector<double>& dissipated() const { return dissipated_; }
   /// The steps of the solve, this one the last.
@@ -165,8 +167,9 @@ class Solution : public std::enable_shared_from_this<Solution> {
   mutable std::optional<ErrorEstimate> error_estimate_;
 };
 
-/// Where contacts start: as a coarser solution's nearest nodes were, or with the rows named
-/// (numbered over all contacts in order); empty: by the method's own rule, or as `after` ended. A solution with the
+/// Where contacts and supports by laws start: as a coarser solution's nearest nodes were (its contact or support of the
+/// same number), or with the contact rows named (numbered over all contacts in order); rows of which neither tells, and
+/// all where both are empty: closed where their gap at rest is, or as `after` ended. A solution with the
 /// same rows gives methods that can its whole state.
 struct Start {
   std::shared_ptr<const Solution> coarse;
@@ -188,7 +191,7 @@ struct Start {
 std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const solver::Method& method, const Start& start,
                                 Monitor& monitor, const std::vector<Step>& steps = {});
 
-/// The flags of a start, row by row of B; empty where `start` says nothing.
+/// The flags of a start, row by row of B: is the row on the branch of its law that bears?
 std::vector<char> start_flags(const Scene& scene, const Model& model, const Start& start);
 
 /// Has the solution the unknowns and rows of this scene's model: bodies with the same meshes, the same contacts of the same nodes?

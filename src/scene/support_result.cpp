@@ -66,6 +66,7 @@ SupportResult Solution::support(const Part& part) const {
     const SupportNode node = support_node(*found, k, rows[k], index);
     for (int i = 0; i < 3; ++i) result.force[i] += node.weight * (node.shear[i] - node.pressure * node.normal[i]);
     count(node, result);
+    for (int i = 0; i < rows[k].count; ++i) result.dissipated += dissipated_[rows[k].row[i]];
     result.nodes.push_back(node);
   }
   return result;
@@ -103,7 +104,7 @@ std::string describe(const SupportResult& r, int dimension) {
   out += text(r.open, " open, ");
   if (r.tangential_stick + r.tangential_slip > 0) out += text("tangents ", r.tangential_stick, " stick, ", r.tangential_slip, " slip, ");
   if (r.broken > 0) out += text(r.broken, " broken, ");
-  return out + text("greatest pressure ", r.max_pressure);
+  return out + text("greatest pressure ", r.max_pressure, r.dissipated > 0 ? text(", dissipated ", r.dissipated) : "");
 }
 
 }  // namespace dotyk::scene

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <array>
+#include <map>
 
 #include "scene/solution.hpp"
 
@@ -8,26 +8,56 @@ namespace dotyk::scene {
 
 namespace {
 
-/// Is the contact node of `known` nearest to x closed?
-bool closed_nearby(const ContactResult& known, const mesh::Point& x) {
-  double nearest = INFINITY;
-  bool closed = false;
-  for (const ContactNode& node : known.nodes) {
-    const mesh::Point off = mesh::minus(x, node.x);
-    const double d = mesh::dot(off, off);
-    if (d < nearest) {
-      nearest = d;
-      closed = node.status != problem::Status::open;
-    }
+struct RowPlace {
+  mesh::Point x;
+  int row;
+};
+
+/// Whose rows: a contact's (-1, its number, 0) or a support's by laws (body, its number, which of its directions).
+using Owner = std::array<int, 3>;
+
+/// The rows of B that may open and close, by owner.
+std::map<Owner, std::vector<RowPlace>> places(const Scene& scene, const Model& model) {
+  std::map<Owner, std::vector<RowPlace>> all;
+  const auto add = [&](const Owner& owner, const mesh::Point& x, int row) {
+    if (row >= 0) all[owner].push_back({x, row});
+  };
+  for (int c = 0; c < static_cast<int>(scene.contacts.size()); ++c) {
+    const Contact& contact = *scene.contacts[c];
+    if (contact.kind != Contact::Kind::contact) continue;
+    for (std::size_t k = 0; k < contact.rows.size(); ++k)
+      add({-1, c, 0}, contact.first.body->mesh->point(contact.rows[k].node), model.contact_row[c][k]);
   }
-  return closed;
+  for (int b = 0; b < static_cast<int>(model.support_row.size()); ++b)
+    for (int s = 0; s < static_cast<int>(model.support_row[b].size()); ++s) {
+      const auto& nodes = model.bodies[b].laws[s].nodes;
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const mesh::Point x = model.bodies[b].mesh->point(nodes[k].node);
+        const SupportRows& rows = model.support_row[b][s][k];
+        add({b, s, 0}, x, rows.normal);
+        for (int i = 0; i < rows.count; ++i) add({b, s, 1 + i}, x, rows.row[i]);
+      }
+    }
+  return all;
 }
 
-/// The result of the coarse scene's contact of this number; empty where it has none.
-std::optional<ContactResult> counterpart(const Solution& coarse, std::size_t c) {
-  const auto& contacts = coarse.scene().contacts;
-  if (c >= contacts.size() || contacts[c]->kind != Contact::Kind::contact) return std::nullopt;
-  return coarse.contact(*contacts[c]);
+int nearest(const std::vector<RowPlace>& known, const mesh::Point& x) {
+  const auto squared = [&](const RowPlace& at) {
+    const mesh::Point off = mesh::minus(x, at.x);
+    return mesh::dot(off, off);
+  };
+  return std::min_element(known.begin(), known.end(), [&](const RowPlace& a, const RowPlace& b) { return squared(a) < squared(b); })->row;
+}
+
+void close_named(const Scene& scene, const Model& model, const std::vector<int>& closed, std::vector<char>& flags) {
+  int number = 0;  // of the row over all contacts
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    if (scene.contacts[c]->kind != Contact::Kind::contact) continue;
+    for (const int r : model.contact_row[c]) {
+      if (r >= 0) flags[r] = std::find(closed.begin(), closed.end(), number) != closed.end();
+      ++number;
+    }
+  }
 }
 
 }  // namespace
@@ -38,7 +68,11 @@ bool same_rows(const Scene& scene, const Model& model, const Solution& solution)
   bool same = known.problem.rows() == model.problem.rows() && known.problem.unknowns() == model.problem.unknowns() &&
               known.contact_row == model.contact_row && other.bodies.size() == scene.bodies.size() &&
               other.contacts.size() == scene.contacts.size();
-  for (std::size_t b = 0; same && b < scene.bodies.size(); ++b) same = other.bodies[b]->mesh == scene.bodies[b]->mesh;
+  for (std::size_t b = 0; same && b < scene.bodies.size(); ++b) {
+    const auto &one = model.bodies[b].laws, &two = known.bodies[b].laws;
+    same = other.bodies[b]->mesh == scene.bodies[b]->mesh &&
+           std::equal(one.begin(), one.end(), two.begin(), two.end(), [](const LawSupport& x, const LawSupport& y) { return x.part == y.part; });
+  }
   for (std::size_t c = 0; same && c < scene.contacts.size(); ++c) {
     const auto &one = scene.contacts[c]->rows, &two = other.contacts[c]->rows;
     same = scene.contacts[c]->kind == other.contacts[c]->kind && one.size() == two.size();
@@ -48,21 +82,16 @@ bool same_rows(const Scene& scene, const Model& model, const Solution& solution)
 }
 
 std::vector<char> start_flags(const Scene& scene, const Model& model, const Start& start) {
-  std::vector<char> flags(model.problem.rows(), 0);
-  int number = 0;  // of the row over all contacts
-  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    const Contact& contact = *scene.contacts[c];
-    if (contact.kind != Contact::Kind::contact) continue;
-    const auto known = start.coarse ? counterpart(*start.coarse, c) : std::nullopt;
-    for (std::size_t k = 0; k < contact.rows.size(); ++k, ++number) {
-      const int r = model.contact_row[c][k];
-      if (r < 0) continue;
-      if (known)
-        flags[r] = closed_nearby(*known, contact.first.body->mesh->point(contact.rows[k].node));
-      else if (start.closed)
-        flags[r] = std::find(start.closed->begin(), start.closed->end(), number) != start.closed->end();
-    }
-  }
+  const algebra::Vector& gap = model.problem.c;
+  const double touching = 1e-12 * (gap.size() ? gap.lpNorm<Eigen::Infinity>() : 0);
+  std::vector<char> flags;
+  for (const double at_rest : gap) flags.push_back(at_rest <= touching);
+  if (start.closed) close_named(scene, model, *start.closed, flags);
+  if (!start.coarse) return flags;
+  const auto known = places(start.coarse->scene(), start.coarse->model());
+  for (const auto& [owner, rows] : places(scene, model))
+    if (const auto found = known.find(owner); found != known.end())
+      for (const RowPlace& at : rows) flags[at.row] = start.coarse->active(nearest(found->second, at.x));
   return flags;
 }
 

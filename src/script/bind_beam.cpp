@@ -9,6 +9,7 @@
 #include "script/result_records.hpp"
 #include "script/setups.hpp"
 #include "script/watch.hpp"
+#include "solver/ending.hpp"
 
 namespace dotyk::script {
 using problem::SupportLaw;
@@ -102,8 +103,7 @@ std::vector<std::string> broken(const BeamResult& r) {
 std::string show_result(const BeamResult& r) {
   const beam::Solution& s = r.solution();
   const solver::Result& result = s.result();
-  std::string out = text("beam solution: ", result.converged ? "converged" : "NOT CONVERGED", " (", result.method, ", ", result.iterations,
-                         result.iterations == 1 ? " iteration" : " iterations", "; ", result.reason, ")\n  energy ", s.energy());
+  std::string out = text("beam solution: ", solver::ending(result), "\n  energy ", s.energy());
   if (r.branches.size() > 1) out += text(", the ", r.shown + 1, ". of ", r.branches.size(), " local minima");
   out += "\n  residual: " + problem::describe(s.residual());
   for (std::size_t i = 0; i < s.beam().supports.size(); ++i) {
@@ -163,6 +163,7 @@ int solve_beam(Call& call, const Beam& beam, const solver::Method& method, std::
   Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
   auto result = std::make_shared<BeamResult>();
   result->branches = beam::solve(beam, method, watch);
+  watch.judge(result->solution().result());
   watch.answer();
   return call.give(result);
 }

@@ -161,7 +161,7 @@ void bind_design(Library& library) {
                        "kink one-sided derivatives, as each variable grows); arithmetic with them and dotyk.dual.sqrt and the like go on differentiating.")
       .setup(setup::shape() + "local design = shape:design{ 0.01, 0, 0, 0, 0.01 }\n")
       .field("alpha", "the design variables", variables, "length")
-      .field("compliance", "minus the least energy, f'u - u'Ku/2", [](const Design& d) { return d.dual(*shape::compliance()); }, "force·length")
+      .field("compliance", "minus the least energy, that of springs and given friction included: -(energy + friction_energy) of its solution", [](const Design& d) { return d.dual(*shape::compliance()); }, "force·length")
       .field("volume", "of all bodies; area in the plane", [](const Design& d) { return d.dual(*shape::volume()); })
       .field("peak_pressure", "smoothed: (mean of p^q over the contacts)^(1/q), q the exponent of dotyk.shape; the mean is by the first design's length or area", [](const Design& d) { return d.dual(*shape::peak_pressure(d.exponent)); }, "force per area")
       .field("solution", "the solution, for everything else", [](const Design& d) { return d.state->solution(); })

@@ -20,6 +20,7 @@ int solve_contact_problem(Call& call, const std::shared_ptr<ContactProblem>& pro
   Stopwatch clock;
   result->result = fclib::solve(*problem, solver.method, watch);
   result->seconds = clock.seconds();
+  watch.judge(result->result.iteration);
   watch.answer();
   return call.give(result);
 }

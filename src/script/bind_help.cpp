@@ -23,8 +23,9 @@ std::string help_on_name(const Library& library, const std::string& name) {
   for (const auto& module : library.modules()) {
     if (module.name == name) return help_text(library, module);
   }
-  if (const auto* type = library.find_type(name)) return help_text(library, *type);
   if (const auto* descriptor = library.find(name)) return help_text(*descriptor);
+  const auto found = help_search(library, name);
+  if (!found.empty()) return found;
   const auto near = nearest(name, library.names());
   throw ArgumentError("nothing is called '" + name + "'" +
                       (near.empty() ? "; help() lists everything" : ", did you mean '" + near + "'?"));
@@ -57,9 +58,10 @@ std::string help_on_value(const Call& call) {
 void bind_help(Library& library) {
   library.function(
       {.name = "help",
-       .help = "Prints help: on everything, on a function, method, object or name; help \"prompt\" on the prompt.",
-       .example = "help()\nhelp(dotyk)\nhelp \"help\"\nhelp \"prompt\"",
-       .arguments = {key::any("x", "a function, a method, an object, a table of functions, or a name")},
+       .help = "Prints help: on everything, on a function, method, object or name, and on a word whatever has it in its name "
+               "or text; help \"prompt\" on the prompt.",
+       .example = "help()\nhelp(dotyk)\nhelp \"help\"\nhelp \"force\"\nhelp \"prompt\"",
+       .arguments = {key::any("x", "a function, a method, an object, a table of functions, a name, or a word")},
        .run = [](Call& call) {
          const auto& library = Library::of(call.state());
          const auto text = call.has("x") ? help_on_value(call) : help_index(library);

@@ -153,6 +153,7 @@ int find_edge(const Plate& plate, const std::string& part) {
 int solve_plate(Call& call, const std::shared_ptr<const plate::Model>& model, const solver::Method& method, std::vector<Function> on_iteration, bool verbose) {
   Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
   const auto result = plate::solve(model, method, watch);
+  watch.judge(result->result());
   watch.answer();
   return call.give(result);
 }

@@ -7,6 +7,7 @@
 #include "script/result_records.hpp"
 #include "script/setups.hpp"
 #include "script/watch.hpp"
+#include "solver/ending.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -100,8 +101,7 @@ std::optional<Record> contact(const Solution& s) {
 
 std::string show(const Solution& s) {
   const solver::Result& r = s.result();
-  std::string out = text("plate solution: ", r.converged ? "converged" : "NOT CONVERGED", " (", r.method, ", ", r.iterations, r.iterations == 1 ? " iteration" : " iterations", "; ",
-                         r.reason, ")\n  energy ", s.energy(), ", ", s.model().problem.unknowns(), " unknowns, ", s.model().problem.rows(), " rows, ", r.clock.total, " s\n  residual: ",
+  std::string out = text("plate solution: ", solver::ending(r), "\n  energy ", s.energy(), ", ", s.model().problem.unknowns(), " unknowns, ", s.model().problem.rows(), " rows, ", r.clock.total, " s\n  residual: ",
                          problem::describe(s.residual()));
   for (std::size_t e = 0; e < s.plate().edges.size(); ++e) {
     const plate::EdgeReaction at = plate::reaction(s, static_cast<int>(e));

@@ -246,7 +246,7 @@ void bind_scene(Library& library) {
                           "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }",
                .arguments = {key::table({key::object<FrictionLaw>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu)").otherwise("none"),
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
-                                         key::field("gap", "added to the geometric gap; a number or a function of the coordinates").unit("length").otherwise("0"),
+                                         key::field("gap", "added to the geometric gap, less than 0 for an interference (a press fit, a bolt that is tightened); a number or a function of the coordinates").unit("length").otherwise("0"),
                                          pairing_key(),
                                          key::choice("multipliers", {"nodal", "P1-P0"},
                                                      "nodal: a normal and a tangential force at each node. P1-P0: pressure continuous and piecewise "

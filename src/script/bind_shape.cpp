@@ -71,7 +71,7 @@ std::vector<Key> constraint_keys() {
 std::vector<Key> keys() {
   return {key::object<scene::Scene>("scene", "the first design").required(),
           moves_key(),
-          quantity_key("objective", "what is to be least: compliance is minus the least energy; peak_pressure is smoothed, see exponent; a function "
+          quantity_key("objective", "what is to be least: compliance is minus the least energy (friction's included); peak_pressure is smoothed, see exponent; a function "
                                     "gets a design and computes with its dual numbers").fallback("compliance"),
           key::list("constraints", key::table("", constraint_keys(), ""), "quantities that are to stay below a bound").otherwise("none but the variables' bounds"),
           key::number("exponent", "q of peak_pressure, (mean of p^q over the contacts)^(1/q)").at_least(1).fallback(8.0),
@@ -137,6 +137,7 @@ int design(Call& call) {
   Watch watch(call.state(), "solving");
   auto design = std::make_shared<Design>();
   design->state = std::make_shared<const shape::DesignState>(shape->space, alpha_of(call, *shape), shape->method, nullptr, std::make_shared<shape::Cost>(), watch);
+  watch.judge(design->state->solution()->result());
   watch.answer();
   design->places = shape->places;
   design->exponent = shape->exponent;

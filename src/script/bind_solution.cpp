@@ -163,7 +163,7 @@ int support(Call& call) {
                           {{"force", components(r.force, s->scene().dimension())}, {"area", r.area}, {"max_pressure", r.max_pressure},
                            {"open", number(r.open)}, {"closed", number(r.closed)}, {"stick", number(r.stick)}, {"slip", number(r.slip)},
                            {"tangential_stick", number(r.tangential_stick)}, {"tangential_slip", number(r.tangential_slip)},
-                           {"broken", number(r.broken)}, {"nodes", nodes}}});
+                           {"broken", number(r.broken)}, {"dissipated", r.dissipated}, {"nodes", nodes}}});
 }
 
 int reaction(Call& call) {
@@ -251,7 +251,7 @@ void bind_solution(Library& library) {
       .method({.name = "solution:support",
                .help = "A part's support by laws (part:support): its force on the body, area (of nodes that are not open), "
                        "max_pressure, counts of nodes: open, closed, stick, slip (along the normal), tangential_stick, "
-                       "tangential_slip and broken, and nodes[i] with x y z, away (displacement "
+                       "tangential_slip and broken, the work dissipated by friction over all steps, and nodes[i] with x y z, away (displacement "
                        "along the normal, positive away from the support), pressure, slip and shear (components of "
                        "the tangential displacement, and of the reaction on the body per length or area), status (along the normal: "
                        "open where it bears nothing, closed; stick or slip where the law has a greatest force), tangential (the "
@@ -266,8 +266,9 @@ void bind_solution(Library& library) {
                .arguments = {key::object<scene::Part>("part", "a supported part").required()},
                .run = reaction})
       .method({.name = "solution:error_estimate",
-               .help = "A posteriori estimate of the error in the energy norm, contact included: first the relative one, a number; "
-                       "then a record: absolute (of ‖u - u_h‖, √(force·length)), relative, its parts, whose squares add up to "
+               .help = "A posteriori estimate of the error in the energy norm, the square root of twice the energy of strains, springs and "
+                       "elastic laws of supports (that of solution:distance); contact included. An error where the solve has not converged: "
+                       "it does not apply there. First the relative one, a number; then a record: absolute (of ‖u - u_h‖, √(force·length)), relative, its parts, whose squares add up to "
                        "absolute²: recovery (stress against recovered stress), bulk (equilibrium of the recovered stress inside cells), "
                        "jump (of its tractions where the material jumps), boundary (against loads and free boundaries), "
                        "contact_pressure and friction (against the contact's pressure and shear; friction also slip against its law), "
@@ -276,7 +277,8 @@ void bind_solution(Library& library) {
                .run = error_estimate})
       .method({.name = "solution:distance",
                .help = "How far it is from another solution of the same bodies and contacts, taken for exact (usually of a finer "
-                       "mesh), relative to that: energy (norm of the difference), displacement (L2 over the bodies), and with "
+                       "mesh), relative to that: energy (norm of the difference: the square root of twice the energy of "
+                       "strains, springs and elastic laws of supports), displacement (L2 over the bodies), and with "
                        "contact pressure (L2 over the contacts, at this solution's nodes) and peak_pressure.",
                .example = "local soft = dotyk.solver.penalty{ factor = 100 }:solve(scene)\nprint(soft:distance(s).energy)",
                .arguments = {key::object<Solution>("reference", "what is taken for exact").required()},

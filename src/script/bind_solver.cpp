@@ -57,6 +57,7 @@ int run(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& m
   Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
   if (call.has("options") && call.table("options").has("seconds")) watch.limit(call.table("options").number("seconds"));
   const auto solution = scene::solve(scene, method, start, watch, steps);
+  watch.judge(solution->result());
   watch.answer(method.begins_anew() ? "look at it or leave it (this method begins anew, whatever start says)"
                                     : "look at it, go on from it (start = that result), or leave it");
   return call.give(solution);

@@ -15,6 +15,10 @@ std::string help_text(const Descriptor& descriptor);
 std::string help_text(const Library& library, const Type& type);
 std::string help_text(const Library& library, const Module& module);
 
+// What is called by the word, or has it in its name or its text: names first, one line each; where one thing alone has
+// that very name, its help and then the lines. A word of a text is found by its beginning. Empty where nothing fits.
+std::string help_search(const Library& library, const std::string& word);
+
 // The whole reference as a Markdown page.
 std::string reference_page(const Library& library);
 

@@ -75,7 +75,7 @@ std::string help_index(const Library& library) {
 
 std::string help_on_prompt() {
   const std::array<std::pair<const char*, const char*>, 9> lines{{
-      {"help(x), x?", "on a function, an object, a method (body:part?) or a name (help \"pdas\")"},
+      {"help(x), x?", "on a function, an object, a method (body:part?), a name or a word (help \"force\")"},
       {"source(f), f??", "the text of a function written in Lua, one typed here included"},
       {"Tab", "completes names, methods, keys, what a key may be, boundary parts, files"},
       {"_", "the last result; 5, 6 and return 5, 6 leave the first"},

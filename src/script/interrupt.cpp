@@ -6,7 +6,12 @@
 #include <cstdlib>
 #include <ctime>
 
+#include <link.h>
+#include <pthread.h>
+#include <setjmp.h>
 #include <sys/resource.h>
+#include <sys/time.h>
+#include <ucontext.h>
 #include <unistd.h>
 
 #include "script/lua.hpp"
@@ -105,7 +110,36 @@ bool ends(double time) {
   return false;
 }
 
-void on_signal(int signal) {
+// Work that can be left: where to, on which thread, and the code of Lua's library.
+std::atomic<sigjmp_buf*> way_out{nullptr};
+pthread_t worker;
+std::uintptr_t library_begin = 0, library_end = 0;
+
+std::uintptr_t interrupted_at([[maybe_unused]] const void* context) {
+#if defined(__x86_64__)
+  return static_cast<std::uintptr_t>(static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP]);
+#elif defined(__aarch64__)
+  return static_cast<const ucontext_t*>(context)->uc_mcontext.pc;
+#else
+  return 0;
+#endif
+}
+
+// Where the work is elsewhere for a moment (the C library compares letters), again in a millisecond.
+void leave_work(const void* context) {
+  sigjmp_buf* const place = way_out;
+  if (!place) return;
+  if (!pthread_equal(pthread_self(), worker)) {
+    pthread_kill(worker, SIGALRM);
+    return;
+  }
+  const std::uintptr_t at = interrupted_at(context);
+  if (library_begin <= at && at < library_end) siglongjmp(*place, 1);
+  const itimerval soon{{0, 0}, {0, 1000}};
+  setitimer(ITIMER_REAL, &soon, nullptr);
+}
+
+void on_signal(int signal, siginfo_t*, void* context) {
   const double time = now();
   if (ends(time)) {
     std::signal(signal, SIG_DFL);
@@ -114,7 +148,10 @@ void on_signal(int signal) {
   }
   pending = true;
   arm(running);
+  leave_work(context);
 }
+
+void on_alarm(int, siginfo_t*, void* context) { leave_work(context); }
 
 // The stack of the processor: where it begins, and how much of it is for one another's coroutines. Lua counts nested
 // calls of C anew in a coroutine that is being closed, so without end.
@@ -215,6 +252,36 @@ void raise_if_interrupted(lua_State* L) {
   if (pending) raise(L, "", "interrupted");
 }
 
+bool abandonable(void (*work)(void*), void* data) {
+  sigjmp_buf place;
+  worker = pthread_self();
+  if (sigsetjmp(place, 1) != 0) {
+    way_out = nullptr;
+    return false;
+  }
+  way_out = &place;
+  const bool begun = !pending;
+  if (begun) work(data);
+  way_out = nullptr;
+  return begun;
+}
+
+void let_abandon(std::uintptr_t function) {
+  library_begin = function;
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, std::size_t, void*) {
+        for (int k = 0; k < info->dlpi_phnum; ++k) {
+          const auto& part = info->dlpi_phdr[k];
+          const std::uintptr_t begin = info->dlpi_addr + part.p_vaddr, end = begin + part.p_memsz;
+          if (part.p_type != PT_LOAD || library_begin < begin || library_begin >= end) continue;
+          library_begin = begin, library_end = end;
+          return 1;
+        }
+        return 0;
+      },
+      nullptr);
+}
+
 void leave_interrupts() { std::signal(SIGINT, SIG_DFL); }
 
 void keep_session() { session = true; }
@@ -240,8 +307,12 @@ void watch_interrupts(lua_State* L) {
   lua_xpcall = lua_tocfunction(L, -1);
   lua_pop(L, 1);
   struct sigaction action {};
-  action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_SIGINFO | SA_RESTART;
+  action.sa_sigaction = on_alarm;
+  sigaction(SIGALRM, &action, nullptr);
+  action.sa_flags = SA_SIGINFO;
+  action.sa_sigaction = on_signal;
   sigaction(SIGINT, &action, nullptr);
 }
 

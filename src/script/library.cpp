@@ -113,23 +113,12 @@ const Type* Library::find_type(const std::string& name) const {
 }
 
 const Descriptor* Library::find(const std::string& name) const {
-  const Descriptor* found = nullptr;
-  int short_matches = 0;
-  const auto look = [&](const Descriptor& one) {
-    if (one.name == name) return true;
-    const bool tail = one.name == "dotyk." + name || one.short_name() == name;
-    if (tail && short_matches++ == 0) found = &one;
-    return false;
-  };
-  for (const auto& one : functions_) {
-    if (look(one)) return &one;
-  }
-  for (const auto& type : types_) {
-    for (const auto& one : type.methods) {
-      if (look(one)) return &one;
-    }
-  }
-  return found;
+  for (const auto& one : functions_)
+    if (one.name == name) return &one;
+  for (const auto& type : types_)
+    for (const auto& one : type.methods)
+      if (one.name == name) return &one;
+  return nullptr;
 }
 
 std::vector<std::string> Library::names() const {

@@ -110,8 +110,7 @@ class Library {
   const std::deque<Type>& types() const { return types_; }
   const std::deque<Module>& modules() const { return modules_; }
 
-  // By name; null if there is none. find() takes functions and methods, by full
-  // or, when no other has it, by short name.
+  // By name; null if there is none. find() takes functions and methods, by full name ("dotyk.solve", "part:load").
   const Type* find_type(const std::string& name) const;
   const Descriptor* find(const std::string& name) const;
   // Every name find() and find_type() know.

@@ -4,6 +4,7 @@
 
 #include "script/interrupt.hpp"
 #include "script/lua.hpp"
+#include "script/lua_patterns.hpp"
 #include "script/position.hpp"
 #include "script/replaced.hpp"
 
@@ -109,6 +110,7 @@ int get_registry(lua_State* L) { refuse(L, "debug.getregistry", "the registry is
 }  // namespace
 
 void guard_lua(lua_State* L) {
+  guard_patterns(L);
   replace(L, {{"string", "rep", repeat}, {"table", "move", move}, {"table", "insert", insert}, {"table", "remove", remove}});
   replace(L, {{"debug", "setupvalue", set_upvalue}, {"debug", "setlocal", set_local}, {"debug", "setmetatable", set_metatable},
               {"debug", "setuservalue", set_user_value}, {"debug", "getregistry", get_registry}});

@@ -5,7 +5,7 @@ struct lua_State;
 
 namespace dotyk::script {
 
-// string.rep of nothing; table.move, insert and remove over any number of places; of debug what would change functions
+// Patterns (lua_patterns.hpp); string.rep of nothing; table.move, insert and remove over any number of places; of debug what would change functions
 // and values that are not written in Lua, which is refused.
 void guard_lua(lua_State* L);
 

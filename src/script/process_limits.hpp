@@ -4,7 +4,8 @@
 
 namespace dotyk::script {
 
-// Bytes, and seconds of processors' time; absent: no limit.
+// Bytes, and seconds of processors' time, that of the programs that read files included (reader/processor_time.hpp); absent:
+// no limit.
 struct ProcessLimits {
   std::optional<double> seconds, memory, file;
 

@@ -20,6 +20,7 @@
 #include "script/position.hpp"
 #include "script/prompt_input.hpp"
 #include "script/push.hpp"
+#include "script/watch.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -201,6 +202,7 @@ class Prompt {
     if (!error && count > 0) error = show_values(count);
     lua_settop(L_, base);
     clear_interrupt();
+    forget_judged();
     if (error) report(*error);
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -13,6 +14,12 @@
 #include "script/progress.hpp"
 
 namespace dotyk::script {
+
+namespace {
+std::set<std::string> judged;  // places of which judge() has told
+}  // namespace
+
+void forget_judged() { judged.clear(); }
 
 Record iteration_record(const IterationInfo& info) {
   Record record{"iteration",
@@ -69,6 +76,14 @@ void Watch::limit(double seconds) {
 bool Watch::stop() {
   told_ = told_ || interrupted();
   return refused_ || interrupted() || (deadline_ && std::chrono::steady_clock::now() > *deadline_);
+}
+
+void Watch::judge(const solver::Result& result) {
+  if (result.converged || interrupted()) return;  // of an interruption answer() tells
+  const std::string place = position(L_);
+  if (!judged.insert(place).second) return;
+  clear_progress();
+  std::fprintf(stderr, "%snot converged (%s): %s (said once for this line)\n", place.c_str(), result.method.c_str(), result.reason.c_str());
 }
 
 void Watch::answer(const char* advice) {

@@ -8,11 +8,15 @@
 
 #include "base/monitor.hpp"
 #include "script/call.hpp"
+#include "solver/solver.hpp"
 
 namespace dotyk::script {
 
 // A row of s.history, and what on_iteration gets.
 Record iteration_record(const IterationInfo& info);
+
+// What was said of a line counts no more: the next input at the prompt begins.
+void forget_judged();
 
 // Lives on the stack of a binding while the work runs. Asks to stop after
 // Ctrl-C, or when on_iteration returned false. An error inside on_iteration is a
@@ -33,6 +37,10 @@ class Watch : public Monitor {
   void phase(const std::string& what) override;
   void iteration(const IterationInfo& info) override;
   bool stop() override;
+
+  // Says on standard error of a result that has not converged that it is none to rely on: once for each line of a
+  // script (at the prompt, of an input), so that a map of failures is not drowned; see forget_judged().
+  void judge(const solver::Result& result);
 
   // To be called with the result in hand, partial or not. At the prompt, and in
   // functions called there, a request to stop is thereby answered and the user gets

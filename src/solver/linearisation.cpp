@@ -40,6 +40,8 @@ Projection closed(double y) { return {y, 1}; }
 
 }  // namespace
 
+bool may_open(const problem::Law& law, int row) { return law.unilateral() || law.multipliers(row).low == 0; }
+
 bool Linearisation::same_piece(const Linearisation& other, int row) const {
   return slope[row] == other.slope[row] && (slope[row] != 0 || value[row] == other.value[row]);
 }
@@ -80,9 +82,9 @@ Linearisation from_flags(const Problem& problem, const std::vector<char>& active
   Linearisation l = sized(problem.rows());
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
-      set(l, r, 0,
-          group.law->unilateral() ? (active[r] ? closed(0) : kOpen)
-                                  : group.law->project(r - group.first, 0, rho[r]));
+      set(l, r, 0, may_open(*group.law, r - group.first) && !active[r] ? kOpen
+                   : group.law->unilateral()                           ? closed(0)
+                                                                       : group.law->project(r - group.first, 0, rho[r]));
   return l;
 }
 

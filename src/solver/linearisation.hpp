@@ -41,7 +41,11 @@ Linearisation linearise(const problem::Problem& problem, const algebra::Vector& 
                         const algebra::Vector& x, const algebra::Vector& rho, const Noise& noise,
                         const Linearisation* previous);
 
-/// The linearisation whose unilateral rows are active as flagged (others: at y = 0).
+/// Has the row a branch that bears nothing, which a flag of a start can name: is it unilateral, or one-sided with springs or a
+/// greatest force?
+bool may_open(const problem::Law& law, int row);
+
+/// The linearisation whose rows that may open are active as flagged (others: at y = 0).
 Linearisation from_flags(const problem::Problem& problem, const std::vector<char>& active,
                          const algebra::Vector& rho);
 

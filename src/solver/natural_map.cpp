@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/linearisation.hpp"
+
 namespace dotyk::solver {
 
 using algebra::DenseMatrix;
@@ -118,13 +120,13 @@ NaturalMap::Value NaturalMap::sticking(const std::vector<char>& start) const {
   std::vector<char> closed(m, 0);
   for (const RowGroup& group : problem_.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
-      closed[r] = group.law->unilateral() ? (start.empty() ? problem_.c[r] <= touching : start[r]) : 1;
+      closed[r] = !may_open(*group.law, r - group.first) || (start.empty() ? !group.law->unilateral() || problem_.c[r] <= touching : start[r]);
   for (const FrictionGroup& group : problem_.friction)
     for (int k = 0; k < group.points(); ++k)
       for (int i = 0; i < group.components; ++i) closed[group.row(k) + i] = group.normal[k] < 0 || closed[group.normal[k]];
   std::vector<char> scalar(m, 0);
   for (const RowGroup& group : problem_.groups)
-    for (int r = group.first; r < group.first + group.count; ++r) scalar[r] = !group.law->unilateral();
+    for (int r = group.first; r < group.first + group.count; ++r) scalar[r] = !group.law->unilateral() && closed[r];
   std::erase_if(v.slope, [&](const auto& t) { return !scalar[t.row()]; });
   for (int r = 0; r < m; ++r) {
     if (scalar[r]) continue;

@@ -128,7 +128,8 @@ class Iteration {
     std::vector<char> active = settings_.start;
     if (active.empty()) {
       active.resize(problem_.rows());
-      for (int r = 0; r < problem_.rows(); ++r) active[r] = problem_.c[r] <= touching;
+      for (const problem::RowGroup& group : problem_.groups)
+        for (int r = group.first; r < group.first + group.count; ++r) active[r] = !group.law->unilateral() || problem_.c[r] <= touching;
     }
     Linearisation l = from_flags(problem_, active, rho_);
     return held(std::move(l), -problem_.c);
@@ -185,7 +186,7 @@ class Iteration {
       const std::string why = cause(end);
       const std::string how = (this->*rescue)(end, l);
       if (how.empty()) continue;
-      rescued_ = why + "; left by " + how;
+      rescued_ = "; before, " + why + ", left by " + how;
       end = iterate(l, kConfirmations, kConfirmations);
     }
     if (end == End::exhausted && left() > 0) end = iterate(l, left(), left());
@@ -196,13 +197,13 @@ class Iteration {
   std::string cause(End end) const {
     if (end == End::cycle) return "active sets repeated at " + places(problem_, changed_);
     if (end == End::singular) return text("the linear problem of iteration ", result_.iterations, " was singular");
-    return text("no repeated active set in ", result_.iterations, " iterations");
+    return text("no confirmed active set in ", result_.iterations, " iterations");
   }
 
   void conclude(End end) {
     result_.converged = end == End::repeated;
     switch (end) {
-      case End::repeated: result_.reason = rescued_.empty() ? "the active set repeats" : rescued_; break;
+      case End::repeated: result_.reason = "active set confirmed" + rescued_; break;
       case End::misplaced: result_.reason = text("a screw still pulls after ", screws_->moves(), " moves"); break;
       case End::interrupted: result_.reason = "interrupted; this is the state so far"; break;
       case End::singular:
@@ -211,7 +212,7 @@ class Iteration {
         break;
       case End::cycle: by_active_set(); break;
       case End::exhausted:
-        result_.reason = text("no repeated active set within ", settings_.max_iterations,
+        result_.reason = text("no confirmed active set within ", settings_.max_iterations,
                               " iterations; rows that still change: ", places(problem_, changed_));
     }
   }
@@ -354,7 +355,9 @@ class Iteration {
     result_.working_set = settled.working_set;
     result_.active_sets.push_back(settled.active_sets.back());
     result_.clock.factor += settled.clock.factor;
-    result_.reason += text("; left by ", settled.iterations, " steps of active_set", settled.converged ? "" : ", in vain: " + settled.reason);
+    result_.reason = settled.converged ? text("active set confirmed; before, active sets repeated at ", places(problem_, changed_), ", left by ",
+                                              settled.iterations, " steps of active_set")
+                                       : text(result_.reason, "; ", settled.iterations, " steps of active_set in vain: ", settled.reason);
     lambda_ = settled.state.lambda;
     settled_ = std::move(settled.state.u);
   }

@@ -6,6 +6,7 @@
 #include "elasticity/material.hpp"
 #include "figure/compose.hpp"
 #include "mesh/generators.hpp"
+#include "solver/psor.hpp"
 
 using namespace dotyk;
 
@@ -20,7 +21,7 @@ std::shared_ptr<scene::Body> block(const std::string& name, double low) {
 }
 
 /// Two blocks `gap` apart, the upper one moved onto the lower and 0.0019 further.
-double factor_across(double gap) {
+std::shared_ptr<scene::Solution> pressed(double gap, const solver::Method& method = {}) {
   auto lower = block("lower", 0), upper = block("upper", 1 + gap);
   auto held = scene::named_part(lower, "bottom"), moved = scene::named_part(upper, "top");
   scene::fix(held, {true, true, true});
@@ -28,8 +29,10 @@ double factor_across(double gap) {
   const auto s = scene::make_scene({lower, upper});
   scene::add_contact(*s, scene::named_part(upper, "bottom"), scene::named_part(lower, "top"), {}, {}, true);
   Monitor quiet;
-  return figure::visible_deformation(*scene::solve(s, {}, {}, quiet));
+  return scene::solve(s, method, {}, quiet);
 }
+
+double factor_across(double gap) { return figure::visible_deformation(*pressed(gap)); }
 
 }  // namespace
 
@@ -119,4 +122,13 @@ TEST_CASE("an obstacle that nothing touches stays where it is") {
   const figure::ScenePicture picture = figure::compose(*scene::solve(s, {}, {}, quiet), options);
   REQUIRE(picture.obstacles.size() == 1);
   CHECK(picture.obstacles[0].points == std::vector<double>{0, 0, 0, 0.5, 0, 0, 1, 0, 0});
+}
+
+TEST_CASE("the picture of a solution that has not converged says so") {
+  solver::Psor one_step;
+  one_step.max_iterations = 1;
+  const auto poor = pressed(0, one_step);
+  REQUIRE_FALSE(poor->result().converged);
+  CHECK(figure::compose(*poor, {}).caption == "not converged: no convergence within 1 iterations");
+  CHECK(figure::compose(*pressed(0), {}).caption.empty());
 }

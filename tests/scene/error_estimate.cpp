@@ -6,6 +6,7 @@
 
 #include "../support/scenes.hpp"
 #include "scene/adaptive.hpp"
+#include "scene/distance.hpp"
 
 using namespace dotyk;
 
@@ -253,6 +254,37 @@ TEST_CASE("against a closed form the estimate comes to be exact") {
     }
     CHECK(last == doctest::Approx(1).epsilon(dim == 2 ? 0.02 : 0.15));
   }
+}
+
+TEST_CASE("on soft springs, of a part or by a law, the estimate is measured by the norm that distances are, energy of springs included") {
+  // Mostly the springs' energy: a block that hardly deforms. No load turns it: a law acts at nodes, and the moment of such
+  // springs depends on the mesh.
+  for (const bool by_law : {false, true})
+    for (const int dim : {2, 3}) {
+      const auto held = [&](int n) {
+        const auto b = test::block("block", dim, mesh::Family::p1, n);
+        if (by_law) {
+          auto bottom = test::part(b, "bottom");
+          const problem::SupportLaw soft{problem::SupportLaw::Kind::elastic, 1};
+          scene::support(bottom, soft, soft);
+        } else {
+          test::springs(b, "bottom", {1, 1, 1});
+        }
+        test::pull(b, "top", [dim](const mesh::Point& x) {
+          const double hill = x[0] * (1 - x[0]);
+          return dim == 2 ? mesh::Point{0, -hill, 0} : mesh::Point{0, 0, -hill * x[1] * (1 - x[1])};
+        });
+        return solve(scene::make_scene({b}));
+      };
+      const auto s = held(6), exact = held(dim == 2 ? 48 : 12);
+      const auto& estimate = s->error_estimate();
+      const double whole = -2 * s->energy();  // u'Ku, springs and laws included: at the least J = ½u'Ku − f'u = −½u'Ku
+      CHECK(estimate.relative == doctest::Approx(estimate.absolute / std::sqrt(estimate.absolute * estimate.absolute + whole)).epsilon(1e-9));
+      const double distance = scene::distance(*s, *exact).energy;
+      INFO(dim, "-D", std::string(by_law ? ", law" : ", spring"), ": ", estimate.relative, " estimated, ", distance, " from a finer mesh");
+      CHECK(estimate.relative < 3 * distance);
+      CHECK(distance < 2 * estimate.relative);
+    }
 }
 
 TEST_CASE("two blocks pressed together, of constant stress: no error in body, boundary or contact") {

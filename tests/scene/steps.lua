@@ -64,6 +64,29 @@ for dim, path in pairs(paths) do
   check.near(t:contact(contact).friction_force[1], slider({ path[#path] }, limit, k)[1][1], 1e-11)
 end
 
+-- The same with a support by laws in place of the floor: the top moves instead, and the support tells what it dissipates.
+do
+  local b <const> = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {2,0.5}, cells = {3,1}, element = "Q1" }, material = dotyk.material{ E = E, nu = 0 } }
+  b:part "top":displace{ x = 1, y = 0 }
+  local bottom <const> = b:part "bottom"
+  bottom:support{ normal = dotyk.law.prescribed(0), tangential = dotyk.law.friction(g) }
+  local limit <const>, k <const> = g * 2, E / 2 * 2 / 0.5
+  local forces, works = slider(paths[2], limit, k)
+  local steps = {}
+  for i, to in ipairs(paths[2]) do steps[i] = { load = to[1] } end
+  local scene <const> = dotyk.scene{ b }
+  local s = dotyk.solve(scene, { steps = steps })
+  check.that(s.converged and #s.steps == #steps)
+  for i, t in ipairs(s.steps) do
+    check.near(t:support(bottom).force[1], -forces[i][1], 1e-11)
+    check.near(t:support(bottom).dissipated, works[i], 1e-12)
+  end
+  check.that(tostring(s):find(("dissipated %.6g"):format(works[#works]), 1, true))
+  local t
+  for i = 1, #steps do t = dotyk.solve(scene, { after = t, steps = { steps[i] } }) end
+  check.near(t:support(bottom).dissipated, works[#works], 1e-12)
+end
+
 -- A shape that moves along its normal is a gap: down by d as a plane placed lower by d.
 for _, d in ipairs{ 0.03, -0.02 } do
   local function pressed(y, move)

@@ -79,6 +79,21 @@ expect "a logarithmic axis" 0 'a.png' "dotyk: a.png: zero and negative values ha
   "$dotyk" -e 'print(dotyk.chart{ file = "a.png", log = "y", series = { { name = "error", x = {1,2,3}, y = {1,0,-1} }, { x = {0,1}, y = {1,2} }, { x = {0,1}, y = {0,2} } } })'
 expect "a linear axis" 0 '' '' "$dotyk" -e 'dotyk.chart{ file = "a.png", series = { { x = {1,2}, y = {0,-1} } } }'
 
+# A solution that is none is said to be so, once for a line of the script.
+printf '%s\n' 'local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {4,4} }, material = dotyk.material{ E = 1 } }' \
+  'b:part "top":load{ 0, -1 } b:part "left":fix "x"' 'local scene = dotyk.scene{ b }' \
+  'scene:contact{ b:part "bottom", rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} } }' \
+  'local s for k = 2, 4 do s = dotyk.solver.psor{ max_iterations = k }:solve(scene) end' 'print(s.converged, tostring(s):match "NOT CONVERGED: [^\n]*")' \
+  'dotyk.solve(scene) dotyk.solver.psor{ max_iterations = 1 }:solve(scene)' \
+  'print(pcall(s.error_estimate, s))' \
+  'local beam = dotyk.beam{ load = -1, left = { deflection = dotyk.law.signorini() }, right = { deflection = dotyk.law.signorini() } }' \
+  'dotyk.solver.psor{ max_iterations = 1 }:solve(beam)' >doubtful.lua
+expect "solutions that are none" 0 $'false\tNOT CONVERGED: no convergence within 4 iterations (psor, 4 iterations)
+false\tdoubtful.lua:8: error_estimate: the solution has not converged, so that the error estimate, which is of a solution, does not apply (no convergence within 4 iterations)' \
+  $'doubtful.lua:5: not converged (psor): no convergence within 2 iterations (said once for this line)
+doubtful.lua:7: not converged (psor): no convergence within 1 iterations (said once for this line)
+doubtful.lua:10: not converged (psor): no convergence within 1 iterations (said once for this line)' "$dotyk" doubtful.lua
+
 "$dotyk" --traceback wrong.lua 2>&1 >/dev/null | grep -q 'stack traceback' || fail "--traceback"
 [[ $(ldd "$dotyk" | grep -c 'liblua') == 1 ]] || fail "linked with other than one Lua library"
 if ldd "$dotyk" | grep -q vtk; then fail "linked with VTK"; fi
@@ -100,7 +115,10 @@ wait $!
 # What Lua's library does for ever, one Ctrl-C ends, too.
 for code in 'table.move({}, 1, math.maxinteger - 1, 2)' 'table.insert(setmetatable({}, { __len = function() return 1 << 62 end }), 1, 0)' \
   'table.remove(setmetatable({}, { __len = function() return 1 << 62 end }), 1)' 'xpcall(error, function() while true do end end)' \
-  'while true do xpcall(function() while true do end end, function() while true do end end) end'; do
+  'while true do xpcall(function() while true do end end, function() while true do end end) end' \
+  '(("a"):rep(60)):find(("a?"):rep(60) .. ("a"):rep(60) .. "c")' '(("("):rep(1e6)):match "%b()"' '(("a"):rep(1e6)):gsub(".-b", "")' \
+  '(("a"):rep(1e6)):gsub(".-.-b", print)' 'for _ in (("a"):rep(1e6)):gmatch "(.-)%1b" do end' \
+  'coroutine.wrap(function() while true do pcall(string.find, ("a"):rep(1e6), ".-.-b") end end)()'; do
   "$dotyk" -e "$code" 2>err.txt &
   await_handler $!
   kill -INT $!

@@ -119,6 +119,34 @@ TEST_CASE("help on a text that is no name does not repeat it") {
   CHECK(bench.error("help 'dotyk.refernce'").find("did you mean 'dotyk.reference'?") != std::string::npos);
 }
 
+TEST_CASE("help on a word finds all that has it, names before texts") {
+  Interpreter interpreter;
+  const auto& library = interpreter.library();
+  const auto found = [&](const std::string& word) { return help_search(library, word); };
+  for (const auto& one : library.functions()) {
+    INFO(one.name);
+    CHECK(found(one.short_name()).find(one.name) != std::string::npos);
+  }
+  for (const auto& type : library.types()) {
+    CHECK(found(type.name).find(type.name) != std::string::npos);
+    for (const auto& one : type.methods) CHECK(found(one.short_name()).find(one.name) != std::string::npos);
+    for (const auto& field : type.fields) CHECK(found(field.name).find(type.name + "." + field.name) != std::string::npos);
+  }
+  const auto load = found("load");
+  const auto at = [&](const char* name) { return load.find(std::string("\n  ") + name + " "); };
+  for (const char* name : {"part:load", "dotyk.law.load", "dotyk.beam{ load }"}) CHECK(at(name) != std::string::npos);
+  CHECK(at("part:load") < at("dotyk.beam{ load }"));     // the very name, of functions before keys,
+  CHECK(at("dotyk.beam{ load }") < at("dotyk.beam{ loads }"));
+  CHECK(at("dotyk.beam{ loads }") < at("part:pressure"));  // then names that have it, then texts
+  CHECK(found("force").find("dotyk.body{ force }") != std::string::npos);
+  CHECK(found("von mises").find("solution:stress") != std::string::npos);
+  CHECK(found("Von_Mises") == found("von mises"));
+  for (const char* word : {"cone", "bolt", "contact", "write", "step", "render", "displacement"}) CHECK_FALSE(found(word).empty());
+  CHECK(found("pdas").rfind("dotyk.solver.pdas{", 0) == 0);  // one thing alone is called so: its help, then where else
+  CHECK(found("pdas").find("\nThe word is also in:\n") != std::string::npos);
+  for (const char* none : {"xyzzy", "", " ", "%%", "orce"}) CHECK(found(none).empty());
+}
+
 TEST_CASE("callables written in Lua are checked like the others") {
   Bench bench;
   lua_State* L = bench.interpreter.state();

@@ -10,6 +10,53 @@ check.equal(("ab"):rep(-1), "")
 refused(function() ("x"):rep() end, "number expected, got no value")
 refused(function() ("x"):rep(math.maxinteger) end, "resulting string too large")
 
+-- Patterns that may take long, matched in a state of their own, give what Lua's do: those of a text with much before it are
+-- the same but for the places.
+do
+  local long <const> = ("."):rep(4000)
+  local function captured(f, ...) return table.pack(pcall(f, ...)) end
+  local function alike(name, text, pattern, ...)
+    for _, more in ipairs{ "", long } do
+      local plain <const>, guarded <const> = captured(string[name], text .. more, pattern, ...), captured(string[name], text .. more, pattern .. ("%z?"):rep(30), ...)
+      check.equal(guarded, plain, name .. " " .. pattern)
+    end
+  end
+  for _, text in ipairs{ "", "one two  three", "key = value; other=thing", "(a(b)c) [x]", "^a^b", "aaa" } do
+    for _, pattern in ipairs{ "", "a*", "a-", "%w+", "(%w+)%s*=%s*(%w+)", "()%w+()", "%b()", "%f[%w]%w+", "^%w+", "(.)%1", "^", "%s*", "x" } do
+      alike("find", text, pattern)
+      alike("find", text, pattern, 3)
+      alike("find", text, pattern, -2)
+      alike("match", text, pattern)
+      alike("gsub", text, pattern, "<%0>")
+      alike("gsub", text, pattern, "<%0>", 2)
+      alike("gsub", text, pattern, { one = 1, two = "2", a = false })
+      alike("gsub", text, pattern, function(first, second) return second and tostring(second) .. tostring(first) end)
+      local function all(s, p, ...)
+        local found <const> = {}
+        for a, b in s:gmatch(p, ...) do found[#found + 1] = { a, b } end
+        return found
+      end
+      for _, first in ipairs{ 1, 4, -3 } do
+        check.equal(captured(all, text .. long, pattern .. ("%z?"):rep(30), first), captured(all, text .. long, pattern, first), "gmatch " .. pattern)
+      end
+    end
+  end
+  local costly <const> = ("a?"):rep(30)
+  refused(function() return long:find(costly .. "[a") end, "malformed pattern (missing ']')")
+  refused(function() return long:gsub(costly .. ".", "%9") end, "invalid capture index %9")
+  refused(function() return long:gsub(costly .. ".", function() return {} end) end, "invalid replacement value (a table)")
+  refused(function() return long:gsub(costly .. ".", true) end, "bad argument #2 to 'gsub'")
+  refused(function() return long:find(costly, {}) end, "bad argument #2 to 'find'")
+  check.equal({ pcall(long.gsub, long, costly .. ".", error) }, { false, "." })
+  -- As it stands, in linear time.
+  local many <const> = ("a"):rep(1 << 22)
+  check.equal({ many:find(("a"):rep(1 << 21) .. "b") }, {})
+  check.equal({ (many .. "b"):find("aab", 1, true) }, { (1 << 22) - 1, (1 << 22) + 1 })
+  check.equal({ (many .. "b"):find("aab", -2, true) }, {})
+  -- One within another.
+  check.equal((("ab"):rep(2000)):gsub("(%w)" .. ("%z?"):rep(30), function(c) return (("x"):rep(50)):match("x*" .. ("%z?"):rep(30)) and c:upper() end), ("AB"):rep(2000))
+end
+
 local function text(t) return table.concat(t, " ") end
 check.equal(text(table.move({ 1, 2, 3 }, 1, 3, 2)), "1 1 2 3")
 check.equal(text(table.move({ 1, 2, 3 }, 2, 3, 1)), "2 3 3")

@@ -159,6 +159,17 @@ wait $!
 got=$(timeout 20 "$dotyk" --seconds 1 -e 'table.move({}, 1, 1 << 60, 2)' 2>&1)
 [[ $? == 1 && $got == "dotyk: the limit of processors' time is reached (--seconds)" ]] || fail "--seconds: $got"
 
+# That of the programs that read files counts, and each gets no more than what is left: a bad file of many cells, again and again.
+bad='local f = io.open("below/bad.msh", "w") f:write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n160801\n")
+  for i = 0, 160800 do f:write(i + 1, " ", i % 401, " ", i // 401, " 0\n") end
+  f:write("$EndNodes\n$Elements\n160000\n")
+  for i = 0, 159999 do local a = i // 400 * 401 + i % 400 + 1 f:write(i + 1, " 3 2 1 1 ", a, " ", a + 401, " ", a + 402, " ", a + 900000, "\n") end
+  f:write "$EndElements\n" f:close()'
+"$dotyk" -e "$bad"
+got=$(timeout 20 "$dotyk" --safe below --seconds 1 -e 'while true do pcall(dotyk.mesh.load, "below/bad.msh") end' 2>&1)
+[[ $? == 1 && $got == "dotyk: the limit of processors' time is reached (--seconds)" ]] || fail "--seconds and files: $got"
+rm below/bad.msh
+
 # The same without a word where the script is a stranger's; what Lua's library does meanwhile no count of instructions sees.
 endless() {
   local got

@@ -42,7 +42,7 @@ TEST_CASE("too few iterations: not converged, with a reason that names rows, and
       const auto r = solver::solve(p, settings, quiet);
       CHECK_FALSE(r.converged);
       CHECK(r.iterations == most);
-      CHECK(r.reason.find("no repeated active set within " + std::to_string(most) + " iterations") == 0);
+      CHECK(r.reason.find("no confirmed active set within " + std::to_string(most) + " iterations") == 0);
       REQUIRE(r.state.u.size() == p.unknowns());
       REQUIRE(r.state.lambda.size() == p.rows());
       if (most == 0) continue;

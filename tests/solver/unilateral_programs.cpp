@@ -76,7 +76,7 @@ TEST_CASE("an M-matrix: monotone, at most n + 1 solves from every start") {
       REQUIRE(r.converged);
       CHECK(r.iterations <= 4);
       CHECK((r.state.u - Vector{{0.5, 0, 0.5}}).norm() < 1e-14);
-      CHECK(r.reason == "the active set repeats");
+      CHECK(r.reason == "active set confirmed");
     }
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("Fathi's matrix, exponential for pivoting methods, takes seven solves 
     const auto r = solver::solve(p, test::pdas(true, flags(set, 6)), quiet);
     REQUIRE(r.converged);
     CHECK((r.state.u - exact->u).norm() < 1e-9);
-    CHECK(r.reason == "the active set repeats");
+    CHECK(r.reason == "active set confirmed");
     if (set == 63) CHECK(r.iterations == 7);
   }
 }
