@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "contact/corner_means.hpp"
+#include "contact/frame.hpp"
 #include "contact/second_facets.hpp"
 
 namespace dotyk::contact {
@@ -224,18 +225,23 @@ std::vector<NodePair> match(const Face& first, const Face& second) {
   return std::move(found.pairs);
 }
 
-ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Face& first, const Face& second) {
+ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Frames& frames) {
+  const Frame frame = frames.of(side, partners);
+  return row_of(side, std::move(partners), added, frames.first, frames.second, frame);
+}
+
+ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Face& first, const Face& second, const Frame& frame) {
   const Point x = first.mesh.point(side.node);
   Point own{0, 0, 0}, across{0, 0, 0};
   for (const NodeWeight& p : side.own)
     for (int i = 0; i < 3; ++i) own[i] += p.weight * first.mesh.point(p.node)[i];
   for (const NodeWeight& p : partners)
     for (int i = 0; i < 3; ++i) across[i] += p.weight * second.mesh.point(p.node)[i];
-  const double gap = dot(minus(across, own), side.normal) + added;
+  const double gap = dot(minus(across, own), frame.normal) + added;
   if (!std::isfinite(gap))
     throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), first.mesh.dimension()),
                           "; it must be a finite number"));
-  return {side.node, side.own, std::move(partners), side.normal, gap, side.weight, side.facets, added};
+  return {side.node, side.own, std::move(partners), frame.normal, gap, side.weight, side.facets, added, frame.mix, frame.turn};
 }
 
 namespace {
@@ -265,25 +271,25 @@ std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::un
     for (int k = 0; k < first.mesh.topology().nodes_per_facet; ++k) all = all && partner.count(first.mesh.facet_node(f, k)) > 0;
     used.push_back(all);
   }
+  const Frames frames(first, second);
   std::vector<ContactRow> rows;
   const double size = first.mesh.size();
   for (const NodeSide& side : corner_sides(first.mesh, first.facets, used)) {
     double more = 0, least = INFINITY;
     std::map<int, double> across;
     for (const NodeWeight& own : side.own) {
-      const Point x = first.mesh.point(own.node);
-      if (added) more += own.weight * added(x);
-      double gap = -dot(x, side.normal);
-      for (const NodeWeight& p : partner.at(own.node)) {
-        across[p.node] += own.weight * p.weight;
-        gap += p.weight * dot(second.mesh.point(p.node), side.normal);
-      }
-      least = std::min(least, gap);
+      if (added) more += own.weight * added(first.mesh.point(own.node));
+      for (const NodeWeight& p : partner.at(own.node)) across[p.node] += own.weight * p.weight;
     }
     std::vector<NodeWeight> partners;
     for (const auto& [node, weight] : across) partners.push_back({node, weight});
-    rows.push_back(row_of(side, std::move(partners), more, first, second));
+    rows.push_back(row_of(side, std::move(partners), more, frames));
     ContactRow& row = rows.back();
+    for (const NodeWeight& own : side.own) {
+      double gap = -dot(first.mesh.point(own.node), row.normal);
+      for (const NodeWeight& p : partner.at(own.node)) gap += p.weight * dot(second.mesh.point(p.node), row.normal);
+      least = std::min(least, gap);
+    }
     if (least >= -touching(first, size, side.facets)) row.gap = std::max(row.gap, row.added);  // a dual hat is negative in places: a mean of gaps may be
   }
   return rows;
@@ -311,10 +317,11 @@ std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const 
   if (first.mesh.topology().order == 2) {
     rows = mean_rows(first, second, std::move(partner), added);
   } else {
+    const Frames frames(first, second);
     for (const NodeSide& side : sides(first.mesh, first.facets)) {
       const auto found = partner.find(side.node);
       if (found == partner.end()) continue;
-      rows.push_back(row_of(side, found->second, added ? added(first.mesh.point(side.node)) : 0, first, second));
+      rows.push_back(row_of(side, found->second, added ? added(first.mesh.point(side.node)) : 0, frames));
     }
   }
   if (!interference) refuse_overlap(rows, first, second);
@@ -349,11 +356,14 @@ void refuse_slid(const std::vector<ContactRow>& rows, const Face& first, const F
 
 std::vector<ContactRow> moved_rows(const Mesh& before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
                                    bool interference) {
+  const auto across = smooth_sides(second);
   std::vector<ContactRow> result;
   for (const NodeSide& side : moved_sides(before, first.mesh, first.facets, first.name)) {
     if (result.size() == rows.size()) break;
     const ContactRow& row = rows[result.size()];  // rows are sides, those without partner left out
-    if (row.node == side.node && row.facets == side.facets) result.push_back(row_of(side, row.partners, row.added, first, second));
+    if (row.node != side.node || row.facets != side.facets) continue;
+    const Point normal = mixed_normal(side.normal, inward_across(side.normal, row.partners, across), row.mix);
+    result.push_back(row_of(side, row.partners, row.added, first, second, {normal, row.mix, row.turn}));
   }
   if (result.size() != rows.size()) throw std::logic_error("contact rows are not of this part");
   refuse_slid(result, first, second);

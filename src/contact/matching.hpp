@@ -38,9 +38,13 @@ std::vector<NodePair> match(const Face& first, const Face& second);
 /// that thousandth.
 inline constexpr double kTouching = 1e-6;
 
-/// The row of a side whose partners are known: the gap is (Σ weight x_partner − x)·normal + added. Throws InputError
-/// for a gap that is not finite.
-ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Face& first, const Face& second);
+class Frames;
+struct Frame;
+
+/// The row of a side whose partners are known: the gap is (Σ weight x_partner − x)·normal + added, the normal the frame's. Throws
+/// InputError for a gap that is not finite.
+ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Frames& frames);
+ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Face& first, const Face& second, const Frame& frame);
 /// Rows of a first part of order 2, one a side at each corner, each the mean of its own nodes' conditions; `partner`: what lies across
 /// from a node. Facets that have a node without are left out.
 std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,
@@ -58,8 +62,8 @@ std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const 
 std::vector<ContactRow> between(const Face& first, const Face& second,
                                 const elasticity::ScalarField& added, bool interference = false);
 
-/// The rows that between() made of `first` on the mesh `before`, whose nodes have moved (as those of `second` may have): pairs and
-/// what was added to the gaps stay, normals, weights and gaps are made anew. Throws as between() for an overlap, and as moved_sides().
+/// The rows that between() made of `first` on the mesh `before`, whose nodes have moved (as those of `second` may have): pairs, shares
+/// of both parts in the normals and what was added to the gaps stay, normals, weights and gaps are made anew. Throws as between() for an overlap, and as moved_sides().
 std::vector<ContactRow> moved_rows(const mesh::Mesh& before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
                                    bool interference);
 

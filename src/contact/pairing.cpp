@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "contact/corner_means.hpp"
+#include "contact/frame.hpp"
 
 namespace dotyk::contact {
 namespace {
@@ -85,11 +86,12 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
       if (!all[k].partners.empty()) feet.emplace(list[k].node, std::move(all[k].partners));
     rows = mean_rows(first, second, std::move(feet), added);
   } else {
+    const Frames frames(first, second);
     for (std::size_t k = 0; k < list.size(); ++k) {
       if (all[k].partners.empty()) continue;
       list[k].weight = all[k].weight;
       if (means) list[k].own = std::move(all[k].own);
-      rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, first, second));
+      rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, frames));
     }
   }
   if (interference) return rows;
@@ -107,11 +109,14 @@ double measure(const std::vector<ContactRow>& rows) {
   return std::accumulate(rows.begin(), rows.end(), 0.0, [](double sum, const ContactRow& row) { return sum + row.weight; });
 }
 
-/// Are there fewer nodes across than rows, by more than what an end more or less makes?
-bool coarser_across(const std::vector<ContactRow>& rows) {
-  std::unordered_set<int> across;
+/// Are there fewer corners across than rows, by more than what an end more or less makes?
+bool coarser_across(const std::vector<ContactRow>& rows, const Face& second) {
+  std::unordered_set<int> corners, across;
+  for (const mesh::Facet f : second.facets)
+    for (int a = 0; a < second.mesh.topology().facet_corners; ++a) corners.insert(second.mesh.facet_node(f, a));
   for (const ContactRow& row : rows)
-    for (const NodeWeight& partner : row.partners) across.insert(partner.node);
+    for (const NodeWeight& partner : row.partners)
+      if (corners.contains(partner.node)) across.insert(partner.node);
   return static_cast<double>(across.size()) < 0.95 * static_cast<double>(rows.size());
 }
 
@@ -209,8 +214,7 @@ PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairin
   }
   const Pairing used = pairing.value_or(Pairing::mortar);
   std::vector<ContactRow> rows = paired(first, second, used, added, interference, monitor);
-  const bool wavers = first.mesh.element == mesh::Element::triangle_p1 || first.mesh.element == mesh::Element::tetrahedron_p1;
-  if (used == Pairing::mortar && wavers && coarser_across(rows)) {
+  if (used == Pairing::mortar && coarser_across(rows, second)) {
     std::vector<ContactRow> turned = paired(second, first, used, added, interference, monitor);
     // Parts that lie above themselves cover more seen from the other side.
     if (measure(turned) < 1.1 * measure(rows)) return chords_seen({used, std::move(turned), true}, second, first);

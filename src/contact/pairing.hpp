@@ -20,9 +20,9 @@ struct PairedRows {
   double chord = 0;
 };
 
-/// Rows of contact by the pairing asked for; none asked for: at nodes where all match and facets are of one kind, else mortar. Mortar's multipliers are the first
-/// part's, but on triangles and tetrahedra of order 1 the second's where that is the coarser: on the finer the pressure wavers
-/// (scripts/mortar.lua: Hertz's contact 80 cells on 112, 0.9 of the error of matching nodes; the other way round 1.4). Throws InputError
+/// Rows of contact by the pairing asked for; none asked for: at nodes where all match and facets are of one kind, else mortar. Mortar's multipliers are the coarser
+/// part's, of two alike the first's, so that the order of naming decides nothing: on the finer the pressure wavers (scripts/mortar.lua,
+/// P1: Hertz's contact 80 cells on 112, 0.9 of the error of matching nodes; the other way round 1.4), and forces of friction are further off. Throws InputError
 /// where nodes do not match though that was asked for, where parts do not face each other, and as matching_rows().
 /// A mortar row's weight is the covered part's alone. Facets of curved parts that fit each other are chords of different
 /// places: without `interference` an overlap of their height is taken as touching. `monitor` may be null; throws Interrupted.

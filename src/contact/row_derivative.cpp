@@ -1,9 +1,11 @@
 #include "contact/row_derivative.hpp"
 
 #include <array>
+#include <map>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "contact/frame.hpp"
 #include "contact/tangents.hpp"
 #include "elasticity/shape_derivative.hpp"
 
@@ -54,34 +56,38 @@ Share share(const Mesh& mesh, Facet f, const std::vector<double>& V) {
   return s;
 }
 
-/// Mean normal and weight of the row's side; the gap is left 0.
-RowDerivative side_derivative(const Mesh& mesh, const std::vector<Facet>& facets, const ContactRow& row, const std::vector<Share>& shares) {
-  RowDerivative out;
-  Point m{0, 0, 0}, dm{0, 0, 0};
-  for (const int k : row.facets) {
-    const Share& s = shares[k];
-    for (int a = 0; a < mesh.topology().nodes_per_facet; ++a) {
-      if (mesh.facet_node(facets[k], a) != row.node) continue;
-      out.weight += s.dweight[a];
-      for (int i = 0; i < 3; ++i) {
-        m[i] += s.weight[a] * s.normal[i];
-        dm[i] += s.dweight[a] * s.normal[i] + s.weight[a] * s.dnormal[i];
+/// A part that moves, as its sides see it.
+class Turning {
+ public:
+  Turning(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<double>& V) : mesh_(mesh), facets_(facets) {
+    if (V.empty()) return;
+    for (const Facet f : facets) shares_.push_back(share(mesh, f, V));
+  }
+  /// Mean normal and weight of the side of these facets at a node; the gap is left 0.
+  RowDerivative at(int node, const std::vector<int>& side) const {
+    RowDerivative out;
+    if (shares_.empty()) return out;
+    Point m{0, 0, 0}, dm{0, 0, 0};
+    for (const int k : side) {
+      const Share& s = shares_[static_cast<std::size_t>(k)];
+      for (int a = 0; a < mesh_.topology().nodes_per_facet; ++a) {
+        if (mesh_.facet_node(facets_[static_cast<std::size_t>(k)], a) != node) continue;
+        out.weight += s.dweight[a];
+        for (int i = 0; i < 3; ++i) {
+          m[i] += s.weight[a] * s.normal[i];
+          dm[i] += s.dweight[a] * s.normal[i] + s.weight[a] * s.dnormal[i];
+        }
       }
     }
+    out.normal = unit_derivative(m, dm);
+    return out;
   }
-  out.normal = unit_derivative(m, dm);
-  return out;
-}
 
-std::vector<RowDerivative> side_derivatives(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<ContactRow>& rows,
-                                            const std::vector<double>& V) {
-  if (V.empty()) return std::vector<RowDerivative>(rows.size());
-  std::vector<Share> shares;
-  for (const Facet f : facets) shares.push_back(share(mesh, f, V));
-  std::vector<RowDerivative> out;
-  for (const ContactRow& row : rows) out.push_back(side_derivative(mesh, facets, row, shares));
-  return out;
-}
+ private:
+  const Mesh& mesh_;
+  const std::vector<Facet>& facets_;
+  std::vector<Share> shares_;
+};
 
 /// d/dt of (normal, gap) for a node at x that moves with v; the weight is left as it is.
 void set_distance(const RigidGap&, const ContactRow&, const Point& x, const Point& v, RowDerivative& out) {
@@ -104,23 +110,34 @@ void set_distance(const RigidBall& shape, const ContactRow& row, const Point& x,
 
 }  // namespace
 
-std::vector<RowDerivative> row_derivatives(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<ContactRow>& rows,
-                                           const std::vector<double>& first, const Mesh& partners, const std::vector<double>& second) {
-  std::vector<RowDerivative> out = side_derivatives(mesh, facets, rows, first);
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const ContactRow& row = rows[k];
+std::vector<RowDerivative> row_derivatives(const Face& first, const std::vector<ContactRow>& rows, const std::vector<double>& V,
+                                           const Face& second, const std::vector<double>& W) {
+  const Turning here(first.mesh, first.facets, V), there(second.mesh, second.facets, W);
+  std::map<std::pair<int, std::vector<int>>, Point> normal;
+  for (const NodeSide& side : sides(first.mesh, first.facets)) normal[{side.node, side.facets}] = side.normal;
+  const auto across = smooth_sides(second);
+  std::vector<RowDerivative> out;
+  for (const ContactRow& row : rows) {
     const int partner = row.partners.front().node;
-    const Point apart = minus(partners.point(partner), mesh.point(row.node));
-    const Point moving = minus(velocity(partners, second, partner), velocity(mesh, first, row.node));
-    out[k].gap = dot(moving, row.normal) + dot(apart, out[k].normal);
+    const Point n1 = normal.at({row.node, row.facets}), inward = inward_across(n1, row.partners, across);
+    RowDerivative d = here.at(row.node, row.facets);
+    const NodeSide* side = side_across(n1, partner, across);
+    const Point dinward = side ? mesh::times(-1, there.at(partner, side->facets).normal) : d.normal;
+    d.normal = mixed_normal_derivative(n1, d.normal, inward, dinward, row.mix);
+    const Point apart = minus(second.mesh.point(partner), first.mesh.point(row.node));
+    const Point moving = minus(velocity(second.mesh, W, partner), velocity(first.mesh, V, row.node));
+    d.gap = dot(moving, row.normal) + dot(apart, d.normal);
+    out.push_back(d);
   }
   return out;
 }
 
 std::vector<RowDerivative> row_derivatives(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<ContactRow>& rows,
                                            const RigidShape& shape, const std::vector<double>& V) {
-  std::vector<RowDerivative> out = side_derivatives(mesh, facets, rows, V);
+  const Turning part(mesh, facets, V);
+  std::vector<RowDerivative> out;
   for (std::size_t k = 0; k < rows.size(); ++k) {
+    out.push_back(part.at(rows[k].node, rows[k].facets));
     const Point x = mesh.point(rows[k].node), v = velocity(mesh, V, rows[k].node);
     std::visit([&](const auto& s) { set_distance(s, rows[k], x, v, out[k]); }, shape);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/matching.hpp"
 #include "contact/rigid.hpp"
 #include "contact/surface.hpp"
 
@@ -13,11 +14,10 @@ struct RowDerivative {
   double weight = 0;  ///< of ∫φ over the row's facets
 };
 
-/// Of the rows of between(), whose nodes match: the normal is m/|m|, m = Σ ∫φ n over the row's facets, the gap (x₂ − x₁)·normal + added.
-/// `first` is the velocity of the first part's mesh, `second` that of the partners' mesh.
-std::vector<RowDerivative> row_derivatives(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
-                                           const std::vector<ContactRow>& rows, const std::vector<double>& first,
-                                           const mesh::Mesh& partners, const std::vector<double>& second);
+/// Of the rows of between(), whose nodes match: the normal is that of frame.hpp, its M kept, where a part's own is m/|m|, m = Σ ∫φ n over
+/// the facets of its side; the gap is (x₂ − x₁)·normal + added. `V` is the velocity of the first part's mesh, `W` that of the second's.
+std::vector<RowDerivative> row_derivatives(const Face& first, const std::vector<ContactRow>& rows, const std::vector<double>& V,
+                                           const Face& second, const std::vector<double>& W);
 
 /// Of the rows of against(): a plane's normal is its own, a ball's points to its centre, the gap is the distance.
 /// Throws InputError where a node that moves lies before a RigidGap, whose gap as a function of place is not known.

@@ -92,7 +92,7 @@ ContactResult Solution::contact(const Contact& asked) const {
   const int index = scene_->index_of(asked);
   if (index < 0)
     throw InputError(text("this contact (", asked.name, ") is not part of the scene that was solved"));
-  const Contact& contact = *scene_->contacts[index];  // as it is in this design
+  const Contact& contact = *model_.contacts[index];  // as it is in this design
   if (contact.kind == Contact::Kind::glue)
     throw InputError(text(contact.name, " is a glue; only contacts have a pressure and a status"));
   const int first = scene_->index_of(contact.first.body.get());
@@ -102,8 +102,8 @@ ContactResult Solution::contact(const Contact& asked) const {
   for (const FrictionRows& rows : model_.friction[index])
     for (int i = 0; i < rows.count; ++i) result.dissipated += dissipated_[rows.row[i]];
   const std::vector<double> pressure = pressures(contact, model_, index, result_.state.lambda);
-  const std::vector<Point> force = model_.contact_force(contact, index, result_.state.lambda);
-  const std::vector<Point> rubbed = model_.contact_force(contact, index, friction_part(model_.friction[index], result_.state.lambda));
+  const std::vector<Point> force = model_.contact_force(index, result_.state.lambda);
+  const std::vector<Point> rubbed = model_.contact_force(index, friction_part(model_.friction[index], result_.state.lambda));
   const Rubbing rubbing = scene::rubbing(contact, model_, index, result_);
   for (std::size_t k = 0; k < contact.rows.size(); ++k) {
     const contact::ContactRow& row = contact.rows[k];

@@ -19,17 +19,19 @@ bool nodal(const Contact& contact) { return contact.discretisation.multipliers =
 /// One contact's rows, as they are made.
 class Rows {
  public:
-  Rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model)
+  Rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model)
       : contact_(contact), builder_(builder), model_(model), dim_(scene.dimension()),
-        first_(scene.index_of(contact.first.body.get())), second_(scene.index_of(contact.second.body.get())) {}
+        first_(scene.index_of(contact.first.body.get())), second_(scene.index_of(contact.second.body.get())) {
+    for (const contact::ContactRow& row : contact.rows) free_.push_back(jumps.at(row));
+  }
 
   void normal() {
     builder_.open_group(contact_.name, problem::unilateral());
     std::vector<char> moves, held;
-    for (const contact::ContactRow& row : contact_.rows) {
-      moves.push_back(this->moves(row, row.normal));
+    for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
+      moves.push_back(this->moves(k, contact_.rows[k].normal));
       held.push_back(!moves.back());
-      if (held.back()) require_apart(row);
+      if (held.back()) require_apart(contact_.rows[k]);
     }
     if (!contact_.discretisation.share_fixed) moves.assign(moves.size(), 1);
     model_.normal.back() = nodal(contact_) || dim_ == 2
@@ -68,14 +70,15 @@ class Rows {
     return {row.own, row.partners,
             {term.weight * direction[0], term.weight * direction[1], term.weight * direction[2]}};
   }
-  /// Has the jump an unknown along the direction, at the node or across from it? See facing().
-  bool moves(const contact::ContactRow& row, const Point& direction) const {
-    return builder_.moves(first_, row.own, direction) || (second_ >= 0 && builder_.moves(second_, facing(contact_, row.node, row.partners), direction));
+  /// Is the jump at a contact row free along the direction?
+  bool moves(std::size_t row, const Point& direction) const {
+    return (free_[row] * Eigen::Map<const Eigen::Vector3d>(direction.data())).norm() > kHeld;
   }
 
   void require_apart(const contact::ContactRow& row) {
     for (const contact::NodeWeight& partner : row.partners)
       if (builder_.moves(second_, partner.node, row.normal)) return;
+    if (builder_.moves(first_, row.own, row.normal)) return;  // held by an oblique slide
     double gap = row.gap;
     builder_.add(first_, second_, {{row.own, row.partners, row.normal}}, gap);
     // Rounding of coordinates may leave a fixed node this far inside.
@@ -95,7 +98,7 @@ class Rows {
       const double bound = contact_.friction == Friction::Kind::tresca ? value * row.weight : value;
       if (n < 0 || bound == 0) continue;  // a product below all numbers is no friction, either
       Candidate point{{{{index, 1}}, {{index, 1}}, bound, row.weight, {}}, std::isfinite(value), n, {}};
-      point.tangents = free_tangents(point.cell, row.normal);
+      point.tangents = scene::free_tangents(free_[k], row.normal, dim_);
       points.push_back(std::move(point));
     }
     return points;
@@ -106,9 +109,9 @@ class Rows {
     const bool slips = std::none_of(g.begin(), g.end(), [](double v) { return std::isinf(v); });
     if (!slips) g.assign(g.size(), 1);
     std::vector<char> moving;
-    for (const contact::ContactRow& row : contact_.rows) {
-      const std::vector<Point> t = tangents(row.normal, dim_);
-      moving.push_back(std::any_of(t.begin(), t.end(), [&](const Point& d) { return moves(row, d); }));
+    for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
+      const std::vector<Point> t = tangents(contact_.rows[k].normal, dim_);
+      moving.push_back(std::any_of(t.begin(), t.end(), [&](const Point& d) { return moves(k, d); }));
     }
     if (!contact_.discretisation.share_fixed) moving.assign(moving.size(), 1);
     std::vector<Candidate> points;
@@ -133,8 +136,7 @@ class Rows {
     for (const Point& t : tangents(normal, dim_)) {
       const FrictionRows frame{cell, 1, {-1, -1}, {t, {}}};
       if (std::any_of(cell.jumps.begin(), cell.jumps.end(), [&](const contact::Term& jump) {
-            const contact::ContactRow& row = contact_.rows[jump.row];
-            return moves(row, frame.at(0, row, dim_));
+            return moves(static_cast<std::size_t>(jump.row), frame.at(0, contact_.rows[static_cast<std::size_t>(jump.row)], dim_));
           }))
         free.push_back(t);
     }
@@ -178,6 +180,7 @@ class Rows {
   RowBuilder& builder_;
   Model& model_;
   int dim_, first_, second_;
+  std::vector<Eigen::Matrix3d> free_;  ///< of the jump at each contact row
 };
 
 }  // namespace
@@ -205,7 +208,8 @@ Point FrictionRows::at(int i, const contact::ContactRow& row, int dimension) con
   return t;
 }
 
-std::vector<Point> Model::contact_force(const Contact& contact, int index, const algebra::Vector& lambda) const {
+std::vector<Point> Model::contact_force(int index, const algebra::Vector& lambda) const {
+  const Contact& contact = *contacts[index];
   std::vector<Point> force(contact.rows.size(), Point{0, 0, 0});
   const auto push = [&](int k, const Point& direction, double amount) {
     for (int i = 0; i < 3; ++i) force[k][i] -= amount * direction[i];
@@ -224,12 +228,12 @@ std::vector<Point> Model::contact_force(const Contact& contact, int index, const
   return force;
 }
 
-void add_normal_rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model) {
-  Rows(scene, contact, builder, model).normal();
+void add_normal_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model) {
+  Rows(scene, contact, jumps, builder, model).normal();
 }
 
-void add_friction_rows(const Scene& scene, const Contact& contact, RowBuilder& builder, Model& model) {
-  Rows(scene, contact, builder, model).friction();
+void add_friction_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model) {
+  Rows(scene, contact, jumps, builder, model).friction();
 }
 
 }  // namespace dotyk::scene

@@ -168,6 +168,7 @@ InfSup inf_sup(const Contact& given, MultiplierPart part, bool share_fixed, Moni
   scene.contacts.push_back(std::make_shared<const Contact>(contact));
   problem::Clock clock;
   Model model = build(scene, clock, monitor);
+  contact = *model.contacts.front();
   const contact::Surface surface = surface_of(contact);
   const Basis none, normal = part == MultiplierPart::tangential ? none : normal_basis(contact, surface, model),
                     tangential = part == MultiplierPart::normal ? none : tangential_basis(contact, surface, model);

@@ -115,6 +115,7 @@ void set_load(const Body& body, const Numbering& numbering, problem::Block& bloc
 void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   model.problem.groups.clear();
   model.problem.friction.clear();
+  model.contacts.clear();
   model.contact_row.clear();
   model.normal.clear();
   model.friction.clear();
@@ -123,7 +124,9 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   model.support_row.clear();
   model.move.clear();
   RowBuilder builder(scene, model);
-  for (const auto& contact : scene.contacts) {
+  for (const auto& given : scene.contacts) {
+    const FreeJumps jumps(scene, model.bodies, model.numbering, *given);
+    const auto contact = model.contacts.emplace_back(with_held_normals(given, jumps));
     model.move.push_back(loading.move_of(static_cast<int>(model.move.size())));
     builder.set_move(model.move.back());
     model.contact_row.emplace_back();
@@ -131,8 +134,8 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
     model.normal.emplace_back();
     model.friction.emplace_back();
     if (contact->kind == Contact::Kind::contact) {
-      add_normal_rows(scene, *contact, builder, model);
-      add_friction_rows(scene, *contact, builder, model);
+      add_normal_rows(scene, *contact, jumps, builder, model);
+      add_friction_rows(scene, *contact, jumps, builder, model);
     } else {
       add_glue_rows(scene, *contact, builder, model.glue_row.back());
     }

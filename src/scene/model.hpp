@@ -38,6 +38,8 @@ struct Model {
   problem::Problem problem;
   std::vector<Body> bodies;                      ///< as they were: a script may add supports and loads later; scaled
   std::vector<elasticity::Numbering> numbering;  ///< one a body
+  /// The scene's, their normals as the supports say: see with_held_normals(). Results and rows are by these.
+  std::vector<std::shared_ptr<const Contact>> contacts;
   /// Contact → its row → row of B of the normal multiplier there, or -1 where no unknown moves it (both sides fixed).
   std::vector<std::vector<int>> contact_row;
   std::vector<std::vector<contact::NormalRow>> normal;  ///< contact → its row → what that row of B measures
@@ -58,7 +60,7 @@ struct Model {
   std::vector<double> displacement(int body, const algebra::Vector& u) const;
   /// The force that a contact's multipliers exert on its first body, at the node of each contact row (the
   /// opposite one acts on the partner).
-  std::vector<mesh::Point> contact_force(const Contact& contact, int index, const algebra::Vector& lambda) const;
+  std::vector<mesh::Point> contact_force(int contact, const algebra::Vector& lambda) const;
 };
 
 /// Assembles. Throws InputError for contradictory supports, for a contact that nodes fixed on both sides

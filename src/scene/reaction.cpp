@@ -21,7 +21,7 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
     const Contact& contact = *scene.contacts[c];
     const int first = scene.index_of(contact.first.body.get()), second = scene.index_of(contact.second.body.get());
     if (contact.kind == Contact::Kind::contact && (first == body || second == body)) {
-      const std::vector<Point> pushed = model.contact_force(contact, static_cast<int>(c), lambda);
+      const std::vector<Point> pushed = model.contact_force(static_cast<int>(c), lambda);
       for (std::size_t k = 0; k < pushed.size(); ++k) {
         if (first == body)
           for (const contact::NodeWeight& own : contact.rows[k].own) push(own.node, pushed[k], own.weight);

@@ -11,6 +11,7 @@
 #include "scene/after_solve.hpp"
 #include "scene/doubts.hpp"
 #include "scene/locate.hpp"
+#include "scene/path_error.hpp"
 #include "solver/ending.hpp"
 #include "solver/verdict.hpp"
 
@@ -127,6 +128,22 @@ std::string force_text(std::array<double, 3> force, int dimension) {
   return point_text(force.data(), dimension);
 }
 
+/// To so many unknowns printing a solution may cost two more solves.
+constexpr int kMostToPrintPath = 20000;
+
+/// What one load step from rest leaves out of friction's path; empty where nothing.
+std::string path_text(const Solution& s) {
+  if (s.follows() || !s.result().converged || !follows_path(s)) return "";
+  const std::string known = "  friction follows the path of the load, this is one step of it: ";
+  if (s.unknowns() > kMostToPrintPath) return known + "path_error() says how far from two steps\n";
+  Monitor quiet;
+  try {
+    return known + text(std::setprecision(3), "friction forces differ by ", 100 * s.path_error(quiet), " % from those of two steps\n");
+  } catch (const InputError& error) {
+    return known + error.what() + "\n";
+  }
+}
+
 }  // namespace
 
 std::string describe(const Solution& s) {
@@ -147,6 +164,7 @@ std::string describe(const Solution& s) {
       out += text("  support of '", s.scene().bodies[b]->name, "' ", on.part.name, " (", describe(on), "): ",
                   describe(r, s.scene().dimension()), "\n");
     }
+  out += path_text(s);
   const problem::Clock& t = s.clock();
   out += text(std::setprecision(3), "  seconds: total ", t.total, " (assembly ", t.assembly, ", ordering ", t.ordering,
               ", factor ", t.factor, ", iterate ", t.iterate, ", recover ", t.recover, ")");

@@ -109,6 +109,10 @@ class Solution : public std::enable_shared_from_this<Solution> {
   const problem::Residual& residual() const { return residual_; }
   const problem::Clock& clock() const { return result_.clock; }
   void set_total(double seconds) { result_.clock.total = seconds; }
+  /// Does it follow another in a history?
+  bool follows() const { return !past_.steps.empty() || past_.slip.size() > 0; }
+  /// "; one load step" after the reason.
+  void add_reason(const std::string& more) { result_.reason += more; }
   /// "step 3 of 10: " before the reason.
   void name_step(const std::string& step) { result_.reason = step + result_.reason; }
   double energy() const { return energy_; }
@@ -140,6 +144,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
   /// Force that the supports (fix, slide, displace, spring, laws) of the part exert on the body. A node
   /// component held by several parts counts for the one that held it first.
   mesh::Point reaction(const Part& part) const;
+  /// See path_error.hpp; made on first use.
+  double path_error(Monitor& monitor) const;
   /// A posteriori estimate of the error in the energy norm, contact included, made on first use.
   const ErrorEstimate& error_estimate() const;
 
@@ -165,6 +171,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   mutable std::vector<std::vector<elasticity::Stress>> stress_;
   mutable std::vector<std::unique_ptr<Locator>> locators_;
   mutable std::optional<ErrorEstimate> error_estimate_;
+  mutable std::optional<double> path_error_;
 };
 
 /// Where contacts and supports by laws start: as a coarser solution's nearest nodes were (its contact or support of the

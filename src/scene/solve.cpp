@@ -4,6 +4,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "scene/breaking.hpp"
+#include "scene/path_error.hpp"
 #include "scene/solution.hpp"
 #include "solver/default_method.hpp"
 
@@ -87,6 +88,8 @@ class History {
     const auto solution = std::make_shared<Solution>(scene_, is_last ? std::move(model_) : without_stiffness(),
                                                      is_last ? nullptr : &model_.problem, std::move(result),
                                                      std::move(past));
+    if (is_last && !solution->follows() && solution->result().converged && follows_path(*solution))
+      solution->add_reason("; one load step, while friction follows the path: path_error() says how far from two");
     solution->set_total(watch_.seconds());
     last_ = solution;
     return solution;

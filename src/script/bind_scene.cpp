@@ -239,7 +239,7 @@ void bind_scene(Library& library) {
                .help = "Unilateral contact of two parts, or of a part with a rigid obstacle, "
                        "frictionless unless a friction law is given. At a corner of the (first) part there is one condition for each adjoining side. "
                        "Conditions, pressures and statuses are those of the first part's nodes: where nodes do not match, let the first be the "
-                       "part that the other covers and whose nodes supports leave free (of two meshes of P1 the coarser's nodes are taken whatever the order). "
+                       "part that the other covers and whose nodes supports leave free (of two meshes the coarser's nodes are taken whatever the order). "
                        "On P2 and Q2 they are those of the facets' corners, in the mean about them.",
                .example = "local wall = dotyk.rigid.plane{ point = {1,0}, normal = {-1,0} }\n"
                           "local w = scene:contact{ upper:part \"right\", rigid = wall }\n"

@@ -275,6 +275,15 @@ void bind_solution(Library& library) {
                        "complementarity (pressure where the gap opens); and cells[i], the estimate of each cell of the i-th body.",
                .example = "local relative, parts = s:error_estimate()\nprint(relative, parts.contact_pressure, #parts.cells[1])",
                .run = error_estimate})
+      .method({.name = "solution:path_error",
+               .help = "How far one load step from rest is from two: the sum of |friction force - that after half of the load, then all of it| "
+                       "over the nodes, relative. 0 where no node closed from a gap under friction: then steps change nothing. It costs two "
+                       "more solves with one factorisation, once. To be rid of it, solve in steps, and halve them until forces no longer change.",
+               .example = "print(s:path_error())",
+               .run = [](Call& call) {
+                 Watch watch(call.state(), "path error");
+                 return call.give(call.self<Solution>()->path_error(watch));
+               }})
       .method({.name = "solution:distance",
                .help = "How far it is from another solution of the same bodies and contacts, taken for exact (usually of a finer "
                        "mesh), relative to that: energy (norm of the difference: the square root of twice the energy of "

@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "contact/row_derivative.hpp"
-#include "contact/tangents.hpp"
+#include "scene/free_jumps.hpp"
 
 namespace dotyk::shape {
 namespace {
@@ -38,7 +38,7 @@ struct Moving {
   bool any() const { return moves(mesh(), contact.first.facets, V) || (second >= 0 && moves(*contact.second.body->mesh, contact.second.facets, W)); }
   std::vector<RowDerivative> derivatives() const {
     if (second < 0) return contact::row_derivatives(mesh(), contact.first.facets, contact.rows, contact.shape, V);
-    return contact::row_derivatives(mesh(), contact.first.facets, contact.rows, V, *contact.second.body->mesh, W);
+    return contact::row_derivatives(contact.first.face(), contact.rows, V, contact.second.face(), W);
   }
 };
 
@@ -65,7 +65,7 @@ std::vector<double> weights(const Contact& contact, const std::vector<RowDerivat
 class ContactChanges {
  public:
   ContactChanges(const scene::Solution& solution, int index, const Velocities& velocities, RowChanges& changes)
-      : solution_(solution), model_(solution.model()), moving_(moving(solution, index, velocities)), contact_(moving_.contact), index_(index),
+      : solution_(solution), model_(solution.model()), moving_(moving(solution, index, velocities)), contact_(*model_.contacts[static_cast<std::size_t>(index)]), index_(index),
         dim_(solution.scene().dimension()), first_(moving_.first), second_(moving_.second), changes_(changes) {}
 
   void add() {
@@ -74,6 +74,11 @@ class ContactChanges {
     if (contact_.kind == Contact::Kind::glue) return;
     require_nodal();
     derivatives_ = moving_.derivatives();
+    const scene::FreeJumps jumps(solution_.scene(), model_.bodies, model_.numbering, contact_);
+    for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
+      free_.push_back(jumps.at(contact_.rows[k]));
+      scene::hold_normal(free_[k], moving_.contact.rows[k], derivatives_[k].normal, derivatives_[k].gap);
+    }
     for (std::size_t k = 0; k < contact_.rows.size(); ++k)
       if (const int r = model_.contact_row[index_][k]; r >= 0) turn(r, static_cast<int>(k), derivatives_[k].normal, derivatives_[k].gap);
     friction();
@@ -123,12 +128,8 @@ class ContactChanges {
     const std::vector<double> weight = weights(contact_, derivatives_, moving_.V);
     for (const scene::FrictionRows& rows : model_.friction[index_]) {
       const int k = rows.cell.jumps.front().row;  // nodal: a cell is a node's surroundings
-      const auto t = contact::tangents(contact_.rows[k].normal, dim_);
-      const auto dt = contact::tangent_derivatives(contact_.rows[k].normal, derivatives_[k].normal, dim_);
-      for (int i = 0; i < rows.count; ++i) {
-        const auto which = std::find(t.begin(), t.end(), rows.direction[i]) - t.begin();
-        turn(rows.row[i], k, dt.at(static_cast<std::size_t>(which)), 0);
-      }
+      for (int i = 0; i < rows.count; ++i)
+        turn(rows.row[i], k, scene::free_tangent_derivative(free_[k], contact_.rows[k].normal, derivatives_[k].normal, rows.direction[i], dim_), 0);
       if (contact_.friction == scene::Friction::Kind::tresca && std::isfinite(contact_.friction_value[k]))
         changes_.bound[rows.row[0]] = contact_.friction_value[k] * weight[k];
     }
@@ -137,10 +138,11 @@ class ContactChanges {
   const scene::Solution& solution_;
   const scene::Model& model_;
   Moving moving_;
-  const Contact& contact_;
+  const Contact& contact_;  ///< with the normals that supports say
   int index_, dim_, first_, second_;
   RowChanges& changes_;
   std::vector<RowDerivative> derivatives_;
+  std::vector<Eigen::Matrix3d> free_;  ///< of the jump at each row
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "contact/frame.hpp"
 #include "contact/matching.hpp"
 #include "contact/sides.hpp"
 #include "contact/tangents.hpp"
@@ -86,17 +87,19 @@ void check_derivative(const std::vector<double>& exact, const At& at) {
   CHECK(errors.back() > 1e-10);  // rounding
 }
 
-/// between()'s rows at moved nodes with the pairs and sides that they had.
-std::vector<ContactRow> again(std::vector<ContactRow> rows, const Mesh& first, const Mesh& second, const std::vector<Facet>& facets) {
+/// between()'s rows at moved nodes with the pairs, sides and shares of both normals that they had.
+std::vector<ContactRow> again(std::vector<ContactRow> rows, const Mesh& first, const Mesh& second, const std::vector<Facet>& facets,
+                              const std::vector<Facet>& others) {
   const auto sides = contact::sides(first, facets);
+  const auto across = contact::smooth_sides({second, others, "second"});
   for (ContactRow& row : rows)
     for (const contact::NodeSide& side : sides) {
       if (side.node != row.node || side.facets != row.facets) continue;
       const Point a = first.point(row.node), b = second.point(row.partners.front().node);
-      row.normal = side.normal;
+      row.normal = contact::mixed_normal(side.normal, contact::inward_across(side.normal, row.partners, across), row.mix);
       row.weight = side.weight;
       row.gap = 0;
-      for (int i = 0; i < 3; ++i) row.gap += (b[i] - a[i]) * side.normal[i];
+      for (int i = 0; i < 3; ++i) row.gap += (b[i] - a[i]) * row.normal[i];
     }
   return rows;
 }
@@ -119,14 +122,15 @@ TEST_CASE("rows between two parts: normal, gap and weight, both sides moving") {
           if (off < 1e-12) rows.push_back({side.node, {{side.node, 1}}, {{other.node, 1}}, side.normal, 0, side.weight, side.facets, 0});
         }
       REQUIRE(rows.size() >= 5);
-      rows = again(rows, lower, upper, facets);
+      for (ContactRow& row : rows) row.mix = {{{0.4, 0.1, 0}, {0.1, -0.3, 0.05}, {0, 0.05, 0.2}}};  // as of parts of unlike curvature
+      rows = again(rows, lower, upper, facets, others);
       const auto V = random_field(lower, 1), W = random_field(upper, 2);
-      check_derivative(numbers(contact::row_derivatives(lower, facets, rows, V, upper, W)), [&](double t) {
-        return numbers(again(rows, moved(lower, V, t), moved(upper, W, t), facets));
+      check_derivative(numbers(contact::row_derivatives({lower, facets, "lower"}, rows, V, {upper, others, "upper"}, W)), [&](double t) {
+        return numbers(again(rows, moved(lower, V, t), moved(upper, W, t), facets, others));
       });
       // One side at rest.
-      check_derivative(numbers(contact::row_derivatives(lower, facets, rows, {}, upper, W)),
-                       [&](double t) { return numbers(again(rows, lower, moved(upper, W, t), facets)); });
+      check_derivative(numbers(contact::row_derivatives({lower, facets, "lower"}, rows, {}, {upper, others, "upper"}, W)),
+                       [&](double t) { return numbers(again(rows, lower, moved(upper, W, t), facets, others)); });
     }
 }
 
@@ -153,7 +157,7 @@ TEST_CASE("rows of between() itself where both sides move together, what is adde
         return contact::between({a, facets, "lower"}, {b, others, "upper"}, [](const Point&) { return 0.1; });
       };
       const auto rows = rows_at(0);
-      check_derivative(numbers(contact::row_derivatives(lower, facets, rows, velocity(lower), upper, velocity(upper))),
+      check_derivative(numbers(contact::row_derivatives({lower, facets, "lower"}, rows, velocity(lower), {upper, others, "upper"}, velocity(upper))),
                        [&](double t) { return numbers(rows_at(t)); });
       const auto surface = contact::surface(lower, facets, rows, {});
       check_derivative(contact::measure_derivatives(surface, velocity(lower)), [&](double t) {

@@ -85,5 +85,5 @@ TEST_CASE("too few steps for a rescue to begin: not converged, and said") {
   const auto r = solver::solve(lifted_string(200, 0.6), settings, quiet);
   CHECK_FALSE(r.converged);
   CHECK(r.iterations == 5);
-  CHECK(r.reason.find("no repeated active set within 5 iterations") == 0);
+  CHECK(r.reason.find("no confirmed active set within 5 iterations") == 0);
 }

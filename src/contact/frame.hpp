@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <unordered_map>
+
+#include "contact/matching.hpp"
+
+namespace dotyk::contact {
+
+/// The normal of a row between two parts: one for both, whichever is named first.
+///
+/// The linear theory of bodies that touch without conforming acts in their common tangent plane (Johnson, Contact Mechanics, section 4.2),
+/// from which the normals n₁ and n₂ of points across from each other lean away, each by its part's curvature times the distance
+/// from where the parts touch. Along n₁ alone an approach δ would count as a slip of δ times that slope. With N = unit(n₁ − n₂),
+/// half the difference d = n₁/(n₁·N) − N, which lies across N, and the curvatures |K₁|, |K₂| of the parts (without sign):
+///   n = unit(N + M d),   M = (|K₂| − |K₁|)(|K₁| + |K₂|)⁻¹   in the plane across N.
+/// Slopes K₁x and K₂x of opposite signs then cancel, crossed cylinders included: |K₂|(|K₁| + |K₂|)⁻¹|K₁| is symmetric in the parts. A flat
+/// part's normal decides; parts that conform have the mean, or that of the flatter one. Exchanging the parts turns n round.
+/// Curvatures below kFlat over the parts' extent are no longer told apart: M = 0, n = N.
+struct Frame {
+  mesh::Point normal{};             ///< unit, out of the first part
+  std::array<mesh::Point, 3> mix{};  ///< M
+  double turn = 0;                  ///< angle by which facets turn about the node: what the normals are uncertain by
+};
+
+inline constexpr double kFlat = 1e-6;
+
+/// The sides of a part at its nodes that have one only. At an edge or corner the part has no normal of its own.
+std::unordered_map<int, NodeSide> smooth_sides(const Face& face);
+
+/// The partner's side; null at an edge, and where it does not face n₁.
+const NodeSide* side_across(const mesh::Point& n1, int partner, const std::unordered_map<int, NodeSide>& second);
+/// −n₂: the mean of the partners' inward normals, unit. Partners without side_across() go along with n₁.
+mesh::Point inward_across(const mesh::Point& n1, const std::vector<NodeWeight>& partners, const std::unordered_map<int, NodeSide>& second);
+
+/// n by n₁, −n₂ and M. Normals opposed but for rounding: n₁ as it is.
+mesh::Point mixed_normal(const mesh::Point& n1, const mesh::Point& inward, const std::array<mesh::Point, 3>& mix);
+/// d/dt of it, where n₁ and −n₂ turn with d1 and d2; M does not change.
+mesh::Point mixed_normal_derivative(const mesh::Point& n1, const mesh::Point& d1, const mesh::Point& inward, const mesh::Point& d2,
+                                    const std::array<mesh::Point, 3>& mix);
+
+/// |K| of a part at its facets: normals of the facets that share a node with one, but for those across a corner (kCornerAngle), against
+/// the places where they are, least squares.
+class Curvatures {
+ public:
+  explicit Curvatures(const Face& face);
+  /// Mean over the side's facets; a 3 × 3 matrix whose kernel has the normal.
+  Eigen::Matrix3d at(const NodeSide& side) const;
+  double width(const NodeSide& side) const;  ///< of its widest facet
+
+ private:
+  std::vector<Eigen::Matrix3d> of_facet_;
+  std::vector<double> width_;
+};
+
+/// Makes frames between two parts.
+class Frames {
+ public:
+  Frames(const Face& first, const Face& second);
+  Frame of(const NodeSide& side, const std::vector<NodeWeight>& partners) const;
+
+  const Face &first, &second;
+
+ private:
+  Curvatures here_, across_;
+  std::unordered_map<int, NodeSide> second_sides_;
+  double flat_;
+};
+
+}  // namespace dotyk::contact

@@ -1,0 +1,145 @@
+// One normal for both parts: by closed forms, and the same whichever part is named first.
+#include "contact/frame.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+#include "../support/meshes.hpp"
+#include "contact/pairing.hpp"
+
+using namespace dotyk;
+using contact::ContactRow;
+using contact::Face;
+using contact::Pairing;
+using mesh::Family;
+using mesh::Mesh;
+using mesh::Point;
+
+namespace {
+
+/// Heights of the lower and the upper part above the common tangent plane.
+using Height = std::function<double(const Point&)>;
+
+/// A block of about n cells along [-1, 1], its side next to the plane bent; `up`: the one above it.
+Mesh bent(int dimension, Family family, int n, bool up, const Height& height) {
+  const double low = up ? 0 : -1, high = up ? 1 : 0;
+  Mesh m = dimension == 2 ? test::rectangle(family, n, 2, -1, low, 1, high) : test::box(family, n, n, 2, {-1, -1, low}, {1, 1, high});
+  mesh::transform(m, [&](Point x) {
+    double& z = x[dimension - 1];
+    const double share = 1 - std::abs(z);
+    z += share * height(x);
+    return x;
+  });
+  return m;
+}
+
+struct Pair {
+  Mesh lower, upper;
+  Face low() const { return {lower, lower.parts.at("top"), "lower"}; }
+  Face high() const { return {upper, upper.parts.at("bottom"), "upper"}; }
+};
+
+Pair pair(int dimension, Family family, int n, int m, const Height& lower, const Height& upper) {
+  return {bent(dimension, family, n, false, lower), bent(dimension, family, m, true, upper)};
+}
+
+/// Greatest distance of normals from what is known, what sees the parts' edges left out: there a normal is the outermost facet's.
+double worst(const Face& first, const Face& second, Pairing pairing, const std::function<Point(const Point&)>& known) {
+  const contact::PairedRows paired = contact::pair_rows(first, second, pairing, {}, true);
+  const Mesh& mesh = paired.turned ? second.mesh : first.mesh;
+  double most = 0;
+  for (const ContactRow& row : paired.rows) {
+    const Point x = mesh.point(row.node);
+    bool inside = true;
+    for (int i = 0; i < mesh.dimension() - 1; ++i) inside = inside && std::abs(x[i]) < 0.6;
+    const Point n = paired.turned ? mesh::times(-1, row.normal) : row.normal;
+    if (inside) most = std::max(most, mesh::length(mesh::minus(n, known(x))));
+  }
+  return most;
+}
+
+Height sphere(double k) {
+  return [k](const Point& x) { return k / 2 * (x[0] * x[0] + x[1] * x[1]); };
+}
+Height arc(int axis, double k) {
+  return [=](const Point& x) { return k / 2 * x[axis] * x[axis]; };
+}
+double flat(const Point&) { return 0; }
+
+Point upwards(int dimension, double sign) {
+  Point n{0, 0, 0};
+  n[dimension - 1] = sign;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("a curved part on a flat one has the flat one's normal, exactly, whichever comes first") {
+  for (const int dimension : {2, 3})
+    for (const Family family : test::kAllFamilies)
+      for (const auto& [n, m, pairing] : {std::tuple(8, 8, Pairing::matching), {6, 8, Pairing::mortar}, {8, 6, Pairing::mortar}, {6, 8, Pairing::node_to_segment}}) {
+        CAPTURE(dimension);
+        CAPTURE(test::name(family));
+        const Height curved = dimension == 2 ? arc(0, 0.2) : sphere(0.2);
+        const Pair p = pair(dimension, family, n, m, flat, curved);
+        CHECK(worst(p.low(), p.high(), pairing, [&](const Point&) { return upwards(dimension, 1); }) < 1e-5);
+        CHECK(worst(p.high(), p.low(), pairing, [&](const Point&) { return upwards(dimension, -1); }) < 1e-5);
+      }
+}
+
+TEST_CASE("equal arcs, opposed or crossed, have the common tangent plane's normal; parts that conform the flatter one's") {
+  for (const Family family : {Family::p1, Family::q1}) {
+    CAPTURE(test::name(family));
+    const double k = 0.2;
+    struct Case {
+      int dimension;
+      Height lower, upper;
+      std::function<Point(const Point&)> known;
+    };
+    const auto up = [](int dimension) { return [=](const Point&) { return upwards(dimension, 1); }; };
+    const Case cases[] = {
+        {2, arc(0, -k), arc(0, k), up(2)},                // discs
+        {2, arc(0, -k), arc(0, 2 * k), up(2)},            // of unlike radii
+        {3, sphere(-k), sphere(k), up(3)},                // balls
+        {3, arc(0, -k), arc(1, k), up(3)},                // crossed cylinders
+        {3, arc(0, -k), sphere(k), up(3)},                // a ball on a cylinder
+        {2, arc(0, k), arc(0, 1.25 * k), [=](const Point& x) {  // a disc in a hollow: slopes k x and 1.25 k x by 5/9 and 4/9
+           return mesh::unit({-k * x[0] * (5 + 4 * 1.25) / 9, 1, 0});
+         }}};
+    for (const Case& c : cases) {
+      CAPTURE(&c - cases);
+      double before = 0;
+      for (const int n : {12, 24}) {
+        if (c.dimension == 3 && n > 12) continue;
+        const Pair p = pair(c.dimension, family, n, n * 3 / 4, c.lower, c.upper);
+        const double one = worst(p.low(), p.high(), Pairing::mortar, c.known);
+        const double two = worst(p.high(), p.low(), Pairing::mortar, [&](const Point& x) { return mesh::times(-1, c.known(x)); });
+        CHECK(one < 0.03 * k);  // of slopes up to 0.6 k; one part's normal alone is off by that
+        CHECK(two < 0.03 * k);
+        if (before > 0) CHECK(std::max(one, two) < before);
+        before = std::max(one, two);
+      }
+    }
+  }
+}
+
+TEST_CASE("flat parts keep their normal to the last bit, turned or not, and an edge of the second part leaves the first one's") {
+  for (const double angle : {0.0, 0.3, 1.1}) {
+    Pair p = pair(2, Family::q1, 6, 8, flat, flat);
+    for (Mesh* m : {&p.lower, &p.upper})
+      mesh::transform(*m, [&](const Point& x) {
+        return Point{x[0] * std::cos(angle) - x[1] * std::sin(angle), x[0] * std::sin(angle) + x[1] * std::cos(angle), 0};
+      });
+    const auto sides = contact::sides(p.lower, p.low().facets);
+    const auto rows = contact::pair_rows(p.low(), p.high(), Pairing::mortar, {}, true).rows;
+    REQUIRE(rows.size() == sides.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) CHECK(mesh::length(mesh::minus(rows[k].normal, sides[k].normal)) < (angle == 0 ? 1e-300 : 1e-15));
+  }
+  // A roof upside down, its ridge on a plane: both sides of the ridge look at it, neither is its normal.
+  const Pair roof = pair(2, Family::q1, 8, 8, flat, [](const Point& x) { return std::abs(x[0]) / 2; });
+  for (const ContactRow& row : contact::pair_rows(roof.low(), roof.high(), Pairing::node_to_segment, {}, true).rows)
+    if (std::abs(roof.lower.point(row.node)[0]) < 1e-12) CHECK(row.normal == Point{0, 1, 0});
+}
