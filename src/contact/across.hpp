@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "base/monitor.hpp"
 #include "contact/matching.hpp"
 
@@ -10,6 +12,7 @@ struct Across {
   std::vector<NodeWeight> partners;  ///< weights 1 in sum; empty: nothing
   double weight = 0;              ///< length or area that the side stands for
   double widest = 0;              ///< of the facets met, and its own
+  double least = -INFINITY;       ///< of mortar: least gap where the integrals look. A dual hat is negative in places: a mean of gaps may be less
   std::vector<NodeWeight> own{};  ///< of mortar and a first part of order 2: the side's own mean over what is covered, `node` first
 };
 

@@ -244,9 +244,6 @@ ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double
   return {side.node, side.own, std::move(partners), frame.normal, gap, side.weight, side.facets, added, frame.mix, frame.turn};
 }
 
-namespace {
-
-/// Overlap at rest that is rounding of coordinates, where these facets are; `size`: the mesh's.
 double touching(const Face& face, double size, const std::vector<int>& facets) {
   double way = INFINITY, greatest = 0;
   const int count = face.mesh.topology().facet_corners;
@@ -258,8 +255,6 @@ double touching(const Face& face, double size, const std::vector<int>& facets) {
     }
   return Tolerance{size, 64 * std::numeric_limits<double>::epsilon() * greatest}(way);
 }
-
-}  // namespace
 
 std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,
                                   const elasticity::ScalarField& added) {

@@ -45,6 +45,9 @@ struct Frame;
 /// InputError for a gap that is not finite.
 ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Frames& frames);
 ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Face& first, const Face& second, const Frame& frame);
+/// Overlap at rest that is rounding of coordinates, where these facets of the part are; `size`: its mesh's.
+double touching(const Face& face, double size, const std::vector<int>& facets);
+
 /// Rows of a first part of order 2, one a side at each corner, each the mean of its own nodes' conditions; `partner`: what lies across
 /// from a node. Facets that have a node without are left out.
 std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,

@@ -16,6 +16,12 @@ struct Cut {
   std::vector<Flat> polygon;
 };
 
+/// What a first part's facet meets.
+struct Met {
+  double widest = 0;        ///< of the facets met, and its own
+  double least = INFINITY;  ///< gap along its normal at the points of integration
+};
+
 /// What a corner of a first part's facet gets from it.
 struct Corner {
   double weight = 0;               ///< ∫φ over what is covered
@@ -28,16 +34,16 @@ class Mortar {
   Mortar(const Face& first, const Face& second)
       : first_(first), second_(second), all_(second), corners_(first.mesh.topology().facet_corners) {}
 
-  /// One entry a corner; `widest` grows to the width of the facets met.
-  std::array<Corner, 4> of(mesh::Facet facet, double& widest) const {
+  /// One entry a corner.
+  std::array<Corner, 4> of(mesh::Facet facet, Met& met) const {
     const View view(first_.mesh.facet_centre(facet), mesh::unit(first_.mesh.facet_area_vector(facet)), first_.mesh.dimension());
     const Shadow own(first_.mesh, facet, view);
-    std::vector<Cut> cuts = cut(view, own, widest);
+    std::vector<Cut> cuts = cut(view, own, met.widest);
     double covered = 0;
     for (const Cut& c : cuts) covered += size(c.polygon);
     if (covered > (1 + kSliver) * own.size()) keep_nearest(cuts);
     if (covered < kSliver * own.size()) return {};
-    return integrate(facet, own, cuts);
+    return integrate(facet, view, own, cuts, met.least);
   }
 
  private:
@@ -78,7 +84,15 @@ class Mortar {
     return quadratic ? biquadratic_ : bilinear_;
   }
 
-  std::array<Corner, 4> integrate(mesh::Facet facet, const Shadow& own, const std::vector<Cut>& cuts) const {
+  /// Of a facet's point, above the view's plane.
+  template <class Shape>
+  static double height(const Face& face, mesh::Facet facet, const View& view, const Shadow& shadow, const Shape& shape) {
+    double sum = 0;
+    for (int a = 0; a < shadow.nodes; ++a) sum += shape[a] * view.height(face.mesh.point(face.mesh.facet_node(facet, a)));
+    return sum;
+  }
+
+  std::array<Corner, 4> integrate(mesh::Facet facet, const View& view, const Shadow& own, const std::vector<Cut>& cuts, double& least) const {
     DualHats first(corners_), second(corners_);
     for (const Cut& c : cuts)
       for (const FlatQuadrature::At& q : rule(own, c.shadow).points(c.polygon)) {
@@ -86,8 +100,9 @@ class Mortar {
         const auto other = c.shadow.shape(q.x);
         second.point(hats.data(), q.measure);
         for (int a = 0; a < c.shadow.nodes; ++a) second.value(second_.mesh.facet_node(second_.facets[c.facet], a), other[a]);
-        if (own.nodes == own.corners) continue;
         const auto phi = own.shape(q.x);
+        least = std::min(least, height(second_, second_.facets[c.facet], view, c.shadow, other) - height(first_, facet, view, own, phi));
+        if (own.nodes == own.corners) continue;
         first.point(hats.data(), q.measure);
         for (int a = 0; a < own.nodes; ++a) first.value(first_.mesh.facet_node(facet, a), phi[a]);
       }
@@ -129,14 +144,16 @@ std::vector<Across> mortar(const Face& first, const Face& second, const std::vec
       for (int a = 0; a < first.mesh.topology().facet_corners; ++a)
         if (first.mesh.facet_node(first.facets[f], a) == sides[s].node) sides_of[f].emplace_back(s, a);
   std::vector<Across> result(sides.size());
+  for (Across& across : result) across.least = INFINITY;
   std::vector<std::map<int, double>> shares(sides.size()), own(sides.size());
   for (std::size_t f = 0; f < first.facets.size(); ++f) {
     if (monitor && f % 100 == 0) monitor->check();
-    double widest = 0;
-    const std::array<Corner, 4> corner = facets.of(first.facets[f], widest);
+    Met met;
+    const std::array<Corner, 4> corner = facets.of(first.facets[f], met);
     for (const auto& [s, a] : sides_of[f]) {
       result[s].weight += corner[a].weight;
-      result[s].widest = std::max(result[s].widest, widest);
+      result[s].widest = std::max(result[s].widest, met.widest);
+      result[s].least = std::min(result[s].least, met.least);
       for (const auto& [j, share] : corner[a].partners) shares[s][j] += share;
       for (const auto& [l, share] : corner[a].own) own[s][l] += share;
     }

@@ -87,11 +87,14 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
     rows = mean_rows(first, second, std::move(feet), added);
   } else {
     const Frames frames(first, second);
+    const double size = first.mesh.size();
     for (std::size_t k = 0; k < list.size(); ++k) {
       if (all[k].partners.empty()) continue;
       list[k].weight = all[k].weight;
       if (means) list[k].own = std::move(all[k].own);
       rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, frames));
+      // Parts that nowhere overlap have no negative gap in the mean, either.
+      if (all[k].least >= -touching(first, size, list[k].facets)) rows.back().gap = std::max(rows.back().gap, rows.back().added);
     }
   }
   if (interference) return rows;
