@@ -152,9 +152,7 @@ class Search {
     if (at.lambda.allFinite()) add(at);
   }
 
-  struct Point {
-    Vector lambda, alpha;
-  };
+  struct Point { Vector lambda, alpha; };
 
   /// Of all that the singular system allows, what the signs and bounds of the pieces leave.
   void add_family(const NaturalMap::System& system, const Vector& solved, const DenseMatrix& kernel) {
@@ -162,10 +160,9 @@ class Search {
     const Vector least = solved - Z * (Z.transpose() * solved);
     Members members;
     members.pieces = pieces_;
-    const Vector origin = coordinates(system, least);
+    const Vector origin = members.origin = coordinates(system, least);
     members.directions = DenseMatrix(origin.size(), Z.cols());
     for (Eigen::Index k = 0; k < Z.cols(); ++k) members.directions.col(k) = coordinates(system, least + Z.col(k)) - origin;
-    members.origin = origin;
     members.size = std::max(size(origin), scale_);
     if (!(members.size > 0)) members.size = 1;
     members.inequalities(*this);
@@ -349,9 +346,7 @@ class Search {
     }
   }
 
-  struct Found {
-    Vector lambda, y, coordinates;
-  };
+  struct Found { Vector lambda, y, coordinates; };
   const Problem& problem_;
   const CondensedProblem& condensed_;
   Monitor& monitor_;
