@@ -96,7 +96,7 @@ class Rows {
       const double value = contact_.friction_value[k];
       const int n = model_.contact_row.back()[k], index = static_cast<int>(k);
       const double bound = contact_.friction == Friction::Kind::tresca ? value * row.weight : value;
-      if (n < 0 || bound == 0) continue;  // a product below all numbers is no friction, either
+      if (bound == 0 || (n < 0 && contact_.friction == Friction::Kind::coulomb)) continue;  // a product below all numbers is no friction, either
       Candidate point{{{{index, 1}}, {{index, 1}}, bound, row.weight, {}}, std::isfinite(value), n, {}};
       point.tangents = scene::free_tangents(free_[k], row.normal, dim_);
       points.push_back(std::move(point));
@@ -126,7 +126,7 @@ class Rows {
         if (n >= 0 && jump.weight > most) most = jump.weight, point.normal = n;
       }
       point.tangents = free_tangents(point.cell, mesh::unit(mean));
-      if (point.normal >= 0 && point.cell.bound > 0) points.push_back(std::move(point));
+      if (point.cell.bound > 0) points.push_back(std::move(point));
     }
     return points;
   }
