@@ -40,10 +40,10 @@ expect "Ctrl-C on an endless loop" 'still here' 'while true do end\n' '\003' 'pr
 expect "Ctrl-C on an endless coroutine" 'still here' 'coroutine.wrap(function() while true do end end)()\n' '\003' 'print("still" .. " here")\n' &
 expect "Ctrl-C on an endless pattern" 'still here' '(("a"):rep(60) .. "b"):find(("a?"):rep(60) .. ("a"):rep(60) .. "c")\n' '\003' 'print("still" .. " here")\n' &
 # What Lua's library computes cannot be stopped (seconds, here): the second Ctrl-C warns, the session goes on; the third ends it.
-fill='t = {} for i = 1, 4e6 do t[i] = i * 7919 % 4000037 end\n' sort='table.sort(t)\n'
+fill='t = {} for i = 1, 6e6 do t[i] = i * 7919 % 6000011 end\n' sort='table.sort(t)\n'
 expect "Ctrl-C twice warns" 'press Ctrl-C again within 2 s to end dotyk and lose the session' "$fill" "$sort" '\003' '\003' 'os.exit()\n' &
 expect "Ctrl-C twice and the session" 'still here' "$fill" "$sort" '\003' '\003' 'print("still" .. " here")\n' 'os.exit()\n' &
-(dotyk="trap : INT; $dotyk; echo status \$?" && expect "Ctrl-C three times" 'status 130' "${fill//4e6/2e7}" "$sort" '\003' '\003' '\003') &
+(dotyk="trap : INT; $dotyk; echo status \$?" && expect "Ctrl-C three times" 'status 130' "${fill//6e6/2e7}" "$sort" '\003' '\003' '\003') &
 expect "Ctrl-C clears the line" '12' 'error(' '\003' '3 * 4\n' &
 block='block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} }, material = dotyk.material{ E = 1, nu = 0.3 } }\n'
 expect "completion of a part" 'bottom: 2 facets' "$block" 'block:part "bo\t:fix()\n' &
