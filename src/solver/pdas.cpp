@@ -44,8 +44,6 @@ class Iteration {
       : problem_(problem), settings_(settings), monitor_(monitor), rigid_(problem::rigid_motions(problem)),
         holder_(problem, rigid_),
         rho_(settings.rho * problem.row_stiffness()) {
-    require_frictionless(problem, "pdas");
-    require_springs(problem, "pdas");
     // A row that no unknown moves has no stiffness; any ρ will do.
     const double largest = rho_.size() ? rho_.maxCoeff() : 1;
     for (double& r : rho_)
@@ -395,6 +393,8 @@ class Iteration {
 }  // namespace
 
 Result solve(const Problem& problem, const Pdas& settings, Monitor& monitor) {
+  require_frictionless(problem, "pdas");
+  require_springs(problem, "pdas");
   return Iteration(problem, settings, monitor).run();
 }
 

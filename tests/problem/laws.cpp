@@ -225,8 +225,8 @@ TEST_CASE("unequal elastic with one stiffness is elastic, with one of 0 one-side
   for (const auto& [a, b] : {std::pair{same, equal}, {up, pushes}, {down, pulls}}) {
     CHECK(a->multipliers(0).low == b->multipliers(0).low);
     CHECK(a->multipliers(0).high == b->multipliers(0).high);
-    CHECK(a->following(0).low == b->following(0).low);
-    CHECK(a->following(0).high == b->following(0).high);
+    CHECK(following(*a, 0).low == following(*b, 0).low);
+    CHECK(following(*a, 0).high == following(*b, 0).high);
     for (double y : grid()) {
       for (double rho : rhos()) {
         CHECK(a->project(0, y, rho).lambda == b->project(0, y, rho).lambda);

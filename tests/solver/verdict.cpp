@@ -51,7 +51,7 @@ TEST_CASE("a result that is off any law is not converged, whatever the method sa
     CHECK_FALSE(bad.converged);
     CHECK(bad.reason.find("off the laws") != std::string::npos);
     bad.converged = true;
-    bad.asked = 0.1;  // a rough tol was asked for
+    bad.asked = 10;  // a rough tol was asked for: 1 is as wrong as can be, where nothing but the wrong row moves
     solver::judge(p, bad);
     CHECK(bad.converged);
   }
