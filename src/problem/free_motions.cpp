@@ -54,7 +54,11 @@ class Conditions {
   void add(const Law& law, int row, int k) {
     const auto [low, high] = law.multipliers(k);
     if (low == high) return;  // it bears the same wherever it is
-    const Interval following = law.following(k);
+    if (!law.springs(k)) {  // where it might give way is not known
+      held_.emplace_back(held_count_++, row, 1.0);
+      return;
+    }
+    const Interval following = problem::following(law, k);
     if (lambda_[row] - low <= small_)
       limit(row, 1, following.low - x_[row]);
     else if (high - lambda_[row] <= small_)
