@@ -8,12 +8,12 @@
 # quick: some seconds each; the test figure/images compares them.
 # long:  up to some minutes; to be compared by hand after changes of solvers or figures, or once a week.
 # timed: they show seconds or memory: to be drawn on a machine that does nothing else, never compared.
-quick="first friction two_blocks tower corner stack several_solutions ladder screws breaking beam load_cone
-  stability/screws stability/load_limit stability/overconstrained stability/penalty stability/stretched"
-long="punch ball stability/inf_sup hertz cattaneo_mindlin gears mortar foundation cont roller lug wall three_blocks plate plate_cases plate_corners
+quick="first friction two_blocks tower corner stack several_solutions ladder screws breaking beam"
+long="punch ball hertz cattaneo_mindlin gears mortar foundation cont roller lug wall three_blocks plate plate_cases plate_corners
   plate_friction plate_obstacle supports beam_laws thermoelastic channel penalty semicoercive inf_sup open_question augmented_lagrangian
   cycles coulomb_loop alternating shape_derivatives iter stability/degenerate stability/uzawa stability/coulomb stability/rho
-  stability/locking stability/contrast stability/weak_springs stability/cycling"
+  stability/locking stability/contrast stability/weak_springs stability/cycling
+  stability/inf_sup stability/screws stability/load_limit stability/overconstrained stability/penalty stability/stretched load_cone"
 timed="adaptivity fclib feti_scaling second_order stability/interrupted work_precision/ball work_precision/beam
   work_precision/friction work_precision/hertz work_precision/plate work_precision/semicoercive work_precision/three_blocks
   work_precision/tolerances"
