@@ -29,38 +29,37 @@ std::string describe_contact(const Contact& contact) {
               how[static_cast<int>(contact.pairing)], multipliers);
 }
 
-/// Whether the load can be carried, and by supports worth the name; needs everything assembled.
-std::string verdict(const Scene& scene) {
-  problem::Clock clock;
-  Monitor quiet;
-  try {
-    const Model model = build(scene, clock, quiet);
-    std::string warnings;
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      if (!model.nearly_free[b].empty())
-        warnings += "\n  warning: '" + scene.bodies[b]->name + "' is " + model.nearly_free[b];
-    return known_before(model.problem, problem::rigid_motions(model.problem)).text + warnings;
-  } catch (const InputError& error) {
-    return std::string("no solution: ") + error.what();
+/// The method that solves it where none is named, and why.
+std::string method(const problem::Problem& problem, bool any_free) {
+  const std::string factored = text(" (", problem.unknowns(), " unknowns factored once)");
+  switch (solver::default_method(problem)) {
+    case solver::DefaultMethod::linear: return text("one linear solve of ", problem.unknowns(), " unknowns");
+    case solver::DefaultMethod::newton: return "newton on the condensed rows of contact and friction" + factored;
+    case solver::DefaultMethod::pdas: break;
   }
+  return text("pdas on ", problem.rows(), " condensed rows", factored, ": finite and exact for frictionless contact",
+              any_free ? "; rigid motions exactly, as constraints of the dual (to compare: magnetic screws, pdas{ kernel = \"screws\" })" : "");
 }
 
-/// The method that solves the scene where none is named, and why.
-std::string method(const Scene& scene, bool any_free) {
+/// Whether the load can be carried, and by supports worth the name.
+std::string verdict(const Scene& scene, const Model& model) {
+  std::string warnings;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (!model.nearly_free[b].empty()) warnings += "\n  warning: '" + scene.bodies[b]->name + "' is " + model.nearly_free[b];
+  return known_before(model.problem, problem::rigid_motions(model.problem)).text + warnings;
+}
+
+/// Two lines; everything is assembled for them.
+std::string method_and_verdict(const Scene& scene, bool any_free) {
   problem::Clock clock;
   Monitor quiet;
+  std::string out = "\n  method: ", how = "none, since there is no solution";
   try {
-    const problem::Problem problem = build(scene, clock, quiet).problem;
-    const std::string factored = text(" (", problem.unknowns(), " unknowns factored once)");
-    switch (solver::default_method(problem)) {
-      case solver::DefaultMethod::linear: return text("one linear solve of ", problem.unknowns(), " unknowns");
-      case solver::DefaultMethod::newton: return "newton on the condensed rows of contact and friction" + factored;
-      case solver::DefaultMethod::pdas: break;
-    }
-    return text("pdas on ", problem.rows(), " condensed rows", factored, ": finite and exact for frictionless contact",
-                any_free ? "; rigid motions exactly, as constraints of the dual (to compare: magnetic screws, pdas{ kernel = \"screws\" })" : "");
-  } catch (const InputError&) {
-    return "none, since there is no solution";
+    const Model model = build(scene, clock, quiet);
+    how = method(model.problem, any_free);
+    return out + how + "\n  " + verdict(scene, model);
+  } catch (const InputError& error) {
+    return out + how + "\n  no solution: " + error.what();
   }
 }
 
@@ -89,7 +88,7 @@ std::string plan(const Scene& scene) {
     for (const LawSupport& on : body->laws) out += text("\n    on ", on.part.name, " (", on.nodes.size(), " nodes): ", describe(on));
   }
   for (const auto& contact : scene.contacts) out += "\n" + describe_contact(*contact);
-  return out + "\n  method: " + method(scene, free > 0) + "\n  " + verdict(scene) + describe(doubts(scene));
+  return out + method_and_verdict(scene, free > 0) + describe(doubts(scene));
 }
 
 }  // namespace dotyk::scene
