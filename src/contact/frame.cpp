@@ -192,10 +192,10 @@ Frame Frames::of(const NodeSide& side, const std::vector<NodeWeight>& partners) 
   frame.turn = std::max(K1.norm() * here_.width(side), K2.norm() * width);
   const auto T = basis(mesh::unit(mesh::plus(side.normal, inward)), dimension);
   const auto sized = [&](const Eigen::Matrix3d& K) {
-    return of_eigenvalues(T.transpose() * K * T, [&](double v) { return std::hypot(v, flat_); });
+    return of_eigenvalues(T.transpose() * K * T, [&](double v) { return v < flat_ ? 0 : v; });
   };
   const Small a = sized(K1), b = sized(K2);
-  const Eigen::Matrix3d M = T * ((b - a) * (a + b).inverse()) * T.transpose();
+  const Eigen::Matrix3d M = T * ((b - a) * of_eigenvalues(a + b, [&](double v) { return v < flat_ ? 0 : 1 / v; })) * T.transpose();
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) frame.mix[i][k] = M(i, k);
   frame.normal = mixed_normal(side.normal, inward, frame.mix);

@@ -16,7 +16,8 @@ namespace dotyk::contact {
 ///   n = unit(N + M d),   M = (|K₂| − |K₁|)(|K₁| + |K₂|)⁻¹   in the plane across N.
 /// Slopes K₁x and K₂x of opposite signs then cancel, crossed cylinders included: |K₂|(|K₁| + |K₂|)⁻¹|K₁| is symmetric in the parts. A flat
 /// part's normal decides; parts that conform have the mean, or that of the flatter one. Exchanging the parts turns n round.
-/// Curvatures below kFlat over the parts' extent are no longer told apart: M = 0, n = N.
+/// Curvatures below kFlat over the parts' extent count as 0, so that a flat part's normals are the same at all nodes: else motions along it
+/// would be held by what rounding leaves. Where both are 0, M = 0.
 struct Frame {
   mesh::Point normal{};             ///< unit, out of the first part
   std::array<mesh::Point, 3> mix{};  ///< M
