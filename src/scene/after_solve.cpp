@@ -25,14 +25,15 @@ constexpr double kGreatRotation = 0.03;
 
 std::string end(double amount) { return std::isfinite(amount) ? text(amount) : amount < 0 ? "-infinity" : "infinity"; }
 
-/// Rows whose multiplier is rounding bear nothing.
+/// Rows whose multiplier is rounding bear nothing, nor do those where it is as good as none and which have parted.
 void open_without_force(const problem::Problem& problem, solver::Result& result) {
   if (result.active_sets.empty()) return;
   const Vector& lambda = result.state.lambda;
-  const double none = kRounding * lambda.lpNorm<Eigen::Infinity>();
+  const Vector x = problem.B * result.state.u - problem.c;
+  const double most = lambda.lpNorm<Eigen::Infinity>(), apart = kOnBound * result.state.u.lpNorm<Eigen::Infinity>();
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
-      if (lambda[r] <= none) result.active_sets.back()[r] = 0;
+      if (lambda[r] <= kRounding * most || (lambda[r] <= kOnBound * most && x[r] < -apart)) result.active_sets.back()[r] = 0;
 }
 
 /// The one motion, its range, and of all states that differ by it the one nearest to `before`.
@@ -90,7 +91,6 @@ std::string resisted_by_cells(const Scene& scene, const Model& model, const prob
 
 void settle(const Scene& scene, const Model& model, const problem::Problem& problem, const Vector& before, solver::Result& result) {
   if (!result.converged || problem.rows() == 0) return;
-  open_without_force(problem, result);
   const problem::FreeMotions free = problem::free_motions(problem, result.state, kOnBound);
   if (free.motions.cols() == 1)
     take_nearest(problem, free, before, result);
@@ -99,6 +99,7 @@ void settle(const Scene& scene, const Model& model, const problem::Problem& prob
                           free.motions.cols() > 0 ? ", one of them " + describe(problem::body_motions(problem), free.motions.col(0)) : "");
   else
     result.reason += resisted_by_cells(scene, model, problem, free, result.state.lambda);
+  open_without_force(problem, result);
 }
 
 std::string great_rotation(const Body& body, const std::vector<double>& u) {
