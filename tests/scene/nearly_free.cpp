@@ -33,7 +33,8 @@ TEST_CASE("plan and solution name a body that is nearly free, the motion, and wh
 TEST_CASE("a motion that is lost in rounding is not called solved, whatever the residuals") {
   const auto s = test::solve(scene::make_scene({sprung(6e-9)}));
   CHECK(!s->result().converged);
-  CHECK_MESSAGE(contains(s->result().reason, "of a motion that supports hardly hold; 'lid' is nearly free"), s->result().reason);
+  CHECK_MESSAGE(contains(s->result().reason, "of a motion that supports hardly hold; "), s->result().reason);
+  CHECK_MESSAGE(contains(s->result().reason, "; 'lid' is nearly free"), s->result().reason);
 }
 
 TEST_CASE("a patch that holds too little is named with its nodes") {
