@@ -40,10 +40,10 @@ expect "Ctrl-C on an endless loop" 'still here' 'while true do end\n' '\003' 'pr
 expect "Ctrl-C on an endless coroutine" 'still here' 'coroutine.wrap(function() while true do end end)()\n' '\003' 'print("still" .. " here")\n' &
 expect "Ctrl-C on an endless pattern" 'still here' '(("a"):rep(60) .. "b"):find(("a?"):rep(60) .. ("a"):rep(60) .. "c")\n' '\003' 'print("still" .. " here")\n' &
 # What Lua's library computes cannot be stopped (seconds, here): the second Ctrl-C warns, the session goes on; the third ends it.
-fill='t = {} for i = 1, 6e6 do t[i] = i * 7919 % 6000011 end\n' sort='table.sort(t)\n'
-expect "Ctrl-C twice warns" 'press Ctrl-C again within 2 s to end dotyk and lose the session' "$fill" "$sort" '\003' '\003' 'os.exit()\n' &
-expect "Ctrl-C twice and the session" 'still here' "$fill" "$sort" '\003' '\003' 'print("still" .. " here")\n' 'os.exit()\n' &
-(dotyk="trap : INT; $dotyk; echo status \$?" && expect "Ctrl-C three times" 'status 130' "${fill//6e6/2e7}" "$sort" '\003' '\003' '\003') &
+fill='t = {} for i = 1, 6e6 do t[i] = i * 7919 % 6000011 end\n' sort='print("sort" .. "ing") table.sort(t)\n'
+expect "Ctrl-C twice warns" 'press Ctrl-C again within 2 s to end dotyk and lose the session' "$fill" "$sort" '\001sorting' '\003' '\003' 'os.exit()\n' &
+expect "Ctrl-C twice and the session" 'still here' "$fill" "$sort" '\001sorting' '\003' '\003' 'print("still" .. " here")\n' 'os.exit()\n' &
+(dotyk="trap : INT; $dotyk; echo status \$?" && expect "Ctrl-C three times" 'status 130' "${fill//6e6/2e7}" "$sort" '\001sorting' '\003' '\003' '\003') &
 expect "Ctrl-C clears the line" '12' 'error(' '\003' '3 * 4\n' &
 block='block = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {2,2} }, material = dotyk.material{ E = 1, nu = 0.3 } }\n'
 expect "completion of a part" 'bottom: 2 facets' "$block" 'block:part "bo\t:fix()\n' &
@@ -85,8 +85,8 @@ shape = dotyk.shape{ scene = scene, moves = { { part = block:part "bottom", cont
     return q
   end }
 END
-expect "Ctrl-C in an optimisation" 'ended: stopped, 4 variables' "dofile \"$folder/shape.lua\"\n" 'best = shape:optimise{ max_designs = 100000, tol_design = 1e-300, tol_gap = 0 }\n' '' '' '' '' '' '' \
-  '\003' '' 'print(("ended: %s, %d variables"):format(best.reason, #best.alpha))\n' &
+expect "Ctrl-C in an optimisation" 'ended: stopped, 4 variables' "dofile \"$folder/shape.lua\"\n" 'best = shape:optimise{ max_designs = 100000, tol_design = 1e-300, tol_gap = 0, on_design = function(k) if k == 2 then print("at " .. "work") end end }\n' \
+  '\001at work' '\003' '' 'print(("ended: %s, %d variables"):format(best.reason, #best.alpha))\n' &
 cat >"$folder/called.lua" <<'END'
 function slowly(k) local t = os.clock() while os.clock() < t + 0.3 do end end
 function run(scene) return dotyk.solver.psor{ on_iteration = slowly }:solve(scene) end

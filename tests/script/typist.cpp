@@ -109,7 +109,7 @@ std::string unescaped(std::string_view keys) {
   return out;
 }
 
-const std::string interrupt = "\003", leave = "\004";
+const std::string expected = "\001", interrupt = "\003", leave = "\004";
 
 /// False: what had to come did not.
 bool type_all(Screen& screen, char** words) {
@@ -119,6 +119,10 @@ bool type_all(Screen& screen, char** words) {
     const std::string keys = unescaped(*words);
     if (keys.empty()) {
       screen.watch(moment);
+      continue;
+    }
+    if (keys.starts_with(expected)) {
+      if (!screen.await(before, [&] { return screen.text().find(keys.substr(1), before) != std::string::npos; })) return false;
       continue;
     }
     if (answer_due && keys != interrupt && !screen.await_prompt(before)) return false;
