@@ -42,3 +42,19 @@ for _, element in ipairs{ "P1", "Q1" } do
     check.error(function() solver:solve(scene) end, "the node at (0, 0) is fixed in the normal direction and lies 0.1 inside")
   end
 end
+
+-- Given friction does not ask for the pressure: it acts at nodes that are held in the normal direction, too. A block held there
+-- and drawn along the floor slips when the load exceeds g times its length, which friction then carries; the spring carries the rest.
+for _, element in ipairs{ "P1", "Q1" } do
+  local b <const> = dotyk.body{ material = material, mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {4,4}, element = element } }
+  b:part "bottom":fix "y"
+  b:part "top":fix "y"
+  b:part "right":load{ 3, 0 }
+  b:part "left":spring{ x = 1 }
+  local scene <const> = dotyk.scene{ b }
+  local c <const> = scene:contact{ b:part "bottom", rigid = floor, friction = dotyk.friction.tresca(0.5) }
+  local s <const> = dotyk.solve(scene)
+  check.that(s.converged)
+  check.near(s:contact(c).force, { -0.5, 0 })
+  check.near((s:reaction(b:part "left")), -2.5)
+end
