@@ -56,7 +56,10 @@ for power = 0, -16, -1 do
       if s.converged then
         lowest, slow = math.min(lowest, k), math.max(slow, s.iterations)
         if off > 1e-4 then wrong = wrong + 1 end
-      else missed:add(k, math.max(off, 1e-16)) end
+      else
+        missed:add(k, math.max(off, 1e-16))
+        assert(s.reason:find("'upper' is nearly free", 1, true), s.reason)
+      end
       if exact[m[1]] then exact[m[1]] = math.max(exact[m[1]], off)
       elseif k <= 1e-2 then x[#x + 1], y[#y + 1] = k, math.max(off, 1e-16) end
     end

@@ -28,7 +28,7 @@ Vector stiffness_of_rows(const problem::CondensedProblem& condensed) {
 }
 
 NaturalMap::NaturalMap(const Problem& problem, const problem::CondensedProblem& condensed, const Vector& rho)
-    : problem_(problem), condensed_(condensed), rho_(rho) {
+    : problem_(&problem), condensed_(&condensed), rho_(rho) {
   for (const FrictionGroup& group : problem.friction)  // the projection onto a disc needs one ρ
     for (int k = 0; k < group.points(); ++k)
       rho_.segment(group.row(k), group.components).setConstant(rho[group.scale_row(k)]);
@@ -53,13 +53,13 @@ Vector NaturalMap::scaled_load(const Vector& e) const {
 }
 
 Vector NaturalMap::unbalanced(const Vector& lambda) const {
-  return scaled_load(condensed_.e() - condensed_.N().transpose() * lambda);
+  return scaled_load(condensed_->e() - condensed_->N().transpose() * lambda);
 }
 
 double NaturalMap::greatest_compliance() const {
   if (root_.size() == 0) return 0;
-  const double of_W = (condensed_.W().cwiseAbs() * root_).cwiseProduct(root_).maxCoeff();
-  return of_W + (condensed_.kernel_size() > 0 ? 1 : 0);
+  const double of_W = (condensed_->W().cwiseAbs() * root_).cwiseProduct(root_).maxCoeff();
+  return of_W + (condensed_->kernel_size() > 0 ? 1 : 0);
 }
 
 int NaturalMap::Value::differences(const Value& other) const {
@@ -69,16 +69,16 @@ int NaturalMap::Value::differences(const Value& other) const {
 }
 
 NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) const {
-  const int m = problem_.rows();
+  const int m = problem_->rows();
   Value v;
   v.projected = Vector::Zero(m);
-  v.x = condensed_.jump(lambda, alpha);
+  v.x = condensed_->jump(lambda, alpha);
   v.y = lambda + rho_.cwiseProduct(v.x);
   v.closed.assign(m, 0);
   v.slipping.assign(m, 0);
   v.piece.assign(m, 0);
   Vector slope = Vector::Zero(m);
-  for (const RowGroup& group : problem_.groups)
+  for (const RowGroup& group : problem_->groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
       const problem::Projection p = group.law->project(r - group.first, v.y[r], rho_[r]);
       v.projected[r] = p.lambda;
@@ -89,7 +89,7 @@ NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) cons
       v.piece[r] = p.lambda < 0 && problem::kinked_at_zero(*group.law, r - group.first) ? 2 : 1;
       ++v.active;
     }
-  for (const FrictionGroup& group : problem_.friction)
+  for (const FrictionGroup& group : problem_->friction)
     for (int k = 0; k < group.points(); ++k) {
       const int first = group.row(k), n = group.normal[k], d = group.components;
       const double bound = group.bound(k, v.projected);
@@ -106,7 +106,7 @@ NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) cons
       }
       ++(p.stick ? v.stick : v.slip);
     }
-  const Vector unbalanced = condensed_.e() - condensed_.N().transpose() * lambda;
+  const Vector unbalanced = condensed_->e() - condensed_->N().transpose() * lambda;
   v.norm = std::sqrt((lambda - v.projected).squaredNorm() + unbalanced.squaredNorm());
   v.scaled_norm = (lambda - v.projected).cwiseQuotient(root_).norm();
   v.unbalanced = this->unbalanced(lambda);
@@ -114,18 +114,18 @@ NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) cons
 }
 
 NaturalMap::Value NaturalMap::sticking(const std::vector<char>& start) const {
-  const int m = problem_.rows();
-  Value v = at(Vector::Zero(m), Vector::Zero(condensed_.kernel_size()));
-  const double touching = 1e-12 * (m ? problem_.c.lpNorm<Eigen::Infinity>() : 0);
+  const int m = problem_->rows();
+  Value v = at(Vector::Zero(m), Vector::Zero(condensed_->kernel_size()));
+  const double touching = 1e-12 * (m ? problem_->c.lpNorm<Eigen::Infinity>() : 0);
   std::vector<char> closed(m, 0);
-  for (const RowGroup& group : problem_.groups)
+  for (const RowGroup& group : problem_->groups)
     for (int r = group.first; r < group.first + group.count; ++r)
-      closed[r] = !may_open(*group.law, r - group.first) || (start.empty() ? !group.law->unilateral() || problem_.c[r] <= touching : start[r]);
-  for (const FrictionGroup& group : problem_.friction)
+      closed[r] = !may_open(*group.law, r - group.first) || (start.empty() ? !group.law->unilateral() || problem_->c[r] <= touching : start[r]);
+  for (const FrictionGroup& group : problem_->friction)
     for (int k = 0; k < group.points(); ++k)
       for (int i = 0; i < group.components; ++i) closed[group.row(k) + i] = group.normal[k] < 0 || closed[group.normal[k]];
   std::vector<char> scalar(m, 0);
-  for (const RowGroup& group : problem_.groups)
+  for (const RowGroup& group : problem_->groups)
     for (int r = group.first; r < group.first + group.count; ++r) scalar[r] = !group.law->unilateral() && closed[r];
   std::erase_if(v.slope, [&](const auto& t) { return !scalar[t.row()]; });
   for (int r = 0; r < m; ++r) {
@@ -137,7 +137,7 @@ NaturalMap::Value NaturalMap::sticking(const std::vector<char>& start) const {
 }
 
 NaturalMap::System NaturalMap::linearise(const Value& v) const {
-  const int m = problem_.rows();
+  const int m = problem_->rows();
   SparseRows S(m, m);
   S.setFromTriplets(v.slope.begin(), v.slope.end());
   System system;
@@ -149,10 +149,10 @@ NaturalMap::System NaturalMap::linearise(const Value& v) const {
     }
   system.fixed = v.projected;
   for (int r : system.rows) system.fixed[r] = 0;
-  const Eigen::Index n = static_cast<Eigen::Index>(system.rows.size()), k = condensed_.kernel_size();
+  const Eigen::Index n = static_cast<Eigen::Index>(system.rows.size()), k = condensed_->kernel_size();
   system.matrix = DenseMatrix::Zero(n + k, n + k);
   system.right_side = Vector::Zero(n + k);
-  const Vector rest = condensed_.jump(system.fixed, Vector());
+  const Vector rest = condensed_->jump(system.fixed, Vector());
   for (Eigen::Index i = 0; i < n; ++i) {
     fill_row(system, i, S, v, place, rest);
     if (k > 0) system.matrix.col(i).tail(k) = Q_.row(system.rows[i]).transpose();
@@ -179,7 +179,7 @@ void NaturalMap::fill_row(System& system, Eigen::Index i, const SparseRows& S, c
       right_side += s * system.fixed[c] / root_[c];
     right_side += by * rest[c] - s * v.y[c] / root_[c];
     for (Eigen::Index j = 0; j < n; ++j)
-      matrix(i, j) += by * condensed_.W()(c, system.rows[j]) * root_[system.rows[j]];
+      matrix(i, j) += by * condensed_->W()(c, system.rows[j]) * root_[system.rows[j]];
     if (k > 0) matrix.row(i).tail(k) -= s * Q_.row(c);
   }
 }
@@ -188,7 +188,7 @@ void NaturalMap::take(const System& system, const Vector& solved, Vector& lambda
   lambda = system.fixed;
   for (std::size_t i = 0; i < system.rows.size(); ++i)
     lambda[system.rows[i]] = solved[static_cast<Eigen::Index>(i)] * root_[system.rows[i]];
-  alpha = this->alpha(solved.tail(condensed_.kernel_size()));
+  alpha = this->alpha(solved.tail(condensed_->kernel_size()));
 }
 
 }  // namespace dotyk::solver

@@ -67,8 +67,8 @@ class NaturalMap {
                 const std::vector<int>& place, const algebra::Vector& rest) const;
   algebra::Vector scaled_load(const algebra::Vector& e) const;  ///< R^{-T} e
 
-  const problem::Problem& problem_;
-  const problem::CondensedProblem& condensed_;
+  const problem::Problem* problem_;
+  const problem::CondensedProblem* condensed_;
   algebra::Vector rho_, root_;  ///< ρ, √ρ
   algebra::DenseMatrix Q_, R_;
 };

@@ -15,7 +15,7 @@ using problem::Problem;
 
 RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
                            Monitor& monitor)
-    : problem(on), condensed(rows), map(on, rows, rho * stiffness_of_rows(rows)), settings_(settings),
+    : problem(on), condensed(rows), map_(on, rows, rho * stiffness_of_rows(rows)), settings_(settings),
       monitor_(monitor), stiffness_(stiffness_of_rows(rows)), light_(rho < 1), allowed_(settings.max_iterations) {
   move_to(Vector::Zero(rows.rows()), Vector::Zero(rows.kernel_size()));
   recorded_ = value_;
@@ -72,6 +72,12 @@ void RowIteration::grant(int more) {
   allowed_ = result_.iterations + more;
   result_.reason.clear();
   milestone_ = std::numeric_limits<double>::infinity();
+  map_ = NaturalMap(problem, condensed, stiffness_);
+  light_ = false;
+  if (best_.lambda.size()) {
+    move_to(std::move(best_.lambda), std::move(best_.alpha));
+    best_ = {lambda_, alpha_, residual()};
+  }
   move_to(first_lambda_, first_alpha_);
 }
 

@@ -26,7 +26,7 @@ class RowIteration {
 
   const problem::Problem& problem;
   const problem::CondensedProblem& condensed;
-  const NaturalMap map;
+  const NaturalMap& map = map_;
 
   const algebra::Vector& lambda() const { return lambda_; }
   const algebra::Vector& alpha() const { return alpha_; }
@@ -52,7 +52,8 @@ class RowIteration {
   /// The residual's least value has not fallen by a hundredth in the last `patience` iterations, or the
   /// multipliers are beyond all measure. Gives up then.
   bool stalled(int patience = 2000);
-  /// Allows so many iterations more, to another method, from where this one began.
+  /// Allows so many iterations more, to another method, from where this one began. The natural map and the residual are from
+  /// now on those of ρ_r = 1/W_rr: what this method's `rho` makes of rounding is not to count against another.
   void grant(int more);
   /// Was the last iterate recorded within tol?
   bool converged() const { return result_.converged; }
@@ -75,6 +76,7 @@ class RowIteration {
   };
   void record_active_set();
 
+  NaturalMap map_;
   const Settings& settings_;
   Monitor& monitor_;
   algebra::Vector stiffness_;  ///< 1/W_rr
