@@ -18,6 +18,9 @@ namespace dotyk::contact {
 /// part's normal decides; parts that conform have the mean, or that of the flatter one. Exchanging the parts turns n round.
 /// Curvatures below kFlat over the parts' extent count as 0, so that a flat part's normals are the same at all nodes: else motions along it
 /// would be held by what rounding leaves. Where both are 0, M = 0.
+/// M is no continuous function of the curvatures at 0. So it is made when the contact is, like pairs of nodes, and stays when nodes move:
+/// rows then depend smoothly on the nodes. It differs from M made anew where the ratio of the curvatures changes, or flat parts become
+/// curved: normals then differ by |ΔM d|, at most half the angle between n₁ and −n₂ where M was 0.
 struct Frame {
   mesh::Point normal{};             ///< unit, out of the first part
   std::array<mesh::Point, 3> mix{};  ///< M

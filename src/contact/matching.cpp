@@ -352,13 +352,14 @@ void refuse_slid(const std::vector<ContactRow>& rows, const Face& first, const F
 std::vector<ContactRow> moved_rows(const Mesh& before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
                                    bool interference) {
   const auto across = smooth_sides(second);
+  const Frames frames(first, second);
   std::vector<ContactRow> result;
   for (const NodeSide& side : moved_sides(before, first.mesh, first.facets, first.name)) {
     if (result.size() == rows.size()) break;
     const ContactRow& row = rows[result.size()];  // rows are sides, those without partner left out
     if (row.node != side.node || row.facets != side.facets) continue;
     const Point normal = mixed_normal(side.normal, inward_across(side.normal, row.partners, across), row.mix);
-    result.push_back(row_of(side, row.partners, row.added, first, second, {normal, row.mix, row.turn}));
+    result.push_back(row_of(side, row.partners, row.added, first, second, {normal, row.mix, frames.of(side, row.partners).turn}));
   }
   if (result.size() != rows.size()) throw std::logic_error("contact rows are not of this part");
   refuse_slid(result, first, second);
