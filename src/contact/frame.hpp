@@ -19,8 +19,8 @@ namespace dotyk::contact {
 /// Curvatures below kFlat over the parts' extent count as 0, so that a flat part's normals are the same at all nodes: else motions along it
 /// would be held by what rounding leaves. Where both are 0, M = 0.
 /// M is no continuous function of the curvatures at 0. So it is made when the contact is, like pairs of nodes, and stays when nodes move:
-/// rows then depend smoothly on the nodes. It differs from M made anew where the ratio of the curvatures changes, or flat parts become
-/// curved: normals then differ by |ΔM d|, at most half the angle between n₁ and −n₂ where M was 0.
+/// rows then depend smoothly on the nodes. Of flat parts it is made when one of them moves, see mix_of_moving(). It differs from M made anew
+/// where the ratio of two curvatures changes: normals then differ by |ΔM d|.
 struct Frame {
   mesh::Point normal{};             ///< unit, out of the first part
   std::array<mesh::Point, 3> mix{};  ///< M
@@ -39,6 +39,9 @@ mesh::Point inward_across(const mesh::Point& n1, const std::vector<NodeWeight>& 
 
 /// n by n₁, −n₂ and M. Normals opposed but for rounding: n₁ as it is.
 mesh::Point mixed_normal(const mesh::Point& n1, const mesh::Point& inward, const std::array<mesh::Point, 3>& mix);
+/// M of a row, of whose parts one may rest while the other's nodes move. Flat parts have M = 0, and n₁ = −n₂ there; of these the one that rests
+/// stays flat, and decides from then on.
+std::array<mesh::Point, 3> mix_of_moving(const ContactRow& row, bool first_rests, bool second_rests);
 /// d/dt of it, where n₁ and −n₂ turn with d1 and d2; M does not change.
 mesh::Point mixed_normal_derivative(const mesh::Point& n1, const mesh::Point& d1, const mesh::Point& inward, const mesh::Point& d2,
                                     const std::array<mesh::Point, 3>& mix);

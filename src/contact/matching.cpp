@@ -349,7 +349,7 @@ void refuse_slid(const std::vector<ContactRow>& rows, const Face& first, const F
 
 }  // namespace
 
-std::vector<ContactRow> moved_rows(const Mesh& before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
+std::vector<ContactRow> moved_rows(const Mesh& before, const Mesh& second_before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
                                    bool interference) {
   const auto across = smooth_sides(second);
   const Frames frames(first, second);
@@ -358,8 +358,9 @@ std::vector<ContactRow> moved_rows(const Mesh& before, const std::vector<Contact
     if (result.size() == rows.size()) break;
     const ContactRow& row = rows[result.size()];  // rows are sides, those without partner left out
     if (row.node != side.node || row.facets != side.facets) continue;
-    const Point normal = mixed_normal(side.normal, inward_across(side.normal, row.partners, across), row.mix);
-    result.push_back(row_of(side, row.partners, row.added, first, second, {normal, row.mix, frames.of(side, row.partners).turn}));
+    const auto mix = mix_of_moving(row, &first.mesh == &before, &second.mesh == &second_before);
+    const Point normal = mixed_normal(side.normal, inward_across(side.normal, row.partners, across), mix);
+    result.push_back(row_of(side, row.partners, row.added, first, second, {normal, mix, frames.of(side, row.partners).turn}));
   }
   if (result.size() != rows.size()) throw std::logic_error("contact rows are not of this part");
   refuse_slid(result, first, second);

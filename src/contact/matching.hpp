@@ -66,9 +66,9 @@ std::vector<ContactRow> between(const Face& first, const Face& second,
                                 const elasticity::ScalarField& added, bool interference = false);
 
 /// The rows that between() made of `first` on the mesh `before`, whose nodes have moved (as those of `second` may have): pairs, M of
-/// frame.hpp and what was added to the gaps stay, normals, weights, gaps and what normals are uncertain by are made anew. Throws as between()
-/// for an overlap, and as moved_sides().
-std::vector<ContactRow> moved_rows(const mesh::Mesh& before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
+/// frame.hpp and what was added to the gaps stay, normals, weights, gaps and what normals are uncertain by are made anew. A part that rests is
+/// still the mesh that it was. Throws as between() for an overlap, and as moved_sides().
+std::vector<ContactRow> moved_rows(const mesh::Mesh& before, const mesh::Mesh& second_before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
                                    bool interference);
 
 }  // namespace dotyk::contact

@@ -123,7 +123,7 @@ std::vector<RowDerivative> row_derivatives(const Face& first, const std::vector<
     RowDerivative d = here.at(row.node, row.facets);
     const NodeSide* side = side_across(n1, partner, across);
     const Point dinward = side ? mesh::times(-1, there.at(partner, side->facets).normal) : d.normal;
-    d.normal = mixed_normal_derivative(n1, d.normal, inward, dinward, row.mix);
+    d.normal = mixed_normal_derivative(n1, d.normal, inward, dinward, mix_of_moving(row, V.empty(), W.empty()));
     const Point apart = minus(second.mesh.point(partner), first.mesh.point(row.node));
     const Point moving = minus(velocity(second.mesh, W, partner), velocity(first.mesh, V, row.node));
     d.gap = dot(moving, row.normal) + dot(apart, d.normal);

@@ -101,7 +101,7 @@ bool same_nodes(const Part& part, const Mesh& after) {
 std::vector<contact::ContactRow> moved_rows(const Contact& from, const Contact& to) {
   const Part& part = to.first;
   const Mesh& before = *from.first.body->mesh;
-  if (to.second.body) return contact::moved_rows(before, from.rows, part.face(), to.second.face(), to.interference);
+  if (to.second.body) return contact::moved_rows(before, *from.second.body->mesh, from.rows, part.face(), to.second.face(), to.interference);
   if (!std::holds_alternative<contact::RigidGap>(to.shape))
     return contact::moved_rows(from.rows, *part.body->mesh, part.facets, to.shape, to.interference);
   if (same_nodes(from.first, *part.body->mesh)) return from.rows;

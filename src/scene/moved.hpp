@@ -11,9 +11,8 @@ namespace dotyk::scene {
 /// contact. `points`: a body each, node × dimension; empty where the body rests, which then is shared, as are contacts of such bodies.
 ///
 /// What was given by functions stays with its material point: loads and stiffnesses per area and volume with the quadrature points,
-/// prescribed displacements, friction and what was added to gaps with the nodes. Contacts and glues keep their pairs of nodes;
-/// contacts of two parts also keep M of contact/frame.hpp, by which both parts' normals make the row's: where curvatures change their ratio,
-/// as from flat parts, normals are not those of a scene set up there. Bodies and contacts carry what they are another design of as `origin`: handles of any design go on working with solutions of another.
+/// prescribed displacements, friction and what was added to gaps with the nodes. Contacts and glues keep their pairs of nodes,
+/// contacts of two parts M of contact/frame.hpp, by which the normals of both make the row's. Bodies and contacts carry what they are another design of as `origin`: handles of any design go on working with solutions of another.
 ///
 /// Throws InputError for points of another number, an inverted cell (mesh::check), bodies or rigid shapes that overlap unless that is
 /// meant, pairs of nodes that slide away from each other (by more than half a facet), a part that gets or loses a corner where sides
