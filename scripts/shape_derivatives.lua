@@ -147,8 +147,9 @@ print(("\nA kink: node %d of the cantilever's lower edge"):format(weak))
 for step = 1, 20 do
   local node <const> = shape:design(case.alpha):contact(case.contact)[weak]
   print(("  step %d: variable %.15f, gap %.1e, force %.1e"):format(step, case.alpha[variable], node.gap.value, node.force.value))
-  if node.status ~= "open" or node.gap.value < 1e-16 then break end
-  case.alpha[variable] = case.alpha[variable] - node.gap.value / node.gap.gradient[variable]
+  local left <const> = node.status == "open" and node.gap or node.force -- beyond the kink the force is what is left
+  if math.abs(left.value) < (node.status == "open" and 1e-16 or 1e-9) then break end
+  case.alpha[variable] = case.alpha[variable] - left.value / left.gradient[variable]
 end
 local kink <const> = shape:design(case.alpha)
 print("  in weak contact: " .. kink.weak)
