@@ -144,12 +144,13 @@ for k, node in ipairs(shape:design(case.alpha):contact(case.contact)) do
   if node.status == "open" then weak = k end
 end
 print(("\nA kink: node %d of the cantilever's lower edge"):format(weak))
-for step = 1, 20 do
-  local node <const> = shape:design(case.alpha):contact(case.contact)[weak]
-  print(("  step %d: variable %.15f, gap %.1e, force %.1e"):format(step, case.alpha[variable], node.gap.value, node.force.value))
-  local left <const> = node.status == "open" and node.gap or node.force -- beyond the kink the force is what is left
-  if math.abs(left.value) < (node.status == "open" and 1e-16 or 1e-9) then break end
-  case.alpha[variable] = case.alpha[variable] - left.value / left.gradient[variable]
+local apart, pressed -- values of the variable, on both sides of the kink once a step has gone beyond it: halved from then on
+for step = 1, 80 do
+  local node <const>, value <const> = shape:design(case.alpha):contact(case.contact)[weak], case.alpha[variable]
+  if step <= 3 then print(("  step %d: variable %.15f, gap %.1e, force %.1e"):format(step, value, node.gap.value, node.force.value)) end
+  if node.status == "open" then apart = value else pressed = value end
+  if node.status == "open" and node.gap.value < 1e-16 or value == (apart + (pressed or 0)) / 2 then break end
+  case.alpha[variable] = pressed and (apart + pressed) / 2 or value - node.gap.value / node.gap.gradient[variable]
 end
 local kink <const> = shape:design(case.alpha)
 print("  in weak contact: " .. kink.weak)
