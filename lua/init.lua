@@ -65,7 +65,7 @@ core.describe{
   name = "dotyk.work_precision",
   help = "Speed against accuracy: solves the scenes of a family by several methods, prints a table, draws error against "
     .. "seconds and returns the rows of the table (method, tol, level, unknowns, rows, iterations, status, error, seconds, "
-    .. "low, high, runs, assembly, ordering, factor, iterate, recover, front, reason; nil where there is none). Seconds are "
+    .. "low, high, runs, assembly, motions, ordering, factor, iterate, recover, front, reason; nil where there is none). Seconds are "
     .. "the median of the runs, low and high the least and the greatest, the parts those of the run that is the median. Runs of "
     .. "different methods take turns, so that what else the machine does meets all alike. Front: converged, and no row that "
     .. "is as fast is as near, up to a hundredth (Pareto). A method that refuses a scene, does not converge or spends its budget has rows "

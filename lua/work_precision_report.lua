@@ -30,6 +30,7 @@ local columns <const> = {
   { "least", function(r) return number(r.low, "%.4f") end },
   { "most", function(r) return number(r.high, "%.4f") end },
   { "assembly", function(r) return number(r.assembly, "%.4f") end },
+  { "motions", function(r) return number(r.motions, "%.4f") end },
   { "factor", function(r) return number(r.factor and r.factor + r.ordering, "%.4f") end },
   { "iterate", function(r) return number(r.iterate, "%.4f") end },
   { "recover", function(r) return number(r.recover, "%.4f") end },
@@ -98,7 +99,7 @@ end
 
 -- Comma-separated values.
 local fields <const> = { "method", "tol", "level", "unknowns", "rows", "iterations", "status", "error", "seconds", "low", "high", "runs",
-  "assembly", "ordering", "factor", "iterate", "recover", "front", "reason" }
+  "assembly", "motions", "ordering", "factor", "iterate", "recover", "front", "reason" }
 
 local function cell(value)
   if value == nil then return "" end

@@ -62,7 +62,7 @@ function rows.row(runner, level)
     local middle
     middle, row.low, row.high = rows.median(runner.runs)
     row.seconds = middle.seconds
-    for _, part in ipairs{ "assembly", "ordering", "factor", "iterate", "recover" } do
+    for _, part in ipairs{ "assembly", "motions", "ordering", "factor", "iterate", "recover" } do
       row[part] = middle.time[part]
     end
   end

@@ -11,7 +11,8 @@
 -- its seed: SEED 1 runs that one again. Exit status 1 where anything is wrong.
 --
 -- Classes: solved (two methods agree), one method (no second one converges), several (Coulomb friction: two methods find two states
--- that are both right), refused (rightly), undecided (refused; the criterion cannot tell), in doubt (no method converges, and Coulomb
+-- that are both right), refused (rightly; what friction cannot bear by trying all its combinations), undecided (refused; the criterion
+-- cannot tell, or the combinations are too many), in doubt (no method converges, and Coulomb
 -- friction must bear loads that nothing else balances: there may be no solution, while without such loads there is one whatever the
 -- coefficient, by Brouwer's theorem on the bounds of friction), not converged; WRONG, REFUSED (it has a solution) and ERROR.
 
@@ -84,9 +85,25 @@ local function balanced(scene, smooth)
   return balance.scene(scene, make(scene, true), probed, smooth)
 end
 
+-- Has a scene no solution though forces in the cones of friction would balance its loads? All combinations of open, stick and slip
+-- are tried where they are few; else it is known of no method that solves it, and no more.
+local function unbearable(scene, made, message)
+  local other, name = second_solution(scene, made)
+  if other then return "REFUSED", message .. ": " .. name .. " converges" end
+  local tried, all, _, families = pcall(dotyk.all_solutions, made.scene)
+  if not tried then return "undecided", message end
+  if #all + #families == 0 then return "refused" end
+  return "REFUSED", message .. ": all_solutions finds one"
+end
+
 -- 3. The class of a scene, and what there is to say about it.
-local function refused(scene, message)
+local function refused(scene, message, made)
   message = message:gsub("^.-:%d+: ", "")
+  if message:find "no displacement can part them" then
+    if solids.contradicted(scene, message) then return "refused" end
+    return "REFUSED", message
+  end
+  if message:find "friction cannot bear" then return unbearable(scene, made, message) end
   if not (message:find "not held" or message:find "no solution" or message:find "nothing holds it") then return "ERROR", message end
   -- Nothing at all happens to a body that is free and not loaded: refused by custom, since it could be anywhere.
   local idle <const> = tonumber(message:match "^solve: 'b(%d+)' is not held: nothing stops its")
@@ -109,7 +126,7 @@ local function judge(scene)
   local good, made = pcall(make, scene)
   if not good then return refused(scene, tostring(made)) end
   local solved, s = pcall(dotyk.solve, made.scene, scene.dimension and limit or nil)
-  if not solved then return refused(scene, tostring(s)) end
+  if not solved then return refused(scene, tostring(s), made) end
   local other, name = second_solution(scene, made)
   if not s.converged then
     local text = ("%s: %s (%s)"):format(s.method, s.reason, name and name .. " converges" or "no second method converges")

@@ -73,7 +73,8 @@ local function collect(scene, held, probed, smooth)
     for i, node in ipairs(held.solution:contact(held.contacts[k]).nodes) do
       local x, rows = { node.x, node.y, scene.dimension == 3 and node.z or nil }, {}
       local normal, law = probed and probed[k][i].normal or jump(contact, x, node.normal), not smooth and contact.friction
-      for _, t in ipairs(law and not scene.rests(contact, x) and tangents(node.normal) or {}) do
+      local free <const> = law and (not scene.rests(contact, x) or (law.kind == "tresca" and scene.across(contact, node.normal)))
+      for _, t in ipairs(free and tangents(node.normal) or {}) do
         table.insert(rows, probed and along(probed[k][i].slip, t) or jump(contact, x, t))
       end
       if #rows == 0 then law = nil end

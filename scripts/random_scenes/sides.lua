@@ -9,7 +9,7 @@ local format, say, part = g.format, g.say, g.part
 -- asked for reactions), constraints on rigid motions (a direction in which a point cannot move), loads (forces at points).
 
 local function support(scene, body, name, text, law)
-  table.insert(scene.supports, { body = body.index, law = law, name = "p" .. #scene.supports + 1 })
+  table.insert(scene.supports, { body = body.index, side = name, law = law, name = "p" .. #scene.supports + 1 })
   say(scene, "local p%s = %s%s", tostring(#scene.supports), part(scene, body, name), text)
 end
 
@@ -92,7 +92,8 @@ end
 function act.load(scene, body, name)
   local t, slope = {}, dice.chance(0.3) and dice.between(-1, 1) / scene.size or 0
   for k = 1, scene.dimension do t[k] = scene.stress * dice.between(-1, 1) * (k < scene.dimension and scene.lateral or 1) end
-  if dice.chance(0.85) then t[scene.dimension] = -math.abs(t[scene.dimension]) end
+  if dice.chance(0.93) then t[scene.dimension] = -math.abs(t[scene.dimension]) end
+  if scene.level then t = solids.turn(scene, t) end
   for _, p in ipairs(g.points_of({ g.side_box(scene, body, name) }, g.gauss)) do
     local x, force = solids.turn(scene, p.x), {}
     for k = 1, scene.dimension do force[k] = p.weight * t[k] * (1 + slope * x[1]) end
@@ -105,7 +106,7 @@ function act.load(scene, body, name)
 end
 
 function act.pressure(scene, body, name)
-  local value, n = scene.stress * dice.between(-0.5, 1), solids.turn(scene, g.normal_of(scene, name))
+  local value, n = scene.stress * dice.between(-0.2, 1), solids.turn(scene, g.normal_of(scene, name))
   for _, p in ipairs(g.points_of({ g.side_box(scene, body, name) }, g.gauss)) do
     local force = {}
     for k = 1, scene.dimension do force[k] = -p.weight * value * n[k] end
@@ -127,7 +128,7 @@ local usual <const> = {
   top = { "load", 6, "pressure", 2, "displace", 1.5, "nothing", 2, "law", 0.3, "obstacle", 0.3 },
   lateral = { "nothing", 7, "load", 0.7, "pressure", 0.3, "slide", 1, "fix", 0.6, "law", 0.7, "spring", 0.5, "obstacle", 0.7 },
   disc_ground = { "obstacle", 6, "spring", 1, "law", 1, "nothing", 1 },
-  disc = { "nothing", 8, "obstacle", 1 },
+  disc = { "nothing", 6, "obstacle", 1, "spring", 2 },
 }
 -- Sides of a bent body whose extent is not a box's are only held, loaded or left where that needs no more than their nodes.
 local bent <const> = { bottom = { "obstacle", 4, "fix", 3, "law", 2 }, front = { "nothing", 1 }, back = { "nothing", 1 } }
@@ -139,6 +140,8 @@ local function finish_side(scene, body, name)
   if ground and not body.disc then list = usual.ground end
   if body.bend ~= 0 and (ground or name == "front" or name == "back") then list = bent[name] end
   local what = dice.weighted(list)
+  local lateral = name ~= "bottom" and name ~= "top" and not body.disc
+  if lateral and body.steady and body.held == 0 and not body.sprung and not body.displaced and what == "nothing" then what = "spring" end
   if (what == "fix" or what == "slide") and (body.overlaps or body.displaced or (body.laws and body.held > 0)) then what = "nothing" end
   if (what == "law" or what == "displace") and (body.overlaps or body.displaced) then what = "nothing" end
   act[what](scene, body, name)
@@ -181,7 +184,9 @@ local function touch(scene)
       if left and dice.chance(0.5) then
         local up <const> = scene.dimension
         local common <const> = math.min(left.high[up], body.high[up]) - math.max(left.low[up], body.low[up])
-        if common > 0.1 * scene.size then solids.join(scene, body, left, "left", body.low[1] - left.high[1]) end
+        local faces <const> = not (left.disc or body.disc) -- a disc has no facet across but about its middle
+          or math.abs(left.low[up] + left.high[up] - body.low[up] - body.high[up]) < common
+        if common > 0.1 * scene.size and faces then solids.join(scene, body, left, "left", body.low[1] - left.high[1]) end
       end
     end
   end
@@ -193,6 +198,7 @@ local function random_scene(dimension)
   scene.size, scene.E, scene.contrast = dice.chance(0.7) and 1 or dice.power(-3, 3), dice.power(0, 6), dice.chance(0.5) and 0.5 or 3
   scene.stress = scene.E * dice.power(-4, -2)
   scene.lateral = dice.pick{ 0, 0, 0.1, 1 } -- loads along other axes than the last, as a part of those
+  scene.level = dice.chance(0.8) -- are loads turned with the scene?
   scene.friction = dice.weighted{ "none", 4, "tresca", 3, "coulomb", 4 }
   scene.element = dice.pick{ "P1", "Q1", "P2", "Q2" }
   if scene.angle ~= 0 then
@@ -206,6 +212,7 @@ local function random_scene(dimension)
   say(scene, "local scene = dotyk.scene{ %s }", table.concat(names, ", "))
   touch(scene)
   for _, body in ipairs(scene.bodies) do
+    body.steady = dice.chance(0.75)
     for _, name in ipairs(g.side_names[dimension - 1]) do finish_side(scene, body, name) end
   end
   return scene

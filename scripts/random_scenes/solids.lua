@@ -87,7 +87,8 @@ local function body_force(scene, body)
     centre[axis] = (body.low[axis] + body.high[axis]) / 2
     volume = volume * (body.high[axis] - body.low[axis])
   end
-  if dice.chance(0.85) then force[scene.dimension] = -math.abs(force[scene.dimension]) end
+  if dice.chance(0.93) then force[scene.dimension] = -math.abs(force[scene.dimension]) end
+  if scene.level then force = solids.turn(scene, force) end
   if body.disc then -- a regular polygon, of order 2 with an arc of a parabola on each edge
     local straight, R = body.element:sub(2) == "1", (body.high[1] - body.low[1]) / 2
     local half = math.pi / body.edges
@@ -221,7 +222,7 @@ local function obstacle(scene, body, name)
     against = ("dotyk.rigid.ball{ center = %s, radius = %s }"):format(format(solids.turn(scene, centre)), format(R))
   end
   add_contact(scene, part(scene, body, name) .. ", rigid = " .. against,
-    { first = { body = body, side = name }, overlap = overlap, curved = body.disc or body.bend ~= 0 })
+    { first = { body = body, side = name }, overlap = overlap, ball = kind == "ball", curved = body.disc or body.bend ~= 0 })
 end
 
 local function glue(scene, one, other)
@@ -246,6 +247,41 @@ local function rests(scene, where, x)
   return false
 end
 
+-- Is the node that a message names on a side that overlaps what it touches, and do laws of supports prescribe where the node is along
+-- the normal there? Sides are parallel or perpendicular to one another; on a ball the normal at a node has both directions.
+function solids.contradicted(scene, message)
+  local x, name = {}, message:match "node %d+ of '(.-)'"
+  for number in (message:match "at %((.-)%)" or ""):gmatch "[^, ]+" do table.insert(x, tonumber(number)) end
+  local function on(body, side)
+    local n, p, distance = solids.turn(scene, normal_of(scene, side)), solids.turn(scene, (side_box(scene, body, side))), 0
+    for k in ipairs(x) do distance = distance + n[k] * (x[k] - p[k]) end
+    return math.abs(distance) < 1e-4 * scene.size
+  end
+  local function prescribed(contact, where)
+    for _, support in ipairs(scene.supports) do
+      local law = support.law
+      if law and support.body == where.body.index and on(where.body, support.side) then
+        local normal, tangential = law.normal and law.normal.name == "prescribed", law.tangential and law.tangential.name == "prescribed"
+        local parallel = side_of(scene, support.side) == side_of(scene, where.side)
+        if (normal and tangential) or (not contact.ball and (parallel and normal or not parallel and tangential)) then return true end
+      end
+    end
+  end
+  for _, contact in ipairs(scene.contacts) do
+    for _, where in pairs{ contact.first, contact.second } do
+      if contact.overlap and where.body.name == name and on(where.body, where.side) and prescribed(contact, where) then return true end
+    end
+  end
+  return false
+end
+
+-- Is a node's normal that of its side? Given friction then acts also where supports hold the node along it.
+local function across(scene, contact, normal)
+  local n, along = solids.turn(scene, normal_of(scene, contact.first.side)), 0
+  for k, v in ipairs(normal) do along = along + v * n[k] end
+  return math.abs(along) > 1 - 1e-9
+end
+
 -- What checks ask of the geometry of a scene that is whole.
 function solids.finish(scene)
   local up = scene.dimension
@@ -265,6 +301,7 @@ function solids.finish(scene)
     local body = scene.bodies[support.body]
     scene.inexact = scene.inexact or (support.law and body.element:sub(2) == "2" and (body.disc or body.bend ~= 0))
   end
+  scene.across = function(contact, normal) return across(scene, contact, normal) end
   scene.rests = function(contact, x) return rests(scene, contact.first, x) and (not contact.second or rests(scene, contact.second, x)) end
   -- The middle of a body and, where it is a box, places next to its sides to the left and right.
   scene.samples = function(body)

@@ -14,12 +14,15 @@ enum class Place { low, high, free };
 
 class Iteration {
  public:
-  Iteration(const DenseMatrix& A, const Vector& b, const Vector& low, const Vector& high, double tolerance)
+  Iteration(const DenseMatrix& A, const Vector& b, const Vector& low, const Vector& high, double tolerance, const Vector& start)
       : A_(A), b_(b), low_(low), high_(high), tolerance_(tolerance), x_(A.cols()), place_(A.cols()), idle_(A.cols(), 0) {
     for (int j = 0; j < A.cols(); ++j) {
       // At the bound that is nearest to 0, free about 0: what far bounds cancel would leave rounding of their size.
       place_[j] = low[j] >= 0 ? Place::low : high[j] <= 0 ? Place::high : Place::free;
       x_[j] = place_[j] == Place::low ? low[j] : place_[j] == Place::high ? high[j] : 0;
+      if (start.size() == 0) continue;
+      place_[j] = start[j] <= low[j] ? Place::low : start[j] >= high[j] ? Place::high : Place::free;
+      x_[j] = std::clamp(start[j], low[j], high[j]);
     }
   }
 
@@ -104,8 +107,8 @@ class Iteration {
 }  // namespace
 
 BoundedLeastSquares bounded_least_squares(const DenseMatrix& A, const Vector& b, const Vector& low,
-                                          const Vector& high, double tolerance) {
-  return Iteration(A, b, low, high, tolerance).run();
+                                          const Vector& high, double tolerance, const Vector& start) {
+  return Iteration(A, b, low, high, tolerance, start).run();
 }
 
 }  // namespace dotyk::algebra

@@ -17,6 +17,8 @@ void dtrsm_(const char* side, const char* uplo, const char* trans, const char* d
             const int* ldb);
 void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* beta, double* c, const int* ldc);
+void dgeqrf_(const int* m, const int* n, double* a, const int* lda, double* tau, double* work, const int* lwork, int* info);
+void dorgqr_(const int* m, const int* n, const int* k, double* a, const int* lda, const double* tau, double* work, const int* lwork, int* info);
 void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int* lda, double* s, double* u,
              const int* ldu, double* vt, const int* ldvt, double* work, const int* lwork, int* iwork, int* info);
 }
@@ -75,6 +77,22 @@ void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) {
 
 DenseMatrix gram(const DenseMatrix& x) { return rank_update(x, "T"); }
 DenseMatrix square(const DenseMatrix& l) { return rank_update(l, "N"); }
+
+OrthogonalFactors orthogonal_factors(DenseMatrix x) {
+  const int m = static_cast<int>(x.rows()), n = static_cast<int>(x.cols()), length = 64 * std::max(n, 1);
+  if (m < n) throw std::logic_error("orthogonal factors: fewer rows than columns");
+  if (n == 0) return {x, DenseMatrix(0, 0)};
+  const BlasThreads threads(2.0 * m * n * n);
+  const StoppableFactoring reflecting;
+  Vector tau(n), work(length);
+  int info = 0;
+  dgeqrf_(&m, &n, x.data(), &m, tau.data(), work.data(), &length, &info);
+  if (reflecting.stopped()) throw Interrupted();
+  DenseMatrix R = x.topRows(n).triangularView<Eigen::Upper>();
+  dorgqr_(&m, &n, &n, x.data(), &m, tau.data(), work.data(), &length, &info);
+  if (reflecting.stopped()) throw Interrupted();
+  return {std::move(x), std::move(R)};
+}
 
 DenseMatrix orthonormal(const DenseMatrix& x) {
   if (x.size() == 0) return x;

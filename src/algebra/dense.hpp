@@ -22,6 +22,12 @@ DenseMatrix gram(const DenseMatrix& x);
 /// L Lᵀ of a lower-triangular L, both triangles.
 DenseMatrix square(const DenseMatrix& l);
 
+/// X = Q R of X with no fewer rows than columns, by reflections: Q of X's size, R upper triangular.
+struct OrthogonalFactors {
+  DenseMatrix Q, R;
+};
+OrthogonalFactors orthogonal_factors(DenseMatrix x);
+
 /// An orthonormal basis of the span of independent columns, by reflections: of X's size.
 DenseMatrix orthonormal(const DenseMatrix& x);
 

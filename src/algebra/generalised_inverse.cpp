@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "algebra/dense.hpp"
+#include "algebra/null_space.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -38,6 +39,13 @@ std::vector<int> fixing_unknowns(const DenseMatrix& kernel) {
   const Eigen::ColPivHouseholderQR<DenseMatrix> qr(orthonormal(kernel).transpose());
   for (Eigen::Index k = 0; k < kernel.cols(); ++k) unknowns.push_back(qr.colsPermutation().indices()[k]);
   exchange(kernel, unknowns);
+  return unknowns;
+}
+
+std::vector<int> fixing_unknowns(const SparseMatrix& kernel) {
+  std::vector<int> unknowns;
+  for (const Piece& piece : pieces(kernel))
+    for (const int k : fixing_unknowns(dense(kernel, piece))) unknowns.push_back(piece.rows[k]);
   return unknowns;
 }
 

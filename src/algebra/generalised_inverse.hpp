@@ -14,6 +14,8 @@ namespace dotyk::algebra {
 /// 1/√(1 + 1.21 d (n − d)) for n unknowns. For rigid modes F lies far apart; in space three nodes not
 /// in a line. `kernel`: n × d, linearly independent columns. The choice depends on its span alone.
 std::vector<int> fixing_unknowns(const DenseMatrix& kernel);
+/// Of every piece of it, see pieces().
+std::vector<int> fixing_unknowns(const SparseMatrix& kernel);
 
 /// How far K R is from zero: for each column r of R the greatest |K r|_i / Σ_j |K_ij|, relative to r's
 /// greatest entry. Row by row, so that soft parts of a body count as stiff ones do. Rounding leaves a few

@@ -39,6 +39,10 @@ Function* passed_on(const char* name) {
 StopFactoring::StopFactoring(Monitor& monitor) : before_(watcher) { watcher = &monitor; }
 StopFactoring::~StopFactoring() { watcher = before_; }
 
+void ask_to_stop() {
+  if (watcher) watcher->check();
+}
+
 StoppableFactoring::StoppableFactoring() : within_(factoring) {
   if (!within_) ended = false;
   factoring = true;

@@ -20,6 +20,9 @@ class StopFactoring {
   Monitor* before_;
 };
 
+/// Throws Interrupted where the monitor of the StopFactoring that lives on this thread asks to stop: for loops of this program's own.
+void ask_to_stop();
+
 /// For those functions: lives while such a library is at work.
 class StoppableFactoring {
  public:

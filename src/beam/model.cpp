@@ -1,6 +1,8 @@
 #include "beam/model.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -26,6 +28,36 @@ std::function<double(double)> checked(const std::function<double(double)>& f, co
   };
 }
 
+/// `value` as a multiple of so large a power of two that the sum of two such numbers up to `largest` has no rounding; as it is where too many
+/// digits would go: the cell would resist its rotation.
+double without_last_digits(double value, double largest) {
+  constexpr double kMost = 1000;
+  if (!(largest < kMost * std::abs(value))) return value;
+  const double unit = std::ldexp(1.0, std::ilogb(largest) + 2 - std::numeric_limits<double>::digits);
+  return unit > 0 ? std::nearbyint(value / unit) * unit : value;
+}
+
+/// Rounds what acts on deflections so that sums of neighbouring cells are exact, and K resists no motion of the beam up as a whole. Rounding of
+/// these sums, of 12 EJ/h³, would be springs from nowhere: with cells of a thousandth of the length no longer weak beside what a long stretch of
+/// the beam resists with.
+void let_move(std::vector<Eigen::Matrix4d>& cells) {
+  const std::vector<Eigen::Matrix4d> exact = cells;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    double lifting = 0, turning = 0;  // the greatest of the cell and its neighbours
+    for (std::size_t n = k == 0 ? 0 : k - 1; n <= k + 1 && n < cells.size(); ++n) {
+      lifting = std::max(lifting, std::abs(exact[n](0, 0)));
+      turning = std::max({turning, std::abs(exact[n](0, 1)), std::abs(exact[n](0, 3))});
+    }
+    Eigen::Matrix4d& K = cells[k];
+    K(0, 0) = K(2, 2) = without_last_digits(K(0, 0), lifting);
+    K(0, 2) = K(2, 0) = -K(0, 0);
+    for (const int end : {1, 3}) {
+      K(0, end) = K(end, 0) = without_last_digits(K(0, end), turning);
+      K(2, end) = K(end, 2) = -K(0, end);
+    }
+  }
+}
+
 class Builder {
  public:
   Builder(const Beam& beam, const std::vector<Broken>& broken) : beam_(beam), broken_(broken) {
@@ -39,6 +71,7 @@ class Builder {
     const int n = 2 * static_cast<int>(model_.nodes.size());
     f_ = Vector::Zero(n);
     for (std::size_t cell = 0; cell + 1 < model_.nodes.size(); ++cell) add_cell(static_cast<int>(cell));
+    add_stiffness();
     for (const PointLoad& load : beam_.loads) add_load(load);
     for (const Support& support : beam_.supports) add_support(support);
     problem::add(model_.problem, block(n));
@@ -50,10 +83,19 @@ class Builder {
   void add_cell(int cell) {
     const double x0 = model_.nodes[cell], h = model_.nodes[cell + 1] - x0;
     const Eigen::Matrix4d K = beam_.EJ_of ? stiffness(checked(beam_.EJ_of, "EJ", true), x0, h) : stiffness(beam_.EJ, h);
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j <= i; ++j) K_.emplace_back(2 * cell + i, 2 * cell + j, scale_[i] * K(i, j) * scale_[j]);
+    stiffness_.push_back(scale_.asDiagonal() * K * scale_.asDiagonal());
     const Four f = beam_.q_of ? load(checked(beam_.q_of, "the load", false), x0, h) : load(beam_.q, h);
     f_.segment<4>(2 * cell) += scale_.cwiseProduct(f);
+  }
+
+  void add_stiffness() {
+    let_move(stiffness_);
+    for (std::size_t cell = 0; cell < stiffness_.size(); ++cell)
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j <= i; ++j) {
+          const int first = 2 * static_cast<int>(cell);
+          K_.emplace_back(first + i, first + j, stiffness_[cell](i, j));
+        }
   }
 
   void add_load(const PointLoad& load) {
@@ -126,6 +168,7 @@ class Builder {
   std::size_t next_breaking_ = 0;
   Model model_;
   Four scale_;
+  std::vector<Eigen::Matrix4d> stiffness_;  ///< of cells
   std::vector<Eigen::Triplet<double>> K_, B_;
   std::vector<double> c_;
   Vector f_;

@@ -19,9 +19,9 @@ std::string theorem(const Beam& beam);
 std::string ends(double translation, double rotation);
 
 /// Do the reactions of the rows balance the load of the problem's one block? Not where a spring that alone holds the beam is too
-/// weak to be told from none.
+/// weak to be told from none, nor where cells are so small beside the length that rounding hides the reactions.
 bool balanced(const problem::Problem& problem, const algebra::Vector& lambda);
 inline constexpr const char* kUnbalanced =
-    "the reactions do not balance the load: a spring is too weak beside the beam, or the beam too stiff, for the numbers to tell";
+    "the reactions do not balance the load: rounding hides them, as where a spring is too weak beside the beam, or supports are too close together for its stiffness";
 
 }  // namespace dotyk::beam

@@ -13,6 +13,7 @@ struct Across {
   double weight = 0;              ///< length or area that the side stands for
   double widest = 0;              ///< of the facets met, and its own
   double least = -INFINITY;       ///< of mortar: least gap where the integrals look. A dual hat is negative in places: a mean of gaps may be less
+  bool folded = false;            ///< the second part lies above itself there; the sheet that is nearest counts
   std::vector<NodeWeight> own{};  ///< of mortar and a first part of order 2: the side's own mean over what is covered, `node` first
 };
 

@@ -25,13 +25,14 @@ struct ContactRow {
   int node;                         ///< of the first body's mesh
   std::vector<NodeWeight> own;       ///< of the first body, 1 in sum; `node` first
   std::vector<NodeWeight> partners{};  ///< of the second body, 1 in sum; matching nodes of order 1: one. See pairing.hpp
-  mesh::Point normal;   ///< unit, out of the first body; between two parts one for both, see frame.hpp
+  mesh::Point normal;   ///< unit, out of the first body; one for both sides, see frame.hpp
   double gap = 0;       ///< at rest, positive when open; `added` included
   double weight = 0;    ///< length or area that the node stands for
   std::vector<int> facets;  ///< of the first part, those of the row's side at the node
   double added = 0;         ///< what was added to the geometric gap
-  std::array<mesh::Point, 3> mix{};  ///< how the normals of both parts make `normal`, see frame.hpp
-  double turn = 0;          ///< angle that `normal` is uncertain by, since facets are chords; 0 against a rigid shape
+  std::array<mesh::Point, 3> mix{};  ///< how the normals of both sides make `normal`, see frame.hpp
+  double chord = 0;         ///< how far facets there are from the curves that they are chords of: what the gap is uncertain by, see pairing.hpp
+  double turn = 0;          ///< angle that `normal` is uncertain by, since facets are chords; 0 where a rigid shape's decides
 };
 
 /// A node of the first part that moves with what lies across from it: Σ weight u_own = Σ weight u_partner; `own` is the node

@@ -100,6 +100,10 @@ Curvatures::Curvatures(const Face& face) {
       if (g == f || dot(normal, mesh::unit(mesh.facet_area_vector(face.facets[g]))) > smooth)
         list.insert(list.end(), of_facet[g].begin(), of_facet[g].end());
     of_facet_.push_back(fitted(list, mesh.dimension()));
+    for (int a = 0; a < mesh.topology().nodes_per_facet; ++a) {
+      double& most = greatest_[mesh.facet_node(face.facets[f], a)];
+      most = std::max(most, of_facet_.back().norm());
+    }
   }
 }
 
@@ -158,6 +162,8 @@ Point unit_derivative(const Point& v, const Point& dv) {
 }  // namespace
 
 Point mixed_normal(const Point& n1, const Point& inward, const std::array<Point, 3>& mix) {
+  if (mix == kFirstDecides) return n1;
+  if (mix == kSecondDecides) return inward;
   if (mesh::length(mesh::minus(n1, inward)) <= kOpposed) return n1;
   const Point mean = mesh::unit(mesh::plus(n1, inward));
   const Point d = mesh::minus(mesh::times(1 / dot(n1, mean), n1), mean);
@@ -166,11 +172,12 @@ Point mixed_normal(const Point& n1, const Point& inward, const std::array<Point,
 
 std::array<Point, 3> mix_of_moving(const ContactRow& row, bool first_rests, bool second_rests) {
   if (row.turn > kFlat || row.mix != std::array<Point, 3>{} || first_rests == second_rests) return row.mix;
-  const double one = first_rests ? 1 : -1;
-  return {{{one, 0, 0}, {0, one, 0}, {0, 0, one}}};
+  return first_rests ? kFirstDecides : kSecondDecides;
 }
 
 Point mixed_normal_derivative(const Point& n1, const Point& d1, const Point& inward, const Point& d2, const std::array<Point, 3>& mix) {
+  if (mix == kFirstDecides) return d1;
+  if (mix == kSecondDecides) return d2;
   const Point sum = mesh::plus(n1, inward), mean = mesh::unit(sum), dmean = unit_derivative(sum, mesh::plus(d1, d2));
   const double c = dot(n1, mean), dc = dot(d1, mean) + dot(n1, dmean);
   const Point d = mesh::minus(mesh::times(1 / c, n1), mean);
@@ -178,33 +185,37 @@ Point mixed_normal_derivative(const Point& n1, const Point& d1, const Point& inw
   return unit_derivative(mesh::plus(mean, apply(mix, d)), mesh::plus(dmean, apply(mix, dd)));
 }
 
+Frame frame_between(const Point& n1, const Eigen::Matrix3d& K1, const Point& inward, const Eigen::Matrix3d& K2, double flat, int dimension) {
+  const auto T = basis(mesh::unit(mesh::plus(n1, inward)), dimension);
+  const auto sized = [&](const Eigen::Matrix3d& K) {
+    return of_eigenvalues(T.transpose() * K * T, [&](double v) { return v < flat ? 0 : v; });
+  };
+  const Small a = sized(K1), b = sized(K2);
+  const Eigen::Matrix3d M = T * ((b - a) * of_eigenvalues(a + b, [&](double v) { return v < flat ? 0 : 1 / v; })) * T.transpose();
+  Frame frame;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) frame.mix[i][k] = M(i, k);
+  frame.normal = mixed_normal(n1, inward, frame.mix);
+  return frame;
+}
+
 Frames::Frames(const Face& one, const Face& two)
-    : first(one), second(two), here_(one), across_(two), second_sides_(smooth_sides(two)), flat_(kFlat / (one.mesh.size() + two.mesh.size())) {}
+    : first(one), second(two), here(one), across(two), second_sides_(smooth_sides(two)), flat_(kFlat / (one.mesh.size() + two.mesh.size())) {}
 
 Frame Frames::of(const NodeSide& side, const std::vector<NodeWeight>& partners) const {
-  const int dimension = first.mesh.dimension();
   const Point inward = inward_across(side.normal, partners, second_sides_);
-  const Eigen::Matrix3d K1 = here_.at(side);
+  const Eigen::Matrix3d K1 = here.at(side);
   Eigen::Matrix3d K2 = Eigen::Matrix3d::Zero();
   double width = 0, sum = 0;
   for (const NodeWeight& p : partners)
     if (const NodeSide* other = side_across(side.normal, p.node, second_sides_)) {
-      K2 += std::abs(p.weight) * across_.at(*other);
+      K2 += std::abs(p.weight) * across.at(*other);
       sum += std::abs(p.weight);
-      width = std::max(width, across_.width(*other));
+      width = std::max(width, across.width(*other));
     }
   if (sum > 0) K2 /= sum;
-  Frame frame;
-  frame.turn = std::max(K1.norm() * here_.width(side), K2.norm() * width);
-  const auto T = basis(mesh::unit(mesh::plus(side.normal, inward)), dimension);
-  const auto sized = [&](const Eigen::Matrix3d& K) {
-    return of_eigenvalues(T.transpose() * K * T, [&](double v) { return v < flat_ ? 0 : v; });
-  };
-  const Small a = sized(K1), b = sized(K2);
-  const Eigen::Matrix3d M = T * ((b - a) * of_eigenvalues(a + b, [&](double v) { return v < flat_ ? 0 : 1 / v; })) * T.transpose();
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) frame.mix[i][k] = M(i, k);
-  frame.normal = mixed_normal(side.normal, inward, frame.mix);
+  Frame frame = frame_between(side.normal, K1, inward, K2, flat_, first.mesh.dimension());
+  frame.turn = std::max(K1.norm() * here.width(side), K2.norm() * width);
   return frame;
 }
 

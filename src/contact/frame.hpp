@@ -21,6 +21,8 @@ namespace dotyk::contact {
 /// M is no continuous function of the curvatures at 0. So it is made when the contact is, like pairs of nodes, and stays when nodes move:
 /// rows then depend smoothly on the nodes. Of flat parts it is made when one of them moves, see mix_of_moving(). It differs from M made anew
 /// where the ratio of two curvatures changes: normals then differ by |ΔM d|.
+///
+/// Against a rigid ball likewise, see rigid.hpp: n₂ and K₂ are then the shape's own.
 struct Frame {
   mesh::Point normal{};             ///< unit, out of the first part
   std::array<mesh::Point, 3> mix{};  ///< M
@@ -28,6 +30,13 @@ struct Frame {
 };
 
 inline constexpr double kFlat = 1e-6;
+
+/// M of rows that have n₁, or −n₂, exactly.
+inline constexpr std::array<mesh::Point, 3> kFirstDecides{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, kSecondDecides{{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
+
+/// n and M by the normals and |K| of what touches; `inward`: −n₂, not opposed to n₁. `flat`: curvatures below it count as 0. `turn` is left 0.
+Frame frame_between(const mesh::Point& n1, const Eigen::Matrix3d& K1, const mesh::Point& inward, const Eigen::Matrix3d& K2, double flat,
+                    int dimension);
 
 /// The sides of a part at its nodes that have one only. At an edge or corner the part has no normal of its own.
 std::unordered_map<int, NodeSide> smooth_sides(const Face& face);
@@ -54,10 +63,12 @@ class Curvatures {
   /// Mean over the side's facets; a 3 × 3 matrix whose kernel has the normal.
   Eigen::Matrix3d at(const NodeSide& side) const;
   double width(const NodeSide& side) const;  ///< of its widest facet
+  double greatest(int node) const { return greatest_.at(node); }  ///< of the facets at a node, Frobenius' norm, 1/length
 
  private:
   std::vector<Eigen::Matrix3d> of_facet_;
   std::vector<double> width_;
+  std::unordered_map<int, double> greatest_;
 };
 
 /// Makes frames between two parts.
@@ -67,9 +78,9 @@ class Frames {
   Frame of(const NodeSide& side, const std::vector<NodeWeight>& partners) const;
 
   const Face &first, &second;
+  const Curvatures here, across;  ///< of the first, of the second
 
  private:
-  Curvatures here_, across_;
   std::unordered_map<int, NodeSide> second_sides_;
   double flat_;
 };

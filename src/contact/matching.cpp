@@ -241,7 +241,8 @@ ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double
   if (!std::isfinite(gap))
     throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), first.mesh.dimension()),
                           "; it must be a finite number"));
-  return {side.node, side.own, std::move(partners), frame.normal, gap, side.weight, side.facets, added, frame.mix, frame.turn};
+  return {.node = side.node, .own = side.own, .partners = std::move(partners), .normal = frame.normal, .gap = gap, .weight = side.weight,
+          .facets = side.facets, .added = added, .mix = frame.mix, .turn = frame.turn};
 }
 
 double touching(const Face& face, double size, const std::vector<int>& facets) {

@@ -20,6 +20,7 @@ struct Cut {
 struct Met {
   double widest = 0;        ///< of the facets met, and its own
   double least = INFINITY;  ///< gap along its normal at the points of integration
+  bool folded = false;      ///< more than a tenth of it by several sheets of the second part
 };
 
 /// What a corner of a first part's facet gets from it.
@@ -41,7 +42,12 @@ class Mortar {
     std::vector<Cut> cuts = cut(view, own, met.widest);
     double covered = 0;
     for (const Cut& c : cuts) covered += size(c.polygon);
-    if (covered > (1 + kSliver) * own.size()) keep_nearest(cuts);
+    if (covered > (1 + kSliver) * own.size()) {
+      keep_nearest(cuts);
+      double left = 0;
+      for (const Cut& c : cuts) left += size(c.polygon);
+      met.folded = covered - left > 0.1 * own.size();
+    }
     if (covered < kSliver * own.size()) return {};
     return integrate(facet, view, own, cuts, met.least);
   }
@@ -154,6 +160,7 @@ std::vector<Across> mortar(const Face& first, const Face& second, const std::vec
       result[s].weight += corner[a].weight;
       result[s].widest = std::max(result[s].widest, met.widest);
       result[s].least = std::min(result[s].least, met.least);
+      result[s].folded = result[s].folded || met.folded;
       for (const auto& [j, share] : corner[a].partners) shares[s][j] += share;
       for (const auto& [l, share] : corner[a].own) own[s][l] += share;
     }

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -17,6 +15,8 @@ namespace dotyk::contact {
 namespace {
 
 using mesh::Point;
+
+constexpr double kAlike = 1.05;  ///< widths of facets that count as equal
 
 /// What lies across; throws InputError where that is nothing.
 std::vector<Across> across(const Face& first, const Face& second, Pairing pairing, const std::vector<NodeSide>& sides,
@@ -32,43 +32,20 @@ std::vector<Across> across(const Face& first, const Face& second, Pairing pairin
   return all;
 }
 
-/// Curvature of a part at its nodes, by how its facets' normals turn: the greatest of their facets', those' the greatest at their corners,
-/// so that the ends of a part know it from their neighbours.
-std::unordered_map<int, double> curvature_of(const Face& face) {
-  std::vector<double> of_facet(face.facets.size(), 0);
-  const std::vector<NodeSide> all = sides(face.mesh, face.facets);
-  for (const NodeSide& side : all)
-    for (const int f : side.facets) {
-      const Point n = face.mesh.facet_area_vector(face.facets[f]);
-      const double size = mesh::length(n);
-      const double turn = std::sqrt(std::max(0.0, 2 - 2 * mesh::dot(n, side.normal) / size));  // half the angle between neighbours
-      of_facet[f] = std::max(of_facet[f], 2 * turn / (face.mesh.dimension() == 2 ? size : std::sqrt(size)));
-    }
-  std::unordered_map<int, double> curvature;
-  for (const NodeSide& side : all)
-    for (const int f : side.facets) curvature[side.node] = std::max(curvature[side.node], of_facet[f]);
-  return curvature;
+/// How far chords of the parts' curves may be from them at a row's foot, `width` that of the widest facet there.
+double height_of_chords(const Curvatures& here, const Curvatures& across, int node, const std::vector<NodeWeight>& partners, double width) {
+  double most = here.greatest(node);
+  for (const NodeWeight& partner : partners) most = std::max(most, across.greatest(partner.node));
+  return most * width * width / 8;
 }
 
-/// The greater curvature of two parts, where sides of the one have partners on the other.
-class Curvature {
- public:
-  Curvature(const Face& first, const Face& second) : here_(curvature_of(first)), across_(curvature_of(second)) {}
-  double at(int node, const std::vector<NodeWeight>& partners) const {
-    double most = here_.at(node);
-    for (const NodeWeight& partner : partners) most = std::max(most, across_.at(partner.node));
-    return most;
-  }
-
- private:
-  std::unordered_map<int, double> here_, across_;
+struct Rows {
+  std::vector<ContactRow> rows;
+  bool folded = false;  ///< see Across
 };
 
-/// How far chords that wide are from what they are chords of.
-double height_of_chord(double curvature, double width) { return curvature * width * width / 8; }
-
 /// Rows with partners found by `pairing`; of chords that overlap no more than they must the gap is 0.
-std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pairing, const elasticity::ScalarField& added,
+Rows paired(const Face& first, const Face& second, Pairing pairing, const elasticity::ScalarField& added,
                                bool interference, Monitor* monitor) {
   const bool means = first.mesh.topology().order == 2;
   std::vector<NodeSide> list = means && pairing == Pairing::node_to_segment ? nodes(first.mesh, first.facets)
@@ -79,6 +56,8 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
     double& most = widest[list[k].node];  // a corner has two sides
     most = std::max(most, all[k].widest);
   }
+  const Frames frames(first, second);
+  const bool folded = std::any_of(all.begin(), all.end(), [](const Across& a) { return a.folded; });
   std::vector<ContactRow> rows;
   if (means && pairing == Pairing::node_to_segment) {
     std::unordered_map<int, std::vector<NodeWeight>> feet;
@@ -86,7 +65,6 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
       if (!all[k].partners.empty()) feet.emplace(list[k].node, std::move(all[k].partners));
     rows = mean_rows(first, second, std::move(feet), added);
   } else {
-    const Frames frames(first, second);
     const double size = first.mesh.size();
     for (std::size_t k = 0; k < list.size(); ++k) {
       if (all[k].partners.empty()) continue;
@@ -97,30 +75,51 @@ std::vector<ContactRow> paired(const Face& first, const Face& second, Pairing pa
       if (all[k].least >= -touching(first, size, list[k].facets)) rows.back().gap = std::max(rows.back().gap, rows.back().added);
     }
   }
-  if (interference) return rows;
-  const Curvature curvature(first, second);
+  if (interference) return {std::move(rows), folded};
   for (ContactRow& row : rows) {
     const double own = row.gap - row.added;
-    if (own < 0 && own >= -height_of_chord(curvature.at(row.node, row.partners), widest.at(row.node))) row.gap = row.added;
+    if (own < 0 && own >= -height_of_chords(frames.here, frames.across, row.node, row.partners, widest.at(row.node))) row.gap = row.added;
   }
   refuse_overlap(rows, first, second);
-  return rows;
+  return {std::move(rows), folded};
 }
 
-/// Length or area that rows stand for.
-double measure(const std::vector<ContactRow>& rows) {
-  return std::accumulate(rows.begin(), rows.end(), 0.0, [](double sum, const ContactRow& row) { return sum + row.weight; });
+/// Node → length or area of a facet there, the mean; of triangles, which are halves of cells, twice that.
+std::unordered_map<int, double> facet_sizes(const Face& face) {
+  std::unordered_map<int, double> sum, count;
+  const mesh::ElementTopology& t = face.mesh.topology();
+  for (const mesh::Facet f : face.facets)
+    for (int a = 0; a < t.nodes_per_facet; ++a) {
+      const int node = face.mesh.facet_node(f, a);
+      sum[node] += mesh::length(face.mesh.facet_area_vector(f)) * (t.facet_corners == 3 ? 2 : 1);
+      ++count[node];
+    }
+  for (auto& [node, size] : sum) size /= count.at(node);
+  return sum;
 }
 
-/// Are there fewer corners across than rows, by more than what an end more or less makes?
-bool coarser_across(const std::vector<ContactRow>& rows, const Face& second) {
-  std::unordered_set<int> corners, across;
-  for (const mesh::Facet f : second.facets)
-    for (int a = 0; a < second.mesh.topology().facet_corners; ++a) corners.insert(second.mesh.facet_node(f, a));
+double mean_size(const std::vector<NodeWeight>& nodes, const std::unordered_map<int, double>& sizes) {
+  double sum = 0, mean = 0;
+  for (const NodeWeight& n : nodes) sum += std::abs(n.weight), mean += std::abs(n.weight) * sizes.at(n.node);
+  return mean / sum;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// How much wider facets are across than here: the median over the rows whose gaps are less than the median one, or like it, since where
+/// parts curve away from each other, and at their ends, meshes are mostly coarser, and cover each other in part.
+double wider_across(const std::vector<ContactRow>& rows, const Face& first, const Face& second) {
+  const auto here = facet_sizes(first), across = facet_sizes(second);
+  std::vector<double> gaps, ratios;
+  for (const ContactRow& row : rows) gaps.push_back(row.gap);
+  const double near = median(gaps) + 1e-3 * first.mesh.size();
   for (const ContactRow& row : rows)
-    for (const NodeWeight& partner : row.partners)
-      if (corners.contains(partner.node)) across.insert(partner.node);
-  return static_cast<double>(across.size()) < 0.95 * static_cast<double>(rows.size());
+    if (row.gap <= near) ratios.push_back(mean_size(row.partners, across) / mean_size(row.own, here));
+  return std::pow(median(ratios), 1.0 / (first.mesh.dimension() - 1));
 }
 
 /// Where none is asked for nodes are tried first, but for triangles on quadrilaterals: those forces of a uniform pressure differ,
@@ -144,15 +143,15 @@ class Apart {
  public:
   Apart(const Face& first, const Face& second) : first_(first), second_(second) {}
 
-  /// `widest`: of the facets met; `curvature`: of the parts there. Chords of curved parts lie apart by their height, and by four times
+  /// `widest`: of the facets met; `chords`: their height. Chords of curved parts lie apart by their height, and by four times
   /// that where a facet is covered at its end alone and the other side's line is drawn out; a tenth of a facet is a layer of glue.
-  void see(const Tie& tie, double widest, double curvature) {
+  void see(const Tie& tie, double widest, double chords) {
     Point d{0, 0, 0};
     for (const NodeWeight& own : tie.own)
       for (int i = 0; i < 3; ++i) d[i] -= own.weight * first_.mesh.point(own.node)[i];
     for (const NodeWeight& partner : tie.partners)
       for (int i = 0; i < 3; ++i) d[i] += partner.weight * second_.mesh.point(partner.node)[i];
-    const double distance = mesh::length(d), allowed = 0.1 * widest + 4 * height_of_chord(curvature, widest);
+    const double distance = mesh::length(d), allowed = 0.1 * widest + 4 * chords;
     if (distance > allowed && distance > greatest_) greatest_ = distance, node_ = tie.node;
   }
 
@@ -192,16 +191,18 @@ std::unordered_map<int, double> chords(const Face& face) {
   return height;
 }
 
-/// Sets `chord`; `first` and `second` as the rows have them.
+constexpr double kAcross = 0.9;  ///< share of a partner that is the only one, but for what is covered askew
+
+/// Sets the rows' chords; `first` and `second` as the rows have them.
 PairedRows chords_seen(PairedRows paired, const Face& first, const Face& second) {
   const auto here = chords(first), across = chords(second);
-  const auto see = [&](const std::unordered_map<int, double>& heights, int node) {
-    const auto found = heights.find(node);
-    if (found != heights.end()) paired.chord = std::max(paired.chord, found->second);
+  const auto see = [](ContactRow& row, const std::unordered_map<int, double>& heights, int node) {
+    if (const auto found = heights.find(node); found != heights.end()) row.chord = std::max(row.chord, found->second);
   };
-  for (const ContactRow& row : paired.rows) {
-    see(here, row.node);
-    for (const NodeWeight& partner : row.partners) see(across, partner.node);
+  for (ContactRow& row : paired.rows) {
+    if (std::any_of(row.partners.begin(), row.partners.end(), [](const NodeWeight& p) { return p.weight > kAcross; })) continue;
+    see(row, here, row.node);
+    for (const NodeWeight& partner : row.partners) see(row, across, partner.node);
   }
   return paired;
 }
@@ -216,13 +217,12 @@ PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairin
     if (pairing) throw InputError(found.mismatch);
   }
   const Pairing used = pairing.value_or(Pairing::mortar);
-  std::vector<ContactRow> rows = paired(first, second, used, added, interference, monitor);
-  if (used == Pairing::mortar && coarser_across(rows, second)) {
-    std::vector<ContactRow> turned = paired(second, first, used, added, interference, monitor);
-    // Parts that lie above themselves cover more seen from the other side.
-    if (measure(turned) < 1.1 * measure(rows)) return chords_seen({used, std::move(turned), true}, second, first);
-  }
-  return chords_seen({used, std::move(rows)}, first, second);
+  Rows here = paired(first, second, used, added, interference, monitor);
+  const double wider = wider_across(here.rows, first, second);
+  // A part that lies above itself would have rows on all its sheets.
+  if (!here.folded && (used == Pairing::mortar ? wider > kAlike : wider < 1 / kAlike))
+    return chords_seen({used, paired(second, first, used, added, interference, monitor).rows, true}, second, first);
+  return chords_seen({used, std::move(here.rows)}, first, second);
 }
 
 PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing, Monitor* monitor) {
@@ -246,11 +246,12 @@ PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairin
   const bool means = first.mesh.topology().order == 2 && result.pairing == Pairing::mortar;
   const std::vector<NodeSide> list = means ? corner_nodes(first.mesh, first.facets) : nodes(first.mesh, first.facets);
   std::vector<Across> all = across(first, second, result.pairing, list, monitor);
-  const Curvature curvature(first, second);
+  const Curvatures here(first), there(second);
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (all[k].partners.empty()) continue;
     result.ties.push_back({list[k].node, means ? std::move(all[k].own) : list[k].own, std::move(all[k].partners)});
-    apart.see(result.ties.back(), all[k].widest, curvature.at(list[k].node, result.ties.back().partners));
+    const Tie& tie = result.ties.back();
+    apart.see(tie, all[k].widest, height_of_chords(here, there, tie.node, tie.partners, all[k].widest));
   }
   apart.refuse();
   return result;

@@ -3,19 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "contact/ball_gap.hpp"
 #include "contact/corner_means.hpp"
+#include "contact/frame.hpp"
 
 namespace dotyk::contact {
 namespace {
 
 using mesh::Point;
 
-/// Normal (towards the shape) and gap of a node at x.
+/// The way (unit, towards the shape) and the distance of a node at x from where the shape is nearest; of a RigidGap what it says.
 struct Distance {
-  Point normal;
+  Point inward;
   double gap;
 };
 
@@ -78,10 +81,54 @@ void refuse_behind(const mesh::Mesh& mesh, const RigidShape& shape, const Neares
                           "half-space, towards the body, and the part be on the side of the body that it meets"));
 }
 
-/// The rows; `added(k, x)` is added to the gap of the part's node k, at x.
-template <class Added>
+/// Makes the frames of rows; against a ball by the part's normals and curvatures, see rigid.hpp.
+class RigidFrames {
+ public:
+  RigidFrames(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const RigidShape& shape)
+      : mesh_(mesh), ball_(std::get_if<RigidBall>(&shape)) {
+    if (!ball_) return;
+    const Face part{mesh, facets, ""};
+    curvatures_.emplace(part);
+    smooth_ = smooth_sides(part);
+  }
+
+  Frame of(const NodeSide& side, const Point& inward) const {
+    const Frame shapes{inward, kSecondDecides, 0};
+    if (!ball_ || !smooth_.contains(side.node) || mesh::dot(side.normal, inward) < kAcross) return shapes;
+    const double flat = kFlat / mesh_.size(), distance = mesh::length(mesh::minus(ball_->center, mesh_.point(side.node)));
+    if (1 / distance < flat) return shapes;
+    const Eigen::Matrix3d K1 = curvatures_->at(side);
+    if (K1.norm() < flat) return {side.normal, kFirstDecides, turn(side)};
+    const Eigen::Map<const Eigen::Vector3d> e(inward.data());
+    const Eigen::Matrix3d K2 = (Eigen::Matrix3d::Identity() - e * e.transpose()) / distance;
+    Frame frame = frame_between(side.normal, K1, inward, K2, flat, mesh_.dimension());
+    frame.turn = turn(side);
+    return frame;
+  }
+  /// Of a row whose M is known.
+  Frame moved(const NodeSide& side, const Point& inward, const std::array<Point, 3>& mix) const {
+    return {mixed_normal(side.normal, inward, mix), mix, mix == kSecondDecides ? 0 : turn(side)};
+  }
+
+ private:
+  double turn(const NodeSide& side) const { return curvatures_->at(side).norm() * curvatures_->width(side); }
+
+  static constexpr double kAcross = 0.5;  ///< cosine, as between two parts: second_facets.hpp
+  const mesh::Mesh& mesh_;
+  const RigidBall* ball_;
+  std::optional<Curvatures> curvatures_;
+  std::unordered_map<int, NodeSide> smooth_;
+};
+
+/// The gap of a node at x in a row with this frame.
+double gap_along(const RigidShape& shape, const Point& x, const Frame& frame, const Distance& distance) {
+  const auto* ball = std::get_if<RigidBall>(&shape);
+  return ball && frame.mix != kSecondDecides ? ball_gap(*ball, x, frame.normal) : distance.gap;
+}
+
+/// The rows. `before`: those that they were before nodes moved, whose M and `added` stay; null: made for the first time, with `added(x)`.
 std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const RigidShape& shape,
-                                  const Added& added, bool interference) {
+                                  const elasticity::ScalarField& added, const std::vector<ContactRow>* before, bool interference) {
   const bool geometric = !std::holds_alternative<RigidGap>(shape);
   const double rounding = 1e-9 * mesh.size();
   double deepest = 0, most_facing = -1;
@@ -95,16 +142,15 @@ std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh
   for (const NodeSide& side : nodes(mesh, facets)) {
     const Point x = mesh.point(side.node);
     Distance d = std::visit([&](const auto& s) { return distance(s, x); }, shape);
-    const double more = added(at.size(), x);
-    d.gap += more;
-    if (!std::isfinite(d.gap))
-      throw InputError(text("the gap is ", d.gap, " at ", point_text(x.data(), mesh.dimension()),
+    const double more = before ? before->at(at.size()).added : added ? added(x) : 0, gap = d.gap + more;
+    if (!std::isfinite(gap))
+      throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), mesh.dimension()),
                             "; it must be a finite number"));
-    if (d.gap < deepest) deepest = d.gap, where = x;
-    const double facing = mesh::dot(d.normal, side.normal);
+    if (gap < deepest) deepest = gap, where = x;
+    const double facing = mesh::dot(d.inward, side.normal);
     most_facing = std::max(most_facing, facing);
-    const bool level = std::abs(d.gap - nearest.gap) <= rounding;  // of those equally near one that faces the shape counts
-    if (level ? facing > nearest.facing : d.gap < nearest.gap) nearest = {d.gap, facing, x};
+    const bool level = std::abs(gap - nearest.gap) <= rounding;  // of those equally near one that faces the shape counts
+    if (level ? facing > nearest.facing : gap < nearest.gap) nearest = {gap, facing, x};
     at.emplace(side.node, At{d, more});
   }
   if (geometric && !interference && deepest < -rounding)
@@ -115,15 +161,20 @@ std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh
                               ? " (its normal must point out of the rigid half-space, towards the body)"
                               : ""));
   refuse_behind(mesh, shape, nearest, most_facing, rounding);
+  const RigidFrames frames(mesh, facets, shape);
   std::vector<ContactRow> rows;
   for (NodeSide& side : corner_nodes(mesh, facets)) {
-    ContactRow row{side.node, std::move(side.own), {}, at.at(side.node).distance.normal, 0, side.weight, std::move(side.facets), 0};
+    const Point& inward = at.at(side.node).distance.inward;
+    const Frame frame = before ? frames.moved(side, inward, before->at(rows.size()).mix) : frames.of(side, inward);
+    ContactRow row{.node = side.node, .own = std::move(side.own), .normal = frame.normal, .weight = side.weight, .facets = std::move(side.facets),
+                   .mix = frame.mix, .turn = frame.turn};
     double least = INFINITY;
     for (const NodeWeight& own : row.own) {
       const At& here = at.at(own.node);
-      row.gap += own.weight * here.distance.gap;
+      const double gap = gap_along(shape, mesh.point(own.node), frame, here.distance) + here.added;
+      row.gap += own.weight * gap;
       row.added += own.weight * here.added;
-      least = std::min(least, here.distance.gap);
+      least = std::min(least, gap);
     }
     if (least >= 0) row.gap = std::max(row.gap, 0.0);  // a dual hat is negative in places: a mean of gaps may be
     rows.push_back(std::move(row));
@@ -136,12 +187,12 @@ std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh
 std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
                                 const RigidShape& shape, const elasticity::ScalarField& added,
                                 bool interference) {
-  return make_rows(mesh, facets, shape, [&](std::size_t, const Point& x) { return added ? added(x) : 0; }, interference);
+  return make_rows(mesh, facets, shape, added, nullptr, interference);
 }
 
 std::vector<ContactRow> moved_rows(const std::vector<ContactRow>& rows, const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
                                    const RigidShape& shape, bool interference) {
-  return make_rows(mesh, facets, shape, [&](std::size_t k, const Point&) { return rows.at(k).added; }, interference);
+  return make_rows(mesh, facets, shape, {}, &rows, interference);
 }
 
 }  // namespace dotyk::contact

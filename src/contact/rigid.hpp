@@ -32,8 +32,11 @@ using RigidShape = std::variant<RigidGap, RigidPlane, RigidBall>;
 /// "rigid gap", "rigid plane", "rigid ball".
 const char* name(const RigidShape& shape);
 
-/// One row a corner of the part's facets. The condition of a ball is linearised about the nodes at rest: the
-/// gap is measured along the line to its centre. `added` (may be empty) is added to the gap.
+/// One row a corner of the part's facets. A plane and a gap say the normal. Against a ball it is that of frame.hpp: n₁ and |K₁| are the
+/// part's, −n₂ points to the centre, and |K₂| is 1/distance from the centre, that of the sphere about it through the node. On a flat part rows
+/// so have the part's normal and the gap that a RigidGap of the same ball has. Where the part has no normal of its own (edges), or one more
+/// than 60° off the line to the centre, rows have that line. The gap is measured along the normal, with nodes at rest, see ball_gap.hpp.
+/// `added` (may be empty) is added to it.
 /// Throws InputError for a gap that is not finite, and for a plane or ball that overlaps the part
 /// at rest by more than rounding, unless `interference` says that this is meant; and for a shape that lies behind the part: a plane or
 /// a ball from which the part faces away where it is nearest, a gap whose normal points into the body everywhere.
@@ -41,8 +44,8 @@ std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::
                                 const RigidShape& shape, const elasticity::ScalarField& added,
                                 bool interference);
 
-/// The rows that against() made of a plane or a ball where the part's nodes have moved since: what was added to the gaps stays, the
-/// rest is made anew. Throws as against().
+/// The rows that against() made of a plane or a ball where the part's nodes have moved since: what was added to the gaps stays, as does M
+/// of frame.hpp, the rest is made anew. Throws as against().
 std::vector<ContactRow> moved_rows(const std::vector<ContactRow>& rows, const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
                                    const RigidShape& shape, bool interference);
 

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "contact/ball_gap.hpp"
 #include "contact/frame.hpp"
 #include "contact/tangents.hpp"
 #include "elasticity/shape_derivative.hpp"
@@ -89,23 +90,28 @@ class Turning {
   std::vector<Share> shares_;
 };
 
-/// d/dt of (normal, gap) for a node at x that moves with v; the weight is left as it is.
-void set_distance(const RigidGap&, const ContactRow&, const Point& x, const Point& v, RowDerivative& out) {
-  if (!none(v))
-    throw InputError(text("the node at ", point_text(x.data(), 3), " moves before a rigid obstacle that is given by a gap function, whose "
+/// A row's node, which moves; n1: the part's normal there, which turns.
+struct Moving {
+  Point x, v, n1, dn1;
+};
+
+/// d/dt of (normal, gap); the weight is left as it is.
+void set_distance(const RigidGap&, const ContactRow&, const Moving& at, RowDerivative& out) {
+  if (!none(at.v))
+    throw InputError(text("the node at ", point_text(at.x.data(), 3), " moves before a rigid obstacle that is given by a gap function, whose "
                           "slope is not known; take a rigid plane or ball"));
   out.normal = {0, 0, 0};
 }
 
-void set_distance(const RigidPlane&, const ContactRow& row, const Point&, const Point& v, RowDerivative& out) {
+void set_distance(const RigidPlane&, const ContactRow& row, const Moving& at, RowDerivative& out) {
   out.normal = {0, 0, 0};
-  out.gap = -dot(v, row.normal);
+  out.gap = -dot(at.v, row.normal);
 }
 
-void set_distance(const RigidBall& shape, const ContactRow& row, const Point& x, const Point& v, RowDerivative& out) {
-  const double along = dot(v, row.normal), r = length(minus(shape.center, x));
-  for (int i = 0; i < 3; ++i) out.normal[i] = (along * row.normal[i] - v[i]) / r;
-  out.gap = -along;
+void set_distance(const RigidBall& shape, const ContactRow& row, const Moving& at, RowDerivative& out) {
+  const Point way = minus(shape.center, at.x), inward = mesh::unit(way);
+  out.normal = mixed_normal_derivative(at.n1, at.dn1, inward, unit_derivative(way, mesh::times(-1, at.v)), row.mix);
+  out.gap = row.mix == kSecondDecides ? -dot(at.v, row.normal) : ball_gap_derivative(shape, at.x, row.normal, at.v, out.normal);
 }
 
 }  // namespace
@@ -135,11 +141,14 @@ std::vector<RowDerivative> row_derivatives(const Face& first, const std::vector<
 std::vector<RowDerivative> row_derivatives(const Mesh& mesh, const std::vector<Facet>& facets, const std::vector<ContactRow>& rows,
                                            const RigidShape& shape, const std::vector<double>& V) {
   const Turning part(mesh, facets, V);
+  std::map<int, Point> normal;
+  for (const NodeSide& side : nodes(mesh, facets)) normal[side.node] = side.normal;
   std::vector<RowDerivative> out;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    out.push_back(part.at(rows[k].node, rows[k].facets));
-    const Point x = mesh.point(rows[k].node), v = velocity(mesh, V, rows[k].node);
-    std::visit([&](const auto& s) { set_distance(s, rows[k], x, v, out[k]); }, shape);
+  for (const ContactRow& row : rows) {
+    RowDerivative d = part.at(row.node, row.facets);
+    const Moving at{mesh.point(row.node), velocity(mesh, V, row.node), normal.at(row.node), d.normal};
+    std::visit([&](const auto& s) { set_distance(s, row, at, d); }, shape);
+    out.push_back(d);
   }
   return out;
 }

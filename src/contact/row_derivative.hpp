@@ -19,7 +19,7 @@ struct RowDerivative {
 std::vector<RowDerivative> row_derivatives(const Face& first, const std::vector<ContactRow>& rows, const std::vector<double>& V,
                                            const Face& second, const std::vector<double>& W);
 
-/// Of the rows of against(): a plane's normal is its own, a ball's points to its centre, the gap is the distance.
+/// Of the rows of against(): a plane's normal is its own, against a ball it is that of frame.hpp, its M kept; the gap is measured along it.
 /// Throws InputError where a node that moves lies before a RigidGap, whose gap as a function of place is not known.
 std::vector<RowDerivative> row_derivatives(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
                                            const std::vector<ContactRow>& rows, const RigidShape& shape,

@@ -233,6 +233,7 @@ ErrorParts& ErrorParts::operator+=(const ErrorParts& other) {
   contact_pressure += other.contact_pressure;
   complementarity += other.complementarity;
   friction += other.friction;
+  laws += other.laws;
   return *this;
 }
 

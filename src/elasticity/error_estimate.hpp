@@ -22,13 +22,14 @@ namespace dotyk::elasticity {
 ///   contact_pressure, friction   the same with the normal and the tangential part of r on the contact boundary, t the
 ///              traction that the multipliers are; friction also has what slip and shear lack of its law
 ///   complementarity   2∫ λ gap: where a facet has one closed and one open node
+///   laws       what elastic laws of supports lose by acting at nodes: see scene/lumped_laws.hpp
 /// H the cell's height over the facet, Q_ik = c_ijkl n_j n_l: a stress that falls linearly from rn on the facet to 0
 /// has the energy H/3 ∫ r·Q⁻¹r. No constant is fitted. Not measured: what interpolation loses of prescribed
 /// displacements and of the gap, and what facet means lose of loads (all of higher order where they are smooth); the
 /// jump across glued facets.
 struct ErrorParts {
-  double recovery = 0, bulk = 0, jump = 0, boundary = 0, contact_pressure = 0, complementarity = 0, friction = 0;
-  double sum() const { return recovery + bulk + jump + boundary + contact_pressure + complementarity + friction; }
+  double recovery = 0, bulk = 0, jump = 0, boundary = 0, contact_pressure = 0, complementarity = 0, friction = 0, laws = 0;
+  double sum() const { return recovery + bulk + jump + boundary + contact_pressure + complementarity + friction + laws; }
   ErrorParts& operator+=(const ErrorParts& other);
 };
 
@@ -51,7 +52,7 @@ struct ErrorEstimate {
 /// The estimate for one body of the nodal displacement u (node × dimension). `force`: per volume, the mean of each
 /// cell, or empty; `boundary`: facets without an entry are not looked at. Where Hooke's tensor jumps by more than a
 /// fifth across a facet, stresses are recovered on either side apart; otherwise `recovered`, if given, is what
-/// recover_stress gives, and not made again. The parts of contact that need gaps and slips are left 0.
+/// recover_stress gives, and not made again. The parts of contact that need gaps and slips, and those of laws, are left 0.
 ErrorEstimate estimate_error(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<double>& u,
                              const std::vector<mesh::Point>& force, const std::vector<FacetTraction>& boundary,
                              const std::vector<Stress>* recovered = nullptr);

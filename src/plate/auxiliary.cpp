@@ -104,8 +104,8 @@ std::optional<LimitCase> solve_limit_case(const Model& model, const Vector& moti
   f -= whole.B.transpose() * lambda;
   const auto rigid = problem::rigid_motions(left.problem);
   if (rigid.unnoticed.cols() != 1) return std::nullopt;
-  const algebra::DenseMatrix free = problem::unnoticed_displacements(left.problem, rigid);  // to rounding, as `motion` need not be
-  f -= free * (free.transpose() * f);
+  const algebra::SparseMatrix free = problem::unnoticed_displacements(left.problem, rigid);  // to rounding, as `motion` need not be
+  f = problem::least(free, f);
   LimitCase out{run(left.problem, method, monitor), {}};
   for (std::size_t r = 0; r < left.row.size(); ++r) lambda[left.row[r]] = out.result.state.lambda[static_cast<Eigen::Index>(r)];
   out.result.state.lambda = lambda;

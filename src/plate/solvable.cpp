@@ -47,7 +47,7 @@ std::string told(const Model& model, const problem::RigidMotions& rigid, const a
 /// What the rows could bear on the motion beyond the load's work on it.
 double left_to_bear(const Model& model, const problem::RigidMotions& rigid, const algebra::Vector& amounts) {
   const algebra::Vector moved = rigid.N * amounts;
-  const algebra::Vector rounding = 1e-9 * amounts.lpNorm<Eigen::Infinity>() * rigid.N.cwiseAbs().rowwise().sum();
+  const algebra::Vector rounding = 1e-9 * amounts.lpNorm<Eigen::Infinity>() * (rigid.N.cwiseAbs() * algebra::Vector::Ones(rigid.N.cols()));
   double sum = -rigid.e.dot(amounts);
   for (const problem::RowGroup& group : model.problem.groups)
     for (int k = 0; k < group.count; ++k) {

@@ -39,13 +39,17 @@ SparseRows pick_rows(const SparseRows& rows, const std::vector<int>& picked) {
 CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& rigid,
                                    algebra::Ordering ordering, Clock& clock, Monitor& monitor)
     : noticed_(rigid.noticed), unknowns_(problem.unknowns()) {
+  Stopwatch watch;
   const int m = problem.rows();
   require_memory(3.0 * 8 * m * m, text("the dense matrix of ", m, " rows"));  // W, a block's share, its factor
   W_ = DenseMatrix::Zero(m, m);
   N_ = rigid.noticed_N;
   unnoticed_ = unnoticed_displacements(problem, rigid);
+  clock.iterate += watch.lap();
   for (const Block& block : problem.blocks) add(problem, block, ordering, clock, monitor);
+  watch.lap();
   set_load(problem, rigid);
+  clock.iterate += watch.lap();
 }
 
 void CondensedProblem::set_load(const Problem& problem, const RigidMotions& rigid) {
@@ -72,6 +76,7 @@ CondensedProblem CondensedProblem::softened(const Vector& compliance, const Vect
 void CondensedProblem::add(const Problem& problem, const Block& block, algebra::Ordering ordering,
                            Clock& clock, Monitor& monitor) {
   Part part{condense(problem, block, ordering, clock, monitor), modes_};
+  monitor.check();
   const algebra::StopFactoring stop(monitor);
   Stopwatch watch;
   // Only the rows present on this block make columns of the half compliance.

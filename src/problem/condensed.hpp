@@ -57,8 +57,8 @@ class CondensedProblem {
   std::vector<Part> parts_;
   algebra::DenseMatrix W_, N_;
   algebra::Vector x0_, e_;
-  algebra::DenseMatrix noticed_;    ///< orthonormal basis of the motions that rows notice: modes × kernel_size
-  algebra::DenseMatrix unnoticed_;  ///< orthonormal displacements that no row notices: unknowns × count
+  algebra::SparseMatrix noticed_;    ///< basis of the motions that rows notice: modes × kernel_size
+  algebra::SparseMatrix unnoticed_;  ///< orthonormal displacements that no row notices: unknowns × count
   int unknowns_ = 0, modes_ = 0;
 };
 

@@ -6,9 +6,10 @@
 
 namespace dotyk::problem {
 
-/// Seconds of the steps of a solve; `total` is set by the caller that owns the whole.
+/// Seconds of the steps of a solve; `motions`: rigid motions, whether the load is carried, and which of them the solution leaves free.
+/// `total` is set by the caller that owns the whole.
 struct Clock {
-  double assembly = 0, ordering = 0, factor = 0, iterate = 0, recover = 0, total = 0;
+  double assembly = 0, motions = 0, ordering = 0, factor = 0, iterate = 0, recover = 0, total = 0;
 };
 
 /// One block condensed onto the unknowns Γ of the nodes that rows act on.

@@ -1,10 +1,10 @@
 #include "problem/free_motions.hpp"
 
-#include <Eigen/OrderingMethods>
 #include <Eigen/SVD>
-#include <Eigen/SparseQR>
 #include <algorithm>
 #include <cmath>
+
+#include "algebra/null_space.hpp"
 
 namespace dotyk::problem {
 
@@ -16,22 +16,6 @@ namespace {
 
 /// Modes have greatest displacement 1: 1e-9 of that is "not at all".
 constexpr double kNotAtAll = 1e-9;
-
-/// B R, rows × modes.
-SparseMatrix jumps_of_modes(const Problem& problem) {
-  std::vector<Eigen::Triplet<double>> entries;
-  int first = 0;
-  for (const Block& block : problem.blocks) {
-    const DenseMatrix N = block.kernel.cols() > 0 ? DenseMatrix(problem.rows_of(block) * block.kernel) : DenseMatrix(0, 0);
-    for (Eigen::Index j = 0; j < N.cols(); ++j)
-      for (Eigen::Index i = 0; i < N.rows(); ++i)
-        if (N(i, j) != 0) entries.emplace_back(i, first + j, N(i, j));
-    first += static_cast<int>(block.kernel.cols());
-  }
-  SparseMatrix all(problem.rows(), first);
-  all.setFromTriplets(entries.begin(), entries.end());
-  return all;
-}
 
 /// What the rows ask of a motion at these multipliers, as combinations of rows of B: held · r = 0, and limited · r ≤ slack.
 class Conditions {
@@ -106,40 +90,9 @@ class Conditions {
   std::vector<double> slack_;
 };
 
-using SparseQr = Eigen::SparseQR<SparseMatrix, Eigen::COLAMDOrdering<int>>;
-
-/// Of a matrix with at least one entry; rows of zeros below make it as high as wide.
-void factor(SparseQr& qr, SparseMatrix A) {
-  A.conservativeResize(std::max(A.rows(), A.cols()), A.cols());
-  A.makeCompressed();
-  qr.setPivotThreshold(kNotAtAll);
-  qr.compute(A);
-}
-
-int rank_of(const SparseMatrix& A) {
-  if (A.nonZeros() == 0) return 0;
-  SparseQr qr;
-  factor(qr, A);
-  return static_cast<int>(qr.rank());
-}
-
-/// A basis of the null space: columns.
-DenseMatrix null_space(const SparseMatrix& held) {
-  const Eigen::Index n = held.cols();
-  if (held.nonZeros() == 0) return DenseMatrix::Identity(n, n);
-  SparseQr qr;
-  factor(qr, held);
-  const Eigen::Index rank = qr.rank();
-  DenseMatrix basis = DenseMatrix::Zero(n, n - rank);
-  const DenseMatrix R = DenseMatrix(SparseMatrix(qr.matrixR())).topRows(rank);
-  basis.bottomRows(n - rank).setIdentity();
-  basis.topRows(rank) = -R.leftCols(rank).triangularView<Eigen::Upper>().solve(R.rightCols(n - rank));
-  return qr.colsPermutation() * basis;
-}
-
 /// Greatest amount 1.
-void normalise(DenseMatrix& motions) {
-  for (Eigen::Index k = 0; k < motions.cols(); ++k) motions.col(k) /= motions.col(k).lpNorm<Eigen::Infinity>();
+void normalise(SparseMatrix& motions) {
+  for (int k = 0; k < motions.cols(); ++k) motions.col(k) /= Vector(motions.col(k)).lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace
@@ -147,39 +100,42 @@ void normalise(DenseMatrix& motions) {
 FreeMotions free_motions(const Problem& problem, const State& state, double tolerance) {
   FreeMotions free;
   const SparseMatrix N = jumps_of_modes(problem);
-  free.motions = free.unnoticed = DenseMatrix(N.cols(), 0);
-  if (N.cols() == 0) return free;
+  const Eigen::Index modes = N.cols();
+  free.motions = free.unnoticed = SparseMatrix(modes, 0);
+  if (modes == 0) return free;
   const Conditions conditions(problem, state, tolerance);
   const SparseMatrix held = conditions.held(N);
-  const int holds = rank_of(held);
-  if (holds == N.cols()) {
-    if (N.cols() > kMostModes) return free;
-    free.weakest = Eigen::JacobiSVD<DenseMatrix>(DenseMatrix(held), Eigen::ComputeThinV).matrixV().col(N.cols() - 1);
+  const int holds = algebra::rank(held, kNotAtAll);
+  if (holds == modes) {
+    if (modes > kMostModes) return free;
+    free.weakest = Eigen::JacobiSVD<DenseMatrix>(DenseMatrix(held), Eigen::ComputeThinV).matrixV().col(modes - 1);
     free.weakest /= free.weakest.lpNorm<Eigen::Infinity>();
     free.grip = (held * free.weakest).lpNorm<Eigen::Infinity>();
     return free;
   }
-  free.count = rank_of(N) - holds;
-  if (free.count <= 0 || N.cols() > kMostFree) return free;
-  const DenseMatrix basis = null_space(held);
-  DenseMatrix jumps = DenseMatrix::Zero(std::max(N.rows(), basis.cols()), basis.cols());
-  jumps.topRows(N.rows()) = N * basis;
-  const Eigen::JacobiSVD<DenseMatrix> svd(jumps, Eigen::ComputeFullV);
-  Eigen::Index rank = 0;
-  while (rank < basis.cols() && svd.singularValues()[rank] > kNotAtAll * std::max(1.0, svd.singularValues()[0])) ++rank;
-  free.motions = basis * svd.matrixV().leftCols(rank);
-  free.unnoticed = basis * svd.matrixV().rightCols(basis.cols() - rank);
-  free.count = static_cast<int>(rank);
-  if (rank == 0) return free;
+  free.count = algebra::rank(N, kNotAtAll) - holds;
+  if (free.count <= 0 || free.count > kMostFree) return free;
+  const SparseMatrix basis = algebra::range_and_null(held, kNotAtAll).unseen;
+  const algebra::RangeAndNull jumps = algebra::range_and_null(N * basis, kNotAtAll);
+  free.motions = basis * jumps.seen;
+  free.unnoticed = basis * jumps.unseen;
+  free.count = static_cast<int>(free.motions.cols());
+  if (free.count == 0) return free;
   normalise(free.motions);
-  if (rank > 1) return free;
-  free.range = {-INFINITY, INFINITY};
-  const Vector approach = conditions.limited(N) * free.motions.col(0);
-  for (Eigen::Index k = 0; k < approach.size(); ++k) {
-    if (approach[k] > kNotAtAll) free.range.high = std::min(free.range.high, conditions.slack(k) / approach[k]);
-    if (approach[k] < -kNotAtAll) free.range.low = std::max(free.range.low, conditions.slack(k) / approach[k]);
-  }
+  if (free.count > kMostModes) return free;
+  free.limits = algebra::SparseRows(conditions.limited(N) * free.motions).pruned(1, kNotAtAll);
+  free.slack.resize(free.limits.rows());
+  for (Eigen::Index k = 0; k < free.slack.size(); ++k) free.slack[k] = conditions.slack(k);
   return free;
+}
+
+Interval FreeMotions::range(int k, const Vector& from) const {
+  Interval range{-INFINITY, INFINITY};
+  const Vector left = (slack - limits * from).cwiseMax(0);
+  for (Eigen::Index row = 0; row < limits.rows(); ++row)
+    if (const double approach = limits.coeff(row, k); approach > 0) range.high = std::min(range.high, left[row] / approach);
+    else if (approach < 0) range.low = std::max(range.low, left[row] / approach);
+  return range;
 }
 
 }  // namespace dotyk::problem

@@ -10,10 +10,13 @@ namespace dotyk::problem {
 /// makes the stress unique. TR965's theorem 3.3 says so before solving where |S(w)| > j(w), (3.31); this says it after.
 struct FreeMotions {
   int count = 0;  ///< of independent motions that rows which hold leave free and some row notices
-  /// These, amounts of the modes, modes × count, and beside them those that no row notices; of more than kMostFree modes neither.
-  algebra::DenseMatrix motions, unnoticed;
-  /// Of a single motion: how far it may go, in units of it, low ≤ 0 ≤ high; ±∞ where nothing stops it.
-  Interval range{0, 0};
+  /// These, amounts of the modes, modes × count, greatest 1, and beside them those that no row notices; of more than kMostFree neither.
+  algebra::SparseMatrix motions, unnoticed;
+  /// Of up to kMostModes motions how far they may go together, β in units of them: limits β ≤ slack, with slack ≥ 0.
+  algebra::SparseRows limits;
+  algebra::Vector slack;
+  /// How far the k-th may go alone from β: low ≤ 0 ≤ high, ±∞ where nothing stops it.
+  Interval range(int k, const algebra::Vector& from) const;
   /// Where none is free, of up to kMostModes modes: the motion that rows which hold resist least, greatest amount 1, and the greatest
   /// jump that it makes on one of them. Modes have greatest displacement 1.
   algebra::Vector weakest;

@@ -3,6 +3,7 @@
 #include "algebra/generalised_inverse.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "problem/precise.hpp"
 
 namespace dotyk::problem {
 
@@ -68,11 +69,18 @@ void add(Problem& problem, Block block) {
   problem.blocks.push_back(std::move(block));
 }
 
-Vector stiffness_times(const Problem& problem, const Vector& u) {
-  Vector result(problem.unknowns());
+Vector stiffness_times(const Problem& problem, const Vector& u) { return precise_stiffness_times(problem, u.cast<long double>()).cast<double>(); }
+
+LongVector precise_stiffness_times(const Problem& problem, const LongVector& u) {
+  LongVector result = LongVector::Zero(problem.unknowns());
   for (const Block& block : problem.blocks)
-    result.segment(block.first, block.size()) =
-        block.K.selfadjointView<Eigen::Lower>() * u.segment(block.first, block.size());
+    for (int j = 0; j < block.size(); ++j)
+      for (algebra::SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
+        const int row = block.first + static_cast<int>(it.row()), column = block.first + j;
+        if (row < column) continue;
+        result[row] += it.value() * u[column];
+        if (row != column) result[column] += it.value() * u[row];
+      }
   return result;
 }
 

@@ -13,8 +13,7 @@ namespace dotyk::problem {
 
 using algebra::Vector;
 
-double natural_residual(const Problem& problem, const Vector& x, const Vector& lambda,
-                        const Vector& rho) {
+double distance_from_laws(const Problem& problem, const Vector& x, const Vector& lambda, const Vector& rho) {
   double sum = 0;
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
@@ -30,8 +29,12 @@ double natural_residual(const Problem& problem, const Vector& x, const Vector& l
       const double bound = group.bound(k, lambda);
       sum += (own - project_disc(y, bound).value).squaredNorm();
     }
+  return std::sqrt(sum);
+}
+
+double natural_residual(const Problem& problem, const Vector& x, const Vector& lambda, const Vector& rho) {
   const double scale = lambda.norm();
-  return std::sqrt(sum) / (scale > 0 ? scale : 1);
+  return distance_from_laws(problem, x, lambda, rho) / (scale > 0 ? scale : 1);
 }
 
 double energy(const Problem& problem, const State& state) {
@@ -156,7 +159,7 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
 namespace {
 
 /// The greatest distance of a row, or of a friction point, from its law's graph; see Residual.
-double distance_from_laws(const Problem& problem, const Vector& lambda, const Vector& x, const Scales& scales) {
+double greatest_distance(const Problem& problem, const Vector& lambda, const Vector& x, const Scales& scales) {
   const auto rho = [&](double gap) { return scales.force / std::max(scales.length, gap); };
   double most = 0;
   for (const RowGroup& group : problem.groups)
@@ -217,7 +220,7 @@ Residual residual(const Problem& problem, const State& state) {
   work += least.work + std::abs(0.5 * state.u.dot(all.internal)) + std::abs(state.u.dot(all.load));
   if (work > 0) result.complementarity = product / work;
   result.friction = friction_violation(problem, state);
-  result.law = distance_from_laws(problem, state.lambda, x, scales);
+  result.law = greatest_distance(problem, state.lambda, x, scales);
   return result;
 }
 

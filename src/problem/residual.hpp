@@ -53,7 +53,10 @@ double energy(const Problem& problem, const State& state);
 /// solution's own normal multipliers).
 double friction_energy(const Problem& problem, const State& state);
 
-/// ‖λ − P(λ + ρx)‖ / ‖λ‖ (the numerator alone where λ = 0), the natural residual.
+/// ‖λ − P(λ + ρx)‖, a force: the distance from the laws, in the plane of λ and ρx.
+double distance_from_laws(const Problem& problem, const algebra::Vector& x, const algebra::Vector& lambda, const algebra::Vector& rho);
+
+/// The same / ‖λ‖ (the numerator alone where λ = 0), the natural residual.
 double natural_residual(const Problem& problem, const algebra::Vector& x,
                         const algebra::Vector& lambda, const algebra::Vector& rho);
 

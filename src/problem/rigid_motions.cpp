@@ -1,14 +1,14 @@
 #include "problem/rigid_motions.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "algebra/dense.hpp"
 #include "algebra/null_space.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::problem {
 
-using algebra::DenseMatrix;
+using algebra::SparseMatrix;
 using algebra::Vector;
 
 namespace {
@@ -34,22 +34,34 @@ Vector resultants(const Block& block) {
 
 }  // namespace
 
+SparseMatrix jumps_of_modes(const Problem& problem) {
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<int> first_mode{0};
+  std::vector<std::size_t> block_of(static_cast<std::size_t>(problem.unknowns()));
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    const Block& block = problem.blocks[b];
+    std::fill_n(block_of.begin() + block.first, block.size(), b);
+    first_mode.push_back(first_mode.back() + static_cast<int>(block.kernel.cols()));
+  }
+  for (int r = 0; r < problem.rows(); ++r)
+    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) {
+      const std::size_t b = block_of[static_cast<std::size_t>(it.col())];
+      const Block& block = problem.blocks[b];
+      for (int k = 0; k < block.kernel.cols(); ++k) entries.emplace_back(r, first_mode[b] + k, it.value() * block.kernel(it.col() - block.first, k));
+    }
+  SparseMatrix N(problem.rows(), first_mode.back());
+  N.setFromTriplets(entries.begin(), entries.end());
+  N.prune([](int, int, double value) { return value != 0; });
+  return N;
+}
+
 RigidMotions rigid_motions(const Problem& problem) {
   RigidMotions rigid;
-  int modes = 0;
-  for (const Block& block : problem.blocks) modes += static_cast<int>(block.kernel.cols());
-  rigid.N = DenseMatrix::Zero(problem.rows(), modes);
-  rigid.e = Vector::Zero(modes);
-  int k = 0;
-  for (const Block& block : problem.blocks) {
-    const int count = static_cast<int>(block.kernel.cols());
-    if (count == 0) continue;
-    rigid.N.middleCols(k, count) = problem.rows_of(block) * block.kernel;
-    k += count;
-  }
+  rigid.N = jumps_of_modes(problem);
+  rigid.e = Vector::Zero(rigid.N.cols());
   rigid.motions = body_motions(problem);
   split(rigid);
-  rigid.noticed_N = rigid.unnoticed.cols() == 0 ? rigid.N : DenseMatrix(algebra::SparseMatrix(rigid.N.sparseView()) * rigid.noticed);
+  rigid.noticed_N = rigid.N * rigid.noticed;
   take_load(problem, rigid);
   return rigid;
 }
@@ -89,22 +101,30 @@ std::string describe(const std::vector<BodyMotion>& motions, const Vector& amoun
   return out;
 }
 
-DenseMatrix displacement(const Problem& problem, const DenseMatrix& motions) {
-  DenseMatrix u = DenseMatrix::Zero(problem.unknowns(), motions.cols());
-  Eigen::Index mode = 0;
-  for (const Block& block : problem.blocks) {
-    u.middleRows(block.first, block.size()) = block.kernel * motions.middleRows(mode, block.kernel.cols());
-    mode += block.kernel.cols();
-  }
+SparseMatrix displacement(const Problem& problem, const SparseMatrix& motions) {
+  std::vector<const Block*> block_of;
+  std::vector<int> mode_of;
+  for (const Block& block : problem.blocks)
+    for (int k = 0; k < block.kernel.cols(); ++k) block_of.push_back(&block), mode_of.push_back(k);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < motions.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(motions, j); it; ++it) {
+      const Block& block = *block_of[static_cast<std::size_t>(it.row())];
+      const auto mode = block.kernel.col(mode_of[static_cast<std::size_t>(it.row())]);
+      for (int i = 0; i < block.size(); ++i)
+        if (mode[i] != 0) entries.emplace_back(block.first + i, j, mode[i] * it.value());
+    }
+  SparseMatrix u(problem.unknowns(), motions.cols());
+  u.setFromTriplets(entries.begin(), entries.end());
   return u;
 }
 
-DenseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid) {
+SparseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid) {
   return algebra::orthonormal(displacement(problem, rigid.unnoticed));
 }
 
-Vector least(const DenseMatrix& unnoticed, Vector u) {
-  if (unnoticed.cols() > 0) u -= unnoticed * (unnoticed.transpose() * u);
+Vector least(const SparseMatrix& unnoticed, Vector u) {
+  if (unnoticed.cols() > 0) u -= unnoticed * Vector(unnoticed.transpose() * u);
   return u;
 }
 

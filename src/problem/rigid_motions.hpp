@@ -18,16 +18,19 @@ struct BodyMotion {
 /// The rigid motions of all blocks against the rows: with α the amounts of the kernel's modes,
 /// N α is the jump that a motion makes on the rows, and eᵀα the work of the load on it.
 struct RigidMotions {
-  algebra::DenseMatrix N;          ///< B R, rows × modes
+  algebra::SparseMatrix N;         ///< B R, rows × modes: a row joins the modes of the bodies that it touches
   algebra::Vector e;               ///< Rᵀ f; of a block where it is rounding, zero
-  /// Orthonormal bases of the motions that some row notices (N α ≠ 0) and that none does.
-  algebra::DenseMatrix noticed, unnoticed;  ///< modes × count
-  algebra::DenseMatrix noticed_N;  ///< N on the noticed motions, rows × their count
+  /// Bases of the motions that some row notices (N α ≠ 0) and that none does, modes × count; see algebra::range_and_null().
+  algebra::SparseMatrix noticed, unnoticed;
+  algebra::SparseMatrix noticed_N;  ///< N on the noticed motions, rows × their count
   algebra::Vector noticed_e;       ///< e on them
   std::vector<BodyMotion> motions;  ///< what the modes are
   int count() const { return static_cast<int>(e.size()); }
 };
+/// Asks whether to stop, see algebra::ask_to_stop().
 RigidMotions rigid_motions(const Problem& problem);
+/// B R, rows × modes.
+algebra::SparseMatrix jumps_of_modes(const Problem& problem);
 /// The same motions under another f: sets e and noticed_e.
 void take_load(const Problem& problem, RigidMotions& rigid);
 
@@ -38,12 +41,12 @@ std::vector<BodyMotion> body_motions(const Problem& problem);
 std::string describe(const std::vector<BodyMotion>& motions, const algebra::Vector& amounts);
 
 /// R α, the displacement of all unknowns under motions α (modes × any number of columns).
-algebra::DenseMatrix displacement(const Problem& problem, const algebra::DenseMatrix& motions);
+algebra::SparseMatrix displacement(const Problem& problem, const algebra::SparseMatrix& motions);
 
 /// The motions that no row notices as displacements, orthonormal: unknowns × count.
-algebra::DenseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid);
+algebra::SparseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid);
 
 /// u less its part in them: the least of all displacements that differ by such motions.
-algebra::Vector least(const algebra::DenseMatrix& unnoticed, algebra::Vector u);
+algebra::Vector least(const algebra::SparseMatrix& unnoticed, algebra::Vector u);
 
 }  // namespace dotyk::problem

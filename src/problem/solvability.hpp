@@ -13,11 +13,13 @@ struct Solvability {
     unique,        ///< solvable; the load works against every admissible motion
     up_to_motion,  ///< solvable; `motion` changes nothing (the stress is unique)
     unsolvable,    ///< the load does positive work on the admissible motion `motion`
+    unknown,       ///< nothing is proved: the iteration ended before it was known whether the load is carried, or is a limit case
   };
   Verdict verdict = Verdict::unique;
   /// On the edge: solvable, but turned by 1e-6 the load is not; or the other way round.
   bool limit = false;
-  algebra::Vector motion;  ///< amounts of the modes, greatest 1; empty for unique
+  bool carried = true;     ///< proved: the load is balanced by multipliers that the laws can carry
+  algebra::Vector motion;  ///< amounts of the modes, greatest 1; empty for unique and unknown
   double work = 0;         ///< of the load on `motion`
 };
 Solvability solvability(const RigidMotions& rigid, const Problem& problem);

@@ -41,6 +41,22 @@ bool one_sided(Kind kind) {
 
 bool directed(Kind kind) { return one_sided(kind) || kind == Kind::unequal_elastic; }
 
+namespace {
+
+bool elastic(Kind kind) {
+  return kind == Kind::elastic || kind == Kind::one_sided_elastic || kind == Kind::capped_elastic || kind == Kind::unequal_elastic || kind == Kind::breaking;
+}
+
+/// Numbers so small have no inverse, or lose digits in a product with a length: what is made of them is 0 here and not there.
+void require_told_from_none(const SupportLaw& law, double stiffness) {
+  constexpr double kLeast = 1e-300;
+  if (stiffness > 0 && stiffness < kLeast)
+    throw InputError(text(support_name(law.kind), " law: the stiffness ", stiffness,
+                          " is lost in rounding beside any body's; leave that away, or make it stiffer"));
+}
+
+}  // namespace
+
 void require_valid(const SupportLaw& law) {
   const bool any_sign = law.kind == Kind::prescribed || law.kind == Kind::load;
   if (!std::isfinite(law.value) || (!any_sign && law.value < 0))
@@ -49,6 +65,10 @@ void require_valid(const SupportLaw& law) {
     throw InputError(text(support_name(law.kind), " law: the greatest force is ", law.limit, "; it must be zero or positive, and finite"));
   if (!(law.pull >= 0) || !std::isfinite(law.pull))
     throw InputError(text(support_name(law.kind), " law: the stiffness that pulls is ", law.pull, "; it must be zero or positive, and finite"));
+  if (elastic(law.kind)) {
+    require_told_from_none(law, law.value);
+    require_told_from_none(law, law.pull);
+  }
 }
 
 std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit, const std::vector<double>& shares) {

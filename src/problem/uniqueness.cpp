@@ -1,13 +1,13 @@
 #include "problem/uniqueness.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "algebra/dense.hpp"
+#include "algebra/null_space.hpp"
 
 namespace dotyk::problem {
 
@@ -20,27 +20,14 @@ namespace {
 
 constexpr double kNotAtAll = 1e-9;  ///< of a unit motion
 
-bool has_coulomb(const Problem& problem) {
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k)
-      if (group.law->bound_slope(k) > 0) return true;
-  return false;
-}
-
-/// The noticed motions that no row holds both ways, an orthonormal basis: modes × count.
-DenseMatrix two_sided(const RigidMotions& rigid, const Problem& problem) {
-  std::vector<int> holding;
+/// The noticed motions that no row holds both ways: modes × count.
+SparseMatrix two_sided(const RigidMotions& rigid, const Problem& problem) {
+  std::vector<char> holds(static_cast<std::size_t>(problem.rows()), 0);
   for (const RowGroup& group : problem.groups)
-    for (int k = 0; k < group.count; ++k)
-      if (group.law->linear_stiffness(k).value_or(0) > 0) holding.push_back(group.first + k);
-  const Eigen::Index modes = rigid.noticed.cols();
-  if (holding.empty() || modes == 0) return rigid.noticed;
-  DenseMatrix N = DenseMatrix::Zero(std::max<Eigen::Index>(modes, static_cast<Eigen::Index>(holding.size())), modes);
-  for (std::size_t k = 0; k < holding.size(); ++k) N.row(static_cast<Eigen::Index>(k)) = rigid.N.row(holding[k]) * rigid.noticed;
-  const Eigen::JacobiSVD<DenseMatrix> svd(N, Eigen::ComputeFullV);
-  Eigen::Index rank = 0;
-  while (rank < modes && svd.singularValues()[rank] > kNotAtAll * std::max(1.0, svd.singularValues()[0])) ++rank;
-  return rigid.noticed * svd.matrixV().rightCols(modes - rank);
+    for (int k = 0; k < group.count; ++k) holds[static_cast<std::size_t>(group.first + k)] = group.law->linear_stiffness(k).value_or(0) > 0;
+  SparseMatrix held = rigid.noticed_N;
+  held.prune([&](int row, int, double) { return holds[static_cast<std::size_t>(row)] != 0; });
+  return rigid.noticed * algebra::range_and_null(held, kNotAtAll).unseen;
 }
 
 /// The most that laws other than unilateral ones can resist a motion with, or give it: j(w). Infinite where one has no limit.
@@ -98,17 +85,25 @@ double greatest_eigenvalue(const DenseMatrix& symmetric) {
 
 }  // namespace
 
+bool has_coulomb(const Problem& problem) {
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k)
+      if (group.law->bound_slope(k) > 0) return true;
+  return false;
+}
+
 Uniqueness uniqueness(const RigidMotions& rigid, const Problem& problem) {
   Uniqueness u;
   u.coulomb = has_coulomb(problem);
-  const DenseMatrix free = two_sided(rigid, problem);
+  const SparseMatrix free = two_sided(rigid, problem);
   u.held = free.cols() + rigid.unnoticed.cols() == 0;
   if (u.coulomb) {
     u.exists = full_rank(problem.B) && (u.held || coercive_without_friction(problem));
     return u;
   }
   if (free.cols() == 1) {
-    u.motion = free.col(0) / free.col(0).lpNorm<Eigen::Infinity>();
+    u.motion = free.col(0);
+    u.motion /= u.motion.lpNorm<Eigen::Infinity>();
     const double resists = resistance(rigid, problem, u.motion), work = std::abs(rigid.e.dot(u.motion));
     u.unique = work > (1 + 1e-9) * resists;
   } else {

@@ -7,6 +7,9 @@
 
 namespace dotyk::problem {
 
+/// Does friction depend on the pressure anywhere?
+bool has_coulomb(const Problem& problem);
+
 /// What theory says of the solutions before they are computed.
 struct Uniqueness {
   bool coulomb = false;  ///< friction that depends on the pressure: the problem is no minimisation

@@ -1,5 +1,6 @@
 #include "program/interior_point.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -139,13 +140,18 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
     result.x = Vector::Zero(program.unknowns()), result.y = Vector::Zero(program.rows());
   } else {
     result = attempt(scale(program), settings, monitor);
-    const auto off = [&](const Vector& x, const Vector& y) { return imbalance(program, x, y); };
-    if (result.status == Status::solved && off(result.x, result.y) > kHidden) {
+    const auto off = [&](const Result& r, Rounding nothing) { return imbalance(program, r.x, r.y, nothing); };
+    const double most = std::max(kImbalanced, settings.tol);
+    if (result.status == Status::solved && off(result, Rounding::own) > most) {
       InteriorPoint finer = settings;
-      finer.fine = [&](const Vector& x, const Vector& y) { return off(x, y) <= kHidden && (!settings.fine || settings.fine(x, y)); };
-      const Result other = attempt(*scale_by_curvature(program), finer, monitor);
-      if (other.status == Status::solved && off(other.x, other.y) < off(result.x, result.y)) result = other;
-      if (off(result.x, result.y) > kHidden) result.status = Status::stopped, result.reason = text(kHiddenReason, "; active_set may");
+      finer.fine = [&](const Vector& x, const Vector& y) {
+        return imbalance(program, x, y, Rounding::own) <= most && (!settings.fine || settings.fine(x, y));
+      };
+      if (const auto other_units = scale_by_curvature(program)) {
+        const Result other = attempt(*other_units, finer, monitor);
+        if (other.status == Status::solved && off(other, Rounding::own) < off(result, Rounding::own)) result = other;
+      }
+      if (off(result, Rounding::of_greatest) > kHidden) result.status = Status::stopped, result.reason = text(kHiddenReason, "; active_set may");
     }
   }
   measure(program, result);

@@ -84,7 +84,7 @@ std::optional<Scaled> scale_by_curvature(const QuadraticProgram& p) {
   return s;
 }
 
-double imbalance(const QuadraticProgram& program, const Vector& x, const Vector& y) {
+double imbalance(const QuadraticProgram& program, const Vector& x, const Vector& y, Rounding nothing) {
   constexpr double kRounding = 1e-15;
   const auto scaled = scale_by_curvature(program);
   if (!scaled) return 0;
@@ -92,8 +92,8 @@ double imbalance(const QuadraticProgram& program, const Vector& x, const Vector&
   const Vector u = x.cwiseQuotient(scaled->column), v = scaled->cost * y.cwiseQuotient(scaled->row), Au = p.A * u;
   const SparseRows sizes = p.A.cwiseAbs();
   const Vector terms = times(p.P.cwiseAbs(), u.cwiseAbs()) + p.q.cwiseAbs() + sizes.transpose() * v.cwiseAbs(), moved = sizes * terms;
-  const double rounding = kRounding * peak(terms);
-  const auto share = [&](double left, double of) { return left > rounding ? left / of : 0; };
+  const double greatest = peak(terms);
+  const auto share = [&](double left, double of) { return left > kRounding * (nothing == Rounding::own ? of : greatest) ? left / of : 0; };
   double worst = 0;
   Vector apart = v.cwiseAbs();
   for (int r = 0; r < p.rows(); ++r) {

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/dense.hpp"
+#include "algebra/null_space.hpp"
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "problem/free_motions.hpp"
+#include "program/active_set.hpp"
+#include "solver/verdict.hpp"
 
 namespace dotyk::scene {
 
@@ -36,18 +39,40 @@ void open_without_force(const problem::Problem& problem, solver::Result& result)
       if (lambda[r] <= kRounding * most || (lambda[r] <= kOnBound * most && x[r] < -apart)) result.active_sets.back()[r] = 0;
 }
 
-/// The one motion, its range, and of all states that differ by it the one nearest to `before`.
+/// The amounts of free motions nearest to `wanted` in the metric G = DᵀD of their displacements: within their limits, from 0 on.
+Vector nearest_amounts(const problem::FreeMotions& free, const Eigen::MatrixXd& G, const Vector& wanted) {
+  const Eigen::Index k = G.cols(), m = free.limits.rows();
+  program::QuadraticProgram nearest{"nearest", Eigen::MatrixXd(G.triangularView<Eigen::Lower>()).sparseView(), -wanted, 0, free.limits,
+                                    Vector::Constant(m, -INFINITY), free.slack};
+  program::ActiveSet settings;
+  settings.start = program::ActiveSet::Start::cold;
+  settings.point = Vector::Zero(k);
+  Monitor quiet;
+  const program::Result found = program::solve(nearest, settings, quiet);
+  return found.status == program::Status::solved ? found.x : Vector::Zero(k);
+}
+
+/// The motions, how far they go, and of all states that differ by them the one nearest to `before`.
 void take_nearest(const problem::Problem& problem, const problem::FreeMotions& free, const Vector& before, solver::Result& result) {
-  const Vector motion = free.motions.col(0);
-  Vector d = problem::displacement(problem, motion);
-  if (free.unnoticed.cols() > 0) d = problem::least(algebra::orthonormal(problem::displacement(problem, free.unnoticed)), d);
-  const double nearest = std::clamp((before - result.state.u).dot(d) / d.squaredNorm(), free.range.low, free.range.high);
-  result.state.u += nearest * d;
-  const double size = d.lpNorm<Eigen::Infinity>();
-  if ((free.range.high - free.range.low) * size <= 1e-9 * result.state.u.lpNorm<Eigen::Infinity>()) return;  // it has nowhere to go
-  result.reason += text("; unique stress, displacement up to ", describe(problem::body_motions(problem), motion), ", by ",
-                        end((free.range.low - nearest) * size), " to ", end((free.range.high - nearest) * size),
-                        " at the most: the contacts that hold leave it free until the next node closes or sticks, so that the mesh decides how "
+  const int count = free.count;
+  Eigen::MatrixXd D = problem::displacement(problem, free.motions);
+  if (free.unnoticed.cols() > 0) {
+    const auto unnoticed = algebra::orthonormal(problem::displacement(problem, free.unnoticed));
+    for (int k = 0; k < count; ++k) D.col(k) = problem::least(unnoticed, D.col(k));
+  }
+  const Vector amounts = nearest_amounts(free, D.transpose() * D, D.transpose() * (before - result.state.u));
+  result.state.u += D * amounts;
+  int widest = 0;
+  problem::Interval range{0, 0};  // of the motion that may go furthest, as a displacement
+  for (int k = 0; k < count; ++k) {
+    const double size = D.col(k).lpNorm<Eigen::Infinity>();
+    const problem::Interval own = free.range(k, amounts);
+    if ((own.high - own.low) * size > range.high - range.low) widest = k, range = {own.low * size, own.high * size};
+  }
+  if (range.high - range.low <= 1e-9 * result.state.u.lpNorm<Eigen::Infinity>()) return;  // they have nowhere to go
+  const std::string which = describe(problem::body_motions(problem), Vector(free.motions.col(widest)));
+  result.reason += text("; unique stress, displacement up to ", count == 1 ? which : text(count, " motions, one of them ", which), ", by ", end(range.low), " to ", end(range.high),
+                        " at the most: the contacts that hold leave ", count == 1 ? "it" : "them", " free until the next node closes or sticks, so that the mesh decides how "
                         "far; this is the ", before.isZero(0) ? "least" : "nearest to the step before");
 }
 
@@ -91,12 +116,20 @@ std::string resisted_by_cells(const Scene& scene, const Model& model, const prob
 
 void settle(const Scene& scene, const Model& model, const problem::Problem& problem, const Vector& before, solver::Result& result) {
   if (!result.converged || problem.rows() == 0) return;
-  const problem::FreeMotions free = problem::free_motions(problem, result.state, kOnBound);
-  if (free.motions.cols() == 1)
+  problem::FreeMotions free;
+  try {
+    free = problem::free_motions(problem, result.state, kOnBound);
+  } catch (const Interrupted&) {
+    result.reason += "; interrupted before it was known which motions the contacts that hold leave free";
+    open_without_force(problem, result);
+    return;
+  }
+  // Without loads the rounding of motions added up may be all the strain there is.
+  if (free.count == 1 || (free.count > 0 && free.count <= problem::kMostModes && solver::loaded(problem)))
     take_nearest(problem, free, before, result);
   else if (free.count > 0)
     result.reason += text("; unique stress, displacement up to ", free.count, " motions that the contacts that hold leave free",
-                          free.motions.cols() > 0 ? ", one of them " + describe(problem::body_motions(problem), free.motions.col(0)) : "");
+                          free.motions.cols() > 0 ? ", one of them " + describe(problem::body_motions(problem), Vector(free.motions.col(0))) : "");
   else
     result.reason += resisted_by_cells(scene, model, problem, free, result.state.lambda);
   open_without_force(problem, result);

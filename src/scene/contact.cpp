@@ -172,7 +172,6 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   contact.interference = interference;
   contact::PairedRows paired = contact::pair_rows(first.face(), second.face(), pairing, added_gap, interference, monitor);
   contact.pairing = paired.pairing;
-  contact.chord = paired.chord;
   contact.rows = std::move(paired.rows);
   contact.turned = paired.turned;
   if (contact.turned) std::swap(contact.first, contact.second);

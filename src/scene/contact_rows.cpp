@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -20,7 +21,7 @@ bool nodal(const Contact& contact) { return contact.discretisation.multipliers =
 class Rows {
  public:
   Rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model)
-      : contact_(contact), builder_(builder), model_(model), dim_(scene.dimension()),
+      : contact_(contact), jumps_(jumps), builder_(builder), model_(model), dim_(scene.dimension()),
         first_(scene.index_of(contact.first.body.get())), second_(scene.index_of(contact.second.body.get())) {
     for (const contact::ContactRow& row : contact.rows) free_.push_back(jumps.at(row));
   }
@@ -76,11 +77,9 @@ class Rows {
   }
 
   void require_apart(const contact::ContactRow& row) {
-    for (const contact::NodeWeight& partner : row.partners)
-      if (builder_.moves(second_, partner.node, row.normal)) return;
-    if (builder_.moves(first_, row.own, row.normal)) return;  // held by an oblique slide
-    double gap = row.gap;
-    builder_.add(first_, second_, {{row.own, row.partners, row.normal}}, gap);
+    const std::optional<double> jump = jumps_.given(row);
+    if (!jump) return;  // a partner further away moves
+    const double gap = row.gap + mesh::dot(row.normal, model_.move.back()) - *jump;
     // Rounding of coordinates may leave a fixed node this far inside.
     if (gap < -1e-9 * contact_.first.body->mesh->size())
       throw InputError(text(contact_.name, ": the node at ",
@@ -177,6 +176,7 @@ class Rows {
   }
 
   const Contact& contact_;
+  const FreeJumps& jumps_;
   RowBuilder& builder_;
   Model& model_;
   int dim_, first_, second_;

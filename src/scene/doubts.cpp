@@ -38,16 +38,20 @@ void add_locking(const Body& body, std::vector<std::string>& all) {
 constexpr double kMostOfGap = 0.1;
 
 /// Facets of curved parts whose nodes do not match are chords of different places: gaps are uncertain by the chords' height. Pressure comes from
-/// the interference, or from what the gap differs by where bodies meet.
-void see_chords(const Contact& contact, std::vector<std::string>& all) {
-  if (contact.rows.empty() || !(contact.chord > 0)) return;
-  const auto [least, most] = std::minmax_element(contact.rows.begin(), contact.rows.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
-  const double scale = contact.interference ? std::max(0.0, -least->gap) : most->gap - least->gap;
-  if (contact.chord <= std::max(kMostOfGap * scale, 1e-12 * contact.first.body->mesh->size())) return;
-  const std::string of = contact.interference ? "the interference" : "what gaps differ by";
-  all.push_back(text(contact.name, ": facets are chords up to ", contact.chord, " off the curve, ",
-                     scale > contact.chord ? text(std::round(100 * contact.chord / scale), " % of ", of, ", ", scale) : scale > 0 ? text("no less than ", of, ", ", scale) : "which leaves nothing of " + of,
-                     ": the pressure is ", contact.interference ? "too small or too great by as much, and uneven" : "that of the chords",
+/// the interference, or from what the gap differs by where bodies meet: over `rows`, those that press; none: over all.
+void see_chords(const Contact& contact, std::vector<const contact::ContactRow*> rows, std::vector<std::string>& all) {
+  if (rows.empty())
+    for (const contact::ContactRow& row : contact.rows) rows.push_back(&row);
+  if (rows.empty()) return;
+  const auto [least, most] = std::minmax_element(rows.begin(), rows.end(), [](auto a, auto b) { return a->gap < b->gap; });
+  const double chord = (*std::max_element(rows.begin(), rows.end(), [](auto a, auto b) { return a->chord < b->chord; }))->chord;
+  const bool fit = contact.interference || (*least)->gap < 0;
+  const double scale = fit ? std::max(0.0, -(*least)->gap) : (*most)->gap - (*least)->gap;
+  if (chord <= std::max(kMostOfGap * scale, 1e-12 * contact.first.body->mesh->size())) return;
+  const std::string of = fit ? "the interference" : "what gaps differ by";
+  all.push_back(text(contact.name, ": facets are chords up to ", chord, " off the curve, ",
+                     scale > chord ? text(std::round(100 * chord / scale), " % of ", of, ", ", scale) : scale > 0 ? text("no less than ", of, ", ", scale) : "which leaves nothing of " + of,
+                     ": the pressure is ", fit ? "too small or too great by as much, and uneven" : "that of the chords",
                      "; take cells of order 2 (P2, Q2), nodes that match, or finer facets"));
 }
 
@@ -56,7 +60,22 @@ void see_chords(const Contact& contact, std::vector<std::string>& all) {
 std::vector<std::string> doubts(const Scene& scene) {
   std::vector<std::string> all;
   for (const auto& body : scene.bodies) add_locking(*body, all);
-  for (const auto& contact : scene.contacts) see_chords(*contact, all);
+  for (const auto& contact : scene.contacts) see_chords(*contact, {}, all);
+  return all;
+}
+
+std::vector<std::string> doubts(const Solution& solution) {
+  std::vector<std::string> all;
+  for (const auto& body : solution.scene().bodies) add_locking(*body, all);
+  for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c) {
+    const Contact& contact = *solution.scene().contacts[c];
+    std::vector<const contact::ContactRow*> rows;
+    for (std::size_t i = 0; i < contact.rows.size(); ++i) {
+      const int row = solution.model().contact_row[c][i];
+      if (row >= 0 && solution.active(row)) rows.push_back(&contact.rows[i]);
+    }
+    see_chords(contact, std::move(rows), all);
+  }
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "scene/boundary_tractions.hpp"
 #include "scene/energy_norm.hpp"
+#include "scene/lumped_laws.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -168,6 +169,9 @@ ErrorEstimate Solution::make_error_estimate() const {
         cells[f.facet.cell].friction += slip_law(contact, f, gram, *results[c], weight);
     }
   }
+  const auto lumping = lumping_of_laws(*this);
+  for (std::size_t b = 0; b < lumping.size(); ++b)
+    for (std::size_t c = 0; c < lumping[b].size(); ++c) estimate.cells[b][c].laws += lumping[b][c];
   for (const auto& cells : estimate.cells)
     for (const ErrorParts& parts : cells) estimate.parts += parts;
   const double square = estimate.parts.sum(), whole = square + solution;

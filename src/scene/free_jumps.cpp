@@ -36,37 +36,68 @@ int dimension_of(const Matrix3d& V) { return static_cast<int>(std::lround(V.trac
 
 FreeJumps::FreeJumps(const Scene& scene, const std::vector<Body>& bodies, const std::vector<elasticity::Numbering>& numbering,
                      const Contact& contact)
-    : contact_(contact), second_(nullptr), dim_(scene.dimension()) {
-  const auto slides = [&](std::size_t body) {
-    Slides of_node;
-    for (const SlideRow& slide : bodies[body].slides) of_node[slide.node].push_back(slide.normal);
-    return of_node;
+    : contact_(contact), second_{nullptr, {}}, dim_(scene.dimension()) {
+  const auto side = [&](const Part& part) {
+    const auto body = static_cast<std::size_t>(scene.index_of(part.body.get()));
+    return side_of(bodies[body], numbering[body]);
   };
-  const int first = scene.index_of(contact.first.body.get()), second = scene.index_of(contact.second.body.get());
-  first_ = &numbering[static_cast<std::size_t>(first)];
-  first_slides_ = slides(static_cast<std::size_t>(first));
-  if (second < 0) return;
-  second_ = &numbering[static_cast<std::size_t>(second)];
-  second_slides_ = slides(static_cast<std::size_t>(second));
+  first_ = side(contact.first);
+  if (contact.second.body) second_ = side(contact.second);
 }
 
-Matrix3d FreeJumps::of_node(const elasticity::Numbering& numbering, const Slides& slides, int node) const {
-  Matrix3d P = Matrix3d::Zero();
-  for (int i = 0; i < dim_; ++i) P(i, i) = numbering.unknown[static_cast<std::size_t>(node) * dim_ + i] >= 0;
-  const auto found = slides.find(node);
-  if (found == slides.end()) return P;
-  for (const Point& normal : found->second) {
-    const Vector3d e = P * vector(normal);
-    if (e.norm() > kHeld) P -= e * e.transpose() / e.squaredNorm();
+FreeJumps::Side FreeJumps::side_of(const Body& body, const elasticity::Numbering& numbering) {
+  using Kind = problem::SupportLaw::Kind;
+  Side result{&numbering, {}};
+  for (const SlideRow& slide : body.slides) result.conditions[slide.node].push_back({slide.normal, 0});
+  for (const LawSupport& law : body.laws)
+    for (const contact::NodeSide& side : law.nodes) {
+      if (side.own.size() > 1) continue;
+      if (law.normal.kind == Kind::prescribed) result.conditions[side.node].push_back({side.normal, -law.normal.value});
+      if (law.tangential.kind == Kind::prescribed)
+        for (const Point& t : contact::tangents(side.normal, body.dimension())) result.conditions[side.node].push_back({t, law.tangential.value});
+    }
+  return result;
+}
+
+FreeJumps::Node FreeJumps::of_node(const Side& side, int node) const {
+  Node result{Matrix3d::Zero(), Vector3d::Zero()};
+  Matrix3d& P = result.free;
+  for (int i = 0; i < dim_; ++i) {
+    const std::size_t at = static_cast<std::size_t>(node) * dim_ + i;
+    P(i, i) = side.numbering->unknown[at] >= 0;
+    if (side.numbering->unknown[at] < 0) result.given[i] = side.numbering->prescribed[at];
   }
-  return cleaned(P);
+  const auto found = side.conditions.find(node);
+  if (found == side.conditions.end()) return result;
+  for (const Condition& c : found->second) {
+    const Vector3d e = P * vector(c.direction);
+    if (e.norm() <= kHeld) continue;
+    result.given += (c.value - vector(c.direction).dot(result.given)) / e.squaredNorm() * e;
+    P -= e * e.transpose() / e.squaredNorm();
+  }
+  P = cleaned(P);
+  return result;
 }
 
 Matrix3d FreeJumps::at(const contact::ContactRow& row) const {
   Matrix3d sum = Matrix3d::Zero();
-  for (const contact::NodeWeight& own : row.own) sum += of_node(*first_, first_slides_, own.node);
-  if (second_ && !row.partners.empty()) sum += of_node(*second_, second_slides_, facing(contact_, row.node, row.partners));
+  for (const contact::NodeWeight& own : row.own) sum += of_node(first_, own.node).free;
+  if (second_.numbering && !row.partners.empty()) sum += of_node(second_, facing(contact_, row.node, row.partners)).free;
   return onto_range(sum);
+}
+
+std::optional<double> FreeJumps::given(const contact::ContactRow& row) const {
+  double sum = 0;
+  const auto add = [&](const Side& side, int node, double weight) {
+    const Node n = of_node(side, node);
+    sum += weight * n.given.dot(vector(row.normal));
+    return (n.free * vector(row.normal)).norm() <= kHeld;
+  };
+  for (const contact::NodeWeight& own : row.own)
+    if (!add(first_, own.node, own.weight)) return std::nullopt;
+  for (const contact::NodeWeight& partner : row.partners)
+    if (!add(second_, partner.node, -partner.weight)) return std::nullopt;
+  return sum;
 }
 
 std::vector<Point> free_tangents(const Matrix3d& V, const Point& normal, int dimension) {
@@ -78,6 +109,7 @@ std::vector<Point> free_tangents(const Matrix3d& V, const Point& normal, int dim
     return all;
   }
   const Vector3d n = V * vector(normal);
+  if (n.norm() < kHeld) return all;  // the normal is held: V is the plane of the tangents
   std::erase_if(all, [&](const Point& t) { return (V * vector(t) - vector(t)).norm() > kHeld || std::abs(vector(t).dot(n)) > kHeld; });
   if (all.size() == 1) return all;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(V);  // the first vector is across V
@@ -87,7 +119,7 @@ std::vector<Point> free_tangents(const Matrix3d& V, const Point& normal, int dim
 }
 
 Point free_tangent_derivative(const Matrix3d& V, const Point& normal, const Point& dn, const Point& tangent, int dimension) {
-  if (dimension_of(V) == dimension) {
+  if (dimension_of(V) == dimension || (V * vector(normal)).norm() < kHeld) {
     const std::vector<Point> t = contact::tangents(normal, dimension), dt = contact::tangent_derivatives(normal, dn, dimension);
     const auto which = std::find(t.begin(), t.end(), tangent) - t.begin();
     return dt.at(static_cast<std::size_t>(which));

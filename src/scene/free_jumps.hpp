@@ -2,27 +2,43 @@
 
 #include <Eigen/Dense>
 #include <map>
+#include <optional>
 
 #include "scene/scene.hpp"
 
 namespace dotyk::scene {
 
 /// What supports leave free of the jump u₁ − u₂ at the rows of a contact: the sum V of the spaces in which the row's own nodes and the
-/// partner facing them (see facing(); none of a rigid shape) are not held by fix, slide or displace, oblique slides included.
+/// partner facing them (see facing(); none of a rigid shape) are not held by fix, slide or displace, oblique slides included, or by laws
+/// that prescribe a displacement, whatever its value; of order 2 such laws are about means, and hold no node.
 class FreeJumps {
  public:
   /// Not kept: `bodies` as they are solved, `numbering` of each.
   FreeJumps(const Scene& scene, const std::vector<Body>& bodies, const std::vector<elasticity::Numbering>& numbering, const Contact& contact);
   /// The orthogonal projection onto V, 3 × 3.
   Eigen::Matrix3d at(const contact::ContactRow& row) const;
+  /// The jump along the row's normal, Σ weight u_own − Σ weight u_partner, as supports say it; none where a node is free to move along it.
+  std::optional<double> given(const contact::ContactRow& row) const;
 
  private:
-  using Slides = std::map<int, std::vector<mesh::Point>>;  ///< node → normals
-  Eigen::Matrix3d of_node(const elasticity::Numbering& numbering, const Slides& slides, int node) const;
+  /// direction·u = value.
+  struct Condition {
+    mesh::Point direction;  ///< unit
+    double value;
+  };
+  struct Side {
+    const elasticity::Numbering* numbering;
+    std::map<int, std::vector<Condition>> conditions;  ///< of nodes, but for those of single components
+  };
+  struct Node {
+    Eigen::Matrix3d free;   ///< projection onto what moves
+    Eigen::Vector3d given;  ///< displacement across it
+  };
+  static Side side_of(const Body& body, const elasticity::Numbering& numbering);
+  Node of_node(const Side& side, int node) const;
 
   const Contact& contact_;
-  const elasticity::Numbering *first_, *second_;  ///< second: null of a rigid shape
-  Slides first_slides_, second_slides_;
+  Side first_, second_;  ///< second: of a rigid shape without numbering
   int dim_;
 };
 

@@ -12,7 +12,7 @@ namespace dotyk::scene {
 ///
 /// What was given by functions stays with its material point: loads and stiffnesses per area and volume with the quadrature points,
 /// prescribed displacements, friction and what was added to gaps with the nodes. Contacts and glues keep their pairs of nodes,
-/// contacts of two parts M of contact/frame.hpp, by which the normals of both make the row's. Bodies and contacts carry what they are another design of as `origin`: handles of any design go on working with solutions of another.
+/// contacts M of contact/frame.hpp, by which the normals of both sides make the row's. Bodies and contacts carry what they are another design of as `origin`: handles of any design go on working with solutions of another.
 ///
 /// Throws InputError for points of another number, an inverted cell (mesh::check), bodies or rigid shapes that overlap unless that is
 /// meant, pairs of nodes that slide away from each other (by more than half a facet), a part that gets or loses a corner where sides

@@ -52,15 +52,17 @@ double estimate_path_error(const Solution& solution, Monitor& monitor) {
   if (!follows_path(solution)) return 0;
   const auto scene = as_solved(solution);
   const Model& model = solution.model();
-  const auto halves = solve(scene, {}, {}, monitor, {part_of(0.5, *scene, model), part_of(1, *scene, model)});
-  if (!halves->result().converged) throw InputError("path_error: two load steps do not converge: " + halves->result().reason);
+  std::vector<Step> steps;
+  for (int k = 1; k <= kPathSteps; ++k) steps.push_back(part_of(static_cast<double>(k) / kPathSteps, *scene, model));
+  const auto stepped = solve(scene, {}, {}, monitor, steps);
+  if (!stepped->result().converged) throw InputError(text("path_error: ", kPathSteps, " load steps do not converge: ", stepped->result().reason));
   double apart = 0, sum = 0;
   for (const auto& contact : model.friction)
     for (const FrictionRows& rows : contact) {
       double d = 0, size = 0;
       for (int i = 0; i < rows.count; ++i) {
-        const double one = solution.result().state.lambda[rows.row[i]], two = halves->result().state.lambda[rows.row[i]];
-        d = std::hypot(d, one - two), size = std::hypot(size, two);
+        const double one = solution.result().state.lambda[rows.row[i]], many = stepped->result().state.lambda[rows.row[i]];
+        d = std::hypot(d, one - many), size = std::hypot(size, many);
       }
       apart += d, sum += size;
     }

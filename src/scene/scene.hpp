@@ -43,7 +43,6 @@ struct Contact {
   std::vector<contact::Tie> glued;         ///< of a glue
   contact::RigidShape shape;               ///< a gap function is not kept
   bool interference = false;               ///< an overlap at rest is meant
-  double chord = 0;                        ///< see contact::PairedRows
   double seconds = 0;                      ///< that finding the pairs took
   /// The contact that this one is another design of (its nodes moved), never one that is itself another's; null: of none.
   std::shared_ptr<const Contact> origin = nullptr;

@@ -33,9 +33,11 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
                    solver::Result result, Past past)
     : scene_(std::move(scene)), model_(std::move(model)), result_(std::move(result)), past_(std::move(past)),
       stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
+  Stopwatch watch;
   const problem::Problem& problem = with_stiffness ? *with_stiffness : model_.problem;
   if (result_.method != "enumeration")  // which gives every one
     settle(*scene_, model_, problem, state_before(past_, result_.state.u), result_);
+  result_.clock.motions += watch.lap();
   residual_ = solver::judge(problem, result_, model_.softest);
   energy_ = problem::energy(problem, result_.state);
   friction_energy_ = problem::friction_energy(problem, result_.state);
@@ -45,6 +47,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
   for (std::size_t b = 0; result_.converged && b < scene_->bodies.size(); ++b) result_.reason += great_rotation(*scene_->bodies[b], displacement_[b]);
+  result_.clock.recover += watch.lap();
 }
 
 void Solution::add_step(const problem::Problem& problem) {
@@ -128,17 +131,17 @@ std::string force_text(std::array<double, 3> force, int dimension) {
   return point_text(force.data(), dimension);
 }
 
-/// To so many unknowns printing a solution may cost two more solves.
-constexpr int kMostToPrintPath = 20000;
+/// To so many unknowns printing a solution may cost the steps of path_error(), some tenths of a second.
+constexpr int kMostToPrintPath = 4000;
 
 /// What one load step from rest leaves out of friction's path; empty where nothing.
 std::string path_text(const Solution& s) {
   if (s.follows() || !s.result().converged || !follows_path(s)) return "";
   const std::string known = "  friction follows the path of the load, this is one step of it: ";
-  if (s.unknowns() > kMostToPrintPath) return known + "path_error() says how far from two steps\n";
+  if (s.unknowns() > kMostToPrintPath) return known + "path_error() says how far from eight steps\n";
   Monitor quiet;
   try {
-    return known + text(std::setprecision(3), "friction forces differ by ", 100 * s.path_error(quiet), " % from those of two steps\n");
+    return known + text(std::setprecision(3), "friction forces differ by ", 100 * s.path_error(quiet), " % from those of eight steps\n");
   } catch (const InputError& error) {
     return known + error.what() + "\n";
   }
@@ -166,9 +169,9 @@ std::string describe(const Solution& s) {
     }
   out += path_text(s);
   const problem::Clock& t = s.clock();
-  out += text(std::setprecision(3), "  seconds: total ", t.total, " (assembly ", t.assembly, ", ordering ", t.ordering,
+  out += text(std::setprecision(3), "  seconds: total ", t.total, " (assembly ", t.assembly, ", motions ", t.motions, ", ordering ", t.ordering,
               ", factor ", t.factor, ", iterate ", t.iterate, ", recover ", t.recover, ")");
-  return out + describe(doubts(s.scene()));
+  return out + describe(doubts(s));
 }
 
 }  // namespace dotyk::scene

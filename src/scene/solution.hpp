@@ -72,7 +72,7 @@ struct SupportResult {
 };
 
 /// Of the energy norm (energy_norm.hpp) of u − u_h, all bodies together; see elasticity/error_estimate.hpp for the parts. A
-/// spring is taken as a load that its displacement says, which is admissible: the bound there is then one of this norm. Not measured: what laws lose by acting at nodes.
+/// spring is taken as a load that its displacement says, which is admissible: the bound there is then one of this norm.
 struct ErrorEstimate {
   double absolute = 0;  ///< √Σ of the parts: √(force·length)
   double relative = 0;  ///< absolute / √(absolute² + ‖u_h‖²)

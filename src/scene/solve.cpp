@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "algebra/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -85,12 +86,14 @@ class History {
     Past past{loading_, last_ ? last_->slip() : algebra::Vector(), last_ ? last_->dissipated() : std::vector<double>(),
               steps_};
     if (is_last) model_.problem.subdomains = {};  // of use to methods alone
+    const algebra::StopFactoring stop(monitor);  // of what a solution asks about its free motions
     const auto solution = std::make_shared<Solution>(scene_, is_last ? std::move(model_) : without_stiffness(),
                                                      is_last ? nullptr : &model_.problem, std::move(result),
                                                      std::move(past));
     if (is_last && !solution->follows() && solution->result().converged && follows_path(*solution))
-      solution->add_reason("; one load step, while friction follows the path: path_error() says how far from two");
+      solution->add_reason("; one load step, while friction follows the path: path_error() says how far from eight");
     solution->set_total(watch_.seconds());
+    clock_ = solution->clock();
     last_ = solution;
     return solution;
   }
@@ -157,6 +160,7 @@ class History {
 
   /// Times are since the first step began.
   void add_times(problem::Clock& step) {
+    clock_.motions += step.motions;
     clock_.ordering += step.ordering;
     clock_.factor += step.factor;
     clock_.iterate += step.iterate;

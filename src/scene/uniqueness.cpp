@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "algebra/stop_factoring.hpp"
 #include "base/text.hpp"
 #include "solver/require_solvable.hpp"
 
@@ -21,10 +22,14 @@ std::string with_coulomb(const problem::Uniqueness& theory) {
 }  // namespace
 
 KnownBefore known_before(const problem::Problem& problem, const problem::RigidMotions& rigid) {
-  const std::string note = solver::require_solvable(problem, rigid);
+  const auto [note, exists] = solver::require_solvable(problem, rigid);
   KnownBefore known{problem::uniqueness(rigid, problem), ""};
-  const problem::Uniqueness& theory = known.theory;
-  if (theory.coulomb)
+  problem::Uniqueness& theory = known.theory;
+  if (!theory.coulomb) theory.exists = exists, theory.unique = theory.unique && exists;
+  if (!exists && !(theory.coulomb && theory.exists))
+    known.text = "whether there is a solution, and only one, is unknown before solving: neither forces that balance the load were found nor a "
+                 "motion that nothing stops";
+  else if (theory.coulomb)
     known.text = with_coulomb(theory) + (note.empty() ? "" : "; " + note);
   else if (!note.empty())
     known.text = "a solution exists with unique stress, " + note;
@@ -44,6 +49,7 @@ KnownBefore known_before(const problem::Problem& problem, const problem::RigidMo
 UniquenessOfScene uniqueness(const Scene& scene, Monitor& monitor) {
   problem::Clock clock;
   const Model model = build(scene, clock, monitor);
+  const algebra::StopFactoring stop(monitor);
   const problem::RigidMotions rigid = problem::rigid_motions(model.problem);
   const KnownBefore known = known_before(model.problem, rigid);
   UniquenessOfScene out{known.theory.exists, known.theory.unique, std::nullopt, known.text};

@@ -123,7 +123,7 @@ void bind_beam_solution(Library& library) {
       .field("energy", "with the supports'", [](const BeamResult& r) { return r.solution().energy(); }, "force·length")
       .field("unknowns", "deflections and slopes of the nodes", [](const BeamResult& r) { return r.solution().model().problem.unknowns(); })
       .field("rows", "conditions of the supports", [](const BeamResult& r) { return r.solution().model().problem.rows(); })
-      .field("time", "seconds: total assembly ordering factor iterate recover, of this branch", [](const BeamResult& r) { return time_record(r.solution().result().clock); }, "s")
+      .field("time", "seconds: total assembly motions ordering factor iterate recover, of this branch", [](const BeamResult& r) { return time_record(r.solution().result().clock); }, "s")
       .field("branches", "all local minima of the energy, the least first: more than one only with breaking supports", branches)
       .field("broken", "names of the breaking supports that are broken here", broken)
       .method({.name = "beam_solution:deflection", .help = "The deflection, positive upwards; at nodes exact where EJ is constant.", .example = "print(s:deflection(0.5))",

@@ -126,7 +126,7 @@ void bind_plate_solution(Library& library) {
       .field("energy", "with the supports'", [](const Solution& s) { return s.energy(); }, "force·length")
       .field("unknowns", "free deflections and slopes", [](const Solution& s) { return s.model().problem.unknowns(); })
       .field("rows", "conditions of laws, point supports and the obstacle", [](const Solution& s) { return s.model().problem.rows(); })
-      .field("time", "seconds: total assembly ordering factor iterate recover", [](const Solution& s) { return time_record(s.result().clock); }, "s")
+      .field("time", "seconds: total assembly motions ordering factor iterate recover", [](const Solution& s) { return time_record(s.result().clock); }, "s")
       .field("residual", "relative: equilibrium penetration complementarity law", [](const Solution& s) { return residual_record(s.residual()); })
       .field("history", "one entry an iteration: active changed residual time", [](const Solution& s) { return history_records(s.result()); })
       .field("family", "where the solution is not the only one: all are u + t motion, from <= t <= to, motion as plate_solution:motion gives it; else nil", family)

@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "algebra/stop_factoring.hpp"
 #include "scene/uniqueness.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
@@ -101,17 +102,19 @@ int balance(Call& call) {
   problem::Clock clock;
   Watch watch(call.state(), "assembling");
   const scene::Model model = scene::build(*scene, clock, watch);
+  watch.phase("rigid motions");
+  const algebra::StopFactoring stop(watch);
   const auto rigid = problem::rigid_motions(model.problem);
   const auto s = problem::solvability(rigid, model.problem);
   using Verdict = problem::Solvability::Verdict;
-  const bool one = s.verdict == Verdict::unique && problem::uniqueness(rigid, model.problem).unique;
+  const bool one = s.verdict == Verdict::unique && !problem::has_coulomb(model.problem) && problem::uniqueness(rigid, model.problem).unique;
   const char* verdict = s.verdict == Verdict::unsolvable ? "unsolvable" : s.verdict == Verdict::up_to_motion ? "up to motion" : one ? "unique" : "unknown";
-  return call.give(Record{"balance",
-                          {{"verdict", std::string(verdict)},
-                           {"solvable", s.verdict != Verdict::unsolvable},
-                           {"limit", s.limit},
-                           {"motion", s.motion.size() ? describe(rigid.motions, s.motion) : std::string()},
-                           {"work", s.work}}});
+  std::vector<Entry> entries{{"verdict", std::string(verdict)},
+                             {"limit", s.limit},
+                             {"motion", s.motion.size() ? describe(rigid.motions, s.motion) : std::string()},
+                             {"work", s.work}};
+  if (s.carried || s.verdict == Verdict::unsolvable) entries.push_back({"solvable", s.carried});
+  return call.give(Record{"balance", entries, {"solvable"}});
 }
 
 int uniqueness(Call& call) {
@@ -196,8 +199,9 @@ void bind_rigid(Library& library) {
                     .returns = "rigid",
                     .run = rigid_plane});
   library.function({.name = "dotyk.rigid.ball",
-                    .help = "A rigid disc (2-D) or ball outside the body. The gap of a node is measured along the line "
-                            "to the centre, with the body at rest.",
+                    .help = "A rigid disc (2-D) or ball outside the body. On a flat part normal and gap are "
+                            "those of dotyk.rigid.gap; on a curved one the normal lies between the part's and the line to the centre, as between "
+                            "two curved parts. Gaps are measured with the body at rest.",
                     .example = "local ball = dotyk.rigid.ball{ center = {0,1.5}, radius = 1 }",
                     .arguments = {key::table({key::vector("center", "centre").count(2, 3).unit("length").required(),
                                               key::positive("radius", "radius").unit("length").required()})},
@@ -268,12 +272,16 @@ void bind_scene(Library& library) {
       .method({.name = "scene:plan",
                .help = "What will be modelled, what is free to move, whether a solution exists, which method and why.",
                .example = "print(scene:plan())",
-               .run = [](Call& call) { return call.give(scene::plan(*call.self<Scene>())); }})
+               .run = [](Call& call) {
+                 Watch watch(call.state(), "plan");
+                 const algebra::StopFactoring stop(watch);
+                 return call.give(scene::plan(*call.self<Scene>()));
+               }})
       .method({.name = "scene:balance",
                .help = "Can supports and contacts carry the load? Looks at rigid motions only, solves nothing: verdict "
                        "(\"unique\" where that is proved, \"up to motion\", \"unknown\" before solving, \"unsolvable\"; without Coulomb friction "
                        "the stress is unique in all but the last), solvable (rigid bodies would be in balance: with Coulomb friction "
-                       "elastic ones may still find no pressure great enough), limit (the least turn of the load "
+                       "elastic ones may still find no pressure great enough; nil where neither was found out), limit (the least turn of the load "
                        "makes it unsolvable), motion (what is free) and the load's work on it.",
                .example = "print(scene:balance().verdict)",
                .run = balance})

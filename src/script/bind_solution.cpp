@@ -178,7 +178,8 @@ int error_estimate(Call& call) {
   Record record{"error estimate", {{"absolute", e.absolute}, {"relative", e.relative}, {"recovery", std::sqrt(p.recovery)},
                                    {"bulk", std::sqrt(p.bulk)}, {"jump", std::sqrt(p.jump)}, {"boundary", std::sqrt(p.boundary)},
                                    {"contact_pressure", std::sqrt(p.contact_pressure)},
-                                   {"complementarity", std::sqrt(p.complementarity)}, {"friction", std::sqrt(p.friction)}}};
+                                   {"complementarity", std::sqrt(p.complementarity)}, {"friction", std::sqrt(p.friction)},
+                                   {"laws", std::sqrt(p.laws)}}};
   call.give(e.relative, record);
   std::vector<std::vector<double>> cells;
   for (const auto& of_body : e.cells) {
@@ -207,7 +208,7 @@ void bind_solution(Library& library) {
       .field("iterations", "how many", [](const Solution& s) { return s.result().iterations; })
       .field("reason", "why it ended", [](const Solution& s) { return s.result().reason; })
       .field("warnings", "what makes the answer doubtful though the method has converged: a list of sentences, mostly empty",
-             [](const Solution& s) { return scene::doubts(s.scene()); })
+             [](const Solution& s) { return scene::doubts(s); })
       .field("screw_moves", "magnetic screws moved because they pulled", [](const Solution& s) { return s.result().screw_moves; })
       .field("screws", "magnetic screws, first and after each move: rows, regularity (least over greatest singular value "
                        "of their equilibrium), determinant", screws)
@@ -217,7 +218,7 @@ void bind_solution(Library& library) {
       .field("steps", "the solutions of a history's steps, the last is this one", [](const Solution& s) { return s.steps(); })
       .field("unknowns", "displacement unknowns", [](const Solution& s) { return s.unknowns(); })
       .field("rows", "interface conditions", [](const Solution& s) { return s.rows(); })
-      .field("time", "seconds, of a history since its first step: total assembly ordering factor iterate recover; pairing, before and not in "
+      .field("time", "seconds, of a history since its first step: total assembly motions ordering factor iterate recover; pairing, before and not in "
                      "total: what scene:contact and scene:glue took", times, "s")
       .field("residual", "relative: equilibrium penetration complementarity friction law", [](const Solution& s) { return residual_record(s.residual()); })
       .field("working_set", "of active_set, else nil: added dropped singular survived factorisations repeats", working_set_record)
@@ -272,12 +273,12 @@ void bind_solution(Library& library) {
                        "absolute²: recovery (stress against recovered stress), bulk (equilibrium of the recovered stress inside cells), "
                        "jump (of its tractions where the material jumps), boundary (against loads and free boundaries), "
                        "contact_pressure and friction (against the contact's pressure and shear; friction also slip against its law), "
-                       "complementarity (pressure where the gap opens); and cells[i], the estimate of each cell of the i-th body.",
+                       "complementarity (pressure where the gap opens), laws (elastic ones act at nodes, not between them); and cells[i], the estimate of each cell of the i-th body.",
                .example = "local relative, parts = s:error_estimate()\nprint(relative, parts.contact_pressure, #parts.cells[1])",
                .run = error_estimate})
       .method({.name = "solution:path_error",
-               .help = "How far one load step from rest is from two: the sum of |friction force - that after half of the load, then all of it| "
-                       "over the nodes, relative. 0 where no node closed from a gap under friction: then steps change nothing. It costs two "
+               .help = "How far one load step from rest is from eight equal ones: the sum of |friction force - that after eight steps| "
+                       "over the nodes, relative. 0 where no node closed from a gap under friction: then steps change nothing. It costs eight "
                        "more solves with one factorisation, once. To be rid of it, solve in steps, and halve them until forces no longer change.",
                .example = "print(s:path_error())",
                .run = [](Call& call) {

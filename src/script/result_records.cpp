@@ -5,7 +5,7 @@
 namespace dotyk::script {
 
 Record time_record(const problem::Clock& t) {
-  return {"time", {{"total", t.total}, {"assembly", t.assembly}, {"ordering", t.ordering}, {"factor", t.factor},
+  return {"time", {{"total", t.total}, {"assembly", t.assembly}, {"motions", t.motions}, {"ordering", t.ordering}, {"factor", t.factor},
                    {"iterate", t.iterate}, {"recover", t.recover}}};
 }
 

@@ -79,6 +79,7 @@ bool Watch::stop() {
 }
 
 void Watch::judge(const solver::Result& result) {
+  if (result.converged) told_ = false;  // what was left out after it is in its reason
   if (result.converged || interrupted()) return;  // of an interruption answer() tells
   const std::string place = position(L_);
   if (!judged.insert(place).second) return;

@@ -115,9 +115,9 @@ const CondensedProblem& Sensitivity::load(const Vector& f, const Vector& c, cons
   problem::take_load(problem_, rigid_);
   const Vector work = rigid_.unnoticed.transpose() * rigid_.e;
   for (Eigen::Index k = 0; k < work.size(); ++k) {
-    const algebra::DenseMatrix motion = problem::displacement(problem_, rigid_.unnoticed.col(k));
-    if (std::abs(work[k]) > kBalanced * motion.col(0).cwiseAbs().dot(f.cwiseAbs()))
-      throw InputError(text("nothing holds ", describe(rigid_.motions, rigid_.unnoticed.col(k)), ", on which ", what, " does the work ", work[k],
+    const Vector motion = problem::displacement(problem_, rigid_.unnoticed.col(k)).col(0);
+    if (std::abs(work[k]) > kBalanced * motion.cwiseAbs().dot(f.cwiseAbs()))
+      throw InputError(text("nothing holds ", describe(rigid_.motions, Vector(rigid_.unnoticed.col(k))), ", on which ", what, " does the work ", work[k],
                             ": there is no derivative; hold the body along it"));
   }
   return condenser_->condense(problem_, rigid_, settings_.ordering, clock_, monitor_);

@@ -70,7 +70,7 @@ void CoulombLoop::iterate(RowIteration& it) const {
   int inner_iterations = 0;
   while (it.next()) {
     freeze(rows, bounds);
-    RowIteration given(rows, it.condensed, settings, inner->map_weight(), monitor);
+    RowIteration given(rows, it, settings, inner->map_weight(), monitor);
     if (it.iterations() > 1 || it.begun()) given.begin_at(it.lambda(), it.alpha());
     inner->iterate(given);
     const Result solved = given.finish();

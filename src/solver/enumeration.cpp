@@ -379,9 +379,8 @@ std::string Enumeration::summary() const {
 }
 
 Enumeration enumerate(const Problem& problem, Monitor& monitor) {
-  const problem::RigidMotions rigid = problem::rigid_motions(problem);
-  require_solvable(problem, rigid);
   problem::Clock clock;
+  const problem::RigidMotions rigid = require_solvable(problem, clock, monitor).rigid;
   const CondensedProblem condensed(problem, rigid, algebra::Ordering::automatic, clock, monitor);
   Enumeration all = Search(problem, condensed, monitor).run();
   const auto complete = [&](std::vector<Enumeration::Solution>& solutions) {

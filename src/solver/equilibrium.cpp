@@ -1,5 +1,8 @@
 #include "solver/equilibrium.hpp"
 
+#include <utility>
+
+#include "algebra/dense.hpp"
 #include "algebra/largest_eigenvalue.hpp"
 
 namespace dotyk::solver {
@@ -11,9 +14,8 @@ Equilibrium::Equilibrium(const problem::CondensedProblem& condensed, Vector star
     : condensed_(condensed), alpha_(std::move(start)) {
   if (!needed()) return;
   const DenseMatrix& N = condensed.N();
-  const Eigen::HouseholderQR<DenseMatrix> qr(N);
-  Q_ = qr.householderQ() * DenseMatrix::Identity(N.rows(), N.cols());
-  R_ = qr.matrixQR().topRows(N.cols()).triangularView<Eigen::Upper>();
+  auto [Q, R] = algebra::orthogonal_factors(N);
+  Q_ = std::move(Q), R_ = std::move(R);
   e_ = R_.transpose().triangularView<Eigen::Lower>().solve(condensed.e());
   const double largest = algebra::largest_eigenvalue(condensed.W());
   gamma_ = weight * (largest > 0 ? largest : 1);

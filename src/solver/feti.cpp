@@ -35,9 +35,6 @@ using Place = SeparableSet::Place;
 constexpr double kAhead = 0.1;
 /// First precision there.
 constexpr double kFirst = 0.01;
-/// With more rigid motions than that the existence of a solution is left to the iteration itself, which proves that
-/// there is none where it meets that: the linear program that would tell takes longer.
-constexpr int kManyMotions = 200;
 /// Resultants that no multipliers balance, relative to all: above rounding in long sums.
 constexpr double kImbalance = 1e-9;
 /// The equilibrium of the displacements recovered may be worse than tol by what stiffnesses and sizes make of the copies'
@@ -49,7 +46,7 @@ constexpr double kSuspect = 1e-9, kRoundings = 10;
 class Run {
  public:
   /// `unnoticed`: the displacements that no row notices, as far as they are known; the solution's part in them is zero.
-  Run(const Problem& problem, const Feti& method, DenseMatrix unnoticed, Monitor& monitor)
+  Run(const Problem& problem, const Feti& method, algebra::SparseMatrix unnoticed, Monitor& monitor)
       : problem_(problem), method_(method), unnoticed_(std::move(unnoticed)), monitor_(monitor),
         dual_(problem, method.ordering, result_.clock, monitor), coarse_(dual_.G(), dual_.e()),
         preconditioner_(dual_, coarse_, method, monitor) {
@@ -264,7 +261,7 @@ class Run {
 
   const Problem& problem_;
   const Feti& method_;
-  const DenseMatrix unnoticed_;
+  const algebra::SparseMatrix unnoticed_;
   Monitor& monitor_;
   Result result_;
   DualProblem dual_;
@@ -285,12 +282,10 @@ class Run {
 Result solve(const Problem& problem, const Feti& method, Monitor& monitor) {
   require_springs(problem, "feti");
   if (has_two_springs(problem)) return joined(solve(opposed_springs(problem), method, monitor), problem);
-  int motions = 0;
-  for (const problem::Block& block : problem.blocks) motions += static_cast<int>(block.kernel.cols());
-  if (motions > kManyMotions) return Run(problem, method, {}, monitor)();
-  const problem::RigidMotions rigid = problem::rigid_motions(problem);
-  const std::string note = require_solvable(problem, rigid);
+  problem::Clock clock;
+  const auto [rigid, note] = require_solvable(problem, clock, monitor);
   Result result = Run(problem, method, problem::unnoticed_displacements(problem, rigid), monitor)();
+  result.clock.motions = clock.motions;
   if (!note.empty()) result.reason += "; " + note;
   return result;
 }

@@ -53,11 +53,10 @@ class FullStep final : public Step {
       }
     }
     for (int j = 0; j < k; ++j)
-      for (int i = 0; i < n; ++i)
-        if (border_(i, j) != 0) {
-          entries.emplace_back(i, n + m + j, unit_ * border_(i, j));
-          entries.emplace_back(n + m + j, i, unit_ * border_(i, j));
-        }
+      for (SparseMatrix::InnerIterator it(border_, j); it; ++it) {
+        entries.emplace_back(static_cast<int>(it.row()), n + m + j, unit_ * it.value());
+        entries.emplace_back(n + m + j, static_cast<int>(it.row()), unit_ * it.value());
+      }
     SparseMatrix A(n + m + k, n + m + k);
     A.setFromTriplets(entries.begin(), entries.end());
     A.makeCompressed();
@@ -78,7 +77,7 @@ class FullStep final : public Step {
   const Vector& rho_;
   std::vector<Eigen::Triplet<double>> stiffness_;
   double unit_ = 1;
-  algebra::DenseMatrix border_;  ///< displacements that no row notices
+  SparseMatrix border_;  ///< displacements that no row notices
   Vector u_;
 };
 

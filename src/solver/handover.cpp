@@ -5,10 +5,12 @@
 #include "base/text.hpp"
 #include "solver/coulomb_loop.hpp"
 #include "solver/newton.hpp"
+#include "solver/piece_search.hpp"
 #include "solver/projected_cg.hpp"
 #include "solver/projection.hpp"
 #include "solver/proximal.hpp"
 #include "solver/psor.hpp"
+#include "solver/require_solvable.hpp"
 #include "solver/treatable.hpp"
 
 namespace dotyk::solver {
@@ -30,6 +32,22 @@ std::vector<Alternative> alternatives(const problem::Problem& problem) {
   return {{proximal, 100}, {std::make_shared<Psor>(), 5000}};
 }
 
+/// The last one: takes the solution on whatever pieces, or refuses the problem where all are excluded. Says what it did.
+std::string search(RowIteration& iteration) {
+  iteration.monitor().phase("searching the pieces of the laws");
+  const PieceSearch found = search_pieces(iteration.problem, iteration.condensed, iteration.monitor());
+  const std::string programmes = text(found.programmes, found.programmes == 1 ? " linear programme" : " linear programmes");
+  if (found.verdict == PieceSearch::Verdict::none) {
+    if (!iteration.problem.blocks.empty()) refuse_unbearable(iteration.problem, programmes + " exclude all states of contact, stick and slip");
+    return text("; ", programmes, " exclude all states of contact, stick and slip: there is no solution");
+  }
+  if (found.verdict == PieceSearch::Verdict::undecided) return found.programmes == 0 ? "" : text("; tried a search of pieces, ", programmes);
+  iteration.grant(1);
+  iteration.next();
+  iteration.move_to(found.lambda, found.alpha);
+  return text(iteration.record() ? "; solved by a search of pieces, " : "; tried a search of pieces, ", programmes);
+}
+
 }  // namespace
 
 void hand_over(RowIteration& iteration) {
@@ -40,9 +58,10 @@ void hand_over(RowIteration& iteration) {
     iteration.grant(next.iterations);
     iteration.monitor().phase(tried + "; " + next.method->name());
     next.method->iterate(iteration);
-    tried += text(iteration.converged() ? "; solved by " : "; tried ", next.method->name(), ", ", iteration.iterations() - before, " iterations");
+    tried += text(iteration.converged() ? "; ended by " : "; tried ", next.method->name(), ", ", iteration.iterations() - before, " iterations");
     if (iteration.converged()) break;
   }
+  if (!iteration.converged() && !iteration.monitor().stop() && bounds_depend_on_normal(iteration.problem)) tried += search(iteration);
   iteration.remark(tried);
 }
 

@@ -1,6 +1,8 @@
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "problem/precise.hpp"
 #include "solver/held_stiffness.hpp"
 #include "solver/step.hpp"
 
@@ -10,6 +12,7 @@ namespace {
 using algebra::SparseRows;
 using algebra::Vector;
 using problem::Problem;
+using problem::LongVector;
 
 /// Spring of a rigid row that holds no unknown, in units of the stiffness that it sees: most of its force then comes with the first solution, while rounding
 /// of displacements, times the spring, stays small in it.
@@ -17,10 +20,13 @@ constexpr double kSpring = 100;
 constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
+/// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at, and how often at most.
+constexpr double kUnbalanced = 1e-12;
+constexpr int kMostRefinements = 6;
 
 class HeldStep final : public Step {
  public:
-  HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho) : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), f_(problem.unknowns()), u_(Vector::Zero(problem.unknowns())) {
+  HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho) : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())) {
     for (const problem::Block& block : problem.blocks) f_.segment(block.first, block.size()) = block.f;
   }
 
@@ -28,23 +34,24 @@ class HeldStep final : public Step {
     sort(l);
     if (!stiffness_.factor(spring_, held_)) return false;
     lambda_ = constant_;
-    u_ += stiffness_.solve(residual());
+    step();
+    refine();
     if (!u_.allFinite() || !tie()) return false;
     finish();
     if (!lambda_.allFinite()) return false;
     lambda = lambda_;
-    x = problem_.B * u_ - problem_.c;
+    x = problem_.B * displacement() - problem_.c;
     return true;
   }
 
-  Vector recover() override { return u_; }
+  Vector recover() override { return displacement(); }
 
  private:
   /// What each row does, and u where it is held.
   void sort(const Linearisation& l) {
     constant_ = spring_ = target_ = Vector::Zero(problem_.rows());
     held_.assign(problem_.unknowns(), 0);
-    u_ = Vector::Zero(problem_.unknowns());
+    u_ = LongVector::Zero(problem_.unknowns());
     holding_.clear(), tied_.clear();
     for (int r = 0; r < problem_.rows(); ++r) {
       if (!l.active[r]) {
@@ -80,11 +87,45 @@ class HeldStep final : public Step {
     return entry;
   }
 
+  Vector displacement() const { return u_.cast<double>(); }
+
+  void step() { u_ += stiffness_.solve(residual()).cast<long double>(); }
+
+  /// Where cells are small beside the body, as with thousands of supports of a beam, one solution leaves forces that are no rounding of the loads.
+  void refine() {
+    double before = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kMostRefinements && u_.allFinite(); ++k) {
+      const Vector left = residual();
+      const double sum = left.lpNorm<1>();
+      if (!(sum > kUnbalanced * gross_) || sum > before / 2) return;
+      before = sum;
+      u_ += stiffness_.solve(left).cast<long double>();
+    }
+  }
+
   /// f − Ku − Bᵀλ with the springs' multipliers as they are, zero where u is held.
   Vector residual() { return without_held(forces()); }
 
   Vector forces() {
-    return f_ - problem::stiffness_times(problem_, u_) - problem_.B.transpose() * (lambda_ + spring_.cwiseProduct(problem_.B * u_ - target_));
+    LongVector all = f_.cast<long double>() - problem::precise_stiffness_times(problem_, u_);
+    gross_ = f_.lpNorm<1>();
+    for (int r = 0; r < problem_.rows(); ++r) {
+      const long double multiplier = lambda_[r] + spring_[r] * gap(r);
+      if (multiplier == 0) continue;
+      for (SparseRows::InnerIterator it(problem_.B, r); it; ++it) {
+        all[it.col()] -= it.value() * multiplier;
+        gross_ += static_cast<double>(std::abs(it.value() * multiplier));
+      }
+    }
+    for (const Holding& h : holding_) gross_ += static_cast<double>(std::abs(all[h.unknown]));
+    return all.cast<double>();
+  }
+
+  /// Bu − t of a row.
+  long double gap(int row) const {
+    long double sum = -target_[row];
+    for (SparseRows::InnerIterator it(problem_.B, row); it; ++it) sum += it.value() * u_[it.col()];
+    return sum;
   }
 
   Vector without_held(Vector r) const {
@@ -96,7 +137,7 @@ class HeldStep final : public Step {
   bool tie() {
     for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round) {
       approach();
-      u_ += stiffness_.solve(residual());
+      step();
     }
     return off(tied_gap()) <= kOff;
   }
@@ -111,14 +152,18 @@ class HeldStep final : public Step {
       const double curvature = p.dot(q);
       if (!(curvature > 0)) return;
       const double t = energy / curvature;
-      lambda_ += t * p, u_ -= t * moved, gap -= t * q;
+      lambda_ += t * p, u_ -= (t * moved).cast<long double>(), gap -= t * q;
       z = spring_.cwiseProduct(gap);
       const double before = std::exchange(energy, gap.dot(z));
       p = z + energy / before * p;
     }
   }
 
-  Vector tied_gap() const { return on_tied(problem_.B * u_ - target_); }
+  Vector tied_gap() const {
+    Vector out = Vector::Zero(problem_.rows());
+    for (const int r : tied_) out[r] = static_cast<double>(gap(r));
+    return out;
+  }
 
   Vector on_tied(const Vector& all) const {
     Vector out = Vector::Zero(problem_.rows());
@@ -129,7 +174,7 @@ class HeldStep final : public Step {
   /// The greatest gap of a tied row against the displacements in it.
   double off(const Vector& gap) const {
     if (!gap.allFinite()) return INFINITY;
-    const double size = tied_.empty() ? 0 : u_.lpNorm<Eigen::Infinity>();
+    const double size = tied_.empty() ? 0 : displacement().lpNorm<Eigen::Infinity>();
     double worst = 0;
     for (const int r : tied_)
       if (gap[r] != 0) worst = std::max(worst, std::abs(gap[r]) / (length(r) * size + std::abs(target_[r])));
@@ -144,7 +189,8 @@ class HeldStep final : public Step {
 
   /// Multipliers of springs, of rows that hold by equilibrium.
   void finish() {
-    lambda_ += spring_.cwiseProduct(problem_.B * u_ - target_);
+    for (int r = 0; r < problem_.rows(); ++r)
+      if (spring_[r] != 0) lambda_[r] += static_cast<double>(spring_[r] * gap(r));
     spring_.setZero();
     const Vector left = forces();
     for (const Holding& h : holding_) lambda_[h.row] = left[h.unknown] / h.factor;
@@ -164,7 +210,9 @@ class HeldStep final : public Step {
   std::vector<char> held_;
   std::vector<Holding> holding_;
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
-  Vector u_, lambda_;
+  LongVector u_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
+  Vector lambda_;
+  double gross_ = 0;                   ///< ‖f‖₁ + ‖Bᵀλ‖₁ of the last forces()
 };
 
 }  // namespace

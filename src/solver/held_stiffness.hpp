@@ -26,7 +26,7 @@ class HeldStiffness {
   void place_rows();
 
   const problem::Problem& problem_;
-  const algebra::DenseMatrix unnoticed_;
+  const algebra::SparseMatrix unnoticed_;
   algebra::SparseMatrix lower_;     ///< of the analysed pattern, with the numbers of the last factor()
   algebra::Vector stiffness_;       ///< K's numbers in that pattern
   std::vector<std::ptrdiff_t> first_;  ///< of a row's products in the next

@@ -9,19 +9,17 @@
 
 namespace dotyk::solver {
 
-using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using algebra::SparseRows;
 using algebra::Vector;
 using problem::Problem;
 
 namespace {
 
 /// Motions that the active rows leave free, as an orthonormal basis.
-DenseMatrix free_motions(const DenseMatrix& N, const std::vector<char>& active) {
-  const Eigen::Index count = std::count(active.begin(), active.end(), 1);
-  DenseMatrix held(count, N.cols());
-  Eigen::Index k = 0;
-  for (std::size_t r = 0; r < active.size(); ++r)
-    if (active[r]) held.row(k++) = N.row(static_cast<Eigen::Index>(r));
+SparseMatrix free_motions(const SparseRows& N, const std::vector<char>& active) {
+  SparseMatrix held = N;
+  held.prune([&](int row, int, double) { return active[static_cast<std::size_t>(row)] != 0; });
   // Modes have greatest displacement 1: 1e-9 of that is "not at all".
   return algebra::range_and_null(held, 1e-9).unseen;
 }
@@ -58,12 +56,12 @@ int Holder::hold(std::vector<char>& active, const Vector& x, const Vector& lambd
   const Rows at{active, x, lambda};
   int added = 0;
   for (;;) {
-    const DenseMatrix free = free_motions(N_, active);
+    const SparseMatrix free = free_motions(N_, active);
     if (free.cols() == 0) return added;
     Vector driving = e_;
     for (int r = 0; r < problem_.rows(); ++r)
-      if (!active[r] && lambda[r] != 0) driving -= lambda[r] * N_.row(r).transpose();
-    Vector motion = free * (free.transpose() * driving);
+      if (!active[r] && lambda[r] != 0) driving -= lambda[r] * Vector(N_.row(r).transpose());
+    Vector motion = free * Vector(free.transpose() * driving);
     if (!(motion.norm() > 1e-10 * rigid_.e.norm())) {
       // No load drives it: towards the nearer side, for a state that multipliers can belong to.
       motion = free.col(0);

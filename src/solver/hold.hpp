@@ -31,7 +31,7 @@ class Holder {
 
   const problem::Problem& problem_;
   const problem::RigidMotions& rigid_;
-  algebra::DenseMatrix N_;  ///< rows × noticed motions
+  algebra::SparseRows N_;  ///< rows × noticed motions
   algebra::Vector e_;
   std::vector<problem::Interval> following_, multipliers_;  ///< of every row's law
 };

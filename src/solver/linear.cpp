@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "algebra/cholesky.hpp"
 #include "algebra/stop_factoring.hpp"
 #include "base/stopwatch.hpp"
@@ -11,9 +13,8 @@ namespace dotyk::solver {
 namespace {
 
 /// Blocks that are free, with loads in equilibrium: by condensation onto nothing.
-void solve_free(const problem::Problem& problem, const problem::RigidMotions& rigid,
-                algebra::Ordering ordering, Monitor& monitor, Result& result) {
-  const std::string note = require_solvable(problem, rigid);
+void solve_free(const problem::Problem& problem, algebra::Ordering ordering, Monitor& monitor, Result& result) {
+  const auto [rigid, note] = require_solvable(problem, result.clock, monitor);
   if (!note.empty()) result.reason += "; " + note;
   const problem::CondensedProblem condensed(problem, rigid, ordering, result.clock, monitor);
   Stopwatch watch;
@@ -52,9 +53,9 @@ Result solve_linear(const problem::Problem& problem, algebra::Ordering ordering,
   result.state.u.resize(problem.unknowns());
   result.state.lambda.resize(0);
   result.reason = "linear problem, solved directly";
-  const problem::RigidMotions rigid = problem::rigid_motions(problem);
-  if (rigid.count() > 0)
-    solve_free(problem, rigid, ordering, monitor, result);
+  const bool free = std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const auto& block) { return block.kernel.cols() > 0; });
+  if (free)
+    solve_free(problem, ordering, monitor, result);
   else
     for (const problem::Block& block : problem.blocks) solve_block(block, ordering, monitor, result);
   result.converged = true;

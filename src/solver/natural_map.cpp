@@ -1,9 +1,10 @@
 #include "solver/natural_map.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "algebra/dense.hpp"
 #include "solver/linearisation.hpp"
 
 namespace dotyk::solver {
@@ -35,9 +36,8 @@ NaturalMap::NaturalMap(const Problem& problem, const problem::CondensedProblem& 
   root_ = rho_.cwiseSqrt();
   const DenseMatrix N = root_.asDiagonal() * condensed.N();
   if (N.size() == 0) return;
-  const Eigen::HouseholderQR<DenseMatrix> qr(N);
-  Q_ = qr.householderQ() * DenseMatrix::Identity(N.rows(), N.cols());
-  R_ = qr.matrixQR().topRows(N.cols()).triangularView<Eigen::Upper>();
+  auto [Q, R] = algebra::orthogonal_factors(N);
+  Q_ = std::move(Q), R_ = std::move(R);
 }
 
 Vector NaturalMap::alpha(const Vector& a) const {
@@ -54,6 +54,10 @@ Vector NaturalMap::scaled_load(const Vector& e) const {
 
 Vector NaturalMap::unbalanced(const Vector& lambda) const {
   return scaled_load(condensed_->e() - condensed_->N().transpose() * lambda);
+}
+
+Vector NaturalMap::balancing(const Vector& unbalanced) const {
+  return unbalanced.size() > 0 ? Vector(root_.cwiseProduct(Q_ * unbalanced)) : Vector::Zero(root_.size());
 }
 
 double NaturalMap::greatest_compliance() const {

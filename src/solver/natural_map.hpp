@@ -44,6 +44,8 @@ class NaturalMap {
   algebra::Vector alpha(const algebra::Vector& a) const;
   /// R^{-T}(e − Nᵀλ), in the same unit.
   algebra::Vector unbalanced(const algebra::Vector& lambda) const;
+  /// The forces on the rows, the least ones in D^{-1}, that would put such a lack of balance right.
+  algebra::Vector balancing(const algebra::Vector& unbalanced) const;
   /// Not less than the greatest eigenvalue of W̃ + QQᵀ, W̃ = D^{1/2} W D^{1/2}.
   double greatest_compliance() const;
 

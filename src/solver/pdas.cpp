@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <stdexcept>
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -17,7 +18,9 @@
 #include "solver/interior_start.hpp"
 #include "solver/linearisation.hpp"
 #include "solver/nested_start.hpp"
+#include "solver/proximal.hpp"
 #include "solver/require_solvable.hpp"
+#include "solver/rest.hpp"
 #include "solver/screws.hpp"
 #include "solver/step.hpp"
 #include "solver/treatable.hpp"
@@ -41,7 +44,7 @@ std::string places(const Problem& problem, const std::vector<int>& rows) {
 class Iteration {
  public:
   Iteration(const Problem& problem, const Pdas& settings, Monitor& monitor)
-      : problem_(problem), settings_(settings), monitor_(monitor), rigid_(problem::rigid_motions(problem)),
+      : problem_(problem), settings_(settings), monitor_(monitor), solvable_(require_solvable(problem, result_.clock, monitor)),
         holder_(problem, rigid_),
         rho_(settings.rho * problem.row_stiffness()) {
     // A row that no unknown moves has no stiffness; any ρ will do.
@@ -53,7 +56,7 @@ class Iteration {
   }
 
   Result run() {
-    const std::string note = require_solvable(problem_, rigid_);
+    const std::string& note = solvable_.note;
     place_screws();
     Linearisation l = first();
     if (settings_.reduced) condense();
@@ -66,7 +69,9 @@ class Iteration {
     Stopwatch iterating;
     begin_on_few(l);
     begin_inside(l);
-    conclude(iterate_and_rescue(l));
+    const End end = iterate_and_rescue(l);
+    conclude(end);
+    if (end == End::repeated && !screws_) come_to_rest(l);
     result_.reason += begun_;
     if (!note.empty()) result_.reason += "; " + note;
     result_.clock.iterate += iterating.lap();
@@ -208,7 +213,10 @@ class Iteration {
         result_.reason = text("the linear problem of iteration ", result_.iterations,
                               " is singular: active rows contradict each other or do not hold a body");
         break;
-      case End::cycle: by_active_set(); break;
+      case End::cycle:
+        by_active_set();
+        if (!result_.converged) by_proximal();
+        break;
       case End::exhausted:
         result_.reason = text("no confirmed active set within ", settings_.max_iterations,
                               " iterations; rows that still change: ", places(problem_, changed_));
@@ -360,6 +368,46 @@ class Iteration {
     settled_ = std::move(settled.state.u);
   }
 
+  /// The proximal point method, which converges from everywhere as the energy is convex, whatever the laws.
+  void by_proximal() {
+    if (!condensed_ || problem_.rows() > kMostDense) return;
+    Proximal method;
+    method.tol = settings_.tol;
+    monitor_.phase("active sets repeat: the proximal point method");
+    InnerMonitor monitor(monitor_);
+    Result settled = solve(problem_, *condensed_, method, monitor);
+    if (!settled.converged) {
+      result_.reason += text("; ", settled.iterations, " iterations of proximal in vain: ", settled.reason);
+      return;
+    }
+    result_.converged = true;
+    result_.active_sets.push_back(settled.active_sets.back());
+    result_.reason = text(settled.reason, "; before, active sets repeated at ", places(problem_, changed_), ", left by ", settled.iterations,
+                          " iterations of proximal");
+    lambda_ = settled.state.lambda;
+    settled_ = std::move(settled.state.u);
+  }
+
+  /// Bodies that were moved for the sake of rows that bear nothing go back, where the laws allow it.
+  void come_to_rest(const Linearisation& l) {
+    const Noise before = noise(lambda_, x_);
+    if (lambda_.size() == 0 || (lambda_.cwiseAbs() - before.force).maxCoeff() <= 0) return;  // nothing is loaded: there is no scale to rest by
+    const auto rest = held_at_rest(problem_, l, lambda_, rho_, before);
+    if (!rest) return;
+    Vector lambda, x;
+    if (step_->solve(*rest, lambda, x)) {
+      const Noise small = noise(lambda, x);
+      if (obeys(linearise(problem_, lambda, x, rho_, small, &l), *rest, l, lambda, small)) {
+        lambda_ = std::move(lambda);
+        x_ = std::move(x);
+        for (int r = 0; r < problem_.rows(); ++r)
+          if (rest->y[r] != l.y[r]) lambda_[r] = 0, result_.active_sets.back()[r] = 0;
+        return;
+      }
+    }
+    if (!step_->solve(l, lambda_, x_)) throw std::logic_error("pdas: a linear problem that had a solution has none");
+  }
+
   /// Newton steps before rescues are asked, and to confirm what one found.
   static constexpr int kPatience = 14, kConfirmations = 8;
   static constexpr std::size_t kStretch = 4;
@@ -371,10 +419,11 @@ class Iteration {
   const Problem& problem_;
   const Pdas& settings_;
   Monitor& monitor_;
-  const problem::RigidMotions rigid_;
+  Result result_;
+  const Solvable solvable_;
+  const problem::RigidMotions& rigid_ = solvable_.rigid;
   Holder holder_;
   Vector rho_;
-  Result result_;
   problem::Condenser own_;
   const CondensedProblem* condensed_ = nullptr;
   std::optional<Screws> screws_;

@@ -95,7 +95,7 @@ class PenaltyStep final : public Step {
   const Problem& problem_;
   const Vector spring_, own_;
   Vector k_;  ///< of the spring, or of the elastic law
-  const algebra::DenseMatrix unnoticed_;
+  const algebra::SparseMatrix unnoticed_;
   Vector f_;
   algebra::Cholesky cholesky_;
   Vector u_, lambda_;

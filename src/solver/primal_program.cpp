@@ -182,9 +182,9 @@ Result solve_primal(const Problem& problem, const std::string& method, bool redu
                     Monitor& monitor,
                     const std::function<program::Result(const PrimalProgram&, Monitor&)>& solve) {
   Result result;
-  const problem::RigidMotions rigid = problem::rigid_motions(problem);
+  require_unilateral_or_linear(problem, method);
+  const auto [rigid, note] = require_solvable(problem, result.clock, monitor);
   const PrimalProgram primal(problem, rigid, method, reduced, ordering, result.clock, monitor);
-  const std::string note = require_solvable(problem, rigid);
   Stopwatch watch;
   Recorder recorder(monitor, result.history);
   const program::Result solved = solve(primal, recorder);

@@ -44,7 +44,7 @@ class PrimalProgram {
   std::vector<problem::CondensedBlock> condensed_;  ///< of the reduced form
   std::vector<int> first_;                          ///< its first unknown in the program, block by block
   std::vector<int> rows_;
-  algebra::DenseMatrix unnoticed_;
+  algebra::SparseMatrix unnoticed_;
   double unit_ = 1;
 };
 

@@ -20,6 +20,7 @@ constexpr double kPrecision = 0.1;    // ‖F‖ against ‖λ − λ_k‖ where
 constexpr double kSofter = 100, kHarder = 10;
 constexpr double kLeast = 1e-10, kGreatest = 1e6;  // of σ; beyond the latter nothing moves
 constexpr double kLeastConvex = 1e-8;  // where ρ = 1/σC: less, and rounding of x counts
+constexpr double kNoisy = 100;        // noise against what is left: beyond, steps would be taken for right that are not
 constexpr int kConvexSteps = 40;      // of one iteration, where they cannot go astray
 constexpr int kSections = 30;         // of one such step
 constexpr double kFlat = 1e-3;        // a slope against the first one
@@ -47,21 +48,26 @@ Vector compliance_of_rows(const RowIteration& on) {
   return compliance;
 }
 
+/// A force: the rounding of x, of which springs make the more the stiffer they are.
+double noise(const RowIteration& on, const Vector& springs) { return springs.cwiseInverse().norm() * on.rounding(); }
+
 /// Newton's method on the problem with springs, from (λ_k, α_k) on.
 class Springs {
  public:
   /// `convex`: the bounds of friction are given.
-  Springs(const RowIteration& on, const Vector& springs, double sigma, bool convex)
+  Springs(const RowIteration& on, const Vector& springs, double sigma, double tol, bool convex)
       : convex_(convex), centre_(on.lambda()), W_(on.condensed.W()), softened_(on.condensed.softened(springs, centre_)),
         map_(on.problem, softened_, convex ? Vector(springs.cwiseInverse()) : Vector((on.map.rho().cwiseInverse() + springs).cwiseInverse())),
-        anchor_(map_.scaled_alpha(on.alpha())), holding_(convex ? sigma * std::min(kHolding, kHolding * sigma / kSigma) : 0),
-        unit_(map_.rho().size() > 0 ? std::sqrt(map_.rho().maxCoeff()) : 1), place_{on.lambda(), on.alpha()}, value_(map_.at(place_.lambda, place_.alpha)) {}
+        anchor_(map_.scaled_alpha(on.alpha())), holding_(sigma * std::min(kHolding, kHolding * sigma / kSigma)),
+        unit_(map_.rho().size() > 0 ? std::sqrt(map_.rho().maxCoeff()) : 1), place_{on.lambda(), on.alpha()}, value_(map_.at(place_.lambda, place_.alpha)),
+        granted_(std::max(tol * on.force(), map_.rho().norm() * on.rounding())) {}
 
-  /// False where it did not come near a solution.
-  bool solve(double tol) {
-    for (const int most = convex_ ? kConvexSteps : kNewtonSteps; steps_ < most; ++steps_) {
-      if (error() <= std::max(kPrecision * moved(), tol * place_.lambda.norm())) return true;
+  /// False where it did not come near a solution. One step is always made: the first error may be rounding, and λ yet to move.
+  bool solve() {
+    for (const int most = convex_ ? kConvexSteps : kNewtonSteps; steps_ < most;) {
       if (!step()) return false;
+      ++steps_;
+      if (error() <= std::max(kPrecision * moved(), granted_)) return true;
     }
     return false;
   }
@@ -107,11 +113,11 @@ class Springs {
   }
 
   void damp(const Place& from, const Place& way) {
-    const double norm = value_.norm;
+    const double norm = error();
     double length = 1;
     for (int halving = 0; halving <= kHalvings; ++halving, length /= 2) {
       move(from, way, length);
-      if (value_.norm <= (1 - 1e-4 * length) * norm) break;
+      if (error() <= (1 - 1e-4 * length) * norm) break;
     }
   }
 
@@ -129,7 +135,7 @@ class Springs {
     double low = 0, high = 1, at_low = steepest;
     move(from, way, 1);
     double at_high = slope(way);
-    if (!(steepest < 0) || at_high <= -kFlat * steepest || error() <= kFlat * norm) return;
+    if (!(steepest < 0) || at_high <= -kFlat * steepest || error() <= std::max(kFlat * norm, granted_)) return;
     for (int k = 0; k < kSections && at_low < 0.5 * steepest; ++k) {
       const double secant = low - at_low * (high - low) / (at_high - at_low), margin = 0.05 * (high - low);
       const double length = std::clamp(secant, low + margin, high - margin);
@@ -150,6 +156,8 @@ class Springs {
   const double unit_;     ///< √ρ, the greatest: of λ against v
   Place place_;
   NaturalMap::Value value_;
+  /// A force: of tol, or of the rounding of x, of which soft springs make the more the stiffer they are.
+  const double granted_;
   int steps_ = 0;
 };
 
@@ -161,12 +169,13 @@ void Proximal::iterate(RowIteration& iteration) const {
   double softness = sigma;
   int steps = 0;
   while (iteration.next()) {
-    Springs springs(iteration, softness * compliance, softness, convex);
-    const bool solved = springs.solve(0.1 * tol);
+    Springs springs(iteration, softness * compliance, softness, 0.1 * tol, convex);
+    const bool solved = springs.solve();
     steps += springs.steps();
     if (solved) {
       iteration.move_to(std::move(springs.place().lambda), std::move(springs.place().alpha));
-      softness = std::max(softness / kHarder, convex ? kLeastConvex : kLeast);
+      const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeast);
+      if (noise(iteration, harder * compliance) <= kNoisy * iteration.residual() * iteration.force()) softness = harder;
     } else {
       softness *= kSofter;
     }

@@ -1,6 +1,11 @@
 #include "solver/require_solvable.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/stop_factoring.hpp"
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::solver {
@@ -19,19 +24,31 @@ std::string all(const std::vector<std::string>& names) {
 }
 
 /// Refuses a block that no row touches unless its load is in equilibrium, and not nothing.
-void require_held(const problem::Problem& problem, const problem::Block& block) {
-  if (block.kernel.cols() == 0 || problem.rows_of(block).nonZeros() > 0) return;
+void require_held(const problem::Block& block) {
   const double load = block.f.lpNorm<1>();
   if (load > 0 && (block.kernel.transpose() * block.f).lpNorm<Eigen::Infinity>() < 1e-10 * load) return;
   throw InputError(text("'", block.name, "' is not held: nothing stops its ", all(texts(block.motions)),
                         "; fix a part of it or put it in contact"));
 }
 
+void require_held(const problem::Problem& problem) {
+  std::vector<char> touched(static_cast<std::size_t>(problem.unknowns()), 0);
+  for (int r = 0; r < problem.rows(); ++r)
+    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) touched[static_cast<std::size_t>(it.col())] = 1;
+  for (const problem::Block& block : problem.blocks) {
+    const auto first = touched.begin() + block.first;
+    if (block.kernel.cols() > 0 && std::count(first, first + block.size(), 1) == 0) require_held(block);
+  }
+}
+
 /// The motions that no row notices, by name where they are modes of their own, else by the first of them.
 std::string unnoticed_motions(const problem::RigidMotions& rigid, const algebra::Vector& first) {
   std::vector<std::string> names;
-  for (Eigen::Index mode = 0; mode < rigid.unnoticed.rows(); ++mode)
-    if (rigid.unnoticed.row(mode).norm() > 1 - 1e-9) names.push_back(rigid.motions[mode].text());
+  algebra::Vector parts = algebra::Vector::Zero(rigid.count());  // squares of the modes' lengths in the unnoticed motions
+  for (int k = 0; k < rigid.unnoticed.cols(); ++k)
+    for (algebra::SparseMatrix::InnerIterator it(rigid.unnoticed, k); it; ++it) parts[it.row()] += it.value() * it.value();
+  for (Eigen::Index mode = 0; mode < parts.size(); ++mode)
+    if (std::sqrt(parts[mode]) > 1 - 1e-9) names.push_back(rigid.motions[mode].text());
   const auto count = static_cast<std::size_t>(rigid.unnoticed.cols());
   if (count < 2) return describe(rigid.motions, first);
   if (names.size() == count && count > kNamed) {
@@ -68,21 +85,48 @@ std::string unbalanced_motion(const problem::Problem& problem, const algebra::Ve
   return text(", most of all ", describe(motions, one), ", with ", greatest, ". ", what_would_hold(motions, one));
 }
 
-std::string require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid) {
-  for (const problem::Block& block : problem.blocks) require_held(problem, block);
+void refuse_unbearable(const problem::Problem& problem, const std::string& proof) {
+  problem::Problem smooth = problem;
+  std::erase_if(smooth.friction, [](const problem::FrictionGroup& group) {
+    for (int k = 0; k < group.points(); ++k)
+      if (group.law->bound_slope(k) > 0) return true;
+    return false;
+  });
+  const problem::RigidMotions rigid = problem::rigid_motions(problem);
+  const problem::Solvability s = problem::solvability(rigid, smooth);
+  if (s.verdict != problem::Solvability::Verdict::unsolvable) return;
+  throw InputError(text("not held: friction cannot bear what nothing else stops, ", describe(rigid.motions, s.motion), "; the load does work ", s.work,
+                        " on a unit of this motion, and no pressures that the bodies can build up have friction enough (", proof, "). ",
+                        what_would_hold(rigid.motions, s.motion)));
+}
+
+KnownBefore require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid) {
+  require_held(problem);
   using Verdict = problem::Solvability::Verdict;
   const problem::Solvability s = problem::solvability(rigid, problem);
   if (s.verdict == Verdict::unsolvable)
     throw InputError(text("not held: nothing stops ", describe(rigid.motions, s.motion), "; the load does work ", s.work,
                           " on a unit of this motion", s.limit ? " (a limit case: turned by 1e-6 the load has a solution)" : "",
                           ". ", what_would_hold(rigid.motions, s.motion)));
+  if (s.verdict == Verdict::unknown)
+    return {s.carried ? "whether it is unique was unknown before solving" : "whether there is a solution was unknown before solving", s.carried};
   std::string note;
   if (s.verdict == Verdict::up_to_motion)
     note = text("unique up to ", unnoticed_motions(rigid, s.motion), rigid.unnoticed.cols() > 0
                     ? ", which no support or contact notices: the stress is unique, the displacement is the least"
                     : "");
   if (s.limit) note += text(note.empty() ? "" : "; ", "a limit case: turned by 1e-6, the load has no solution");
-  return note;
+  return {note, true};
+}
+
+Solvable require_solvable(const problem::Problem& problem, problem::Clock& clock, Monitor& monitor) {
+  const Stopwatch watch;
+  monitor.phase("rigid motions");
+  const algebra::StopFactoring stop(monitor);
+  Solvable result{problem::rigid_motions(problem), ""};
+  result.note = require_solvable(problem, result.rigid).note;
+  clock.motions += watch.seconds();
+  return result;
 }
 
 }  // namespace dotyk::solver

@@ -2,14 +2,31 @@
 
 #include <string>
 
+#include "base/monitor.hpp"
+#include "problem/condensed_block.hpp"
 #include "problem/solvability.hpp"
 
 namespace dotyk::solver {
 
 /// Throws InputError where the problem has no solution, naming the motion, the work that the load
-/// does on it and what would hold it. Otherwise returns what is to be known of the solution: up to
-/// which motion it is unique, or that the load is a limit case; empty where it is unique.
-std::string require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid);
+/// does on it and what would hold it. Otherwise returns what is to be known of the solution.
+struct KnownBefore {
+  std::string note;  ///< up to which motion it is unique, that the load is a limit case, or that this is not known; empty where it is unique
+  bool exists;       ///< proved: the load is carried (by rigid bodies, where friction is Coulomb's)
+};
+KnownBefore require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid);
+
+/// The rigid motions of a problem that has a solution, and what require_solvable() says of that. Adds the time to `clock`; throws
+/// Interrupted where the monitor asks to stop.
+struct Solvable {
+  problem::RigidMotions rigid;
+  std::string note;
+};
+Solvable require_solvable(const problem::Problem& problem, problem::Clock& clock, Monitor& monitor);
+
+/// Refuses a problem with Coulomb friction whose load only friction could stop, after a proof that no attainable pressure gives enough
+/// friction: throws InputError, naming the motion. Returns if something else than friction stops it. `proof`: how it was proved, one phrase.
+void refuse_unbearable(const problem::Problem& problem, const std::string& proof);
 
 /// Of the resultants of loads that nothing balances, one for each mode of the blocks' kernels, which is the greatest and
 /// what would hold it: ", most of all 'lid': translation along x, with 3.5. Hold …"; empty where modes have no names.

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "algebra/stop_factoring.hpp"
 #include "base/text.hpp"
 #include "problem/residual.hpp"
 #include "solver/require_solvable.hpp"
@@ -15,17 +16,24 @@ using problem::Problem;
 
 RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
                            Monitor& monitor)
-    : problem(on), condensed(rows), map_(on, rows, rho * stiffness_of_rows(rows)), settings_(settings),
-      monitor_(monitor), stiffness_(stiffness_of_rows(rows)), light_(rho < 1), allowed_(settings.max_iterations) {
+    : RowIteration(on, RowScales(on, rows), rows, settings, rho, monitor) {}
+
+RowIteration::RowIteration(const Problem& on, const RowIteration& outer, const Settings& settings, double rho, Monitor& monitor)
+    : RowIteration(on, outer.scales_, outer.condensed, settings, rho, monitor) {}
+
+RowIteration::RowIteration(const Problem& on, RowScales scales, const CondensedProblem& rows, const Settings& settings, double rho,
+                           Monitor& monitor)
+    : problem(on), condensed(rows), scales_(std::move(scales)), map_(on, rows, rho * scales_.stiffness()), settings_(settings),
+      monitor_(monitor), allowed_(settings.max_iterations) {
   move_to(Vector::Zero(rows.rows()), Vector::Zero(rows.kernel_size()));
   recorded_ = value_;
   first_lambda_ = lambda_, first_alpha_ = alpha_;
 }
 
 double RowIteration::residual() const {
-  const double size = lambda_.norm();
-  const double own = size > 0 ? value_.norm / size : value_.norm;
-  return light_ ? std::max(own, problem::natural_residual(problem, value_.x, lambda_, stiffness_)) : own;
+  const double force = scales_.force(lambda_), off = problem::distance_from_laws(problem, value_.x, lambda_, scales_.rho(lambda_, alpha_, value_.x, settings_.tol));
+  const double all = std::hypot(off, map_.balancing(value_.unbalanced).norm());
+  return force > 0 ? all / force : all;
 }
 
 void RowIteration::move_to(Vector lambda, Vector alpha) {
@@ -72,8 +80,7 @@ void RowIteration::grant(int more) {
   allowed_ = result_.iterations + more;
   result_.reason.clear();
   milestone_ = std::numeric_limits<double>::infinity();
-  map_ = NaturalMap(problem, condensed, stiffness_);
-  light_ = false;
+  map_ = NaturalMap(problem, condensed, scales_.stiffness());
   if (best_.lambda.size()) {
     move_to(std::move(best_.lambda), std::move(best_.alpha));
     best_ = {lambda_, alpha_, residual()};
@@ -127,9 +134,15 @@ Vector rigid_motion_of(const problem::State& state, const Problem& problem, cons
 Result solve(const Problem& problem, const CondensedProblem& condensed, const RowMethod& method, Monitor& monitor) {
   method.require_treatable(problem);
   Stopwatch watch;
-  RowIteration iteration(problem, condensed, method, method.map_weight(), monitor);
+  RowIteration iteration = [&] {
+    const algebra::StopFactoring stop(monitor);
+    return RowIteration(problem, condensed, method, method.map_weight(), monitor);
+  }();
   if (method.from) iteration.begin_at(method.from->lambda, rigid_motion_of(*method.from, problem, condensed));
-  method.iterate(iteration);
+  if (method.from && iteration.residual() <= method.tol && iteration.next())
+    iteration.record();  // nothing is left to do: a method whose residual does not fall at every step would first go away from there
+  else
+    method.iterate(iteration);
   Result result = iteration.finish();
   const Vector alpha = iteration.alpha();
   result.method = method.name();
@@ -143,9 +156,8 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
 
 Result solve(const Problem& problem, const RowMethod& method, Monitor& monitor) {
   method.require_treatable(problem);
-  const problem::RigidMotions rigid = problem::rigid_motions(problem);
-  const std::string note = require_solvable(problem, rigid);
   problem::Clock clock;
+  const auto [rigid, note] = require_solvable(problem, clock, monitor);
   problem::Condenser own;
   const CondensedProblem& condensed =
       (method.condenser ? *method.condenser : own).condense(problem, rigid, method.ordering, clock, monitor);

@@ -6,6 +6,7 @@
 #include "base/stopwatch.hpp"
 #include "problem/condensed.hpp"
 #include "solver/natural_map.hpp"
+#include "solver/row_scales.hpp"
 #include "solver/solver.hpp"
 
 namespace dotyk::solver {
@@ -23,6 +24,8 @@ class RowIteration {
  public:
   RowIteration(const problem::Problem& problem, const problem::CondensedProblem& condensed, const Settings& settings,
                double rho, Monitor& monitor);
+  /// One of the same rows under other laws, whose problem need not have bodies: forces count as in `outer`.
+  RowIteration(const problem::Problem& problem, const RowIteration& outer, const Settings& settings, double rho, Monitor& monitor);
 
   const problem::Problem& problem;
   const problem::CondensedProblem& condensed;
@@ -33,9 +36,13 @@ class RowIteration {
   const NaturalMap::Value& value() const { return value_; }
   /// x = x₀ − Wλ + Nα of the iterate.
   const algebra::Vector& jump() const { return value_.x; }
-  /// Of the iterate: ‖F‖ / ‖λ‖ (‖F‖ where λ = 0). With a small ρ the force of a slipping point would pass in
-  /// whatever direction: F is then taken with the stiffness that the rows see as well, and the greater one counts.
+  /// Of the iterate: its distance from the laws and the forces out of balance, against the forces that count; see RowScales. It does
+  /// not depend on the map's ρ: a small one would let the force of a slipping point pass in whatever direction.
   double residual() const;
+  /// The forces that count, of the iterate.
+  double force() const { return scales_.force(lambda_); }
+  /// What rounding may leave of its jump, a displacement.
+  double rounding() const { return scales_.rounding(alpha_, value_.x); }
   /// ‖λ − P(λ + ρx)‖ of the iterate: F without what is out of balance.
   double law_residual() const { return (lambda_ - value_.projected).norm(); }
   void move_to(algebra::Vector lambda, algebra::Vector alpha);
@@ -52,8 +59,8 @@ class RowIteration {
   /// The residual's least value has not fallen by a hundredth in the last `patience` iterations, or the
   /// multipliers are beyond all measure. Gives up then.
   bool stalled(int patience = 2000);
-  /// Allows so many iterations more, to another method, from where this one began. The natural map and the residual are from
-  /// now on those of ρ_r = 1/W_rr: what this method's `rho` makes of rounding is not to count against another.
+  /// Allows so many iterations more, to another method, from where this one began. The natural map is from now on that of
+  /// ρ_r = 1/W_rr: what this method's `rho` makes of rounding is not to count against another.
   void grant(int more);
   /// Was the last iterate recorded within tol?
   bool converged() const { return result_.converged; }
@@ -74,13 +81,14 @@ class RowIteration {
     algebra::Vector lambda, alpha;
     double residual = std::numeric_limits<double>::infinity();
   };
+  RowIteration(const problem::Problem& problem, RowScales scales, const problem::CondensedProblem& condensed, const Settings& settings,
+               double rho, Monitor& monitor);
   void record_active_set();
 
+  RowScales scales_;
   NaturalMap map_;
   const Settings& settings_;
   Monitor& monitor_;
-  algebra::Vector stiffness_;  ///< 1/W_rr
-  bool light_;                 ///< ρ is below that
   Result result_;
   Best best_;
   bool begun_ = false;

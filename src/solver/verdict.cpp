@@ -38,13 +38,10 @@ double honest_equilibrium(const Problem& problem, double raw, double allowed, Re
   return honest;
 }
 
-bool loaded(const Problem& problem) {
-  return std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& block) { return !block.f.isZero(0); });
-}
-
+/// What the method said of its end it said by a test of its own, which is not the last word: told as its words, not as the case.
 void refuse(std::string reason, Result& result) {
   result.converged = false;
-  result.reason = std::move(reason) + "; " + result.reason;
+  result.reason = std::move(reason) + (result.reason.empty() ? "" : "; the method's own test was met: " + result.reason);
 }
 
 void refuse_residuals(const Problem& problem, const Residual& r, Result& result) {
@@ -70,6 +67,10 @@ void refuse_lost_motions(double softest, Result& result) {
 }
 
 }  // namespace
+
+bool loaded(const Problem& problem) {
+  return std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& block) { return !block.f.isZero(0); });
+}
 
 Residual judge(const Problem& problem, Result& result, double softest) {
   const Residual r = problem::residual(problem, result.state);

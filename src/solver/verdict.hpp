@@ -13,4 +13,7 @@ namespace dotyk::solver {
 /// Throws std::runtime_error where a number of the state, its energy or a residual is not finite.
 problem::Residual judge(const problem::Problem& problem, Result& result, double softest = 1);
 
+/// Is there a load on any block? Without one nothing but rounding gives forces a scale.
+bool loaded(const problem::Problem& problem);
+
 }  // namespace dotyk::solver

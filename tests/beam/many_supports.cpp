@@ -85,6 +85,54 @@ TEST_CASE("thousands of supports take as many steps as hundreds") {
   }
 }
 
+TEST_CASE("lifted off all of many supports, a beam deflects as one on its ends, and these balance the load") {
+  Monitor quiet;
+  for (const int supports : {100, 800, 5000, 9000}) {
+    beam::Beam b;
+    b.q = -1;
+    b.supports.push_back({"left", 0, {Kind::prescribed}, {Kind::load, 1}});
+    for (int i = 1; i <= supports; ++i) b.supports.push_back({"", i / (supports + 1.0), {Kind::signorini}, {}});
+    b.supports.push_back({"right", 1, {Kind::prescribed}, {}});
+    for (const double moment : {1.0, 100.0}) {
+      b.supports.front().rotation.value = moment;
+      INFO(supports, " supports, moment ", moment);
+      const auto s = beam::solve(b, {}, quiet).front().solution;
+      REQUIRE_MESSAGE(s->result().converged, s->result().reason);
+      for (double x = 0.1; x < 1; x += 0.2) {
+        const double exact = moment * x * (1 - x) * (2 - x) / 6 - x * (1 - x) * (1 + x - x * x) / 24;
+        CHECK(s->deflection(x) == doctest::Approx(exact).epsilon(1e-6));
+      }
+      CHECK(s->reaction(0).force == doctest::Approx(0.5 + moment).epsilon(1e-6));
+      CHECK(s->reaction(supports + 1).force == doctest::Approx(0.5 - moment).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("a force that lifts a beam off many supports is balanced by those it still rests on") {
+  Monitor quiet;
+  double coarse = 0;
+  for (const int supports : {800, 5000}) {
+    beam::Beam b;
+    b.q = -1;
+    b.loads = {{0.3333, 5}};
+    b.supports.push_back({"left", 0, {Kind::prescribed}, {}});
+    for (int i = 1; i <= supports; ++i) b.supports.push_back({"", i / (supports + 1.0), {Kind::signorini}, {}});
+    b.supports.push_back({"right", 1, {Kind::prescribed}, {}});
+    INFO(supports, " supports");
+    const auto s = beam::solve(b, {}, quiet).front().solution;
+    REQUIRE_MESSAGE(s->result().converged, s->result().reason);
+    double sum = 0, moment = 0;
+    for (std::size_t i = 0; i < b.supports.size(); ++i) {
+      const double reaction = s->reaction(static_cast<int>(i)).force;
+      sum += reaction, moment += reaction * b.supports[i].x;
+    }
+    CHECK(sum == doctest::Approx(1 - 5).epsilon(1e-7));
+    CHECK(moment == doctest::Approx(0.5 - 5 * 0.3333).epsilon(1e-7));
+    if (coarse != 0) CHECK(s->deflection(0.3) == doctest::Approx(coarse).epsilon(1e-6));
+    coarse = s->deflection(0.3);
+  }
+}
+
 TEST_CASE("the deflections are those of another method") {
   test::Random random(9);
   Monitor quiet;

@@ -143,3 +143,21 @@ TEST_CASE("flat parts keep their normal to the last bit, turned or not, and an e
   for (const ContactRow& row : contact::pair_rows(roof.low(), roof.high(), Pairing::node_to_segment, {}, true).rows)
     if (std::abs(roof.lower.point(row.node)[0]) < 1e-12) CHECK(row.normal == Point{0, 1, 0});
 }
+
+TEST_CASE("the part that is coarser where the parts are nearest has the rows, whichever comes first, also where a part curves away") {
+  for (const int dimension : {2, 3})
+    for (const Family family : test::kAllFamilies)
+      for (const auto& [low, high] : {std::pair{9, 14}, {14, 9}}) {
+        CAPTURE(dimension);
+        CAPTURE(test::name(family));
+        // Slopes up to 0.8: the upper part is longer than the lower one, and sees less of it along its normals.
+        const Pair p = pair(dimension, family, low, high, flat, dimension == 2 ? arc(0, 0.8) : sphere(0.5));
+        for (const Pairing pairing : {Pairing::mortar, Pairing::node_to_segment}) {
+          const auto one = contact::pair_rows(p.low(), p.high(), pairing, {}, true), two = contact::pair_rows(p.high(), p.low(), pairing, {}, true);
+          CHECK(one.turned == (pairing == Pairing::mortar ? high < low : low < high));
+          CHECK(two.turned != one.turned);
+          REQUIRE(one.rows.size() == two.rows.size());
+          for (std::size_t k = 0; k < one.rows.size(); ++k) CHECK(one.rows[k].node == two.rows[k].node);
+        }
+      }
+}

@@ -167,19 +167,25 @@ TEST_CASE("rows of between() itself where both sides move together, what is adde
     }
 }
 
-TEST_CASE("rows against a rigid plane and a rigid ball") {
+TEST_CASE("rows against a rigid plane and rigid balls: above the part, beside it, so that lines along normals miss it, and one that conforms") {
   for (const int dimension : {2, 3})
     for (const auto family : kFamilies) {
       CAPTURE(dimension);
       const Mesh m = sample(dimension, family, 0);
       const auto& facets = m.parts.at("top");
       const auto V = random_field(m, 3);
-      Point inclined{0.28, 0, 0}, far{0, 0, 0}, centre{0.5, 0.4, 0};
-      inclined[dimension - 1] = -0.96, far[dimension - 1] = 1.5, centre[dimension - 1] = 2.5;
-      for (const contact::RigidShape& shape : {contact::RigidShape(contact::RigidPlane{far, inclined}),
-                                               contact::RigidShape(contact::RigidBall{centre, 1})}) {
-        const auto at = [&](double t) { return contact::against(moved(m, V, t), facets, shape, {}, false); };
-        check_derivative(numbers(contact::row_derivatives(m, facets, at(0), shape, V)), [&](double t) { return numbers(at(t)); });
+      Point inclined{0.28, 0, 0}, far{0, 0, 0}, above{0.5, 0.4, 0}, beside{2, 0.4, 0};
+      inclined[dimension - 1] = -0.96, far[dimension - 1] = 1.5, above[dimension - 1] = 2.5, beside[dimension - 1] = 1.8;
+      for (const contact::RigidShape& shape :
+           {contact::RigidShape(contact::RigidPlane{far, inclined}), contact::RigidShape(contact::RigidBall{above, 1}),
+            contact::RigidShape(contact::RigidBall{above, 0.3}), contact::RigidShape(contact::RigidBall{beside, 0.9})}) {
+        const auto rows = contact::against(m, facets, shape, [](const Point&) { return 0.02; }, false);
+        const auto at = [&](double t) { return contact::moved_rows(rows, moved(m, V, t), facets, shape, false); };
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+          CHECK(at(0)[k].normal == rows[k].normal);
+          CHECK(at(0)[k].gap == rows[k].gap);
+        }
+        check_derivative(numbers(contact::row_derivatives(m, facets, rows, shape, V)), [&](double t) { return numbers(at(t)); });
       }
     }
 }

@@ -46,7 +46,7 @@ for _, element in ipairs(elements) do
   check.near(s:error_estimate(), 0, 1e-7)
   check.near({ s.residual.equilibrium, s.residual.penetration, s.residual.complementarity, s.residual.friction }, { 0, 0, 0, 0 })
   local sum = 0
-  for _, phase in ipairs{ "assembly", "ordering", "factor", "iterate", "recover" } do
+  for _, phase in ipairs{ "assembly", "motions", "ordering", "factor", "iterate", "recover" } do
     check.that(s.time[phase] >= 0)
     sum = sum + s.time[phase]
   end

@@ -257,8 +257,7 @@ TEST_CASE("against a closed form the estimate comes to be exact") {
 }
 
 TEST_CASE("on soft springs, of a part or by a law, the estimate is measured by the norm that distances are, energy of springs included") {
-  // Mostly the springs' energy: a block that hardly deforms. No load turns it: a law acts at nodes, and the moment of such
-  // springs depends on the mesh.
+  // Mostly the springs' energy: a block that hardly deforms, and that no load turns.
   for (const bool by_law : {false, true})
     for (const int dim : {2, 3}) {
       const auto held = [&](int n) {
@@ -285,6 +284,38 @@ TEST_CASE("on soft springs, of a part or by a law, the estimate is measured by t
       CHECK(estimate.relative < 3 * distance);
       CHECK(distance < 2 * estimate.relative);
     }
+}
+
+TEST_CASE("a block that tilts on elastic laws: what these lose by acting at nodes is part of the estimate") {
+  using Kind = problem::SupportLaw::Kind;
+  const struct { const char* name; problem::SupportLaw (*law)(double k); } cases[] = {
+      {"elastic", [](double k) { return problem::SupportLaw{Kind::elastic, k}; }},
+      {"one-sided", [](double k) { return problem::SupportLaw{Kind::one_sided_elastic, k}; }},
+      {"capped", [](double k) { return problem::SupportLaw{Kind::capped_elastic, k, 1000}; }},
+      {"capped, at its limit in part", [](double k) { return problem::SupportLaw{Kind::capped_elastic, k, 2.5}; }},
+      {"unequal", [](double k) { return problem::SupportLaw{Kind::unequal_elastic, k, 0, k / 2}; }}};
+  for (const int dim : {2, 3})
+    for (const auto& [name, law] : cases)
+      for (const double k : {1.0, 100.0, 1e4}) {
+        for (const double aside : {0.1, 0.3}) {  // of 0.3 a part lifts off
+          const auto held = [&](int n) {
+            const auto b = test::block("block", dim, mesh::Family::p1, n);
+            auto bottom = test::part(b, "bottom");
+            scene::support(bottom, law(k), {Kind::elastic, k});
+            test::pull(b, "top", [=](const mesh::Point&) { return dim == 2 ? mesh::Point{aside, -1, 0} : mesh::Point{aside, 0, -1}; });
+            return solve(scene::make_scene({b}));
+          };
+          const auto s = held(dim == 2 ? 8 : 4), exact = held(dim == 2 ? 64 : 12);
+          const double estimate = s->error_estimate().relative, distance = scene::distance(*s, *exact).energy;
+          INFO(dim, "-D, ", std::string(name), ", k = ", k, ", aside ", aside, ": ", estimate, " estimated, ", distance, " from a finer mesh");
+          CHECK(estimate > 0.5 * distance);
+          CHECK(estimate < 2.5 * distance);
+          double sum = 0;
+          for (const auto& cell : s->error_estimate().cells[0]) sum += cell.laws;
+          CHECK(sum == doctest::Approx(s->error_estimate().parts.laws));
+          CHECK(sum > 0);
+        }
+      }
 }
 
 TEST_CASE("two blocks pressed together, of constant stress: no error in body, boundary or contact") {

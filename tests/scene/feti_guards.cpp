@@ -45,23 +45,19 @@ TEST_CASE("motions that no row notices: the displacement is the least, as the di
     }
 }
 
-TEST_CASE("of many bodies the one that nothing holds is named, with its motion and what would hold it") {
+TEST_CASE("of many bodies those that nothing holds are named, with its motion and what would hold it") {
   {
     std::vector<std::shared_ptr<scene::Body>> bodies;
     const auto s = many(bodies);
     test::pull(bodies[41], "left", [](const Point&) { return Point{1, 0, 0}; });
     test::pull(bodies[17], "left", [](const Point&) { return Point{-0.4, 0, 0}; });
-    CHECK_THROWS_WITH_AS(solve_by(s, feti(0)), doctest::Contains("most of all 'b41': translation along x, with 1. Hold 'b41' along x"),
-                         InputError);
-    CHECK_THROWS_WITH_AS(solve_by(s, feti(140)), doctest::Contains("most of all 'b41': translation along x, with 1."), InputError);
+    for (const int count : {0, 140})
+      CHECK_THROWS_WITH_AS(solve_by(s, feti(count)), doctest::Contains("nothing stops 'b17': translation along x by -0.4, 'b41': translation along x by 1;"), InputError);
   }
   std::vector<std::shared_ptr<scene::Body>> bodies;
   const auto s = many(bodies);
   test::pull(bodies[41], "top", [](const Point&) { return Point{0, 3, 0}; });  // 2 upwards in all
-  const auto lifted = solve_by(s, feti(0));
-  CHECK(!lifted->result().converged);
-  CHECK_MESSAGE(lifted->result().reason.find("balance the load, most of all 'b41': translation along y, with 2") != std::string::npos,
-                lifted->result().reason);
+  CHECK_THROWS_WITH_AS(solve_by(s, feti(0)), doctest::Contains("nothing stops 'b41': translation along y; the load does work 2 on a unit of this motion. Hold 'b41' along y"), InputError);
 }
 
 TEST_CASE("displacements out of equilibrium are not called a solution") {

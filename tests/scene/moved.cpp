@@ -58,9 +58,9 @@ std::shared_ptr<scene::Scene> setting(int dimension, mesh::Family family, const 
   scene::add_contact(*scene, test::part(lower, "top"), test::part(upper, "bottom"), constant(0.01),
                      {scene::Friction::Kind::tresca, constant(0.4)}, false, discretisation);
   scene::add_contact(*scene, test::part(lower, "right"), contact::RigidPlane{{1.5, 0, 0}, {-1, 0, 0}}, constant(-0.02), false);
-  Point above{0.5, 0.5, 0.5};
-  above[dimension - 1] = 2.6;
-  scene::add_contact(*scene, test::part(upper, "top"), contact::RigidBall{above, 0.3}, {}, false,
+  Point beside{4, 0.5, 0.5};  // so that rows have the line to its centre: else their frames are those of the part before it was bent
+  beside[dimension - 1] = 2.6;
+  scene::add_contact(*scene, test::part(upper, "top"), contact::RigidBall{beside, 0.3}, {}, false,
                      {scene::Friction::Kind::coulomb, constant(0.3)});
   return scene;
 }
@@ -148,6 +148,35 @@ TEST_CASE("a moved scene is the one set up there, all elements") {
         const auto scene = setting(dim, family, rest, multipliers);
         check_same(*scene::moved(*scene, points(*scene, bend(dim))), *setting(dim, family, bend(dim), multipliers));
       }
+}
+
+TEST_CASE("a part before a rigid ball: flat and moved to where it is flat it is set up there; bent it keeps its frames, which make normals anew") {
+  for (const int dim : {2, 3})
+    for (const auto family : test::kFamilies) {
+      CAPTURE(dim);
+      const auto under_ball = [&](const Map& map) {
+        const auto scene = scene::make_scene({block("block", dim, family, 0, map)});
+        test::fix(scene->bodies[0], "bottom");
+        Point above{0.4, 0.4, 0.4};
+        above[dim - 1] = 4.2;
+        scene::add_contact(*scene, test::part(scene->bodies[0], "top"), contact::RigidBall{above, 3}, constant(0.01), false);
+        return scene;
+      };
+      const auto scene = under_ball(rest);
+      const Map tilt = [&](const Point& x) {
+        Point y{x[0] * 1.1, x[1], x[2]};
+        y[dim - 1] = x[dim - 1] * (1 + 0.05 * x[0]);
+        return y;
+      };
+      check_same(*scene::moved(*scene, points(*scene, tilt)), *under_ball(tilt));
+      const auto bent = scene::moved(*scene, points(*scene, bend(dim)));
+      const scene::Contact& contact = *bent->contacts[0];
+      const auto sides = contact::nodes(*bent->bodies[0]->mesh, contact.first.facets);
+      for (std::size_t k = 0; k < contact.rows.size(); ++k) {
+        CHECK(contact.rows[k].mix == scene->contacts[0]->rows[k].mix);
+        CHECK(contact.rows[k].normal == sides[k].normal);
+      }
+    }
 }
 
 TEST_CASE("slides on no axis turn with their parts; a slide on a whole circle, too") {

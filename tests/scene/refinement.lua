@@ -16,7 +16,7 @@ local s = punch(start)
 local relative, e = s:error_estimate()
 check.equal(relative, e.relative)
 local sum, cells = 0, 0
-for _, part in ipairs{ "recovery", "bulk", "jump", "boundary", "contact_pressure", "complementarity", "friction" } do sum = sum + e[part]^2 end
+for _, part in ipairs{ "recovery", "bulk", "jump", "boundary", "contact_pressure", "complementarity", "friction", "laws" } do sum = sum + e[part]^2 end
 for _, cell in ipairs(e.cells[1]) do cells = cells + cell^2 end
 check.near({ sum / e.absolute^2, cells / e.absolute^2 }, { 1, 1 }, 1e-12)
 check.equal(#e.cells[1], start.cell_count)

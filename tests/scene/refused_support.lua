@@ -53,6 +53,16 @@ bar:part "top":load{ 0, -1 }
 local s <const> = dotyk.solve(dotyk.scene{ bar })
 check.that(s.converged)
 
+-- A stiffness that is none, in the same words for bodies, beams and plates.
+for _, k in ipairs{ 5e-324, 1e-310 } do
+  local told <const> = (" law: the stiffness %g is lost in rounding beside any body's; leave that away, or make it stiffer"):format(k)
+  for name, weak in pairs{ ["one-sided elastic"] = law.one_sided_elastic(k), elastic = law.elastic(k), ["unequal elastic"] = law.unequal_elastic(100, k) } do
+    refused(function() top:support{ normal = weak } end, name .. told)
+    refused(function() dotyk.solve(dotyk.beam{ load = -1, left = { deflection = weak }, right = { deflection = weak } }) end, name .. told)
+    refused(function() dotyk.solve(dotyk.plate{ mesh = it.mesh, load = -1, edge = { deflection = weak } }) end, name .. told)
+  end
+end
+
 -- A held node that cannot obey.
 local held <const> = dotyk.body{ name = "held", mesh = it.mesh, material = it.material }
 held:part "left":displace{ y = -0.1 }

@@ -208,3 +208,15 @@ check.near(stopped.steps[1].energy, full.steps[1].energy)
 
 -- What a script adds to the scene afterwards is for the next solve, which may still follow the last.
 check.equal(dotyk.solve(pair, { after = full, steps = { {} } }).steps[1]:contact(upper).friction_force[1] < 0, false)
+
+-- The error of every step is estimated, also where elastic laws of supports take part in it; of the last one as of a single solve.
+do
+  local b <const> = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {8,8} }, material = dotyk.material{ E = 1000, nu = 0.3 } }
+  b:part "top":load{ 0.1, -1 }
+  b:part "bottom":support{ normal = dotyk.law.one_sided_elastic(1), tangential = dotyk.law.friction(5) }  -- it sticks
+  local scene <const> = dotyk.scene{ b }
+  local s <const> = dotyk.solve(scene, { steps = { { load = 0.5 }, { load = 1 } } })
+  local once <const>, parts <const> = dotyk.solve(scene):error_estimate()
+  check.that(parts.laws > parts.recovery)
+  for _, step in ipairs(s.steps) do check.near((step:error_estimate()), once, 1e-6) end
+end

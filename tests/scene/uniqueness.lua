@@ -158,3 +158,27 @@ do
   local low, high = s.reason:match "by (%-[%d.e-]+) to ([%d.e-]+) at the most"
   near(high - low, range, 1e-5 * range) -- two ways to the same range
 end
+
+-- 9. A ball in space on a plane, and beside a second one: the polygon leaves two (four) motions free, and their least amounts are one state.
+do
+  local mesh <const> = dotyk.mesh.box{ from = {-1,-1,-1}, to = {1,1,1}, cells = {4,4,4}, element = "Q1" }
+  mesh:transform(function(x, y, z)
+    return x * math.sqrt(1 - y*y/2 - z*z/2 + y*y*z*z/3), y * math.sqrt(1 - z*z/2 - x*x/2 + z*z*x*x/3), z * math.sqrt(1 - x*x/2 - y*y/2 + x*x*y*y/3)
+  end)
+  local ball <const> = dotyk.body{ name = "ball", mesh = mesh, material = dotyk.material{ E = 1000, nu = 0.3 }, force = {0, 0, -1} }
+  for planes, motions in ipairs{ 2, 4 } do
+    local scene <const> = dotyk.scene{ ball }
+    scene:contact{ ball:part("low", function(_, _, z) return z < -0.2 end), rigid = dotyk.rigid.plane{ point = {0, 0, -1}, normal = {0, 0, 1} } }
+    if planes == 2 then scene:contact{ ball:part("side", function(x) return x > 0.2 end), rigid = dotyk.rigid.plane{ point = {1, 0, 0}, normal = {-1, 0, 0} } } end
+    local least
+    for _, name in ipairs{ "pdas", "active_set", "interior_point", "feti", "proximal", "psor", "newton" } do
+      local s <const> = dotyk.solver[name]{}:solve(scene)
+      check.that(s.converged, name .. ": " .. s.reason)
+      check.that(s.reason:find("displacement up to " .. motions .. " motions, one of them 'ball'", 1, true), name .. ": " .. s.reason)
+      check.that(s.reason:find("this is the least", 1, true), name .. ": " .. s.reason)
+      local u <const> = { s:displacement(ball, 0.3, 0.1, 0) }
+      least = least or u
+      check.near(u, least, 1e-6 * math.abs(least[3]), name) -- what the methods' tolerances leave
+    end
+  end
+end

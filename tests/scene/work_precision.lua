@@ -31,8 +31,8 @@ check.equal(rows.names{ "solver pdas: rho = 1, reduced, tol = 1e-10", "solver pd
             { "pdas, reduced", "pdas, full", "psor" })
 check.equal(rows.names{ "solver pdas: rho = 1", "solver pdas: rho = 1", { name = "mine" } }, { "pdas", "pdas (2)", "mine" })
 check.equal(report.csv{ { method = 'a "b", c', level = 1, status = "refused", front = false, reason = "two\nlines" } },
-  "method,tol,level,unknowns,rows,iterations,status,error,seconds,low,high,runs,assembly,ordering,factor,iterate,recover,front,reason\n"
-  .. '"a ""b"", c",,1,,,,refused,,,,,,,,,,,false,"two\nlines"\n')
+  "method,tol,level,unknowns,rows,iterations,status,error,seconds,low,high,runs,assembly,motions,ordering,factor,iterate,recover,front,reason\n"
+  .. '"a ""b"", c",,1,,,,refused,,,,,,,,,,,,false,"two\nlines"\n')
 
 do
   local function timed(method, seconds, tol, status) return { method = method, seconds = seconds, tol = tol, level = 2, status = status or "converged" } end

@@ -83,7 +83,7 @@ TEST_CASE("given friction against a rigid ball, whose tangents turn") {
     Point centre{0.45, 0.56, -1};
     if (dimension == 2) centre = {0.45, -1, 0};
     const auto scene = scene::make_scene({body});
-    scene::add_contact(*scene, test::part(body, "bottom"), contact::RigidBall{centre, 1.05}, {}, true, given([=](const Point&) { return dimension == 2 ? 30.0 : 12.0; }));
+    scene::add_contact(*scene, test::part(body, "bottom"), contact::RigidBall{centre, 1.05}, {}, true, given([=](const Point&) { return dimension == 2 ? 10.0 : 6.0; }));
     check(scene, test::waves(0.02), true, true);
   }
 }

@@ -50,6 +50,7 @@ TEST_CASE("a result that is off any law is not converged, whatever the method sa
     CHECK(solver::judge(p, bad).law > 1e-5);
     CHECK_FALSE(bad.converged);
     CHECK(bad.reason.find("off the laws") != std::string::npos);
+    CHECK(bad.reason.find("; the method's own test was met: it says so") != std::string::npos);  // not as if it were so
     bad.converged = true;
     bad.asked = 10;  // a rough tol was asked for: 1 is as wrong as can be, where nothing but the wrong row moves
     solver::judge(p, bad);

@@ -1,0 +1,294 @@
+#include "solver/piece_search.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "algebra/bounded_least_squares.hpp"
+#include "solver/natural_map.hpp"
+#include "solver/treatable.hpp"
+
+namespace dotyk::solver {
+namespace {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+using problem::CondensedProblem;
+using problem::FrictionGroup;
+using problem::Problem;
+using problem::RowGroup;
+
+constexpr int kMostRows = 80, kMostProgrammes = 400;
+constexpr int kDirections = 8;         // of the polygon around a disc
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kSolved = 1e-9;       // of the right side: what is left where a programme has a point
+constexpr double kExcluded = 1e-6;     // and where it has none
+constexpr double kAngle = 1e-12;       // of programmes
+constexpr double kCertain = 1e-10;     // the greatest cosine of what is left with a column that might still lessen it
+constexpr double kComplementary = 1e-8;
+
+/// Column i is 0, or those of `others` are: at 0, or at their greatest values.
+struct Pair {
+  int column;
+  std::vector<int> others;
+  bool at_high = false;
+};
+
+/// A linear programme of equations A z = b, low ≤ z ≤ high, with pairs.
+class Programme {
+ public:
+  Programme(const Problem& problem, const CondensedProblem& condensed)
+      : problem_(problem), condensed_(condensed), root_(stiffness_of_rows(condensed).cwiseSqrt()), stated_(problem.rows(), 1) {
+    if (condensed.kernel_size() > 0) {
+      const Eigen::HouseholderQR<DenseMatrix> qr(root_.asDiagonal() * condensed.N());
+      Q_ = qr.householderQ() * DenseMatrix::Identity(problem.rows(), condensed.kernel_size());
+      R_ = qr.matrixQR().topRows(Q_.cols()).triangularView<Eigen::Upper>();
+    } else {
+      Q_ = DenseMatrix(problem.rows(), 0);
+    }
+    std::vector<char> rubs(problem.rows(), 0);
+    for (const FrictionGroup& group : problem.friction) add(group, rubs);
+    for (const RowGroup& group : problem.groups)
+      for (int r = group.first; r < group.first + group.count; ++r)
+        if (!rubs[r]) add(*group.law, r - group.first, r);
+    for (Eigen::Index k = 0; k < Q_.cols(); ++k) motions_.push_back(add_column(Vector(), -Q_.col(k), -kInfinite, kInfinite));
+    assemble();
+  }
+
+  bool exact() const { return exact_; }
+  bool treatable() const { return treatable_; }
+  const DenseMatrix& A() const { return A_; }
+  const Vector& b() const { return b_; }
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  Vector low() const { return Eigen::Map<const Vector>(low_.data(), static_cast<Eigen::Index>(low_.size())).cwiseProduct(size_); }
+  Vector high() const { return Eigen::Map<const Vector>(high_.data(), static_cast<Eigen::Index>(high_.size())).cwiseProduct(size_); }
+
+  Vector lambda(const Vector& z) const {
+    Vector v = Vector::Zero(problem_.rows());
+    for (std::size_t j = 0; j < forces_.size(); ++j)
+      if (forces_[j].size() > 0) v += z[static_cast<Eigen::Index>(j)] / size_[static_cast<Eigen::Index>(j)] * forces_[j];
+    return v.cwiseProduct(root_);
+  }
+  Vector alpha(const Vector& z) const {
+    Vector a(static_cast<Eigen::Index>(motions_.size()));
+    for (std::size_t k = 0; k < motions_.size(); ++k) a[static_cast<Eigen::Index>(k)] = z[motions_[k]] / size_[motions_[k]];
+    return a.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>().solve(a)) : a;
+  }
+
+ private:
+  /// A column of multipliers v = λ/√ρ, which displace √ρ x by `displaces` beside what W makes of them.
+  int add_column(Vector v, Vector displaces, double low, double high) {
+    forces_.push_back(std::move(v));
+    displaces_.push_back(std::move(displaces));
+    low_.push_back(low);
+    high_.push_back(high);
+    return static_cast<int>(forces_.size()) - 1;
+  }
+  Vector unit(int row, double value = 1) const { return value * Vector::Unit(problem_.rows(), row); }
+
+  void add(const problem::Law& law, int index, int r) {
+    const problem::Interval bounds = law.multipliers(index);
+    const problem::Springs springs = *law.springs(index);
+    const double up = bounds.high / root_[r], down = -bounds.low / root_[r], rho = root_[r] * root_[r];
+    const auto side = [&](double sign, double most, double k) {
+      if (!(most > 0 && k > 0)) return -1;
+      return add_column(unit(r, sign), std::isfinite(k) ? unit(r, sign * rho / k) : Vector(), 0, most);
+    };
+    if (springs.above == springs.below && !std::isfinite(up) && !std::isfinite(down)) {  // linear
+      const double k = springs.above;
+      add_column(unit(r), std::isfinite(k) ? unit(r, rho / k) : Vector(), -kInfinite, kInfinite);
+      return;
+    }
+    const int above = side(1, up, springs.above), below = side(-1, down, springs.below);
+    const auto beyond = [&](double sign, double most, int force, int other) {
+      if (!std::isfinite(most)) return;
+      const int q = add_column(Vector(), unit(r, sign), 0, kInfinite);
+      if (force >= 0) pairs_.push_back({q, {force}, true});
+      if (other >= 0) pairs_.push_back({q, {other}});
+    };
+    beyond(1, up, above, below);
+    beyond(-1, down, below, above);
+    if (above >= 0 && below >= 0 && springs.above != springs.below) pairs_.push_back({above, {below}});
+  }
+
+  void add(const FrictionGroup& group, std::vector<char>& rubs) {
+    for (int k = 0; k < group.points(); ++k) {
+      const double mu = group.law->bound_slope(k), bound = group.law->bound(k, 0);
+      if (group.components > 1) {
+        exact_ = false;
+        for (int i = 0; i < group.components; ++i) stated_[group.row(k) + i] = 0;
+      }
+      if (mu > 0) add_cone(group, k, mu, rubs);
+      else if (bound > 0) add_given(group, k, bound);
+      else
+        for (int i = 0; i < group.components; ++i) stated_[group.row(k) + i] = 0;
+    }
+  }
+
+  void add_cone(const FrictionGroup& group, int k, double mu, std::vector<char>& rubs) {
+    const int n = group.normal[k], t = group.row(k);
+    if (n < 0 || rubs[n]) {
+      treatable_ = false;
+      return;
+    }
+    rubs[n] = 1;
+    std::vector<int> edges;
+    const int count = group.components == 1 ? 2 : kDirections;
+    const double most = group.components == 1 ? mu : mu / std::cos(std::numbers::pi / kDirections);
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * i / count;
+      Vector v = unit(n);  // λ_n = √ρ_n, λ_t = μ λ_n along the direction
+      v[t] = most * std::cos(angle) * root_[n] / root_[t];
+      if (group.components == 2) v[t + 1] = most * std::sin(angle) * root_[n] / root_[t + 1];
+      edges.push_back(add_column(std::move(v), Vector(), 0, kInfinite));
+    }
+    const int gap = add_column(Vector(), unit(n, -1), 0, kInfinite);
+    pairs_.push_back({gap, edges});
+    if (group.components == 1) slip(t, edges[1], edges[0]);
+  }
+
+  void add_given(const FrictionGroup& group, int k, double bound) {
+    for (int i = 0; i < group.components; ++i) {
+      const int t = group.row(k) + i;
+      if (!std::isfinite(bound)) {
+        add_column(unit(t), Vector(), -kInfinite, kInfinite);
+        continue;
+      }
+      const int forward = add_column(unit(t), Vector(), 0, bound / root_[t]), backward = add_column(unit(t, -1), Vector(), 0, bound / root_[t]);
+      if (group.components > 1) continue;
+      const auto [ahead, back] = slip(t, backward, forward);
+      pairs_.push_back({ahead, {forward}, true});
+      pairs_.push_back({back, {backward}, true});
+    }
+  }
+
+  /// x_t = q⁺ − q⁻; where q⁺ > 0 the column `against_ahead` is 0, where q⁻ > 0 `against_back`.
+  std::pair<int, int> slip(int t, int against_ahead, int against_back) {
+    const int ahead = add_column(Vector(), unit(t), 0, kInfinite), back = add_column(Vector(), unit(t, -1), 0, kInfinite);
+    pairs_.push_back({ahead, {against_ahead}});
+    pairs_.push_back({back, {against_back}});
+    return {ahead, back};
+  }
+
+  void assemble() {
+    const Eigen::Index m = problem_.rows(), k = Q_.cols(), n = static_cast<Eigen::Index>(forces_.size());
+    const DenseMatrix W = root_.asDiagonal() * condensed_.W() * root_.asDiagonal();
+    A_ = DenseMatrix::Zero(m + k, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (forces_[j].size() > 0) A_.col(j).head(m) += W * forces_[j], A_.col(j).tail(k) = Q_.transpose() * forces_[j];
+      if (displaces_[j].size() > 0) A_.col(j).head(m) += displaces_[j];
+    }
+    b_ = Vector(m + k);
+    b_.head(m) = root_.cwiseProduct(condensed_.x0());
+    if (k > 0) b_.tail(k) = R_.transpose().triangularView<Eigen::Lower>().solve(condensed_.e());
+    for (Eigen::Index r = 0; r < m; ++r)
+      if (!stated_[r]) A_.row(r).setZero(), b_[r] = 0;
+    size_ = A_.colwise().norm().transpose();
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (!(size_[j] > 0)) size_[j] = 1;
+      A_.col(j) /= size_[j];
+    }
+  }
+
+  const Problem& problem_;
+  const CondensedProblem& condensed_;
+  const Vector root_;          ///< √ρ: v = λ/√ρ and √ρ x are in one unit
+  std::vector<char> stated_;   ///< rows whose equation is asked for
+  DenseMatrix Q_, R_;          ///< of √ρ N
+  std::vector<Vector> forces_, displaces_;  ///< by column; empty: none
+  std::vector<double> low_, high_;
+  std::vector<int> motions_;
+  std::vector<Pair> pairs_;
+  bool exact_ = true, treatable_ = true;
+  DenseMatrix A_;
+  Vector b_, size_;
+};
+
+/// Depth first; a node is a choice of bounds of the columns, its programme begun at its parent's point.
+class Search {
+ public:
+  Search(const Programme& programme, Monitor& monitor) : on_(programme), monitor_(monitor) {}
+
+  PieceSearch run() {
+    const bool all = visit(on_.low(), on_.high(), Vector());
+    if (out_.verdict != PieceSearch::Verdict::found && all) out_.verdict = PieceSearch::Verdict::none;
+    return std::move(out_);
+  }
+
+ private:
+  enum class End { point, excluded, unknown };
+  End programme(const Vector& low, const Vector& high, const Vector& start, algebra::BoundedLeastSquares& point) const {
+    try {
+      point = algebra::bounded_least_squares(on_.A(), on_.b(), low, high, kAngle, start);
+    } catch (const std::runtime_error&) {
+      return End::unknown;
+    }
+    if (excluded(point, low, high)) return End::excluded;
+    return point.residual.norm() <= kSolved * on_.b().norm() ? End::point : End::unknown;
+  }
+
+  /// True where these bounds are excluded; false where a solution is found, or nothing can be said.
+  bool visit(const Vector& low, const Vector& high, const Vector& start) {
+    if (out_.programmes >= kMostProgrammes || monitor_.stop()) return false;
+    ++out_.programmes;
+    algebra::BoundedLeastSquares point;
+    End end = programme(low, high, start, point);
+    if (end == End::unknown && start.size() > 0) end = programme(low, high, Vector(), point);
+    if (end != End::point) return end == End::excluded;
+    const Pair* worst = broken(point.x, high);
+    if (!worst) {
+      if (!on_.exact()) return false;  // polygons have one, discs perhaps not
+      out_.verdict = PieceSearch::Verdict::found;
+      out_.lambda = on_.lambda(point.x);
+      out_.alpha = on_.alpha(point.x);
+      return false;
+    }
+    Vector closed = high, low_of_others = low, high_of_others = high;
+    closed[worst->column] = 0;
+    for (const int j : worst->others) (worst->at_high ? low_of_others[j] : high_of_others[j]) = worst->at_high ? high[j] : 0;
+    return visit(low, closed, point.x) && visit(low_of_others, high_of_others, point.x);
+  }
+
+  /// Does what is left prove that the programme has no point? Farkas: it is orthogonal to the columns that are free, and no other
+  /// one can lessen it.
+  bool excluded(const algebra::BoundedLeastSquares& point, const Vector& low, const Vector& high) const {
+    const double left = point.residual.norm();
+    if (!(left > kExcluded * on_.b().norm())) return false;
+    const Vector along = on_.A().transpose() * point.residual / left;
+    for (Eigen::Index j = 0; j < along.size(); ++j) {
+      if (along[j] > kCertain && point.x[j] < high[j]) return false;
+      if (along[j] < -kCertain && point.x[j] > low[j]) return false;
+    }
+    return true;
+  }
+
+  const Pair* broken(const Vector& z, const Vector& high) const {
+    const Pair* worst = nullptr;
+    double most = kComplementary * z.norm();
+    for (const Pair& pair : on_.pairs()) {
+      double off = 0;
+      for (const int j : pair.others) off += pair.at_high ? high[j] - z[j] : z[j];
+      if (const double both = std::min(z[pair.column], off); both > most) most = both, worst = &pair;
+    }
+    return worst;
+  }
+
+  const Programme& on_;
+  Monitor& monitor_;
+  PieceSearch out_;
+};
+
+}  // namespace
+
+PieceSearch search_pieces(const Problem& problem, const CondensedProblem& condensed, Monitor& monitor) {
+  if (problem.rows() == 0 || problem.rows() > kMostRows || !tells_springs(problem)) return {};
+  const Programme programme(problem, condensed);
+  return programme.treatable() ? Search(programme, monitor).run() : PieceSearch{};
+}
+
+}  // namespace dotyk::solver

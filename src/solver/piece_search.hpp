@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "base/monitor.hpp"
+#include "problem/condensed.hpp"
+
+namespace dotyk::solver {
+
+/// Is there a solution at all, on any pieces of the laws? Its rows are linear equations in columns z with bounds,
+///   x = x₀ − Wλ + Nα,  Nᵀλ = e,  λ = λ⁺ − λ⁻,  x = λ⁺/k⁺ − λ⁻/k⁻ + q⁺ − q⁻ (a scalar law; q beyond the greatest and the least λ),
+///   λ_n = a + b,  λ_t = μ(a − b),  x_t = q⁺ − q⁻ (Coulomb friction in the plane),
+/// and of certain pairs of columns one is at a bound: q⁻ or λ⁻ (open or closed), b or q⁺, a or q⁻ (stick or slip), … Without the
+/// pairs it is a linear programme. Where that has no point there is no solution: no pressures that the bodies can build up, with
+/// friction within its cones, balance the load. Else the pair that its point breaks most splits the search in two.
+struct PieceSearch {
+  enum class Verdict { none, found, undecided };
+  Verdict verdict = Verdict::undecided;
+  int programmes = 0;            ///< linear ones that were solved
+  algebra::Vector lambda, alpha; ///< the solution, where one is found
+};
+
+/// In space discs of friction are replaced by polygons around them and slip may point anywhere: the search then proves that there
+/// is no solution, or nothing. Undecided as well where a law does not tell its springs, and beyond so many rows or programmes.
+PieceSearch search_pieces(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor);
+
+}  // namespace dotyk::solver

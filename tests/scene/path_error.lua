@@ -1,0 +1,50 @@
+-- What one load step leaves out of friction's path, by closed forms.
+local check <const> = require "check"
+
+-- A stiff block on springs of 100 above a plane, pushed sideways by 1, and down (or the plane moves up) so that a share tau of it closes
+-- the gap. Stuck from then on, friction bears 1 - tau; after n steps 1 - floor(n tau)/n, where the last step before it touched has left it.
+local function friction(tau, steps, moved)
+  local gap <const> = 0.01
+  local block <const> = dotyk.body{ name = "block", material = dotyk.material{ E = 1e7, nu = 0 },
+    mesh = dotyk.mesh.rectangle{ from = {0, gap}, to = {1, 1 + gap}, cells = {2, 2}, element = "Q1" } }
+  block:part"bottom":spring{ x = 100 }
+  block:part"bottom":load{ 1, 0 }
+  block:part"top":spring{ y = 100 }
+  if not moved then block:part"top":load{ 0, -100 * gap / tau } end
+  local it <const> = dotyk.scene{ block }
+  local contact <const> = it:contact{ block:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} },
+                                      friction = dotyk.friction.coulomb(1000) }
+  local list <const> = {}
+  for k = 1, steps do list[k] = { load = k / steps, move = moved and { [contact] = { 0, gap / tau * k / steps } } or nil } end
+  local s <const> = dotyk.solve(it, { steps = list })
+  check.that(s.converged, s.reason)
+  local sum = 0
+  for _, node in ipairs(s:contact(contact).nodes) do sum = sum + node.shear[1] * node.weight end
+  return -sum, s
+end
+
+for _, tau in ipairs{ 0.3, 0.45, 0.7, 0.9 } do
+  local left <const> = math.floor(8 * tau) / 8
+  for _, moved in ipairs{ false, true } do
+    local one <const>, s <const> = friction(tau, 1, moved)
+    check.near(one, 1, 1e-3, "one step") -- the block's strain
+    check.near(s:path_error(), left / (1 - left), 2e-3 / (1 - left), "path_error")
+    check.that(s.reason:find("path_error", 1, true), "the reason says so: " .. s.reason)
+    check.that(tostring(s):find("from those of eight steps", 1, true), "and so does print")
+    for _, n in ipairs{ 2, 16, 128 } do check.near(friction(tau, n, moved), 1 - math.floor(n * tau + 1e-3) / n, 2e-3, n .. " steps") end
+  end
+end
+
+-- Touching from the start: a part of the load has that part of the solution, and steps change nothing.
+local block <const> = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
+  mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {6, 6} } }
+block:part"top":load{ 3, -10 }
+local it <const> = dotyk.scene{ block }
+it:contact{ block:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} }, friction = dotyk.friction.coulomb(0.4) }
+local s <const> = dotyk.solve(it)
+check.near(s:path_error(), 0, 0)
+check.that(not s.reason:find("path", 1, true), s.reason)
+
+-- It speaks of one step from rest.
+local _, stepped <const> = friction(0.3, 4)
+check.error(function() stepped:path_error() end, "follows another")
