@@ -191,10 +191,14 @@ Frame frame_between(const Point& n1, const Eigen::Matrix3d& K1, const Point& inw
     return of_eigenvalues(T.transpose() * K * T, [&](double v) { return v < flat ? 0 : v; });
   };
   const Small a = sized(K1), b = sized(K2);
-  const Eigen::Matrix3d M = T * ((b - a) * of_eigenvalues(a + b, [&](double v) { return v < flat ? 0 : 1 / v; })) * T.transpose();
   Frame frame;
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) frame.mix[i][k] = M(i, k);
+  if (a.isZero(0) != b.isZero(0)) {  // not by M, which the directions of a fitted K turn a little askew
+    frame.mix = a.isZero(0) ? kFirstDecides : kSecondDecides;
+  } else {
+    const Eigen::Matrix3d M = T * ((b - a) * of_eigenvalues(a + b, [&](double v) { return v < flat ? 0 : 1 / v; })) * T.transpose();
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) frame.mix[i][k] = M(i, k);
+  }
   frame.normal = mixed_normal(n1, inward, frame.mix);
   return frame;
 }

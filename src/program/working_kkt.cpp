@@ -78,7 +78,7 @@ void WorkingKkt::drop(std::size_t k) {
       s(i, j) = b.in ? p_.A.row(b.row).dot(columns_[j].head(n_)) : columns_[j][n_ + b.row];
     if (b.in) s(i, i) += delta_;
   }
-  schur_.compute(s);
+  schur_ = algebra::Lu(std::move(s));
 }
 
 /// (p, y) of the regularised system; y of rows outside W is zero.

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/LU>
-
+#include "algebra/lu.hpp"
 #include "program/kkt.hpp"
 
 namespace dotyk::program {
@@ -50,7 +49,7 @@ class WorkingKkt {
   std::vector<char> taken_, base_;  ///< W now, and when last factored
   std::vector<Border> border_;
   std::vector<Vector> columns_;     ///< factor⁻¹ border
-  Eigen::PartialPivLU<algebra::DenseMatrix> schur_;
+  algebra::Lu schur_;
   bool stale_ = true;
   double delta_ = 0, least_ = 0;  ///< regularisation of the factor, and where to begin the next time
   int factorisations_ = 0;

@@ -61,7 +61,7 @@ Bordered Bordered::restricted(const std::vector<int>& kept) const {
 BorderedFactor::BorderedFactor(const Bordered& bordered) : scale_(scaling(bordered)) {
   A_ = scale_.asDiagonal() * bordered.A * scale_.asDiagonal();
   if (A_.rows() == 0) return;
-  lu_.compute(A_);
+  lu_ = algebra::Lu(A_);
   if (lu_.rcond() >= kSingular) return;
   dependent_.emplace();
   dependent_->setThreshold(kDependent);
@@ -71,7 +71,7 @@ BorderedFactor::BorderedFactor(const Bordered& bordered) : scale_(scaling(border
 Vector BorderedFactor::solve(const Vector& b) const {
   if (A_.rows() == 0) return b;
   const Vector scaled = scale_.cwiseProduct(b);
-  const Vector y = dependent_ ? Vector(dependent_->solve(scaled)) : Vector(lu_.solve(scaled));
+  const Vector y = dependent_ ? Vector(dependent_->solve(scaled)) : lu_.solve(scaled);
   require_agreement(A_ * y, scaled);
   return scale_.cwiseProduct(y);
 }
@@ -79,7 +79,7 @@ Vector BorderedFactor::solve(const Vector& b) const {
 Vector BorderedFactor::solve_transposed(const Vector& b) const {
   if (A_.rows() == 0) return b;
   const Vector scaled = scale_.cwiseProduct(b);
-  const Vector y = dependent_ ? Vector(dependent_->transpose().solve(scaled)) : Vector(lu_.transpose().solve(scaled));
+  const Vector y = dependent_ ? Vector(dependent_->transpose().solve(scaled)) : lu_.solve_transposed(scaled);
   require_agreement(A_.transpose() * y, scaled);
   return scale_.cwiseProduct(y);
 }

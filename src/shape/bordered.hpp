@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <optional>
 
+#include "algebra/lu.hpp"
 #include "problem/condensed.hpp"
 #include "shape/law_derivative.hpp"
 
@@ -37,7 +37,7 @@ class BorderedFactor {
  private:
   algebra::DenseMatrix A_;  ///< scaled
   algebra::Vector scale_;
-  Eigen::PartialPivLU<algebra::DenseMatrix> lu_;
+  algebra::Lu lu_;
   std::optional<Eigen::CompleteOrthogonalDecomposition<algebra::DenseMatrix>> dependent_;
 };
 

@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "algebra/dense.hpp"
+#include "algebra/lu.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::solver {
 
-using algebra::DenseMatrix;
+using algebra::Lu;
 using algebra::Vector;
 
 namespace {
@@ -29,19 +30,13 @@ double NewtonStepper::merit() const {
   return std::hypot(v.scaled_norm, (v.unbalanced - kSpring * (it_.map.scaled_alpha(it_.alpha()) - anchor_)).norm());
 }
 
-/// The estimate of the least singular value; 0 where a pivot vanishes.
-double NewtonStepper::factor(const DenseMatrix& matrix) {
-  lu_.compute(matrix);
-  if (!(lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0)) return 0;
-  return lu_.rcond() * matrix.cwiseAbs().colwise().sum().maxCoeff();
-}
-
 bool NewtonStepper::linear_solve(const NaturalMap::Value& v, Place& solution) {
   NaturalMap::System system = it_.map.linearise(v);
   singular_value_ = 1;
   Vector solved(0);
   if (system.matrix.size() > 0) {
-    double least = singular_value_ = factor(system.matrix);
+    Lu lu(system.matrix);
+    double least = singular_value_ = lu.inverse_norm_reciprocal();
     if (watch_) singular_value_ = algebra::smallest_singular_value(system.matrix);
     const Eigen::Index k = it_.alpha().size();
     if (!(least > kSingular) && !held() && k > 0) {
@@ -52,10 +47,11 @@ bool NewtonStepper::linear_solve(const NaturalMap::Value& v, Place& solution) {
       ++held_;
       system.matrix.diagonal().tail(k).array() += kSpring;
       system.right_side.tail(k) += kSpring * anchor_;
-      least = factor(system.matrix);
+      lu = Lu(system.matrix);
+      least = lu.inverse_norm_reciprocal();
     }
     if (!(least > kSingular)) return false;
-    solved = lu_.solve(system.right_side);
+    solved = lu.solve(system.right_side);
   }
   it_.map.take(system, solved, solution.lambda, solution.alpha);
   return solution.lambda.allFinite() && solution.alpha.allFinite();

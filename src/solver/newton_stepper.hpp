@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <string>
 #include <vector>
 
@@ -42,13 +41,11 @@ class NewtonStepper {
   bool held() const { return anchor_.size() > 0; }
   double merit() const;
   bool linear_solve(const NaturalMap::Value& v, Place& solution);
-  double factor(const algebra::DenseMatrix& matrix);
   bool damped_step_to(const Place& solution);
   void fixed_point_steps();
 
   RowIteration& it_;
   const bool watch_;
-  Eigen::PartialPivLU<algebra::DenseMatrix> lu_;
   double singular_value_ = 1;
   std::vector<double> merits_;  ///< the last few
   algebra::Vector anchor_;      ///< a₀ of the springs; empty: none

@@ -1,9 +1,9 @@
 #include "solver/proximal.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/lu.hpp"
 #include "base/text.hpp"
 #include "solver/projection.hpp"
 
@@ -81,7 +81,7 @@ class Springs {
     system.matrix.diagonal().tail(anchor_.size()).array() += holding_;
     system.right_side.tail(anchor_.size()) += holding_ * anchor_;
     Vector solved(0);
-    if (system.matrix.size() > 0) solved = Eigen::PartialPivLU<DenseMatrix>(system.matrix).solve(system.right_side);
+    if (system.matrix.size() > 0) solved = algebra::Lu(system.matrix).solve(system.right_side);
     if (!solved.allFinite()) return false;
     Place to;
     map_.take(system, solved, to.lambda, to.alpha);

@@ -1,12 +1,12 @@
 #include "solver/screws.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "algebra/bounded_least_squares.hpp"
 #include "algebra/dense.hpp"
+#include "algebra/lu.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -63,7 +63,7 @@ Screws::Screws(const Problem& problem, const problem::RigidMotions& rigid, std::
 
 double Screws::regularity() const { return regularity_of(pick(N_, rows_)); }
 
-double Screws::determinant() const { return std::abs(pick(N_, rows_).partialPivLu().determinant()); }
+double Screws::determinant() const { return algebra::singular_values(pick(N_, rows_)).prod(); }
 
 bool Screws::regular(const std::vector<int>& rows) const {
   return regularity_of(pick(N_, rows)) > kRegular;
@@ -149,10 +149,10 @@ class ScrewStep final : public Step {
         lambda[r] = l.value[r];
     }
     const DenseMatrix N_S = pick(condensed_.N(), s);
-    const Eigen::PartialPivLU<DenseMatrix> motions(N_S), equilibrium(N_S.transpose());
-    const Vector balance = equilibrium.solve(condensed_.e() - condensed_.N().transpose() * lambda);
+    const algebra::Lu motions(N_S);
+    const Vector balance = motions.solve_transposed(Vector(condensed_.e() - condensed_.N().transpose() * lambda));
     for (std::size_t k = 0; k < s.size(); ++k) lambda[s[k]] = balance[static_cast<Eigen::Index>(k)];
-    if (!other.empty() && !add_others(l, other, equilibrium, lambda)) return false;
+    if (!other.empty() && !add_others(l, other, motions, lambda)) return false;
     const Vector jump = condensed_.jump(lambda, Vector());
     alpha_ = motions.solve(-pick(jump, s));
     lambda_ = lambda;
@@ -165,9 +165,9 @@ class ScrewStep final : public Step {
  private:
   /// Adds to λ (in equilibrium) what closes the other active rows, Z μ: μ on these, the screws following.
   bool add_others(const Linearisation& l, const std::vector<int>& other,
-                  const Eigen::PartialPivLU<DenseMatrix>& equilibrium, Vector& lambda) const {
+                  const algebra::Lu& motions, Vector& lambda) const {
     const std::vector<int>& s = screws_.rows();
-    const DenseMatrix T = -equilibrium.solve(pick(condensed_.N(), other).transpose());  // screws × others
+    const DenseMatrix T = -motions.solve_transposed(DenseMatrix(pick(condensed_.N(), other).transpose()));  // screws × others
     const Eigen::Index n = static_cast<Eigen::Index>(other.size());
     DenseMatrix Z = DenseMatrix::Zero(condensed_.rows(), n);
     for (Eigen::Index j = 0; j < n; ++j) {

@@ -1,11 +1,11 @@
 #include "solver/uzawa_pdas.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <deque>
 #include <optional>
 
+#include "algebra/lu.hpp"
 #include "base/text.hpp"
 #include "solver/projection.hpp"
 #include "solver/stationary_iteration.hpp"
@@ -107,9 +107,9 @@ class Alternation {
     const NaturalMap::System system = map_->linearise(v);
     Vector solved(0), lambda, alpha;
     if (system.matrix.size() > 0) {
-      const Eigen::PartialPivLU<DenseMatrix> lu(system.matrix);
+      const algebra::Lu lu(system.matrix);
       // Rows that depend on each other: their multipliers of least norm.
-      solved = lu.rcond() > 1e-15 ? Vector(lu.solve(system.right_side))
+      solved = lu.rcond() > 1e-15 ? lu.solve(system.right_side)
                                   : Vector(system.matrix.completeOrthogonalDecomposition().solve(system.right_side));
     }
     map_->take(system, solved, lambda, alpha);
