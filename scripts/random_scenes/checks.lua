@@ -3,7 +3,8 @@
 --
 -- Tolerances. Methods end at a natural residual of 1e-10 of the greatest force and lose some digits where stiffnesses differ by six
 -- orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest one; where nothing is pressed,
--- forces to 1e-9 of the stiffness and displacements to 1e-15 of the size. Rounding of large motions is 1e-12 of the forces that strains
+-- forces to 1e-9 of the stiffness and displacements to 1e-15 of the size. A node's force is known to 1e-9 of the greatest stress on the
+-- scene's section, which may be much as a pressure where the node's share of the area is small. Rounding of large motions is 1e-12 of the forces that strains
 -- of their size would make.
 
 local laws = ...
@@ -34,7 +35,8 @@ local function scales(scene, contacts, supports, displacement)
   for _, support in ipairs(supports) do see(support.nodes) end
   scale.stress = math.max(scale.stress, 1e-6 * scene.stiffest * scale.length / scene.size)
   if scale.stress < 1e-8 * scene.stiffest then scale.stress = 1e-3 * scene.stiffest end -- nothing is pressed
-  return { p = accuracy * scale.stress, u = accuracy * scale.length, stress = scale.stress, length = scale.length }
+  return { p = accuracy * scale.stress, u = accuracy * scale.length, stress = scale.stress, length = scale.length,
+    force = 1e-3 * accuracy * scale.stress * scene.size^(scene.dimension - 1) }
 end
 
 -- 2. Laws. Friction: at most `bound`; below it no slip, against the slip where there is some. A slip known up to 10 tol.u
@@ -62,8 +64,9 @@ local function inclined(normal)
   return true
 end
 
-local function check_contact(contact, result, tol, wrong)
+local function check_contact(contact, result, scale, wrong)
   for k, node in ipairs(result.nodes) do
+    local tol = { p = math.max(scale.p, scale.force / node.weight), u = scale.u }
     local at = ("node %d of %s"):format(k, contact.name)
     local p, gap, law = node.pressure, node.gap, contact.friction
     if not (p == p and gap == gap) then wrong("not a number at %s", at) end

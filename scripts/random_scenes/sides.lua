@@ -184,9 +184,10 @@ local function touch(scene)
       if left and dice.chance(0.5) then
         local up <const> = scene.dimension
         local common <const> = math.min(left.high[up], body.high[up]) - math.max(left.low[up], body.low[up])
-        local faces <const> = not (left.disc or body.disc) -- a disc has no facet across but about its middle
-          or math.abs(left.low[up] + left.high[up] - body.low[up] - body.high[up]) < common
-        if common > 0.1 * scene.size and faces then solids.join(scene, body, left, "left", body.low[1] - left.high[1]) end
+        local apart <const> = body.low[1] - left.high[1]
+        local faces <const> = not (left.disc or body.disc) -- a disc has no facet across but about its middle, nor far away
+          or (math.abs(left.low[up] + left.high[up] - body.low[up] - body.high[up]) < common and apart < 0.5 * common)
+        if common > 0.1 * scene.size and faces then solids.join(scene, body, left, "left", apart) end
       end
     end
   end

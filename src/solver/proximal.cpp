@@ -20,7 +20,7 @@ constexpr double kPrecision = 0.1;    // ‖F‖ against ‖λ − λ_k‖ where
 constexpr double kSofter = 100, kHarder = 10;
 constexpr double kLeast = 1e-10, kGreatest = 1e6;  // of σ; beyond the latter nothing moves
 constexpr double kLeastConvex = 1e-8;  // where ρ = 1/σC: less, and rounding of x counts
-constexpr double kNoisy = 100;        // noise against what is left: beyond, steps would be taken for right that are not
+constexpr double kNoisy = 100;        // noise against what is left: beyond, springs are not made stiffer
 constexpr int kConvexSteps = 40;      // of one iteration, where they cannot go astray
 constexpr int kSections = 30;         // of one such step
 constexpr double kFlat = 1e-3;        // a slope against the first one
@@ -60,18 +60,24 @@ class Springs {
         map_(on.problem, softened_, convex ? Vector(springs.cwiseInverse()) : Vector((on.map.rho().cwiseInverse() + springs).cwiseInverse())),
         anchor_(map_.scaled_alpha(on.alpha())), holding_(sigma * std::min(kHolding, kHolding * sigma / kSigma)),
         unit_(map_.rho().size() > 0 ? std::sqrt(map_.rho().maxCoeff()) : 1), place_{on.lambda(), on.alpha()}, value_(map_.at(place_.lambda, place_.alpha)),
-        granted_(std::max(tol * on.force(), map_.rho().norm() * on.rounding())) {}
+        enough_(tol * on.force()), noise_(map_.rho().norm() * on.rounding()) {}
 
   /// False where it did not come near a solution. One step is always made: the first error may be rounding, and λ yet to move.
   bool solve() {
+    double before = INFINITY;
     for (const int most = convex_ ? kConvexSteps : kNewtonSteps; steps_ < most;) {
       if (!step()) return false;
       ++steps_;
-      if (error() <= std::max(kPrecision * moved(), granted_)) return true;
+      const double left = error();
+      rounded_ = left <= noise_ && left > 0.5 * before;
+      if (rounded_ || left <= std::max(kPrecision * moved(), enough_)) return true;
+      before = left;
     }
     return false;
   }
 
+  /// Did the rounding of x end it?
+  bool rounded() const { return rounded_; }
   Place& place() { return place_; }
   int steps() const { return steps_; }
 
@@ -135,7 +141,7 @@ class Springs {
     double low = 0, high = 1, at_low = steepest;
     move(from, way, 1);
     double at_high = slope(way);
-    if (!(steepest < 0) || at_high <= -kFlat * steepest || error() <= std::max(kFlat * norm, granted_)) return;
+    if (!(steepest < 0) || at_high <= -kFlat * steepest || error() <= std::max(kFlat * norm, enough_)) return;
     for (int k = 0; k < kSections && at_low < 0.5 * steepest; ++k) {
       const double secant = low - at_low * (high - low) / (at_high - at_low), margin = 0.05 * (high - low);
       const double length = std::clamp(secant, low + margin, high - margin);
@@ -156,9 +162,10 @@ class Springs {
   const double unit_;     ///< √ρ, the greatest: of λ against v
   Place place_;
   NaturalMap::Value value_;
-  /// A force: of tol, or of the rounding of x, of which soft springs make the more the stiffer they are.
-  const double granted_;
+  const double enough_;   ///< a force, of tol
+  const double noise_;    ///< a force: what rounding of x may make
   int steps_ = 0;
+  bool rounded_ = false;
 };
 
 }  // namespace
@@ -175,7 +182,8 @@ void Proximal::iterate(RowIteration& iteration) const {
     if (solved) {
       iteration.move_to(std::move(springs.place().lambda), std::move(springs.place().alpha));
       const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeast);
-      if (noise(iteration, harder * compliance) <= kNoisy * iteration.residual() * iteration.force()) softness = harder;
+      if (springs.rounded()) softness = std::min(kSofter * softness, std::max(softness, sigma));  // of which rounding makes less
+      else if (noise(iteration, harder * compliance) <= kNoisy * iteration.residual() * iteration.force()) softness = harder;
     } else {
       softness *= kSofter;
     }

@@ -19,7 +19,8 @@ namespace dotyk::solver {
 /// everywhere (Rockafellar's proximal method of multipliers).
 ///
 /// Otherwise Newton's steps are damped until ‖F‖ decreases, and end where ‖F‖ is a tenth of ‖λ − λ_k‖. Where they get
-/// there, σ is divided by ten, and iterations become Newton's own; where not, λ_k stays and σ grows a hundredfold.
+/// there, σ is divided by ten, and iterations become Newton's own; where not, λ_k stays and σ grows a hundredfold. It grows so, too,
+/// where rounding of x, which stiff springs turn into great forces, kept Newton's method from getting nearer.
 /// W need not be symmetric.
 struct Proximal : RowMethod {
   double sigma = 0.1;  ///< at the start: compliance of the springs against that of the rows themselves
