@@ -18,7 +18,8 @@ void dtrsm_(const char* side, const char* uplo, const char* trans, const char* d
 void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* beta, double* c, const int* ldc);
 void dgeqrf_(const int* m, const int* n, double* a, const int* lda, double* tau, double* work, const int* lwork, int* info);
-void dorgqr_(const int* m, const int* n, const int* k, double* a, const int* lda, const double* tau, double* work, const int* lwork, int* info);
+void dormqr_(const char* side, const char* trans, const int* m, const int* n, const int* k, const double* a, const int* lda, const double* tau,
+             double* c, const int* ldc, double* work, const int* lwork, int* info);
 void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int* lda, double* s, double* u,
              const int* ldu, double* vt, const int* ldvt, double* work, const int* lwork, int* iwork, int* info);
 }
@@ -79,19 +80,30 @@ DenseMatrix gram(const DenseMatrix& x) { return rank_update(x, "T"); }
 DenseMatrix square(const DenseMatrix& l) { return rank_update(l, "N"); }
 
 OrthogonalFactors orthogonal_factors(DenseMatrix x) {
+  constexpr int kPanel = 64;  // columns whose reflections are made between two questions whether to stop
   const int m = static_cast<int>(x.rows()), n = static_cast<int>(x.cols()), length = 64 * std::max(n, 1);
   if (m < n) throw std::logic_error("orthogonal factors: fewer rows than columns");
   if (n == 0) return {x, DenseMatrix(0, 0)};
   const BlasThreads threads(2.0 * m * n * n);
-  const StoppableFactoring reflecting;
   Vector tau(n), work(length);
-  int info = 0;
-  dgeqrf_(&m, &n, x.data(), &m, tau.data(), work.data(), &length, &info);
-  if (reflecting.stopped()) throw Interrupted();
-  DenseMatrix R = x.topRows(n).triangularView<Eigen::Upper>();
-  dorgqr_(&m, &n, &n, x.data(), &m, tau.data(), work.data(), &length, &info);
-  if (reflecting.stopped()) throw Interrupted();
-  return {std::move(x), std::move(R)};
+  const auto reflect = [&](const char* transposed, int j, DenseMatrix& columns, int first) {
+    ask_to_stop();
+    const StoppableFactoring reflecting;
+    const int below = m - j, width = std::min(kPanel, n - j), count = n - first;
+    int info = 0;
+    if (count > 0)
+      dormqr_("L", transposed, &below, &count, &width, &x(j, j), &m, tau.data() + j, &columns(j, first), &m, work.data(), &length, &info);
+    if (reflecting.stopped()) throw Interrupted();
+  };
+  for (int j = 0; j < n; j += kPanel) {
+    const int below = m - j, width = std::min(kPanel, n - j);
+    int info = 0;
+    dgeqrf_(&below, &width, &x(j, j), &m, tau.data() + j, work.data(), &length, &info);
+    if (j + width < n) reflect("T", j, x, j + width);
+  }
+  DenseMatrix Q = DenseMatrix::Identity(m, n);
+  for (int j = (n - 1) / kPanel * kPanel; j >= 0; j -= kPanel) reflect("N", j, Q, j);
+  return {std::move(Q), x.topRows(n).triangularView<Eigen::Upper>()};
 }
 
 DenseMatrix orthonormal(const DenseMatrix& x) {

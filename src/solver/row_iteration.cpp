@@ -142,7 +142,11 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
   if (method.from && iteration.residual() <= method.tol && iteration.next())
     iteration.record();  // nothing is left to do: a method whose residual does not fall at every step would first go away from there
   else
-    method.iterate(iteration);
+    try {
+      const algebra::StopFactoring stop(monitor);
+      method.iterate(iteration);
+    } catch (const Interrupted&) {  // the best of its iterates is kept
+    }
   Result result = iteration.finish();
   const Vector alpha = iteration.alpha();
   result.method = method.name();

@@ -39,6 +39,17 @@ TEST_CASE("dense kernels agree with Eigen") {
   }
 }
 
+TEST_CASE("orthogonal factors, within a panel and beyond") {
+  test::Random random(22);
+  for (const auto& [m, n] : {std::pair(1, 1), {5, 3}, {64, 64}, {200, 65}, {300, 130}}) {
+    const DenseMatrix X = random.matrix(m, n);
+    const OrthogonalFactors f = orthogonal_factors(X);
+    CHECK(f.R.isUpperTriangular(0));
+    CHECK(test::relative(f.Q * f.R, X) < 1e-13);
+    CHECK(test::relative(f.Q.transpose() * f.Q, DenseMatrix::Identity(n, n)) < 1e-13);
+  }
+}
+
 namespace {
 
 /// Asks to stop at the question of this number.
@@ -80,6 +91,7 @@ TEST_CASE("large dense kernels, taken in pieces, are the same, and end where the
   const StopFactoring watched(soon);
   CHECK_THROWS_AS(square(A), Interrupted);
   CHECK_THROWS_AS(cholesky(A), Interrupted);
+  CHECK_THROWS_AS(orthogonal_factors(A), Interrupted);
 }
 
 TEST_CASE("dense Cholesky refuses what is not positive definite") {
