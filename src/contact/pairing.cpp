@@ -218,11 +218,18 @@ PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairin
   }
   const Pairing used = pairing.value_or(Pairing::mortar);
   Rows here = paired(first, second, used, added, interference, monitor);
-  const double wider = wider_across(here.rows, first, second);
-  // A part that lies above itself would have rows on all its sheets.
-  if (!here.folded && (used == Pairing::mortar ? wider > kAlike : wider < 1 / kAlike))
-    return chords_seen({used, paired(second, first, used, added, interference, monitor).rows, true}, second, first);
-  return chords_seen({used, std::move(here.rows)}, first, second);
+  const auto other_way = [&] {
+    if (here.rows.empty()) return true;  // of order 2, node to segment: no facet has a foot at all of its nodes
+    if (here.folded) return false;       // a part that lies above itself would have rows on all its sheets
+    const double wider = wider_across(here.rows, first, second);
+    return used == Pairing::mortar ? wider > kAlike : wider < 1 / kAlike;
+  };
+  if (!other_way()) return chords_seen({used, std::move(here.rows)}, first, second);
+  Rows there = paired(second, first, used, added, interference, monitor);
+  if (there.rows.empty())
+    throw InputError(text(first.name, " and ", second.name, ": no facet of either has, from all of its nodes, a foot on the other, as node_to_segment "
+                          "asks of order 2: take smaller cells, or mortar"));
+  return chords_seen({used, std::move(there.rows), true}, second, first);
 }
 
 PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing, Monitor* monitor) {

@@ -79,3 +79,12 @@ local mixed <const> = dotyk.scene{ a, p1 }
 refused(function() mixed:contact{ p1:part "bottom", a:part "top", pairing = "matching" } end, "do not match")
 refused(function() dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {2, 2}, element = "P3" } end, "'element' must be")
 refused(function() dotyk.repeated_systems{ scene = dotyk.scene{ one }, velocities = { function(x, y) return x, 0 end } } end, "'block' is of Q2", "P1 or Q1")
+
+-- Node to segment asks for the feet of all nodes of a facet: an octagon's facet on its corner has none on a block of two cells.
+do
+  local ball <const> = dotyk.body{ name = "ball", material = steel, mesh = dotyk.mesh.disc{ center = {0, 1}, radius = 1, cells = 2, element = "Q2" } }
+  local base <const> = dotyk.body{ name = "base", material = steel, mesh = dotyk.mesh.rectangle{ from = {-0.9, -1}, to = {0.9, 0}, cells = {2, 1}, element = "Q2" } }
+  local low <const> = ball:part("low", function(x, y, nx, ny) return ny < -0.2 end)
+  refused(function() dotyk.scene{ ball, base }:contact{ low, base:part "top", pairing = "node_to_segment" } end,
+    "has, from all of its nodes, a foot on the other, as node_to_segment asks of order 2: take smaller cells, or mortar")
+end
