@@ -18,7 +18,7 @@ using mesh::Point;
 
 constexpr double kAlike = 1.05;  ///< widths of facets that count as equal
 
-/// What lies across; throws InputError where that is nothing.
+/// What lies across.
 std::vector<Across> across(const Face& first, const Face& second, Pairing pairing, const std::vector<NodeSide>& sides,
                            Monitor* monitor) {
   auto all = pairing == Pairing::mortar ? mortar(first, second, sides, monitor) : node_to_segment(first, second, sides);
@@ -26,9 +26,6 @@ std::vector<Across> across(const Face& first, const Face& second, Pairing pairin
   for (std::size_t k = 0; k < all.size(); ++k)
     if (&first.mesh == &second.mesh && all[k].partners.size() == 1 && all[k].partners.front().node == sides[k].node)
       all[k].partners.clear();
-  if (std::all_of(all.begin(), all.end(), [](const Across& a) { return a.partners.empty(); }))
-    throw InputError(text(first.name, " and ", second.name, " do not face each other: no facet of one has a facet of "
-                          "the other across from it, normals opposed"));
   return all;
 }
 
@@ -37,6 +34,13 @@ double height_of_chords(const Curvatures& here, const Curvatures& across, int no
   double most = here.greatest(node);
   for (const NodeWeight& partner : partners) most = std::max(most, across.greatest(partner.node));
   return most * width * width / 8;
+}
+
+InputError nothing_across(const Face& first, const Face& second, Pairing pairing) {
+  const bool feet = pairing == Pairing::node_to_segment && first.mesh.topology().order == 2;
+  return InputError(text(first.name, " and ", second.name, " do not face each other: no facet of one has ",
+                         feet ? "feet of all its nodes on the other, as node_to_segment asks of order 2: take smaller cells, or mortar"
+                              : "a facet of the other across from it, normals opposed"));
 }
 
 struct Rows {
@@ -219,17 +223,15 @@ PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairin
   const Pairing used = pairing.value_or(Pairing::mortar);
   Rows here = paired(first, second, used, added, interference, monitor);
   const auto other_way = [&] {
-    if (here.rows.empty()) return true;  // of order 2, node to segment: no facet has a foot at all of its nodes
-    if (here.folded) return false;       // a part that lies above itself would have rows on all its sheets
+    if (here.rows.empty() || here.folded) return here.rows.empty();  // a part that lies above itself would have rows on all its sheets
     const double wider = wider_across(here.rows, first, second);
     return used == Pairing::mortar ? wider > kAlike : wider < 1 / kAlike;
   };
-  if (!other_way()) return chords_seen({used, std::move(here.rows)}, first, second);
-  Rows there = paired(second, first, used, added, interference, monitor);
-  if (there.rows.empty())
-    throw InputError(text(first.name, " and ", second.name, ": no facet of either has, from all of its nodes, a foot on the other, as node_to_segment "
-                          "asks of order 2: take smaller cells, or mortar"));
-  return chords_seen({used, std::move(there.rows), true}, second, first);
+  if (other_way())
+    if (Rows there = paired(second, first, used, added, interference, monitor); !there.rows.empty())
+      return chords_seen({used, std::move(there.rows), true}, second, first);
+  if (here.rows.empty()) throw nothing_across(first, second, used);
+  return chords_seen({used, std::move(here.rows)}, first, second);
 }
 
 PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairing> pairing, Monitor* monitor) {
@@ -260,6 +262,7 @@ PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairin
     const Tie& tie = result.ties.back();
     apart.see(tie, all[k].widest, height_of_chords(here, there, tie.node, tie.partners, all[k].widest));
   }
+  if (result.ties.empty()) throw nothing_across(first, second, result.pairing);
   apart.refuse();
   return result;
 }

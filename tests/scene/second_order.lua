@@ -86,5 +86,5 @@ do
   local base <const> = dotyk.body{ name = "base", material = steel, mesh = dotyk.mesh.rectangle{ from = {-0.9, -1}, to = {0.9, 0}, cells = {2, 1}, element = "Q2" } }
   local low <const> = ball:part("low", function(x, y, nx, ny) return ny < -0.2 end)
   refused(function() dotyk.scene{ ball, base }:contact{ low, base:part "top", pairing = "node_to_segment" } end,
-    "has, from all of its nodes, a foot on the other, as node_to_segment asks of order 2: take smaller cells, or mortar")
+    "no facet of one has feet of all its nodes on the other, as node_to_segment asks of order 2: take smaller cells, or mortar")
 end
