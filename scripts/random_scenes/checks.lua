@@ -56,7 +56,8 @@ end
 -- A node whose distance is held, by supports on both sides, has no condition of its own, though the mean across from it may move. One that
 -- is held in a direction inclined to its normal slips as it approaches: the row of that tangent says what the normal's does, and is left out.
 local function is_held(contact)
-  return contact.first.body.held > 0 and (not contact.second or contact.second.body.held > 0)
+  local function held(body) return body.held > 0 or body.prescribed end
+  return held(contact.first.body) and (not contact.second or held(contact.second.body))
 end
 
 local function inclined(normal)

@@ -84,6 +84,7 @@ function act.law(scene, body, name)
   if not law.normal or dice.chance(0.4) then law.tangential = laws.random(across[scene.dimension - 1], stiffness, scene.stress) end
   for _, which in ipairs{ "normal", "tangential" } do
     if law[which] then table.insert(text, which .. " = " .. law[which].text) end
+    if law[which] and law[which].name == "prescribed" then body.prescribed = true end
   end
   support(scene, body, name, (":support{ %s }"):format(table.concat(text, ", ")), law)
 end

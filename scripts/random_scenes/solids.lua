@@ -251,7 +251,7 @@ end
 -- Is the node that a message names on a side that overlaps what it touches, and do laws of supports prescribe where the node is along
 -- the normal there? Sides are parallel or perpendicular to one another; on a ball the normal at a node has both directions.
 function solids.contradicted(scene, message)
-  local x, name = {}, message:match "node %d+ of '(.-)'"
+  local x, name = {}, message:match "node %d+ of '(.-)'" or message:match "contact of '(.-)'"
   for number in (message:match "at %((.-)%)" or ""):gmatch "[^, ]+" do table.insert(x, tonumber(number)) end
   local function on(body, side)
     local n, p, distance = solids.turn(scene, normal_of(scene, side)), solids.turn(scene, (side_box(scene, body, side))), 0
