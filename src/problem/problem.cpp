@@ -18,16 +18,29 @@ std::vector<const RowGroup*> Problem::group_of_rows() const {
   return of;
 }
 
-Vector Problem::row_stiffness() const {
-  Vector diagonal(unknowns());
-  for (const Block& block : blocks)
+namespace {
+
+/// Σ_j B_rj² term(K_jj), row by row.
+template <class Term>
+Vector over_diagonal(const Problem& problem, const Term& term) {
+  Vector terms(problem.unknowns());
+  for (const Block& block : problem.blocks)
     for (int j = 0; j < block.size(); ++j)  // the first entry of a lower column is its diagonal
-      diagonal[block.first + j] = block.K.valuePtr()[block.K.outerIndexPtr()[j]];
-  Vector stiffness = Vector::Zero(rows());
-  for (int r = 0; r < rows(); ++r)
-    for (SparseRows::InnerIterator it(B, r); it; ++it)
-      stiffness[r] += it.value() * it.value() * diagonal[it.col()];
-  return stiffness;
+      terms[block.first + j] = term(block.K.valuePtr()[block.K.outerIndexPtr()[j]]);
+  Vector sum = Vector::Zero(problem.rows());
+  for (int r = 0; r < problem.rows(); ++r)
+    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) sum[r] += it.value() * it.value() * terms[it.col()];
+  return sum;
+}
+
+}  // namespace
+
+Vector Problem::row_stiffness() const {
+  return over_diagonal(*this, [](double k) { return k; });
+}
+
+Vector Problem::row_compliance() const {
+  return over_diagonal(*this, [](double k) { return 1 / k; });
 }
 
 SparseRows Problem::rows_of(const Block& block) const {

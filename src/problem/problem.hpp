@@ -55,6 +55,9 @@ struct Problem {
   std::vector<const RowGroup*> group_of_rows() const;
   /// Stiffness seen by each row: Σ_j B_rj² K_jj, in force per displacement. The unit of ρ.
   algebra::Vector row_stiffness() const;
+  /// What each row yields at least to a unit of its force, the parts that it joins one after the other: Σ_j B_rj² / K_jj. Where a soft part
+  /// touches a stiff one it is the soft one's.
+  algebra::Vector row_compliance() const;
   /// B's columns of one block, in the block's own numbering.
   algebra::SparseRows rows_of(const Block& block) const;
 };

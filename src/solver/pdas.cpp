@@ -46,11 +46,11 @@ class Iteration {
   Iteration(const Problem& problem, const Pdas& settings, Monitor& monitor)
       : problem_(problem), settings_(settings), monitor_(monitor), solvable_(require_solvable(problem, result_.clock, monitor)),
         holder_(problem, rigid_),
-        rho_(settings.rho * problem.row_stiffness()) {
+        rho_(settings.rho * problem.row_stiffness()), compliance_(problem.row_compliance()) {
     // A row that no unknown moves has no stiffness; any ρ will do.
-    const double largest = rho_.size() ? rho_.maxCoeff() : 1;
-    for (double& r : rho_)
-      if (!(r > 0)) r = largest > 0 ? largest : 1;
+    const double largest = rho_.size() && rho_.maxCoeff() > 0 ? rho_.maxCoeff() : 1;
+    for (int r = 0; r < rho_.size(); ++r)
+      if (!(rho_[r] > 0)) rho_[r] = largest, compliance_[r] = settings.rho / largest;
     lambda_ = Vector::Zero(problem.rows());
     result_.method = settings.reduced ? "pdas" : settings.held ? "pdas (held)" : "pdas (full)";
   }
@@ -281,7 +281,7 @@ class Iteration {
       const double jump = std::abs(x[r] + problem_.c[r]);
       if (std::abs(problem_.c[r]) < 1e6 * jump) moved = std::max(moved, jump);
     }
-    const Vector stiffness = rho_ / settings_.rho;
+    const Vector stiffness = compliance_.cwiseInverse();
     const Vector most = (1e-13 * (force + stiffness.array() * problem_.c.array().abs().max(moved))).matrix();
     return {most, most.cwiseQuotient(stiffness)};
   }
@@ -423,7 +423,7 @@ class Iteration {
   const Solvable solvable_;
   const problem::RigidMotions& rigid_ = solvable_.rigid;
   Holder holder_;
-  Vector rho_;
+  Vector rho_, compliance_;  ///< of the rows
   problem::Condenser own_;
   const CondensedProblem* condensed_ = nullptr;
   std::optional<Screws> screws_;
