@@ -18,7 +18,7 @@ using algebra::Vector;
 /// γ against λ_max(W): a few eigenvalues beyond the others cost conjugate gradients as many steps.
 constexpr double kWeight = 10;
 /// The inner problem's residual against the outer error at which bounds and equilibrium are updated.
-constexpr double kPrecision = 0.1;
+constexpr double kInnerPrecision = 0.1;
 /// Fixed steps, of the bound 2/λ_max.
 constexpr double kStep = 0.95;
 
@@ -124,7 +124,7 @@ class Run {
   bool update_outer() {
     const Vector& lambda = it_.lambda();
     const double off = (friction_bounds(it_.problem, lambda) - bounds_).norm() + equilibrium_.unbalanced(lambda);
-    if (off == 0 || (lambda - projected(lambda, it_.jump(), it_.map.rho())).norm() > kPrecision * off) return false;
+    if (off == 0 || (lambda - projected(lambda, it_.jump(), it_.map.rho())).norm() > kInnerPrecision * off) return false;
     equilibrium_.update(lambda);
     start(lambda);
     face_.emplace(face());

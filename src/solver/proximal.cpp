@@ -16,7 +16,7 @@ using problem::CondensedProblem;
 
 constexpr int kNewtonSteps = 12;      // of one iteration
 constexpr int kHalvings = 10;         // of one step
-constexpr double kPrecision = 0.1;    // ‖F‖ against ‖λ − λ_k‖ where an iteration ends
+constexpr double kEndPrecision = 0.1;    // ‖F‖ against ‖λ − λ_k‖ where an iteration ends
 constexpr double kSofter = 100, kHarder = 10;
 constexpr double kLeast = 1e-10, kGreatest = 1e6;  // of σ; beyond the latter nothing moves
 constexpr double kLeastConvex = 1e-8;  // where ρ = 1/σC: less, and rounding of x counts
@@ -67,7 +67,7 @@ class Springs {
     for (const int most = convex_ ? kConvexSteps : kNewtonSteps; steps_ < most;) {
       if (!step()) return false;
       ++steps_;
-      if (error() <= std::max(kPrecision * moved(), granted_)) return true;
+      if (error() <= std::max(kEndPrecision * moved(), granted_)) return true;
     }
     return false;
   }

@@ -14,9 +14,9 @@ using End = SmalbeResult::End;
 using Halt = Mprgp::Halt;
 
 /// L is known up to this part of itself.
-constexpr double kRounding = 1e-13;
+constexpr double kLagrangianRounding = 1e-13;
 /// Outer steps in succession that end in rounding, no norm much less.
-constexpr int kAgain = 3;
+constexpr int kRoundingSteps = 3;
 /// ρ/‖H‖ beyond which Qx is not known any more.
 constexpr double kGreatest = 1e10;
 /// An outer step that leaves so much of ‖Qx‖ was too imprecise: ν must follow the solution for it, not the path to it.
@@ -125,7 +125,7 @@ class Run {
     const double both = std::max(gradient_, M_ * equality_);
     idle_ = halted && outer_ > 1 && both > kCrawl * best_ ? idle_ + 1 : 0;
     best_ = outer_ > 1 ? std::min(best_, both) : both;
-    if (halted && (equality_ == 0 || idle_ >= kAgain)) return End::rounding;
+    if (halted && (equality_ == 0 || idle_ >= kRoundingSteps)) return End::rounding;
     // (Qx)ᵀy = 0 for every y with Qy = 0; the nearest points of Ω to them would give ‖Qx‖² at least.
     if (program_.set->infimum(Qx_) > 0.5 * equality_ * equality_) return End::infeasible;
     if (outer_ >= settings_.max_outer || rho_ > kGreatest * program_.norm) return End::limit;
@@ -154,7 +154,7 @@ class Run {
   void sharpen() {
     const bool compared = outer_ > 1 && last_M_ == M_;  // L can be told to grow by the precision of the last step
     const double L = inner_.q(), growth = 0.5 * rho_ * equality_ * equality_;
-    const bool too_little = L + kRounding * std::abs(L) < lagrangian_ + growth;
+    const bool too_little = L + kLagrangianRounding * std::abs(L) < lagrangian_ + growth;
     const bool crawls = settings_.update == Smalbe::Update::both && equality_ > kCrawl * last_equality_;
     const bool precise = M_ <= kPrecise * program_.norm;
     last_M_ = M_;
