@@ -13,7 +13,7 @@ namespace {
 constexpr Colour ink{30, 30, 30};
 
 // The contact that carries most, of those that have facets; of equals (but for rounding) the first.
-const ContactPicture* chosen(const ScenePicture& picture) {
+const ContactPicture* inset_contact(const ScenePicture& picture) {
   const ContactPicture* best = nullptr;
   double most = 0;
   for (const ContactPicture& contact : picture.contacts) {
@@ -65,12 +65,12 @@ Plan plan_of(const ContactPicture& contact) {
 }
 
 double inset_width(const Stage& stage) {
-  if (stage.plane || !chosen(stage.picture)) return 0;
+  if (stage.plane || !inset_contact(stage.picture)) return 0;
   return std::min(10.5 * stage.em, 0.3 * stage.picture.width);
 }
 
 void draw_inset(Stage& stage, const Box& room) {
-  const ContactPicture* contact = chosen(stage.picture);
+  const ContactPicture* contact = inset_contact(stage.picture);
   if (stage.plane || !contact) return;
   const double em = stage.em;
   const Plan plan = plan_of(*contact);

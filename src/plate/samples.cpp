@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "plate/edges.hpp"
 
 namespace dotyk::plate {
 
@@ -13,8 +14,6 @@ using problem::SupportLaw;
 namespace {
 
 int edge_of(const Space& space, const mesh::Facet& facet) { return space.edges.of_cell[facet.cell][facet.local]; }
-
-Vector2d at(const mesh::Mesh& mesh, int node) { return {mesh.node(node)[0], mesh.node(node)[1]}; }
 
 SupportLaw law_at(const LawField& law, const std::string& part, const Vector2d& x) {
   const SupportLaw at = law(x[0], x[1]);
@@ -41,7 +40,7 @@ class Collector {
   void vertex(int node, int edge, double share, bool apart, bool along_node) {
     const auto [place, fresh] = seen_.emplace(std::pair(node, apart ? edge : -1), out_.size());
     if (fresh) {
-      const Vector2d x = at(*space_.mesh, node);
+      const Vector2d x = node_position(*space_.mesh, node);
       out_.push_back({support_, true, node, {edge, -1}, along_node, share, x, law_at(law_, part_, x)});
     } else {
       out_[place->second].share += share;
