@@ -9,7 +9,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour symbol_ink{40, 40, 40}, symbol_fill{255, 255, 255}, load_colour{0, 70, 110};
+constexpr Colour symbol_ink{40, 40, 40}, symbol_fill{255, 255, 255};
 
 // A frame at a boundary point: `out` away from the body, `along` its edge.
 struct Local {

@@ -27,9 +27,9 @@ SupportLaw law_at(const LawField& law, const std::string& part, const Vector2d& 
 }
 
 /// Samples of one support, those of a vertex together where `same` says so.
-class Collector {
+class SampleCollector {
  public:
-  Collector(const Space& space, const std::string& part, const LawField& law, int support, std::vector<Sample>& out)
+  SampleCollector(const Space& space, const std::string& part, const LawField& law, int support, std::vector<Sample>& out)
       : space_(space), part_(part), law_(law), support_(support), out_(out) {}
 
   void middle(int edge, double share) {
@@ -63,7 +63,7 @@ std::vector<Sample> deflection_samples(const Plate& plate, const Space& space) {
   std::vector<Sample> out;
   for (std::size_t s = 0; s < plate.edges.size(); ++s) {
     if (!plate.edges[s].deflection) continue;
-    Collector collect(space, plate.edges[s].part, plate.edges[s].deflection, static_cast<int>(s), out);
+    SampleCollector collect(space, plate.edges[s].part, plate.edges[s].deflection, static_cast<int>(s), out);
     for (const mesh::Facet f : plate.edges[s].facets) {
       const int e = edge_of(space, f);
       for (const int node : space.edges.edges[e].node) collect.vertex(node, e, space.edges.edges[e].length / 2, false, false);
@@ -77,7 +77,7 @@ std::vector<Sample> rotation_samples(const Plate& plate, const Space& space) {
   const bool morley = space.element == Element::morley;
   for (std::size_t s = 0; s < plate.edges.size(); ++s) {
     if (!plate.edges[s].rotation) continue;
-    Collector collect(space, plate.edges[s].part, plate.edges[s].rotation, static_cast<int>(s), out);
+    SampleCollector collect(space, plate.edges[s].part, plate.edges[s].rotation, static_cast<int>(s), out);
     for (const mesh::Facet f : plate.edges[s].facets) {
       const int e = edge_of(space, f);
       const Edge& edge = space.edges.edges[e];

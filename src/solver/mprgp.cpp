@@ -20,7 +20,7 @@ constexpr double kNoCurvature = 1e-14;
 /// g is never known better than this part of ‖A‖‖x‖ + ‖b‖.
 constexpr double kGradientRounding = 1e-15;
 /// Where g^P is no greater than this times the noise of g, it is noise.
-constexpr double kNoisy = 10;
+constexpr double kNoisyGradient = 10;
 /// Noticed so often in succession, rounding is all that is left.
 constexpr int kNoisySteps = 3;
 /// So many steps without a lesser ‖g^P‖, already below kSmall (‖A‖‖x‖ + ‖b‖), are steps in rounding, too.
@@ -78,7 +78,7 @@ Mprgp::Step Mprgp::unbounded(Vector direction) {
 }
 
 bool Mprgp::at_rounding() const {
-  return projected_gradient_norm() <= std::max(kGradientRounding * (norm_ * x_.norm() + b_.norm()), kNoisy * noise_);
+  return projected_gradient_norm() <= std::max(kGradientRounding * (norm_ * x_.norm() + b_.norm()), kNoisyGradient * noise_);
 }
 
 void Mprgp::refresh() {
@@ -98,7 +98,7 @@ void Mprgp::refresh() {
 /// solution it may be that of longer steps.
 void Mprgp::measure_noise(double difference) {
   noise_ = noise_known_ ? std::max(difference, 0.5 * noise_) : difference;
-  noise_known_ = projected_gradient_norm() <= 10 * kNoisy * noise_;
+  noise_known_ = projected_gradient_norm() <= 10 * kNoisyGradient * noise_;
 }
 
 void Mprgp::restart(Vector b, double norm, Vector g) {
@@ -149,7 +149,7 @@ void Mprgp::watch() {
 
 /// For a g that is computed anew.
 void Mprgp::count_noise() {
-  const double known = noise_known_ ? kNoisy * noise_ : 0;
+  const double known = noise_known_ ? kNoisyGradient * noise_ : 0;
   noisy_ = projected_gradient_norm() <= std::max(kGradientRounding * (norm_ * x_.norm() + b_.norm()), known) ? noisy_ + 1 : 0;
   if (noisy_ >= kNoisySteps && halt_ == Halt::none) halt_ = Halt::rounding;
 }

@@ -22,9 +22,9 @@ constexpr double kInnerPrecision = 0.1;
 /// Fixed steps, of the bound 2/λ_max.
 constexpr double kStep = 0.95;
 
-class Run {
+class ProjectedCgRun {
  public:
-  explicit Run(RowIteration& it)
+  explicit ProjectedCgRun(RowIteration& it)
       : it_(it), equilibrium_(equilibrium_of(it, kWeight)), coulomb_(bounds_depend_on_normal(it.problem)) {
     step_ = kStep * equilibrium_.step_bound(it.map.rho()) * it.map.rho();
     start(it.lambda());
@@ -145,6 +145,6 @@ class Run {
 
 void ProjectedCg::require_treatable(const problem::Problem& problem) const { require_springs(problem, name()); }
 
-void ProjectedCg::iterate(RowIteration& iteration) const { Run(iteration).iterate(); }
+void ProjectedCg::iterate(RowIteration& iteration) const { ProjectedCgRun(iteration).iterate(); }
 
 }  // namespace dotyk::solver

@@ -18,15 +18,15 @@ constexpr double kLagrangianRounding = 1e-13;
 /// Outer steps in succession that end in rounding, no norm much less.
 constexpr int kRoundingSteps = 3;
 /// ρ/‖H‖ beyond which Qx is not known any more.
-constexpr double kGreatest = 1e10;
+constexpr double kGreatestPenalty = 1e10;
 /// An outer step that leaves so much of ‖Qx‖ was too imprecise: ν must follow the solution for it, not the path to it.
 constexpr double kCrawl = 0.5;
 /// M/‖H‖ of an outer step so precise that it is ρ's fault.
-constexpr double kPrecise = 0.2;
+constexpr double kPreciseInner = 0.2;
 
-class Run {
+class SmalbeRun {
  public:
-  Run(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x, Vector nu)
+  SmalbeRun(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x, Vector nu)
       : program_(program), settings_(settings), caller_(caller), rho_(settings.rho * program.norm),
         M_(settings.M * program.norm), nu_(std::move(nu)),
         inner_(map(), norm(), program.b - nu_, *program.set, std::move(x), inner_settings()) {
@@ -128,7 +128,7 @@ class Run {
     if (halted && (equality_ == 0 || idle_ >= kRoundingSteps)) return End::rounding;
     // (Qx)ᵀy = 0 for every y with Qy = 0; the nearest points of Ω to them would give ‖Qx‖² at least.
     if (program_.set->infimum(Qx_) > 0.5 * equality_ * equality_) return End::infeasible;
-    if (outer_ >= settings_.max_outer || rho_ > kGreatest * program_.norm) return End::limit;
+    if (outer_ >= settings_.max_outer || rho_ > kGreatestPenalty * program_.norm) return End::limit;
     return std::nullopt;
   }
 
@@ -156,7 +156,7 @@ class Run {
     const double L = inner_.q(), growth = 0.5 * rho_ * equality_ * equality_;
     const bool too_little = L + kLagrangianRounding * std::abs(L) < lagrangian_ + growth;
     const bool crawls = settings_.update == Smalbe::Update::both && equality_ > kCrawl * last_equality_;
-    const bool precise = M_ <= kPrecise * program_.norm;
+    const bool precise = M_ <= kPreciseInner * program_.norm;
     last_M_ = M_;
     last_equality_ = equality_;
     lagrangian_ = L;
@@ -187,7 +187,7 @@ class Run {
 
 SmalbeResult minimise(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x,
                       Vector nu) {
-  return Run(program, settings, caller, std::move(x), std::move(nu))();
+  return SmalbeRun(program, settings, caller, std::move(x), std::move(nu))();
 }
 
 }  // namespace dotyk::solver
