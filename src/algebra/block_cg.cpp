@@ -14,7 +14,6 @@ namespace dotyk::algebra {
 namespace {
 
 constexpr double kDependent = 1e-10;
-constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
 
 /// An orthonormal basis of the span of the columns, dependent ones left out; none for zero columns.
 DenseMatrix orth(const DenseMatrix& columns) {
@@ -31,7 +30,7 @@ class BlockRun {
 
   /// Adds to `x` the solution for the residuals b; false where it was stopped or has used all its steps.
   bool solve(const DenseMatrix& b, DenseMatrix& x) {
-    floor_ = kRounding * b.colwise().norm().transpose();
+    floor_ = kCgRounding * b.colwise().norm().transpose();
     DenseMatrix r = C_.forward(b), y = DenseMatrix::Zero(r.rows(), r.cols()), p = orth(r);
     bool going = true;
     while (note(r) && p.cols() > 0) {

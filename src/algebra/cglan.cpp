@@ -7,7 +7,7 @@
 namespace dotyk::algebra {
 namespace {
 
-constexpr int kFewest = 10, kMost = 30;
+constexpr int kFewestPairs = 10, kMostPairs = 30;
 
 }  // namespace
 
@@ -15,7 +15,7 @@ int number_by_gap(const Vector& values) {
   const int n = static_cast<int>(values.size());
   int best = std::min(n, 1);
   double gap = 0;
-  for (int i = n > kFewest ? kFewest : 1; i <= std::min(n - 1, kMost); ++i)
+  for (int i = n > kFewestPairs ? kFewestPairs : 1; i <= std::min(n - 1, kMostPairs); ++i)
     if (values[i] > gap * values[i - 1]) {
       gap = values[i] / values[i - 1];
       best = i;
@@ -33,7 +33,7 @@ CgResult Cglan::solve(const Vector& b, Monitor& monitor) {
 }
 
 void Cglan::keep_lowest(const LanczosRecord& record) {
-  const Eigenpairs lowest = lowest_eigenpairs(record.diagonal(), record.off_diagonal(), kMost + 1);
+  const Eigenpairs lowest = lowest_eigenpairs(record.diagonal(), record.off_diagonal(), kMostPairs + 1);
   const int count = number_by_gap(lowest.values);
   values_ = lowest.values.head(count);
   residuals_ = (record.last_coupling() * lowest.vectors.row(record.steps() - 1).head(count)).cwiseAbs();

@@ -11,8 +11,6 @@
 namespace dotyk::algebra {
 namespace {
 
-constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
-
 enum class End { met, most, stopped };
 
 class Run {
@@ -28,7 +26,7 @@ class Run {
     LanczosRecord* record = first ? memory_.record : nullptr;
     if (record) record->start(r);
     ratio_ = 0;
-    goal_ = std::max(tolerance_, kRounding * b.norm());
+    goal_ = std::max(tolerance_, kCgRounding * b.norm());
     Vector p = r;
     double rho = r.squaredNorm();
     while (!near(r)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "algebra/conjugate_basis.hpp"
@@ -30,6 +31,9 @@ struct CgMemory {
   bool store = false;               ///< the directions join the basis; implies `conjugate`
   LanczosRecord* record = nullptr;  ///< gets residuals and coefficients, and orthogonalises the residuals
 };
+
+/// No run lowers ‖b − K x‖ further than to this part of ‖b‖.
+constexpr double kCgRounding = 32 * std::numeric_limits<double>::epsilon();
 
 /// Preconditioned conjugate gradients for K x = b: on Â x̂ = b̂ (see Preconditioner), from x = 0 or from what the
 /// basis gives. ‖r‖ = ‖C r̂‖, half a product with K, is formed in each eighth step and wherever its last ratio

@@ -9,7 +9,7 @@
 namespace dotyk::algebra {
 namespace {
 
-constexpr std::size_t kMost = 100000;
+constexpr std::size_t kMostRays = 100000;
 
 /// The cone {z : H z ≥ 0}, row by row of H.
 class Cone {
@@ -54,7 +54,7 @@ class Cone {
       for (const std::size_t o : outside)
         if (adjacent(tight, i, o)) kept.push_back((h.dot(rays_[i]) * rays_[o] - h.dot(rays_[o]) * rays_[i]).normalized());
     rays_ = std::move(kept);
-    if (rays_.size() > kMost) throw std::runtime_error("a polyhedron has too many vertices");
+    if (rays_.size() > kMostRays) throw std::runtime_error("a polyhedron has too many vertices");
   }
 
   /// For each ray which of the rows so far it lies on.

@@ -18,14 +18,14 @@ bool ends() {
 }
 
 /// Multiplications between two questions: a second at most.
-constexpr double kMost = 1e10;
+constexpr double kMostMultiplications = 1e10;
 /// Columns of a triangular factor made at a time.
 constexpr int kPanel = 1024;
 
 /// How many of n columns, each of so many multiplications, to take at a time: all, unless somebody may ask to stop.
 int panel(int n, double each) {
-  if (!factoring || !watcher || n * each <= 2 * kMost) return n;
-  return std::max(16, static_cast<int>(kMost / each));
+  if (!factoring || !watcher || n * each <= 2 * kMostMultiplications) return n;
+  return std::max(16, static_cast<int>(kMostMultiplications / each));
 }
 
 /// OpenBLAS's own function of the name that is taken here.

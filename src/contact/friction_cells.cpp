@@ -11,7 +11,7 @@ namespace {
 using mesh::Point;
 
 /// A facet or half an edge, and the cell it belongs to.
-struct Share {
+struct CellShare {
   const SurfaceFacet* facet;
   int index;      ///< of the facet
   Gram gram;      ///< of the facet's hats on the piece
@@ -52,8 +52,8 @@ int component_of(const SurfaceFacet& f, const std::vector<int>& component) {
 }
 
 /// Half edges, their cells named by the moving node they belong to; halves between nodes that stay are left out.
-std::vector<Share> dual_shares(const Surface& surface, const std::vector<char>& moves) {
-  std::vector<Share> shares;
+std::vector<CellShare> dual_shares(const Surface& surface, const std::vector<char>& moves) {
+  std::vector<CellShare> shares;
   for (std::size_t k = 0; k < surface.facets.size(); ++k) {
     const SurfaceFacet& f = surface.facets[k];
     const Point v = surface.mesh.facet_area_vector(f.facet);
@@ -67,10 +67,10 @@ std::vector<Share> dual_shares(const Surface& surface, const std::vector<char>& 
 }
 
 /// Numbers cells from 0, joining dual cells where a size is given.
-void join_dual_cells(const Surface& surface, double size, std::vector<Share>& shares) {
+void join_dual_cells(const Surface& surface, double size, std::vector<CellShare>& shares) {
   std::map<int, std::vector<Point>> ends;  // of each dual cell
   std::map<int, int> number;
-  for (const Share& s : shares) {
+  for (const CellShare& s : shares) {
     const Point near = surface.mesh.point(surface.mesh.facet_node(s.facet->facet, s.corner));
     ends[s.cell].push_back(near);
     ends[s.cell].push_back(surface.mesh.facet_centre(s.facet->facet));
@@ -82,10 +82,10 @@ void join_dual_cells(const Surface& surface, double size, std::vector<Share>& sh
     pieces.push_back(around(points, component[owner]));
   }
   const std::vector<int> joined = size > 0 ? partition(pieces, size) : std::vector<int>();
-  for (Share& s : shares) s.cell = size > 0 ? joined[number[s.cell]] : number[s.cell];
+  for (CellShare& s : shares) s.cell = size > 0 ? joined[number[s.cell]] : number[s.cell];
 }
 
-std::vector<Share> facet_shares(const Surface& surface, double size) {
+std::vector<CellShare> facet_shares(const Surface& surface, double size) {
   const std::vector<int> component = components(surface);
   std::vector<Piece> pieces;
   for (const SurfaceFacet& f : surface.facets) {
@@ -94,7 +94,7 @@ std::vector<Share> facet_shares(const Surface& surface, double size) {
     pieces.push_back(around(corners, component_of(f, component)));
   }
   const std::vector<int> cell = partition(pieces, size > 0 ? size : kCellWidth * facet_width(surface));
-  std::vector<Share> shares;
+  std::vector<CellShare> shares;
   for (std::size_t k = 0; k < surface.facets.size(); ++k)
     shares.push_back({&surface.facets[k], static_cast<int>(k), gram(surface.mesh, surface.facets[k].facet), -1, cell[k]});
   return shares;
@@ -117,7 +117,7 @@ struct Sum {
   double bound = 0, measure = 0;
 };
 
-void add(const Share& share, const std::vector<double>& g, Sum& sum) {
+void add(const CellShare& share, const std::vector<double>& g, Sum& sum) {
   const SurfaceFacet& f = *share.facet;
   sum.pieces.push_back({share.index, share.corner});
   for (int a = 0; a < f.corners; ++a) {
@@ -152,7 +152,7 @@ double facet_width(const Surface& surface) {
 
 std::vector<FrictionCell> friction_cells(const Surface& surface, const std::vector<double>& g,
                                          const std::vector<char>& moves, double size) {
-  std::vector<Share> shares;
+  std::vector<CellShare> shares;
   if (surface.mesh.dimension() == 2) {
     shares = dual_shares(surface, moves);
     join_dual_cells(surface, size, shares);
@@ -160,7 +160,7 @@ std::vector<FrictionCell> friction_cells(const Surface& surface, const std::vect
     shares = facet_shares(surface, size);
   }
   std::map<int, Sum> sums;
-  for (const Share& share : shares) add(share, g, sums[share.cell]);
+  for (const CellShare& share : shares) add(share, g, sums[share.cell]);
   std::vector<double> around(surface.rows, 0);
   for (const auto& [cell, sum] : sums)
     for (const auto& [row, measure] : sum.nodes) around[row] += measure;

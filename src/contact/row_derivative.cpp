@@ -39,13 +39,13 @@ Point unit_derivative(const Point& m, const Point& dm) {
 }
 
 /// What a facet gives to the sides at its nodes, and how that changes.
-struct Share {
+struct MovingShare {
   Point normal, dnormal;  ///< unit
   std::array<double, 4> weight{}, dweight{};
 };
 
-Share share(const Mesh& mesh, Facet f, const std::vector<double>& V) {
-  Share s;
+MovingShare share(const Mesh& mesh, Facet f, const std::vector<double>& V) {
+  MovingShare s;
   const Point area = mesh.facet_area_vector(f);
   const double size = length(area);
   for (int i = 0; i < 3; ++i) s.normal[i] = area[i] / size;
@@ -70,7 +70,7 @@ class Turning {
     if (shares_.empty()) return out;
     Point m{0, 0, 0}, dm{0, 0, 0};
     for (const int k : side) {
-      const Share& s = shares_[static_cast<std::size_t>(k)];
+      const MovingShare& s = shares_[static_cast<std::size_t>(k)];
       for (int a = 0; a < mesh_.topology().nodes_per_facet; ++a) {
         if (mesh_.facet_node(facets_[static_cast<std::size_t>(k)], a) != node) continue;
         out.weight += s.dweight[a];
@@ -87,7 +87,7 @@ class Turning {
  private:
   const Mesh& mesh_;
   const std::vector<Facet>& facets_;
-  std::vector<Share> shares_;
+  std::vector<MovingShare> shares_;
 };
 
 /// A row's node, which moves; n1: the part's normal there, which turns.

@@ -19,19 +19,19 @@ using mesh::Point;
 using mesh::dot;
 
 /// What one facet gives to one of its nodes.
-struct Share {
+struct NodeShare {
   Point normal;   ///< unit; of order 2 the mean at the node
   double weight;  ///< ∫ φ, of corners of order 2 ∫ of the linear hat
   int facet;
   int side = -1;
 };
 
-std::map<int, std::vector<Share>> shares(const Mesh& mesh, const std::vector<Facet>& facets) {
+std::map<int, std::vector<NodeShare>> shares(const Mesh& mesh, const std::vector<Facet>& facets) {
   const mesh::ElementTopology& t = mesh.topology();
-  std::map<int, std::vector<Share>> by_node;
+  std::map<int, std::vector<NodeShare>> by_node;
   for (std::size_t k = 0; k < facets.size(); ++k) {
     const Facet f = facets[k];
-    Share share{mesh.facet_area_vector(f), 0, static_cast<int>(k)};
+    NodeShare share{mesh.facet_area_vector(f), 0, static_cast<int>(k)};
     const double area = std::sqrt(dot(share.normal, share.normal));
     for (double& n : share.normal) n /= area;
     double weight[mesh::kMostFacetNodes] = {};
@@ -53,9 +53,9 @@ std::map<int, std::vector<Share>> shares(const Mesh& mesh, const std::vector<Fac
   return by_node;
 }
 
-NodeSide sum(int node, const std::vector<Share>& shares, int side) {
+NodeSide sum(int node, const std::vector<NodeShare>& shares, int side) {
   NodeSide result{node, {0, 0, 0}, 0, {}, {{node, 1}}};
-  for (const Share& s : shares)
+  for (const NodeShare& s : shares)
     if (s.side == side) {
       result.weight += s.weight;
       result.facets.push_back(s.facet);
@@ -72,7 +72,7 @@ std::vector<NodeSide> sides(const Mesh& mesh, const std::vector<Facet>& facets) 
   const double smooth = std::cos(kCornerAngle * std::numbers::pi / 180);
   std::vector<NodeSide> result;
   for (auto& [node, list] : shares(mesh, facets)) {
-    std::vector<Share> around = list;
+    std::vector<NodeShare> around = list;
     int count = 0;
     for (std::size_t k = 0; k < around.size(); ++k) {
       if (around[k].side >= 0) continue;

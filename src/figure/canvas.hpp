@@ -27,6 +27,8 @@ struct Box {
   }
 };
 
+constexpr Colour load_colour{0, 70, 110};  // of arrows of loads
+
 // Cuts the segment p q down to its part in the box; false: there is none.
 bool crop(Point& p, Point& q, const Box& box);
 

@@ -25,7 +25,7 @@ constexpr Colour front_yellow{255, 232, 150};
 constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
                              Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
 
-constexpr double small = 0.85, strip_gap = 0.45;  // in em
+constexpr double small_text = 0.85, strip_gap = 0.45;  // in em
 
 class Chart {
 public:
@@ -84,7 +84,7 @@ private:
       y_ticks_ = y_.log ? log_ticks(y_.low, y_.high, static_cast<int>(labels_y) + 1) : few_ticks(y_.low, y_.high, std::min(8.0, labels_y));
       double widest = 0;
       for (const Tick& t : y_ticks_.ticks) widest = std::max(widest, text_extent(t.label, em_).x);
-      if (!failed_.empty()) widest = std::max(widest, text_extent("converged", small * em_).x);
+      if (!failed_.empty()) widest = std::max(widest, text_extent("converged", small_text * em_).x);
       double last = 0;
       for (const Tick& t : x_ticks_.ticks) last = std::max(last, text_extent(t.label, em_).x);
       room_.left = 0.6 * em_ + (picture_.y_label.empty() && !y_ticks_.exponent ? 0 : 1.7 * em_) + widest + 0.5 * em_;
@@ -234,7 +234,7 @@ private:
     for (const double x : {room_.left, room_.right})
       for (const double y : {room_.top, foot}) canvas_.line({x - 0.3 * em_, y - 0.12 * em_}, {x + 0.3 * em_, y + 0.12 * em_}, std::max(1.2, em_ / 18), axes_ink);
     TextStyle style;
-    style.size = small * em_;
+    style.size = small_text * em_;
     style.across = Align::high;
     const double middle = (strip.room.bottom + strip.room.top) / 2;
     style.up = Align::low;
@@ -312,7 +312,7 @@ private:
     const double rise = ratio * run, up = std::abs(rise);
     const bool plain = guide.label.empty();
     const std::string label = plain ? number(guide.slope) : guide.label;
-    const double size = small * em_;
+    const double size = small_text * em_;
     const Point extent = text_extent(label, size);
     const double pad = 0.35 * em_;
     // With room for the labels on the right, and on the level side: below where the line rises, else above.

@@ -37,7 +37,7 @@ std::string label(const ScenePicture& p, int exponent) {
 
 Ticks bar_ticks(const ColourScale& scale) { return linear_ticks(scale.low, scale.high, 6); }
 
-constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small = 0.85, ends = 0.55, tip = 0.9;  // in em
+constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small_label = 0.85, ends = 0.55, tip = 0.9;  // in em
 
 std::string extreme(const char* name, double value, const Ticks& ticks) { return std::string(name) + " " + scaled_number(value, ticks.exponent); }
 
@@ -97,7 +97,7 @@ double colour_bar_width(const ColourScale& scale, const ScenePicture& p, double 
   double widest = 0;
   for (const Tick& t : ticks.ticks) widest = std::max(widest, text_extent(t.label, em).x);
   const double beside = (bar + tick + pad) * em + widest + 0.4 * em + 1.3 * em;
-  const double above = std::max(text_extent(extreme("max", scale.greatest, ticks), small * em).x, text_extent(extreme("min", scale.least, ticks), small * em).x);
+  const double above = std::max(text_extent(extreme("max", scale.greatest, ticks), small_label * em).x, text_extent(extreme("min", scale.least, ticks), small_label * em).x);
   return std::max(beside, above);
 }
 
@@ -142,7 +142,7 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePictur
     widest = std::max(widest, text_extent(t.label, em).x);
   }
   TextStyle end = style;
-  end.size = small * em;
+  end.size = small_label * em;
   end.colour = {70, 70, 70};
   end.up = Align::low;
   canvas.text({box.left, box.top + tip_above + ends * em}, extreme("max", scale.greatest, ticks), end);

@@ -106,8 +106,6 @@ PageCurve curve_of(const BeamView& view, BeamPanel panel) {
   return curve;
 }
 
-std::string unit_text(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
-
 std::string joined(const std::string& a, const char* sign, const std::string& b) { return a.empty() || b.empty() ? a + b : a + sign + b; }
 
 struct PanelStyle {

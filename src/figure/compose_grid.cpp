@@ -8,7 +8,6 @@ namespace dotyk::figure {
 namespace {
 
 using scene::Contact;
-using scene::ContactNode;
 using scene::Solution;
 
 /// The first node of every body in the file, and the number of all.
@@ -56,7 +55,7 @@ void add_contacts(const Solution& s, const std::vector<std::size_t>& first, Grid
   GridArray pressure{"contact_pressure", {""}, std::vector<double>(first.back(), 0.0)};
   GridArray gap{"contact_gap", {""}, std::vector<double>(first.back(), NAN)};
   GridArray status{"contact_status", {""}, std::vector<double>(first.back(), -1.0)};
-  const auto show = [&](std::size_t node, const ContactNode& n) {
+  const auto show = [&](std::size_t node, const scene::ContactNode& n) {
     const double p = pressure.values[node];
     if (status.values[node] >= 0 && (p > n.pressure || (p == n.pressure && gap.values[node] <= n.gap))) return;
     pressure.values[node] = n.pressure;

@@ -70,8 +70,6 @@ CurveDrawing energy_drawing(const problem::SupportGraph& graph, const GraphWindo
   return out;
 }
 
-std::string unit_text(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
-
 /// Graph and superpotential.
 std::vector<PageCell> law_cells(const SupportLaw& law, LawSide of, bool turned, const std::optional<WorkingPoint>& at, const Scales& scale, const Units& units) {
   const double sign = turned ? -1 : 1;

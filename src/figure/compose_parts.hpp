@@ -1,6 +1,8 @@
 // What compose_beam.cpp and compose_law.cpp share.
 #pragma once
 
+#include <string>
+
 #include "figure/compose_beam.hpp"
 #include "problem/support_graph.hpp"
 
@@ -13,5 +15,8 @@ struct WorkingPoint {
 WorkingPoint working_point(const ViewedLaw& at, const Scales& scale);
 
 BeamDrawing beam_drawing(const BeamView& view);
+
+// " [N]" after the name of a quantity; nothing where units are not given.
+inline std::string unit_text(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
 
 }  // namespace dotyk::figure

@@ -10,10 +10,10 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour ink{30, 30, 30};
+constexpr Colour outline_ink{30, 30, 30};
 
 // The contact that carries most, of those that have facets; of equals (but for rounding) the first.
-const ContactPicture* chosen(const ScenePicture& picture) {
+const ContactPicture* inset_contact(const ScenePicture& picture) {
   const ContactPicture* best = nullptr;
   double most = 0;
   for (const ContactPicture& contact : picture.contacts) {
@@ -65,12 +65,12 @@ Plan plan_of(const ContactPicture& contact) {
 }
 
 double inset_width(const Stage& stage) {
-  if (stage.plane || !chosen(stage.picture)) return 0;
+  if (stage.plane || !inset_contact(stage.picture)) return 0;
   return std::min(10.5 * stage.em, 0.3 * stage.picture.width);
 }
 
 void draw_inset(Stage& stage, const Box& room) {
-  const ContactPicture* contact = chosen(stage.picture);
+  const ContactPicture* contact = inset_contact(stage.picture);
   if (stage.plane || !contact) return;
   const double em = stage.em;
   const Plan plan = plan_of(*contact);
@@ -96,13 +96,13 @@ void draw_inset(Stage& stage, const Box& room) {
   draw_shear(stage, *contact, at, plan.across, plan.up);
   const std::vector<int> edges = rim(contact->facets, contact->nodes_per_facet);
   for (std::size_t e = 0; e + 1 < edges.size(); e += 2)
-    stage.over.line(at[static_cast<std::size_t>(edges[e])], at[static_cast<std::size_t>(edges[e + 1])], std::max(1.2, em / 18), ink);
+    stage.over.line(at[static_cast<std::size_t>(edges[e])], at[static_cast<std::size_t>(edges[e + 1])], std::max(1.2, em / 18), outline_ink);
 
   const double half_w = scale * bounds.width() / 2, half_h = scale * bounds.height() / 2;
   TextStyle style;
   style.size = 0.85 * em;
   style.across = Align::middle;
-  style.colour = ink;
+  style.colour = outline_ink;
   stage.over.text({centre.x, centre.y + half_h + 0.25 * em}, contact->name.empty() ? "contact" : "contact " + contact->name, style);
   style.up = Align::high;
   stage.over.text({centre.x, centre.y - half_h - 0.2 * em}, std::string(1, "xyz"[plan.across]), style);

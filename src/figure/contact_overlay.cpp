@@ -9,7 +9,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour white{255, 255, 255}, pressure_fill{205, 214, 235};
+constexpr Colour rim_colour{255, 255, 255}, pressure_fill{205, 214, 235};
 constexpr std::array statuses{Status::open, Status::closed, Status::stick, Status::slip};
 
 std::vector<Point> places(const Stage& stage, const ContactPicture& contact) {
@@ -76,7 +76,7 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
       const auto a = static_cast<std::size_t>(contact.facets[f]), b = static_cast<std::size_t>(contact.facets[f + 1]);
       const Point middle{(at[a].x + at[b].x) / 2, (at[a].y + at[b].y) / 2};
       for (const std::size_t i : {a, b}) {
-        const Colour colour = pass == 0 ? white : status_colour(contact.nodes[i].status);
+        const Colour colour = pass == 0 ? rim_colour : status_colour(contact.nodes[i].status);
         const double w = pass == 0 ? 1.5 * width : width;
         stage.over.line(at[i], middle, w, colour);
         stage.over.disc(at[i], w / 2, colour);

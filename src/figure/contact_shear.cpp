@@ -16,7 +16,7 @@ double size(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 // The nodes whose arrows are drawn: of those that rub, some that stand apart.
 template <class Choice>
-std::vector<std::size_t> chosen(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, Choice choice) {
+std::vector<std::size_t> nodes_with_arrow(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, Choice choice) {
   std::vector<std::size_t> rubbing;
   std::vector<Point> places;
   for (std::size_t i = 0; i < at.size(); ++i)
@@ -45,7 +45,7 @@ void draw_shear(Stage& stage, const ContactPicture& contact) {
   std::vector<Point> at;
   for (const ContactNode& node : contact.nodes) at.push_back(stage.view.flat(stage.place(node)));
   const auto along_edge = [&](const std::vector<Point>& places) { return stage.spaced(places, 1.1 * longest * stage.em); };
-  for (const std::size_t i : chosen(stage, contact, at, along_edge)) {
+  for (const std::size_t i : nodes_with_arrow(stage, contact, at, along_edge)) {
     const auto [tail, head] = shear_arrow(stage, contact.nodes[i]);
     draw(stage, tail, head);
   }
@@ -55,7 +55,7 @@ void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<P
   if (!(stage.greatest_shear > 0)) return;
   const double half = 0.5 * stage.em / stage.greatest_shear;
   const auto on_plan = [&](const std::vector<Point>& places) { return spread(places, places, 0.85 * stage.em); };
-  for (const std::size_t i : chosen(stage, contact, at, on_plan)) {
+  for (const std::size_t i : nodes_with_arrow(stage, contact, at, on_plan)) {
     const Vec3& shear = contact.nodes[i].shear;
     const double x = half * shear[across], y = half * shear[up];
     draw(stage, {at[i].x - x, at[i].y - y}, {at[i].x + x, at[i].y + y});

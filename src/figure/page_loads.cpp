@@ -10,7 +10,6 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour load_colour{0, 70, 110};
 constexpr double load_gap = 0.2, most_load = 1.5, least_load = 0.45;  // em
 constexpr double force_length = 2.2, moment_radius = 1.0;
 

@@ -11,7 +11,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour ground_ink{70, 70, 70}, beam_ink{30, 30, 30}, white{255, 255, 255};
+constexpr Colour beam_ink{30, 30, 30}, white{255, 255, 255};
 constexpr double radius = 1.8, swing = 85 * std::numbers::pi / 180;  // of arcs: em, rad
 constexpr double most_lean = 0.45;                                   // rad; steeper slopes are drawn as this
 constexpr double stop_length = 1.1, pin_height = 1.05;               // em

@@ -207,7 +207,7 @@ LegendEntry reaction_entry(double em, double sign, bool strip, bool force) {
           }};
 }
 
-std::vector<LegendEntry> legend(const Stage& stage, const Plate& plate) {
+std::vector<LegendEntry> plan_legend(const Stage& stage, const Plate& plate) {
   const double em = stage.em;
   std::vector<LegendEntry> out = plate_legend(plate, em, support_width * em);
   if (plate.any([](const EdgeRun& run) { return run.clamped; }))
@@ -231,7 +231,7 @@ std::vector<LegendEntry> legend(const Stage& stage, const Plate& plate) {
 Additions plan_additions(const Plate& plate) {
   Additions out;
   out.axes_of_bodies = true;
-  out.legend = [&plate](const Stage& stage) { return legend(stage, plate); };
+  out.legend = [&plate](const Stage& stage) { return plan_legend(stage, plate); };
   out.bounds = [&plate](const Stage& stage, Bounds& bounds) { add_bounds(stage, plate, bounds); };
   out.below = [&plate](Stage& stage, vtkRenderer*) {
     draw_contours(stage, plate);

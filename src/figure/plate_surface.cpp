@@ -112,7 +112,7 @@ void draw_point_supports(Stage& stage, const Plate& plate) {
   }
 }
 
-std::vector<LegendEntry> legend(const Stage& stage, const Plate& plate) {
+std::vector<LegendEntry> surface_legend(const Stage& stage, const Plate& plate) {
   std::vector<LegendEntry> out = plate_legend(plate, stage.em, edge_width * stage.em);
   bool gap = false;
   for (const EdgeRun& run : plate.runs)
@@ -131,7 +131,7 @@ std::vector<LegendEntry> legend(const Stage& stage, const Plate& plate) {
 
 Additions surface_additions(const Plate& plate) {
   Additions out;
-  out.legend = [&plate](const Stage& stage) { return legend(stage, plate); };
+  out.legend = [&plate](const Stage& stage) { return surface_legend(stage, plate); };
   out.bounds = [&plate](const Stage& stage, Bounds& bounds) {
     for (const PlatePointSupport& s : plate.picture.supports) {
       const Point foot = stage.view.flat({s.x, s.y, 0});

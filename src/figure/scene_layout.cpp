@@ -11,7 +11,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour ink{30, 30, 30};
+constexpr Colour axis_ink{30, 30, 30};
 constexpr double legend_size = 0.88;  // in em
 
 // The axes stand off the scene, but bound a window.
@@ -45,21 +45,21 @@ void draw_axes(Stage& stage) {
   const Box along = stage.added.axes_of_bodies ? measured(stage) : f;
   Canvas& c = stage.over;
   if (!stage.window) {
-    c.line({along.left, f.bottom}, {along.right, f.bottom}, width, ink);
-    c.line({f.left, along.bottom}, {f.left, along.top}, width, ink);
+    c.line({along.left, f.bottom}, {along.right, f.bottom}, width, axis_ink);
+    c.line({f.left, along.bottom}, {f.left, along.top}, width, axis_ink);
   }
   TextStyle style;
   style.size = legend_size * em;
-  style.colour = ink;
+  style.colour = axis_ink;
   for (const Tick& t : ticks.x.ticks) {
     const double x = std::clamp(stage.view.origin.x + stage.view.scale * t.value, f.left, f.right);
-    c.line({x, f.bottom}, {x, f.bottom - (t.label.empty() ? 0.5 : 1) * tick}, width, ink);
+    c.line({x, f.bottom}, {x, f.bottom - (t.label.empty() ? 0.5 : 1) * tick}, width, axis_ink);
     style.across = Align::middle, style.up = Align::high;
     c.text({x, f.bottom - tick - 0.15 * em}, t.label, style);
   }
   for (const Tick& t : ticks.y.ticks) {
     const double y = std::clamp(stage.view.origin.y + stage.view.scale * t.value, f.bottom, f.top);
-    c.line({f.left, y}, {f.left - (t.label.empty() ? 0.5 : 1) * tick, y}, width, ink);
+    c.line({f.left, y}, {f.left - (t.label.empty() ? 0.5 : 1) * tick, y}, width, axis_ink);
     style.across = Align::high, style.up = Align::middle;
     c.text({f.left - tick - 0.2 * em, y}, t.label, style);
   }
@@ -80,7 +80,7 @@ void draw_triad(Stage& stage, Point at) {
     const auto i = static_cast<std::size_t>(k);
     const Point head{at.x + length * stage.view.right[i], at.y + length * stage.view.up[i]};
     if (std::hypot(head.x - at.x, head.y - at.y) < 0.2 * length) continue;
-    stage.over.arrow(at, head, std::max(1.5, stage.em / 12), 0.5 * stage.em, ink);
+    stage.over.arrow(at, head, std::max(1.5, stage.em / 12), 0.5 * stage.em, axis_ink);
     TextStyle style;
     style.size = legend_size * stage.em;
     style.across = style.up = Align::middle;
@@ -152,7 +152,7 @@ std::vector<LegendEntry> legend_entries(const Stage& stage) {
 void draw_rim(Stage& stage) {
   const Box& f = stage.frame;
   const std::array<Point, 4> corners{{{f.left, f.bottom}, {f.right, f.bottom}, {f.right, f.top}, {f.left, f.top}}};
-  stage.over.polyline(corners, std::max(1.0, stage.em / 20), ink, {}, true);
+  stage.over.polyline(corners, std::max(1.0, stage.em / 20), axis_ink, {}, true);
 }
 
 namespace {

@@ -10,7 +10,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour ground_ink{70, 70, 70}, idle_ink{175, 175, 175};
+constexpr Colour idle_ink{175, 175, 175};
 constexpr double pad_half = 0.42, pad_in = 0.13, pad_out = 0.42, neck = 0.75;  // em
 
 class Element {

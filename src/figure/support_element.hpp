@@ -34,6 +34,8 @@ struct ElementPlace {
 
 void draw_element(Canvas& canvas, const SupportElement& element, const ElementPlace& place);
 
+constexpr Colour ground_ink{70, 70, 70};
+
 // A line of ground across, hatched beyond.
 void draw_ground(Canvas& canvas, const Track& track, double s, double half, double em);
 

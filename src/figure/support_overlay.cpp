@@ -9,7 +9,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour ink{40, 40, 40}, white{255, 255, 255}, load_colour{0, 70, 110};
+constexpr Colour symbol_ink{40, 40, 40}, symbol_fill{255, 255, 255};
 
 // A frame at a boundary point: `out` away from the body, `along` its edge.
 struct Local {
@@ -21,27 +21,27 @@ struct Local {
 };
 
 void ground(Canvas& c, const Local& l, double t, double width) {
-  c.line(l(-0.6, t), l(0.6, t), width, ink);
-  for (const double s : {-0.35, 0.0, 0.35, 0.6}) c.line(l(s, t), l(s - 0.25, t + 0.28), 0.7 * width, ink);
+  c.line(l(-0.6, t), l(0.6, t), width, symbol_ink);
+  for (const double s : {-0.35, 0.0, 0.35, 0.6}) c.line(l(s, t), l(s - 0.25, t + 0.28), 0.7 * width, symbol_ink);
 }
 
 void triangle(Canvas& c, const Local& l, double base, double width) {
   const std::array<Point, 3> corners{l(0, 0), l(-0.45, base), l(0.45, base)};
-  c.convex(corners, white);
-  c.polyline(corners, width, ink, {}, true);
+  c.convex(corners, symbol_fill);
+  c.polyline(corners, width, symbol_ink, {}, true);
 }
 
 void symbol(Canvas& c, SupportKind kind, const Local& l, double width, bool roller) {
   switch (kind) {
     case SupportKind::spring: {
       const std::array<Point, 7> zigzag{l(0, 0), l(0, 0.15), l(-0.25, 0.27), l(0.25, 0.47), l(-0.25, 0.67), l(0, 0.8), l(0, 0.95)};
-      c.polyline(zigzag, width, ink);
+      c.polyline(zigzag, width, symbol_ink);
       ground(c, l, 0.95, width);
       break;
     }
     case SupportKind::displace:
-      c.arrow(l(0, 1.1), l(0, 0.08), 1.3 * width, 0.45 * l.size, ink);
-      c.line(l(-0.45, 1.1), l(0.45, 1.1), width, ink);
+      c.arrow(l(0, 1.1), l(0, 0.08), 1.3 * width, 0.45 * l.size, symbol_ink);
+      c.line(l(-0.45, 1.1), l(0.45, 1.1), width, symbol_ink);
       break;
     default:
       if (!roller) {
@@ -51,8 +51,8 @@ void symbol(Canvas& c, SupportKind kind, const Local& l, double width, bool roll
       }
       triangle(c, l, 0.6, width);
       for (const double s : {-0.25, 0.25}) {
-        c.disc(l(s, 0.77), 0.15 * l.size, ink);
-        c.disc(l(s, 0.77), 0.15 * l.size - width, white);
+        c.disc(l(s, 0.77), 0.15 * l.size, symbol_ink);
+        c.disc(l(s, 0.77), 0.15 * l.size - width, symbol_fill);
       }
       ground(c, l, 0.94, width);
   }
@@ -106,7 +106,7 @@ void draw_supports(Stage& stage) {
     }
     for (const std::size_t i : stage.spaced(at, (stage.plane ? 1.3 : 1.1) * support_size * stage.em)) {
       if (!stage.plane) {
-        stage.over.marker(space_marker(kind), at[i], 0.45 * stage.em, ink);
+        stage.over.marker(space_marker(kind), at[i], 0.45 * stage.em, symbol_ink);
         continue;
       }
       bool roller = false;
@@ -194,7 +194,7 @@ std::vector<LegendEntry> support_legend(const Stage& stage) {
                                   [&](const SupportSymbol& s) { return s.kind == kind && dot(s.normal, stage.view.towards) > 0; });
     if (seen)
       out.push_back({support_name(kind), [em, kind](Canvas& c, const Box& b) {
-                       c.marker(space_marker(kind), {(b.left + b.right) / 2, (b.bottom + b.top) / 2}, 0.45 * em, ink);
+                       c.marker(space_marker(kind), {(b.left + b.right) / 2, (b.bottom + b.top) / 2}, 0.45 * em, symbol_ink);
                      }});
   }
   return out;

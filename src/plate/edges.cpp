@@ -13,8 +13,6 @@ namespace {
 
 const double kCorner = std::cos(35 * M_PI / 180);
 
-Vector2d at(const mesh::Mesh& mesh, int node) { return {mesh.node(node)[0], mesh.node(node)[1]}; }
-
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 }  // namespace
@@ -34,9 +32,9 @@ Edges find_edges(const mesh::Mesh& mesh) {
         continue;
       }
       Edge edge{{a, b}, c, true, 0, {}, {}, {}};
-      const Vector2d along = at(mesh, b) - at(mesh, a);
+      const Vector2d along = node_position(mesh, b) - node_position(mesh, a);
       edge.length = along.norm();
-      edge.middle = (at(mesh, a) + at(mesh, b)) / 2;
+      edge.middle = (node_position(mesh, a) + node_position(mesh, b)) / 2;
       edge.tangent = along / edge.length;
       edge.normal = {edge.tangent[1], -edge.tangent[0]};
       out.edges.push_back(edge);

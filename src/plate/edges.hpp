@@ -25,6 +25,9 @@ struct Edges {
   double sign(int cell, int local) const { return edges[of_cell[cell][local]].cell == cell ? 1 : -1; }
 };
 
+/// The node in the plane.
+inline Eigen::Vector2d node_position(const mesh::Mesh& mesh, int node) { return {mesh.node(node)[0], mesh.node(node)[1]}; }
+
 Edges find_edges(const mesh::Mesh& mesh);
 
 /// The boundary at a node where it turns by less than 35° counts as smooth: as that of a curve that the mesh approximates. There

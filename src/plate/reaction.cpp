@@ -27,9 +27,9 @@ struct AtVertex {
 };
 
 /// What laws of one edge do, at its vertices; of the middle of an edge half at either end.
-class Collector {
+class ReactionCollector {
  public:
-  Collector(const Solution& s, int support) : s_(s), model_(s.model()), support_(support) {
+  ReactionCollector(const Solution& s, int support) : s_(s), model_(s.model()), support_(support) {
     if (std::find(model_.held.is.begin(), model_.held.is.end(), 1) != model_.held.is.end()) find_holding_forces();
     for (const Sample& sample : model_.deflections)
       if (sample.held) shares_[sample.place] += sample.share;
@@ -151,7 +151,7 @@ double carried(const EdgePoint& corner, const EdgePoint& next, const EdgePoint& 
 
 EdgeReaction reaction(const Solution& s, int support) {
   const Model& model = s.model();
-  const Collector collected(s, support);
+  const ReactionCollector collected(s, support);
   const auto groups = model.problem.group_of_rows();
   EdgeReaction out;
   for (const auto& [vertex, at] : collected.at) {

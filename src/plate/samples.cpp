@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "plate/edges.hpp"
 
 namespace dotyk::plate {
 
@@ -13,8 +14,6 @@ using problem::SupportLaw;
 namespace {
 
 int edge_of(const Space& space, const mesh::Facet& facet) { return space.edges.of_cell[facet.cell][facet.local]; }
-
-Vector2d at(const mesh::Mesh& mesh, int node) { return {mesh.node(node)[0], mesh.node(node)[1]}; }
 
 SupportLaw law_at(const LawField& law, const std::string& part, const Vector2d& x) {
   const SupportLaw at = law(x[0], x[1]);
@@ -28,9 +27,9 @@ SupportLaw law_at(const LawField& law, const std::string& part, const Vector2d& 
 }
 
 /// Samples of one support, those of a vertex together where `same` says so.
-class Collector {
+class SampleCollector {
  public:
-  Collector(const Space& space, const std::string& part, const LawField& law, int support, std::vector<Sample>& out)
+  SampleCollector(const Space& space, const std::string& part, const LawField& law, int support, std::vector<Sample>& out)
       : space_(space), part_(part), law_(law), support_(support), out_(out) {}
 
   void middle(int edge, double share) {
@@ -41,7 +40,7 @@ class Collector {
   void vertex(int node, int edge, double share, bool apart, bool along_node) {
     const auto [place, fresh] = seen_.emplace(std::pair(node, apart ? edge : -1), out_.size());
     if (fresh) {
-      const Vector2d x = at(*space_.mesh, node);
+      const Vector2d x = node_position(*space_.mesh, node);
       out_.push_back({support_, true, node, {edge, -1}, along_node, share, x, law_at(law_, part_, x)});
     } else {
       out_[place->second].share += share;
@@ -64,7 +63,7 @@ std::vector<Sample> deflection_samples(const Plate& plate, const Space& space) {
   std::vector<Sample> out;
   for (std::size_t s = 0; s < plate.edges.size(); ++s) {
     if (!plate.edges[s].deflection) continue;
-    Collector collect(space, plate.edges[s].part, plate.edges[s].deflection, static_cast<int>(s), out);
+    SampleCollector collect(space, plate.edges[s].part, plate.edges[s].deflection, static_cast<int>(s), out);
     for (const mesh::Facet f : plate.edges[s].facets) {
       const int e = edge_of(space, f);
       for (const int node : space.edges.edges[e].node) collect.vertex(node, e, space.edges.edges[e].length / 2, false, false);
@@ -78,7 +77,7 @@ std::vector<Sample> rotation_samples(const Plate& plate, const Space& space) {
   const bool morley = space.element == Element::morley;
   for (std::size_t s = 0; s < plate.edges.size(); ++s) {
     if (!plate.edges[s].rotation) continue;
-    Collector collect(space, plate.edges[s].part, plate.edges[s].rotation, static_cast<int>(s), out);
+    SampleCollector collect(space, plate.edges[s].part, plate.edges[s].rotation, static_cast<int>(s), out);
     for (const mesh::Facet f : plate.edges[s].facets) {
       const int e = edge_of(space, f);
       const Edge& edge = space.edges.edges[e];

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "algebra/null_space.hpp"
+#include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
 
@@ -13,9 +14,6 @@ using algebra::SparseMatrix;
 using algebra::Vector;
 
 namespace {
-
-/// Modes have greatest displacement 1: 1e-9 of that is "not at all".
-constexpr double kNotAtAll = 1e-9;
 
 /// What the rows ask of a motion at these multipliers, as combinations of rows of B: held · r = 0, and limited · r ≤ slack.
 class Conditions {

@@ -7,6 +7,9 @@
 
 namespace dotyk::problem {
 
+/// Modes have greatest displacement 1: 1e-9 of that is "not at all".
+constexpr double kNotAtAll = 1e-9;
+
 /// A motion of one block.
 struct BodyMotion {
   std::string body;

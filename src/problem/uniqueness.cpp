@@ -8,6 +8,7 @@
 
 #include "algebra/dense.hpp"
 #include "algebra/null_space.hpp"
+#include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
 
@@ -17,8 +18,6 @@ using algebra::SparseRows;
 using algebra::Vector;
 
 namespace {
-
-constexpr double kNotAtAll = 1e-9;  ///< of a unit motion
 
 /// The noticed motions that no row holds both ways: modes × count.
 SparseMatrix two_sided(const RigidMotions& rigid, const Problem& problem) {

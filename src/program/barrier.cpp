@@ -9,7 +9,7 @@ namespace dotyk::program {
 namespace {
 
 /// Least regularisation of the KKT matrix, in units of a scaled program.
-constexpr double kRegular = 1e-12;
+constexpr double kBarrierRegularisation = 1e-12;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void Barrier::start(double far) {
   }
   at_ = last_ = zero();
   if (factor(theta_inverse, 1)) {
-    regular_ = kRegular;
+    regular_ = kBarrierRegularisation;
     Vector b(n_ + m_);
     b << -p_.q, h;
     const Vector z = kkt_.solve(b);
@@ -172,7 +172,7 @@ bool Barrier::step() {
     if (has_high_[r]) theta += at_.zu[r] / at_.su[r], cu[r] = -at_.su[r] * at_.zu[r];
     if (has_low_[r] || has_high_[r]) theta_inverse[r] = 1 / theta;
   }
-  if (!factor(theta_inverse, std::max(kRegular, 0.1 * regular_))) return false;
+  if (!factor(theta_inverse, std::max(kBarrierRegularisation, 0.1 * regular_))) return false;
   const Point affine = direction(theta_inverse, cl, cu);
   Point d = affine;
   double alpha = longest(affine);

@@ -9,7 +9,7 @@ namespace {
 using Long = long double;
 using LongVector = Eigen::Matrix<Long, Eigen::Dynamic, 1>;
 
-LongVector times(const SparseMatrix& lower, const LongVector& x) {
+LongVector times_long(const SparseMatrix& lower, const LongVector& x) {
   LongVector result = LongVector::Zero(x.size());
   for (int j = 0; j < lower.cols(); ++j)
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
@@ -40,7 +40,7 @@ struct Box {
 }  // namespace
 
 Bracket bracket(const QuadraticProgram& p, const Vector& x, const Vector& y) {
-  const LongVector X = x.cast<Long>(), Px = times(p.P, X);
+  const LongVector X = x.cast<Long>(), Px = times_long(p.P, X);
   const Long quadratic = X.dot(Px), linear = p.q.cast<Long>().dot(X);
   const Long primal = quadratic / 2 + linear + p.r;
   LongVector s = Px + p.q.cast<Long>();

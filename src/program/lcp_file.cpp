@@ -11,9 +11,9 @@
 namespace dotyk::program {
 namespace {
 
-class Reader {
+class LcpReader {
  public:
-  explicit Reader(const std::string& file) : file_(file) {
+  explicit LcpReader(const std::string& file) : file_(file) {
     require_readable(file);
     bytes_ = static_cast<double>(std::filesystem::file_size(file));
     in_.open(file);
@@ -90,6 +90,6 @@ class Reader {
 
 }  // namespace
 
-Lcp read_lcp(const std::string& file) { return Reader(file).read(); }
+Lcp read_lcp(const std::string& file) { return LcpReader(file).read(); }
 
 }  // namespace dotyk::program

@@ -18,9 +18,9 @@ namespace {
 
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-class Reader {
+class QpsReader {
  public:
-  Reader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
+  QpsReader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
 
   QuadraticProgram read() {
     std::string line;
@@ -226,7 +226,7 @@ class Reader {
 
 }  // namespace
 
-QuadraticProgram read_qps(std::istream& in, const std::string& name) { return Reader(in, name).read(); }
+QuadraticProgram read_qps(std::istream& in, const std::string& name) { return QpsReader(in, name).read(); }
 
 QuadraticProgram read_qps(const std::string& file) {
   require_readable(file);

@@ -8,7 +8,7 @@
 namespace dotyk::program {
 namespace {
 
-constexpr double kRegular = 1e-14;     ///< least regularisation, in units of a scaled program
+constexpr double kLeastRegularisation = 1e-14;     ///< least regularisation, in units of a scaled program
 /// Regularisation of matrices that rounding spoils with less: where P is singular and rows are dependent,
 /// pivots are differences of numbers of size 1/δ, and δ² has to stay well above the rounding unit.
 constexpr double kSafe = 1e-7;
@@ -45,7 +45,7 @@ void WorkingKkt::factor(double least) {
     base_ = taken_;
     border_.clear();
     columns_.clear();
-    least_ = delta_ >= kSafe ? kSafe : std::max(kRegular, 0.1 * delta_);
+    least_ = delta_ >= kSafe ? kSafe : std::max(kLeastRegularisation, 0.1 * delta_);
     stale_ = false;
     return;
   }
@@ -116,7 +116,7 @@ bool WorkingKkt::probe() const {
 }
 
 WorkingKkt::Solution WorkingKkt::solve(const Vector& f, const Vector& h, const Vector& y0) {
-  if (stale_) factor(std::max(least_, kRegular));
+  if (stale_) factor(std::max(least_, kLeastRegularisation));
   Vector known = y0;
   for (int r = 0; r < m_; ++r)
     if (!taken_[r]) known[r] = 0;

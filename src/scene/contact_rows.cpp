@@ -18,9 +18,9 @@ namespace {
 bool nodal(const Contact& contact) { return contact.discretisation.multipliers == contact::Multipliers::nodal; }
 
 /// One contact's rows, as they are made.
-class Rows {
+class ContactRowMaker {
  public:
-  Rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model)
+  ContactRowMaker(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model)
       : contact_(contact), jumps_(jumps), builder_(builder), model_(model), dim_(scene.dimension()),
         first_(scene.index_of(contact.first.body.get())), second_(scene.index_of(contact.second.body.get())) {
     for (const contact::ContactRow& row : contact.rows) free_.push_back(jumps.at(row));
@@ -229,11 +229,11 @@ std::vector<Point> Model::contact_force(int index, const algebra::Vector& lambda
 }
 
 void add_normal_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model) {
-  Rows(scene, contact, jumps, builder, model).normal();
+  ContactRowMaker(scene, contact, jumps, builder, model).normal();
 }
 
 void add_friction_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model) {
-  Rows(scene, contact, jumps, builder, model).friction();
+  ContactRowMaker(scene, contact, jumps, builder, model).friction();
 }
 
 }  // namespace dotyk::scene

@@ -14,9 +14,9 @@ using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
 
 /// Rows of one LawSupport, as they are made.
-class Rows {
+class SupportRowMaker {
  public:
-  Rows(int body, const LawSupport& support, RowBuilder& builder, Model& model)
+  SupportRowMaker(int body, const LawSupport& support, RowBuilder& builder, Model& model)
       : body_(body), on_(model.bodies[body]), support_(support), builder_(builder), model_(model),
         rows_(support.nodes.size()) {}
 
@@ -122,7 +122,7 @@ class Rows {
 void add_support_rows(int body, RowBuilder& builder, Model& model) {
   model.support_row.emplace_back();
   for (const LawSupport& support : model.bodies[body].laws)
-    model.support_row.back().push_back(Rows(body, support, builder, model)());
+    model.support_row.back().push_back(SupportRowMaker(body, support, builder, model)());
 }
 
 Point law_load(const LawSupport& support, const contact::NodeSide& side, int dimension) {

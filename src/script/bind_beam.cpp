@@ -23,16 +23,12 @@ namespace {
 using beam::Beam;
 using beam::Broken;
 
-std::vector<Key> laws() {
-  return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")};
-}
-
-beam::Support support(const Arguments& from, std::string name, double x) {
+beam::Support beam_support(const Arguments& from, std::string name, double x) {
   return {std::move(name), x, law(from, "deflection"), law(from, "rotation")};
 }
 
 void add_end(Call& call, const char* name, double x, Beam& beam) {
-  if (call.has(name)) beam.supports.push_back(support(call.table(name), name, x));
+  if (call.has(name)) beam.supports.push_back(beam_support(call.table(name), name, x));
   else beam.supports.push_back({name, x, {}, {}});
 }
 
@@ -50,7 +46,7 @@ int make_beam(Call& call) {
   beam->cells = static_cast<int>(call.integer("cells"));
   add_end(call, "left", 0, *beam);
   if (call.has("supports"))
-    for (const Arguments& s : call.tables("supports")) beam->supports.push_back(support(s, text("x = ", s.number("x")), s.number("x")));
+    for (const Arguments& s : call.tables("supports")) beam->supports.push_back(beam_support(s, text("x = ", s.number("x")), s.number("x")));
   add_end(call, "right", beam->length, *beam);
   std::stable_sort(beam->supports.begin(), beam->supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   if (call.has("loads"))
@@ -62,19 +58,17 @@ int make_beam(Call& call) {
   return call.give(beam);
 }
 
-std::string show(const Beam& b) {
+std::string beam_text(const Beam& b) {
   return text("beam: length ", b.length, ", ", b.cells, " cells, EJ ", b.EJ_of ? "a function" : text(b.EJ), ", load ",
               b.q_of ? "a function" : text(b.q), ", ", b.supports.size(), " supports, ", b.loads.size(), " point loads");
 }
 
-std::vector<Key> x_key() { return {key::number("x", "from the left end").unit("length").required()}; }
-
 template <double (beam::Solution::*value)(double) const>
-int at(Call& call) {
+int value_at(Call& call) {
   return call.give((call.self<BeamResult>()->solution().*value)(call.number("x")));
 }
 
-int reaction(Call& call) {
+int beam_reaction(Call& call) {
   const beam::Solution& s = call.self<BeamResult>()->solution();
   const beam::Reaction r = s.reaction(find_support(s.beam(), call, "at"));
   return call.give(Record{"reaction", {{"force", r.force}, {"moment", r.moment}, {"deflection", r.deflection}, {"rotation", r.rotation}}});
@@ -127,17 +121,17 @@ void bind_beam_solution(Library& library) {
       .field("branches", "all local minima of the energy, the least first: more than one only with breaking supports", branches)
       .field("broken", "names of the breaking supports that are broken here", broken)
       .method({.name = "beam_solution:deflection", .help = "The deflection, positive upwards; at nodes exact where EJ is constant.", .example = "print(s:deflection(0.5))",
-               .arguments = x_key(), .run = at<&beam::Solution::deflection>})
-      .method({.name = "beam_solution:rotation", .help = "The slope of the deflection.", .example = "print(s:rotation(0))", .arguments = x_key(), .run = at<&beam::Solution::rotation>})
+               .arguments = x_key(), .run = value_at<&beam::Solution::deflection>})
+      .method({.name = "beam_solution:rotation", .help = "The slope of the deflection.", .example = "print(s:rotation(0))", .arguments = x_key(), .run = value_at<&beam::Solution::rotation>})
       .method({.name = "beam_solution:moment", .help = "The bending moment -EJ u'', by equilibrium.", .example = "print(s:moment(0.5))", .arguments = x_key(),
-               .run = at<&beam::Solution::moment>})
+               .run = value_at<&beam::Solution::moment>})
       .method({.name = "beam_solution:shear", .help = "The shear force, the derivative of the moment, by equilibrium; where it jumps, to the right.",
-               .example = "print(s:shear(0))", .arguments = x_key(), .run = at<&beam::Solution::shear>})
+               .example = "print(s:shear(0))", .arguments = x_key(), .run = value_at<&beam::Solution::shear>})
       .method({.name = "beam_solution:reaction",
                .help = "What a support does to the beam: force (up) and moment (anticlockwise), and the deflection and rotation there.",
                .example = "print(s:reaction(\"left\").force, s:reaction(0.5).force)",
                .arguments = {support_key("at").required()},
-               .run = reaction})
+               .run = beam_reaction})
       .text(show_result);
 }
 
@@ -181,9 +175,9 @@ void bind_beam(Library& library) {
             key::field("EJ", "bending stiffness, positive").unit("force·length²").otherwise("1"),
             key::integer("cells", "elements, of equal length; a support within one divides it. Rounding grows as the fourth power: 1e-12 with 32, 1e-6 with 1000").within(1, 1000).fallback(32.0),
             key::field("load", "per length, upwards: a number or a function of x").unit("force/length").otherwise("0"),
-            key::table("left", laws(), "the support at x = 0"), key::table("right", laws(), "the support at x = length"),
+            key::table("left", support_law_keys(), "the support at x = 0"), key::table("right", support_law_keys(), "the support at x = length"),
             [] {
-              Key item = key::table("", laws(), "");
+              Key item = key::table("", support_law_keys(), "");
               item.keys.insert(item.keys.begin(), key::number("x", "where").unit("length").required());
               return key::list("supports", item, "supports within the beam");
             }(),
@@ -191,7 +185,7 @@ void bind_beam(Library& library) {
                                                key::number("moment", "anticlockwise").unit("force·length").fallback(0.0)}, ""), "at points")})},
        .returns = "beam",
        .run = make_beam});
-  library.type<Beam>("A beam with its supports and loads.").field("length", "of the beam", [](const Beam& b) { return b.length; }, "length").text(show);
+  library.type<Beam>("A beam with its supports and loads.").field("length", "of the beam", [](const Beam& b) { return b.length; }, "length").text(beam_text);
   bind_beam_solution(library);
 }
 

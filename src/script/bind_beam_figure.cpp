@@ -47,7 +47,7 @@ std::vector<BeamPanel> panels(const Arguments& call, std::vector<BeamPanel> othe
   return out;
 }
 
-int render(Call& call) {
+int render_beam(Call& call) {
   const auto chosen = panels(call, {BeamPanel::deflection, BeamPanel::moment, BeamPanel::shear});
   return draw(call, figure::compose(figure::view(call.self<BeamResult>()->solution()), chosen, read_units(call)));
 }
@@ -133,7 +133,7 @@ void bind_beam_figure(Library& library) {
                        "over one x axis into a PNG file, and returns its name. Supports are coloured by what they do.",
                .example = "s:render{ file = \"a.png\", panels = { \"deflection\", \"moment\" }, units = { length = \"m\", force = \"kN\" } }",
                .arguments = {key::table(page_keys({panels_key(3, "all three")}, "{1000, 60 and 250 for each diagram and 400 for the deflection}"))},
-               .run = render})
+               .run = render_beam})
       .method({.name = "beam_solution:render_law",
                .help = "Draws the law of a support with the working point on it, its reaction against its displacement, and the superpotential beside it, "
                        "into a PNG file, and returns its name. Displacements that the law forbids are grey.",

@@ -102,7 +102,7 @@ int slide(Call& call) {
   return call.give_self();
 }
 
-int support(Call& call) {
+int part_support(Call& call) {
   const auto law = [&](const char* name) { return call.has(name) ? *call.object<problem::SupportLaw>(name) : problem::SupportLaw{}; };
   if (!call.has("normal") && !call.has("tangential")) throw InputError("name at least one law: normal or tangential");
   scene::support(*call.self<Part>(), law("normal"), law("tangential"));
@@ -138,7 +138,7 @@ int spring(Call& call) {
   return call.give_self();
 }
 
-int load(Call& call) {
+int load_part(Call& call) {
   auto part = call.self<Part>();
   const Field traction = call.field("traction", part->body->dimension());
   scene::load(*part, vector_field(traction, part->body->dimension()), call.has("case") ? call.text("case") : "");
@@ -204,7 +204,7 @@ void bind_part(Library& library) {
                .example = "top:load{ 0, -10 }\ntop:load(function(x, y) return 0, -x end)\ntop:load({ 4, 0 }, \"shear\")",
                .arguments = {key::field("traction", "its components").unit("force/length (2-D), force/area (3-D)").required(), load_case()},
                .returns = "part",
-               .run = load})
+               .run = load_part})
       .method({.name = "part:pressure",
                .help = "A load along the inward normal, constant or a function of the coordinates.",
                .example = "top:pressure(10)",
@@ -234,7 +234,7 @@ void bind_part(Library& library) {
                .arguments = {key::table({key::object<problem::SupportLaw>("normal", "the law along the normal").otherwise("free"),
                                          key::object<problem::SupportLaw>("tangential", "the law along the tangents").otherwise("free")})},
                .returns = "part",
-               .run = support})
+               .run = part_support})
       .text([](const Part& p) { return text("part ", p.label(), ": ", p.facets.size(), " facets"); });
 }
 

@@ -58,7 +58,7 @@ Data physical_data(Call& call) {
   return channel::reduced(f);
 }
 
-int make(Call& call) {
+int make_channel(Call& call) {
   bool is_reduced = false;
   for (const char* name : kReduced) is_reduced = is_reduced || call.has(name);
   auto flow = std::make_shared<ChannelFlow>();
@@ -114,7 +114,7 @@ Descriptor constructor() {
            key::choice("oscillating", {"electric", "magnetic"}, "the field that oscillates; the other is steady").fallback("electric"),
            key::integer("terms", "most terms of the transient's series").within(64, 1 << 20).fallback(4096.0)})},
       .returns = Wrapped<ChannelFlow>::name,
-      .run = make};
+      .run = make_channel};
 }
 
 void add_fields(TypeOf<ChannelFlow>& type) {

@@ -65,7 +65,7 @@ int give_at_point(Call& call, const Design& d, int body, const std::vector<doubl
   return mesh.dimension();
 }
 
-int displacement(Call& call) {
+int design_displacement(Call& call) {
   const auto d = call.self<Design>();
   const int body = body_index(*d, *call.object<scene::Body>("body"));
   return give_at_point(call, *d, body, d->state->solution()->displacement(body), [&](int i) -> const std::vector<double>& {
@@ -86,7 +86,7 @@ int contact_index(const Design& d, const scene::Contact& contact) {
   return index;
 }
 
-int contact(Call& call) {
+int design_contact(Call& call) {
   const auto d = call.self<Design>();
   lua_State* L = call.state();
   const DesignState& state = *d->state;
@@ -142,7 +142,7 @@ int along(Call& call) {
   return call.give(line);
 }
 
-std::vector<Key> point_keys() {
+std::vector<Key> design_point_keys() {
   return {key::object<scene::Body>("body", "which body").required(),
           key::number("x", "a point of the first design, at rest: it moves with the mesh").unit("length").required(),
           key::number("y", "its second coordinate").unit("length").required(), key::number("z", "in space only").unit("length")};
@@ -170,18 +170,18 @@ void bind_design(Library& library) {
       .method({.name = "design:displacement",
                .help = "The displacement, dual numbers, at a point that moves with the mesh.",
                .example = "local ux, uy = design:displacement(block, 0, 0.5)\nprint(uy.value, uy.gradient[1])",
-               .arguments = point_keys(),
-               .run = displacement})
+               .arguments = design_point_keys(),
+               .run = design_displacement})
       .method({.name = "design:position",
                .help = "Where a point of the first design is in this one, at rest: dual numbers.",
                .example = "local x, y = design:position(block, 0, 0)",
-               .arguments = point_keys(),
+               .arguments = design_point_keys(),
                .run = position})
       .method({.name = "design:contact",
                .help = "The nodes of a contact, in order: x, y (z), force, gap, weight, pressure as dual numbers, and status.",
                .example = "local sum = 0\nfor _, n in ipairs(design:contact(contact)) do sum = sum + n.pressure ^ 2 * n.weight end",
                .arguments = {key::object<scene::Contact>("contact", "which contact").required()},
-               .run = contact})
+               .run = design_contact})
       .method({.name = "design:along",
                .help = "The same design with derivatives along one direction: gradients have one entry, the one-sided derivative as "
                        "the design moves that way. At a kink it is not the negative of that along the opposite direction.",

@@ -5,6 +5,7 @@
 #include "fclib/read.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
+#include "script/result_records.hpp"
 #include "script/setups.hpp"
 #include "script/watch.hpp"
 
@@ -31,8 +32,6 @@ int read(Call& call) {
   Watch watch(call.state(), "reading");
   return call.give(std::make_shared<ContactProblem>(fclib::read(call.text("file"), watch)));
 }
-
-std::vector<double> list(const algebra::Vector& v) { return {v.begin(), v.end()}; }
 
 std::vector<std::vector<double>> rows_of_W(const ContactProblem& p) {
   std::vector<std::vector<double>> rows;

@@ -14,7 +14,7 @@ namespace {
 
 using scene::Solution;
 
-const std::vector<std::string> kFields = {"none", "displacement", "ux", "uy", "uz", "von_mises",
+const std::vector<std::string> kSceneFields = {"none", "displacement", "ux", "uy", "uz", "von_mises",
                                           "xx", "yy", "zz", "yz", "xz", "xy"};
 
 figure::SceneOptions scene_options(const Call& call, int dimension) {
@@ -34,7 +34,7 @@ figure::SceneOptions scene_options(const Call& call, int dimension) {
   return options;
 }
 
-int render(Call& call) {
+int render_scene(Call& call) {
   const auto s = call.self<Solution>();
   figure::ScenePicture picture = figure::compose(*s, scene_options(call, s->scene().dimension()));
   picture.file = call.text("file");
@@ -223,7 +223,7 @@ void bind_figure(Library& library) {
        .example = "s:render{ file = \"a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
        .arguments = {key::table(
            {key::file("file", "where to; ends in .png, its folder must exist").written().required(),
-            key::choice("field", kFields, "what the colours show").fallback("von_mises"),
+            key::choice("field", kSceneFields, "what the colours show").fallback("von_mises"),
             key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")},
                         "factor on the displacement; auto: such that it can be seen").otherwise("\"auto\", with a window 1"),
             key::boolean("contact", "contact status, pressure and obstacles").fallback(true),
@@ -241,7 +241,7 @@ void bind_figure(Library& library) {
             key::string("title", "above the figure").otherwise("none"),
             key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none"),
             size_key("{1200, 800}")})},
-       .run = render});
+       .run = render_scene});
 }
 
 }  // namespace dotyk::script

@@ -50,7 +50,7 @@ const char* example_of(const std::string& number) {
   return number == "g" ? "2" : "-1";
 }
 
-std::string show(const SupportLaw& law) { return "law: " + problem::describe(law); }
+std::string law_text(const SupportLaw& law) { return "law: " + problem::describe(law); }
 
 }  // namespace
 
@@ -69,7 +69,7 @@ void bind_law(Library& library) {
     };
     library.function({.name = name, .help = e.help, .example = "local law = " + name + "(" + example + ")", .arguments = e.numbers, .returns = "law", .run = make});
   }
-  library.type<SupportLaw>("What a support does about one displacement.").text(show);
+  library.type<SupportLaw>("What a support does about one displacement.").text(law_text);
 }
 
 }  // namespace dotyk::script

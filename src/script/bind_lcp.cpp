@@ -3,6 +3,7 @@
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/program_input.hpp"
+#include "script/result_records.hpp"
 #include "script/watch.hpp"
 
 namespace dotyk::script {
@@ -31,7 +32,7 @@ Lcp read(const Call& call) {
   return lcp;
 }
 
-int solve(Call& call) {
+int solve_lcp(Call& call) {
   const Lcp lcp = read(call);
   LcpSettings settings;
   settings.method = static_cast<LcpSettings::Method>(call.choice("method"));
@@ -48,8 +49,6 @@ int solve(Call& call) {
   watch.answer();
   return call.give(result);
 }
-
-std::vector<double> list(const algebra::Vector& v) { return {v.begin(), v.end()}; }
 
 std::vector<std::vector<int>> cycle(const LcpResult& r) {
   std::vector<std::vector<int>> out;
@@ -80,7 +79,7 @@ void bind_lcp(Library& library) {
             key::list("start", key::integer("", ""), "unknowns that are free (w = 0) in newton_min's first set").otherwise("none"),
             key::boolean("unique", "up to 16 unknowns: look for further solutions").fallback(true)})},
        .returns = "lcp_result",
-       .run = solve});
+       .run = solve_lcp});
   library.type<LcpResult>("The result of a linear complementarity problem.")
       .field("status", "\"solved\", \"several\" (more than one solution), \"none\" (there is no solution) or \"stopped\"",
              [](const LcpResult& r) { return program::text_of(r.status); })

@@ -43,7 +43,7 @@ int make_material(Call& call) {
   return 1;
 }
 
-std::string show(const Material& m) {
+std::string material_text(const Material& m) {
   if (m.stiffness) return text("material: general stiffness, ", m.stiffness->dimension, "-D");
   return "material: E = " + (m.E_varies ? "function" : text(m.E)) + ", nu = " +
          (m.nu_varies ? "function" : text(m.nu)) + ", plane " +
@@ -75,7 +75,7 @@ void bind_material(Library& library) {
              [](const Material& m) { return m.nu_varies || m.stiffness ? std::nullopt : std::optional(m.nu); })
       .field("density", "mass per volume, 0 if none was given",
              [](const Material& m) { return m.density.value_or(0); }, "mass/volume")
-      .text(show);
+      .text(material_text);
 }
 
 }  // namespace dotyk::script

@@ -32,7 +32,7 @@ Key cells_key(std::size_t axes) {
   return key::list("cells", key::integer("", ""), "number of cells along each axis").count(axes).required();
 }
 
-mesh::Family family(const Call& call) {
+mesh::Family chosen_family(const Call& call) {
   return static_cast<mesh::Family>(call.choice("element"));
 }
 
@@ -69,30 +69,30 @@ std::array<int, 3> cells(const Call& call) {
     result[i] = static_cast<int>(given[i]);
     product *= result[i];
   }
-  require_room(product, static_cast<int>(given.size()), family(call));
+  require_room(product, static_cast<int>(given.size()), chosen_family(call));
   return result;
 }
 
-int give(const Call& call, mesh::Mesh mesh) {
+int give_mesh(const Call& call, mesh::Mesh mesh) {
   return call.give(std::make_shared<MeshHandle>(MeshHandle{std::make_shared<mesh::Mesh>(std::move(mesh))}));
 }
 
 int rectangle(Call& call) {
   const auto from = call.vector("from"), to = call.vector("to");
-  return give(call, mesh::rectangle(from.data(), to.data(), cells(call).data(), family(call), gradings(call).data()));
+  return give_mesh(call, mesh::rectangle(from.data(), to.data(), cells(call).data(), chosen_family(call), gradings(call).data()));
 }
 
 int box(Call& call) {
   const auto from = call.vector("from"), to = call.vector("to");
-  return give(call, mesh::box(from.data(), to.data(), cells(call).data(), family(call), gradings(call).data()));
+  return give_mesh(call, mesh::box(from.data(), to.data(), cells(call).data(), chosen_family(call), gradings(call).data()));
 }
 
 int disc(Call& call) {
   const auto center = call.vector("center");
   const auto count = call.integer("cells");
   if (count < 1 || count > 10'000) throw InputError(text("cells is ", count, "; it must be from 1 to 10000"));
-  require_room(3.0 * static_cast<double>(count * count), 2, family(call));
-  return give(call, mesh::disc(center.data(), call.number("radius"), static_cast<int>(count), family(call)));
+  require_room(3.0 * static_cast<double>(count * count), 2, chosen_family(call));
+  return give_mesh(call, mesh::disc(center.data(), call.number("radius"), static_cast<int>(count), chosen_family(call)));
 }
 
 int transform(Call& call) {
@@ -120,11 +120,11 @@ int keep(Call& call) {
   const auto whole = call.self<MeshHandle>()->mesh;  // this one, though the function may transform the handle's
   const Function chosen = call.function("chosen");
   const auto dimension = static_cast<std::size_t>(whole->dimension());
-  return give(call, mesh::keep(*whole, [&](const mesh::Point& x) { return chosen.truth({x.data(), dimension}); },
+  return give_mesh(call, mesh::keep(*whole, [&](const mesh::Point& x) { return chosen.truth({x.data(), dimension}); },
                                call.text("part")));
 }
 
-std::vector<std::string> part_names(const MeshHandle& m) {
+std::vector<std::string> mesh_part_names(const MeshHandle& m) {
   std::vector<std::string> names;
   for (const auto& [name, facets] : m.mesh->parts) names.push_back(name);
   return names;
@@ -137,8 +137,8 @@ std::string shown(const std::vector<std::string>& names) {
   return names.size() > 12 ? text(out, " and ", names.size() - 12, " more") : out;
 }
 
-std::string show(const MeshHandle& m) {
-  const std::string parts = shown(part_names(m));
+std::string mesh_text(const MeshHandle& m) {
+  const std::string parts = shown(mesh_part_names(m));
   std::string more = m.regions.empty() ? "" : ", regions" + shown(m.regions);
   for (std::size_t i = 0; i < std::min<std::size_t>(m.notes.size(), 3); ++i) more += "\n  " + m.notes[i];
   if (m.notes.size() > 3) more += text("\n  and ", m.notes.size() - 3, " more notes: mesh.notes");
@@ -184,7 +184,7 @@ void bind_mesh(Library& library) {
       .field("node_count", "number of nodes", [](const MeshHandle& m) { return m.mesh->node_count(); })
       .field("cell_count", "number of cells", [](const MeshHandle& m) { return m.mesh->cell_count(); })
       .field("element", "\"P1\", \"Q1\", \"P2\" or \"Q2\"", [](const MeshHandle& m) { return std::string(m.mesh->topology().name); })
-      .field("parts", "names of the boundary parts", part_names)
+      .field("parts", "names of the boundary parts", mesh_part_names)
       .field("regions", "of a mesh from a file: names of the regions that its cells are of", [](const MeshHandle& m) { return m.regions; })
       .field("notes", "of a mesh from a file: what the file has and the mesh has not, sentences", [](const MeshHandle& m) { return m.notes; })
       .method({.name = "mesh:transform",
@@ -208,7 +208,7 @@ void bind_mesh(Library& library) {
                .example = "for _, piece in ipairs(m:pieces()) do print(piece) end",
                .returns = "list of meshes",
                .run = pieces})
-      .text(show);
+      .text(mesh_text);
 }
 
 }  // namespace dotyk::script

@@ -18,22 +18,22 @@ Key order_key(const char* second) {
   return key::integer("order", std::string("of the cells: 1, with straight sides between their corners, or 2: ") + second).within(1, 2).otherwise("1");
 }
 
-meshfile::Choice choice(const Arguments& given) {
+meshfile::Choice loading_choice(const Arguments& given) {
   meshfile::Choice result;
   if (given.has("region")) result.regions = given.is("region", LUA_TTABLE) ? given.texts("region") : std::vector<std::string>{given.text("region")};
   if (given.has("order")) result.order = static_cast<int>(given.integer("order"));
   return result;
 }
 
-int give(const Call& call, meshfile::Loaded loaded) {
+int give_loaded(const Call& call, meshfile::Loaded loaded) {
   return call.give(std::make_shared<MeshHandle>(
       MeshHandle{std::make_shared<mesh::Mesh>(std::move(loaded.mesh)), std::move(loaded.regions), std::move(loaded.notes)}));
 }
 
-int load(Call& call) {
+int load_mesh_file(Call& call) {
   Watch watch(call.state(), "reading");
-  const auto wanted = call.has("options") ? choice(call.table("options")) : meshfile::Choice();
-  return give(call, meshfile::load(call.text("file"), wanted, watch));
+  const auto wanted = call.has("options") ? loading_choice(call.table("options")) : meshfile::Choice();
+  return give_loaded(call, meshfile::load(call.text("file"), wanted, watch));
 }
 
 int gmsh(Call& call) {
@@ -43,9 +43,9 @@ int gmsh(Call& call) {
   const meshfile::Meshing meshing{.dimension = call.has("dimension") ? static_cast<int>(call.integer("dimension")) : 0,
                                   .size = call.has("size") ? call.number("size") : 0};
   Watch watch(call.state(), "meshing");
-  if (call.has("file")) return give(call, meshfile::mesh_geometry(call.text("file"), meshing, choice(call), watch));
+  if (call.has("file")) return give_loaded(call, meshfile::mesh_geometry(call.text("file"), meshing, loading_choice(call), watch));
   const std::string text = call.is("text", LUA_TFUNCTION) ? call.function("text").text() : call.text("text");
-  return give(call, meshfile::mesh_text(text, meshing, choice(call), watch));
+  return give_loaded(call, meshfile::mesh_text(text, meshing, loading_choice(call), watch));
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ void bind_mesh_file(Library& library) {
        .example = "s:write \"block.vtu\"\nprint(dotyk.mesh.load \"block.vtu\")\nprint(dotyk.mesh.load(\"block.vtu\", { region = \"block\" }))",
        .arguments = {key::file("file", "ends in .msh, .mesh or .vtu").required(), key::table("options", {region_key(), order_key("second order, P2 or Q2")}, "what of it").otherwise("all of it, by the corners")},
        .returns = "mesh",
-       .run = load});
+       .run = load_mesh_file});
   library.function(
       {.name = "dotyk.mesh.gmsh",
        .help = "Has Gmsh mesh a geometry: a file of its own language (.geo) or from a CAD program (.step, .stp, .brep, "

@@ -7,6 +7,7 @@
 #include "script/bind_shape.hpp"
 #include "script/interrupt.hpp"
 #include "script/library.hpp"
+#include "script/result_records.hpp"
 #include "script/watch.hpp"
 #include "shape/mma.hpp"
 #include "shape/slp.hpp"
@@ -32,9 +33,7 @@ using algebra::Vector;
 using shape::DesignRecord;
 using shape::Optimum;
 
-const std::vector<std::string> kMethods = {"slp", "mma", "ccsaq", "slsqp"};
-
-std::vector<double> list(const Vector& v) { return {v.begin(), v.end()}; }
+const std::vector<std::string> kOptimisers = {"slp", "mma", "ccsaq", "slsqp"};
 
 Record design_record(const DesignRecord& d, const std::string& refusal) {
   Record r{"design record",
@@ -178,7 +177,7 @@ class Run {
       start += (start.empty() ? "" : ", ") + std::string(number);
     }
     std::snprintf(number, sizeof number, "%.17g", record.radius);
-    write_whole_file(call_.text("file"), text("-- design ", record.design, "; shape:optimise(dofile(this file)) goes on\nreturn { method = \"", kMethods[method_], "\", start = { ", start, " }",
+    write_whole_file(call_.text("file"), text("-- design ", record.design, "; shape:optimise(dofile(this file)) goes on\nreturn { method = \"", kOptimisers[method_], "\", start = { ", start, " }",
                                               record.radius > 0 ? text(", radius = ", number) : "", " }\n"));
   }
 
@@ -189,7 +188,7 @@ class Run {
   shape::Evaluator evaluator_;
   std::vector<double> start_;
   double radius_;
-  std::size_t method_;  ///< of kMethods
+  std::size_t method_;  ///< of kOptimisers
   std::vector<Function> on_design_;
   std::vector<std::string> refusals_;
   std::shared_ptr<const shape::DesignState> best_;  // the last one accepted
@@ -221,8 +220,8 @@ Record cost(const OptimumHandle& o) {
            {"derivative_iterations", count(c.beside.iterations)}}};
 }
 
-std::vector<Key> keys() {
-  return {key::choice("method", kMethods,
+std::vector<Key> optimise_keys() {
+  return {key::choice("method", kOptimisers,
                       "slp: sequential linear programming with a trust region (simplex method of GLPK), quadratically convergent where bounds and "
                       "constraints settle the design. mma: moving asymptotes, ccsaq: the same with quadratic models, slsqp: sequential quadratic "
                       "programming, best where the optimum lies inside the bounds, as that of peak_pressure mostly does (all three of NLopt)").fallback("slp"),
@@ -247,7 +246,7 @@ void bind_optimum(Library& library) {
                "start of another run it goes on from there.",
        .example = "local best = shape:optimise{ max_designs = 5, on_design = function(k, d) print(k, d.objective) end }\n"
                   "print(best.objective, best.reason)\nlocal better = shape:optimise{ start = best, max_designs = 5 }",
-       .arguments = {key::table(keys())},
+       .arguments = {key::table(optimise_keys())},
        .returns = "optimum",
        .run = optimise});
   library.type<OptimumHandle>("Where an optimisation ended.")

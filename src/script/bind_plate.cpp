@@ -120,7 +120,7 @@ int make_plate(Call& call) {
   return call.give(std::make_shared<plate::Model>(plate::build(std::move(plate))));
 }
 
-std::string show(const plate::Model& m) {
+std::string plate_text(const plate::Model& m) {
   const Plate& p = m.plate;
   std::string out = text("plate: ", plate::element_name(p.element), ", ", p.mesh->cell_count(), " triangles, ", m.problem.unknowns(), " unknowns, ", m.problem.rows(), " rows");
   const auto& motions = m.problem.blocks.front().motions;
@@ -185,7 +185,7 @@ void bind_plate(Library& library) {
   library.type<plate::Model>("A plate with its supports and loads.")
       .field("unknowns", "free deflections and slopes", [](const plate::Model& m) { return m.problem.unknowns(); })
       .field("rows", "conditions of laws, point supports and the obstacle", [](const plate::Model& m) { return m.problem.rows(); })
-      .text(show);
+      .text(plate_text);
   bind_plate_solution(library);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 // In the order of PlateView and PlateField.
 const std::vector<std::string> kViews = {"surface", "plan"};
-const std::vector<std::string> kFields = {"none", "deflection", "mxx", "myy", "mxy", "m1", "m2", "von_mises"};
+const std::vector<std::string> kPlateFields = {"none", "deflection", "mxx", "myy", "mxy", "m1", "m2", "von_mises"};
 
 figure::PlateOptions options(const Call& call) {
   figure::PlateOptions out;
@@ -22,7 +22,7 @@ figure::PlateOptions options(const Call& call) {
   return out;
 }
 
-int render(Call& call) {
+int render_plate(Call& call) {
   figure::PlatePicture picture = figure::compose(*call.self<plate::Solution>(), options(call));
   picture.file = call.text("file");
   picture.title = call.has("title") ? call.text("title") : "";
@@ -55,7 +55,7 @@ void bind_plate_figure(Library& library) {
        .arguments = {key::table(
            {key::file("file", "where to; ends in .png, its folder must exist").written().required(),
             key::choice("view", kViews, "the deflected surface, or the plan").fallback("surface"),
-            key::choice("field", kFields, "what the colours show: deflection, moments per length, the principal ones m1 >= m2, von Mises' of them").fallback("deflection"),
+            key::choice("field", kPlateFields, "what the colours show: deflection, moments per length, the principal ones m1 >= m2, von Mises' of them").fallback("deflection"),
             key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")}, "surface: factor on the deflection; auto: such that it can be seen").fallback("auto"),
             key::boolean("edges", "edges of the triangles").otherwise("on a surface while they can be told apart, none on a plan"),
             key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's"),
@@ -63,7 +63,7 @@ void bind_plate_figure(Library& library) {
             key::string("title", "above the figure").otherwise("none"),
             units_key(),
             size_key("{1200, 800}, a plan {1200, 900}")})},
-       .run = render});
+       .run = render_plate});
 }
 
 }  // namespace dotyk::script

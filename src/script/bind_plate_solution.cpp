@@ -14,7 +14,7 @@ namespace {
 
 using plate::Solution;
 
-std::vector<Key> point_keys() { return {key::number("x", "where").unit("length").required(), key::number("y", "where").unit("length").required()}; }
+std::vector<Key> plane_point_keys() { return {key::number("x", "where").unit("length").required(), key::number("y", "where").unit("length").required()}; }
 
 int deflection(Call& call) { return call.give(call.self<Solution>()->deflection(call.number("x"), call.number("y"))); }
 
@@ -49,7 +49,7 @@ int edge_reaction(Call& call, const Solution& s, const std::string& part) {
   return call.give(Record{"reaction", {{"force", r.force}, {"length", r.length}, {"open", r.open}, {"points", points}}});
 }
 
-int reaction(Call& call) {
+int plate_reaction(Call& call) {
   const auto s = call.self<Solution>();
   if (call.is("part", LUA_TSTRING)) return edge_reaction(call, *s, call.text("part"));
   const auto number = static_cast<int>(call.number("part"));
@@ -71,7 +71,7 @@ int corners(Call& call) {
 }
 
 /// All solutions, where there are many.
-std::optional<Record> family(const Solution& s) {
+std::optional<Record> solution_family(const Solution& s) {
   if (!s.family()) return std::nullopt;
   return Record{"family", {{"from", s.family()->from}, {"to", s.family()->to}}};
 }
@@ -83,7 +83,7 @@ int motion(Call& call) {
 }
 
 /// Vertices that lie on the obstacle, and what it bears.
-std::optional<Record> contact(const Solution& s) {
+std::optional<Record> obstacle_contact(const Solution& s) {
   if (s.model().obstacle_row.empty()) return std::nullopt;
   const auto& lambda = s.result().state.lambda;
   const double noise = 1e-9 * (lambda.size() ? lambda.lpNorm<Eigen::Infinity>() : 0);
@@ -99,7 +99,7 @@ std::optional<Record> contact(const Solution& s) {
   return Record{"contact", {{"force", force}, {"nodes", nodes}}};
 }
 
-std::string show(const Solution& s) {
+std::string plate_solution_text(const Solution& s) {
   const solver::Result& r = s.result();
   std::string out = text("plate solution: ", solver::ending(r), "\n  energy ", s.energy(), ", ", s.model().problem.unknowns(), " unknowns, ", s.model().problem.rows(), " rows, ", r.clock.total, " s\n  residual: ",
                          problem::describe(s.residual()));
@@ -110,7 +110,7 @@ std::string show(const Solution& s) {
   }
   for (std::size_t k = 0; k < s.plate().supports.size(); ++k)
     out += text("\n  support at (", s.plate().supports[k].x, ", ", s.plate().supports[k].y, "): force ", plate::point_reaction(s, static_cast<int>(k)));
-  if (const auto c = contact(s)) out += text("\n  obstacle: force ", std::get<double>(c->entries[0].value));
+  if (const auto c = obstacle_contact(s)) out += text("\n  obstacle: force ", std::get<double>(c->entries[0].value));
   if (s.family()) out += text("\n  not the only solution: all are u + t motion, ", s.family()->from, " <= t <= ", s.family()->to);
   return out;
 }
@@ -129,22 +129,22 @@ void bind_plate_solution(Library& library) {
       .field("time", "seconds: total assembly motions ordering factor iterate recover", [](const Solution& s) { return time_record(s.result().clock); }, "s")
       .field("residual", "relative: equilibrium penetration complementarity law", [](const Solution& s) { return residual_record(s.residual()); })
       .field("history", "one entry an iteration: active changed residual time", [](const Solution& s) { return history_records(s.result()); })
-      .field("family", "where the solution is not the only one: all are u + t motion, from <= t <= to, motion as plate_solution:motion gives it; else nil", family)
-      .field("contact", "of the plate with its obstacle: force upwards, and nodes (x, y, force) that bear; nil without one", contact)
-      .method({.name = "plate_solution:deflection", .help = "The deflection at a point, positive upwards.", .example = "print(s:deflection(0.5, 0.5))", .arguments = point_keys(), .run = deflection})
-      .method({.name = "plate_solution:slope", .help = "The gradient of the deflection: along x and along y.", .example = "print(s:slope(0.5, 0.5))", .arguments = point_keys(), .run = slope})
+      .field("family", "where the solution is not the only one: all are u + t motion, from <= t <= to, motion as plate_solution:motion gives it; else nil", solution_family)
+      .field("contact", "of the plate with its obstacle: force upwards, and nodes (x, y, force) that bear; nil without one", obstacle_contact)
+      .method({.name = "plate_solution:deflection", .help = "The deflection at a point, positive upwards.", .example = "print(s:deflection(0.5, 0.5))", .arguments = plane_point_keys(), .run = deflection})
+      .method({.name = "plate_solution:slope", .help = "The gradient of the deflection: along x and along y.", .example = "print(s:slope(0.5, 0.5))", .arguments = plane_point_keys(), .run = slope})
       .method({.name = "plate_solution:moment",
                .help = "Bending moments per length, -D[(1 - nu) u_ij + nu Δu δ_ij]: xx, yy, xy, and the two principal ones. Means of the cells about each node, linear between.",
-               .example = "print(s:moment(0.5, 0.5).xx)", .arguments = point_keys(), .run = moment})
+               .example = "print(s:moment(0.5, 0.5).xx)", .arguments = plane_point_keys(), .run = moment})
       .method({.name = "plate_solution:motion", .help = "Where the solution is not the only one (s.family): the motion by which others differ, at a point; its greatest is 1. Else 0.",
-               .example = "print(s:motion(0.5, 0.5))", .arguments = point_keys(), .run = motion})
+               .example = "print(s:motion(0.5, 0.5))", .arguments = plane_point_keys(), .run = motion})
       .method({.name = "plate_solution:reaction",
                .help = "What a part of the edge does to the plate: force (upwards), length, how much of it is open, and points in order along the edge: x, y, at (along the edge), piece, "
                        "length, deflection, slope (outwards), force, reaction (per length), moment (per length), status (open, closed, stick, slip), corner. Of a point support, by its number: force.",
                .example = "print(s:reaction(\"edge\").force)",
                .arguments = {key::either("part", {key::string("", "a part of the edge that has laws; \"edge\" where all has the same").of<Solution>(edge_names),
                                                 key::integer("", "which of the point supports")}, "which support").required()},
-               .run = reaction})
+               .run = plate_reaction})
       .method({.name = "plate_solution:distance",
                .help = "How far this solution is from another one of the same plate, on another mesh or with the other element, relative to the other: energy, of the curvatures, weighted "
                        "by the bending stiffness; displacement, of the deflection in L2.",
@@ -153,7 +153,7 @@ void bind_plate_solution(Library& library) {
       .method({.name = "plate_solution:corners",
                .help = "The forces that the supports concentrate at the corners of the edge (x, y, force, upwards): what a corner bears beyond the reaction per length of the nodes next to it.",
                .example = "for _, c in ipairs(s:corners()) do print(c.x, c.y, c.force) end", .arguments = {}, .run = corners})
-      .text(show);
+      .text(plate_solution_text);
 }
 
 }  // namespace dotyk::script

@@ -7,6 +7,7 @@
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/program_input.hpp"
+#include "script/result_records.hpp"
 #include "script/setups.hpp"
 #include "script/watch.hpp"
 
@@ -15,10 +16,10 @@ namespace {
 
 using program::QuadraticProgram;
 
-const std::vector<std::string> kMethods = {"active_set", "interior_point", "multiplier", "least_squares"};
+const std::vector<std::string> kProgramMethods = {"active_set", "interior_point", "multiplier", "least_squares"};
 
 std::vector<Key> solve_keys() {
-  return {key::choice("method", kMethods, "active_set: exact, P semidefinite allowed; interior_point; multiplier and "
+  return {key::choice("method", kProgramMethods, "active_set: exact, P semidefinite allowed; interior_point; multiplier and "
                                           "least_squares: augmented Lagrangians for equalities, named by the update")
               .otherwise("\"active_set\""),
           key::choice("change", {"one", "many"}, "active_set: rows that change in one step").fallback("one"),
@@ -39,7 +40,7 @@ std::vector<Key> solve_keys() {
           key::boolean("verbose", "a line on standard error for each iteration").fallback(false)};
 }
 
-program::Result run(const QuadraticProgram& p, const Arguments& given, const std::string& method, Monitor& watch) {
+program::Result run_method(const QuadraticProgram& p, const Arguments& given, const std::string& method, Monitor& watch) {
   const int limit = given.has("max_iterations")
                         ? static_cast<int>(std::min<long long>(given.integer("max_iterations"), 100'000'000)) : 0;
   if (method == "active_set") {
@@ -72,21 +73,19 @@ int solve_with(Call& call, const std::shared_ptr<QuadraticProgram>& p) {
   Watch watch(call.state(), "solving", on_iteration, call.boolean("verbose"));
   auto result = std::make_shared<ProgramResult>();
   result->program = p;
-  result->method = call.has("method") ? call.text("method") : kMethods.front();
-  result->result = run(*p, call, result->method, watch);
+  result->method = call.has("method") ? call.text("method") : kProgramMethods.front();
+  result->result = run_method(*p, call, result->method, watch);
   watch.answer();
   return call.give(result);
 }
 
-int make(Call& call) {
+int make_program(Call& call) {
   const auto p = [&] {
     Watch watch(call.state(), "reading");
     return read_program(call, watch);
   }();
   return call.has("method") ? solve_with(call, p) : call.give(p);
 }
-
-std::vector<double> list(const program::Vector& v) { return {v.begin(), v.end()}; }
 
 int bounds(const QuadraticProgram& p) {
   int count = 0;
@@ -107,7 +106,7 @@ std::vector<std::string> working(const ProgramResult& r) {
   return out;
 }
 
-Record residual_record(const ProgramResult& result) {
+Record program_residual_record(const ProgramResult& result) {
   const program::Residuals& r = result.result.residual;
   return {"residual", {{"stationarity", r.stationarity}, {"feasibility", r.feasibility},
                        {"complementarity", r.complementarity}, {"stationarity_scale", r.stationarity_scale},
@@ -121,7 +120,7 @@ Record bracket_record(const ProgramResult& r) {
   return {"bracket", {{"primal", b.primal}, {"dual", b.dual}, {"gap", b.gap}, {"violation", b.violation}, {"slack", b.slack}}};
 }
 
-std::string show(const ProgramResult& r) {
+std::string program_result_text(const ProgramResult& r) {
   const program::Result& s = r.result;
   return text("program_result (", r.method, "): ", program::text_of(s.status), ", ", s.reason, "\n  objective ",
               s.objective, ", ", s.iterations, " iterations, residuals: stationarity ", s.residual.stationarity,
@@ -144,7 +143,7 @@ void bind_program(Library& library) {
                   "  \"RHS\\n rhs sum 1\\nQUADOBJ\\n x x 2\\n y y 2\\nENDATA\\n\"):close()\nprint(dotyk.qp \"small.qps\":solve{ change = \"many\" })",
        .arguments = {key::table(keys)},
        .returns = "program",
-       .run = make});
+       .run = make_program});
   library.type<QuadraticProgram>("A quadratic program: minimise 1/2 x'Px + q'x + r, low <= Ax <= high.")
       .setup("local program = dotyk.qp{ B = {{2, 0}, {0, 2}}, c = {2, 5}, D = {{1, 1}}, d = {1}, x_low = 0 }\n")
       .field("name", "its name, from a file", [](const QuadraticProgram& p) { return p.name; })
@@ -177,7 +176,7 @@ void bind_program(Library& library) {
                           "contradict one another; not convex: of negative curvature",
              [](const R& r) { return list(r.result.direction); })
       .field("objective", "its value at x", [](const R& r) { return r.result.objective; })
-      .field("residual", "stationarity, feasibility, complementarity, relative to the scales given beside them", residual_record)
+      .field("residual", "stationarity, feasibility, complementarity, relative to the scales given beside them", program_residual_record)
       .field("bracket", "where the optimum lies, from x and y alone in extended precision: primal (the objective at x), "
                         "dual (no feasible point falls below it), gap between them and slack (what violated rows may "
                         "hide), both relative, violation", bracket_record)
@@ -195,7 +194,7 @@ void bind_program(Library& library) {
       .field("penalty", "its last penalty", [](const R& r) { return r.result.penalty; })
       .field("seconds", "time taken", [](const R& r) { return r.result.seconds; }, "s")
       .field("program", "what was solved", [](const R& r) { return r.program; })
-      .text(show);
+      .text(program_result_text);
 }
 
 }  // namespace dotyk::script

@@ -54,7 +54,7 @@ int refine(Call& call) {
   return call.give_self();
 }
 
-std::vector<std::string> part_names(const Adaptive& refinement) {
+std::vector<std::string> refinement_part_names(const Adaptive& refinement) {
   std::vector<std::string> names;
   for (int m = 0; m < refinement.count(); ++m)
     for (const auto& [name, facets] : refinement.mesh(m)->parts) names.push_back(name);
@@ -104,7 +104,7 @@ void bind_refinement(Library& library) {
                        "stands for, from the chords where bisection puts them.",
                .example = "local r = dotyk.refinement{ dotyk.mesh.disc{ center = {0,0}, radius = 1, cells = 4 } }\n"
                           "r:refine():project(\"boundary\", function(x, y) local d = math.sqrt(x^2 + y^2) return x / d, y / d end)",
-               .arguments = {key::string("part", "name of the part").required().of<Adaptive>(part_names),
+               .arguments = {key::string("part", "name of the part").required().of<Adaptive>(refinement_part_names),
                              key::function("map", "coordinates to new coordinates").required()},
                .returns = "refinement",
                .run = project})

@@ -20,7 +20,7 @@ namespace {
 using algebra::RepeatedSettings;
 using scene::RepeatedSolution;
 
-const std::vector<std::string> kMethods = {"cholesky", "cg", "scg", "cglan", "block_cg"};
+const std::vector<std::string> kSystemMethods = {"cholesky", "cg", "scg", "cglan", "block_cg"};
 
 RepeatedSettings settings(const Call& call) {
   RepeatedSettings s;
@@ -53,7 +53,7 @@ std::vector<std::vector<double>> velocities(const Call& call, const scene::Scene
   return all;
 }
 
-int solve(Call& call) {
+int solve_repeated_systems(Call& call) {
   const auto scene = call.object<scene::Scene>("scene");
   if (call.has("loads") == call.has("velocities"))
     throw InputError("give either loads, names of load cases, or velocities, functions by which design variables move the nodes");
@@ -93,13 +93,13 @@ int nodes(Call& call) {
   return call.give(rows);
 }
 
-std::vector<Key> keys() {
+std::vector<Key> repeated_systems_keys() {
   return {key::object<scene::Scene>("scene", "one body that its supports hold").required(),
           key::list("loads", key::string("", ""), "names of load cases: one system each").count(1, 4096).otherwise("velocities are given"),
           key::list("velocities", key::function("", ""),
                     "functions of the coordinates to the velocity of a node (as many numbers as the body has dimensions) when a design "
                     "variable grows: the displacement and its derivatives").count(1, 4096).unit("length per unit of the variable").otherwise("loads are given"),
-          key::choice("method", kMethods,
+          key::choice("method", kSystemMethods,
                       "cholesky: direct, all at once. cg: conjugate gradients, each alone. scg: successive cg, starts from the conjugate "
                       "directions of the first system. cglan: starts from its lowest Lanczos eigenvectors. block_cg: all right-hand "
                       "sides at once").fallback("cholesky"),
@@ -127,9 +127,9 @@ void bind_repeated(Library& library) {
                   "local r = dotyk.repeated_systems{ scene = dotyk.scene{ beam }, method = \"scg\",\n"
                   "  velocities = { function(x, y, z) return 0, 0, (z - 0.5) * (1 - x/8) end } }\n"
                   "for _, s in ipairs(r.systems) do print(s.name, s.iterations, s.seconds) end",
-       .arguments = {key::table(keys())},
+       .arguments = {key::table(repeated_systems_keys())},
        .returns = "repeated_systems",
-       .run = solve});
+       .run = solve_repeated_systems});
   library.type<RepeatedSolution>("Solutions of systems with one stiffness.")
       .field("systems", "of each system, in order: name, iterations (0 of cholesky), seconds (an equal share where several are solved "
                         "at once), residual |b - Kx|/|b|, converged, reason, energy x'b", systems)

@@ -7,6 +7,7 @@
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/setups.hpp"
+#include "script/space.hpp"
 #include "script/watch.hpp"
 
 namespace dotyk::script {
@@ -55,7 +56,7 @@ class FunctionQuantity final : public shape::Quantity {
   mutable Dual known_;
 };
 
-QuantityChoice choice(const Arguments& from, const char* key, double exponent, const std::string& kept) {
+QuantityChoice quantity_choice(const Arguments& from, const char* key, double exponent, const std::string& kept) {
   if (from.is(key, LUA_TFUNCTION)) return {kept, nullptr};
   return {"", built_in(from.text(key), exponent)};
 }
@@ -68,7 +69,7 @@ std::vector<Key> constraint_keys() {
   return {quantity_key("quantity", "what").required(), key::number("most", "its greatest value").otherwise("of volume: the first design's")};
 }
 
-std::vector<Key> keys() {
+std::vector<Key> shape_keys() {
   return {key::object<scene::Scene>("scene", "the first design").required(),
           moves_key(),
           quantity_key("objective", "what is to be least: compliance is minus the least energy (friction's included); peak_pressure is smoothed, see exponent; a function "
@@ -79,14 +80,12 @@ std::vector<Key> keys() {
           key::number("differences", "h: forward differences instead of exact derivatives, to compare").above(0).unit("length").otherwise("exact derivatives")};
 }
 
-Vector vector_of(const std::vector<double>& v) { return Eigen::Map<const Vector>(v.data(), static_cast<Eigen::Index>(v.size())); }
-
 /// The constraints, their bounds and functions: these are kept with the shape on top of the stack.
 void take_constraints(Call& call, Shape& shape, const shape::DesignSpace& space) {
   if (!call.has("constraints")) return;
   for (const Arguments& item : call.tables("constraints")) {
     const std::string kept = text("constraint ", shape.constraints.size() + 1);
-    shape.constraints.push_back(choice(item, "quantity", shape.exponent, kept));
+    shape.constraints.push_back(quantity_choice(item, "quantity", shape.exponent, kept));
     if (item.has("most")) {
       shape.most.push_back(item.number("most"));
     } else if (item.is("quantity", LUA_TSTRING) && item.text("quantity") == "volume") {
@@ -97,7 +96,7 @@ void take_constraints(Call& call, Shape& shape, const shape::DesignSpace& space)
   }
 }
 
-int make(Call& call) {
+int make_shape(Call& call) {
   auto shape = std::make_shared<Shape>();
   // The scene and its bodies may be added to later; designs are of them as they are now.
   const auto first = std::shared_ptr<const scene::Scene>(scene::copy(*call.object<scene::Scene>("scene")));
@@ -110,7 +109,7 @@ int make(Call& call) {
   shape->exponent = call.number("exponent");
   shape->step = call.has("differences") ? call.number("differences") : 0;
   if (call.has("method")) shape->method = call.object<Solver>("method")->method;
-  shape->objective = choice(call, "objective", shape->exponent, "objective");
+  shape->objective = quantity_choice(call, "objective", shape->exponent, "objective");
   take_constraints(call, *shape, *shape->space);
   call.give(shape);
   const int at = lua_gettop(call.state());
@@ -169,9 +168,9 @@ void bind_shape(Library& library) {
        .setup = setup::shape(),
        .example = "local design = shape:design{ 0.01, 0, 0, 0, 0.01 }\n"
                   "print(design.peak_pressure.value, design.peak_pressure.gradient[1])",
-       .arguments = {key::table(keys())},
+       .arguments = {key::table(shape_keys())},
        .returns = "shape",
-       .run = make});
+       .run = make_shape});
   library.type<Shape>("A scene whose parts may move, and what is sought.")
       .setup(setup::shape())
       .field("variables", "how many design variables there are", [](const Shape& s) { return s.space->variables(); })

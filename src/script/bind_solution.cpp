@@ -84,12 +84,12 @@ mesh::Point point(const Call& call, const Solution& s) {
   return {call.number("x"), call.number("y"), space ? call.number("z") : 0};
 }
 
-std::vector<Key> point_keys() {
+std::vector<Key> solution_point_keys() {
   return {key::object<Body>("body", "which body").required(), key::number("x", "the point at rest").unit("length").required(),
           key::number("y", "its second coordinate").unit("length").required(), key::number("z", "in space only").unit("length")};
 }
 
-int displacement(Call& call) {
+int solution_displacement(Call& call) {
   const auto s = call.self<Solution>();
   const auto u = s->displacement(index_of(*s, *call.object<Body>("body")), point(call, *s));
   return call.give_all(components(u, s->scene().dimension()));
@@ -123,7 +123,7 @@ Record node_record(const scene::ContactNode& n, int dimension) {
   return r;
 }
 
-int contact(Call& call) {
+int solution_contact(Call& call) {
   const auto s = call.self<Solution>();
   const auto asked = call.object<Contact>("contact");
   const auto c = scene::as_given(*asked, s->contact(*asked));
@@ -153,7 +153,7 @@ Record node_record(const scene::SupportNode& n, int dimension) {
   return r;
 }
 
-int support(Call& call) {
+int solution_support(Call& call) {
   const auto s = call.self<Solution>();
   const auto r = s->support(*call.object<scene::Part>("part"));
   const auto number = [](int value) { return static_cast<long long>(value); };
@@ -166,7 +166,7 @@ int support(Call& call) {
                            {"broken", number(r.broken)}, {"dissipated", r.dissipated}, {"nodes", nodes}}});
 }
 
-int reaction(Call& call) {
+int solution_reaction(Call& call) {
   const auto s = call.self<Solution>();
   return call.give_all(components(s->reaction(*call.object<scene::Part>("part")), s->scene().dimension()));
 }
@@ -233,12 +233,12 @@ void bind_solution(Library& library) {
   type.method({.name = "solution:displacement",
                .help = "Components of the displacement at a point of a body at rest.",
                .example = "local ux, uy = s:displacement(block, 0, 0.5)",
-               .arguments = point_keys(),
-               .run = displacement})
+               .arguments = solution_point_keys(),
+               .run = solution_displacement})
       .method({.name = "solution:stress",
                .help = "Recovered stress at a point of a body at rest: xx yy xy zz (yz xz), von_mises, principal.",
                .example = "print(s:stress(block, 0, 0.5).von_mises)",
-               .arguments = point_keys(),
+               .arguments = solution_point_keys(),
                .run = stress})
       .method({.name = "solution:contact",
                .help = "A contact's force on its first part and the part of it by friction (friction_force), area, "
@@ -248,7 +248,7 @@ void bind_solution(Library& library) {
                        "the node did in this step.",
                .example = "local c = s:contact(contact)\nprint(c.max_pressure, c.nodes[1].status)",
                .arguments = {key::object<Contact>("contact", "what scene:contact returned").required()},
-               .run = contact})
+               .run = solution_contact})
       .method({.name = "solution:support",
                .help = "A part's support by laws (part:support): its force on the body, area (of nodes that are not open), "
                        "max_pressure, counts of nodes: open, closed, stick, slip (along the normal), tangential_stick, "
@@ -260,12 +260,12 @@ void bind_solution(Library& library) {
                .setup = setup::supported_block(),
                .example = "local r = s:support(block:part \"bottom\")\nprint(r.max_pressure, r.nodes[1].status)",
                .arguments = {key::object<scene::Part>("part", "a part with part:support").required()},
-               .run = support})
+               .run = solution_support})
       .method({.name = "solution:reaction",
                .help = "Components of the force that the supports of a part, laws included, exert on its body.",
                .example = "local fx, fy = s:reaction(block:part \"left\")",
                .arguments = {key::object<scene::Part>("part", "a supported part").required()},
-               .run = reaction})
+               .run = solution_reaction})
       .method({.name = "solution:error_estimate",
                .help = "A posteriori estimate of the error in the energy norm, the square root of twice the energy of strains, springs and "
                        "elastic laws of supports (that of solution:distance); contact included. An error where the solve has not converged: "

@@ -35,7 +35,7 @@ int count_rows(const Scene& scene) {
 }
 
 /// Solves and answers Ctrl-C.
-int run(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& method,
+int run_solve(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& method,
         std::vector<Function> on_iteration, bool verbose) {
   scene::Start start;
   std::vector<scene::Step> steps;
@@ -93,7 +93,7 @@ int solve_with(Call& call) {
     require_no_options(call);
     return solve_plate(call, call.object<plate::Model>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
   }
-  return run(call, call.object<Scene>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
+  return run_solve(call, call.object<Scene>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
 }
 
 // The result knows the method and its options.
@@ -103,8 +103,8 @@ int solve_and_tell(Call& call) {
   return results;
 }
 
-int solve(Call& call) {
-  if (call.holds<Scene>("scene")) return run(call, call.object<Scene>("scene"), {}, {}, false);
+int solve_scene(Call& call) {
+  if (call.holds<Scene>("scene")) return run_solve(call, call.object<Scene>("scene"), {}, {}, false);
   require_no_options(call);
   if (call.holds<plate::Model>("scene")) return solve_plate(call, call.object<plate::Model>("scene"), {}, {}, false);
   return solve_beam(call, *call.object<beam::Beam>("scene"), {}, {}, false);
@@ -148,7 +148,7 @@ void bind_solver(Library& library) {
                                "local h = dotyk.solve(scene, { steps = { { load = 0.5 }, { load = 1 } } })\nprint(s)",
                     .arguments = solve_keys(scene_or_beam_key()),
                     .returns = "solution",
-                    .run = solve});
+                    .run = solve_scene});
   library.type<Solver>("A method with its options.")
       .setup(setup::pressed_block() + "local solver = dotyk.solver.pdas{}\n")
       .method({.name = "solver:solve",

@@ -85,7 +85,7 @@ Source at_first(const Arguments& from, const char* name) {
   return out;
 }
 
-thermoelastic::Support support(const Arguments* from, std::string name, double x) {
+thermoelastic::Support thermoelastic_support(const Arguments* from, std::string name, double x) {
   thermoelastic::Support out{std::move(name), x, {}, {}, {}};
   if (!from) return out;
   out.deflection = law(*from, "deflection");
@@ -96,11 +96,11 @@ thermoelastic::Support support(const Arguments* from, std::string name, double x
 void add_end(Call& call, int end, Data& data) {
   const double x = end == 0 ? 0 : data.length;
   if (!call.has(kEnds[end])) {
-    data.supports.push_back(support(nullptr, kEnds[end], x));
+    data.supports.push_back(thermoelastic_support(nullptr, kEnds[end], x));
     return;
   }
   const Arguments from = call.table(kEnds[end]);
-  data.supports.push_back(support(&from, kEnds[end], x));
+  data.supports.push_back(thermoelastic_support(&from, kEnds[end], x));
   data.supports.back().displacement = law(from, "displacement");
   data.heat_ends[end] = {from.has("temperature"), from.has("gradient")};
 }
@@ -123,13 +123,13 @@ Data given_data(Call& call) {
   }
   add_end(call, 0, data);
   if (call.has("supports"))
-    for (const Arguments& s : call.tables("supports")) data.supports.push_back(support(&s, text("x = ", s.number("x")), s.number("x")));
+    for (const Arguments& s : call.tables("supports")) data.supports.push_back(thermoelastic_support(&s, text("x = ", s.number("x")), s.number("x")));
   add_end(call, 1, data);
   std::stable_sort(data.supports.begin(), data.supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   return data;
 }
 
-int make(Call& call) {
+int make_thermoelastic_beam(Call& call) {
   const Data data = given_data(call);
   auto beam = std::make_shared<ThermoelasticBeam>();
   const Loads loads = given_loads(call, beam->constants);
@@ -160,20 +160,20 @@ int stepped(Call& call, Advance advance) {
   return call.give_self();
 }
 
-int run(Call& call) {
+int run_to_time(Call& call) {
   return stepped(call, [&](Stepping& s, const Loads& loads, Watch& watch) { s.run(call.number("time"), loads, watch); });
 }
 
-int step(Call& call) {
+int one_step(Call& call) {
   return stepped(call, [](Stepping& s, const Loads& loads, Watch& watch) { s.step(loads, watch); });
 }
 
 template <double (Stepping::*value)(double) const>
-int at(Call& call) {
+int value_now(Call& call) {
   return call.give(((*call.self<ThermoelasticBeam>()->stepping).*value)(call.number("x")));
 }
 
-int reaction(Call& call) {
+int thermoelastic_reaction(Call& call) {
   const Stepping& s = *call.self<ThermoelasticBeam>()->stepping;
   const thermoelastic::Reaction r = s.reaction(find_support(thermoelastic::plain(s.data()), call, "at"));
   return call.give(Record{"reaction",
@@ -186,7 +186,7 @@ Record energy(const ThermoelasticBeam& beam) {
   return {"energy", {{"stored", e.stored}, {"put_in", e.put_in}, {"dissipated", e.dissipated}, {"defect", e.defect}}};
 }
 
-std::string show(const ThermoelasticBeam& beam) {
+std::string thermoelastic_beam_text(const ThermoelasticBeam& beam) {
   const Stepping& s = *beam.stepping;
   const auto decomposed = s.decomposed();
   std::string out = text("thermoelastic_beam: time ", s.time(), " after ", s.steps(), " steps; ",
@@ -220,18 +220,16 @@ const char* kBeam =
 
 Key varying(const char* name, const char* help) { return key::either(name, {key::number("", ""), key::function("", "")}, help); }
 
-std::vector<Key> laws() { return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")}; }
-
 Key end_key(const char* name, const char* help) {
-  std::vector<Key> keys = laws();
+  std::vector<Key> keys = support_law_keys();
   keys.push_back(law_key("displacement", "a law about the displacement along the axis; one-sided ones keep the end within its place"));
   keys.push_back(varying("temperature", "prescribed, over the reference: a function is of t").unit("temperature").otherwise("no heat passes"));
   keys.push_back(varying("gradient", "prescribed: a function is of t").unit("temperature/length").otherwise("no heat passes"));
   return key::table(name, keys, help);
 }
 
-std::vector<Key> keys() {
-  Key inner = key::table("", laws(), "");
+std::vector<Key> thermoelastic_beam_keys() {
+  Key inner = key::table("", support_law_keys(), "");
   inner.keys.insert(inner.keys.begin(), key::number("x", "where").unit("length").required());
   return {key::positive("length", "from x = 0").unit("length").fallback(1.0),
           key::positive("height", "of the section").unit("length").required(),
@@ -261,19 +259,17 @@ std::vector<Key> keys() {
           key::object<Solver>("solver", "the method of the steps' contact problems").otherwise("pdas")};
 }
 
-std::vector<Key> x_key() { return {key::number("x", "from the left end").unit("length").required()}; }
-
 void add_values(TypeOf<ThermoelasticBeam>& type) {
   const auto add = [&](const char* name, const char* help, int (*run)(Call&), const char* use) {
     type.method({.name = std::string("thermoelastic_beam:") + name, .help = help, .example = use, .arguments = x_key(), .run = run});
   };
-  add("deflection", "The deflection now, positive upwards.", at<&Stepping::deflection>, "print(b:run(60):deflection(0.5))");
-  add("rotation", "The slope of the deflection now.", at<&Stepping::rotation>, "print(b:run(60):rotation(0))");
-  add("displacement", "The displacement along the axis now.", at<&Stepping::displacement>, "print(b:run(60):displacement(1))");
-  add("gradient", "The slope of the temperature over the height, now.", at<&Stepping::gradient>, "print(b:run(60):gradient(0.5))");
-  add("moment", "The bending moment -EJ (u'' + expansion gradient) now, by equilibrium.", at<&Stepping::moment>, "print(b:run(60):moment(0.5))");
-  add("shear", "The shear force now, the derivative of the moment.", at<&Stepping::shear>, "print(b:run(60):shear(0))");
-  add("normal", "The normal force now; a pull is positive.", at<&Stepping::normal>, "print(b:run(60):normal(0.5))");
+  add("deflection", "The deflection now, positive upwards.", value_now<&Stepping::deflection>, "print(b:run(60):deflection(0.5))");
+  add("rotation", "The slope of the deflection now.", value_now<&Stepping::rotation>, "print(b:run(60):rotation(0))");
+  add("displacement", "The displacement along the axis now.", value_now<&Stepping::displacement>, "print(b:run(60):displacement(1))");
+  add("gradient", "The slope of the temperature over the height, now.", value_now<&Stepping::gradient>, "print(b:run(60):gradient(0.5))");
+  add("moment", "The bending moment -EJ (u'' + expansion gradient) now, by equilibrium.", value_now<&Stepping::moment>, "print(b:run(60):moment(0.5))");
+  add("shear", "The shear force now, the derivative of the moment.", value_now<&Stepping::shear>, "print(b:run(60):shear(0))");
+  add("normal", "The normal force now; a pull is positive.", value_now<&Stepping::normal>, "print(b:run(60):normal(0.5))");
   type.method({.name = "thermoelastic_beam:temperature", .help = "The temperature now, over the reference, at x and the height z over the axis.",
                .example = "print(b:run(60):temperature(0.5), b:temperature(0.5, 0.01))",
                .arguments = {x_key()[0], key::number("z", "over the axis").unit("length").fallback(0.0)},
@@ -282,7 +278,7 @@ void add_values(TypeOf<ThermoelasticBeam>& type) {
                .help = "What a support does now: force (up), moment (anticlockwise) and axial force on the beam, and the deflection, rotation and displacement there.",
                .example = "print(b:run(60):reaction(\"left\").force)",
                .arguments = {key::either("at", {key::choice("", {"left", "right"}, ""), key::number("", "the x of a support")}, "an end, or the x of a support").required()},
-               .run = reaction});
+               .run = thermoelastic_reaction});
 }
 
 }  // namespace
@@ -301,8 +297,8 @@ Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
 }
 
 void bind_thermoelastic(Library& library) {
-  library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .setup = kBeam, .example = "print(b:run(60):deflection(0.5))", .arguments = {key::table(keys())},
-                    .returns = Wrapped<ThermoelasticBeam>::name, .run = make});
+  library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .setup = kBeam, .example = "print(b:run(60):deflection(0.5))", .arguments = {key::table(thermoelastic_beam_keys())},
+                    .returns = Wrapped<ThermoelasticBeam>::name, .run = make_thermoelastic_beam});
   auto type = library.type<ThermoelasticBeam>("A thermoelastic beam at a time.").setup(kBeam);
   using B = ThermoelasticBeam;
   type.field("time", "now", [](const B& b) { return b.stepping->time(); }, "time")
@@ -313,10 +309,10 @@ void bind_thermoelastic(Library& library) {
       .field("reason", "how the last of them ended, and up to which motion it is unique", [](const B& b) { return b.stepping->work().reason; })
       .field("problems", "contact problems solved", [](const B& b) { return b.stepping->work().problems; })
       .field("iterations", "of the method, in all", [](const B& b) { return b.stepping->work().iterations; })
-      .text(show);
-  type.method({.name = "thermoelastic_beam:step", .help = "One step; gives the beam again.", .example = "print(b:step().time)", .returns = Wrapped<B>::name, .run = step})
+      .text(thermoelastic_beam_text);
+  type.method({.name = "thermoelastic_beam:step", .help = "One step; gives the beam again.", .example = "print(b:step().time)", .returns = Wrapped<B>::name, .run = one_step})
       .method({.name = "thermoelastic_beam:run", .help = "To a time by equal steps, none longer than the step; gives the beam again.", .example = "print(b:run(60).steps)",
-               .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")}, .returns = Wrapped<B>::name, .run = run});
+               .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")}, .returns = Wrapped<B>::name, .run = run_to_time});
   add_values(type);
 }
 

@@ -17,9 +17,9 @@ bool is_keyword(const std::string& word) {
 bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool continues_name(char c) { return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)); }
 
-class Reader {
+class ContextReader {
  public:
-  explicit Reader(const std::string& text) : text_(text) {}
+  explicit ContextReader(const std::string& text) : text_(text) {}
 
   Context read() {
     while (at_ < text_.size() && !context_.in_string) step();
@@ -215,7 +215,7 @@ class Reader {
 
 }  // namespace
 
-Context read_context(const std::string& text) { return Reader(text).read(); }
+Context read_context(const std::string& text) { return ContextReader(text).read(); }
 
 bool is_name(const std::string& word) {
   return !word.empty() && begins_name(word[0]) && std::all_of(word.begin(), word.end(), continues_name) && !is_keyword(word);

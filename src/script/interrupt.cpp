@@ -97,7 +97,7 @@ double now() {
 
 void warn() {
   constexpr char message[] = "\ndotyk: still computing; press Ctrl-C again within 2 s to end dotyk and lose the session\n";
-  if (write(STDERR_FILENO, message, sizeof message - 1) < 0) return;
+  if (::write(STDERR_FILENO, message, sizeof message - 1) < 0) return;
 }
 
 // Is this one to end the program? Where there is a session to lose only after a warning.
@@ -222,7 +222,7 @@ int wrap(lua_State* L) {
   return 1;
 }
 
-int set_metatable(lua_State* L) {
+int set_metatable_without_gc(lua_State* L) {
   if (lua_istable(L, 2)) {
     lua_pushliteral(L, "__gc");
     if (lua_rawget(L, 2) != LUA_TNIL) raise(L, "setmetatable", "no __gc where instructions are counted (--instructions)");
@@ -294,7 +294,7 @@ void request_interrupt() {
 void limit_instructions(lua_State* L, long long count) {
   allowed = count;
   interval = static_cast<int>(std::clamp(count, 1LL, 1000LL));
-  replace(L, {{"_G", "setmetatable", set_metatable}});
+  replace(L, {{"_G", "setmetatable", set_metatable_without_gc}});
   disarm(L);
 }
 

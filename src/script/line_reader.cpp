@@ -23,17 +23,17 @@ struct {
   Completion found;
   std::string line;
   bool done = false, ended = false;
-} session;
+} editing;
 
 char* next_word(const char*, int state) {
   static std::size_t next;
   if (state == 0) next = 0;
-  if (next >= session.found.words.size()) return nullptr;
-  return strdup(session.found.words[next++].c_str());
+  if (next >= editing.found.words.size()) return nullptr;
+  return strdup(editing.found.words[next++].c_str());
 }
 
 void look() {
-  session.found = (*session.complete)(std::string(rl_line_buffer, static_cast<std::size_t>(rl_point)));
+  editing.found = (*editing.complete)(std::string(rl_line_buffer, static_cast<std::size_t>(rl_point)));
 }
 
 // Inside a string a word is all of it; elsewhere a name. readline asks for them where something stands before the cursor.
@@ -41,26 +41,26 @@ char* word_breaks() {
   look();
   static char in_string[] = "\"'";
   static char in_code[] = " \t\n\"'`@$><=;|&{}(),.:[]+-*/%#~^";
-  return session.found.in_string ? in_string : in_code;
+  return editing.found.in_string ? in_string : in_code;
 }
 
 char** attempt(const char* text, int, int) {
   if (rl_point == 0) look();
   rl_completion_append_character = '\0';
-  if (session.found.file_names) {
+  if (editing.found.file_names) {
     rl_filename_completion_desired = 1;
     rl_variable_bind("expand-tilde", "on");  // files are opened as written, by no shell
     return nullptr;  // readline's own file names
   }
   rl_attempted_completion_over = 1;
-  if (session.found.quote) rl_completion_append_character = session.found.quote;
+  if (editing.found.quote) rl_completion_append_character = editing.found.quote;
   return rl_completion_matches(text, next_word);
 }
 
 void got_line(char* line) {
-  session.done = true;
-  session.ended = line == nullptr;
-  if (line) session.line = line;
+  editing.done = true;
+  editing.ended = line == nullptr;
+  if (line) editing.line = line;
   std::free(line);
   rl_callback_handler_remove();
 }
@@ -97,10 +97,10 @@ void abandon() {
 Read read_edited(const char* prompt, std::string& line,
                  const std::function<Completion(const std::string&)>& complete_line) {
   set_up();
-  session.complete = &complete_line;
-  session.done = session.ended = false;
+  editing.complete = &complete_line;
+  editing.done = editing.ended = false;
   rl_callback_handler_install(prompt, got_line);
-  while (!session.done) {
+  while (!editing.done) {
     if (interrupted()) {
       abandon();
       return Read::cleared;
@@ -109,8 +109,8 @@ Read read_edited(const char* prompt, std::string& line,
     if (poll(&input, 1, -1) > 0) rl_callback_read_char();
     else rl_check_signals();
   }
-  line = session.line;
-  return session.ended ? Read::end : Read::line;
+  line = editing.line;
+  return editing.ended ? Read::end : Read::line;
 }
 
 Read read_plain(std::string& line) { return std::getline(std::cin, line) ? Read::line : Read::end; }

@@ -95,7 +95,7 @@ int set_local(lua_State* L) {
 }
 
 // The metatable of a userdata says what its bytes are.
-int set_metatable(lua_State* L) {
+int set_metatable_of_value(lua_State* L) {
   if (lua_type(L, 1) == LUA_TUSERDATA) refuse(L, "debug.setmetatable", "an object of dotyk's, or a file, keeps its metatable");
   return original(L);
 }
@@ -112,7 +112,7 @@ int get_registry(lua_State* L) { refuse(L, "debug.getregistry", "the registry is
 void guard_lua(lua_State* L) {
   guard_patterns(L);
   replace(L, {{"string", "rep", repeat}, {"table", "move", move}, {"table", "insert", insert}, {"table", "remove", remove}});
-  replace(L, {{"debug", "setupvalue", set_upvalue}, {"debug", "setlocal", set_local}, {"debug", "setmetatable", set_metatable},
+  replace(L, {{"debug", "setupvalue", set_upvalue}, {"debug", "setlocal", set_local}, {"debug", "setmetatable", set_metatable_of_value},
               {"debug", "setuservalue", set_user_value}, {"debug", "getregistry", get_registry}});
 }
 

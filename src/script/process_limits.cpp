@@ -32,7 +32,7 @@ double taken_already() {
 
 void time_is_up(int) {
   constexpr char message[] = "dotyk: the limit of processors' time is reached (--seconds)\n";
-  const auto written = write(STDERR_FILENO, message, sizeof message - 1);
+  const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
   _exit(written > 0 ? 1 : 3);
 }
 

@@ -7,6 +7,7 @@
 #include "program/mat_file.hpp"
 #include "program/qps_file.hpp"
 #include "script/position.hpp"
+#include "script/space.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -15,10 +16,6 @@ using program::SparseMatrix;
 using program::SparseRows;
 using program::Vector;
 using Entries = std::vector<Eigen::Triplet<double>>;
-
-Vector vector_of(const std::vector<double>& values) {
-  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
 
 std::vector<double> row_at(lua_State* L, int table, lua_Integer i) {
   std::vector<double> row;

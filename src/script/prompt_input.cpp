@@ -7,11 +7,11 @@ namespace dotyk::script {
 namespace {
 
 /// Reads a line from left to right. (std::regex goes as deep into the stack as its input is long.)
-class Reader {
+class InputReader {
  public:
-  explicit Reader(const std::string& text) : text_(text) {}
+  explicit InputReader(const std::string& text) : text_(text) {}
 
-  Reader& spaces() {
+  InputReader& spaces() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
     return *this;
   }
@@ -52,7 +52,7 @@ class Reader {
 }  // namespace
 
 bool wants_out(const std::string& input) {
-  Reader line(input);
+  InputReader line(input);
   const std::string word = line.spaces().name();
   if (word != "exit" && word != "quit") return false;
   if (line.spaces().take("(") && !line.spaces().take(")")) return false;
@@ -61,7 +61,7 @@ bool wants_out(const std::string& input) {
 }
 
 std::string question(const std::string& input, const std::function<bool(const std::string&)>& is_variable) {
-  Reader line(input);
+  InputReader line(input);
   std::string first, rest;
   bool source = false, asked = line.spaces().take("?");
   if (!asked) first = line.name();
@@ -91,7 +91,7 @@ std::deque<std::string> lines_of(const std::string& text) {
 }
 
 bool goes_on_with(const std::string& text) {
-  Reader line(text);
+  InputReader line(text);
   const char c = line.spaces().next();
   if (c == ':') return line.next(1) != '\0' && line.next(1) != ':';
   if (c != '\0' && std::string(".+*/%^,=<>~)}]").find(c) != std::string::npos) return true;

@@ -13,7 +13,7 @@ namespace {
 
 using shape::Velocities;
 
-std::vector<Key> keys() {
+std::vector<Key> move_keys() {
   const Key bound = key::number("", "");
   return {key::object<scene::Part>("part", "a part that moves, by a B-spline").otherwise("body and velocity"),
           key::either("control_points", {key::integer("", "").at_least(2), key::list("", key::integer("", "").at_least(2), "").count(2)},
@@ -94,7 +94,7 @@ void read(const Arguments& move, const scene::Scene& scene, Variables& variables
 }  // namespace
 
 Key moves_key() {
-  return key::list("moves", key::table("", keys(), ""), "what moves: parts by B-splines, or bodies by functions").count(1, 256).required();
+  return key::list("moves", key::table("", move_keys(), ""), "what moves: parts by B-splines, or bodies by functions").count(1, 256).required();
 }
 
 Variables read_moves(const Call& call, const scene::Scene& scene) {

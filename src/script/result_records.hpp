@@ -7,6 +7,7 @@
 
 namespace dotyk::script {
 
+inline std::vector<double> list(const algebra::Vector& v) { return {v.begin(), v.end()}; }
 Record time_record(const problem::Clock& clock);
 Record residual_record(const problem::Residual& residual);
 std::vector<Record> history_records(const solver::Result& result);

@@ -6,12 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "algebra/types.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "elasticity/load.hpp"
 #include "script/function.hpp"
 
 namespace dotyk::script {
+
+inline algebra::Vector vector_of(const std::vector<double>& v) { return Eigen::Map<const algebra::Vector>(v.data(), static_cast<Eigen::Index>(v.size())); }
 
 inline mesh::Point point_of(const std::vector<double>& v) {
   mesh::Point p{0, 0, 0};

@@ -9,8 +9,6 @@
 namespace dotyk::shape {
 namespace {
 
-double distance(const double* a, const double* b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
-
 [[noreturn]] void not_one(const scene::Part& part, const std::string& why) {
   throw InputError(text(part.label(), " ", why, "; a part that B-splines move must be one chain of edges"));
 }
@@ -33,7 +31,7 @@ Chain chain_of(const scene::Part& part) {
   Chain chain{{first}, {0.0}, 0, begins == 0};
   for (int at = first; next.count(at);) {
     const int to = next[at];
-    chain.total += distance(mesh.node(at), mesh.node(to));
+    chain.total += plane_distance(mesh.node(at), mesh.node(to));
     if (to == first) break;
     chain.nodes.push_back(to);
     chain.length.push_back(chain.total);

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "scene/body.hpp"
 
 namespace dotyk::shape {
+
+/// |b − a| of points in the plane.
+inline double plane_distance(const double* a, const double* b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
 /// The nodes of a plane part one after the other, body on the left, and where they lie along it.
 struct Chain {

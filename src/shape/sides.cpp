@@ -4,19 +4,19 @@
 #include <cmath>
 #include <map>
 
+#include "shape/chain.hpp"
+
 namespace dotyk::shape {
 namespace {
 
 constexpr double kCorner = 0.86602540378443864676;  ///< cos 30°
-
-double distance(const double* a, const double* b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
 using Way = std::map<int, int>;  ///< boundary node → the next one
 
 bool turns(const mesh::Mesh& mesh, int a, int b, int c) {
   const double *x = mesh.node(a), *y = mesh.node(b), *z = mesh.node(c);
   const double along = (y[0] - x[0]) * (z[0] - y[0]) + (y[1] - x[1]) * (z[1] - y[1]);
-  return along < kCorner * distance(x, y) * distance(y, z);
+  return along < kCorner * plane_distance(x, y) * plane_distance(y, z);
 }
 
 /// The nodes of the side that begins at the end of the part: up to its corner, or a node that holds.
@@ -31,7 +31,7 @@ std::vector<int> side(const mesh::Mesh& mesh, const Way& way, int end, const std
 
 void interpolate(const mesh::Mesh& mesh, const std::vector<int>& nodes, algebra::DenseMatrix& V) {
   std::vector<double> length{0};
-  for (std::size_t k = 1; k < nodes.size(); ++k) length.push_back(length.back() + distance(mesh.node(nodes[k - 1]), mesh.node(nodes[k])));
+  for (std::size_t k = 1; k < nodes.size(); ++k) length.push_back(length.back() + plane_distance(mesh.node(nodes[k - 1]), mesh.node(nodes[k])));
   const algebra::DenseMatrix from = V.middleRows(2 * nodes.front(), 2), to = V.middleRows(2 * nodes.back(), 2);
   for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
     const double t = length[k] / length.back();

@@ -35,10 +35,8 @@ BoxProgram box_program(const problem::Problem& problem, const problem::Condensed
 
 namespace {
 
-constexpr int kMostIterations = 80;
-constexpr double kBack = 0.995;  ///< of the way to the nearest bound
-constexpr double kStays = 0.7, kFalls = 0.3;  ///< of its last value, in a step
-constexpr double kLeast = 1e-8;  ///< of the tolerance: bounds that are undecided there touch without pressing
+constexpr int kMostBarrierSteps = 80;
+constexpr double kUndecidedBound = 1e-8;  ///< of the tolerance: bounds that are undecided there touch without pressing
 
 /// The scaled program, without rows that have one multiplier only.
 class Barrier {
@@ -52,14 +50,14 @@ class Barrier {
   BoxSolution operator()() {
     BoxSolution out;
     start();
-    while (out.iterations < kMostIterations && step()) {
+    while (out.iterations < kMostBarrierSteps && step()) {
       ++out.iterations;
       if (error() > tol_) {
         if (out.converged) break;  // rounding has taken over
         continue;
       }
       out.converged = true;
-      if (decided() || gap_at(x_, z_low_, z_high_) <= kLeast * tol_) break;
+      if (decided() || gap_at(x_, z_low_, z_high_) <= kUndecidedBound * tol_) break;
     }
     out.lambda = whole_.low;
     out.alpha = alpha_.cwiseProduct(motion_unit_);

@@ -20,6 +20,9 @@ struct BoxProgram {
 BoxProgram box_program(const problem::Problem& problem, const problem::CondensedProblem& condensed, const std::vector<int>& rows,
                        const std::vector<double>& stands_for);
 
+/// Steps of barrier methods: how much of the way to the nearest bound, and how much of its last value stays or falls.
+constexpr double kBack = 0.995, kStays = 0.7, kFalls = 0.3;
+
 struct BoxSolution {
   algebra::Vector lambda;
   algebra::Vector alpha;          ///< amounts of the rigid motions

@@ -23,7 +23,7 @@ constexpr double kSmallPivot = 1e-6;
 /// noticed ones is an eigenvalue of C.
 constexpr double kUnnoticed = 1e-9;
 /// G̃w − r relative to r that is rounding, and the part of the last one that another correction must leave.
-constexpr double kBalanced = 1e-14, kWorthwhile = 0.1;
+constexpr double kBalancedMotions = 1e-14, kWorthwhile = 0.1;
 /// The jump of one mode, of norm one as the rows are, that is rounding: no row notices it.
 constexpr double kNoJump = 1e-13;
 
@@ -114,7 +114,7 @@ Vector CoarseSpace::balancing(const Vector& scaled) const {
     Vector left = scaled - G_ * w;
     left(held_).setZero();
     const double size = left.norm();
-    if (!(size > kBalanced * scaled.norm() && size < kWorthwhile * last)) return w;
+    if (!(size > kBalancedMotions * scaled.norm() && size < kWorthwhile * last)) return w;
     w += G_.transpose() * factor_->solve(left);
     last = size;
   }

@@ -15,7 +15,7 @@ using problem::FrictionGroup;
 using problem::Problem;
 
 /// Steps of the loop without a fall of the residual.
-constexpr int kPatience = 50;
+constexpr int kLoopPatience = 50;
 /// No force reaches it.
 constexpr double kNoSlip = 1e300;
 /// Changes of the bounds below this part of them are the inner solver's rounding, and tell no contraction.
@@ -88,7 +88,7 @@ void CoulombLoop::iterate(RowIteration& it) const {
       it.give_up(text("given friction of step ", it.iterations(), " by ", inner->name(), ": ", solved.reason));
       break;
     }
-    if (it.stalled(kPatience)) break;
+    if (it.stalled(kLoopPatience)) break;
   }
   it.remark(text(inner_iterations, " iterations of ", inner->name(), " in all"));
   if (const double mean = contraction(changes); mean > 0)

@@ -23,7 +23,7 @@ using problem::RowGroup;
 
 constexpr long kMostCombinations = 1L << 20;
 constexpr double kRelative = 1e-9;  ///< what counts as rounding in multipliers and jumps
-constexpr double kSingular = 1e-11; ///< pivots below this part of the greatest are rounding
+constexpr double kSingularPivot = 1e-11; ///< pivots below this part of the greatest are rounding
 constexpr double kNothing = 1e-13;  ///< of a family's size: rounding in its ends
 
 /// A row or two whose pieces are chosen together.
@@ -75,9 +75,9 @@ std::vector<Choice> choices_of(const Problem& problem) {
   return choices;
 }
 
-class Search {
+class BranchSearch {
  public:
-  Search(const Problem& problem, const CondensedProblem& condensed, Monitor& monitor)
+  BranchSearch(const Problem& problem, const CondensedProblem& condensed, Monitor& monitor)
       : problem_(problem), condensed_(condensed), monitor_(monitor), choices_(choices_of(problem)),
         map_(problem, condensed, stiffness_of_rows(condensed)), pieces_(problem.rows(), Piece::closed) {
     for (const FrictionGroup& group : problem.friction)
@@ -138,7 +138,7 @@ class Search {
     Vector solved(0);
     if (system.matrix.size() > 0) {
       Eigen::FullPivLU<DenseMatrix> lu(system.matrix);
-      lu.setThreshold(kSingular);
+      lu.setThreshold(kSingularPivot);
       solved = lu.solve(system.right_side);
       if (!lu.isInvertible()) {
         ++out_.singular;
@@ -207,7 +207,7 @@ class Search {
     Vector at(const Vector& t) const { return origin + size * directions * t; }
 
     /// What the pieces ask for, each a functional of the coordinates that is not negative.
-    void inequalities(const Search& search) {
+    void inequalities(const BranchSearch& search) {
       const Eigen::Index m = search.problem_.rows();
       std::vector<Vector> wanted;
       const auto want = [&](Eigen::Index i, double factor, Eigen::Index j = 0, double other = 0) {
@@ -382,7 +382,7 @@ Enumeration enumerate(const Problem& problem, Monitor& monitor) {
   problem::Clock clock;
   const problem::RigidMotions rigid = require_solvable(problem, clock, monitor).rigid;
   const CondensedProblem condensed(problem, rigid, algebra::Ordering::automatic, clock, monitor);
-  Enumeration all = Search(problem, condensed, monitor).run();
+  Enumeration all = BranchSearch(problem, condensed, monitor).run();
   const auto complete = [&](std::vector<Enumeration::Solution>& solutions) {
     for (Enumeration::Solution& solution : solutions) {
       solution.result.clock = clock;

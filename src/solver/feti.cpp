@@ -41,12 +41,12 @@ constexpr double kImbalance = 1e-9;
 /// disagreement; beyond this, or a hundredth of the forces, it is no solution.
 constexpr double kSpoilt = 1e4, kMostNoise = 1e-2;
 /// Below this part of what it is the difference of Pd may be rounding; it is taken for so many times what was seen of it.
-constexpr double kSuspect = 1e-9, kRoundings = 10;
+constexpr double kSuspect = 1e-9, kSuspectRoundings = 10;
 
-class Run {
+class FetiRun {
  public:
   /// `unnoticed`: the displacements that no row notices, as far as they are known; the solution's part in them is zero.
-  Run(const Problem& problem, const Feti& method, algebra::SparseMatrix unnoticed, Monitor& monitor)
+  FetiRun(const Problem& problem, const Feti& method, algebra::SparseMatrix unnoticed, Monitor& monitor)
       : problem_(problem), method_(method), unnoticed_(std::move(unnoticed)), monitor_(monitor),
         dual_(problem, method.ordering, result_.clock, monitor), coarse_(dual_.G(), dual_.e()),
         preconditioner_(dual_, coarse_, method, monitor) {
@@ -96,7 +96,7 @@ class Run {
   double rounding(const Vector& d, const Vector& Fshift) const {
     const double size = d.norm() + Fshift.norm(), last = std::numeric_limits<double>::epsilon() * size;
     if (!(displacement_ <= kSuspect * size)) return 0;
-    return kRoundings * (last + algebra::rounding_seen([this](const Vector& v) { return dual_.apply(v); }, shift_, Fshift));
+    return kSuspectRoundings * (last + algebra::rounding_seen([this](const Vector& v) { return dual_.apply(v); }, shift_, Fshift));
   }
 
   /// Forces are counted in a power of two of the size of the load, or where that is zero of what gaps and prescribed
@@ -284,7 +284,7 @@ Result solve(const Problem& problem, const Feti& method, Monitor& monitor) {
   if (has_two_springs(problem)) return joined(solve(opposed_springs(problem), method, monitor), problem);
   problem::Clock clock;
   const auto [rigid, note] = require_solvable(problem, clock, monitor);
-  Result result = Run(problem, method, problem::unnoticed_displacements(problem, rigid), monitor)();
+  Result result = FetiRun(problem, method, problem::unnoticed_displacements(problem, rigid), monitor)();
   result.clock.motions = clock.motions;
   if (!note.empty()) result.reason += "; " + note;
   return result;

@@ -16,7 +16,7 @@ using problem::LongVector;
 
 /// Spring of a rigid row that holds no unknown, in units of the stiffness that it sees: most of its force then comes with the first solution, while rounding
 /// of displacements, times the spring, stays small in it.
-constexpr double kSpring = 100;
+constexpr double kHeldRowSpring = 100;
 constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
@@ -71,7 +71,7 @@ class HeldStep final : public Step {
         holding_.push_back({r, static_cast<int>(only.col()), only.value()});
       } else {
         tied_.push_back(r);
-        spring_[r] = kSpring * own_[r];
+        spring_[r] = kHeldRowSpring * own_[r];
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algebra/generalised_inverse.hpp"
+#include "solver/box_barrier.hpp"
 
 namespace dotyk::solver {
 
@@ -12,11 +13,9 @@ using problem::Problem;
 
 namespace {
 
-constexpr int kMostIterations = 40;
-constexpr double kBalanced = 1e-6;  ///< enough of residuals, of which rounding leaves more than of the gap μ
-constexpr double kBack = 0.995;     ///< of the way to the nearest bound
-constexpr double kStays = 0.7, kFalls = 0.3;  ///< of its last value, in a step
-constexpr double kLeast = 1e-12;    ///< of the gap asked for: rows that are undecided there touch without force
+constexpr int kMostInteriorSteps = 40;
+constexpr double kBalancedResidual = 1e-6;  ///< enough of residuals, of which rounding leaves more than of the gap μ
+constexpr double kUndecidedRow = 1e-12;    ///< of the gap asked for: rows that are undecided there touch without force
 constexpr double kNever = 1e6;      ///< so many displacements away a row never closes
 constexpr double kRigid = 1e-10;    ///< D of rigid rows, of the compliance that the body has there
 
@@ -33,7 +32,7 @@ class Interior {
     InteriorPointState out;
     if (!(force_ > 0 && length_ > 0)) return out;
     start();
-    while (out.iterations < kMostIterations && !done() && !monitor_.stop() && step()) ++out.iterations;
+    while (out.iterations < kMostInteriorSteps && !done() && !monitor_.stop() && step()) ++out.iterations;
     round(out);
     return out;
   }
@@ -109,7 +108,7 @@ class Interior {
 
   bool done() const {
     const double gap = gap_at(z_low_, z_high_, lambda_) / (force_ * length_);
-    return gap <= tol_ && (off() <= kBalanced || gap <= kBalanced * tol_) && (decided() || gap <= kLeast * tol_);
+    return gap <= tol_ && (off() <= kBalancedResidual || gap <= kBalancedResidual * tol_) && (decided() || gap <= kUndecidedRow * tol_);
   }
   /// Has one of λ − low and z⁻ (likewise above) ceased to fall in every row, while the other falls on?
   bool decided() const {

@@ -10,7 +10,7 @@ using algebra::Vector;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnboundedStep = std::numeric_limits<double>::infinity();
 /// ᾱ‖A‖ for intervals alone and with discs.
 constexpr double kIntervalStep = 1.9, kDiscStep = 1;
 /// Recurrences of g after which it is computed anew: one product more in a hundred.
@@ -18,11 +18,11 @@ constexpr int kRefresh = 100;
 /// pᵀAp below this part of ‖A‖‖p‖² is none.
 constexpr double kNoCurvature = 1e-14;
 /// g is never known better than this part of ‖A‖‖x‖ + ‖b‖.
-constexpr double kRounding = 1e-15;
+constexpr double kGradientRounding = 1e-15;
 /// Where g^P is no greater than this times the noise of g, it is noise.
-constexpr double kNoisy = 10;
+constexpr double kNoisyGradient = 10;
 /// Noticed so often in succession, rounding is all that is left.
-constexpr int kAgain = 3;
+constexpr int kNoisySteps = 3;
 /// So many steps without a lesser ‖g^P‖, already below kSmall (‖A‖‖x‖ + ‖b‖), are steps in rounding, too.
 constexpr int kIdle = 2000;
 constexpr double kSmall = 1e-11;
@@ -78,7 +78,7 @@ Mprgp::Step Mprgp::unbounded(Vector direction) {
 }
 
 bool Mprgp::at_rounding() const {
-  return projected_gradient_norm() <= std::max(kRounding * (norm_ * x_.norm() + b_.norm()), kNoisy * noise_);
+  return projected_gradient_norm() <= std::max(kGradientRounding * (norm_ * x_.norm() + b_.norm()), kNoisyGradient * noise_);
 }
 
 void Mprgp::refresh() {
@@ -98,7 +98,7 @@ void Mprgp::refresh() {
 /// solution it may be that of longer steps.
 void Mprgp::measure_noise(double difference) {
   noise_ = noise_known_ ? std::max(difference, 0.5 * noise_) : difference;
-  noise_known_ = projected_gradient_norm() <= 10 * kNoisy * noise_;
+  noise_known_ = projected_gradient_norm() <= 10 * kNoisyGradient * noise_;
 }
 
 void Mprgp::restart(Vector b, double norm, Vector g) {
@@ -144,14 +144,14 @@ void Mprgp::watch() {
   since_least_ = now < 0.99 * least_ ? 0 : since_least_ + 1;
   least_ = std::min(least_, now);
   const bool idle = since_least_ >= kIdle && now <= kSmall * (norm_ * x_.norm() + b_.norm());
-  if (halt_ == Halt::none && (failed_ >= kAgain || idle)) halt_ = Halt::rounding;
+  if (halt_ == Halt::none && (failed_ >= kNoisySteps || idle)) halt_ = Halt::rounding;
 }
 
 /// For a g that is computed anew.
 void Mprgp::count_noise() {
-  const double known = noise_known_ ? kNoisy * noise_ : 0;
-  noisy_ = projected_gradient_norm() <= std::max(kRounding * (norm_ * x_.norm() + b_.norm()), known) ? noisy_ + 1 : 0;
-  if (noisy_ >= kAgain && halt_ == Halt::none) halt_ = Halt::rounding;
+  const double known = noise_known_ ? kNoisyGradient * noise_ : 0;
+  noisy_ = projected_gradient_norm() <= std::max(kGradientRounding * (norm_ * x_.norm() + b_.norm()), known) ? noisy_ + 1 : 0;
+  if (noisy_ >= kNoisySteps && halt_ == Halt::none) halt_ = Halt::rounding;
 }
 
 /// S M S φ in the face, M the preconditioner, and S² = 1/(1 + curvature/‖A‖) what the circles ask for.
@@ -181,7 +181,7 @@ Mprgp::Step Mprgp::conjugate_step() {
   if (!std::isfinite(curvature) || !Hp.allFinite()) return stop(Halt::not_finite);
   const bool curved = curvature > kNoCurvature * norm_ * direction_.squaredNorm();
   if (!curved && at_rounding()) return stop(Halt::rounding);
-  const double alpha_cg = curved ? slope / curvature : kInfinity, alpha_free = set_.longest_step(x_, direction_);
+  const double alpha_cg = curved ? slope / curvature : kUnboundedStep, alpha_free = set_.longest_step(x_, direction_);
   if (!std::isfinite(std::min(alpha_cg, alpha_free))) return unbounded(-direction_);
   const std::vector<SeparableSet::Place> face = gradients_.face;
   const Step made = gradients_.slides        ? curved_step(alpha_cg, alpha_free, Ap)
@@ -295,7 +295,7 @@ Mprgp::Step Mprgp::proportioning_step() {
   raise_norm(curvature / slope);
   const bool curved = curvature > kNoCurvature * norm_ * slope;
   if (!curved && at_rounding()) return stop(Halt::rounding);
-  const double alpha = std::min(curved ? slope / curvature : kInfinity, set_.longest_step(x_, beta));
+  const double alpha = std::min(curved ? slope / curvature : kUnboundedStep, set_.longest_step(x_, beta));
   if (!std::isfinite(alpha)) return unbounded(-beta);
   advance(alpha, beta, Ab);
   return Step::proportioning;

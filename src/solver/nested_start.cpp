@@ -15,7 +15,7 @@ namespace {
 constexpr int kFewest = 8;    ///< rows of the longest chain to begin with
 constexpr int kMostSolves = 10;      ///< of active sets on one set of rows
 constexpr int kMostByBarrier = 600;  ///< rows; the work grows as their third power
-constexpr double kPrecise = 1e-7;
+constexpr double kPreciseStart = 1e-7;
 
 }  // namespace
 
@@ -125,7 +125,7 @@ bool NestedStart::by_barrier(Linearisation& l, Vector& x) {
   for (int r = 0; r < problem_.rows(); ++r)
     if (stands_for_[r] > 0) rows.push_back(r);
   if (static_cast<int>(rows.size()) > kMostByBarrier) return false;
-  const BoxSolution s = solve_by_barrier(box_program(problem_, condensed_, rows, stands_for_), kPrecise);
+  const BoxSolution s = solve_by_barrier(box_program(problem_, condensed_, rows, stands_for_), kPreciseStart);
   solves_ += s.iterations;
   if (!s.converged) return false;
   Vector lambda = Vector::Zero(problem_.rows());

@@ -14,7 +14,7 @@ using algebra::Vector;
 
 /// Newton's method has lost its way after so many iterations, or rounds of the fixed point iteration in their place: where it
 /// converges it takes some ten, and few of these.
-constexpr int kPatience = 40, kMostStuck = 3;
+constexpr int kNewtonPatience = 40, kMostStuck = 3;
 
 /// Moves to random multipliers and rigid motions, in a box sized by those of the iterate.
 void scatter(RowIteration& iteration, unsigned seed) {
@@ -40,7 +40,7 @@ void Newton::iterate(RowIteration& iteration) const {
   while (iteration.next()) {
     stepper.step();
     if (iteration.record({.singular_value = stepper.singular_value()})) break;
-    astray = iteration.iterations() >= kPatience || stepper.stuck() >= kMostStuck;
+    astray = iteration.iterations() >= kNewtonPatience || stepper.stuck() >= kMostStuck;
     if (astray) break;
   }
   for (const std::string& remark : stepper.remarks()) iteration.remark(remark);

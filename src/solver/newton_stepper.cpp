@@ -14,11 +14,11 @@ using algebra::Vector;
 
 namespace {
 
-constexpr double kSingular = 1e-12;    // least singular value of a derivative that is solved with
-constexpr double kSpring = 3e-3;       // δ, against compliances of size 1
+constexpr double kSingularDerivative = 1e-12;    // least singular value of a derivative that is solved with
+constexpr double kHoldingSpring = 3e-3;       // δ, against compliances of size 1
 constexpr int kFreeSteps = 5;          // damped little
 constexpr std::size_t kMemory = 5;     // merits that those are compared with
-constexpr int kHalvings = 15;
+constexpr int kStepHalvings = 15;
 constexpr int kFixedPointSteps = 20;   // the first time; twice as many each further time
 constexpr int kDoublings = 6;
 
@@ -27,7 +27,7 @@ constexpr int kDoublings = 6;
 double NewtonStepper::merit() const {
   const NaturalMap::Value& v = it_.value();
   if (!held()) return std::hypot(v.scaled_norm, v.unbalanced.norm());
-  return std::hypot(v.scaled_norm, (v.unbalanced - kSpring * (it_.map.scaled_alpha(it_.alpha()) - anchor_)).norm());
+  return std::hypot(v.scaled_norm, (v.unbalanced - kHoldingSpring * (it_.map.scaled_alpha(it_.alpha()) - anchor_)).norm());
 }
 
 bool NewtonStepper::linear_solve(const NaturalMap::Value& v, Place& solution) {
@@ -39,18 +39,18 @@ bool NewtonStepper::linear_solve(const NaturalMap::Value& v, Place& solution) {
     double least = singular_value_ = lu.inverse_norm_reciprocal();
     if (watch_) singular_value_ = algebra::smallest_singular_value(system.matrix);
     const Eigen::Index k = it_.alpha().size();
-    if (!(least > kSingular) && !held() && k > 0) {
+    if (!(least > kSingularDerivative) && !held() && k > 0) {
       anchor_ = it_.map.scaled_alpha(it_.alpha());
       merits_.clear();
     }
     if (held()) {
       ++held_;
-      system.matrix.diagonal().tail(k).array() += kSpring;
-      system.right_side.tail(k) += kSpring * anchor_;
+      system.matrix.diagonal().tail(k).array() += kHoldingSpring;
+      system.right_side.tail(k) += kHoldingSpring * anchor_;
       lu = Lu(system.matrix);
       least = lu.inverse_norm_reciprocal();
     }
-    if (!(least > kSingular)) return false;
+    if (!(least > kSingularDerivative)) return false;
     solved = lu.solve(system.right_side);
   }
   it_.map.take(system, solved, solution.lambda, solution.alpha);
@@ -88,7 +88,7 @@ bool NewtonStepper::damped_step_to(const Place& solution) {
   const Place from{it_.lambda(), it_.alpha()};
   const Vector lambda_step = solution.lambda - from.lambda, alpha_step = solution.alpha - from.alpha;
   double length = 1;
-  for (int halving = 0; halving <= kHalvings; ++halving, length /= 2) {
+  for (int halving = 0; halving <= kStepHalvings; ++halving, length /= 2) {
     it_.move_to(from.lambda + length * lambda_step, from.alpha + length * alpha_step);
     if (merit() <= (1 - 1e-4 * length) * allowed) return true;
   }

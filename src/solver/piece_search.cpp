@@ -210,9 +210,9 @@ class Programme {
 };
 
 /// Depth first; a node is a choice of bounds of the columns, its programme begun at its parent's point.
-class Search {
+class DepthFirstSearch {
  public:
-  Search(const Programme& programme, Monitor& monitor) : on_(programme), monitor_(monitor) {}
+  DepthFirstSearch(const Programme& programme, Monitor& monitor) : on_(programme), monitor_(monitor) {}
 
   PieceSearch run() {
     const bool all = visit(on_.low(), on_.high(), Vector());
@@ -288,7 +288,7 @@ class Search {
 PieceSearch search_pieces(const Problem& problem, const CondensedProblem& condensed, Monitor& monitor) {
   if (problem.rows() == 0 || problem.rows() > kMostRows || !tells_springs(problem)) return {};
   const Programme programme(problem, condensed);
-  return programme.treatable() ? Search(programme, monitor).run() : PieceSearch{};
+  return programme.treatable() ? DepthFirstSearch(programme, monitor).run() : PieceSearch{};
 }
 
 }  // namespace dotyk::solver

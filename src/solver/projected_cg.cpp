@@ -18,13 +18,13 @@ using algebra::Vector;
 /// γ against λ_max(W): a few eigenvalues beyond the others cost conjugate gradients as many steps.
 constexpr double kWeight = 10;
 /// The inner problem's residual against the outer error at which bounds and equilibrium are updated.
-constexpr double kPrecision = 0.1;
+constexpr double kInnerPrecision = 0.1;
 /// Fixed steps, of the bound 2/λ_max.
 constexpr double kStep = 0.95;
 
-class Run {
+class ProjectedCgRun {
  public:
-  explicit Run(RowIteration& it)
+  explicit ProjectedCgRun(RowIteration& it)
       : it_(it), equilibrium_(equilibrium_of(it, kWeight)), coulomb_(bounds_depend_on_normal(it.problem)) {
     step_ = kStep * equilibrium_.step_bound(it.map.rho()) * it.map.rho();
     start(it.lambda());
@@ -124,7 +124,7 @@ class Run {
   bool update_outer() {
     const Vector& lambda = it_.lambda();
     const double off = (friction_bounds(it_.problem, lambda) - bounds_).norm() + equilibrium_.unbalanced(lambda);
-    if (off == 0 || (lambda - projected(lambda, it_.jump(), it_.map.rho())).norm() > kPrecision * off) return false;
+    if (off == 0 || (lambda - projected(lambda, it_.jump(), it_.map.rho())).norm() > kInnerPrecision * off) return false;
     equilibrium_.update(lambda);
     start(lambda);
     face_.emplace(face());
@@ -145,6 +145,6 @@ class Run {
 
 void ProjectedCg::require_treatable(const problem::Problem& problem) const { require_springs(problem, name()); }
 
-void ProjectedCg::iterate(RowIteration& iteration) const { Run(iteration).iterate(); }
+void ProjectedCg::iterate(RowIteration& iteration) const { ProjectedCgRun(iteration).iterate(); }
 
 }  // namespace dotyk::solver

@@ -15,18 +15,18 @@ using algebra::Vector;
 using problem::CondensedProblem;
 
 constexpr int kNewtonSteps = 12;      // of one iteration
-constexpr int kHalvings = 10;         // of one step
-constexpr double kPrecision = 0.1;    // ‖F‖ against ‖λ − λ_k‖ where an iteration ends
+constexpr int kInnerHalvings = 10;         // of one step
+constexpr double kEndPrecision = 0.1;    // ‖F‖ against ‖λ − λ_k‖ where an iteration ends
 constexpr double kSofter = 100, kHarder = 10;
-constexpr double kLeast = 1e-10, kGreatest = 1e6;  // of σ; beyond the latter nothing moves
+constexpr double kLeastSigma = 1e-10, kGreatestSigma = 1e6;  // of σ; beyond the latter nothing moves
 constexpr double kLeastConvex = 1e-8;  // where ρ = 1/σC: less, and rounding of x counts
-constexpr double kNoisy = 100;        // noise against what is left: beyond, springs are not made stiffer
+constexpr double kNoisyStep = 100;        // noise against what is left: beyond, springs are not made stiffer
 constexpr int kConvexSteps = 40;      // of one iteration, where they cannot go astray
 constexpr int kSections = 30;         // of one such step
 constexpr double kFlat = 1e-3;        // a slope against the first one
 constexpr double kSigma = 0.1, kHolding = 3e-3;  // springs that hold free bodies, against C, at this σ; proportional to σ below it
 
-struct Place {
+struct Iterate {
   Vector lambda, alpha;
 };
 
@@ -70,7 +70,7 @@ class Springs {
       ++steps_;
       const double left = error();
       rounded_ = left <= noise_ && left > 0.5 * before;
-      if (rounded_ || left <= std::max(kPrecision * moved(), enough_)) return true;
+      if (rounded_ || left <= std::max(kEndPrecision * moved(), enough_)) return true;
       before = left;
     }
     return false;
@@ -78,7 +78,7 @@ class Springs {
 
   /// Did the rounding of x end it?
   bool rounded() const { return rounded_; }
-  Place& place() { return place_; }
+  Iterate& place() { return place_; }
   int steps() const { return steps_; }
 
  private:
@@ -89,10 +89,10 @@ class Springs {
     Vector solved(0);
     if (system.matrix.size() > 0) solved = algebra::Lu(system.matrix).solve(system.right_side);
     if (!solved.allFinite()) return false;
-    Place to;
+    Iterate to;
     map_.take(system, solved, to.lambda, to.alpha);
-    const Place from = place_;
-    const Place way{to.lambda - from.lambda, to.alpha - from.alpha};
+    const Iterate from = place_;
+    const Iterate way{to.lambda - from.lambda, to.alpha - from.alpha};
     if (convex_) descend(from, way);
     else damp(from, way);
     return true;  // a short step that increases ‖F‖ a little may lead out of a corner
@@ -113,29 +113,29 @@ class Springs {
     return anchor_.size() == 0 ? far : std::hypot(far, unit_ * holding_ * motion().norm());
   }
 
-  void move(const Place& from, const Place& way, double length) {
+  void move(const Iterate& from, const Iterate& way, double length) {
     place_ = {from.lambda + length * way.lambda, from.alpha + length * way.alpha};
     value_ = map_.at(place_.lambda, place_.alpha);
   }
 
-  void damp(const Place& from, const Place& way) {
+  void damp(const Iterate& from, const Iterate& way) {
     const double norm = error();
     double length = 1;
-    for (int halving = 0; halving <= kHalvings; ++halving, length /= 2) {
+    for (int halving = 0; halving <= kInnerHalvings; ++halving, length /= 2) {
       move(from, way, length);
       if (error() <= (1 - 1e-4 * length) * norm) break;
     }
   }
 
   /// The derivative of the energy along the way, at the place where we are.
-  double slope(const Place& way) const {
+  double slope(const Iterate& way) const {
     const double along = way.lambda.dot(W_ * (place_.lambda - value_.projected));
     if (anchor_.size() == 0) return along;
     return along + map_.scaled_alpha(way.alpha).dot(holding_ * motion() - map_.unbalanced(value_.projected));
   }
 
   /// To where the energy, convex along the way, still falls, but by less than half as steeply as at first; the whole way where it falls all along.
-  void descend(const Place& from, const Place& way) {
+  void descend(const Iterate& from, const Iterate& way) {
     const double steepest = slope(way);
     const double norm = error();
     double low = 0, high = 1, at_low = steepest;
@@ -160,7 +160,7 @@ class Springs {
   const Vector anchor_;
   const double holding_;  ///< δ
   const double unit_;     ///< √ρ, the greatest: of λ against v
-  Place place_;
+  Iterate place_;
   NaturalMap::Value value_;
   const double enough_;   ///< a force, of tol
   const double noise_;    ///< a force: what rounding of x may make
@@ -183,12 +183,12 @@ void Proximal::iterate(RowIteration& iteration) const {
       iteration.move_to(std::move(springs.place().lambda), std::move(springs.place().alpha));
       const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeast);
       if (springs.rounded()) softness = std::min(kSofter * softness, std::max(softness, sigma));  // of which rounding makes less
-      else if (noise(iteration, harder * compliance) <= kNoisy * iteration.residual() * iteration.force()) softness = harder;
+      else if (noise(iteration, harder * compliance) <= kNoisyStep * iteration.residual() * iteration.force()) softness = harder;
     } else {
       softness *= kSofter;
     }
     if (iteration.record()) break;
-    if (softness > kGreatest) {
+    if (softness > kGreatestSigma) {
       iteration.give_up("no springs are soft enough for Newton's method");
       break;
     }

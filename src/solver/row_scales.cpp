@@ -13,7 +13,7 @@ using algebra::Vector;
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kRoundings = 128;    // k: of the sums in x, and of the solve that made λ
+constexpr double kSumRoundings = 128;    // k: of the sums in x, and of the solve that made λ
 
 double greatest(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0; }
 
@@ -31,7 +31,7 @@ double RowScales::force(const Vector& lambda) const {
 
 double RowScales::rounding(const Vector& alpha, const Vector& x) const {
   const Vector moved = alpha.size() > 0 ? Vector(condensed_->N() * alpha) : Vector::Zero(x.size());
-  return kRoundings * kEps * (greatest(condensed_->x0()) + greatest(moved) + greatest(condensed_->x0() + moved - x));
+  return kSumRoundings * kEps * (greatest(condensed_->x0()) + greatest(moved) + greatest(condensed_->x0() + moved - x));
 }
 
 Vector RowScales::rho(const Vector& lambda, const Vector& alpha, const Vector& x, double tol) const {
@@ -44,7 +44,7 @@ Vector RowScales::rho(const Vector& lambda, const Vector& alpha, const Vector& x
   Vector rho = stiffness_;
   for (Eigen::Index r = 0; r < x.size(); ++r) {
     if (const double length = std::max(X, std::abs(c_[r])); length > 0) rho[r] = std::max(rho[r], greatest(lambda) / length);
-    if (const double rounding = kRoundings * kEps * gross[r]; rounding > 0) rho[r] = std::min(rho[r], tol * F / rounding);
+    if (const double rounding = kSumRoundings * kEps * gross[r]; rounding > 0) rho[r] = std::min(rho[r], tol * F / rounding);
   }
   return rho;
 }

@@ -9,7 +9,7 @@ using algebra::Vector;
 namespace {
 
 /// Steps in which the change must fall by a tenth.
-constexpr int kPatience = 8;
+constexpr int kBoundsPatience = 8;
 constexpr double kLeastStep = 1.0 / 32;
 
 }  // namespace
@@ -21,7 +21,7 @@ bool SettlingBounds::follow(const Vector& next) {
   now_ = bounded ? Vector(now_ + step_ * (next - now_)) : next;
   since_best_ = change_ < 0.9 * best_ ? 0 : since_best_ + 1;
   best_ = std::min(best_, change_);
-  if (since_best_ == 0 || since_best_ % kPatience != 0) return true;
+  if (since_best_ == 0 || since_best_ % kBoundsPatience != 0) return true;
   if (step_ <= kLeastStep) return false;
   step_ /= 2;
   return true;

@@ -14,19 +14,19 @@ using End = SmalbeResult::End;
 using Halt = Mprgp::Halt;
 
 /// L is known up to this part of itself.
-constexpr double kRounding = 1e-13;
+constexpr double kLagrangianRounding = 1e-13;
 /// Outer steps in succession that end in rounding, no norm much less.
-constexpr int kAgain = 3;
+constexpr int kRoundingSteps = 3;
 /// ρ/‖H‖ beyond which Qx is not known any more.
-constexpr double kGreatest = 1e10;
+constexpr double kGreatestPenalty = 1e10;
 /// An outer step that leaves so much of ‖Qx‖ was too imprecise: ν must follow the solution for it, not the path to it.
 constexpr double kCrawl = 0.5;
 /// M/‖H‖ of an outer step so precise that it is ρ's fault.
-constexpr double kPrecise = 0.2;
+constexpr double kPreciseInner = 0.2;
 
-class Run {
+class SmalbeRun {
  public:
-  Run(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x, Vector nu)
+  SmalbeRun(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x, Vector nu)
       : program_(program), settings_(settings), caller_(caller), rho_(settings.rho * program.norm),
         M_(settings.M * program.norm), nu_(std::move(nu)),
         inner_(map(), norm(), program.b - nu_, *program.set, std::move(x), inner_settings()) {
@@ -125,10 +125,10 @@ class Run {
     const double both = std::max(gradient_, M_ * equality_);
     idle_ = halted && outer_ > 1 && both > kCrawl * best_ ? idle_ + 1 : 0;
     best_ = outer_ > 1 ? std::min(best_, both) : both;
-    if (halted && (equality_ == 0 || idle_ >= kAgain)) return End::rounding;
+    if (halted && (equality_ == 0 || idle_ >= kRoundingSteps)) return End::rounding;
     // (Qx)ᵀy = 0 for every y with Qy = 0; the nearest points of Ω to them would give ‖Qx‖² at least.
     if (program_.set->infimum(Qx_) > 0.5 * equality_ * equality_) return End::infeasible;
-    if (outer_ >= settings_.max_outer || rho_ > kGreatest * program_.norm) return End::limit;
+    if (outer_ >= settings_.max_outer || rho_ > kGreatestPenalty * program_.norm) return End::limit;
     return std::nullopt;
   }
 
@@ -154,9 +154,9 @@ class Run {
   void sharpen() {
     const bool compared = outer_ > 1 && last_M_ == M_;  // L can be told to grow by the precision of the last step
     const double L = inner_.q(), growth = 0.5 * rho_ * equality_ * equality_;
-    const bool too_little = L + kRounding * std::abs(L) < lagrangian_ + growth;
+    const bool too_little = L + kLagrangianRounding * std::abs(L) < lagrangian_ + growth;
     const bool crawls = settings_.update == Smalbe::Update::both && equality_ > kCrawl * last_equality_;
-    const bool precise = M_ <= kPrecise * program_.norm;
+    const bool precise = M_ <= kPreciseInner * program_.norm;
     last_M_ = M_;
     last_equality_ = equality_;
     lagrangian_ = L;
@@ -187,7 +187,7 @@ class Run {
 
 SmalbeResult minimise(const EqualityProgram& program, const Smalbe& settings, const SmalbeCaller& caller, Vector x,
                       Vector nu) {
-  return Run(program, settings, caller, std::move(x), std::move(nu))();
+  return SmalbeRun(program, settings, caller, std::move(x), std::move(nu))();
 }
 
 }  // namespace dotyk::solver

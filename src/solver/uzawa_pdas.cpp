@@ -19,7 +19,7 @@ using problem::FrictionGroup;
 using problem::RowGroup;
 
 /// Iterations without a fall of the residual, each of them two dense factorisations.
-constexpr int kPatience = 200;
+constexpr int kAlternationPatience = 200;
 /// Cycles up to this length are recognised, by iterates that return: up to rounding, and much closer than the
 /// residual, which slow convergence moves by as little.
 constexpr std::size_t kPeriods = 16;
@@ -143,7 +143,7 @@ void UzawaPdas::iterate(RowIteration& it) const {
       break;
     }
     alternation.settle();
-    if (it.stalled(kPatience)) break;
+    if (it.stalled(kAlternationPatience)) break;
   }
 }
 

@@ -19,15 +19,6 @@ constexpr Ordering kOrderings[] = {Ordering::automatic, Ordering::minimum_degree
 // Rounding of matrices of some hundred unknowns and condition below 1e4.
 constexpr double kRounding = 1e-11;
 
-/// Dense A_CC − A_CI A_II⁻¹ A_IC.
-DenseMatrix schur(const DenseMatrix& A, const std::vector<int>& c) {
-  std::vector<int> i;
-  for (int k = 0; k < A.rows(); ++k)
-    if (std::find(c.begin(), c.end(), k) == c.end()) i.push_back(k);
-  if (i.empty()) return A(c, c);
-  return A(c, c) - A(c, i) * DenseMatrix(A(i, i)).ldlt().solve(DenseMatrix(A(i, c)));
-}
-
 }  // namespace
 
 TEST_CASE("Cholesky solves as the dense factorisation does") {
@@ -118,7 +109,7 @@ TEST_CASE("the trailing block of the factor is the Schur complement's factor") {
         REQUIRE(L.rows() == static_cast<int>(cholesky.boundary().size()));
         for (int u : cholesky.boundary()) CHECK(std::find(last.begin(), last.end(), grid.node[u]) != last.end());
         CHECK(L.isLowerTriangular(0));
-        CHECK(test::relative(L * L.transpose(), schur(A, cholesky.boundary())) < kRounding);
+        CHECK(test::relative(L * L.transpose(), test::schur(A, cholesky.boundary())) < kRounding);
         // Sweeps with an untouched boundary part are a solve.
         const Vector b = random.vector(static_cast<int>(A.rows()));
         CHECK(test::relative(cholesky.backward(cholesky.forward(b)), A.llt().solve(b)) < kRounding);
@@ -202,7 +193,7 @@ TEST_CASE("small matrices of every size, with random holes and last nodes") {
     const Vector b = random.vector(n);
     CHECK(test::relative(cholesky.solve(b), A.ldlt().solve(b)) < kRounding);
     const DenseMatrix L = cholesky.boundary_factor();
-    if (!last.empty()) CHECK(test::relative(L * L.transpose(), schur(A, cholesky.boundary())) < kRounding);
+    if (!last.empty()) CHECK(test::relative(L * L.transpose(), test::schur(A, cholesky.boundary())) < kRounding);
   }
 }
 
@@ -233,5 +224,5 @@ TEST_CASE("the pivots multiply to the determinant; that of an unknown eliminated
   REQUIRE(cholesky.factor(grid.K));
   const Vector pivots = cholesky.pivots();
   CHECK(pivots.prod() == doctest::Approx(test::full(grid.K).determinant()).epsilon(1e-10));
-  CHECK(pivots[7] == doctest::Approx(schur(test::full(grid.K), {7})(0, 0)).epsilon(1e-10));
+  CHECK(pivots[7] == doctest::Approx(test::schur(test::full(grid.K), {7})(0, 0)).epsilon(1e-10));
 }

@@ -3,19 +3,13 @@
 #include <doctest/doctest.h>
 
 #include "../support/spring_grid.hpp"
+#include "spd_matrices.hpp"
 
 using namespace dotyk;
 using namespace dotyk::algebra;
 using dotyk::test::Random;
 
 namespace {
-
-DenseMatrix schur(const DenseMatrix& A, const std::vector<int>& c) {
-  std::vector<int> i;
-  for (int k = 0; k < A.rows(); ++k)
-    if (std::find(c.begin(), c.end(), k) == c.end()) i.push_back(k);
-  return A(c, c) - A(c, i) * DenseMatrix(A(i, i)).ldlt().solve(DenseMatrix(A(i, c)));
-}
 
 /// Translations of all nodes.
 DenseMatrix translations(int unknowns, int per_node) {
@@ -41,7 +35,7 @@ TEST_CASE("condensation of a held body: S⁻¹, condensed load, recovery, half c
     Condensation c(grid.K, grid.node, {0, 1, 2, 3, 40}, DenseMatrix(n, 0), ordering);
     REQUIRE(c.factor(grid.K));
     const int m = static_cast<int>(c.boundary().size());
-    const DenseMatrix S = schur(K, c.boundary());
+    const DenseMatrix S = test::schur(K, c.boundary());
     CHECK(test::relative(solve_columns(c, DenseMatrix::Identity(m, m)), S.inverse()) < 1e-11);
 
     const Vector f = random.vector(n);
@@ -66,7 +60,7 @@ TEST_CASE("condensation of a free body: M⁻¹ is a generalised inverse of S") {
       Condensation c(grid.K, grid.node, last, R);
       REQUIRE(c.factor(grid.K));
       CHECK(c.kernel_size() == per_node);
-      const DenseMatrix S = schur(K, c.boundary());
+      const DenseMatrix S = test::schur(K, c.boundary());
       if (last.size() > 1)  // on one node S is zero
         CHECK((S * solve_columns(c, S) - S).norm() < 1e-9 * S.norm());
       // Any balanced load: u_Γ from M⁻¹ and the recovery balance it, whatever rigid motion is added.

@@ -7,6 +7,7 @@
 
 #include "algebra/tridiagonal.hpp"
 #include "base/error.hpp"
+#include "iterations.hpp"
 #include "spd_matrices.hpp"
 
 using namespace dotyk;
@@ -14,19 +15,8 @@ using algebra::DenseMatrix;
 using algebra::Preconditioning;
 using algebra::SparseMatrix;
 using algebra::Vector;
-
-namespace {
-
-constexpr Preconditioning kAll[] = {Preconditioning::none, Preconditioning::ssor, Preconditioning::incomplete_cholesky};
-
-/// Stops when asked for the n-th time.
-struct Stop final : Monitor {
-  explicit Stop(int n) : left(n) {}
-  bool stop() override { return --left < 0; }
-  int left;
-};
-
-}  // namespace
+using test::Stop;
+using test::kPreconditionings;
 
 TEST_CASE("conjugate gradients agree with the direct solution, by every preconditioner") {
   test::Random random(11);
@@ -36,7 +26,7 @@ TEST_CASE("conjugate gradients agree with the direct solution, by every precondi
   const Vector b = random.vector(static_cast<int>(K.rows())), exact = K.llt().solve(b);
   Monitor monitor;
   int plain = 0;
-  for (const auto kind : kAll) {
+  for (const auto kind : kPreconditionings) {
     const auto C = algebra::make_preconditioner(kind, lower);
     for (const double tolerance : {1e-3, 1e-6, 1e-12}) {
       const auto r = algebra::conjugate_gradient(*C, b, {.tolerance = tolerance}, monitor);
@@ -70,7 +60,7 @@ TEST_CASE("as many iterations as unknowns, or distinct eigenvalues, suffice") {
 TEST_CASE("zero takes no iteration; too fine a tolerance, too few iterations and a stop are told") {
   const SparseMatrix lower = test::laplacian(6, 6, 6);
   const Vector b = Vector::Ones(216);
-  for (const auto kind : kAll) {
+  for (const auto kind : kPreconditionings) {
     const auto C = algebra::make_preconditioner(kind, lower);
     Monitor monitor;
     const auto zero = algebra::conjugate_gradient(*C, Vector::Zero(216), {}, monitor);
@@ -98,14 +88,14 @@ TEST_CASE("zero takes no iteration; too fine a tolerance, too few iterations and
 TEST_CASE("no unknowns") {
   const SparseMatrix lower(0, 0);
   Monitor monitor;
-  for (const auto kind : kAll)
+  for (const auto kind : kPreconditionings)
     CHECK(algebra::conjugate_gradient(*algebra::make_preconditioner(kind, lower), Vector(0), {}, monitor).converged);
 }
 
 TEST_CASE("directions stored are conjugate, also those of several systems") {
   test::Random random(13);
   const SparseMatrix lower = test::laplacian(9, 7, 5, 100);
-  for (const auto kind : kAll) {
+  for (const auto kind : kPreconditionings) {
     const auto C = algebra::make_preconditioner(kind, lower);
     algebra::ConjugateBasis basis;
     Monitor monitor;
@@ -123,7 +113,7 @@ TEST_CASE("the Lanczos vectors are orthonormal, T is QᵀÂQ, and its ends appro
   test::Random random(17);
   const SparseMatrix lower = test::laplacian(8, 7, 6, 50);
   const Vector b = random.vector(336);
-  for (const auto kind : kAll) {
+  for (const auto kind : kPreconditionings) {
     const auto C = algebra::make_preconditioner(kind, lower);
     const DenseMatrix A = C->apply(DenseMatrix::Identity(336, 336));
     const Vector spectrum = Eigen::SelfAdjointEigenSolver<DenseMatrix>((A + A.transpose()) / 2).eigenvalues();

@@ -8,6 +8,7 @@
 #include "algebra/cglan.hpp"
 #include "algebra/successive_cg.hpp"
 #include "base/error.hpp"
+#include "iterations.hpp"
 #include "spd_matrices.hpp"
 
 using namespace dotyk;
@@ -16,18 +17,13 @@ using algebra::Preconditioning;
 using algebra::RepeatedSettings;
 using algebra::SparseMatrix;
 using algebra::Vector;
+using test::Stop;
+using test::kPreconditionings;
 using Method = RepeatedSettings::Method;
 
 namespace {
 
-constexpr Preconditioning kAll[] = {Preconditioning::none, Preconditioning::ssor, Preconditioning::incomplete_cholesky};
 constexpr Method kMethods[] = {Method::cholesky, Method::cg, Method::scg, Method::cglan, Method::block_cg};
-
-struct Stop final : Monitor {
-  explicit Stop(int n) : left(n) {}
-  bool stop() override { return --left < 0; }
-  int left;
-};
 
 /// Smooth right-hand sides on the grid, as sensitivities of a slender body are; column k varies as x^k.
 DenseMatrix smooth(int nx, int ny, int nz, int columns) {
@@ -46,7 +42,7 @@ TEST_CASE("every method agrees with the direct solution, right-hand sides at onc
   const double condition = K.norm() * K.inverse().norm();
   Monitor monitor;
   for (const Method method : kMethods)
-    for (const auto kind : kAll)
+    for (const auto kind : kPreconditionings)
       for (const bool more : {false, true})
         for (const double tolerance : {1e-6, 1e-11}) {
           RepeatedSettings settings{.method = method, .preconditioning = kind, .cg = {.tolerance = tolerance}, .extend = more, .deflate = more};
@@ -66,7 +62,7 @@ TEST_CASE("every method agrees with the direct solution, right-hand sides at onc
 TEST_CASE("successive conjugate gradients: nothing left to do within the span, less outside it, less again when extended") {
   const SparseMatrix lower = test::laplacian(30, 4, 4);
   const DenseMatrix B = smooth(30, 4, 4, 4);
-  for (const auto kind : kAll) {
+  for (const auto kind : kPreconditionings) {
     const auto C = algebra::make_preconditioner(kind, lower);
     Monitor monitor;
     const algebra::CgSettings settings{.tolerance = 1e-8};
@@ -108,7 +104,7 @@ TEST_CASE("CGLAN: the number of vectors is where the gap is largest, and they sp
   const SparseMatrix lower = test::laplacian(60, 4, 4);
   test::Random random(29);
   const DenseMatrix B = random.matrix(960, 4);
-  for (const auto kind : kAll) {
+  for (const auto kind : kPreconditionings) {
     const auto C = algebra::make_preconditioner(kind, lower);
     Monitor monitor;
     const algebra::CgSettings settings{.tolerance = 1e-8};
@@ -140,7 +136,7 @@ TEST_CASE("block conjugate gradients: equal, dependent and zero right-hand sides
   B.col(2).setZero();
   B.col(4) = 1e-9 * (B.col(0) - 3 * B.col(3));
   const DenseMatrix exact = K.llt().solve(B);
-  for (const auto kind : kAll) {
+  for (const auto kind : kPreconditionings) {
     const auto C = algebra::make_preconditioner(kind, lower);
     Monitor monitor;
     const auto r = algebra::block_cg(*C, B, {.tolerance = 1e-9}, monitor);
@@ -201,7 +197,7 @@ TEST_CASE("tolerances below rounding: every method ends by rounding as near as t
   Monitor monitor;
   for (const double scale : {1.0, 1e-180, 1e200})  // squares of such loads vanish or overflow
     for (const Method method : kMethods)
-      for (const auto kind : kAll)
+      for (const auto kind : kPreconditionings)
         for (const bool more : {false, true})
           for (const double tolerance : {1e-12, 1e-16, 1e-300}) {
             if (method == Method::cholesky) continue;

@@ -1,8 +1,20 @@
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "../support/random.hpp"
 
 namespace dotyk::test {
+
+/// Dense A_CC − A_CI A_II⁻¹ A_IC.
+inline algebra::DenseMatrix schur(const algebra::DenseMatrix& A, const std::vector<int>& c) {
+  std::vector<int> i;
+  for (int k = 0; k < A.rows(); ++k)
+    if (std::find(c.begin(), c.end(), k) == c.end()) i.push_back(k);
+  if (i.empty()) return A(c, c);
+  return A(c, c) - A(c, i) * algebra::DenseMatrix(A(i, i)).ldlt().solve(algebra::DenseMatrix(A(i, c)));
+}
 
 /// The 7-point Laplacian on a grid of nx × ny × nz inner nodes, zero around it; `stretch` weighs the coupling along x.
 /// Lower triangle. Eigenvalues: Σ 2 w (1 − cos(kπ/(n + 1))) over the three directions, w = stretch, 1, 1.

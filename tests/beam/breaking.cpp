@@ -11,12 +11,14 @@ using namespace dotyk;
 using beam::Beam;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
+using test::kEJ;
 using test::kFree;
 using test::kHeld;
+using test::kLength;
 
 namespace {
 
-constexpr double kLength = 2, kEJ = 3, kSpring = 10, kLimit = 0.2;
+constexpr double kSpring = 10, kLimit = 0.2;
 
 /// A cantilever whose tip rests on a support that breaks.
 Beam cantilever(double force) {

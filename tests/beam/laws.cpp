@@ -10,10 +10,10 @@ using namespace dotyk;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
 using test::EndCondition;
+using test::kEJ;
+using test::kLength;
 
 namespace {
-
-constexpr double kLength = 2, kEJ = 3;
 
 const std::vector<SupportLaw> kLaws{{Kind::free, 0, 0},          {Kind::prescribed, 0.05, 0},     {Kind::load, -0.3, 0},
                                     {Kind::elastic, 4, 0},       {Kind::one_sided_elastic, 4, 0}, {Kind::signorini, 0, 0},

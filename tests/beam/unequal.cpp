@@ -15,13 +15,15 @@ using namespace dotyk;
 using beam::Beam;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
+using test::kEJ;
 using test::kFree;
 using test::kHeld;
+using test::kLength;
 using test::only;
 
 namespace {
 
-constexpr double kLength = 2, kEJ = 3, kPush = 10, kPull = 0.4;
+constexpr double kPush = 10, kPull = 0.4;
 
 SupportLaw unequal(double push, double pull) { return {Kind::unequal_elastic, push, 0, pull}; }
 

@@ -1,8 +1,11 @@
 #pragma once
 // Flows that the tests share, in units of the channel: y0 = 1, diffusion time 1.
+#include "base/monitor.hpp"
 #include "channel/data.hpp"
 
 namespace flows {
+
+inline dotyk::Monitor quiet;  // never stops
 
 inline dotyk::channel::Data electric() {
   dotyk::channel::Data data;

@@ -9,10 +9,9 @@
 
 using namespace dotyk;
 using namespace dotyk::channel;
+using flows::quiet;
 
 namespace {
-
-dotyk::Monitor quiet;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
 

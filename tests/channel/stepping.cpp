@@ -9,10 +9,9 @@
 #include "flows.hpp"
 
 using namespace dotyk::channel;
+using flows::quiet;
 
 namespace {
-
-dotyk::Monitor quiet;
 
 double difference(const Series& series, const Stepping& stepping) {
   double greatest = 0;

@@ -15,11 +15,11 @@ namespace {
 
 Monitor quiet;
 
-struct Top {
+struct ScaledTop {
   mesh::Mesh mesh;
   std::vector<contact::ContactRow> rows;
   contact::Surface surface;
-  Top(int dim, mesh::Family family, int n, double scale = 1)
+  ScaledTop(int dim, mesh::Family family, int n, double scale = 1)
       : mesh(scaled(test::unit(dim, family, n), scale)), rows(made(mesh, scale)),
         surface(contact::surface(mesh, mesh.parts.at("top"), rows, {})) {}
   static mesh::Mesh scaled(mesh::Mesh m, double scale) {
@@ -51,7 +51,7 @@ struct Top {
 TEST_CASE("the trace norm of waves: the L2 norm times (k² + 1/ℓ²)^(-1/4)") {
   for (int dim : {2, 3})
     for (const auto family : test::kFamilies) {
-      const Top top(dim, family, dim == 2 ? 64 : 16);
+      const ScaledTop top(dim, family, dim == 2 ? 64 : 16);
       const double length = 0.7;
       std::vector<contact::Density> waves;
       for (int k : {0, 1, 3}) waves.push_back(top.density([=](const Point& x) { return std::cos(k * std::numbers::pi * x[0]); }));
@@ -69,7 +69,7 @@ TEST_CASE("the trace norm of waves: the L2 norm times (k² + 1/ℓ²)^(-1/4)") {
 }
 
 TEST_CASE("where traces vanish at the ends, a sine is the wave") {
-  const Top top(2, mesh::Family::p1, 64);
+  const ScaledTop top(2, mesh::Family::p1, 64);
   std::vector<char> moves = top.all();
   for (std::size_t k = 0; k < moves.size(); ++k) {
     const double x = top.mesh.point(top.rows[k].node)[0];
@@ -84,7 +84,7 @@ TEST_CASE("where traces vanish at the ends, a sine is the wave") {
 
 TEST_CASE("the trace norm has the units of its formula, and adds up over halves") {
   for (const auto family : test::kFamilies) {
-    const Top one(2, family, 4), large(2, family, 4, 1000);
+    const ScaledTop one(2, family, 4), large(2, family, 4, 1000);
     const auto f = [](double scale) { return [=](const Point& x) { return 1 + 3 * x[0] / scale; }; };
     const double a = contact::trace_gram(one.surface, one.all(), {one.density(f(1))}, 0.5, quiet)(0, 0);
     const double b = contact::trace_gram(large.surface, large.all(), {large.density(f(1000))}, 500, quiet)(0, 0);

@@ -11,7 +11,7 @@ using mesh::Point;
 
 namespace {
 
-constexpr double kE = 5, kNu = 0.28;
+constexpr double kYoung = 5, kPoisson = 0.28;
 
 double difference(const elasticity::Hooke& a, const elasticity::Hooke& b) {
   double d = 0;
@@ -24,7 +24,7 @@ double difference(const elasticity::Hooke& a, const elasticity::Hooke& b) {
 
 /// Hooke's law in Voigt form, solid.
 DenseMatrix voigt() {
-  const double mu = kE / (2 * (1 + kNu)), lambda = kE * kNu / ((1 + kNu) * (1 - 2 * kNu));
+  const double mu = kYoung / (2 * (1 + kPoisson)), lambda = kYoung * kPoisson / ((1 + kPoisson) * (1 - 2 * kPoisson));
   DenseMatrix v = DenseMatrix::Zero(6, 6);
   v.topLeftCorner(3, 3).setConstant(lambda);
   v.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
@@ -51,15 +51,15 @@ std::vector<double> pulled(const mesh::Mesh& m, const test::MaterialField& mater
 }  // namespace
 
 TEST_CASE("the general stiffness of an isotropic material is the isotropic one") {
-  CHECK(difference(elasticity::from_voigt(voigt()), elasticity::isotropic(kE, kNu, 3, Plane::strain)) < 1e-14);
+  CHECK(difference(elasticity::from_voigt(voigt()), elasticity::isotropic(kYoung, kPoisson, 3, Plane::strain)) < 1e-14);
   const DenseMatrix v = voigt();
   DenseMatrix strain(3, 3);  // plane strain: the xx yy xy part
   strain << v(0, 0), v(0, 1), 0, v(1, 0), v(1, 1), 0, 0, 0, v(5, 5);
-  CHECK(difference(elasticity::from_voigt(strain), elasticity::isotropic(kE, kNu, 2, Plane::strain)) < 1e-14);
+  CHECK(difference(elasticity::from_voigt(strain), elasticity::isotropic(kYoung, kPoisson, 2, Plane::strain)) < 1e-14);
   DenseMatrix stress(3, 3);  // plane stress: E/(1−ν²) …
-  stress << 1, kNu, 0, kNu, 1, 0, 0, 0, (1 - kNu) / 2;
-  stress *= kE / (1 - kNu * kNu);
-  CHECK(difference(elasticity::from_voigt(stress), elasticity::isotropic(kE, kNu, 2, Plane::stress)) < 1e-14);
+  stress << 1, kPoisson, 0, kPoisson, 1, 0, 0, 0, (1 - kPoisson) / 2;
+  stress *= kYoung / (1 - kPoisson * kPoisson);
+  CHECK(difference(elasticity::from_voigt(stress), elasticity::isotropic(kYoung, kPoisson, 2, Plane::stress)) < 1e-14);
 }
 
 TEST_CASE("uniaxial tension: closed forms of plane stress, plane strain and a solid") {
@@ -71,10 +71,10 @@ TEST_CASE("uniaxial tension: closed forms of plane stress, plane strain and a so
       Plane plane;
       double along, across, zz;
     };
-    for (const Case& c : {Case{square, Plane::stress, 1 / kE, -kNu / kE, 0},
-                          Case{square, Plane::strain, (1 - kNu * kNu) / kE, -kNu * (1 + kNu) / kE, kNu},
-                          Case{cube, Plane::strain, 1 / kE, -kNu / kE, 0}}) {
-      const auto material = test::steel(c.m.dimension(), kE, kNu, c.plane);
+    for (const Case& c : {Case{square, Plane::stress, 1 / kYoung, -kPoisson / kYoung, 0},
+                          Case{square, Plane::strain, (1 - kPoisson * kPoisson) / kYoung, -kPoisson * (1 + kPoisson) / kYoung, kPoisson},
+                          Case{cube, Plane::strain, 1 / kYoung, -kPoisson / kYoung, 0}}) {
+      const auto material = test::steel(c.m.dimension(), kYoung, kPoisson, c.plane);
       const auto u = pulled(c.m, material);
       const auto exact = test::nodal(c.m, [&](const Point& x) {
         return Point{c.along * x[0], c.across * x[1], c.across * x[2]};
@@ -100,9 +100,9 @@ TEST_CASE("a material that varies by cells: two layers in series, and equal valu
         return Point{x[0] < 0.5 ? x[0] : 0.5 + (x[0] - 0.5) / 4, 0, 0};
       });
       CHECK(test::largest_difference(u, exact) < 1e-13);
-      const test::MaterialField even(std::vector<double>(m.cell_count(), kE), std::vector<double>(m.cell_count(), kNu),
+      const test::MaterialField even(std::vector<double>(m.cell_count(), kYoung), std::vector<double>(m.cell_count(), kPoisson),
                                      dim, Plane::stress);
-      CHECK(test::largest_difference(pulled(m, even), pulled(m, test::steel(dim, kE, kNu, Plane::stress))) < 1e-14);
+      CHECK(test::largest_difference(pulled(m, even), pulled(m, test::steel(dim, kYoung, kPoisson, Plane::stress))) < 1e-14);
     }
 }
 

@@ -7,7 +7,7 @@ using mesh::Point;
 
 namespace {
 
-Point linear(const Point& x) {
+Point linear_displacement(const Point& x) {
   return {0.3 * x[0] - 0.2 * x[1] + 0.5 * x[2], 0.1 * x[0] + 0.7 * x[1] - 0.4 * x[2],
           -0.6 * x[0] + 0.2 * x[1] + 0.9 * x[2]};
 }
@@ -20,10 +20,10 @@ TEST_CASE("patch test: a linear displacement on the boundary is reproduced insid
       auto m = test::unit(dim, family, dim == 2 ? 6 : 3);
       test::distort(m, dim == 2 ? 0.04 : 0.06);
       const auto numbering = test::prescribe(
-          m, [&](const Point& x, int) { return test::on_boundary(x, dim); }, linear);
+          m, [&](const Point& x, int) { return test::on_boundary(x, dim); }, linear_displacement);
       const auto material = test::steel(dim);
       const auto system = elasticity::assemble(m, material, {}, {}, numbering);
-      const auto u = test::solve(system, numbering), exact = test::nodal(m, linear);
+      const auto u = test::solve(system, numbering), exact = test::nodal(m, linear_displacement);
       CHECK(test::largest_difference(u, exact) < 1e-12);
       // The stress is constant: the same in every cell.
       const auto stress = elasticity::cell_stress(m, material, u);
@@ -43,7 +43,7 @@ TEST_CASE("patch test with tractions: the stress vector of a constant stress on 
       auto m = test::unit(dim, family, dim == 2 ? 5 : 3);
       test::distort(m, 0.03);
       const auto material = test::steel(dim);
-      const auto exact = test::nodal(m, linear);
+      const auto exact = test::nodal(m, linear_displacement);
       const auto s = elasticity::cell_stress(m, material, exact)[0];
       const double sigma[3][3] = {{s[0], s[5], s[4]}, {s[5], s[1], s[3]}, {s[4], s[3], s[2]}};
       std::vector<double> force(m.coordinates.size(), 0);

@@ -9,26 +9,13 @@ using algebra::DenseMatrix;
 using algebra::Vector;
 using mesh::Point;
 
-namespace {
-
-std::vector<elasticity::FacetSpring> springs(const mesh::Mesh& m, const std::string& part, Point k) {
-  std::vector<elasticity::FacetSpring> result;
-  for (const auto f : m.parts.at(part)) {
-    result.push_back({f, {}});
-    result.back().stiffness.assign(elasticity::facet_points(m), k);
-  }
-  return result;
-}
-
-}  // namespace
-
 TEST_CASE("with prescribed components K, f and the energy are those of the full system restricted") {
   for (int dim : {2, 3})
     for (const auto family : test::kFamilies) {
       test::Random random(211);
       auto m = test::unit(dim, family, 3);
       test::distort(m, 0.05);
-      const auto elastic = springs(m, "right", {2, 0.5, 3});
+      const auto elastic = test::even_springs(m, "right", {2, 0.5, 3});
       const Vector force = random.vector(static_cast<int>(m.coordinates.size()));
       const std::vector<double> nodal(force.begin(), force.end());
       const auto whole = elasticity::assemble(m, test::steel(dim), elastic, nodal, test::all_free(m));
@@ -78,9 +65,9 @@ TEST_CASE("springs: the energy of any displacement is ½∫ k u² over the facet
       const auto free = test::all_free(m);
       const DenseMatrix K = test::full(elasticity::assemble(m, test::steel(dim), {}, {}, free).K),
                         S = test::full(
-                                elasticity::assemble(m, test::steel(dim), springs(m, "top", {2, 5, 7}), {}, free).K) -
+                                elasticity::assemble(m, test::steel(dim), test::even_springs(m, "top", {2, 5, 7}), {}, free).K) -
                             K;
-      const auto rows = elasticity::spring_rows(m, springs(m, "top", {2, 5, 7}), free);
+      const auto rows = elasticity::spring_rows(m, test::even_springs(m, "top", {2, 5, 7}), free);
       CHECK(rows.stiffness.minCoeff() > 0);
       // The difference of K with and without springs is known to rounding of K.
       CHECK((DenseMatrix(rows.S.transpose() * rows.stiffness.asDiagonal() * rows.S) - S).cwiseAbs().maxCoeff() < 1e-14 * K.maxCoeff());

@@ -9,7 +9,7 @@ using mesh::Point;
 
 namespace {
 
-Stress linear(const Point& x) {
+Stress linear_stress(const Point& x) {
   Stress s;
   for (int v = 0; v < 6; ++v) s[v] = v - 2 + (1 + v) * x[0] - 3 * x[1] + 0.5 * v * x[2];
   return s;
@@ -18,11 +18,11 @@ Stress linear(const Point& x) {
 /// Greatest error of the recovered nodal stress from centre values of a linear field.
 double error(const mesh::Mesh& m) {
   std::vector<Stress> at_centres;
-  for (int c = 0; c < m.cell_count(); ++c) at_centres.push_back(linear(m.cell_centre(c)));
+  for (int c = 0; c < m.cell_count(); ++c) at_centres.push_back(linear_stress(m.cell_centre(c)));
   const auto recovered = elasticity::recover_stress(m, at_centres);
   double worst = 0;
   for (int n = 0; n < m.node_count(); ++n)
-    for (int v = 0; v < 6; ++v) worst = std::max(worst, std::abs(recovered[n][v] - linear(m.point(n))[v]));
+    for (int v = 0; v < 6; ++v) worst = std::max(worst, std::abs(recovered[n][v] - linear_stress(m.point(n))[v]));
   return worst;
 }
 
@@ -57,11 +57,11 @@ TEST_CASE("recovery does not depend on the unit of length or the place") {
       std::vector<Stress> at_centres;
       for (int c = 0; c < m.cell_count(); ++c) {
         const Point x = m.cell_centre(c);
-        at_centres.push_back(linear({x[0] / size, x[1] / size, 0}));
+        at_centres.push_back(linear_stress({x[0] / size, x[1] / size, 0}));
       }
       const auto recovered = elasticity::recover_stress(m, at_centres);
       for (int n = 0; n < m.node_count(); ++n)
-        CHECK(std::abs(recovered[n][0] - linear({m.node(n)[0] / size, m.node(n)[1] / size, 0})[0]) < 1e-11);
+        CHECK(std::abs(recovered[n][0] - linear_stress({m.node(n)[0] / size, m.node(n)[1] / size, 0})[0]) < 1e-11);
     }
 }
 

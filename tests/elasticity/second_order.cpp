@@ -3,12 +3,17 @@
 
 #include "../support/elastic.hpp"
 #include "elasticity/interpolation.hpp"
+#include "moduli.hpp"
 
 using namespace dotyk;
 using mesh::Facet;
 using mesh::Mesh;
 using mesh::Point;
 using std::numbers::pi;
+using test::kE;
+using test::kLambda;
+using test::kMu;
+using test::kNu;
 
 namespace {
 
@@ -43,8 +48,6 @@ struct Quadratic {
     return f;
   }
 };
-
-constexpr double kE = 3, kNu = 0.3, kMu = kE / (2 * (1 + kNu)), kLambda = kE * kNu / ((1 + kNu) * (1 - 2 * kNu));
 
 /// The displacement at a point of a cell.
 Point value(const Mesh& m, const std::vector<double>& u, int cell, const Point& x) {

@@ -19,15 +19,6 @@ WeakMotions weak(const mesh::Mesh& m, const Given& held, const std::vector<Facet
   return elasticity::weak_motions(m, numbering, K, elasticity::rigid_modes(m, numbering, springs).modes);
 }
 
-std::vector<FacetSpring> springs(const mesh::Mesh& m, const std::string& part, Point k) {
-  std::vector<FacetSpring> result;
-  for (const auto f : m.parts.at(part)) {
-    result.push_back({f, {}});
-    result.back().stiffness.assign(elasticity::facet_points(m), k);
-  }
-  return result;
-}
-
 bool nothing(const Point&, int) { return false; }
 
 /// The unit square or cube with cells that shrink towards the origin as s^power.
@@ -51,7 +42,7 @@ TEST_CASE("a column on soft springs: the stiffness is that of the closed form, k
       for (const double scale : {1e-20, 1.0, 1e20}) {
         const auto m = test::rectangle(family, 4, 32);
         const auto w = weak(m, [](const Point& x, int i) { return i == 0 && (x[0] == 0 || x[0] == 1); },
-                            springs(m, "bottom", {0, k * scale, 0}), scale, 0);
+                            test::even_springs(m, "bottom", {0, k * scale, 0}), scale, 0);
         CHECK(w.stiffness == doctest::Approx(k / std::pow(std::numbers::pi, 2)).epsilon(0.01));  // of the mesh and one step
         CHECK(texts(w.motions) == Names{"translation along y"});
       }
@@ -61,7 +52,7 @@ TEST_CASE("springs all around: every motion is named, pure; stiffer springs are 
   for (const int dim : {2, 3})
     for (const auto family : test::kFamilies) {
       const auto m = test::unit(dim, family, 4);
-      const auto on = [&](double k) { return weak(m, nothing, springs(m, "bottom", {k, k, k})); };
+      const auto on = [&](double k) { return weak(m, nothing, test::even_springs(m, "bottom", {k, k, k})); };
       CHECK(on(1e-3).motions.empty());
       CHECK(on(1e-3).stiffness == 1);
       CHECK(on(1e-7).motions.size() == (dim == 2 ? 3 : 6));
@@ -127,9 +118,9 @@ TEST_CASE("a motion that is free, exactly, beside one that is held weakly") {
     const auto m = test::unit(2, family, 6);
     const Given roller = [](const Point& x, int i) { return i == 1 && x[1] == 0; };
     CHECK(weak(m, roller).motions.empty());
-    CHECK(texts(weak(m, roller, springs(m, "left", {1e-8, 0, 0})).motions) == Names{"translation along x"});
+    CHECK(texts(weak(m, roller, test::even_springs(m, "left", {1e-8, 0, 0})).motions) == Names{"translation along x"});
     // Springs along y on a body free along x: the rest is weak, the kernel is not named.
-    const auto w = weak(m, nothing, springs(m, "bottom", {0, 1e-8, 0}));
+    const auto w = weak(m, nothing, test::even_springs(m, "bottom", {0, 1e-8, 0}));
     CHECK(texts(w.motions) == Names{"translation along y", "rotation about (0.5, 0.5)"});
   }
 }

@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -32,6 +33,18 @@ Pixels read_png(const std::string& file) {
 }
 
 bool exists(const std::string& file) { return std::ifstream(file).good(); }
+
+bool near(Colour a, Colour b, int tolerance) {
+  return std::abs(a.r - b.r) <= tolerance && std::abs(a.g - b.g) <= tolerance && std::abs(a.b - b.b) <= tolerance;
+}
+
+bool drawn_at(const Pixels& p, const Frame& f, double x, double y, Colour colour) {
+  const int px = static_cast<int>(std::lround(f.left + x * (f.right - f.left))), py = static_cast<int>(std::lround(f.bottom - y * (f.bottom - f.top)));
+  for (int dy = -3; dy <= 3; ++dy)
+    for (int dx = -3; dx <= 3; ++dx)
+      if (near(p.at(px + dx, py + dy), colour)) return true;
+  return false;
+}
 
 bool white_rim(const Pixels& p) {
   const Colour white{255, 255, 255};

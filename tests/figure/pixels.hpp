@@ -33,5 +33,18 @@ std::string message_of(F f) {
   return "";
 }
 
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+bool near(dotyk::figure::Colour a, dotyk::figure::Colour b, int tolerance = 40);
+
+// The lines that enclose a plot, in pixels.
+struct Frame {
+  int left, right, top, bottom;
+};
+
+// Is the colour within a few pixels of the place that x and y, shares of the
+// frame counted from its lower left, mean?
+bool drawn_at(const Pixels& picture, const Frame& frame, double x, double y, dotyk::figure::Colour colour);
+
 // The corners and the middles of the sides are white.
 bool white_rim(const Pixels& picture);

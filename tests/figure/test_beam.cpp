@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../support/plain_laws.hpp"
 #include "base/monitor.hpp"
 #include "beam/solve.hpp"
 #include "figure/compose_beam.hpp"
@@ -14,10 +15,10 @@ using namespace dotyk;
 using namespace dotyk::figure;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
+using test::kFree;
+using test::kHeld;
 
 namespace {
-
-const SupportLaw held{Kind::prescribed, 0, 0}, nothing;
 
 const std::vector<SupportLaw> laws{{Kind::free, 0, 0}, {Kind::prescribed, -0.02, 0}, {Kind::load, 0.1, 0}, {Kind::elastic, 5, 0},
                                    {Kind::one_sided_elastic, 5, 0}, {Kind::signorini, 0, 0}, {Kind::friction, 0.2, 0},
@@ -28,7 +29,7 @@ beam::Beam beam_of(const SupportLaw& deflection, const SupportLaw& rotation) {
   beam::Beam b;
   b.cells = 8;
   const bool pinned = rotation.kind != Kind::free;
-  b.supports = {{"left", 0, held, pinned ? nothing : held}, {"right", 1, pinned ? held : deflection, rotation}};
+  b.supports = {{"left", 0, kHeld, pinned ? kFree : kHeld}, {"right", 1, pinned ? kHeld : deflection, rotation}};
   return b;
 }
 
@@ -63,8 +64,6 @@ void check_working_point(const PagePicture& page) {
 
 const PageCurve& diagram(const PagePicture& page, std::size_t row) { return std::get<CurveDrawing>(page.rows[row][0].drawing).curves[0]; }
 
-bool near(Colour a, Colour b) { return std::abs(a.r - b.r) <= 12 && std::abs(a.g - b.g) <= 12 && std::abs(a.b - b.b) <= 12; }
-
 constexpr Colour frame_ink{30, 30, 30};
 
 }  // namespace
@@ -73,7 +72,7 @@ TEST_CASE("the working point of every law lies on its graph") {
   for (const SupportLaw& law : laws)
     for (const double q : {-1.0, 1.0, -0.2})
       for (const LawSide of : {LawSide::deflection, LawSide::rotation}) {
-        beam::Beam b = of == LawSide::deflection ? beam_of(law, nothing) : beam_of(nothing, law);
+        beam::Beam b = of == LawSide::deflection ? beam_of(law, kFree) : beam_of(kFree, law);
         b.q = q;
         CAPTURE(problem::support_name(law.kind));
         CAPTURE(q);
@@ -84,7 +83,7 @@ TEST_CASE("the working point of every law lies on its graph") {
 TEST_CASE("diagrams begin and end at zero, and jump by what acts at a point") {
   beam::Beam b;
   b.length = 4, b.q = -0.3;
-  b.supports = {{"left", 0, held, held}, {"x = 2", 2, held, {Kind::elastic, 3, 0}}, {"right", 4, {Kind::elastic, 5, 0}, nothing}};
+  b.supports = {{"left", 0, kHeld, kHeld}, {"x = 2", 2, kHeld, {Kind::elastic, 3, 0}}, {"right", 4, {Kind::elastic, 5, 0}, kFree}};
   b.loads = {{1.234, -2, 0}, {3.1, 0, 0.7}};
   const auto s = solutions(b)[0].solution;
   const PagePicture page = compose(view(*s), {BeamPanel::moment, BeamPanel::shear}, {});
@@ -114,7 +113,7 @@ TEST_CASE("diagrams begin and end at zero, and jump by what acts at a point") {
 
 TEST_CASE("what rounding leaves of a diagram that vanishes is not drawn") {
   beam::Beam b;
-  b.supports = {{"left", 0, held, nothing}, {"right", 1, {Kind::prescribed, 0.3, 0}, nothing}};
+  b.supports = {{"left", 0, kHeld, kFree}, {"right", 1, {Kind::prescribed, 0.3, 0}, kFree}};
   const PagePicture page = compose(view(*solutions(b)[0].solution), {BeamPanel::moment, BeamPanel::shear}, {});
   for (const std::size_t row : {0u, 1u})
     for (const double y : diagram(page, row).y) CHECK(y == 0);
@@ -122,7 +121,7 @@ TEST_CASE("what rounding leaves of a diagram that vanishes is not drawn") {
 
 TEST_CASE("states of supports") {
   const auto state = [](const SupportLaw& law, double q) {
-    beam::Beam b = beam_of(law, nothing);
+    beam::Beam b = beam_of(law, kFree);
     b.q = q;
     return std::get<BeamDrawing>(compose(view(*solutions(b)[0].solution), {BeamPanel::deflection}, {}).rows[0][0].drawing).supports[1].below.state;
   };
@@ -149,7 +148,7 @@ TEST_CASE("symbols of every law stand whole within the frame") {
   for (const SupportLaw& law : laws)
     for (const bool rotation : {false, true})
       for (const double q : {-1.0, 0.8}) {
-        beam::Beam b = rotation ? beam_of(nothing, law) : beam_of(law, nothing);
+        beam::Beam b = rotation ? beam_of(kFree, law) : beam_of(law, kFree);
         std::swap(b.supports[0].deflection, b.supports[1].deflection);
         std::swap(b.supports[0].rotation, b.supports[1].rotation);
         for (const bool turned : {false, true}) {
@@ -165,12 +164,12 @@ TEST_CASE("symbols of every law stand whole within the frame") {
           int bottom = p.height - 1, left = 0, right = p.width - 1;
           const auto dark = [&](int y) {
             int n = 0;
-            for (int x = 0; x < p.width; ++x) n += near(p.at(x, y), frame_ink);
+            for (int x = 0; x < p.width; ++x) n += near(p.at(x, y), frame_ink, 12);
             return n;
           };
           while (bottom > 0 && dark(bottom) < p.width / 2) --bottom;
-          while (left < p.width && !near(p.at(left, bottom), frame_ink)) ++left;
-          while (right > 0 && !near(p.at(right, bottom), frame_ink)) --right;
+          while (left < p.width && !near(p.at(left, bottom), frame_ink, 12)) ++left;
+          while (right > 0 && !near(p.at(right, bottom), frame_ink, 12)) --right;
           REQUIRE(bottom > p.height / 2);
           const SupportElement& e = [&]() -> const SupportElement& {
             const auto& supports = std::get<BeamDrawing>(page.rows[0][0].drawing).supports;
@@ -185,7 +184,7 @@ TEST_CASE("symbols of every law stand whole within the frame") {
           int seen = 0, at_rim = 0;
           for (int y = 0; y <= bottom; ++y)
             for (int x = left; x <= right; ++x) {
-              if (!near(p.at(x, y), colour)) continue;
+              if (!near(p.at(x, y), colour, 12)) continue;
               ++seen;
               at_rim += x < left + 4 || x > right - 4 || y > bottom - 4;
             }
@@ -220,7 +219,7 @@ TEST_CASE("beams of any size, without load, and at small sizes of the picture ar
   for (const double length : {1e-3, 1.0, 1e3})
     for (const double EJ : {1e-6, 1.0, 1e6})
       for (const double q : {0.0, -1e-3, 5e6}) {
-        beam::Beam b = beam_of({Kind::elastic, 1, 0}, nothing);
+        beam::Beam b = beam_of({Kind::elastic, 1, 0}, kFree);
         b.length = b.supports[1].x = length, b.EJ = EJ, b.q = q;
         PagePicture page = compose(view(*solutions(b)[0].solution), {BeamPanel::deflection, BeamPanel::moment, BeamPanel::shear}, {"m", "N"});
         page.file = "sizes.png", page.width = 400, page.height = 360;
@@ -248,7 +247,7 @@ TEST_CASE("pages that cannot be drawn are refused") {
 }
 
 TEST_CASE("a deflection that no scale makes seen leaves the beam straight") {
-  beam::Beam b = beam_of(held, nothing);
+  beam::Beam b = beam_of(kHeld, kFree);
   b.q = -1e-310;
   PagePicture page = compose(view(*solutions(b)[0].solution), {BeamPanel::deflection, BeamPanel::moment}, {});
   page.file = "straight.png";
@@ -258,7 +257,7 @@ TEST_CASE("a deflection that no scale makes seen leaves the beam straight") {
   int rows = 0;
   for (int y = 60; y < p.height / 2; ++y) {  // below the frame's upper line
     int n = 0;
-    for (int x = 0; x < p.width; ++x) n += near(p.at(x, y), frame_ink);
+    for (int x = 0; x < p.width; ++x) n += near(p.at(x, y), frame_ink, 12);
     rows += n > p.width / 2;
   }
   CHECK(rows >= 2);

@@ -12,12 +12,6 @@ using namespace dotyk::figure;
 
 namespace {
 
-bool near(Colour a, Colour b) { return std::abs(a.r - b.r) <= 40 && std::abs(a.g - b.g) <= 40 && std::abs(a.b - b.b) <= 40; }
-
-struct Frame {
-  int left, right, top, bottom;
-};
-
 // The frame of the plot: the longest dark row and column of pixels.
 Frame frame_of(const Pixels& p) {
   std::vector<int> rows, columns;
@@ -35,16 +29,6 @@ Frame frame_of(const Pixels& p) {
   REQUIRE(rows.size() >= 2);
   REQUIRE(columns.size() >= 2);
   return {columns.front(), columns.back(), rows.front(), rows.back()};
-}
-
-// Is the colour within a few pixels of the place that x and y, shares of the
-// frame counted from its lower left, mean?
-bool drawn_at(const Pixels& p, const Frame& f, double x, double y, Colour colour) {
-  const int px = static_cast<int>(std::lround(f.left + x * (f.right - f.left))), py = static_cast<int>(std::lround(f.bottom - y * (f.bottom - f.top)));
-  for (int dy = -3; dy <= 3; ++dy)
-    for (int dx = -3; dx <= 3; ++dx)
-      if (near(p.at(px + dx, py + dy), colour)) return true;
-  return false;
 }
 
 ChartPicture chart_of(const std::string& file, const std::vector<double>& x, const std::vector<double>& y) {

@@ -11,7 +11,6 @@ using namespace dotyk::figure;
 namespace {
 
 bool dark(Colour c) { return c.r < 150 && c.g < 150 && c.b < 150; }
-bool near(Colour a, Colour b) { return std::abs(a.r - b.r) <= 40 && std::abs(a.g - b.g) <= 40 && std::abs(a.b - b.b) <= 40; }
 
 SeriesPicture line(std::vector<double> x, std::vector<double> y) {
   SeriesPicture s;
@@ -25,10 +24,6 @@ ChartPicture panel(const SeriesPicture& s) {
   chart.series = {s};
   return chart;
 }
-
-struct Frame {
-  int left, right, top, bottom;
-};
 
 // Of the panels, from above: unbroken dark lines over more than half of the picture, in pairs.
 std::vector<Frame> frames_of(const Pixels& p) {
@@ -49,14 +44,6 @@ std::vector<Frame> frames_of(const Pixels& p) {
   std::vector<Frame> out;
   for (std::size_t i = 0; i + 1 < lines.size(); i += 2) out.push_back({lines[i].left, lines[i].right, lines[i].top, lines[i + 1].bottom});
   return out;
-}
-
-bool drawn_at(const Pixels& p, const Frame& f, double x, double y) {
-  const int px = static_cast<int>(std::lround(f.left + x * (f.right - f.left))), py = static_cast<int>(std::lround(f.bottom - y * (f.bottom - f.top)));
-  for (int dy = -3; dy <= 3; ++dy)
-    for (int dx = -3; dx <= 3; ++dx)
-      if (near(p.at(px + dx, py + dy), series_colour(0))) return true;
-  return false;
 }
 
 }  // namespace
@@ -82,9 +69,9 @@ TEST_CASE("panels that share an axis stand below each other, each curve at its n
   // The common axis runs from 0 to 10 with a margin of a twentieth where it does not begin at zero.
   for (double t = 0.15; t < 0.9; t += 0.1) {
     const double x = 10 * t / 10.5;
-    CHECK(drawn_at(p, frames[0], x, t));
-    CHECK(drawn_at(p, frames[1], x / 2, t));
-    CHECK(drawn_at(p, frames[2], (5 + 5 * t) / 10.5, t));
+    CHECK(drawn_at(p, frames[0], x, t, series_colour(0)));
+    CHECK(drawn_at(p, frames[1], x / 2, t, series_colour(0)));
+    CHECK(drawn_at(p, frames[2], (5 + 5 * t) / 10.5, t, series_colour(0)));
   }
   column.shared_x = false;
   draw(column);
@@ -143,8 +130,8 @@ TEST_CASE("runs without an ordinate stand in a strip above the plot, a row for e
   CHECK(pale(0.25, 0.75));
   CHECK_FALSE(pale(0.25, 0.25));
   CHECK_FALSE(pale(0.5, 0.5));
-  CHECK(drawn_at(p, plot, 0.25, 0.5));
-  CHECK(drawn_at(p, plot, 0.5, 0.8));
+  CHECK(drawn_at(p, plot, 0.25, 0.5, series_colour(0)));
+  CHECK(drawn_at(p, plot, 0.5, 0.8, series_colour(0)));
 
   // The x axis holds them where no range is given.
   chart.x_range.reset();

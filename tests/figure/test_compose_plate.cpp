@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "../support/plain_laws.hpp"
 #include "figure/compose_plate.hpp"
 #include "mesh/generators.hpp"
 #include "pixels.hpp"
@@ -13,6 +14,7 @@ using namespace dotyk;
 using namespace dotyk::figure;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
+using test::kHeld;
 
 namespace {
 
@@ -21,7 +23,7 @@ plate::LawField everywhere(const SupportLaw& law) {
 }
 
 // The unit square under f; the same law along every side.
-plate::Plate square(int n, double f, const SupportLaw& deflection, const SupportLaw& rotation = {}) {
+plate::Plate square_model(int n, double f, const SupportLaw& deflection, const SupportLaw& rotation = {}) {
   const double from[2] = {0, 0}, to[2] = {1, 1};
   const int cells[2] = {n, n};
   const mesh::Grading even[2];
@@ -46,18 +48,18 @@ double carried(const PlatePicture& p) {
   return sum;
 }
 
-constexpr SupportLaw held{Kind::prescribed, 0, 0, 0}, stop{Kind::signorini, 0, 0, 0};
+constexpr SupportLaw stop{Kind::signorini, 0, 0, 0};
 
 }  // namespace
 
 TEST_CASE("reactions drawn along the edges and at the corners carry the load") {
   // What a strip carries beside a corner is extrapolated: the sum is right to first order at least.
   for (const plate::Element element : {plate::Element::morley, plate::Element::hct})
-    for (const SupportLaw& law : {held, stop}) {
+    for (const SupportLaw& law : {kHeld, stop}) {
       double error[2];
       for (const int fine : {0, 1}) {
         const int n = fine ? 16 : 8;
-        plate::Plate p = square(n, -3, law);
+        plate::Plate p = square_model(n, -3, law);
         p.element = element;
         const PlatePicture picture = compose(*solved(p), {});
         error[fine] = std::abs(carried(picture) / 3 - 1);
@@ -73,7 +75,7 @@ TEST_CASE("reactions drawn along the edges and at the corners carry the load") {
 
 TEST_CASE("a simply supported square is pulled down at its corners") {
   // Timoshenko and Woinowsky-Krieger, table 8: 0.065 q a² at each, for ν = 0.3.
-  plate::Plate p = square(16, -1, held);
+  plate::Plate p = square_model(16, -1, kHeld);
   p.element = plate::Element::hct;
   const PlatePicture picture = compose(*solved(p), {});
   REQUIRE(picture.forces.size() == 4);
@@ -85,7 +87,7 @@ TEST_CASE("a simply supported square is pulled down at its corners") {
 }
 
 TEST_CASE("one-sided edges let the corners go") {
-  const PlatePicture picture = compose(*solved(square(16, -1, stop)), {});
+  const PlatePicture picture = compose(*solved(square_model(16, -1, stop)), {});
   int open = 0;
   for (const PlateEdge& e : picture.boundary)
     for (const EdgeSample& s : e.samples) {
@@ -102,7 +104,7 @@ TEST_CASE("one-sided edges let the corners go") {
 }
 
 TEST_CASE("a field that is asked for is that of the vertices") {
-  const auto s = solved(square(6, -1, held));
+  const auto s = solved(square_model(6, -1, kHeld));
   const auto values = [&](PlateField field) { return compose(*s, {PlateView::plan, field, {}, {"m", "kN"}}).values; };
   for (std::size_t i = 0; i < values(PlateField::xx).size(); ++i) {
     const double xx = values(PlateField::xx)[i], yy = values(PlateField::yy)[i], xy = values(PlateField::xy)[i];
@@ -118,18 +120,18 @@ TEST_CASE("a field that is asked for is that of the vertices") {
 
 TEST_CASE("the factor makes the greatest deflection 8 to 20 % of the size") {
   for (const double f : {-1e-6, -1.0, 7.0, 1e5}) {
-    const auto s = solved(square(4, f, held));
+    const auto s = solved(square_model(4, f, kHeld));
     double most = 0;
     for (const double u : compose(*s, {}).deflection) most = std::max(most, std::abs(u));
     CHECK(visible_deflection(*s) * most <= 0.2 * (1 + 1e-12));
     CHECK(visible_deflection(*s) * most >= 0.08);
   }
-  CHECK(visible_deflection(*solved(square(4, 0, held))) == 1);
+  CHECK(visible_deflection(*solved(square_model(4, 0, kHeld))) == 1);
 }
 
 TEST_CASE("plates on everything are drawn") {
-  plate::Plate p = square(12, -1, stop);
-  p.edges[1].deflection = everywhere(held), p.edges[1].rotation = everywhere(held);
+  plate::Plate p = square_model(12, -1, stop);
+  p.edges[1].deflection = everywhere(kHeld), p.edges[1].rotation = everywhere(kHeld);
   p.edges[2].deflection = everywhere({Kind::friction, 0.2, 0, 0});
   p.edges.erase(p.edges.begin());  // a free side
   p.supports = {{0.3, 0.3, stop}, {0.6, 0.7, {Kind::elastic, 100, 0, 0}}};
@@ -152,9 +154,9 @@ TEST_CASE("plates on everything are drawn") {
 }
 
 TEST_CASE("one part all around is drawn as its four sides are") {
-  const plate::Plate sides = square(8, -1, held);
+  const plate::Plate sides = square_model(8, -1, kHeld);
   plate::Plate around = sides;
-  around.edges = {{"edge", mesh::boundary(*around.mesh), everywhere(held), {}}};
+  around.edges = {{"edge", mesh::boundary(*around.mesh), everywhere(kHeld), {}}};
   const PlatePicture a = compose(*solved(sides), {}), b = compose(*solved(around), {});
   REQUIRE(a.boundary.size() == b.boundary.size());
   for (std::size_t i = 0; i < a.boundary.size(); ++i)
@@ -162,7 +164,7 @@ TEST_CASE("one part all around is drawn as its four sides are") {
 }
 
 TEST_CASE("no edge bears more than its friction") {
-  plate::Plate p = square(12, -1, held);
+  plate::Plate p = square_model(12, -1, kHeld);
   p.edges[2].deflection = everywhere({Kind::friction, 0.2, 0, 0});
   int slipping = 0;
   for (const PlateEdge& e : compose(*solved(p), {}).boundary)
@@ -185,14 +187,14 @@ TEST_CASE("edges and point supports carry the load where rows reach what is held
     return sum;
   };
   for (const plate::Element element : {plate::Element::morley, plate::Element::hct}) {
-    plate::Plate p = square(8, -1, held);
+    plate::Plate p = square_model(8, -1, kHeld);
     p.element = element;
     p.supports = {{0.95, 0.52, {Kind::prescribed, 0.01, 0, 0}}};
     CHECK(total(*solved(p)) == doctest::Approx(1).epsilon(1e-9));
     const double centre[2] = {0, 0};
     p.supports.clear();
     p.mesh = std::make_shared<mesh::Mesh>(mesh::disc(centre, 1, 5, mesh::Family::p1));
-    p.edges = {{"edge", mesh::boundary(*p.mesh), everywhere(held), {}}};
+    p.edges = {{"edge", mesh::boundary(*p.mesh), everywhere(kHeld), {}}};
     const double area = 15 * std::sin(2 * std::acos(-1.0) / 30);  // of the polygon
     CHECK(total(*solved(p)) == doctest::Approx(area).epsilon(1e-9));
   }

@@ -35,8 +35,6 @@ ScenePicture one_triangle(const std::string& file) {
   return scene;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("a picture is a whole PNG of the size asked for, and nothing else is left") {

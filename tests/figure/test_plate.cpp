@@ -15,7 +15,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // n x n squares of the unit square, each cut in two.
-PlatePicture square(int n, const std::string& file) {
+PlatePicture square_plate(int n, const std::string& file) {
   PlatePicture p;
   p.file = file, p.width = 720, p.height = 540;
   for (int j = 0; j <= n; ++j)
@@ -58,7 +58,7 @@ void add_boundary(PlatePicture& p, int n, PlateSupport support, const Along& sam
 
 // Lifted over a fifth of each side at its ends, bearing between.
 PlatePicture one_sided(int n, const std::string& file) {
-  PlatePicture p = square(n, file);
+  PlatePicture p = square_plate(n, file);
   for (std::size_t i = 0; i < p.deflection.size(); ++i) p.deflection[i] = lifted_corners(p.points[2 * i], p.points[2 * i + 1]);
   p.values = p.deflection;
   for (double& v : p.values) v *= 1000;
@@ -85,7 +85,7 @@ Pixels drawn(const PlatePicture& p) {
 
 // Reactions of this size along the whole boundary.
 PlatePicture loaded(const Along& sample) {
-  PlatePicture p = square(4, "reactions.png");
+  PlatePicture p = square_plate(4, "reactions.png");
   p.view = PlateView::plan;
   for (std::size_t i = 0; i < p.deflection.size(); ++i) p.values.push_back(p.points[2 * i]);  // colours unlike those of reactions
   add_boundary(p, 4, PlateSupport::held, sample);
@@ -148,7 +148,7 @@ TEST_CASE("what pulls down is told from what pushes up, at points too") {
 }
 
 TEST_CASE("contour lines of a linear field stand at equal distances") {
-  PlatePicture p = square(7, "contours.png");
+  PlatePicture p = square_plate(7, "contours.png");
   p.view = PlateView::plan;
   for (std::size_t i = 0; i < p.deflection.size(); ++i) p.values.push_back(p.points[2 * i]);
   const Pixels seen = drawn(p);
@@ -173,7 +173,7 @@ TEST_CASE("contour lines of a linear field stand at equal distances") {
 }
 
 TEST_CASE("what bears on an obstacle is hatched") {
-  PlatePicture p = square(8, "bearing.png");
+  PlatePicture p = square_plate(8, "bearing.png");
   for (const PlateView view : {PlateView::surface, PlateView::plan}) {
     p.view = view;
     p.bearing.clear();

@@ -14,7 +14,7 @@ namespace {
 
 // The unit square in n x n squares; values f(x, y).
 template <class F>
-BodyPicture square(int n, F f) {
+BodyPicture square_body(int n, F f) {
   BodyPicture body;
   body.name = "square";
   body.shape = CellShape::quad;
@@ -69,7 +69,7 @@ BodyPicture brick(double depth) {
 }  // namespace
 
 TEST_CASE("statuses present are drawn in their colours, others are not") {
-  ScenePicture scene = scene_of(square(6, [](double, double) { return 0.0; }), "statuses.png");
+  ScenePicture scene = scene_of(square_body(6, [](double, double) { return 0.0; }), "statuses.png");
   scene.bodies[0].values.clear();
   scene.contacts = {top_contact(6, {Status::open, Status::closed})};
   draw(scene);
@@ -90,7 +90,7 @@ TEST_CASE("statuses present are drawn in their colours, others are not") {
 
 TEST_CASE("shear is drawn where there is some, unless it is not wanted") {
   const Colour line{150, 15, 40};
-  ScenePicture scene = scene_of(square(6, [](double, double) { return 0.0; }), "shear.png");
+  ScenePicture scene = scene_of(square_body(6, [](double, double) { return 0.0; }), "shear.png");
   scene.bodies[0].values.clear();
   scene.contacts = {top_contact(6, {Status::slip})};
   draw(scene);
@@ -113,7 +113,7 @@ TEST_CASE("shear is drawn where there is some, unless it is not wanted") {
 }
 
 TEST_CASE("a field runs over the colours of its map, from end to end") {
-  ScenePicture scene = scene_of(square(8, [](double x, double) { return x; }), "field.png");
+  ScenePicture scene = scene_of(square_body(8, [](double x, double) { return x; }), "field.png");
   scene.field_label = "displacement";
   scene.field_unit = "mm";
   draw(scene);
@@ -126,7 +126,7 @@ TEST_CASE("a field runs over the colours of its map, from end to end") {
 }
 
 TEST_CASE("a signed field is white at zero, and equal sizes are equally strong") {
-  ScenePicture scene = scene_of(square(8, [](double x, double) { return 3 * x - 1; }), "signed.png");
+  ScenePicture scene = scene_of(square_body(8, [](double x, double) { return 3 * x - 1; }), "signed.png");
   scene.field_label = "stress";
   scene.axes = false;
   draw(scene);
@@ -138,7 +138,7 @@ TEST_CASE("a signed field is white at zero, and equal sizes are equally strong")
 }
 
 TEST_CASE("an end of the colour bar beyond which the field goes on is a triangle") {
-  ScenePicture scene = scene_of(square(8, [](double x, double) { return x; }), "beyond.png");
+  ScenePicture scene = scene_of(square_body(8, [](double x, double) { return x; }), "beyond.png");
   scene.field_label = "field";
   // Rows of the bar's colours from its end on that get narrower.
   const auto widths = [&](double low, double high, bool above) {
@@ -169,7 +169,7 @@ TEST_CASE("an end of the colour bar beyond which the field goes on is a triangle
 
 TEST_CASE("a closed contact that magnification draws apart is joined by a band") {
   const auto band = [](double rest_gap, double deformation) {
-    ScenePicture scene = scene_of(square(6, [](double, double) { return 0.0; }), "joined.png");
+    ScenePicture scene = scene_of(square_body(6, [](double, double) { return 0.0; }), "joined.png");
     scene.bodies[0].values.clear();
     scene.deformation = deformation;
     scene.pressure = PressureStyle::none;
@@ -187,7 +187,7 @@ TEST_CASE("a closed contact that magnification draws apart is joined by a band")
 }
 
 TEST_CASE("axes are equal: a square is a square") {
-  ScenePicture scene = scene_of(square(1, [](double, double) { return 0.0; }), "equal.png");
+  ScenePicture scene = scene_of(square_body(1, [](double, double) { return 0.0; }), "equal.png");
   scene.bodies[0].values.clear();
   scene.axes = false;
   draw(scene);
@@ -205,7 +205,7 @@ TEST_CASE("axes are equal: a square is a square") {
 }
 
 TEST_CASE("displacements are scaled by the factor") {
-  ScenePicture scene = scene_of(square(1, [](double, double) { return 0.0; }), "deformed.png");
+  ScenePicture scene = scene_of(square_body(1, [](double, double) { return 0.0; }), "deformed.png");
   scene.bodies[0].values.clear();
   for (int i = 0; i < 4; ++i) scene.bodies[0].displacement.insert(scene.bodies[0].displacement.end(), {0.1, 0, 0});
   scene.deformation = 10;  // the square moves by its own width
@@ -244,7 +244,7 @@ TEST_CASE("a solid shows its statuses through the obstacle and in the plan besid
 }
 
 TEST_CASE("odd scenes are drawn all the same") {
-  ScenePicture scene = scene_of(square(2, [](double, double) { return 5.0; }), "odd.png");
+  ScenePicture scene = scene_of(square_body(2, [](double, double) { return 5.0; }), "odd.png");
   scene.field_label = "constant";
   CHECK(message_of([&] { draw(scene); }) == "");
   scene.bodies[0].values[0] = std::nan("");
@@ -264,7 +264,7 @@ TEST_CASE("odd scenes are drawn all the same") {
 
 TEST_CASE("the least and the greatest value are read as the ticks are, in the bar's power of ten") {
   const auto drawn = [](double factor, const std::string& file) {
-    ScenePicture scene = scene_of(square(8, [factor](double x, double) { return factor * (0.125 + 149.25 * x); }), file);
+    ScenePicture scene = scene_of(square_body(8, [factor](double x, double) { return factor * (0.125 + 149.25 * x); }), file);
     scene.field_label = "stress";
     draw(scene);
     return read_png(file);
@@ -324,7 +324,7 @@ bool even(const std::vector<double>& places) {
 TEST_CASE("the arrows of a uniform load are equally far apart, whatever their number") {
   for (const int n : {50, 53, 61}) {
     CAPTURE(n);
-    ScenePicture scene = scene_of(square(4, [](double, double) { return 0.0; }), "uniform.png");
+    ScenePicture scene = scene_of(square_body(4, [](double, double) { return 0.0; }), "uniform.png");
     scene.bodies[0].values.clear();
     for (int i = 0; i < n; ++i) {
       LoadArrow load;

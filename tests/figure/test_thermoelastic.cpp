@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "../support/plain_laws.hpp"
 #include "base/monitor.hpp"
 #include "beam/solve.hpp"
 #include "figure/compose_beam.hpp"
@@ -14,10 +15,11 @@ using namespace dotyk::figure;
 using problem::SupportLaw;
 using thermoelastic::Stepping;
 using Kind = SupportLaw::Kind;
+using test::kFree;
+using test::kHeld;
 
 namespace {
 
-const SupportLaw held{Kind::prescribed, 0, 0}, nothing;
 const std::vector<BeamPanel> diagrams{BeamPanel::moment, BeamPanel::shear, BeamPanel::normal, BeamPanel::temperature, BeamPanel::gradient, BeamPanel::displacement};
 
 const PageCurve& curve(const PagePicture& page, std::size_t row) { return std::get<CurveDrawing>(page.rows[row][0].drawing).curves[0]; }
@@ -138,7 +140,7 @@ TEST_CASE("a support of a thermoelastic beam lies on the graph of its law, acros
 TEST_CASE("what heat would cause but supports do not let it is not drawn as rounding leaves it") {
   Given g;
   g.data.E = 1e9, g.data.expansion = 1e-5, g.data.exchange_above = 2;
-  g.data.supports = {{"left", 0, held, held, held}, {"right", 1, held, held, nothing}};
+  g.data.supports = {{"left", 0, kHeld, kHeld, kHeld}, {"right", 1, kHeld, kHeld, kFree}};
   g.loads.ambient_above.constant = 100;
   const auto s = g.stepped(1);
   const PagePicture page = compose(view(*s, {}), {BeamPanel::deflection, BeamPanel::moment, BeamPanel::shear, BeamPanel::normal}, {});

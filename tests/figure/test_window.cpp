@@ -63,8 +63,6 @@ Extent extent(const Pixels& p, Colour colour) {
   return e;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("a window cuts bodies and outlines off at its sides") {

@@ -4,10 +4,11 @@
 
 #include <cmath>
 
-#include "base/error.hpp"
+#include "refused.hpp"
 
 using namespace dotyk;
 using namespace dotyk::meshfile;
+using test::check_refused;
 
 namespace {
 
@@ -37,16 +38,6 @@ double area(const mesh::Mesh& m) {
     twice += x[0] * n[0] + x[1] * n[1];
   }
   return twice / 2;
-}
-
-void check_refused(const Contents& c, const std::vector<std::string>& regions, const std::string& why) {
-  try {
-    assemble(c, {.regions = regions}, "f.msh");
-    FAIL_CHECK("not refused: " << why);
-  } catch (const InputError& e) {
-    CHECK_MESSAGE(std::string(e.what()).find(why) != std::string::npos, e.what());
-    CHECK(std::string(e.what()).rfind("f.msh: ", 0) == 0);
-  }
 }
 
 }  // namespace
@@ -133,9 +124,9 @@ TEST_CASE("a plane mesh loses a constant z; a surface in space is refused") {
 
 TEST_CASE("what cannot be a mesh says why") {
   Contents c = squares(2);
-  check_refused(c, {"3"}, "there is no region '3'; regions: '0', '1'");
+  check_refused(c, {.regions = {"3"}}, "there is no region '3'; regions: '0', '1'");
   add_part(c, "left", {1, 2});
-  check_refused(c, {"left"}, "there is no region 'left' (a boundary part has that name)");
+  check_refused(c, {.regions = {"left"}}, "there is no region 'left' (a boundary part has that name)");
   Contents mixed = c;
   mixed.groups.push_back({2, "t"});
   mixed.blocks.push_back({Shape::triangle, {static_cast<int>(mixed.groups.size()) - 1}, {5, 6, 0}});

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <random>
 
-#include "base/error.hpp"
 #include "mesh/second_order.hpp"
 #include "meshfile/assemble.hpp"
+#include "refused.hpp"
 
 using namespace dotyk;
 using namespace dotyk::meshfile;
+using test::check_refused;
 
 namespace {
 
@@ -74,16 +75,6 @@ Contents two_serendipity(int dimension, std::mt19937& random) {
   }
   c.blocks = {b};
   return c;
-}
-
-void check_refused(const Contents& c, const Choice& choice, const std::string& why) {
-  try {
-    assemble(c, choice, "f.msh");
-    FAIL_CHECK("not refused: " << why);
-  } catch (const InputError& e) {
-    CHECK_MESSAGE(std::string(e.what()).find(why) != std::string::npos, e.what());
-    CHECK(std::string(e.what()).rfind("f.msh: ", 0) == 0);
-  }
 }
 
 /// Two triangles of order 2 on the unit square, the side between them bent: nodes 0-3 its corners, 4-7 its sides, 8 the diagonal.

@@ -14,7 +14,7 @@ using test::SupportLaw;
 
 namespace {
 
-const std::vector<SupportLaw> kLaws{{Kind::prescribed},         {Kind::prescribed, 0.02}, {Kind::elastic, 4},          {Kind::one_sided_elastic, 4},   {Kind::signorini},
+const std::vector<SupportLaw> kSideLaws{{Kind::prescribed},         {Kind::prescribed, 0.02}, {Kind::elastic, 4},          {Kind::one_sided_elastic, 4},   {Kind::signorini},
                                     {Kind::friction, 0.45},     {Kind::one_sided_friction, 0.45}, {Kind::capped_elastic, 4, 0.35}, {Kind::unequal_elastic, 4, 0, 1}};
 
 /// What supports do to the plate: upwards, and about the lines y = 0 and x = 0 as work on x and y.
@@ -43,20 +43,14 @@ Eigen::Vector3d supported(const Solution& s) {
 /// Rounding beside the load's 1.
 constexpr double kTight = 1e-9;
 
-test::Mesh rough(int n) {
-  test::Mesh m = test::rectangle(test::Family::p1, n, n);
-  test::distort(m, 0.05);
-  return m;
-}
-
 /// A different law on each side, chosen by numbers; −∫f = 1.
 Plate mixed(plate::Element element, int n) {
-  Plate p = test::plate_on(rough(6), element);
+  Plate p = test::plate_on(test::rough(6), element);
   p.f_of = [](double x, double y) { return -0.5 - x * y * 2; };
   const char* parts[] = {"left", "right", "bottom", "top"};
   for (int side = 0; side < 4; ++side) {
-    const SupportLaw& deflection = kLaws[(n + 2 * side) % kLaws.size()];
-    const SupportLaw& rotation = kLaws[(n / 3 + 4 * side) % kLaws.size()];
+    const SupportLaw& deflection = kSideLaws[(n + 2 * side) % kSideLaws.size()];
+    const SupportLaw& rotation = kSideLaws[(n / 3 + 4 * side) % kSideLaws.size()];
     test::support(p, parts[side], deflection, n % 2 == 0 || rotation.kind == Kind::prescribed ? kFree : rotation);
   }
   p.supports = {{0.52, 0.47, {Kind::one_sided_elastic, 3}}, {0.2, 0.9, {Kind::friction, 0.05}}};
@@ -98,7 +92,7 @@ TEST_CASE("forces of all supports bear the load, with Morley's element moments, 
 TEST_CASE("Signorini's edge: λ ≥ 0 ≥ x, and one of them 0, in every row") {
   for (const plate::Element element : kElements)
     for (const bool round : {true, false}) {
-      Plate p = test::plate_on(round ? test::disc(test::Family::p1, 10) : rough(12), element);
+      Plate p = test::plate_on(round ? test::disc(test::Family::p1, 10) : test::rough(12), element);
       p.f_of = [round](double x, double y) { return -1 + (round ? 6 : 2) * x * y; };
       test::support(p, "", {Kind::signorini}, kFree);
       const auto s = test::solved(p);
@@ -119,7 +113,7 @@ TEST_CASE("Signorini's edge: λ ≥ 0 ≥ x, and one of them 0, in every row") {
 TEST_CASE("moments of held edges: half of the load's moment at each clamped end, whatever the other sides do") {
   // ν = 0 and a strip clamped at both ends: qL²/12 per width, taken up at the ends' vertices and middles.
   for (const plate::Element element : kElements) {
-    Plate p = test::plate_on(rough(16), element, -1);
+    Plate p = test::plate_on(test::rough(16), element, -1);
     p.nu = 0;
     test::support(p, "left", kHeld, kHeld);
     test::support(p, "right", kHeld, kHeld);
@@ -137,14 +131,14 @@ TEST_CASE("moments of held edges: half of the load's moment at each clamped end,
 TEST_CASE("corners where two parts meet") {
   for (const plate::Element element : kElements) {
     const auto corner = [&](SupportLaw bottom, SupportLaw right) {
-      Plate p = test::plate_on(rough(6), element, -1);
+      Plate p = test::plate_on(test::rough(6), element, -1);
       test::support(p, "left", kHeld, kHeld);
       test::support(p, "bottom", bottom, kFree);
       test::support(p, "right", right, kFree);
       return test::solved(p);
     };
     // Prescribed outweighs all others.
-    for (const SupportLaw& law : kLaws) {
+    for (const SupportLaw& law : kSideLaws) {
       if (law.kind == Kind::prescribed && law.value != 0) continue;
       const auto a = corner(kHeld, law), b = corner(law, kHeld);
       CHECK(std::abs(a->deflection(1, 0)) < 1e-15);
@@ -152,7 +146,7 @@ TEST_CASE("corners where two parts meet") {
       CHECK(a->result().converged);
     }
     // Signorini's outweighs friction: an upward load lifts the corner.
-    Plate p = test::plate_on(rough(6), element, 3);
+    Plate p = test::plate_on(test::rough(6), element, 3);
     test::support(p, "left", kHeld, kHeld);
     test::support(p, "bottom", {Kind::signorini}, kFree);
     test::support(p, "right", {Kind::friction, 1e-3}, kFree);
@@ -161,8 +155,8 @@ TEST_CASE("corners where two parts meet") {
     CHECK(std::abs(test::solved(p)->deflection(1, 0)) < (element == plate::Element::morley ? 1e-12 : 1e-3));
   }
   // Morley: springs of two parts act together at their corner, as those of one.
-  for (const SupportLaw& law : kLaws) {
-    Plate one = test::plate_on(rough(6), plate::Element::morley, -1), four = one;
+  for (const SupportLaw& law : kSideLaws) {
+    Plate one = test::plate_on(test::rough(6), plate::Element::morley, -1), four = one;
     test::support(one, "", law, kFree);
     for (const char* part : {"left", "right", "bottom", "top"}) test::support(four, part, law, kFree);
     std::shared_ptr<const Solution> a, b;

@@ -5,13 +5,15 @@
 using namespace dotyk;
 using namespace dotyk::plate;
 using test::Kind;
+using test::kD;
 using test::kElements;
 using test::kFree;
 using test::kHeld;
+using test::kNu;
 
 namespace {
 
-constexpr double kR = 2, kD = 3, kNu = 0.3, kQ = -1.5, kPi = std::numbers::pi;
+constexpr double kR = 2, kQ = -1.5, kPi = std::numbers::pi;
 
 Plate disc(Element element, int cells, test::SupportLaw rotation, double load) {
   Plate p = test::plate_on(test::disc(test::Family::p1, cells, 0.4, -0.7, kR), element, load);

@@ -13,12 +13,6 @@ using test::SupportLaw;
 
 namespace {
 
-test::Mesh rough() {
-  test::Mesh m = test::rectangle(test::Family::p1, 8, 8);
-  test::distort(m, 0.05);
-  return m;
-}
-
 /// All u + t·motion with from ≤ t ≤ to obey the laws, and no others do.
 void check_family(const Solution& s, double from, double to) {
   REQUIRE(s.result().converged);
@@ -61,7 +55,7 @@ TEST_CASE("lemma 10: a load without resultant on a one-sided edge that cannot ro
     for (const SupportLaw law : {SupportLaw{Kind::signorini}, SupportLaw{Kind::one_sided_elastic, 5}, SupportLaw{Kind::one_sided_friction, 2}})
       for (const bool function : {true, false}) {
         CAPTURE(problem::describe(law));
-        Plate p = test::plate_on(rough(), element);
+        Plate p = test::plate_on(test::rough(8), element);
         test::support(p, "", law, kHeld);
         if (function) p.f_of = [](double x, double y) { return x * x + y - 5. / 6; };
         else p.point_loads = {{0.3, 0.4, -1}, {0.71, 0.6, 1}};
@@ -81,7 +75,7 @@ TEST_CASE("lemma 10: a load without resultant on a one-sided edge that cannot ro
 TEST_CASE("(64): a resultant that is all that friction can bear, w + c until the edge would have to rub the other way") {
   for (const plate::Element element : kElements)
     for (const double sign : {-1.0, 1.0}) {
-      Plate p = test::plate_on(rough(), element, sign * 4 * 0.3);
+      Plate p = test::plate_on(test::rough(8), element, sign * 4 * 0.3);
       test::support(p, "", {Kind::friction, 0.3}, kHeld);
       const auto s = test::solved(p);
       check_family(*s, 0, INFINITY);
@@ -93,7 +87,7 @@ TEST_CASE("(64): a resultant that is all that friction can bear, w + c until the
 
 TEST_CASE("capped springs at their cap everywhere: the plate goes on from where the last one yields") {
   for (const plate::Element element : kElements) {
-    Plate p = test::plate_on(rough(), element, -4 * 0.3);
+    Plate p = test::plate_on(test::rough(8), element, -4 * 0.3);
     test::support(p, "", {Kind::capped_elastic, 10, 0.3}, kHeld);
     const auto s = test::solved(p);
     check_family(*s, 0, INFINITY);
@@ -104,7 +98,7 @@ TEST_CASE("capped springs at their cap everywhere: the plate goes on from where 
 
 TEST_CASE("limit cases by point supports: a force over one support, and on the line between two") {
   for (const plate::Element element : kElements) {
-    Plate p = test::plate_on(rough(), element);
+    Plate p = test::plate_on(test::rough(8), element);
     for (const auto& [x, y] : {std::pair(0.1, 0.1), {0.9, 0.1}, {0.1, 0.9}}) p.supports.push_back({x, y, {Kind::signorini}});
     p.point_loads = {{0.3, 0.1, -1}};
     const auto s = test::solved(p);
@@ -144,7 +138,7 @@ TEST_CASE("three one-sided corners, the resultant on the line of two: the third 
 
 TEST_CASE("an obstacle, a load without resultant and an edge that cannot rotate: upwards without end") {
   for (const plate::Element element : kElements) {
-    Plate p = test::plate_on(rough(), element);
+    Plate p = test::plate_on(test::rough(8), element);
     test::support(p, "", kFree, kHeld);
     p.point_loads = {{0.3, 0.4, -1}, {0.71, 0.6, 1}};
     p.obstacle = [](double x, double) { return 0.01 * x; };

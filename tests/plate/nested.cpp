@@ -29,7 +29,7 @@ solver::Result solve(problem::Problem p, bool nested) {
   return solver::solve(p, pdas, quiet);
 }
 
-const std::pair<SupportLaw, SupportLaw> kLaws[] = {{{Kind::signorini}, kFree},
+const std::pair<SupportLaw, SupportLaw> kLawPairs[] = {{{Kind::signorini}, kFree},
                                                    {{Kind::signorini}, {Kind::signorini}},
                                                    {{Kind::friction, 0.35}, kFree},
                                                    {{Kind::friction, 0.35}, kHeld},
@@ -43,7 +43,7 @@ const std::pair<SupportLaw, SupportLaw> kLaws[] = {{{Kind::signorini}, kFree},
 TEST_CASE("begun on few rows or on all: the same solution") {
   for (const plate::Element element : kElements)
     for (const bool round : {true, false})
-      for (const auto& [deflection, rotation] : kLaws) {
+      for (const auto& [deflection, rotation] : kLawPairs) {
         CAPTURE(problem::describe(deflection));
         CAPTURE(problem::describe(rotation));
         const plate::Model model = plate::build(zones(element, round, 16, deflection, rotation));
@@ -62,7 +62,7 @@ TEST_CASE("begun on few rows or on all: the same solution") {
 TEST_CASE("iterations on all rows of one-sided edges do not grow with their number; edges that rub may cycle, and end") {
   for (const plate::Element element : kElements)
     for (const bool round : {true, false})
-      for (const auto& [deflection, rotation] : {kLaws[0], kLaws[2], kLaws[4]}) {
+      for (const auto& [deflection, rotation] : {kLawPairs[0], kLawPairs[2], kLawPairs[4]}) {
         CAPTURE(std::string(plate::element_name(element)));
         CAPTURE(round);
         CAPTURE(problem::describe(deflection));

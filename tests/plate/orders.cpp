@@ -35,7 +35,7 @@ struct Product {
   }
 };
 
-constexpr double kNu = 0.25;
+constexpr double kPoisson = 0.25;
 
 /// D = 1 + x + y/2 and what it makes of a deflection: ∂ij (D [(1 − ν) ∂ij u + ν Δu δij]); D is linear, so
 /// D Δ²u + 2 ∇D · ∇Δu: what the second derivatives of a linear D would add is 0.
@@ -89,7 +89,7 @@ TEST_CASE("orders of the clamped square, of the simply supported one, and with a
           const Product u{is_clamped ? clamped : sine};
           const auto plate = [&](const test::Mesh& m) {
             Plate p = test::plate_on(m, element);
-            p.nu = kNu;
+            p.nu = kPoisson;
             if (varying) p.D_of = stiffness_at;
             p.f_of = [&](double x, double y) { return varying ? load_of_varying(u, x, y) : u.bilaplacian(x, y); };
             test::support(p, "", kHeld, is_clamped ? kHeld : kFree);
@@ -110,7 +110,7 @@ TEST_CASE("orders with deflections and rotations prescribed by functions that ar
       CAPTURE(held);
       const auto plate = [&](const test::Mesh& m) {
         Plate p = test::plate_on(m, element);
-        p.nu = kNu;
+        p.nu = kPoisson;
         p.f_of = [&](double x, double y) { return 9 * exact(x, y)[0]; };
         const struct {
           const char* part;
@@ -120,7 +120,7 @@ TEST_CASE("orders with deflections and rotations prescribed by functions that ar
           const auto rotation = [exact, side, held](double x, double y) {
             const Jet v = exact(x, y);
             const double along = side.nx * v[1] + side.ny * v[2], bent = side.nx != 0 ? v[3] : v[4];
-            return held ? test::SupportLaw{test::Kind::prescribed, along} : test::SupportLaw{test::Kind::load, kNu * (v[3] + v[4]) + (1 - kNu) * bent};
+            return held ? test::SupportLaw{test::Kind::prescribed, along} : test::SupportLaw{test::Kind::load, kPoisson * (v[3] + v[4]) + (1 - kPoisson) * bent};
           };
           test::support(p, side.part, test::prescribed([exact](double x, double y) { return exact(x, y)[0]; }), rotation);
         }

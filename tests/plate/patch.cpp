@@ -7,13 +7,13 @@
 using namespace dotyk;
 using namespace dotyk::plate;
 using Eigen::Vector2d;
+using test::kD;
 using test::Kind;
 using test::kElements;
+using test::kNu;
 using test::SupportLaw;
 
 namespace {
-
-constexpr double kD = 3, kNu = 0.3;
 
 /// a cubic in x and y; Δ² of it is 0, so no load is needed within.
 struct Cubic {

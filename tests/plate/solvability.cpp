@@ -16,15 +16,9 @@ namespace {
 
 constexpr double kOffs[] = {1e-8, 1e-6, 1e-3, 0.5};
 
-test::Mesh rough() {
-  test::Mesh m = test::rectangle(test::Family::p1, 8, 8);
-  test::distort(m, 0.05);
-  return m;
-}
-
 /// P5's plates: an edge of length 4 that cannot rotate, this law for its deflection; two forces of about `size` with this resultant.
 Plate guided(plate::Element element, SupportLaw deflection, double resultant, double size) {
-  Plate p = test::plate_on(rough(), element);
+  Plate p = test::plate_on(test::rough(8), element);
   test::support(p, "", deflection, kHeld);
   p.point_loads = {{0.3, 0.4, -size}, {0.71, 0.6, size + resultant}};
   return p;
@@ -69,7 +63,7 @@ TEST_CASE("P5 (62), (63): an edge with friction that cannot rotate bears resulta
         for (const Kind kind : {Kind::friction, Kind::capped_elastic})
           for (const double off : kOffs) {
             const SupportLaw law = kind == Kind::friction ? SupportLaw{kind, bound} : SupportLaw{kind, 20, bound};
-            Plate p = test::plate_on(rough(), element, sign * 4 * bound * (1 - off));
+            Plate p = test::plate_on(test::rough(8), element, sign * 4 * bound * (1 - off));
             test::support(p, "", law, kHeld);
             CHECK(refused(p) == "");
             p.f = sign * 4 * bound * (1 + off);
@@ -82,7 +76,7 @@ TEST_CASE("P5 (62), (63): an edge with friction that cannot rotate bears resulta
 TEST_CASE("P5 (33): a free plate wants a load without resultant and without moments") {
   for (const plate::Element element : kElements)
     for (const double off : {0.0, 1e-8, 1e-3}) {
-      Plate p = test::plate_on(rough(), element);
+      Plate p = test::plate_on(test::rough(8), element);
       p.point_loads = {{0.2, 0.2, 1}, {0.8, 0.2, -1}, {0.8, 0.8, 1}, {0.2, 0.8, -1}};
       if (off == 0) {
         CHECK(refused(p) == "");
@@ -100,7 +94,7 @@ TEST_CASE("three point supports bear forces within their triangle, not outside o
   for (const plate::Element element : kElements)
     for (const double off : kOffs) {
       if (off > 0.1) continue;
-      Plate p = test::plate_on(rough(), element);
+      Plate p = test::plate_on(test::rough(8), element);
       for (const auto& [x, y] : {std::pair(0.1, 0.1), {0.9, 0.1}, {0.1, 0.9}}) p.supports.push_back({x, y, {Kind::signorini}});
       p.point_loads = {{0.5 - off, 0.5, -1}};  // the far side is x + y = 1
       CHECK(refused(p) == "");
@@ -116,7 +110,7 @@ TEST_CASE("three point supports bear forces within their triangle, not outside o
 TEST_CASE("an edge held in its deflection that turns with friction: the moment about it against the bound") {
   for (const plate::Element element : kElements)
     for (const double off : kOffs) {
-      Plate p = test::plate_on(rough(), element, -1);
+      Plate p = test::plate_on(test::rough(8), element, -1);
       test::support(p, "left", kHeld, {Kind::friction, 0.5 * (1 + off)});
       CHECK(refused(p) == "");
       p.edges.clear();

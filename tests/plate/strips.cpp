@@ -7,6 +7,7 @@
 using namespace dotyk;
 using plate::Plate;
 using test::Kind;
+using test::kD;
 using test::SupportLaw;
 
 // With ν = 0 and nothing on its long sides a plate that is loaded and held alike across its width is a beam with EJ = D for each unit of it, with the same
@@ -14,7 +15,7 @@ using test::SupportLaw;
 
 namespace {
 
-constexpr double kLength = 2, kWidth = 0.8, kD = 3;
+constexpr double kLength = 2, kWidth = 0.8;
 
 const std::vector<SupportLaw> kLaws{{Kind::free},           {Kind::prescribed, 0.05},         {Kind::load, -0.3},
                                     {Kind::elastic, 4},     {Kind::one_sided_elastic, 4},     {Kind::signorini},

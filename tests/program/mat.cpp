@@ -20,7 +20,7 @@ namespace {
 // minimise x² + y² − 2x − 5y + 0.5 where x + y ≤ 2, x ≥ 0, y ≥ 0: the solution is (1/4, 7/4).
 const std::string kFile = DOTYK_TEST_DIR "/../fuzz/files/small.mat";
 
-program::QuadraticProgram read(const std::string& bytes) {
+program::QuadraticProgram read_bytes(const std::string& bytes) {
   { std::ofstream("made.mat", std::ios::binary) << bytes; }
   Monitor quiet;
   return program::read_mat("made.mat", quiet);
@@ -91,7 +91,7 @@ TEST_CASE("a MATLAB file cut short anywhere is refused") {
   const std::string whole = test::bytes_of(kFile);
   for (std::size_t size = 0; size < whole.size(); size += 7) {
     CAPTURE(size);
-    CHECK_THROWS_AS(read(whole.substr(0, size)), InputError);
+    CHECK_THROWS_AS(read_bytes(whole.substr(0, size)), InputError);
   }
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("a damaged MATLAB file is refused by the name of what is wrong") {
     std::string bytes = test::bytes_of(kFile);
     REQUIRE(bytes.find(from) != std::string::npos);
     bytes.replace(bytes.find(from), from.size(), to);
-    CHECK_THROWS_WITH_AS(read(bytes), doctest::Contains(message.c_str()), InputError);
+    CHECK_THROWS_WITH_AS(read_bytes(bytes), doctest::Contains(message.c_str()), InputError);
   };
   const std::string letter("\1\0\1\0", 4);  // before a name of one
   refused(letter + "u", letter + "v", "'made.mat': variable 'u' is missing; it must have P, q, A, l and u");
@@ -119,7 +119,7 @@ TEST_CASE("compressed variables are read as others are; what is damaged or missi
     for (std::size_t k = 0; k < each.size(); ++k) bytes += k == changed ? to : compressed(each[k]);
     return bytes;
   };
-  const auto as_it_is = read(test::bytes_of(kFile)), p = read(file(each.size(), ""));
+  const auto as_it_is = read_bytes(test::bytes_of(kFile)), p = read_bytes(file(each.size(), ""));
   CHECK(p.q == as_it_is.q);
   CHECK(p.r == as_it_is.r);
   CHECK(p.low == as_it_is.low);
@@ -128,20 +128,20 @@ TEST_CASE("compressed variables are read as others are; what is damaged or missi
   for (std::size_t k = 0; k < each.size(); ++k) {
     CAPTURE(k);
     const std::string short_one = each[k].substr(0, each[k].size() - 8);
-    CHECK_THROWS_WITH_AS(read(file(k, compressed(short_one))), "'made.mat': a compressed variable is damaged or cut short", InputError);
+    CHECK_THROWS_WITH_AS(read_bytes(file(k, compressed(short_one))), "'made.mat': a compressed variable is damaged or cut short", InputError);
     std::string z = compressed(each[k]);
     z.back() = static_cast<char>(z.back() ^ 1);
-    CHECK_THROWS_WITH_AS(read(file(k, z)), "'made.mat': a compressed variable is damaged or cut short", InputError);
+    CHECK_THROWS_WITH_AS(read_bytes(file(k, z)), "'made.mat': a compressed variable is damaged or cut short", InputError);
     z = tag(15, each[k].size()) + compressed(each[k]).substr(8, each[k].size());
-    CHECK_THROWS_WITH_AS(read(file(k, z)), "'made.mat': a compressed variable is damaged or cut short", InputError);
+    CHECK_THROWS_WITH_AS(read_bytes(file(k, z)), "'made.mat': a compressed variable is damaged or cut short", InputError);
     // Compressed twice, it is no variable; r may be missing.
-    if (k != 2) CHECK_THROWS_WITH_AS(read(file(k, compressed(compressed(each[k])))), doctest::Contains("is missing"), InputError);
+    if (k != 2) CHECK_THROWS_WITH_AS(read_bytes(file(k, compressed(compressed(each[k])))), doctest::Contains("is missing"), InputError);
     // Sizes of the matrix: not those of what is there, or beyond all that can be treated.
     for (const std::int32_t size : {7, 1'000'000'000, -1}) {
       std::string other = each[k];
       std::memcpy(&other[8 + 16 + 8], &size, 4);
-      CHECK_THROWS_AS(read(file(k, compressed(other))), InputError);
-      CHECK_THROWS_AS(read(file(k, other)), InputError);
+      CHECK_THROWS_AS(read_bytes(file(k, compressed(other))), InputError);
+      CHECK_THROWS_AS(read_bytes(file(k, other)), InputError);
     }
   }
 }
@@ -151,14 +151,14 @@ TEST_CASE("MATLAB files of other versions are refused: of 7.3, which may lead to
   std::string bytes = test::bytes_of(kFile);
   REQUIRE(bytes.substr(124, 4) == std::string("\0\1IM", 4));
   bytes.replace(124, 2, std::string("\0\2", 2));
-  CHECK_THROWS_WITH_AS(read(bytes), "'made.mat': it is a MATLAB file of version 7.3, which is not read: save it with -v7", InputError);
+  CHECK_THROWS_WITH_AS(read_bytes(bytes), "'made.mat': it is a MATLAB file of version 7.3, which is not read: save it with -v7", InputError);
   bytes.replace(124, 2, std::string("\2\0", 2));
   const char* other = "'made.mat': it is no MATLAB file of version 5 to 7: save it with -v7";
-  CHECK_THROWS_WITH_AS(read(bytes), other, InputError);
+  CHECK_THROWS_WITH_AS(read_bytes(bytes), other, InputError);
   // Version 4: a full matrix P of 2 x 2, whose numbers are not there.
   const std::int32_t head[] = {0, 2, 2, 0, 2};
   bytes = std::string(reinterpret_cast<const char*>(head), sizeof head) + std::string("P\0", 2);
-  for (const std::size_t more : {0, 16, 32, 200}) CHECK_THROWS_WITH_AS(read(bytes + std::string(more, '\0')), other, InputError);
+  for (const std::size_t more : {0, 16, 32, 200}) CHECK_THROWS_WITH_AS(read_bytes(bytes + std::string(more, '\0')), other, InputError);
 }
 
 TEST_CASE("a pipe is no file: opening it would wait for ever") {

@@ -11,7 +11,7 @@ using test::Vector;
 
 namespace {
 
-program::QuadraticProgram read(const std::string& content) {
+program::QuadraticProgram read_text(const std::string& content) {
   std::istringstream in(content);
   return program::read_qps(in, "a.qps");
 }
@@ -23,7 +23,7 @@ const std::string kHead =
 }  // namespace
 
 TEST_CASE("QPTEST of Maros and Meszaros: f = 8.3718750") {
-  const auto p = read(
+  const auto p = read_text(
       "NAME          QPTEST\nROWS\n N  obj\n G  r1\n L  r2\nCOLUMNS\n    c1        obj       1.5       r1        2.0\n"
       "    c1        r2        -1.0\n    c2        obj       -2.0      r1        1.0\n    c2        r2        2.0\n"
       "RHS\n    rhs1      obj       -4.0      r1        2.0\n    rhs1      r2        6.0\nRANGES\nBOUNDS\n"
@@ -39,14 +39,14 @@ TEST_CASE("QPTEST of Maros and Meszaros: f = 8.3718750") {
 }
 
 TEST_CASE("ranges: the sign counts for equalities only") {
-  const auto p = read(kHead + "RHS\n    r1 2 r2 6\n    r3 1\nRANGES\n    rng r1 3 r2 -4\n    rng r3 -2\nENDATA\n");
+  const auto p = read_text(kHead + "RHS\n    r1 2 r2 6\n    r3 1\nRANGES\n    rng r1 3 r2 -4\n    rng r3 -2\nENDATA\n");
   CHECK(p.low.head(3) == Vector{{2, 2, -1}});
   CHECK(p.high.head(3) == Vector{{5, 6, 1}});
 }
 
 TEST_CASE("bounds of every kind; an upper bound below zero frees the lower one") {
   const auto bounds = [](const std::string& lines) {
-    const auto p = read(kHead + "BOUNDS\n" + lines + "ENDATA\n");
+    const auto p = read_text(kHead + "BOUNDS\n" + lines + "ENDATA\n");
     std::ostringstream out;
     for (int r = 3; r < p.rows(); ++r)
       out << 'c' << program::SparseRows::InnerIterator(p.A, r).col() + 1 << ' ' << p.low[r] << ' ' << p.high[r] << "; ";
@@ -64,17 +64,17 @@ TEST_CASE("bounds of every kind; an upper bound below zero frees the lower one")
 }
 
 TEST_CASE("QMATRIX has both triangles, QUADOBJ one; OBJSENSE MAX negates") {
-  const auto one = read(kHead + "QUADOBJ\n c1 c1 8\n c1 c2 2\n c2 c2 10\nENDATA\n");
-  const auto both = read(kHead + "QMATRIX\n c1 c1 8\n c1 c2 2\n c2 c1 2\n c2 c2 10\nENDATA\n");
+  const auto one = read_text(kHead + "QUADOBJ\n c1 c1 8\n c1 c2 2\n c2 c2 10\nENDATA\n");
+  const auto both = read_text(kHead + "QMATRIX\n c1 c1 8\n c1 c2 2\n c2 c1 2\n c2 c2 10\nENDATA\n");
   CHECK(test::full(one.P) == test::full(both.P));
-  const auto most = read("NAME x\nOBJSENSE\n    MAX\nROWS\n N o\nCOLUMNS\n a o 3\nRHS\n o -5\nENDATA\n");
+  const auto most = read_text("NAME x\nOBJSENSE\n    MAX\nROWS\n N o\nCOLUMNS\n a o 3\nRHS\n o -5\nENDATA\n");
   CHECK(most.q[0] == -3);
   CHECK(most.r == -5);
 }
 
 TEST_CASE("errors name file and line") {
   const auto fails = [](const std::string& content, const std::string& message) {
-    CHECK_THROWS_WITH_AS(read(content), message.c_str(), InputError);
+    CHECK_THROWS_WITH_AS(read_text(content), message.c_str(), InputError);
   };
   fails("ROWS\n N obj\n X r1\nENDATA\n", "a.qps:3: row type 'X'; it must be N, E, L or G");
   fails("ROWS\n N obj\n G obj\nENDATA\n", "a.qps:3: row 'obj' is named twice");
@@ -93,7 +93,7 @@ TEST_CASE("lines and words without end are refused in a short message") {
   const std::string long_word(1'000'000, 'x');
   const auto message = [](const std::string& content) -> std::string {
     try {
-      read(content);
+      read_text(content);
     } catch (const InputError& error) {
       return error.what();
     }

@@ -9,6 +9,7 @@
 using namespace dotyk;
 using mesh::Point;
 using test::feti;
+using test::friction;
 
 namespace {
 
@@ -35,10 +36,6 @@ std::shared_ptr<scene::Scene> two_blocks(int dimension, mesh::Family family, con
   auto s = scene::make_scene({lower, upper});
   scene::add_contact(*s, test::part(upper, bottom), test::part(lower, top), {}, friction);
   return s;
-}
-
-scene::Friction friction(scene::Friction::Kind kind, double value) {
-  return {kind, [=](const Point&) { return value; }};
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 
 using namespace dotyk;
 using mesh::Point;
+using test::coulomb;
+using test::given;
 
 namespace {
 
@@ -17,13 +19,6 @@ struct Blocks {
   std::shared_ptr<scene::Scene> scene;
   std::shared_ptr<const scene::Contact> contact;
 };
-
-scene::Friction given(double g) {
-  return {scene::Friction::Kind::tresca, [=](const Point&) { return g; }};
-}
-scene::Friction coulomb(double mu) {
-  return {scene::Friction::Kind::coulomb, [=](const Point&) { return mu; }};
-}
 
 /// C2 and T2 of the reference values: a free block on a fixed one, pulled sideways.
 Blocks blocks(int n, const scene::Friction& friction, Point traction = {2, -10, 0}) {
@@ -42,7 +37,7 @@ Blocks blocks(int n, const scene::Friction& friction, Point traction = {2, -10, 
   return b;
 }
 
-std::shared_ptr<scene::Solution> solve(const std::shared_ptr<scene::Scene>& s) {
+std::shared_ptr<scene::Solution> solve_by_default(const std::shared_ptr<scene::Scene>& s) {
   Monitor quiet;
   return scene::solve(s, {}, {}, quiet);
 }
@@ -53,7 +48,7 @@ constexpr double kTenDigits = 5e-11;
 
 TEST_CASE("Coulomb friction of two blocks has the values of other codes") {
   const auto b = blocks(64, coulomb(0.3));
-  const auto s = solve(b.scene);
+  const auto s = solve_by_default(b.scene);
   REQUIRE_MESSAGE(s->result().converged, s->result().reason);
   CHECK(s->result().iterations <= 12);
   reference::compare(s->energy(), "C2", "n=64", "energy (elastic minus load work)", kTenDigits);
@@ -74,13 +69,13 @@ TEST_CASE("Coulomb friction of two blocks has the values of other codes") {
 
 TEST_CASE("given friction of two blocks has the values of other codes, and is refused beyond what it carries") {
   const auto b = blocks(64, given(2.5));
-  const auto s = solve(b.scene);
+  const auto s = solve_by_default(b.scene);
   REQUIRE_MESSAGE(s->result().converged, s->result().reason);
   reference::compare(s->energy(), "T2", "n=64", "elastic energy minus load work", kTenDigits);
   reference::compare(s->energy() + s->friction_energy(), "T2", "n=64", "the same plus friction term", kTenDigits);
   const auto c = s->contact(*b.contact);
   CHECK(std::to_string(c.stick) + "/" + std::to_string(c.slip) + "/" + std::to_string(c.open) == "24/41/0");
-  CHECK_THROWS_WITH_AS(solve(blocks(16, given(1.5)).scene),
+  CHECK_THROWS_WITH_AS(solve_by_default(blocks(16, given(1.5)).scene),
                        doctest::Contains("nothing stops 'upper': translation along x; the load does work 4"), InputError);
 }
 
@@ -96,7 +91,7 @@ TEST_CASE("the Coulomb punch in space has the values of other codes") {
   };
   const auto contact = scene::add_contact(*scene, test::part(cube, "top"), contact::RigidGap{{0, 0, 1}, gap}, {}, false,
                                           coulomb(0.3));
-  const auto s = solve(scene);
+  const auto s = solve_by_default(scene);
   REQUIRE_MESSAGE(s->result().converged, s->result().reason);
   reference::compare(s->energy(), "S3C", "n=8", "elastic energy", kTenDigits);
   const auto c = s->contact(*contact);
@@ -120,7 +115,7 @@ TEST_CASE("no friction, and friction that cannot slip") {
         scene::add_glue(*scene, test::part(upper, "bottom"), test::part(lower, "top"));
       else
         scene::add_contact(*scene, test::part(upper, "bottom"), test::part(lower, "top"), {}, friction);
-      return solve(scene);
+      return solve_by_default(scene);
     };
     const auto plain = make({});
     CHECK(make(given(0))->rows() == plain->rows());
@@ -157,9 +152,9 @@ TEST_CASE("a block sticks until the tangent of the load's angle passes the coeff
         scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, 0, 0}, normal}, {}, false, coulomb(0.4));
         return scene;
       };
-      for (double tangent : {0.1, 0.39, 0.3999}) CHECK(solve(pulled(tangent))->result().converged);
+      for (double tangent : {0.1, 0.39, 0.3999}) CHECK(solve_by_default(pulled(tangent))->result().converged);
       for (double tangent : {0.4001, 0.41, 1.0})
-        CHECK_THROWS_WITH_AS(solve(pulled(tangent)), doctest::Contains("nothing stops 'block'"), InputError);
+        CHECK_THROWS_WITH_AS(solve_by_default(pulled(tangent)), doctest::Contains("nothing stops 'block'"), InputError);
     }
 }
 
@@ -187,7 +182,7 @@ TEST_CASE("given friction that jumps: nothing where it is zero, each node within
   for (const double high : {10.0, infinite}) {
     const auto bound = [=](const Point& x) { return x[0] < 0.9 ? 0 : x[0] < 1.6 ? 1.5 : high; };
     const auto b = blocks(32, {scene::Friction::Kind::tresca, bound});
-    const auto s = solve(b.scene);
+    const auto s = solve_by_default(b.scene);
     REQUIRE_MESSAGE(s->result().converged, s->result().reason);
     const auto c = s->contact(*b.contact);
     CHECK(c.friction_force[0] == doctest::Approx(-4).epsilon(1e-11));

@@ -13,34 +13,30 @@ using namespace dotyk;
 using contact::Multipliers;
 using mesh::Point;
 using scene::MultiplierPart;
+using test::given;
+using test::quiet;
 
 namespace {
 
-Monitor quiet;
-
-scene::Friction given(double g) {
-  return {scene::Friction::Kind::tresca, [=](const Point&) { return g; }};
-}
-
-struct Stack {
+struct JoinedBlocks {
   std::shared_ptr<scene::Scene> scene;
   std::shared_ptr<const scene::Contact> contact;
 };
 
 /// Two blocks of n cells each way on top of each other, held below; with `clamped` at their sides as well.
-Stack stack(int dim, mesh::Family family, int n, const scene::Discretisation& d, bool clamped = false, double g = 1) {
+JoinedBlocks stack(int dim, mesh::Family family, int n, const scene::Discretisation& d, bool clamped = false, double g = 1) {
   const auto low = test::block("low", dim, family, n, 0), high = test::block("high", dim, family, n, 1);
   test::fix(low, "bottom");
   if (clamped)
     for (const auto& b : {low, high})
       for (const char* side : {"left", "right"}) test::fix(b, side);
-  Stack s;
+  JoinedBlocks s;
   s.scene = scene::make_scene({low, high});
   s.contact = scene::add_contact(*s.scene, test::part(high, "bottom"), test::part(low, "top"), {}, given(g), false, d);
   return s;
 }
 
-double constant(const Stack& s, MultiplierPart part = MultiplierPart::tangential) {
+double constant(const JoinedBlocks& s, MultiplierPart part = MultiplierPart::tangential) {
   return scene::inf_sup(*s.contact, part, true, quiet).constant;
 }
 

@@ -8,12 +8,9 @@
 
 using namespace dotyk;
 using mesh::Point;
+using test::friction;
 
 namespace {
-
-scene::Friction friction(scene::Friction::Kind kind, double value) {
-  return {kind, [=](const Point&) { return value; }};
-}
 
 bool solvable(const std::shared_ptr<scene::Scene>& s) {
   Monitor quiet;

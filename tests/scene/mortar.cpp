@@ -13,10 +13,10 @@ using contact::Pairing;
 using mesh::Family;
 using mesh::Point;
 using test::Stack;
+using test::kPressure;
 
 namespace {
 
-constexpr double kPressure = 3;
 // The patch test's measure, relative to the pressure.
 constexpr double kExact = 1e-11;
 

@@ -11,13 +11,11 @@
 using namespace dotyk;
 using contact::Multipliers;
 using mesh::Point;
+using test::given;
 
 namespace {
 
 scene::Friction given(elasticity::ScalarField g) { return {scene::Friction::Kind::tresca, std::move(g)}; }
-scene::Friction given(double g) {
-  return given([=](const Point&) { return g; });
-}
 
 std::shared_ptr<scene::Solution> solved(const std::shared_ptr<scene::Scene>& s) {
   Monitor quiet;

@@ -6,6 +6,7 @@
 
 using namespace dotyk;
 using mesh::Point;
+using test::friction;
 
 // Newton's method from random multipliers, far from the solution: where the derivative is singular, and
 // whether it converges all the same.
@@ -13,10 +14,6 @@ using mesh::Point;
 namespace {
 
 using Kind = scene::Friction::Kind;
-
-scene::Friction friction(Kind kind, double value) {
-  return {kind, [=](const Point&) { return value; }};
-}
 
 /// A block on another, 2 × 1 each, pressed and pulled sideways; lengths and stresses in units of the caller's.
 std::shared_ptr<scene::Scene> blocks(const scene::Friction& law, bool held, double length = 1, double stress = 1) {

@@ -5,22 +5,22 @@
 using namespace dotyk;
 using mesh::Point;
 using test::block;
+using test::kPressure;
 
 namespace {
 
-constexpr double kPressure = 3;
 // 1e-11 of the pressure: rounding of some thousand unknowns of condition 1e4.
-constexpr double kExact = 1e-11 * kPressure;
+constexpr double kExactPressure = 1e-11 * kPressure;
 
-struct Stack {
+struct PatchStack {
   std::shared_ptr<scene::Body> low, high;
   std::shared_ptr<scene::Scene> scene;
   std::shared_ptr<const scene::Contact> contact;
 };
 
 /// Two blocks of different stiffness on top of each other; `low`'s top is in contact with `high`'s bottom.
-Stack stack(int dim, mesh::Family family, int n) {
-  Stack s;
+PatchStack stack(int dim, mesh::Family family, int n) {
+  PatchStack s;
   s.low = block("low", dim, family, n, 0, 210, 0.3);
   s.high = block("high", dim, family, n, 1, 70, 0.2);
   s.scene = scene::make_scene({s.low, s.high});
@@ -29,12 +29,12 @@ Stack stack(int dim, mesh::Family family, int n) {
 }
 
 /// Every contact node carries exactly p; every nodal stress is −p along the last axis and nothing else.
-void check_uniform(const Stack& s, const scene::Solution& solution, double p) {
+void check_uniform(const PatchStack& s, const scene::Solution& solution, double p) {
   const int dim = s.low->dimension();
   const auto c = solution.contact(*s.contact);
   CHECK(c.open == 0);
   for (const auto& node : c.nodes) {
-    CHECK(std::abs(node.pressure - p) < kExact);
+    CHECK(std::abs(node.pressure - p) < kExactPressure);
     CHECK(std::abs(node.gap) < 1e-13);
   }
   CHECK(c.force[dim - 1] == doctest::Approx(-p).epsilon(1e-11));
@@ -43,7 +43,7 @@ void check_uniform(const Stack& s, const scene::Solution& solution, double p) {
       const double nu = b == 0 ? 0.3 : 0.2;
       for (int v = 0; v < 6; ++v) {
         const double exact = v == dim - 1 ? -p : (dim == 2 && v == 2 ? -nu * p : 0);
-        CHECK(std::abs(stress[v] - exact) < 10 * kExact);  // differences of displacements lose a digit
+        CHECK(std::abs(stress[v] - exact) < 10 * kExactPressure);  // differences of displacements lose a digit
       }
     }
 }
@@ -133,17 +133,17 @@ TEST_CASE("the same turned by 30 degrees: slides along no axis are rows, bodies 
         REQUIRE_MESSAGE(solution->result().converged, solution->result().reason);
         const auto result = solution->contact(*contact);
         CHECK(result.open == 0);
-        for (const auto& node : result.nodes) CHECK(std::abs(node.pressure - kPressure) < 10 * kExact);
+        for (const auto& node : result.nodes) CHECK(std::abs(node.pressure - kPressure) < 10 * kExactPressure);
         const auto floor = solution->reaction(test::part(bodies[0], "bottom"));
         for (int i = 0; i < dim; ++i) {
-          CHECK(std::abs(result.force[i] + kPressure * up[i]) < kExact);
-          CHECK(std::abs(floor[i] - kPressure * up[i]) < kExact);
+          CHECK(std::abs(result.force[i] + kPressure * up[i]) < kExactPressure);
+          CHECK(std::abs(floor[i] - kPressure * up[i]) < kExactPressure);
         }
         // σ = −p up⊗up.
         for (int b : {0, 1})
           for (const auto& stress : solution->stress(b)) {
-            CHECK(std::abs(stress[0] + kPressure * up[0] * up[0]) < 100 * kExact);
-            CHECK(std::abs(stress[dim == 2 ? 5 : 4] + kPressure * up[0] * up[dim - 1]) < 100 * kExact);
+            CHECK(std::abs(stress[0] + kPressure * up[0] * up[0]) < 100 * kExactPressure);
+            CHECK(std::abs(stress[dim == 2 ? 5 : 4] + kPressure * up[0] * up[dim - 1]) < 100 * kExactPressure);
           }
       }
 }

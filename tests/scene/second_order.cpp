@@ -11,12 +11,7 @@ using namespace dotyk;
 using contact::Pairing;
 using mesh::Family;
 using mesh::Point;
-
-namespace {
-
-constexpr double kPressure = 3;
-
-}  // namespace
+using test::kPressure;
 
 TEST_CASE("the patch test of contact for every pair of elements, order 2 on either side: uniform pressure is exact") {
   for (int dim : {2, 3})

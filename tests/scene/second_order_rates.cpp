@@ -11,10 +11,9 @@ using namespace dotyk;
 using mesh::Family;
 using mesh::Point;
 using std::numbers::pi;
+using test::quiet;
 
 namespace {
-
-Monitor quiet;
 
 /// A sinusoidal surface on an elastic half-space in the plane (Westergaard 1939; Johnson 1985, 13.2), wavelength 1, half of it:
 /// gap δ(1 − cos 2πx), contact |x| < a under the mean pressure (πE*δ) sin² πa, and

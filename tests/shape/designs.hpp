@@ -15,6 +15,8 @@ using algebra::Vector;
 using shape::DesignProblem;
 using shape::Evaluation;
 
+inline double largest_difference(const Vector& a, const Vector& b) { return (a - b).lpNorm<Eigen::Infinity>(); }
+
 struct KnownDesign {
   DesignProblem problem;
   Vector start, solution, multipliers;

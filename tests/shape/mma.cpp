@@ -24,8 +24,6 @@ Optimum run(const KnownDesign& k, Mma::Method method, int designs = 400) {
   return shape::minimise(k.problem, k.start, s, nobody);
 }
 
-double distance(const Vector& a, const Vector& b) { return (a - b).lpNorm<Eigen::Infinity>(); }
-
 }  // namespace
 
 TEST_CASE("methods of NLopt find the known designs with their multipliers") {
@@ -35,8 +33,8 @@ TEST_CASE("methods of NLopt find the known designs with their multipliers") {
       const Optimum o = run(k, method);
       CHECK(o.converged);
       CHECK(o.value.objective == doctest::Approx(k.minimum).epsilon(1e-5));
-      CHECK(distance(o.alpha, k.solution) < 5e-3);  // flat near the minimum: the objective is within 1e-5 of it
-      if (k.multipliers.size() > 0) CHECK(distance(o.multipliers, k.multipliers) < 1e-2);
+      CHECK(test::largest_difference(o.alpha, k.solution) < 5e-3);  // flat near the minimum: the objective is within 1e-5 of it
+      if (k.multipliers.size() > 0) CHECK(test::largest_difference(o.multipliers, k.multipliers) < 1e-2);
       for (const auto& r : o.history)
         if (r.accepted && r.design > 1 && r.constraints.size() > 0) CHECK(r.objective >= k.minimum - 1e-6);
     }
@@ -68,7 +66,7 @@ TEST_CASE("a step that is short because designs farther on are not admissible is
     CAPTURE(static_cast<int>(method));
     KnownDesign k = test::rosenbrock();
     const auto valley = k.problem.evaluate;
-    k.problem.evaluate = [&](const Vector& x) { return distance(x, k.start) > 1e-5 ? std::nullopt : valley(x); };
+    k.problem.evaluate = [&](const Vector& x) { return test::largest_difference(x, k.start) > 1e-5 ? std::nullopt : valley(x); };
     Monitor nobody;
     Mma s;
     s.method = method, s.tol_design = 1e-4;

@@ -10,9 +10,6 @@ using mesh::Point;
 namespace {
 
 scene::Friction given(elasticity::ScalarField g) { return {scene::Friction::Kind::tresca, std::move(g)}; }
-scene::Friction coulomb(double mu) {
-  return {scene::Friction::Kind::coulomb, [=](const Point&) { return mu; }};
-}
 
 /// A block on another, pressed and pulled sideways.
 test::ScenePtr blocks(int dimension, Family family, int n, const scene::Friction& friction) {
@@ -70,7 +67,7 @@ TEST_CASE("given friction that holds everywhere, and friction that cannot slip")
 
 TEST_CASE("Coulomb friction: its bound follows the pressure") {
   for (const int dimension : {2, 3})
-    check(blocks(dimension, Family::q1, dimension == 2 ? 8 : 4, coulomb(dimension == 2 ? 0.2 : 0.25)), motion(dimension), true, true);
+    check(blocks(dimension, Family::q1, dimension == 2 ? 8 : 4, test::coulomb(dimension == 2 ? 0.2 : 0.25)), motion(dimension), true, true);
 }
 
 TEST_CASE("given friction against a rigid ball, whose tangents turn") {

@@ -40,18 +40,18 @@ void check_against_dense(const problem::Problem& p) {
   CHECK((M - M.transpose()).norm() < 1e-12 * M.norm());
 }
 
-struct Ends {
+struct ExtremeEigenvalues {
   double least, greatest;
   double condition() const { return greatest / least; }
 };
 
 /// Of the eigenvalues of M F on im P that are not zero; M symmetric positive semidefinite.
-Ends ends(const DenseMatrix& P, const DenseMatrix& M, const DenseMatrix& F) {
+ExtremeEigenvalues ends(const DenseMatrix& P, const DenseMatrix& M, const DenseMatrix& F) {
   const Eigen::SelfAdjointEigenSolver<DenseMatrix> m(P * M * P);
   const DenseMatrix root =
       m.eigenvectors() * m.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * m.eigenvectors().transpose();
   const Vector e = Eigen::SelfAdjointEigenSolver<DenseMatrix>(root * P * F * P * root).eigenvalues();
-  Ends result{e.maxCoeff(), e.maxCoeff()};
+  ExtremeEigenvalues result{e.maxCoeff(), e.maxCoeff()};
   int count = 0;
   for (double x : e)
     if (x > 1e-10 * result.greatest) result.least = std::min(result.least, x), ++count;
@@ -105,9 +105,9 @@ TEST_CASE("spectra on im P: from 1 on with either preconditioner, to H/h with th
     const int m = dual.rows();
     const DenseMatrix P = test::projector({dual.G(), dual.e()}, m);
     const DenseMatrix F = test::as_matrix(m, [&](const Vector& v) { return dual.apply(v); });
-    const Ends none = ends(P, P, F);
-    const Ends lumped = ends(P, test::as_matrix(m, [&](const Vector& v) { return simple.apply(v); }), F);
-    const Ends best = ends(P, test::as_matrix(m, [&](const Vector& v) { return dirichlet.apply(v); }), F);
+    const ExtremeEigenvalues none = ends(P, P, F);
+    const ExtremeEigenvalues lumped = ends(P, test::as_matrix(m, [&](const Vector& v) { return simple.apply(v); }), F);
+    const ExtremeEigenvalues best = ends(P, test::as_matrix(m, [&](const Vector& v) { return dirichlet.apply(v); }), F);
     CHECK(lumped.least == doctest::Approx(1).epsilon(1e-8));
     CHECK(best.least == doctest::Approx(1).epsilon(1e-8));
     CHECK(best.condition() < 0.8 * lumped.condition());

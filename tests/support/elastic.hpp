@@ -21,6 +21,16 @@ inline MaterialField steel(int dimension, double E = 210, double nu = 0.3,
   return MaterialField(elasticity::isotropic(E, nu, dimension, plane));
 }
 
+/// The same stiffness k along each axis, per area, at every point of a part.
+inline std::vector<elasticity::FacetSpring> even_springs(const Mesh& m, const std::string& part, Point k) {
+  std::vector<elasticity::FacetSpring> result;
+  for (const auto f : m.parts.at(part)) {
+    result.push_back({f, {}});
+    result.back().stiffness.assign(elasticity::facet_points(m), k);
+  }
+  return result;
+}
+
 /// Adds a traction given as a function of position.
 inline void add_traction(const Mesh& m, const std::vector<mesh::Facet>& facets, const VectorField& t,
                          std::vector<double>& force) {

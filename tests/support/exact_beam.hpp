@@ -6,10 +6,11 @@
 #include <Eigen/LU>
 
 #include "beam/solve.hpp"
+#include "plain_laws.hpp"
 
 namespace dotyk::test {
 
-inline constexpr problem::SupportLaw kFree{}, kHeld{problem::SupportLaw::Kind::prescribed, 0, 0};
+inline constexpr double kLength = 2, kEJ = 3;  ///< of the beams compared
 
 /// One condition of an end: r = force − stiffness·v, or v = value (rigid).
 struct EndCondition {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "meshes.hpp"
+#include "plain_laws.hpp"
 #include "plate/reaction.hpp"
 #include "plate/solve.hpp"
 
@@ -14,7 +15,8 @@ using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
 
 inline constexpr Element kElements[] = {Element::morley, Element::hct};
-inline constexpr SupportLaw kFree{}, kHeld{Kind::prescribed};
+/// Bending stiffness and Poisson's ratio where exact solutions are compared with.
+inline constexpr double kD = 3, kNu = 0.3;
 
 inline plate::LawField always(SupportLaw law) {
   return [law](double, double) { return law; };
@@ -23,6 +25,13 @@ inline plate::LawField always(SupportLaw law) {
 /// v = value(x, y).
 inline plate::LawField prescribed(plate::Field value) {
   return [value](double x, double y) { return SupportLaw{Kind::prescribed, value(x, y)}; };
+}
+
+/// n × n squares halved, their inner nodes moved.
+inline Mesh rough(int n) {
+  Mesh m = rectangle(Family::p1, n, n);
+  distort(m, 0.05);
+  return m;
 }
 
 inline Plate plate_on(Mesh mesh, Element element, double load = 0) {

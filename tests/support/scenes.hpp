@@ -21,6 +21,16 @@ inline std::shared_ptr<scene::Body> block(const std::string& name, int dimension
   return body(name, std::move(m), E, nu);
 }
 
+inline scene::Friction friction(scene::Friction::Kind kind, double value) {
+  return {kind, [=](const Point&) { return value; }};
+}
+inline scene::Friction coulomb(double mu) { return friction(scene::Friction::Kind::coulomb, mu); }
+inline scene::Friction given(double g) { return friction(scene::Friction::Kind::tresca, g); }
+
+inline constexpr double kPressure = 3;  ///< of patch tests
+
+inline Monitor quiet;  ///< never stops
+
 inline scene::Part part(const std::shared_ptr<scene::Body>& b, const std::string& name) {
   return scene::named_part(b, name);
 }

@@ -30,13 +30,6 @@ inline void touch(Stack& s, bool upper_first = true, const scene::Friction& fric
   s.contact = scene::add_contact(*s.scene, upper_first ? above : below, upper_first ? below : above, {}, friction, false, {}, pairing);
 }
 
-inline scene::Friction coulomb(double mu) {
-  return {scene::Friction::Kind::coulomb, [=](const Point&) { return mu; }};
-}
-inline scene::Friction given(double g) {
-  return {scene::Friction::Kind::tresca, [=](const Point&) { return g; }};
-}
-
 inline void agree(const scene::Solution& a, const scene::Solution& b, double tolerance) {
   REQUIRE_MESSAGE(a.result().converged, a.result().reason);
   REQUIRE_MESSAGE(b.result().converged, b.result().reason);

@@ -5,6 +5,7 @@
 
 namespace dotyk::test {
 
+inline Monitor monitor;  ///< never stops
 using LawKind = problem::SupportLaw::Kind;
 
 inline thermoelastic::Data thermal_beam(int cells = 16, double above = 0.2, double below = 0.2) {

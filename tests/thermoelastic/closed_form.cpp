@@ -12,7 +12,6 @@ using namespace dotyk::thermoelastic;
 
 namespace {
 
-Monitor monitor;
 constexpr double kPi = M_PI;
 
 }  // namespace

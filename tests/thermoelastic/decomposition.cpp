@@ -11,8 +11,6 @@ using namespace dotyk::thermoelastic;
 
 namespace {
 
-Monitor monitor;
-
 struct Case {
   const char* name;
   problem::SupportLaw left_deflection, left_rotation, right_deflection, right_rotation;
@@ -31,7 +29,7 @@ Data beam_of(const Case& c, double above = 0.2) {
 }
 
 /// Loads and heat that change in time and space, pressing on both ends throughout.
-Loads loads() {
+Loads pressing_loads() {
   Loads out;
   out.transverse = source([](double x, double t) { return -1 - 0.3 * std::sin(5 * t) * x; });
   out.axial = source([](double x, double t) { return x * std::cos(3 * t); });
@@ -42,7 +40,7 @@ Loads loads() {
 
 /// Decomposed against coupled after 200 steps to time 2: the greatest difference, relative to the greatest value.
 double difference(const Data& d, Order order, const std::vector<std::string>& expected) {
-  const Loads driving = loads();
+  const Loads driving = pressing_loads();
   const Initial initial{{0.3, {}}, source([](double x, double) { return x * x; })};
   Stepping apart(d, initial, {0.01, order, true, {}}, driving, monitor), coupled(d, initial, {0.01, order, false, {}}, driving, monitor);
   apart.run(2, driving, monitor);

@@ -11,9 +11,7 @@ using namespace dotyk::thermoelastic;
 
 namespace {
 
-Monitor monitor;
-
-Loads loads() {
+Loads driving_loads() {
   Loads out;
   out.transverse = source([](double x, double t) { return -1 - std::sin(5 * t) * x; });
   out.axial = source([](double x, double t) { return x * std::sin(3 * t); });
@@ -35,8 +33,8 @@ Data held_beam() {
 }
 
 Energy balance(Order order, int steps) {
-  Stepping s(held_beam(), {}, {1.0 / steps, order, true, {}}, loads(), monitor);
-  s.run(1, loads(), monitor);
+  Stepping s(held_beam(), {}, {1.0 / steps, order, true, {}}, driving_loads(), monitor);
+  s.run(1, driving_loads(), monitor);
   return s.energy();
 }
 

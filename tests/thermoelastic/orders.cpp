@@ -11,8 +11,6 @@ using namespace dotyk::thermoelastic;
 
 namespace {
 
-Monitor monitor;
-
 /// Everything a product g(t) × a function of x, unlike exchange above and below: all four fields coupled.
 struct Manufactured {
   std::function<double(double)> g, rate;  ///< g and g'

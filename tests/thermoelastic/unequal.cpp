@@ -14,8 +14,6 @@ using namespace dotyk::thermoelastic;
 
 namespace {
 
-Monitor monitor;
-
 problem::SupportLaw unequal(double push, double pull) { return {LawKind::unequal_elastic, push, 0, pull}; }
 
 /// A cantilever whose other end has the law in every displacement, bent and stretched to and fro.
