@@ -23,13 +23,9 @@ void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n
 }
 
 namespace dotyk::algebra {
-namespace {
-
-constexpr int kPanel = 512;  // columns: of 20 000 rows a tenth of a second
-
-}  // namespace
 
 Lu::Lu(DenseMatrix a) : lu_(std::move(a)), exchanged_(static_cast<std::size_t>(lu_.rows())) {
+  constexpr int kPanel = 512;  // columns: of 20 000 rows a tenth of a second
   const int n = static_cast<int>(lu_.rows());
   if (lu_.cols() != n) throw std::logic_error("LU: the matrix is not square");
   if (n == 0) return;

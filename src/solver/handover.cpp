@@ -16,6 +16,8 @@
 namespace dotyk::solver {
 namespace {
 
+constexpr int kFromNear = 60;  // iterations of proximal from a solution with polygons for discs of friction
+
 struct Alternative {
   std::shared_ptr<const RowMethod> method;
   int iterations;
@@ -42,10 +44,12 @@ std::string search(RowIteration& iteration) {
     return text("; ", programmes, " exclude all states of contact, stick and slip: there is no solution");
   }
   if (found.verdict == PieceSearch::Verdict::undecided) return found.programmes == 0 ? "" : text("; tried a search of pieces, ", programmes);
-  iteration.grant(1);
-  iteration.next();
+  const bool exact = found.verdict == PieceSearch::Verdict::found;
+  iteration.grant(exact ? 1 : kFromNear);
   iteration.move_to(found.lambda, found.alpha);
-  return text(iteration.record() ? "; solved by a search of pieces, " : "; tried a search of pieces, ", programmes);
+  if (!exact) Proximal().iterate(iteration);
+  else if (iteration.next()) iteration.record();
+  return text(iteration.converged() ? "; solved by a search of pieces, " : "; tried a search of pieces, ", programmes, exact ? "" : ", and proximal from there");
 }
 
 }  // namespace

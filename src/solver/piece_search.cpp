@@ -216,7 +216,7 @@ class DepthFirstSearch {
 
   PieceSearch run() {
     const bool all = visit(on_.low(), on_.high(), Vector());
-    if (out_.verdict != PieceSearch::Verdict::found && all) out_.verdict = PieceSearch::Verdict::none;
+    if (all) out_.verdict = PieceSearch::Verdict::none;
     return std::move(out_);
   }
 
@@ -232,7 +232,7 @@ class DepthFirstSearch {
     return point.residual.norm() <= kSolved * on_.b().norm() ? End::point : End::unknown;
   }
 
-  /// True where these bounds are excluded; false where a solution is found, or nothing can be said.
+  /// True where these bounds are excluded; false where a solution is found, or nothing can be said of some of them: others may hold one.
   bool visit(const Vector& low, const Vector& high, const Vector& start) {
     if (out_.programmes >= kMostProgrammes || monitor_.stop()) return false;
     ++out_.programmes;
@@ -242,8 +242,7 @@ class DepthFirstSearch {
     if (end != End::point) return end == End::excluded;
     const Pair* worst = broken(point.x, high);
     if (!worst) {
-      if (!on_.exact()) return false;  // polygons have one, discs perhaps not
-      out_.verdict = PieceSearch::Verdict::found;
+      out_.verdict = on_.exact() ? PieceSearch::Verdict::found : PieceSearch::Verdict::near;
       out_.lambda = on_.lambda(point.x);
       out_.alpha = on_.alpha(point.x);
       return false;
@@ -251,7 +250,9 @@ class DepthFirstSearch {
     Vector closed = high, low_of_others = low, high_of_others = high;
     closed[worst->column] = 0;
     for (const int j : worst->others) (worst->at_high ? low_of_others[j] : high_of_others[j]) = worst->at_high ? high[j] : 0;
-    return visit(low, closed, point.x) && visit(low_of_others, high_of_others, point.x);
+    const bool none = visit(low, closed, point.x);
+    if (out_.verdict != PieceSearch::Verdict::undecided) return false;
+    return visit(low_of_others, high_of_others, point.x) && none;
   }
 
   /// Does what is left prove that the programme has no point? Farkas: it is orthogonal to the columns that are free, and no other

@@ -14,14 +14,14 @@ namespace dotyk::solver {
 /// pairs it is a linear programme. Where that has no point there is no solution: no pressures that the bodies can build up, with
 /// friction within its cones, balance the load. Else the pair that its point breaks most splits the search in two.
 struct PieceSearch {
-  enum class Verdict { none, found, undecided };
+  enum class Verdict { none, found, near, undecided };
   Verdict verdict = Verdict::undecided;
   int programmes = 0;            ///< linear ones that were solved
-  algebra::Vector lambda, alpha; ///< the solution, where one is found
+  algebra::Vector lambda, alpha; ///< the solution, where one is found; where it is near, of the polygons
 };
 
 /// In space discs of friction are replaced by polygons around them and slip may point anywhere: the search then proves that there
-/// is no solution, or nothing. Undecided as well where a law does not tell its springs, and beyond so many rows or programmes.
+/// is no solution, or finds where to begin another method from. Undecided as well where a law does not tell its springs, and beyond so many rows or programmes.
 PieceSearch search_pieces(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor);
 
 }  // namespace dotyk::solver

@@ -181,7 +181,7 @@ void Proximal::iterate(RowIteration& iteration) const {
     steps += springs.steps();
     if (solved) {
       iteration.move_to(std::move(springs.place().lambda), std::move(springs.place().alpha));
-      const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeast);
+      const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeastSigma);
       if (springs.rounded()) softness = std::min(kSofter * softness, std::max(softness, sigma));  // of which rounding makes less
       else if (noise(iteration, harder * compliance) <= kNoisyStep * iteration.residual() * iteration.force()) softness = harder;
     } else {
