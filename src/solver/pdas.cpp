@@ -95,7 +95,8 @@ class Iteration {
     result_.screws.push_back({screws_->rows(), screws_->regularity(), screws_->determinant()});
   }
 
-  double noise_of_screws() const { return 1e-9 * lambda_.lpNorm<Eigen::Infinity>(); }
+  /// Where nothing is loaded λ itself is noise.
+  double noise_of_screws() const { return std::max(1e-9 * lambda_.lpNorm<Eigen::Infinity>(), noise(lambda_, x_).force.maxCoeff()); }
 
   /// At the end: are there screws where nothing presses?
   bool pulling() const { return screws_ && screws_->pulls(lambda_, noise_of_screws()); }

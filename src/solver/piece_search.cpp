@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "algebra/bounded_least_squares.hpp"
+#include "algebra/cone_least_squares.hpp"
 #include "solver/natural_map.hpp"
 #include "solver/treatable.hpp"
 
@@ -23,13 +24,13 @@ using problem::FrictionGroup;
 using problem::Problem;
 using problem::RowGroup;
 
-constexpr int kMostRows = 80, kMostProgrammes = 400;
+constexpr int kMostRows = 80, kMostProgrammes = 1500;
 constexpr int kDirections = 8;         // of the polygon around a disc
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kSolved = 1e-9;       // of the right side: what is left where a programme has a point
 constexpr double kExcluded = 1e-6;     // and where it has none
 constexpr double kAngle = 1e-12;       // of programmes
-constexpr double kCertain = 1e-10;     // the greatest cosine of what is left with a column that might still lessen it
+constexpr double kMostColumns = 1e4;   // of the right side: what columns would have to amount to where a programme were excluded wrongly
 constexpr double kComplementary = 1e-8;
 
 /// Column i is 0, or those of `others` are: at 0, or at their greatest values.
@@ -63,6 +64,7 @@ class Programme {
   bool exact() const { return exact_; }
   bool treatable() const { return treatable_; }
   const DenseMatrix& A() const { return A_; }
+  const algebra::SparseRows& rows() const { return rows_; }  ///< Aᵀ
   const Vector& b() const { return b_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
   Vector low() const { return Eigen::Map<const Vector>(low_.data(), static_cast<Eigen::Index>(low_.size())).cwiseProduct(size_); }
@@ -193,6 +195,7 @@ class Programme {
       if (!(size_[j] > 0)) size_[j] = 1;
       A_.col(j) /= size_[j];
     }
+    rows_ = A_.transpose().sparseView();
   }
 
   const Problem& problem_;
@@ -206,6 +209,7 @@ class Programme {
   std::vector<Pair> pairs_;
   bool exact_ = true, treatable_ = true;
   DenseMatrix A_;
+  algebra::SparseRows rows_;
   Vector b_, size_;
 };
 
@@ -225,8 +229,10 @@ class DepthFirstSearch {
   End programme(const Vector& low, const Vector& high, const Vector& start, algebra::BoundedLeastSquares& point) const {
     try {
       point = algebra::bounded_least_squares(on_.A(), on_.b(), low, high, kAngle, start);
-    } catch (const std::runtime_error&) {
-      return End::unknown;
+    } catch (const std::runtime_error&) {  // its active sets repeat
+      auto fitted = algebra::cone_least_squares(on_.rows(), on_.b(), {{low.begin(), low.end()}, {high.begin(), high.end()}, {}}, 0.1 * kSolved);
+      point.x = std::move(fitted.x);
+      point.residual = on_.b() - on_.A() * point.x;
     }
     if (excluded(point, low, high)) return End::excluded;
     return point.residual.norm() <= kSolved * on_.b().norm() ? End::point : End::unknown;
@@ -256,14 +262,15 @@ class DepthFirstSearch {
   }
 
   /// Does what is left prove that the programme has no point? Farkas: it is orthogonal to the columns that are free, and no other
-  /// one can lessen it.
+  /// one can lessen it, up to an angle: a point would have columns whose sum is what is left over that angle.
   bool excluded(const algebra::BoundedLeastSquares& point, const Vector& low, const Vector& high) const {
     const double left = point.residual.norm();
     if (!(left > kExcluded * on_.b().norm())) return false;
     const Vector along = on_.A().transpose() * point.residual / left;
+    const double certain = left / (kMostColumns * on_.b().norm());
     for (Eigen::Index j = 0; j < along.size(); ++j) {
-      if (along[j] > kCertain && point.x[j] < high[j]) return false;
-      if (along[j] < -kCertain && point.x[j] > low[j]) return false;
+      if (along[j] > certain && point.x[j] < high[j]) return false;
+      if (along[j] < -certain && point.x[j] > low[j]) return false;
     }
     return true;
   }
