@@ -212,7 +212,7 @@ class Iteration {
       case End::interrupted: result_.reason = "interrupted; this is the state so far"; break;
       case End::singular:
         result_.reason = text("the linear problem of iteration ", result_.iterations,
-                              " is singular: active rows contradict each other or do not hold a body");
+                              " is singular: active rows contradict each other or do not hold a body", inside_ ? "; tried interior_point" : "");
         break;
       case End::cycle:
         by_active_set();
