@@ -54,7 +54,8 @@ local function check_friction(at, node, bound, tol, wrong, held)
 end
 
 -- A node whose distance is held, by supports on both sides, has no condition of its own, though the mean across from it may move. One that
--- is held in a direction inclined to its normal slips as it approaches: the row of that tangent says what the normal's does, and is left out.
+-- is held in a direction inclined to its normal, as on a disc's facets, slips as it approaches: the row of that tangent says what the normal's
+-- does, and is left out.
 local function is_held(contact)
   local function held(body) return body.held > 0 or body.prescribed end
   return held(contact.first.body) and (not contact.second or held(contact.second.body))
@@ -77,7 +78,7 @@ local function check_contact(contact, result, scale, wrong)
     if node.status == "open" and math.abs(p) > tol.p then wrong("open with pressure %.3g at %s", p, at) end
     if node.status ~= "open" and gap > tol.u then wrong("%s with gap %.3g at %s", node.status, gap, at) end
     if law then check_friction(at, node, law.kind == "tresca" and law.value or law.value * math.max(p, 0), tol, wrong,
-      is_held(contact) and (contact.second or inclined(node.normal)))
+      is_held(contact) and (contact.second or contact.first.body.disc or inclined(node.normal)))
     elseif norm(node.shear) > tol.p then wrong("shear without friction at %s", at) end
   end
 end

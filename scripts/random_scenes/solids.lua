@@ -188,7 +188,7 @@ local function join(scene, one, other, one_side, gap)
   local a, b = { body = one, side = one_side }, { body = other, side = opposite[one_side] }
   if dice.chance(0.5) then a, b = b, a end
   -- Does b's side cover all of a's? Else no node of a may have a foot on it, or of order 2 no facet feet of all its nodes.
-  local covered = not b.body.disc and not (a.body.disc and a.body.element:sub(2) == "2")
+  local covered = not b.body.disc and b.body.bend == 0 and not (a.body.disc and a.body.element:sub(2) == "2")
   for axis = 1, scene.dimension do
     local along = axis ~= side_of(scene, one_side)
     if along and (a.body.low[axis] < b.body.low[axis] or a.body.high[axis] > b.body.high[axis]) then covered = false end
