@@ -7,24 +7,6 @@ namespace {
 
 using Kind = problem::SupportLaw::Kind;
 
-/// The spring's stiffness per length or area at x, the row's Bu − c; 0 where it is none.
-double stiffness(const problem::SupportLaw& law, double x) {
-  switch (law.kind) {
-    case Kind::elastic:
-    case Kind::one_sided_elastic:
-    case Kind::capped_elastic:
-    case Kind::breaking: return law.value;
-    case Kind::unequal_elastic: return x < 0 ? law.pull : law.value;
-    case Kind::free:
-    case Kind::prescribed:
-    case Kind::load:
-    case Kind::signorini:
-    case Kind::friction:
-    case Kind::one_sided_friction: return 0;
-  }
-  return 0;
-}
-
 double along(const contact::NodeSide& side, const mesh::Point& direction, const std::vector<double>& v, int dimension) {
   double sum = 0;
   for (const contact::NodeWeight& own : side.own)
@@ -43,7 +25,7 @@ double squared_of_laws(const Solution& at, int index, const std::vector<double>&
       const auto add = [&](const problem::SupportLaw& law, int row, const mesh::Point& direction) {
         if (row < 0 || (law.kind != Kind::elastic && !at.active(row))) return;
         const double moved = along(side, direction, v, dim);
-        sum += side.weight * stiffness(law, along(side, direction, at.displacement(index), dim)) * moved * moved;
+        sum += side.weight * spring_stiffness(law, along(side, direction, at.displacement(index), dim)) * moved * moved;
       };
       const SupportRows& rows = at.model().support_row[index][s][k];
       if (!support.breaks(k)) add(support.normal, rows.normal, side.normal);
@@ -54,6 +36,23 @@ double squared_of_laws(const Solution& at, int index, const std::vector<double>&
 }
 
 }  // namespace
+
+double spring_stiffness(const problem::SupportLaw& law, double x) {
+  switch (law.kind) {
+    case Kind::elastic:
+    case Kind::one_sided_elastic:
+    case Kind::capped_elastic:
+    case Kind::breaking: return law.value;
+    case Kind::unequal_elastic: return x < 0 ? law.pull : law.value;
+    case Kind::free:
+    case Kind::prescribed:
+    case Kind::load:
+    case Kind::signorini:
+    case Kind::friction:
+    case Kind::one_sided_friction: return 0;
+  }
+  return 0;
+}
 
 double squared_energy_norm(const Solution& at, int index, const std::vector<double>& v) {
   const Body& body = at.body(index);

@@ -6,6 +6,7 @@
 
 #include "elasticity/assembly.hpp"
 #include "elasticity/load.hpp"
+#include "scene/energy_norm.hpp"
 #include "solver/held_stiffness.hpp"
 
 namespace dotyk::scene {
@@ -21,20 +22,9 @@ constexpr double kRigid = 1e4, kLoose = 1e-10;
 
 /// The reaction against x = −v, per length or area; 0 of laws that are not elastic.
 double reaction(const SupportLaw& law, double x) {
-  switch (law.kind) {
-    case Kind::elastic: return law.value * x;
-    case Kind::one_sided_elastic:
-    case Kind::breaking: return law.value * std::max(0.0, x);
-    case Kind::capped_elastic: return std::clamp(law.value * x, -law.limit, law.limit);
-    case Kind::unequal_elastic: return (x < 0 ? law.pull : law.value) * x;
-    case Kind::free:
-    case Kind::prescribed:
-    case Kind::load:
-    case Kind::signorini:
-    case Kind::friction:
-    case Kind::one_sided_friction: return 0;
-  }
-  return 0;
+  const bool pushes_only = law.kind == Kind::one_sided_elastic || law.kind == Kind::breaking;
+  const double force = spring_stiffness(law, x) * (pushes_only ? std::max(0.0, x) : x);
+  return law.kind == Kind::capped_elastic ? std::clamp(force, -law.limit, law.limit) : force;
 }
 
 /// The law's stiffness at x.
@@ -43,7 +33,7 @@ double slope(const SupportLaw& law, double x) {
   return x != 0 ? (reaction(law, x * (1 + 1e-6)) - reaction(law, x)) / (1e-6 * x) : 0;
 }
 
-bool elastic(const SupportLaw& law) { return law.value > 0 && reaction(law, 1) > 0; }
+bool elastic(const SupportLaw& law) { return spring_stiffness(law, 1) > 0; }
 
 /// What a facet's points say less than its nodes do, of one row.
 struct Share {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/dense.hpp"
 #include "algebra/polyhedron.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -156,7 +157,7 @@ class BranchSearch {
 
   /// Of all that the singular system allows, what the signs and bounds of the pieces leave.
   void add_family(const NaturalMap::System& system, const Vector& solved, const DenseMatrix& kernel) {
-    const DenseMatrix Z = Eigen::HouseholderQR<DenseMatrix>(kernel).householderQ() * DenseMatrix::Identity(kernel.rows(), kernel.cols());
+    const DenseMatrix Z = algebra::orthonormal(kernel);
     const Vector least = solved - Z * (Z.transpose() * solved);
     Members members;
     members.pieces = pieces_;

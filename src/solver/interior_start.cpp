@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kMostInteriorSteps = 40;
 constexpr double kBalancedResidual = 1e-6;  ///< enough of residuals, of which rounding leaves more than of the gap μ
-constexpr double kUndecidedRow = 1e-12;    ///< of the gap asked for: rows that are undecided there touch without force
-constexpr double kNever = 1e6;      ///< so many displacements away a row never closes
-constexpr double kRigid = 1e-10;    ///< D of rigid rows, of the compliance that the body has there
+constexpr double kUndecidedRow = 1e-12;  ///< of the gap asked for: rows that are undecided there touch without force
+constexpr double kNever = 1e6;  ///< so many displacements away a row never closes
+constexpr double kRigid = 1e-10;  ///< D of rigid rows, of the compliance that the body has there
 
 class Interior {
  public:

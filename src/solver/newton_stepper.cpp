@@ -14,12 +14,12 @@ using algebra::Vector;
 
 namespace {
 
-constexpr double kSingularDerivative = 1e-12;    // least singular value of a derivative that is solved with
-constexpr double kHoldingSpring = 3e-3;       // δ, against compliances of size 1
-constexpr int kFreeSteps = 5;          // damped little
-constexpr std::size_t kMemory = 5;     // merits that those are compared with
+constexpr double kSingularDerivative = 1e-12;  // least singular value of a derivative that is solved with
+constexpr double kHoldingSpring = 3e-3;  // δ, against compliances of size 1
+constexpr int kFreeSteps = 5;  // damped little
+constexpr std::size_t kMemory = 5;  // merits that those are compared with
 constexpr int kStepHalvings = 15;
-constexpr int kFixedPointSteps = 20;   // the first time; twice as many each further time
+constexpr int kFixedPointSteps = 20;  // the first time; twice as many each further time
 constexpr int kDoublings = 6;
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "solver/piece_search.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 
 #include "algebra/bounded_least_squares.hpp"
 #include "algebra/cone_least_squares.hpp"
+#include "algebra/dense.hpp"
 #include "solver/natural_map.hpp"
 #include "solver/treatable.hpp"
 
@@ -46,9 +46,8 @@ class Programme {
   Programme(const Problem& problem, const CondensedProblem& condensed)
       : problem_(problem), condensed_(condensed), root_(stiffness_of_rows(condensed).cwiseSqrt()), stated_(problem.rows(), 1) {
     if (condensed.kernel_size() > 0) {
-      const Eigen::HouseholderQR<DenseMatrix> qr(root_.asDiagonal() * condensed.N());
-      Q_ = qr.householderQ() * DenseMatrix::Identity(problem.rows(), condensed.kernel_size());
-      R_ = qr.matrixQR().topRows(Q_.cols()).triangularView<Eigen::Upper>();
+      auto [Q, R] = algebra::orthogonal_factors(root_.asDiagonal() * condensed.N());
+      Q_ = std::move(Q), R_ = std::move(R);
     } else {
       Q_ = DenseMatrix(problem.rows(), 0);
     }

@@ -14,16 +14,16 @@ using algebra::DenseMatrix;
 using algebra::Vector;
 using problem::CondensedProblem;
 
-constexpr int kNewtonSteps = 12;      // of one iteration
-constexpr int kInnerHalvings = 10;         // of one step
-constexpr double kEndPrecision = 0.1;    // ‖F‖ against ‖λ − λ_k‖ where an iteration ends
+constexpr int kNewtonSteps = 12;  // of one iteration
+constexpr int kInnerHalvings = 10;  // of one step
+constexpr double kEndPrecision = 0.1;  // ‖F‖ against ‖λ − λ_k‖ where an iteration ends
 constexpr double kSofter = 100, kHarder = 10;
 constexpr double kLeastSigma = 1e-10, kGreatestSigma = 1e6;  // of σ; beyond the latter nothing moves
 constexpr double kLeastConvex = 1e-8;  // where ρ = 1/σC: less, and rounding of x counts
-constexpr double kNoisyStep = 100;        // noise against what is left: beyond, springs are not made stiffer
-constexpr int kConvexSteps = 40;      // of one iteration, where they cannot go astray
-constexpr int kSections = 30;         // of one such step
-constexpr double kFlat = 1e-3;        // a slope against the first one
+constexpr double kNoisyStep = 100;  // noise against what is left: beyond, springs are not made stiffer
+constexpr int kConvexSteps = 40;  // of one iteration, where they cannot go astray
+constexpr int kSections = 30;  // of one such step
+constexpr double kFlat = 1e-3;  // a slope against the first one
 constexpr double kSigma = 0.1, kHolding = 3e-3;  // springs that hold free bodies, against C, at this σ; proportional to σ below it
 
 struct Iterate {
