@@ -217,6 +217,12 @@ return function(scene, made, solution)
     local given = contact.friction and contact.friction.kind == "tresca" and contact.friction.value < math.huge
     for _, node in ipairs(given and contacts[k].nodes or {}) do rubbing = rubbing + contact.friction.value * node.weight end
   end
+  for k, support in ipairs(scene.supports) do
+    for _, law in pairs(support.law or {}) do
+      local given = law.name == "friction" or law.name == "one_sided_friction"
+      for _, node in ipairs(given and supports[k].nodes or {}) do rubbing = rubbing + law.numbers[1] * node.weight end
+    end
+  end
   tol.energy = (1e-9 * tol.gross + 1e-7 * rubbing) * tol.length + 1e-12 * scene.stiffest * tol.length^2 * scene.size^(scene.dimension - 2)
   if tol.gross < 1e-6 * scene.stress then -- nothing is loaded
     tol.energy = tol.energy + 1e-10 * scene.stiffest * scene.size^scene.dimension

@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "solver/coulomb_loop.hpp"
 #include "solver/newton.hpp"
+#include "solver/newton_stepper.hpp"
 #include "solver/piece_search.hpp"
 #include "solver/projected_cg.hpp"
 #include "solver/projection.hpp"
@@ -16,6 +17,7 @@
 namespace dotyk::solver {
 namespace {
 
+constexpr int kNewtonSteps = 12;  // from the point of a programme
 constexpr int kFromNear = 60;  // iterations of proximal from a solution with polygons for discs of friction
 
 struct Alternative {
@@ -34,10 +36,28 @@ std::vector<Alternative> alternatives(const problem::Problem& problem) {
   return {{proximal, 100}, {std::make_shared<Psor>(), 5000}};
 }
 
+/// A few Newton steps from a point of the search of pieces.
+Attempt newton_from(const RowIteration& outer, const Settings& settings, Monitor& monitor) {
+  return [&outer, &settings, &monitor](algebra::Vector& lambda, algebra::Vector& alpha) {
+    RowIteration on(outer.problem, outer, settings, 1, monitor);
+    on.begin_at(lambda, alpha);
+    NewtonStepper stepper(on, false);
+    while (!on.converged() && stepper.stuck() == 0 && on.next()) {
+      stepper.step();
+      on.record();
+    }
+    lambda = on.lambda(), alpha = on.alpha();
+    return on.converged();
+  };
+}
+
 /// The last one: takes the solution on whatever pieces, or refuses the problem where all are excluded. Says what it did.
-std::string search(RowIteration& iteration) {
+std::string search(RowIteration& iteration, double tol) {
   iteration.monitor().phase("searching the pieces of the laws");
-  const PieceSearch found = search_pieces(iteration.problem, iteration.condensed, iteration.monitor());
+  InnerMonitor monitor(iteration.monitor());
+  Settings settings;
+  settings.tol = tol, settings.max_iterations = kNewtonSteps;
+  const PieceSearch found = search_pieces(iteration.problem, iteration.condensed, newton_from(iteration, settings, monitor), iteration.monitor());
   const std::string programmes = text(found.programmes, found.programmes == 1 ? " linear programme" : " linear programmes");
   if (found.verdict == PieceSearch::Verdict::none) {
     if (!iteration.problem.blocks.empty()) refuse_unbearable(iteration.problem, programmes + " exclude all states of contact, stick and slip");
@@ -54,7 +74,7 @@ std::string search(RowIteration& iteration) {
 
 }  // namespace
 
-void hand_over(RowIteration& iteration) {
+void hand_over(RowIteration& iteration, double tol) {
   std::string tried = text("newton lost its way in ", iteration.iterations(), " iterations");
   for (const Alternative& next : alternatives(iteration.problem)) {
     if (iteration.monitor().stop()) break;
@@ -65,7 +85,7 @@ void hand_over(RowIteration& iteration) {
     tried += text(iteration.converged() ? "; ended by " : "; tried ", next.method->name(), ", ", iteration.iterations() - before, " iterations");
     if (iteration.converged()) break;
   }
-  if (!iteration.converged() && !iteration.monitor().stop() && bounds_depend_on_normal(iteration.problem)) tried += search(iteration);
+  if (!iteration.converged() && !iteration.monitor().stop() && bounds_depend_on_normal(iteration.problem)) tried += search(iteration, tol);
   iteration.remark(tried);
 }
 

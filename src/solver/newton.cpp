@@ -44,7 +44,7 @@ void Newton::iterate(RowIteration& iteration) const {
     if (astray) break;
   }
   for (const std::string& remark : stepper.remarks()) iteration.remark(remark);
-  if (astray) hand_over(iteration);
+  if (astray) hand_over(iteration, tol);
 }
 
 }  // namespace dotyk::solver

@@ -24,6 +24,7 @@
 #include "solver/screws.hpp"
 #include "solver/step.hpp"
 #include "solver/treatable.hpp"
+#include "solver/verdict.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -392,7 +393,7 @@ class Iteration {
   /// Bodies that were moved for the sake of rows that bear nothing go back, where the laws allow it.
   void come_to_rest(const Linearisation& l) {
     const Noise before = noise(lambda_, x_);
-    if (lambda_.size() == 0 || (lambda_.cwiseAbs() - before.force).maxCoeff() <= 0) return;  // nothing is loaded: there is no scale to rest by
+    if (lambda_.size() == 0 || (!loaded(problem_) && (lambda_.cwiseAbs() - before.force).maxCoeff() <= 0)) return;  // there is no scale to rest by
     const auto rest = held_at_rest(problem_, l, lambda_, rho_, before);
     if (!rest) return;
     Vector lambda, x;

@@ -24,13 +24,14 @@ using problem::FrictionGroup;
 using problem::Problem;
 using problem::RowGroup;
 
-constexpr int kMostRows = 80, kMostProgrammes = 1500;
+constexpr int kMostRows = 80, kMostProgrammes = 8000;
 constexpr int kDirections = 8;         // of the polygon around a disc
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kSolved = 1e-9;       // of the right side: what is left where a programme has a point
-constexpr double kExcluded = 1e-6;     // and where it has none
 constexpr double kAngle = 1e-12;       // of programmes
-constexpr double kMostColumns = 1e4;   // of the right side: what columns would have to amount to where a programme were excluded wrongly
+/// Of the right side, the greatest columns; that much more as springs of laws are softer than what a row sees. Columns without such bounds come to
+/// rest anywhere, where nearly parallel ones cancel.
+constexpr double kMostColumns = 1e4;
 constexpr double kComplementary = 1e-8;
 
 /// Column i is 0, or those of `others` are: at 0, or at their greatest values.
@@ -60,14 +61,15 @@ class Programme {
     assemble();
   }
 
-  bool exact() const { return exact_; }
   bool treatable() const { return treatable_; }
   const DenseMatrix& A() const { return A_; }
   const algebra::SparseRows& rows() const { return rows_; }  ///< Aᵀ
   const Vector& b() const { return b_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
-  Vector low() const { return Eigen::Map<const Vector>(low_.data(), static_cast<Eigen::Index>(low_.size())).cwiseProduct(size_); }
-  Vector high() const { return Eigen::Map<const Vector>(high_.data(), static_cast<Eigen::Index>(high_.size())).cwiseProduct(size_); }
+  Vector low() const { return bounds(low_).cwiseMax(-most()); }
+  Vector high() const { return bounds(high_).cwiseMin(most()); }
+  /// The greatest column that a solution may have.
+  double most() const { return kMostColumns * yields_ * b_.norm(); }
 
   Vector lambda(const Vector& z) const {
     Vector v = Vector::Zero(problem_.rows());
@@ -90,6 +92,9 @@ class Programme {
     high_.push_back(high);
     return static_cast<int>(forces_.size()) - 1;
   }
+  Vector bounds(const std::vector<double>& of) const {
+    return Eigen::Map<const Vector>(of.data(), static_cast<Eigen::Index>(of.size())).cwiseProduct(size_);
+  }
   Vector unit(int row, double value = 1) const { return value * Vector::Unit(problem_.rows(), row); }
 
   void add(const problem::Law& law, int index, int r) {
@@ -98,10 +103,12 @@ class Programme {
     const double up = bounds.high / root_[r], down = -bounds.low / root_[r], rho = root_[r] * root_[r];
     const auto side = [&](double sign, double most, double k) {
       if (!(most > 0 && k > 0)) return -1;
+      if (std::isfinite(k)) yields_ = std::max(yields_, rho / k);
       return add_column(unit(r, sign), std::isfinite(k) ? unit(r, sign * rho / k) : Vector(), 0, most);
     };
     if (springs.above == springs.below && !std::isfinite(up) && !std::isfinite(down)) {  // linear
       const double k = springs.above;
+      if (std::isfinite(k)) yields_ = std::max(yields_, rho / k);
       add_column(unit(r), std::isfinite(k) ? unit(r, rho / k) : Vector(), -kInfinite, kInfinite);
       return;
     }
@@ -120,13 +127,9 @@ class Programme {
   void add(const FrictionGroup& group, std::vector<char>& rubs) {
     for (int k = 0; k < group.points(); ++k) {
       const double mu = group.law->bound_slope(k), bound = group.law->bound(k, 0);
-      if (group.components > 1) {
-        exact_ = false;
-        for (int i = 0; i < group.components; ++i) stated_[group.row(k) + i] = 0;
-      }
       if (mu > 0) add_cone(group, k, mu, rubs);
       else if (bound > 0) add_given(group, k, bound);
-      else
+      if (!(mu > 0) && (group.components > 1 || !(bound > 0)))
         for (int i = 0; i < group.components; ++i) stated_[group.row(k) + i] = 0;
     }
   }
@@ -139,18 +142,38 @@ class Programme {
     }
     rubs[n] = 1;
     std::vector<int> edges;
-    const int count = group.components == 1 ? 2 : kDirections;
-    const double most = group.components == 1 ? mu : mu / std::cos(std::numbers::pi / kDirections);
-    for (int i = 0; i < count; ++i) {
-      const double angle = 2 * std::numbers::pi * i / count;
-      Vector v = unit(n);  // λ_n = √ρ_n, λ_t = μ λ_n along the direction
-      v[t] = most * std::cos(angle) * root_[n] / root_[t];
-      if (group.components == 2) v[t + 1] = most * std::sin(angle) * root_[n] / root_[t + 1];
-      edges.push_back(add_column(std::move(v), Vector(), 0, kInfinite));
-    }
     const int gap = add_column(Vector(), unit(n, -1), 0, kInfinite);
+    if (group.components == 1) {
+      for (const double side : {mu, -mu}) edges.push_back(add_edge(n, {t}, {side}));
+      slip(t, edges[1], edges[0]);
+    } else {
+      edges = add_polygon(n, t, mu);
+    }
     pairs_.push_back({gap, edges});
-    if (group.components == 1) slip(t, edges[1], edges[0]);
+  }
+
+  /// λ_n = √ρ_n, λ_t = `tangent` λ_n.
+  int add_edge(int n, const std::vector<int>& rows, const std::vector<double>& tangent) {
+    Vector v = unit(n);
+    for (std::size_t i = 0; i < rows.size(); ++i) v[rows[i]] = tangent[i] * root_[n] / root_[rows[i]];
+    return add_column(std::move(v), Vector(), 0, kInfinite);
+  }
+
+  /// Forces in a polygon around the disc, and slip along a direction only with forces near it, of the polygon's ring from within to around the disc.
+  std::vector<int> add_polygon(int n, int t, double mu) {
+    std::vector<int> edges, slips;
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kDirections, c = std::cos(angle), s = std::sin(angle);
+      for (const double radius : {mu / std::cos(std::numbers::pi / kDirections), mu}) edges.push_back(add_edge(n, {t, t + 1}, {radius * c, radius * s}));
+      slips.push_back(add_column(Vector(), unit(t, c * root_[t] / root_[n]) + unit(t + 1, s * root_[t + 1] / root_[n]), 0, kInfinite));
+    }
+    for (int i = 0; i < kDirections; ++i) {
+      std::vector<int> away;
+      for (int j = 2; j <= kDirections - 2; ++j)
+        for (const int k : {0, 1}) away.push_back(edges[2 * ((i + j) % kDirections) + k]);
+      pairs_.push_back({slips[i], away});
+    }
+    return edges;
   }
 
   void add_given(const FrictionGroup& group, int k, double bound) {
@@ -206,7 +229,8 @@ class Programme {
   std::vector<double> low_, high_;
   std::vector<int> motions_;
   std::vector<Pair> pairs_;
-  bool exact_ = true, treatable_ = true;
+  double yields_ = 1;  ///< of springs against what a row sees, the greatest
+  bool treatable_ = true;
   DenseMatrix A_;
   algebra::SparseRows rows_;
   Vector b_, size_;
@@ -215,11 +239,12 @@ class Programme {
 /// Depth first; a node is a choice of bounds of the columns, its programme begun at its parent's point.
 class DepthFirstSearch {
  public:
-  DepthFirstSearch(const Programme& programme, Monitor& monitor) : on_(programme), monitor_(monitor) {}
+  DepthFirstSearch(const Programme& programme, const Attempt& attempt, Monitor& monitor) : on_(programme), attempt_(attempt), monitor_(monitor) {}
 
   PieceSearch run() {
     const bool all = visit(on_.low(), on_.high(), Vector());
     if (all) out_.verdict = PieceSearch::Verdict::none;
+    else if (out_.verdict == PieceSearch::Verdict::undecided && out_.lambda.size() > 0) out_.verdict = PieceSearch::Verdict::near;
     return std::move(out_);
   }
 
@@ -244,14 +269,13 @@ class DepthFirstSearch {
     algebra::BoundedLeastSquares point;
     End end = programme(low, high, start, point);
     if (end == End::unknown && start.size() > 0) end = programme(low, high, Vector(), point);
-    if (end != End::point) return end == End::excluded;
+    if (end == End::excluded) return true;
     const Pair* worst = broken(point.x, high);
-    if (!worst) {
-      out_.verdict = on_.exact() ? PieceSearch::Verdict::found : PieceSearch::Verdict::near;
-      out_.lambda = on_.lambda(point.x);
-      out_.alpha = on_.alpha(point.x);
-      return false;
-    }
+    Vector lambda = on_.lambda(point.x), alpha = on_.alpha(point.x);
+    if (!worst && end == End::point && out_.lambda.size() == 0) out_.lambda = lambda, out_.alpha = alpha;  // near a solution
+    const bool found = attempt_(lambda, alpha);
+    if (found) out_.verdict = PieceSearch::Verdict::found, out_.lambda = std::move(lambda), out_.alpha = std::move(alpha);
+    if (found || !worst) return false;
     Vector closed = high, low_of_others = low, high_of_others = high;
     closed[worst->column] = 0;
     for (const int j : worst->others) (worst->at_high ? low_of_others[j] : high_of_others[j]) = worst->at_high ? high[j] : 0;
@@ -260,18 +284,14 @@ class DepthFirstSearch {
     return visit(low_of_others, high_of_others, point.x) && none;
   }
 
-  /// Does what is left prove that the programme has no point? Farkas: it is orthogonal to the columns that are free, and no other
-  /// one can lessen it, up to an angle: a point would have columns whose sum is what is left over that angle.
+  /// Does what is left prove that the programme has no point? Farkas: rᵀ(b − A z) is above zero at all z within the bounds.
   bool excluded(const algebra::BoundedLeastSquares& point, const Vector& low, const Vector& high) const {
     const double left = point.residual.norm();
-    if (!(left > kExcluded * on_.b().norm())) return false;
+    if (!(left > kSolved * on_.b().norm())) return false;
     const Vector along = on_.A().transpose() * point.residual / left;
-    const double certain = left / (kMostColumns * on_.b().norm());
-    for (Eigen::Index j = 0; j < along.size(); ++j) {
-      if (along[j] > certain && point.x[j] < high[j]) return false;
-      if (along[j] < -certain && point.x[j] > low[j]) return false;
-    }
-    return true;
+    double reach = 0;
+    for (Eigen::Index j = 0; j < along.size(); ++j) reach += along[j] * ((along[j] > 0 ? high[j] : low[j]) - point.x[j]);
+    return reach < 0.5 * left;
   }
 
   const Pair* broken(const Vector& z, const Vector& high) const {
@@ -286,16 +306,17 @@ class DepthFirstSearch {
   }
 
   const Programme& on_;
+  const Attempt& attempt_;
   Monitor& monitor_;
   PieceSearch out_;
 };
 
 }  // namespace
 
-PieceSearch search_pieces(const Problem& problem, const CondensedProblem& condensed, Monitor& monitor) {
+PieceSearch search_pieces(const Problem& problem, const CondensedProblem& condensed, const Attempt& attempt, Monitor& monitor) {
   if (problem.rows() == 0 || problem.rows() > kMostRows || !tells_springs(problem)) return {};
   const Programme programme(problem, condensed);
-  return programme.treatable() ? DepthFirstSearch(programme, monitor).run() : PieceSearch{};
+  return programme.treatable() ? DepthFirstSearch(programme, attempt, monitor).run() : PieceSearch{};
 }
 
 }  // namespace dotyk::solver

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <functional>
 
 #include "base/monitor.hpp"
 #include "problem/condensed.hpp"
@@ -20,8 +20,13 @@ struct PieceSearch {
   algebra::Vector lambda, alpha; ///< the solution, where one is found; where it is near, of the polygons
 };
 
+/// Does a method find the solution from here? Where it does, `lambda` and `alpha` are the solution.
+using Attempt = std::function<bool(algebra::Vector& lambda, algebra::Vector& alpha)>;
+
+/// From the point of each programme that breaks pairs `attempt` is made: it may find a solution long before the search has come to its pieces.
 /// In space discs of friction are replaced by polygons around them and slip may point anywhere: the search then proves that there
 /// is no solution, or finds where to begin another method from. Undecided as well where a law does not tell its springs, and beyond so many rows or programmes.
-PieceSearch search_pieces(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor);
+PieceSearch search_pieces(const problem::Problem& problem, const problem::CondensedProblem& condensed, const Attempt& attempt,
+                          Monitor& monitor);
 
 }  // namespace dotyk::solver

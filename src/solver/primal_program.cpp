@@ -5,6 +5,7 @@
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "problem/residual.hpp"
 #include "solver/require_solvable.hpp"
 #include "solver/treatable.hpp"
 
@@ -163,17 +164,28 @@ class Recorder final : public Monitor {
   std::vector<IterationInfo>& history_;
 };
 
+/// Rows that act: those that the program holds, and those whose force is more, of all forces, than their gap is of all displacements.
+/// A barrier may end before a row's slack and multiplier have parted in the program's own units.
+std::vector<char> closed_rows(const Problem& problem, const PrimalProgram& primal, const program::Result& solved, const problem::State& state) {
+  std::vector<char> closed(problem.rows(), 1);  // elastic and bilateral rows always act
+  const problem::Scales scales = problem::scales(problem, state);
+  const Vector jump = problem.B * state.u - problem.c;
+  for (std::size_t k = 0; k < primal.rows().size(); ++k) {
+    const int r = primal.rows()[k];
+    const bool held = !solved.working.empty() && solved.working[k] != program::Side::free;
+    closed[r] = held || std::abs(state.lambda[r]) * scales.length > std::abs(jump[r]) * scales.force;
+  }
+  return closed;
+}
+
 /// What a program's solution says of the problem.
 void take_over(const Problem& problem, const PrimalProgram& primal, const program::Result& solved, Result& result) {
   result.converged = solved.status == program::Status::solved;
   result.reason = solved.reason;
   result.iterations = solved.iterations;
   result.factor_bytes = primal.factor_bytes();
-  std::vector<char> closed(problem.rows(), 1);  // elastic and bilateral rows always act
-  for (std::size_t k = 0; k < primal.rows().size(); ++k)
-    closed[primal.rows()[k]] = !solved.working.empty() && solved.working[k] != program::Side::free;
-  result.active_sets.push_back(std::move(closed));
   result.state = primal.state(solved.x, solved.y);
+  result.active_sets.push_back(closed_rows(problem, primal, solved, result.state));
 }
 
 }  // namespace

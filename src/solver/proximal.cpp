@@ -21,6 +21,7 @@ constexpr double kSofter = 100, kHarder = 10;
 constexpr double kLeastSigma = 1e-10, kGreatestSigma = 1e6;  // of σ; beyond the latter nothing moves
 constexpr double kLeastConvex = 1e-8;  // where ρ = 1/σC: less, and rounding of x counts
 constexpr double kNoisyStep = 100;  // noise against what is left: beyond, springs are not made stiffer
+constexpr double kSlow = 0.5;  // fall of the residual in an iteration
 constexpr int kConvexSteps = 40;  // of one iteration, where they cannot go astray
 constexpr int kSections = 30;  // of one such step
 constexpr double kFlat = 1e-3;  // a slope against the first one
@@ -168,12 +169,26 @@ class Springs {
   bool rounded_ = false;
 };
 
+/// The step without springs: exact on pieces that stay, where springs on a motion that hardly anything resists crawl. Made only where it
+/// comes nearer.
+void let_go(RowIteration& iteration) {
+  const Iterate from{iteration.lambda(), iteration.alpha()};
+  const double before = iteration.residual();
+  const NaturalMap::System system = iteration.map.linearise(iteration.value());
+  if (system.matrix.size() == 0) return;
+  Iterate to;
+  iteration.map.take(system, algebra::Lu(system.matrix).solve(system.right_side), to.lambda, to.alpha);
+  if (!to.lambda.allFinite() || !to.alpha.allFinite()) return;
+  iteration.move_to(std::move(to.lambda), std::move(to.alpha));
+  if (!(iteration.residual() < before)) iteration.move_to(from.lambda, from.alpha);
+}
+
 }  // namespace
 
 void Proximal::iterate(RowIteration& iteration) const {
   const Vector compliance = compliance_of_rows(iteration);
   const bool convex = !bounds_depend_on_normal(iteration.problem);
-  double softness = sigma;
+  double softness = sigma, before = INFINITY;
   int steps = 0;
   while (iteration.next()) {
     Springs springs(iteration, softness * compliance, softness, 0.1 * tol, convex);
@@ -181,6 +196,8 @@ void Proximal::iterate(RowIteration& iteration) const {
     steps += springs.steps();
     if (solved) {
       iteration.move_to(std::move(springs.place().lambda), std::move(springs.place().alpha));
+      if (iteration.residual() > kSlow * before) let_go(iteration);
+      before = iteration.residual();
       const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeastSigma);
       if (springs.rounded()) softness = std::min(kSofter * softness, std::max(softness, sigma));  // of which rounding makes less
       else if (noise(iteration, harder * compliance) <= kNoisyStep * iteration.residual() * iteration.force()) softness = harder;
