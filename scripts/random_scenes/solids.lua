@@ -188,7 +188,7 @@ local function join(scene, one, other, one_side, gap)
   local a, b = { body = one, side = one_side }, { body = other, side = opposite[one_side] }
   if dice.chance(0.5) then a, b = b, a end
   -- Does b's side cover all of a's? Else no node of a may have a foot on it, or of order 2 no facet feet of all its nodes.
-  local covered = not b.body.disc and b.body.bend == 0 and not (a.body.disc and a.body.element:sub(2) == "2")
+  local covered = not b.body.disc and b.body.bend == 0 and not ((a.body.disc or a.body.bend ~= 0) and a.body.element:sub(2) == "2")
   for axis = 1, scene.dimension do
     local along = axis ~= side_of(scene, one_side)
     if along and (a.body.low[axis] < b.body.low[axis] or a.body.high[axis] > b.body.high[axis]) then covered = false end
@@ -256,7 +256,7 @@ function solids.contradicted(scene, message)
   local function on(body, side)
     local n, p, distance = solids.turn(scene, normal_of(scene, side)), solids.turn(scene, (side_box(scene, body, side))), 0
     for k in ipairs(x) do distance = distance + n[k] * (x[k] - p[k]) end
-    return math.abs(distance) < 1e-4 * scene.size
+    return math.abs(distance) < 1e-4 * scene.size + math.abs(body.bend or 0)
   end
   local function prescribed(contact, where)
     for _, support in ipairs(scene.supports) do
@@ -268,8 +268,17 @@ function solids.contradicted(scene, message)
       end
     end
   end
+  local function stuck(contact, where) -- by friction that nothing overcomes, on another side
+    for _, other in ipairs(scene.contacts) do
+      for _, side in pairs{ other.first, other.second } do
+        local huge = other ~= contact and other.friction and other.friction.value == math.huge
+        if huge and side.body == where.body and on(side.body, side.side) and side_of(scene, side.side) ~= side_of(scene, where.side) then return true end
+      end
+    end
+  end
   for _, contact in ipairs(scene.contacts) do
     for _, where in pairs{ contact.first, contact.second } do
+      if contact.overlap and where.body.name == name and on(where.body, where.side) and stuck(contact, where) then return true end
       if contact.overlap and where.body.name == name and on(where.body, where.side) and prescribed(contact, where) then return true end
     end
   end

@@ -224,6 +224,13 @@ Residual residual(const Problem& problem, const State& state) {
   return result;
 }
 
+double rounding_of_equilibrium(const Problem& problem, const State& state) {
+  double gross = 0;
+  for (const Block& block : problem.blocks) gross = std::hypot(gross, gross_forces(block, state.u.segment(block.first, block.size())).stableNorm());
+  const double size = forces(problem, state).size();
+  return size > 0 ? std::numeric_limits<double>::epsilon() * gross / size : 0;
+}
+
 std::string describe(const Residual& r) {
   return text(std::setprecision(3), "equilibrium ", r.equilibrium, ", penetration ", r.penetration, ", complementarity ", r.complementarity,
               ", friction ", r.friction, ", law ", r.law);

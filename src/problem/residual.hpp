@@ -24,6 +24,9 @@ struct Residual {
 
 Residual residual(const Problem& problem, const State& state);
 
+/// What one rounding of each product in K u makes of Residual::equilibrium: ε‖|K||u|‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖).
+double rounding_of_equilibrium(const Problem& problem, const State& state);
+
 /// F and X; 1 where they would vanish.
 struct Scales {
   double force = 1, length = 1;

@@ -84,6 +84,7 @@ std::vector<BodyMotion> body_motions(const Problem& problem) {
 }
 
 std::string describe(const std::vector<BodyMotion>& motions, const Vector& amounts) {
+  if (motions.empty()) return "a motion without strain";  // of a problem that does not say what its modes are
   const double largest = amounts.lpNorm<Eigen::Infinity>();
   std::vector<int> terms;
   for (int k = 0; k < amounts.size(); ++k)

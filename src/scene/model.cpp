@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
 #include "elasticity/weak_motions.hpp"
+#include "problem/contradiction.hpp"
 #include "problem/range.hpp"
 #include "scene/contact_rows.hpp"
 #include "scene/subdomains.hpp"
@@ -161,6 +162,15 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   builder.finish();
 }
 
+/// Interference where friction without a bound holds a node, and the like.
+void require_consistent(const Scene& scene, const problem::Problem& problem) {
+  double size = 0;
+  for (const auto& body : scene.bodies) size = std::max(size, body->mesh->size());
+  if (const auto found = problem::contradiction(problem, 1e-9 * size))
+    throw InputError(text(problem.row_name(found->row), " lies ", found->by, " inside the other side, and other contacts or supports hold it there; "
+                          "no displacement can part them"));
+}
+
 void require_moderate(const problem::Problem& problem, bool cut) {
   if (cut) problem::require_moderate(problem, problem::kMostForceOnSubdomains);
   else if (problem.rows() > 0) problem::require_moderate(problem, problem::kMostForceOnRows);
@@ -179,6 +189,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
     monitor.check();
   }
   set_rows(scene, loading, model);
+  require_consistent(scene, model.problem);
   require_moderate(model.problem, decomposition.has_value());
   if (decomposition) cut(*decomposition, model, monitor);
   clock.assembly += watch.seconds();
@@ -194,6 +205,7 @@ void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& 
     set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
   }
   set_rows(scene, loading, model);
+  require_consistent(scene, model.problem);
   require_moderate(model.problem, model.decomposition.has_value());
   load_subdomains(model);
   clock.assembly += watch.seconds();

@@ -80,9 +80,9 @@ class BranchSearch {
  public:
   BranchSearch(const Problem& problem, const CondensedProblem& condensed, Monitor& monitor)
       : problem_(problem), condensed_(condensed), monitor_(monitor), choices_(choices_of(problem)),
-        map_(problem, condensed, stiffness_of_rows(condensed)), pieces_(problem.rows(), Piece::closed) {
+        map_(problem, condensed, stiffness_of_rows(condensed)), pieces_(problem.rows(), RowPiece::closed) {
     for (const FrictionGroup& group : problem.friction)
-      for (int k = 0; k < group.points(); ++k) pieces_[group.row(k)] = Piece::open;  // without friction
+      for (int k = 0; k < group.points(); ++k) pieces_[group.row(k)] = RowPiece::open;  // without friction
     // Rows of one piece are linear: what the map is anywhere.
     base_ = map_.sticking(std::vector<char>(problem.rows(), 0));
     scale_ = size(join({Vector::Zero(problem.rows()), Vector::Zero(condensed.kernel_size())}));
@@ -116,19 +116,19 @@ class BranchSearch {
     const auto close = [&](int row) { v.slope.emplace_back(row, row, 1.0); };
     for (std::size_t k = 0; k < choices_.size(); ++k) {
       const Choice& c = choices_[k];
-      const Piece piece = static_cast<Piece>(c.pieces == 3 ? digit[k] + 1 : digit[k]);
+      const RowPiece piece = static_cast<RowPiece>(c.pieces == 3 ? digit[k] + 1 : digit[k]);
       if (c.row >= 0) {
-        pieces_[c.row] = piece == Piece::open ? Piece::open : Piece::closed;
-        if (piece != Piece::open) close(c.row);
+        pieces_[c.row] = piece == RowPiece::open ? RowPiece::open : RowPiece::closed;
+        if (piece != RowPiece::open) close(c.row);
       }
       if (c.tangent < 0) continue;
       pieces_[c.tangent] = piece;
-      const double side = piece == Piece::forward ? 1 : -1;
-      if (piece == Piece::closed)
+      const double side = piece == RowPiece::forward ? 1 : -1;
+      if (piece == RowPiece::closed)
         close(c.tangent);
-      else if (piece != Piece::open && c.row >= 0)
+      else if (piece != RowPiece::open && c.row >= 0)
         v.slope.emplace_back(c.tangent, c.row, side * c.coefficient);
-      else if (piece != Piece::open)
+      else if (piece != RowPiece::open)
         v.projected[c.tangent] = side * c.bound;
     }
     return v;
@@ -197,7 +197,7 @@ class BranchSearch {
 
   /// A polyhedron of solutions: origin + size · directions · t, A t ≤ b.
   struct Members {
-    std::vector<Piece> pieces;
+    std::vector<RowPiece> pieces;
     Vector origin;
     DenseMatrix directions;
     double size = 1;
@@ -219,13 +219,13 @@ class BranchSearch {
       };
       std::vector<double> constant;
       for (const Choice& c : search.choices_) {
-        if (c.row >= 0) pieces[c.row] == Piece::open ? want(m + c.row, -1) : want(c.row, 1);
+        if (c.row >= 0) pieces[c.row] == RowPiece::open ? want(m + c.row, -1) : want(c.row, 1);
         if (c.row >= 0) constant.push_back(0);
         if (c.tangent < 0) continue;
-        const Piece piece = pieces[c.tangent];
-        if (piece == Piece::forward) want(m + c.tangent, 1), constant.push_back(0);
-        if (piece == Piece::backward) want(m + c.tangent, -1), constant.push_back(0);
-        if (piece != Piece::closed) continue;
+        const RowPiece piece = pieces[c.tangent];
+        if (piece == RowPiece::forward) want(m + c.tangent, 1), constant.push_back(0);
+        if (piece == RowPiece::backward) want(m + c.tangent, -1), constant.push_back(0);
+        if (piece != RowPiece::closed) continue;
         for (const double side : {1.0, -1.0}) {  // a point has one ρ
           want(c.tangent, side, std::max(c.row, 0), c.row >= 0 ? c.coefficient : 0);
           constant.push_back(c.bound / std::sqrt(search.map_.rho()[c.tangent]));
@@ -274,7 +274,7 @@ class BranchSearch {
     if (!(v.norm <= kRelative * size)) return;
     // Without force friction may point to either side, but a piece is slip to its own side.
     for (std::size_t r = 0; r < pieces_.size(); ++r) {
-      const double side = pieces_[r] == Piece::forward ? 1 : pieces_[r] == Piece::backward ? -1 : 0;
+      const double side = pieces_[r] == RowPiece::forward ? 1 : pieces_[r] == RowPiece::backward ? -1 : 0;
       if (side * (v.y[r] - at.lambda[r]) < -kRelative * size) return;
     }
     for (std::size_t k = 0; k < found_.size(); ++k)
@@ -286,7 +286,7 @@ class BranchSearch {
     found_.push_back({at.lambda, v.y, join(at)});
   }
 
-  Enumeration::Solution solution(const Point& at, const std::vector<Piece>& pieces) const {
+  Enumeration::Solution solution(const Point& at, const std::vector<RowPiece>& pieces) const {
     const NaturalMap::Value v = map_.at(at.lambda, at.alpha);
     Enumeration::Solution out;
     out.result.state = {condensed_.recover(at.lambda, at.alpha), at.lambda};
@@ -355,7 +355,7 @@ class BranchSearch {
   const NaturalMap map_;
   NaturalMap::Value base_;
   double scale_ = 0;  ///< of what loads displace without any multipliers
-  std::vector<Piece> pieces_;
+  std::vector<RowPiece> pieces_;
   std::vector<Found> found_;
   std::vector<Members> found_families_;
   Enumeration out_;

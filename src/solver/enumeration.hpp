@@ -5,7 +5,7 @@
 namespace dotyk::solver {
 
 /// What a row does: λ = 0; x = 0 (a friction point sticks); λ_t = b with x_t ≥ 0; λ_t = −b with x_t ≤ 0.
-enum class Piece : char { open, closed, forward, backward };
+enum class RowPiece : char { open, closed, forward, backward };
 
 /// All solutions of a problem in the plane with few contact points. On each combination of pieces the natural
 /// map is affine: one linear system, whose solution solves the problem where the signs and bounds of the pieces hold. A singular
@@ -14,7 +14,7 @@ struct Enumeration {
   struct Solution {
     Result result;
     /// Every combination of pieces, row by row, that gives it: several where it lies on their edges.
-    std::vector<std::vector<Piece>> pieces;
+    std::vector<std::vector<RowPiece>> pieces;
   };
   /// A polyhedron of solutions, in multipliers and motions: all convex combinations of its ends, on one combination of pieces.
   struct Family {

@@ -79,6 +79,7 @@ class Iteration {
     monitor_.phase("recovering the displacement");
     result_.state.u = settled_ ? *settled_ : left_alpha_ ? condensed_->recover(lambda_, *left_alpha_) : step_->recover();
     result_.state.lambda = lambda_;
+    if (result_.converged && !screws_) confirm_laws();
     result_.clock.recover += iterating.lap();
     return std::move(result_);
   }
@@ -217,7 +218,7 @@ class Iteration {
         break;
       case End::cycle:
         by_active_set();
-        if (!result_.converged) by_proximal();
+        if (!result_.converged) by_proximal("active sets repeated at " + places(problem_, changed_));
         break;
       case End::exhausted:
         result_.reason = text("no confirmed active set within ", settings_.max_iterations,
@@ -370,12 +371,22 @@ class Iteration {
     settled_ = std::move(settled.state.u);
   }
 
-  /// The proximal point method, which converges from everywhere as the energy is convex, whatever the laws.
-  void by_proximal() {
+  /// Where bodies have gone far for the sake of rows that bear nothing, rounding of the way may spoil the gaps of others.
+  void confirm_laws() {
+    const problem::Residual r = problem::residual(problem_, result_.state);
+    const double laws = std::max({r.penetration, r.complementarity, r.law});
+    if (!(laws > result_.noise)) return;
+    by_proximal(text("rounding put the state off its laws by ", laws));
+    result_.state.lambda = lambda_;
+    if (settled_) result_.state.u = *settled_;
+  }
+
+  /// The proximal point method, which converges from everywhere as the energy is convex, whatever the laws; `why` it is asked.
+  void by_proximal(const std::string& why) {
     if (!condensed_ || problem_.rows() > kMostDense) return;
     Proximal method;
     method.tol = settings_.tol;
-    monitor_.phase("active sets repeat: the proximal point method");
+    monitor_.phase(why + ": the proximal point method");
     InnerMonitor monitor(monitor_);
     Result settled = solve(problem_, *condensed_, method, monitor);
     if (!settled.converged) {
@@ -384,8 +395,7 @@ class Iteration {
     }
     result_.converged = true;
     result_.active_sets.push_back(settled.active_sets.back());
-    result_.reason = text(settled.reason, "; before, active sets repeated at ", places(problem_, changed_), ", left by ", settled.iterations,
-                          " iterations of proximal");
+    result_.reason = text(settled.reason, "; before, ", why, ", left by ", settled.iterations, " iterations of proximal");
     lambda_ = settled.state.lambda;
     settled_ = std::move(settled.state.u);
   }
@@ -393,7 +403,11 @@ class Iteration {
   /// Bodies that were moved for the sake of rows that bear nothing go back, where the laws allow it.
   void come_to_rest(const Linearisation& l) {
     const Noise before = noise(lambda_, x_);
-    if (lambda_.size() == 0 || (!loaded(problem_) && (lambda_.cwiseAbs() - before.force).maxCoeff() <= 0)) return;  // there is no scale to rest by
+    if (lambda_.size() == 0) return;
+    if (!loaded(problem_) && (lambda_.cwiseAbs() - before.force).maxCoeff() <= 0) {  // there is no scale to rest by
+      if ((problem_.c + before.gap).minCoeff() >= 0) lambda_.setZero(), x_ = -problem_.c, settled_ = Vector::Zero(problem_.unknowns());
+      return;
+    }
     const auto rest = held_at_rest(problem_, l, lambda_, rho_, before);
     if (!rest) return;
     Vector lambda, x;

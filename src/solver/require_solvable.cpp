@@ -63,7 +63,7 @@ std::string unnoticed_motions(const problem::RigidMotions& rigid, const algebra:
 std::string what_would_hold(const std::vector<problem::BodyMotion>& motions, const algebra::Vector& amounts) {
   Eigen::Index mode;
   const double greatest = amounts.cwiseAbs().maxCoeff(&mode);
-  if (amounts.cwiseAbs().sum() > (1 + 1e-6) * greatest)
+  if (motions.empty() || amounts.cwiseAbs().sum() > (1 + 1e-6) * greatest)
     return "Fix, slide or spring a part, add a contact in its way, or turn the load";
   const auto& [body, motion] = motions[mode];
   if (motion.kind == Motion::Kind::rotation)

@@ -129,19 +129,27 @@ Vector rigid_motion_of(const problem::State& state, const Problem& problem, cons
   return condensed.N().colPivHouseholderQr().solve(jump - condensed.jump(state.lambda, none));
 }
 
+/// Are bodies so far away that rounding of their gaps, times the stiffness of rows, counts among the forces that the rows meet at first? All
+/// gaps are small beside such a way.
+bool astray(const RowIteration& iteration) {
+  constexpr double kMost = 1e-3;
+  const Vector& rho = iteration.map.rho();
+  if (rho.size() == 0) return false;
+  const double met = rho.cwiseProduct(iteration.condensed.x0()).norm() + iteration.condensed.e().norm();
+  return !(iteration.rounding() * rho.maxCoeff() <= kMost * met);
+}
+
 /// A method's own test may ask for more than rounding leaves: of forces that are small beside the loads, where bodies end up out of each
 /// other's way. What judges any method's state decides then, too.
 void accept(const Problem& problem, double tol, Result& result) {
+  constexpr double kRounded = 10, kRoundings = 100;  // of tol; of a product K u
   if (result.converged || problem.blocks.empty()) return;
   const problem::Residual r = problem::residual(problem, result.state);
   const double laws = std::max({r.penetration, r.complementarity, r.law});
-  if (!(laws <= tol)) return;
-  if (r.equilibrium > result.noise) {  // what rounding of a body's motion leaves is no fault of the state
-    const problem::MotionResidual motion = problem::motion_residual(problem, result.state);
-    if (!(std::max(motion.beyond, motion.resultants) <= result.noise)) return;
-  }
+  if (!(laws <= kRounded * tol)) return;
+  if (r.equilibrium > std::max(kRounded * tol, kRoundings * problem::rounding_of_equilibrium(problem, result.state))) return;
   result.converged = true;
-  result.reason = text("the state is off its laws by ", laws, ", within tol; ", result.reason);
+  result.reason = text("the state is off its laws by ", laws, ", as near as rounding lets it come; ", result.reason);
 }
 
 }  // namespace
@@ -167,7 +175,7 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
   result.method = method.name();
   result.clock.iterate = watch.lap();
   result.state.u = condensed.recover(result.state.lambda, alpha);
-  accept(problem, method.tol, result);
+  if (!astray(iteration)) accept(problem, method.tol, result);
   result.clock.recover = watch.lap();
   result.factor_bytes = condensed.factor_bytes();
   result.ordering = condensed.ordering();

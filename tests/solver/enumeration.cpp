@@ -14,7 +14,7 @@
 using namespace dotyk;
 using algebra::DenseMatrix;
 using algebra::Vector;
-using solver::Piece;
+using solver::RowPiece;
 
 namespace {
 
@@ -34,11 +34,11 @@ struct Expected {
 };
 
 /// Open, stick, and slip of u_t to its positive or negative side: λ_t = b where x_t = −u_t ≥ 0.
-std::string state_of(const std::vector<Piece>& pieces) {
+std::string state_of(const std::vector<RowPiece>& pieces) {
   switch (pieces[1]) {
-    case Piece::open: return "open";
-    case Piece::closed: return "stick";
-    case Piece::forward: return "slip-1";
+    case RowPiece::open: return "open";
+    case RowPiece::closed: return "stick";
+    case RowPiece::forward: return "slip-1";
     default: return "slip+1";
   }
 }
