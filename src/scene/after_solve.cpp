@@ -23,8 +23,6 @@ constexpr double kOnBound = 1e-8;
 constexpr double kRounding = 1e-12;
 /// Half the width of contact, in cells, that does not tell a rotation from none.
 constexpr double kNarrow = 1.5;
-/// A rotation whose square, which small displacements neglect, is a thousandth.
-constexpr double kGreatRotation = 0.03;
 
 std::string end(double amount) { return std::isfinite(amount) ? text(amount) : amount < 0 ? "-infinity" : "infinity"; }
 
@@ -133,30 +131,6 @@ void settle(const Scene& scene, const Model& model, const problem::Problem& prob
   else
     result.reason += resisted_by_cells(scene, model, problem, free, result.state.lambda);
   open_without_force(problem, result);
-}
-
-std::string great_rotation(const Body& body, const std::vector<double>& u) {
-  const int dim = body.dimension(), count = body.mesh->node_count();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), mean = centre, moment = centre;
-  const auto vector = [&](const double* values) {
-    Eigen::Vector3d v = Eigen::Vector3d::Zero();
-    for (int i = 0; i < dim; ++i) v[i] = values[i];
-    return v;
-  };
-  for (int k = 0; k < count; ++k) {
-    centre += vector(body.mesh->point(k).data()) / count;
-    mean += vector(&u[static_cast<std::size_t>(k) * dim]) / count;
-  }
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  for (int k = 0; k < count; ++k) {  // the rotation nearest to u: Σ x × (u − ω × x) = 0
-    const Eigen::Vector3d x = vector(body.mesh->point(k).data()) - centre;
-    moment += x.cross(vector(&u[static_cast<std::size_t>(k) * dim]) - mean);
-    inertia += x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose();
-  }
-  const double angle = dim == 2 ? std::abs(moment[2]) / inertia(2, 2) : Eigen::Vector3d(inertia.ldlt().solve(moment)).norm();
-  if (!(angle > kGreatRotation)) return "";
-  return text("; '", body.name, "' turns by ", angle, " (as a whole, in radians): equations of small displacements do not hold beyond about ",
-              kGreatRotation);
 }
 
 }  // namespace dotyk::scene

@@ -15,8 +15,4 @@ namespace dotyk::scene {
 /// pressure is rounding are open.
 void settle(const Scene& scene, const Model& model, const problem::Problem& problem, const algebra::Vector& before, solver::Result& result);
 
-/// "; 'disc' turns by 0.097 …" where a body's mean rotation is beyond what small displacements allow; else empty.
-/// `u`: nodes × dimension.
-std::string great_rotation(const Body& body, const std::vector<double>& u);
-
 }  // namespace dotyk::scene

@@ -1,5 +1,6 @@
 #include "scene/doubts.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -55,6 +56,34 @@ void see_chords(const Contact& contact, std::vector<const contact::ContactRow*> 
                      "; take cells of order 2 (P2, Q2), nodes that match, or finer facets"));
 }
 
+/// A rotation whose square, which small displacements neglect, is a thousandth.
+constexpr double kGreatRotation = 0.03;
+
+/// Where the body's mean rotation is beyond what small displacements allow. `u`: nodes × dimension.
+void see_rotation(const Body& body, const std::vector<double>& u, std::vector<std::string>& all) {
+  const int dim = body.dimension(), count = body.mesh->node_count();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), mean = centre, moment = centre;
+  const auto vector = [&](const double* values) {
+    Eigen::Vector3d v = Eigen::Vector3d::Zero();
+    for (int i = 0; i < dim; ++i) v[i] = values[i];
+    return v;
+  };
+  for (int k = 0; k < count; ++k) {
+    centre += vector(body.mesh->point(k).data()) / count;
+    mean += vector(&u[static_cast<std::size_t>(k) * dim]) / count;
+  }
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < count; ++k) {  // the rotation nearest to u: Σ x × (u − ω × x) = 0
+    const Eigen::Vector3d x = vector(body.mesh->point(k).data()) - centre;
+    moment += x.cross(vector(&u[static_cast<std::size_t>(k) * dim]) - mean);
+    inertia += x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose();
+  }
+  const double angle = dim == 2 ? std::abs(moment[2]) / inertia(2, 2) : Eigen::Vector3d(inertia.ldlt().solve(moment)).norm();
+  if (angle > kGreatRotation)
+    all.push_back(text("'", body.name, "' turns by ", angle, " (as a whole, in radians): equations of small displacements do not hold beyond about ",
+                       kGreatRotation));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const Scene& scene) {
@@ -76,6 +105,8 @@ std::vector<std::string> doubts(const Solution& solution) {
     }
     see_chords(contact, std::move(rows), all);
   }
+  for (std::size_t b = 0; solution.result().converged && b < solution.scene().bodies.size(); ++b)
+    see_rotation(*solution.scene().bodies[b], solution.displacement(static_cast<int>(b)), all);
   return all;
 }
 

@@ -46,7 +46,6 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     if (!model_.nearly_free[b].empty()) result_.reason += "; '" + scene_->bodies[b]->name + "' is " + model_.nearly_free[b];
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
-  for (std::size_t b = 0; result_.converged && b < scene_->bodies.size(); ++b) result_.reason += great_rotation(*scene_->bodies[b], displacement_[b]);
   result_.clock.recover += watch.lap();
 }
 

@@ -48,7 +48,7 @@ do
   check.that(not scene:plan():find "unique solution exists")
   local s = S.proximal{}:solve(scene)
   check.that(s.converged, s.reason)
-  has(s.reason, "'disc' turns by 0.08")
+  has(s.warnings[1], "'disc' turns by 0.08")
   has(tostring(s), "small displacements do not hold")
 end
 
