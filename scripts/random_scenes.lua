@@ -187,9 +187,9 @@ local all <const> = counts.all
 local wrong <const> = all.WRONG + all.REFUSED + all.ERROR
 local coulomb, given_up = 0, 0
 for _, family in ipairs{ "plane, Coulomb friction", "space, Coulomb friction" } do
-  coulomb, given_up = coulomb + counts[family].all, given_up + counts[family]["not converged"]
+  coulomb, given_up = coulomb + counts[family].all, given_up + counts[family]["not converged"] + counts[family]["in doubt"]
 end
-local convex <const> = all["not converged"] - given_up
+local convex <const> = all["not converged"] + all["in doubt"] - given_up
 local good <const> = wrong == 0 and convex == 0 and unnamed == 0 and given_up <= math.max(1, 0.005 * coulomb)
 print(("%d of %d scenes wrong, %d convex ones not solved, %d of %d with Coulomb friction given up, %d without naming what was tried: %s"):format(
   wrong, all.all, convex, given_up, coulomb, unnamed, good and "all as it should be" or "not as it should be"))

@@ -12,7 +12,8 @@ namespace dotyk::solver {
 ///   λ_n = a + b,  λ_t = μ(a − b),  x_t = q⁺ − q⁻ (Coulomb friction in the plane),
 /// and of certain pairs of columns one is at a bound: q⁻ or λ⁻ (open or closed), b or q⁺, a or q⁻ (stick or slip), … Without the
 /// pairs it is a linear programme. Where that has no point there is no solution: no pressures that the bodies can build up, with
-/// friction within its cones, balance the load. Else the pair that its point breaks most splits the search in two.
+/// friction within its cones, balance the load. Else a pair that its point breaks splits the search in two. "No solution" is meant of columns
+/// that are at most 10⁴ times the right side (more where springs of laws are softer than what their rows see).
 struct PieceSearch {
   enum class Verdict { none, found, near, undecided };
   Verdict verdict = Verdict::undecided;
@@ -24,8 +25,8 @@ struct PieceSearch {
 using Attempt = std::function<bool(algebra::Vector& lambda, algebra::Vector& alpha)>;
 
 /// From the point of each programme that breaks pairs `attempt` is made: it may find a solution long before the search has come to its pieces.
-/// In space discs of friction are replaced by polygons around them and slip may point anywhere: the search then proves that there
-/// is no solution, or finds where to begin another method from. Undecided as well where a law does not tell its springs, and beyond so many rows or programmes.
+/// In space discs of friction are replaced by polygons around them, and slip is along the force up to the polygon's angle: the search then
+/// proves that there is no solution, or finds where to begin another method from. Undecided as well where a law does not tell its springs, and beyond so many rows or programmes.
 PieceSearch search_pieces(const problem::Problem& problem, const problem::CondensedProblem& condensed, const Attempt& attempt,
                           Monitor& monitor);
 
