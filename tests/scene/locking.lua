@@ -6,7 +6,7 @@ local function block(dimension, element, material)
   local b = dotyk.body{ name = "pad", material = material, mesh = dimension == 2 and box{ from = {0,0}, to = {1,1}, cells = {2,2}, element = element }
     or box{ from = {0,0,0}, to = {1,1,1}, cells = {1,1,1}, element = element } }
   b:part"bottom":fix()
-  b:part"top":load(dimension == 2 and { 0, -1 } or { 0, 0, -1 })
+  b:part"top":load(dimension == 2 and { 0, -1e-3 } or { 0, 0, -1e-3 }) -- turns nothing
   return dotyk.scene{ b }
 end
 local function warns(scene)
