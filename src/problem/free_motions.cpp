@@ -11,6 +11,7 @@ namespace dotyk::problem {
 
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
+using algebra::SparseRows;
 using algebra::Vector;
 
 namespace {
@@ -19,8 +20,7 @@ namespace {
 class Conditions {
  public:
   Conditions(const Problem& problem, const State& state, double tolerance)
-      : x_(problem.B * state.u - problem.c), lambda_(state.lambda),
-        small_(lambda_.size() ? tolerance * lambda_.lpNorm<Eigen::Infinity>() : 0) {
+      : x_(problem.B * state.u - problem.c), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)) {
     for (const RowGroup& group : problem.groups)
       for (int k = 0; k < group.count; ++k) add(*group.law, group.first + k, k);
     for (const FrictionGroup& group : problem.friction)
@@ -41,20 +41,20 @@ class Conditions {
       return;
     }
     const Interval following = problem::following(law, k);
-    if (lambda_[row] - low <= small_)
+    if (lambda_[row] - low <= small_[row])
       limit(row, 1, following.low - x_[row]);
-    else if (high - lambda_[row] <= small_)
+    else if (high - lambda_[row] <= small_[row])
       limit(row, -1, x_[row] - following.high);
     else
       held_.emplace_back(held_count_++, row, 1.0);
   }
 
   void add(const FrictionGroup& group, int k) {
-    const double bound = group.bound(k, lambda_);
-    if (bound <= small_) return;
     const int first = group.row(k), d = group.components;
+    const double bound = group.bound(k, lambda_), small = small_[first];
+    if (bound <= small) return;
     const Vector own = lambda_.segment(first, d);
-    if (own.norm() < bound - small_) {
+    if (own.norm() < bound - small) {
       for (int i = 0; i < d; ++i) held_.emplace_back(held_count_++, first + i, 1.0);
       return;
     }
@@ -82,11 +82,14 @@ class Conditions {
 
   Vector x_;
   const Vector& lambda_;
-  double small_;
+  Vector small_;  ///< by row: forces that are none
   Triplets held_, limited_;
   int held_count_ = 0;
   std::vector<double> slack_;
 };
+
+/// Of forces, the greatest of all: what a solve leaves where there are none.
+constexpr double kOfAll = 1e-12;
 
 /// Greatest amount 1.
 void normalise(SparseMatrix& motions) {
@@ -94,6 +97,26 @@ void normalise(SparseMatrix& motions) {
 }
 
 }  // namespace
+
+Vector small_forces(const Problem& problem, const Vector& lambda, double tolerance) {
+  if (lambda.size() == 0) return lambda;
+  std::vector<std::size_t> body(static_cast<std::size_t>(problem.unknowns()));
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) std::fill_n(body.begin() + problem.blocks[b].first, problem.blocks[b].size(), b);
+  const double greatest = lambda.lpNorm<Eigen::Infinity>();
+  std::vector<double> of_body(problem.blocks.size(), 0);
+  const auto each = [&](const auto& visit) {
+    for (int r = 0; r < problem.rows(); ++r)
+      for (SparseRows::InnerIterator it(problem.B, r); it; ++it) visit(r, body[static_cast<std::size_t>(it.col())]);
+  };
+  each([&](int r, std::size_t b) { of_body[b] = std::max(of_body[b], std::abs(lambda[r])); });
+  Vector least = Vector::Constant(lambda.size(), greatest), rounding = Vector::Zero(lambda.size());
+  each([&](int r, std::size_t b) {
+    if (of_body[b] > least[r]) return;
+    least[r] = of_body[b];
+    rounding[r] = problem.blocks[b].f.isZero(0) ? kOfAll * greatest : 0;
+  });
+  return (tolerance * least).cwiseMax(rounding);
+}
 
 FreeMotions free_motions(const Problem& problem, const State& state, double tolerance) {
   FreeMotions free;

@@ -31,10 +31,11 @@ void open_without_force(const problem::Problem& problem, solver::Result& result)
   if (result.active_sets.empty()) return;
   const Vector& lambda = result.state.lambda;
   const Vector x = problem.B * result.state.u - problem.c;
+  const Vector none = problem::small_forces(problem, lambda, kOnBound);
   const double most = lambda.lpNorm<Eigen::Infinity>(), apart = kOnBound * result.state.u.lpNorm<Eigen::Infinity>();
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
-      if (lambda[r] <= kRounding * most || (lambda[r] <= kOnBound * most && x[r] < -apart)) result.active_sets.back()[r] = 0;
+      if (lambda[r] <= kRounding * most || (lambda[r] <= none[r] && x[r] < -apart)) result.active_sets.back()[r] = 0;
 }
 
 /// The amounts of free motions nearest to `wanted` in the metric G = DᵀD of their displacements: within their limits, from 0 on.

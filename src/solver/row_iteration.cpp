@@ -141,15 +141,15 @@ bool astray(const RowIteration& iteration) {
 
 /// A method's own test may ask for more than rounding leaves: of forces that are small beside the loads, where bodies end up out of each
 /// other's way. What judges any method's state decides then, too.
-void accept(const Problem& problem, double tol, Result& result) {
-  constexpr double kRounded = 10, kRoundings = 100;  // of tol; of a product K u
+void accept(const Problem& problem, Result& result) {
+  constexpr double kRounded = 1e-9, kRoundings = 100;  // of laws; of a product K u
   if (result.converged || problem.blocks.empty()) return;
   const problem::Residual r = problem::residual(problem, result.state);
   const double laws = std::max({r.penetration, r.complementarity, r.law});
-  if (!(laws <= kRounded * tol)) return;
-  if (r.equilibrium > std::max(kRounded * tol, kRoundings * problem::rounding_of_equilibrium(problem, result.state))) return;
+  if (!(laws <= kRounded)) return;
+  if (r.equilibrium > std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, result.state))) return;
   result.converged = true;
-  result.reason = text("the state is off its laws by ", laws, ", as near as rounding lets it come; ", result.reason);
+  result.reason = text("the state is off its laws by no more than ", laws, "; ", result.reason);
 }
 
 }  // namespace
@@ -175,7 +175,7 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
   result.method = method.name();
   result.clock.iterate = watch.lap();
   result.state.u = condensed.recover(result.state.lambda, alpha);
-  if (!astray(iteration)) accept(problem, method.tol, result);
+  if (!monitor.stop() && !astray(iteration)) accept(problem, result);
   result.clock.recover = watch.lap();
   result.factor_bytes = condensed.factor_bytes();
   result.ordering = condensed.ordering();
