@@ -24,7 +24,7 @@ local laws <const> = part("laws", dice)
 local solids <const> = part("solids", dice, laws)
 local random_solids <const> = part("sides", dice, laws, solids)
 local models <const> = part("beams_and_plates", dice, laws)
-local balance <const>, probe <const>, check_solids <const> = part("balance", laws), part "probe", part("checks", laws)
+local balance <const>, probe <const>, check_solids <const> = part("balance", laws), part "probe", part("checks", laws, solids)
 
 -- 1. A scene from its source. `held`: with springs on all bodies, which hold any scene.
 local function run(lines) return assert(load(table.concat(lines, "\n"), "=scene"))() end

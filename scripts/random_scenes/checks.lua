@@ -1,5 +1,5 @@
 -- Is a state that a method calls converged a solution? Checks of the scenes of scripts/random_scenes.lua from nodal output and from
--- loads integrated there. Loaded by dofile with laws; returns check(scene, made, solution), a list of what is wrong.
+-- loads integrated there. Loaded by dofile with laws and solids; returns check(scene, made, solution), a list of what is wrong.
 --
 -- Tolerances. Methods end at a natural residual of 1e-10 of the greatest force and lose some digits where stiffnesses differ by six
 -- orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest one; where nothing is pressed,
@@ -7,7 +7,7 @@
 -- scene's section, which may be much as a pressure where the node's share of the area is small. Rounding of large motions is 1e-12 of the forces that strains
 -- of their size would make.
 
-local laws = ...
+local laws <const>, solids <const> = ...
 local accuracy <const> = 1e-6
 
 local function dot(a, b)
@@ -53,12 +53,25 @@ local function check_friction(at, node, bound, tol, wrong, held)
   end
 end
 
--- A node whose distance is held, by supports on both sides, has no condition of its own, though the mean across from it may move. One that
--- is held in a direction inclined to its normal, as on a disc's facets, slips as it approaches: the row of that tangent says what the normal's
--- does, and is left out.
-local function is_held(contact)
+-- A node whose distance is held, by supports on both sides, has no condition of its own, though the mean across from it may move: the node
+-- is on a side that is held (on a disc anywhere), and what it touches is held somewhere. One that is held in a direction inclined to its
+-- normal, as on a disc's facets, slips as it approaches: the row of that tangent says what the normal's does, and is left out. Of two bodies
+-- that are both held, friction may be left out where a facet's mean is held in part.
+local function both_held(contact)
   local function held(body) return body.held > 0 or body.prescribed end
   return held(contact.first.body) and (not contact.second or held(contact.second.body))
+end
+
+local function is_held(scene, contact, node)
+  if not both_held(contact) then return false end
+  local body <const> = contact.first.body
+  for _, support in ipairs(scene.supports) do
+    local law <const> = support.law
+    local holds <const> = not law or (law.normal and law.normal.name == "prescribed") or (law.tangential and law.tangential.name == "prescribed")
+    local x <const> = { node.x, node.y, scene.dimension == 3 and node.z or nil }
+    if support.body == body.index and holds and (body.disc or solids.on(scene, x, body, support.side)) then return true end
+  end
+  return false
 end
 
 local function inclined(normal)
@@ -66,19 +79,19 @@ local function inclined(normal)
   return true
 end
 
-local function check_contact(contact, result, scale, wrong)
+local function check_contact(scene, contact, result, scale, wrong)
   for k, node in ipairs(result.nodes) do
     local tol = { p = math.max(scale.p, scale.force / node.weight), u = scale.u }
     local at = ("node %d of %s"):format(k, contact.name)
     local p, gap, law = node.pressure, node.gap, contact.friction
     if not (p == p and gap == gap) then wrong("not a number at %s", at) end
     if p < -tol.p then wrong("tension %.3g at %s", p, at) end
-    if gap < -tol.u and not (p == 0 and is_held(contact)) then wrong("penetration %.3g at %s", -gap, at) end
+    if gap < -tol.u and not (p == 0 and is_held(scene, contact, node)) then wrong("penetration %.3g at %s", -gap, at) end
     if p > tol.p and gap > tol.u then wrong("pressure %.3g across a gap of %.3g at %s", p, gap, at) end
     if node.status == "open" and math.abs(p) > tol.p then wrong("open with pressure %.3g at %s", p, at) end
     if node.status ~= "open" and gap > tol.u then wrong("%s with gap %.3g at %s", node.status, gap, at) end
     if law then check_friction(at, node, law.kind == "tresca" and law.value or law.value * math.max(p, 0), tol, wrong,
-      is_held(contact) and (contact.second or contact.first.body.disc or inclined(node.normal)))
+      contact.second and both_held(contact) or is_held(scene, contact, node) and (contact.first.body.disc or inclined(node.normal)))
     elseif norm(node.shear) > tol.p then wrong("shear without friction at %s", at) end
   end
 end
@@ -207,7 +220,7 @@ return function(scene, made, solution)
   for k in ipairs(scene.contacts) do contacts[k] = solution:contact(made.contacts[k]) end
   for k, support in ipairs(scene.supports) do supports[k] = support.law and solution:support(made.supports[k]) or { nodes = {} } end
   local tol = scales(scene, contacts, supports, greatest_displacement(scene, made, solution))
-  for k, contact in ipairs(scene.contacts) do check_contact(contact, contacts[k], tol, wrong) end
+  for k, contact in ipairs(scene.contacts) do check_contact(scene, contact, contacts[k], tol, wrong) end
   for k, support in ipairs(scene.supports) do
     if support.law then check_support(support, supports[k], tol, wrong) end
   end

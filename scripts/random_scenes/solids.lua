@@ -248,16 +248,19 @@ local function rests(scene, where, x)
   return false
 end
 
+-- Is the point x on a side of a body, which a bend may have moved?
+function solids.on(scene, x, body, side)
+  local n, p, distance = solids.turn(scene, normal_of(scene, side)), solids.turn(scene, (side_box(scene, body, side))), 0
+  for k in ipairs(x) do distance = distance + n[k] * (x[k] - p[k]) end
+  return math.abs(distance) < 1e-4 * scene.size + math.abs(body.bend or 0)
+end
+
 -- Is the node that a message names on a side that overlaps what it touches, and do laws of supports prescribe where the node is along
 -- the normal there? Sides are parallel or perpendicular to one another; on a ball the normal at a node has both directions.
 function solids.contradicted(scene, message)
   local x, name = {}, message:match "node %d+ of '(.-)'" or message:match "contact of '(.-)'"
   for number in (message:match "at %((.-)%)" or ""):gmatch "[^, ]+" do table.insert(x, tonumber(number)) end
-  local function on(body, side)
-    local n, p, distance = solids.turn(scene, normal_of(scene, side)), solids.turn(scene, (side_box(scene, body, side))), 0
-    for k in ipairs(x) do distance = distance + n[k] * (x[k] - p[k]) end
-    return math.abs(distance) < 1e-4 * scene.size + math.abs(body.bend or 0)
-  end
+  local function on(body, side) return solids.on(scene, x, body, side) end
   local function prescribed(contact, where)
     for _, support in ipairs(scene.supports) do
       local law = support.law
