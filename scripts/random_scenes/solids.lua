@@ -281,8 +281,8 @@ function solids.contradicted(scene, message)
   end
   for _, contact in ipairs(scene.contacts) do
     for _, where in pairs{ contact.first, contact.second } do
-      if contact.overlap and where.body.name == name and on(where.body, where.side) and stuck(contact, where) then return true end
-      if contact.overlap and where.body.name == name and on(where.body, where.side) and prescribed(contact, where) then return true end
+      local named <const> = contact.overlap and where.body.name == name and on(where.body, where.side)
+      if named and (stuck(contact, where) or prescribed(contact, where)) then return true end
     end
   end
   return false

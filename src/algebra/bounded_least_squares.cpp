@@ -13,9 +13,10 @@ namespace {
 
 enum class Place { low, high, free };
 
-constexpr double kDependent = 1e-10;  // of a column: what rounding leaves of one that others make up
+/// A column is linearly dependent on others if less than this part of it lies outside their span.
+constexpr double kDependent = 1e-10;
 
-/// Q R of some columns of A; one more, or one less, is an update of it (Golub and Van Loan 2013 §6.5).
+/// The QR factorisation of some columns of A, updated when a column is added or removed (Golub and Van Loan 2013 §6.5).
 class Columns {
  public:
   explicit Columns(const DenseMatrix& A) : A_(A), Q_(DenseMatrix::Identity(A.rows(), A.rows())), R_(A.rows(), 0), norm_(A.colwise().norm()) {}
@@ -23,7 +24,7 @@ class Columns {
   const std::vector<int>& all() const { return columns_; }
   double norm(int column) const { return norm_[column]; }
 
-  /// False where the others make it up.
+  /// False, and nothing is added, if the column is linearly dependent on those that are there.
   bool add(int column) {
     const Eigen::Index k = static_cast<Eigen::Index>(columns_.size()), left = A_.rows() - k;
     if (left == 0) return false;
@@ -41,9 +42,9 @@ class Columns {
     return true;
   }
 
-  void remove(std::size_t place) {
+  void remove(Eigen::Index place) {
     const Eigen::Index k = static_cast<Eigen::Index>(columns_.size());
-    for (Eigen::Index i = static_cast<Eigen::Index>(place); i + 1 < k; ++i) {
+    for (Eigen::Index i = place; i + 1 < k; ++i) {
       R_.col(i) = R_.col(i + 1);
       Eigen::JacobiRotation<double> turn;
       double length;
@@ -56,16 +57,16 @@ class Columns {
       }
       Q_.applyOnTheRight(i, i + 1, turn);
     }
-    columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(place));
+    columns_.erase(columns_.begin() + place);
   }
 
-  /// What they do not make up of v.
+  /// v without its projection on the columns.
   Vector beyond(const Vector& v) const {
     const auto Q = Q_.leftCols(static_cast<Eigen::Index>(columns_.size()));
     return v - Q * (Q.transpose() * v);
   }
 
-  /// The amounts of the columns that come nearest to v.
+  /// The coefficients of the columns in the least-squares approximation of v.
   Vector fit(const Vector& v) const {
     const Eigen::Index k = static_cast<Eigen::Index>(columns_.size());
     return R_.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(Q_.leftCols(k).transpose() * v);
@@ -139,23 +140,23 @@ class Iteration {
       const std::vector<int>& free = columns_.all();
       const Vector step = columns_.fit(b_ - A_ * x_);
       double length = 1;
-      std::size_t blocking = free.size();
-      for (std::size_t k = 0; k < free.size(); ++k) {
+      Eigen::Index blocking = -1;
+      for (Eigen::Index k = 0; k < step.size(); ++k) {
         const int j = free[k];
-        const double room = step[static_cast<Eigen::Index>(k)] > 0 ? high_[j] - x_[j] : low_[j] - x_[j];
-        if (std::abs(step[static_cast<Eigen::Index>(k)]) * length > std::abs(room)) {
-          length = std::abs(room / step[static_cast<Eigen::Index>(k)]);
+        const double room = step[k] > 0 ? high_[j] - x_[j] : low_[j] - x_[j];
+        if (std::abs(step[k]) * length > std::abs(room)) {
+          length = std::abs(room / step[k]);
           blocking = k;
         }
       }
-      for (std::size_t k = 0; k < free.size(); ++k) x_[free[k]] += length * step[static_cast<Eigen::Index>(k)];
-      if (blocking == free.size()) return;
+      for (Eigen::Index k = 0; k < step.size(); ++k) x_[free[k]] += length * step[k];
+      if (blocking < 0) return;
       bind(blocking);
     }
   }
 
-  /// At its bound the column leaves; one that it helped to make up may come in its place.
-  void bind(std::size_t blocking) {
+  /// The variable stops at its bound and its column leaves the factorisation. Free columns that depended on it may now be added.
+  void bind(Eigen::Index blocking) {
     const int j = columns_.all()[blocking];
     const bool up = std::abs(high_[j] - x_[j]) < std::abs(x_[j] - low_[j]);
     place_[j] = up ? Place::high : Place::low;
@@ -172,7 +173,7 @@ class Iteration {
   Vector x_;
   std::vector<Place> place_;
   std::vector<char> idle_;
-  Columns columns_;  ///< of the free variables, but for those that others make up
+  Columns columns_;  ///< of the free variables, without linearly dependent ones
 };
 
 }  // namespace

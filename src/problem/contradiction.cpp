@@ -14,58 +14,62 @@ using algebra::Vector;
 
 namespace {
 
-/// Of a row: what is left of one that others make up, by rounding.
+/// Relative tolerance for one row to be a combination of others.
 constexpr double kMadeUp = 1e-9;
 
-std::vector<int> rigid_rows(const Problem& problem) {
+/// One-sided rows that are violated at rest by more than `tol`.
+std::vector<int> violated_rows(const Problem& problem, double tol) {
   std::vector<int> rows;
   for (const RowGroup& group : problem.groups)
-    for (int i = 0; i < group.count; ++i)
-      if (const auto k = group.law->linear_stiffness(i); k && std::isinf(*k)) rows.push_back(group.first + i);
+    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
+      if (problem.c[r] < -tol) rows.push_back(r);
   return rows;
 }
 
-/// What the rigid rows `among` make of B_r u; nothing where they leave it free.
+/// The bilateral rows that act on each unknown.
+std::map<int, std::set<int>> bilateral_rows(const Problem& problem) {
+  std::map<int, std::set<int>> rows;
+  for (const RowGroup& group : problem.groups)
+    for (int i = 0; i < group.count; ++i)
+      if (const auto k = group.law->linear_stiffness(i); k && std::isinf(*k))
+        for (SparseRows::InnerIterator it(problem.B, group.first + i); it; ++it) rows[static_cast<int>(it.col())].insert(group.first + i);
+  return rows;
+}
+
+/// The value that the bilateral rows `among` give to B_r u; nothing if they leave it free.
 std::optional<double> held(const Problem& problem, int r, const std::set<int>& among) {
-  if (among.empty()) return std::nullopt;
-  std::map<int, int> place;  // of unknowns
-  const auto entries = [&](int row) {
-    std::vector<std::pair<int, double>> found;
-    for (SparseRows::InnerIterator it(problem.B, row); it; ++it)
-      found.push_back({place.insert({static_cast<int>(it.col()), static_cast<int>(place.size())}).first->second, it.value()});
-    return found;
+  std::map<int, Eigen::Index> place;  // of the unknowns in all these rows
+  const auto take_unknowns = [&](int row) {
+    for (SparseRows::InnerIterator it(problem.B, row); it; ++it) place.try_emplace(static_cast<int>(it.col()), static_cast<Eigen::Index>(place.size()));
   };
-  const auto own = entries(r);
-  std::vector<std::vector<std::pair<int, double>>> others;
-  std::vector<double> jumps;
-  for (const int k : among) others.push_back(entries(k)), jumps.push_back(problem.c[k]);
-  DenseMatrix A = DenseMatrix::Zero(static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(others.size()));
-  Vector row = Vector::Zero(A.rows());
-  for (const auto& [j, value] : own) row[j] = value;
-  for (std::size_t k = 0; k < others.size(); ++k)
-    for (const auto& [j, value] : others[k]) A(j, static_cast<Eigen::Index>(k)) = value;
-  const Vector parts = A.colPivHouseholderQr().solve(row);
-  if (!((row - A * parts).norm() <= kMadeUp * row.norm())) return std::nullopt;
-  return parts.dot(Eigen::Map<const Vector>(jumps.data(), static_cast<Eigen::Index>(jumps.size())));
+  take_unknowns(r);
+  for (const int k : among) take_unknowns(k);
+  const auto dense = [&](int row) {
+    Vector v = Vector::Zero(static_cast<Eigen::Index>(place.size()));
+    for (SparseRows::InnerIterator it(problem.B, row); it; ++it) v[place[static_cast<int>(it.col())]] = it.value();
+    return v;
+  };
+  DenseMatrix others(static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(among.size()));
+  Vector jumps(others.cols());
+  Eigen::Index j = 0;
+  for (const int k : among) others.col(j) = dense(k), jumps[j++] = problem.c[k];
+  const Vector own = dense(r), parts = others.colPivHouseholderQr().solve(own);
+  if (!((own - others * parts).norm() <= kMadeUp * own.norm())) return std::nullopt;
+  return parts.dot(jumps);
 }
 
 }  // namespace
 
 std::optional<Contradiction> contradiction(const Problem& problem, double tol) {
-  const std::vector<int> rigid = rigid_rows(problem);
-  if (rigid.empty()) return std::nullopt;
-  std::map<int, std::set<int>> of_unknown;
-  for (const int r : rigid)
-    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) of_unknown[static_cast<int>(it.col())].insert(r);
-  for (const RowGroup& group : problem.groups) {
-    if (!group.law->unilateral()) continue;
-    for (int r = group.first; r < group.first + group.count; ++r) {
-      if (!(problem.c[r] < -tol)) continue;
-      std::set<int> among;
-      for (SparseRows::InnerIterator it(problem.B, r); it; ++it)
-        if (const auto found = of_unknown.find(static_cast<int>(it.col())); found != of_unknown.end()) among.insert(found->second.begin(), found->second.end());
-      if (const auto jump = held(problem, r, among); jump && *jump - problem.c[r] > tol) return Contradiction{r, *jump - problem.c[r]};
-    }
+  const std::vector<int> violated = violated_rows(problem, tol);
+  if (violated.empty()) return std::nullopt;  // mostly
+  const std::map<int, std::set<int>> bilateral = bilateral_rows(problem);
+  for (const int r : violated) {
+    std::set<int> among;
+    for (SparseRows::InnerIterator it(problem.B, r); it; ++it)
+      if (const auto found = bilateral.find(static_cast<int>(it.col())); found != bilateral.end()) among.insert(found->second.begin(), found->second.end());
+    if (among.empty()) continue;
+    if (const auto jump = held(problem, r, among); jump && *jump - problem.c[r] > tol) return Contradiction{r, *jump - problem.c[r]};
   }
   return std::nullopt;
 }

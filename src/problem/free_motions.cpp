@@ -88,7 +88,7 @@ class Conditions {
   std::vector<double> slack_;
 };
 
-/// Of forces, the greatest of all: what a solve leaves where there are none.
+/// Forces below this part of the greatest one are rounding of the solve.
 constexpr double kOfAll = 1e-12;
 
 /// Greatest amount 1.
@@ -100,8 +100,7 @@ void normalise(SparseMatrix& motions) {
 
 Vector small_forces(const Problem& problem, const Vector& lambda, double tolerance) {
   if (lambda.size() == 0) return lambda;
-  std::vector<std::size_t> body(static_cast<std::size_t>(problem.unknowns()));
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b) std::fill_n(body.begin() + problem.blocks[b].first, problem.blocks[b].size(), b);
+  const std::vector<std::size_t> body = blocks_of_unknowns(problem);
   const double greatest = lambda.lpNorm<Eigen::Infinity>();
   std::vector<double> of_body(problem.blocks.size(), 0);
   const auto each = [&](const auto& visit) {

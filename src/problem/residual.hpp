@@ -24,7 +24,8 @@ struct Residual {
 
 Residual residual(const Problem& problem, const State& state);
 
-/// What one rounding of each product in K u makes of Residual::equilibrium: ε‖|K||u|‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖).
+/// The size of Residual::equilibrium that rounding alone explains, with one rounding error in each product of K u:
+/// ε‖|K||u|‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖).
 double rounding_of_equilibrium(const Problem& problem, const State& state);
 
 /// F and X; 1 where they would vanish.

@@ -113,6 +113,15 @@ void set_load(const Body& body, const Numbering& numbering, problem::Block& bloc
 }
 
 /// All rows anew, for the prescribed displacements and moves as they are now.
+/// Refuses an interference at a node that other contacts or supports hold: friction without a bound, for example.
+void require_consistent(const Scene& scene, const problem::Problem& problem) {
+  double size = 0;
+  for (const auto& body : scene.bodies) size = std::max(size, body->mesh->size());
+  if (const auto found = problem::contradiction(problem, 1e-9 * size))
+    throw InputError(text(problem.row_name(found->row), " lies ", found->by, " inside the other side, and other contacts or supports hold it there; "
+                          "no displacement can part them"));
+}
+
 void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   model.problem.groups.clear();
   model.problem.friction.clear();
@@ -160,15 +169,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
     }
   }
   builder.finish();
-}
-
-/// Interference where friction without a bound holds a node, and the like.
-void require_consistent(const Scene& scene, const problem::Problem& problem) {
-  double size = 0;
-  for (const auto& body : scene.bodies) size = std::max(size, body->mesh->size());
-  if (const auto found = problem::contradiction(problem, 1e-9 * size))
-    throw InputError(text(problem.row_name(found->row), " lies ", found->by, " inside the other side, and other contacts or supports hold it there; "
-                          "no displacement can part them"));
+  require_consistent(scene, model.problem);
 }
 
 void require_moderate(const problem::Problem& problem, bool cut) {
@@ -189,7 +190,6 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
     monitor.check();
   }
   set_rows(scene, loading, model);
-  require_consistent(scene, model.problem);
   require_moderate(model.problem, decomposition.has_value());
   if (decomposition) cut(*decomposition, model, monitor);
   clock.assembly += watch.seconds();
@@ -205,7 +205,6 @@ void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& 
     set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
   }
   set_rows(scene, loading, model);
-  require_consistent(scene, model.problem);
   require_moderate(model.problem, model.decomposition.has_value());
   load_subdomains(model);
   clock.assembly += watch.seconds();

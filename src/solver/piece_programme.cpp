@@ -131,14 +131,15 @@ void PieceProgramme::add_cone(const FrictionGroup& group, int k, double mu, std:
   pairs_.push_back({gap, edges});
 }
 
-/// λ_n = √ρ_n, λ_t = `tangent` λ_n.
+/// A column of forces along an edge of the friction cone: λ_n = √ρ_n, and tangential forces `tangent` times λ_n on `rows`.
 int PieceProgramme::add_edge(int n, const std::vector<int>& rows, const std::vector<double>& tangent) {
   Vector v = unit(n);
   for (std::size_t i = 0; i < rows.size(); ++i) v[rows[i]] = tangent[i] * root_[n] / root_[rows[i]];
   return add_column(std::move(v), Vector(), 0, kInfinite);
 }
 
-/// Forces in a polygon around the disc, and slip along a direction only with forces near it, of the polygon's ring from within to around the disc.
+/// A polygon around the friction disc. Slip along one of its directions goes with forces of the neighbouring directions alone, in the ring between
+/// the disc's inner and outer polygon.
 std::vector<int> PieceProgramme::add_polygon(int n, int t, double mu) {
   std::vector<int> edges, slips;
   for (int i = 0; i < kDirections; ++i) {

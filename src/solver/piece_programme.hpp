@@ -11,7 +11,7 @@ namespace dotyk::solver {
 /// bound; see PieceSearch. Columns are scaled to length 1.
 class PieceProgramme {
  public:
-  /// Column i is 0, or those of `others` are: at 0, or at their greatest values.
+  /// Complementarity: `column` is 0, or all `others` are 0 (with `at_high`: at their upper bounds).
   struct Pair {
     int column;
     std::vector<int> others;

@@ -22,13 +22,14 @@ using problem::Problem;
 using Pair = PieceProgramme::Pair;
 
 constexpr int kMostRows = 80, kMostProgrammes = 4000;
-constexpr std::size_t kProbed = 3;     // pairs of a point
-constexpr double kSolved = 1e-9;       // of the right side: what is left where a programme has a point
-constexpr double kAngle = 1e-12;       // of programmes
-constexpr double kComplementary = 1e-8;
+constexpr std::size_t kProbed = 3;     // broken pairs of a node that are tried for one with a single choice
+constexpr double kSolved = 1e-9;       // residual of a feasible point, relative to the right side
+constexpr double kAngle = 1e-12;       // tolerance of bounded_least_squares()
+constexpr double kComplementary = 1e-8;  // a column this small, relative to the point, is 0
 
-/// Depth first; a node is a choice of bounds of the columns, its programme begun at its parent's point. Where bounds are excluded, the pairs
-/// whose choices the proof needs are known: a choice that it does not need is not tried the other way (conflict-directed backjumping, Prosser 1993).
+/// Depth-first branch and bound over the pairs. A node is a set of column bounds; its programme starts from its parent's point. If the programme
+/// has no feasible point, the proof tells which choices it needs. A choice that it does not need is not tried the other way (conflict-directed
+/// backjumping, Prosser 1993).
 class DepthFirstSearch {
  public:
   DepthFirstSearch(const PieceProgramme& programme, const Attempt& attempt, Monitor& monitor)
@@ -45,7 +46,7 @@ class DepthFirstSearch {
   using Pairs = std::set<int>;
   enum class End { point, excluded, unknown };
 
-  /// Bounds, and the point of their programme.
+  /// Column bounds, and the point of their programme.
   struct Node {
     Vector low, high;
     std::vector<int> chosen;  ///< by column: the pair whose choice made its bounds; -1: none
@@ -86,15 +87,15 @@ class DepthFirstSearch {
     return solved(std::move(node), of.point.x);
   }
 
-  /// The column is 0, or at its greatest value.
+  /// Fixes a column at 0 or, with `at_high`, at its upper bound, as a choice of the pair asks.
   static void bind(Node& node, int column, int pair, bool at_high) {
     if (at_high) node.low[column] = node.high[column];
     else node.high[column] = 0;
     if (node.chosen[column] < 0) node.chosen[column] = pair;
   }
 
-  /// The pairs whose choices exclude the node; nothing where a solution is found, or nothing can be said of some of its choices: they may hold one.
-  /// Of the pairs that are broken most one is looked for that leaves one choice only.
+  /// Explores a node. Returns the pairs whose choices exclude it; nothing if a solution is found, or if parts of it stay undecided. Among the
+  /// pairs that are broken most, one with a single possible choice is preferred.
   std::optional<Pairs> visit(Node node) {
     std::vector<std::pair<int, Pairs>> forced;  // pairs, and why they have one choice
     while (node.end != End::excluded) {
@@ -147,13 +148,13 @@ class DepthFirstSearch {
     return true;
   }
 
-  /// Does what is left prove that the programme has no point? Farkas: rᵀ(b − A z) is above zero at all z within the bounds.
+  /// Does the residual r prove that the programme has no feasible point? By Farkas' lemma it does if rᵀ(b − A z) > 0 for all z within the bounds.
   bool excluded(Node& node) const {
     const double left = node.point.residual.norm();
     if (!(left > kSolved * on_.b().norm())) return false;
     const Vector along = on_.A().transpose() * node.point.residual / left;
     double reach = 0;
-    std::map<int, double> wider;  // what the proof would lose without the choice of a pair
+    std::map<int, double> wider;  // by pair: how much `reach` would grow without its choice
     for (Eigen::Index j = 0; j < along.size(); ++j) {
       const double bound = along[j] > 0 ? node.high[j] : node.low[j];
       reach += along[j] * (bound - node.point.x[j]);
@@ -167,7 +168,7 @@ class DepthFirstSearch {
     return true;
   }
 
-  /// The pairs of whose columns neither is at its bound, those with the greatest products.
+  /// The broken pairs with the greatest products: neither `column` nor `others` are at their bounds.
   std::vector<int> broken(const Node& node) const {
     const Vector& z = node.point.x;
     std::vector<std::pair<double, int>> all;

@@ -21,10 +21,10 @@ struct PieceSearch {
   algebra::Vector lambda, alpha; ///< the solution, where one is found; where it is near, of the polygons
 };
 
-/// Does a method find the solution from here? Where it does, `lambda` and `alpha` are the solution.
+/// Tries a method from (λ, α). True if it converges; the arguments then hold the solution.
 using Attempt = std::function<bool(algebra::Vector& lambda, algebra::Vector& alpha)>;
 
-/// From the point of each programme that breaks pairs `attempt` is made: it may find a solution long before the search has come to its pieces.
+/// `attempt` is made from the point of each programme: it may find a solution long before the search has come to its pieces.
 /// In space discs of friction are replaced by polygons around them, and slip is along the force up to the polygon's angle: the search then
 /// proves that there is no solution, or finds where to begin another method from. Undecided as well where a law does not tell its springs, and beyond so many rows or programmes.
 PieceSearch search_pieces(const problem::Problem& problem, const problem::CondensedProblem& condensed, const Attempt& attempt,

@@ -164,8 +164,8 @@ class Recorder final : public Monitor {
   std::vector<IterationInfo>& history_;
 };
 
-/// Rows that act: those that the program holds, and those whose force is more, of all forces, than their gap is of all displacements.
-/// A barrier may end before a row's slack and multiplier have parted in the program's own units.
+/// Closed rows: those in the program's working set, and those whose force is larger in relation to all forces than their gap is in relation to
+/// all displacements. An interior-point method may end while slack and multiplier of a row are still of one size in the program's units.
 std::vector<char> closed_rows(const Problem& problem, const PrimalProgram& primal, const program::Result& solved, const problem::State& state) {
   std::vector<char> closed(problem.rows(), 1);  // elastic and bilateral rows always act
   const problem::Scales scales = problem::scales(problem, state);

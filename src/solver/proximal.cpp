@@ -169,8 +169,8 @@ class Springs {
   bool rounded_ = false;
 };
 
-/// The step without springs: exact on pieces that stay, where springs on a motion that hardly anything resists crawl. Made only where it
-/// comes nearer.
+/// One Newton step without springs, kept only if the residual falls. Springs make slow progress along a motion that almost nothing resists;
+/// once the pieces of the laws are right, this step is exact.
 void let_go(RowIteration& iteration) {
   const Iterate from{iteration.lambda(), iteration.alpha()};
   const double before = iteration.residual();

@@ -129,8 +129,8 @@ Vector rigid_motion_of(const problem::State& state, const Problem& problem, cons
   return condensed.N().colPivHouseholderQr().solve(jump - condensed.jump(state.lambda, none));
 }
 
-/// Are bodies so far away that rounding of their gaps, times the stiffness of rows, counts among the forces that the rows meet at first? All
-/// gaps are small beside such a way.
+/// Have bodies moved so far that the rounding error of their gaps, times the stiffness of the rows, is comparable to the forces of the first
+/// iterate? Relative to such displacements every gap is small, and residuals say nothing.
 bool astray(const RowIteration& iteration) {
   constexpr double kMost = 1e-3;
   const Vector& rho = iteration.map.rho();

@@ -29,17 +29,10 @@ problem::Problem free_body(test::Random& random, int nodes, int d, double mu) {
   return p;
 }
 
-struct Condensed {
-  problem::RigidMotions rigid;
-  problem::CondensedProblem rows;
-};
-
-Condensed condensed(const problem::Problem& p) {
+problem::CondensedProblem condensed(const problem::Problem& p) {
   Monitor quiet;
   problem::Clock clock;
-  problem::RigidMotions rigid = problem::rigid_motions(p);
-  problem::CondensedProblem rows(p, rigid, algebra::Ordering::automatic, clock, quiet);
-  return {std::move(rigid), std::move(rows)};
+  return {p, problem::rigid_motions(p), algebra::Ordering::automatic, clock, quiet};
 }
 
 /// The points of programmes are all that is tried.
@@ -61,7 +54,7 @@ TEST_CASE("free bodies with friction in the plane: the search excludes all piece
     } catch (const InputError&) {
       continue;  // not held at all
     }
-    const auto [rigid, rows] = condensed(p);
+    const problem::CondensedProblem rows = condensed(p);
     const auto found = solver::search_pieces(p, rows, no_attempt, quiet);
     REQUIRE(found.verdict == (exists ? Verdict::near : Verdict::none));
     ++(exists ? solvable : unsolvable);
@@ -82,7 +75,7 @@ TEST_CASE("free bodies with friction in space: what the search excludes, no meth
     CAPTURE(seed);
     test::Random random(seed);
     const auto p = free_body(random, 3, 2, 0.1 + 0.02 * seed);
-    const auto [rigid, rows] = condensed(p);
+    const problem::CondensedProblem rows = condensed(p);
     solver::Newton method;
     bool converges = false;
     for (unsigned start = 1; start <= 5 && !converges; ++start) {
