@@ -53,25 +53,21 @@ local function check_friction(at, node, bound, tol, wrong, held)
   end
 end
 
--- A node whose distance is held, by supports on both sides, has no condition of its own, though the mean across from it may move: the node
--- is on a side that is held (on a disc anywhere), and what it touches is held somewhere. One that is held in a direction inclined to its
--- normal, as on a disc's facets, slips as it approaches: the row of that tangent says what the normal's does, and is left out. Of two bodies
--- that are both held, friction may be left out where a facet's mean is held in part.
-local function both_held(contact)
-  local function held(body) return body.held > 0 or body.prescribed end
-  return held(contact.first.body) and (not contact.second or held(contact.second.body))
-end
-
-local function is_held(scene, contact, node)
-  if not both_held(contact) then return false end
-  local body <const> = contact.first.body
+-- A node whose distance is held, by supports on both sides, has no condition of its own: it lies on sides of both bodies that are held (on a
+-- disc anywhere). One that is held in a direction inclined to its normal, as on a disc's facets, slips as it approaches: the row of that
+-- tangent says what the normal's does, and is left out. So is friction across a plane of symmetry.
+local function holds_at(scene, body, x)
   for _, support in ipairs(scene.supports) do
     local law <const> = support.law
     local holds <const> = not law or (law.normal and law.normal.name == "prescribed") or (law.tangential and law.tangential.name == "prescribed")
-    local x <const> = { node.x, node.y, scene.dimension == 3 and node.z or nil }
     if support.body == body.index and holds and (body.disc or solids.on(scene, x, body, support.side)) then return true end
   end
   return false
+end
+
+local function is_held(scene, contact, node)
+  local x <const> = { node.x, node.y, scene.dimension == 3 and node.z or nil }
+  return holds_at(scene, contact.first.body, x) and (not contact.second or holds_at(scene, contact.second.body, x))
 end
 
 local function inclined(normal)
@@ -91,7 +87,7 @@ local function check_contact(scene, contact, result, scale, wrong)
     if node.status == "open" and math.abs(p) > tol.p then wrong("open with pressure %.3g at %s", p, at) end
     if node.status ~= "open" and gap > tol.u then wrong("%s with gap %.3g at %s", node.status, gap, at) end
     if law then check_friction(at, node, law.kind == "tresca" and law.value or law.value * math.max(p, 0), tol, wrong,
-      contact.second and both_held(contact) or is_held(scene, contact, node) and (contact.first.body.disc or inclined(node.normal)))
+      is_held(scene, contact, node) and (contact.second or contact.first.body.disc or inclined(node.normal)))
     elseif norm(node.shear) > tol.p then wrong("shear without friction at %s", at) end
   end
 end

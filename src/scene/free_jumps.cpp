@@ -30,6 +30,11 @@ Matrix3d onto_range(const Matrix3d& sum) {
   return cleaned(eigen.eigenvectors() * in.asDiagonal() * eigen.eigenvectors().transpose());
 }
 
+/// The weight, relative to the row's own, below which a partner is there by rounding.
+constexpr double kNoWeight = 1e-9;
+/// Distance between planes that are one, relative to a body's size.
+constexpr double kInPlane = 1e-6;
+
 int dimension_of(const Matrix3d& V) { return static_cast<int>(std::lround(V.trace())); }
 
 }  // namespace
@@ -80,10 +85,26 @@ FreeJumps::Node FreeJumps::of_node(const Side& side, int node) const {
 }
 
 Matrix3d FreeJumps::at(const contact::ContactRow& row) const {
+  const Matrix3d V = of_facing(row);
+  if (!second_.numbering || row.partners.size() <= 1 || on_plane_of_symmetry(row, V)) return V;
+  Matrix3d sum = V;
+  for (const contact::NodeWeight& partner : row.partners)
+    if (std::abs(partner.weight) > kNoWeight) sum += of_node(second_, partner.node).free;
+  return onto_range(sum);
+}
+
+Matrix3d FreeJumps::of_facing(const contact::ContactRow& row) const {
   Matrix3d sum = Matrix3d::Zero();
   for (const contact::NodeWeight& own : row.own) sum += of_node(first_, own.node).free;
   if (second_.numbering && !row.partners.empty()) sum += of_node(second_, facing(contact_, row.node, row.partners)).free;
   return onto_range(sum);
+}
+
+bool FreeJumps::on_plane_of_symmetry(const contact::ContactRow& row, const Matrix3d& V) const {
+  if ((V * vector(row.normal)).norm() <= kHeld) return false;
+  const mesh::Mesh &own = *contact_.first.body->mesh, &other = *contact_.second.body->mesh;
+  const Vector3d apart = vector(own.point(row.node)) - vector(other.point(facing(contact_, row.node, row.partners)));
+  return (apart - V * apart).norm() <= kInPlane * own.size();
 }
 
 std::optional<double> FreeJumps::given(const contact::ContactRow& row) const {

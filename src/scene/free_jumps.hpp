@@ -8,9 +8,11 @@
 
 namespace dotyk::scene {
 
-/// What supports leave free of the jump u₁ − u₂ at the rows of a contact: the sum V of the spaces in which the row's own nodes and the
-/// partner facing them (see facing(); none of a rigid shape) are not held by fix, slide or displace, oblique slides included, or by laws
-/// that prescribe a displacement, whatever its value; of order 2 such laws are about means, and hold no node.
+/// What supports leave free of the jump u₁ − u₂ at the rows of a contact: the sum V of the spaces in which the row's nodes, own and
+/// partners, are not held by fix, slide or displace, oblique slides included, or by laws that prescribe a displacement, whatever its value;
+/// of order 2 such laws are about means, and hold no node.
+/// On a plane of symmetry V is the plane: the row's node and the partner facing it (see facing()) lie in it and stay in it, though further
+/// partners beside it have a weight in the row.
 class FreeJumps {
  public:
   /// Not kept: `bodies` as they are solved, `numbering` of each.
@@ -36,6 +38,9 @@ class FreeJumps {
   };
   static Side side_of(const Body& body, const elasticity::Numbering& numbering);
   Node of_node(const Side& side, int node) const;
+  /// Of the row's node and the partner facing it alone.
+  Eigen::Matrix3d of_facing(const contact::ContactRow& row) const;
+  bool on_plane_of_symmetry(const contact::ContactRow& row, const Eigen::Matrix3d& V) const;
 
   const Contact& contact_;
   Side first_, second_;  ///< second: of a rigid shape without numbering
