@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "algebra/null_space.hpp"
+#include "problem/parts.hpp"
 #include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
@@ -88,7 +89,7 @@ class Conditions {
   std::vector<double> slack_;
 };
 
-/// Forces below this part of the greatest one are rounding of the solve.
+/// Forces below this fraction of the greatest one in their part of the problem are rounding of the solve.
 constexpr double kOfAll = 1e-12;
 
 /// Greatest amount 1.
@@ -101,18 +102,19 @@ void normalise(SparseMatrix& motions) {
 Vector small_forces(const Problem& problem, const Vector& lambda, double tolerance) {
   if (lambda.size() == 0) return lambda;
   const std::vector<std::size_t> body = blocks_of_unknowns(problem);
-  const double greatest = lambda.lpNorm<Eigen::Infinity>();
+  const Parts parts = problem::parts(problem);
+  const std::vector<double> greatest = parts.greatest(lambda);
   std::vector<double> of_body(problem.blocks.size(), 0);
   const auto each = [&](const auto& visit) {
     for (int r = 0; r < problem.rows(); ++r)
       for (SparseRows::InnerIterator it(problem.B, r); it; ++it) visit(r, body[static_cast<std::size_t>(it.col())]);
   };
   each([&](int r, std::size_t b) { of_body[b] = std::max(of_body[b], std::abs(lambda[r])); });
-  Vector least = Vector::Constant(lambda.size(), greatest), rounding = Vector::Zero(lambda.size());
+  Vector least = Vector::Constant(lambda.size(), lambda.lpNorm<Eigen::Infinity>()), rounding = Vector::Zero(lambda.size());
   each([&](int r, std::size_t b) {
     if (of_body[b] > least[r]) return;
     least[r] = of_body[b];
-    rounding[r] = problem.blocks[b].f.isZero(0) ? kOfAll * greatest : 0;
+    rounding[r] = problem.blocks[b].f.isZero(0) ? kOfAll * greatest[static_cast<std::size_t>(parts.of_block[b])] : 0;
   });
   return (tolerance * least).cwiseMax(rounding);
 }

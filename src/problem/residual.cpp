@@ -8,33 +8,40 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "problem/parts.hpp"
 
 namespace dotyk::problem {
 
 using algebra::Vector;
 
-double distance_from_laws(const Problem& problem, const Vector& x, const Vector& lambda, const Vector& rho) {
-  double sum = 0;
+namespace {
+
+/// By row the distance |λ − P(λ + ρx)|, ρ as `rho` says of it; of a friction point at its first row, ρ as `rho_of_point` says.
+template <class RowRho, class PointRho>
+Vector distances(const Problem& problem, const Vector& x, const Vector& lambda, const RowRho& rho, const PointRho& rho_of_point) {
+  Vector d = Vector::Zero(lambda.size());
   for (const RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r) {
-      const double y = lambda[r] + rho[r] * x[r];
-      const double d = lambda[r] - group.law->project(r - group.first, y, rho[r]).lambda;
-      sum += d * d;
-    }
+    for (int r = group.first; r < group.first + group.count; ++r)
+      d[r] = std::abs(lambda[r] - group.law->project(r - group.first, lambda[r] + rho(r) * x[r], rho(r)).lambda);
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k) {
       const int r = group.row(k);
       const auto own = lambda.segment(r, group.components);
-      const Vector y = own + rho[group.scale_row(k)] * x.segment(r, group.components);
-      const double bound = group.bound(k, lambda);
-      sum += (own - project_disc(y, bound).value).squaredNorm();
+      const Vector y = own + rho_of_point(group, k) * x.segment(r, group.components);
+      d[r] = (own - project_disc(y, group.bound(k, lambda)).value).norm();
     }
-  return std::sqrt(sum);
+  return d;
+}
+
+}  // namespace
+
+Vector distances_from_laws(const Problem& problem, const Vector& x, const Vector& lambda, const Vector& rho) {
+  return distances(problem, x, lambda, [&](int r) { return rho[r]; }, [&](const FrictionGroup& group, int k) { return rho[group.scale_row(k)]; });
 }
 
 double natural_residual(const Problem& problem, const Vector& x, const Vector& lambda, const Vector& rho) {
   const double scale = lambda.norm();
-  return distance_from_laws(problem, x, lambda, rho) / (scale > 0 ? scale : 1);
+  return distances_from_laws(problem, x, lambda, rho).norm() / (scale > 0 ? scale : 1);
 }
 
 double energy(const Problem& problem, const State& state) {
@@ -62,22 +69,24 @@ double friction_energy(const Problem& problem, const State& state) {
 
 namespace {
 
-/// Greatest excess of a friction force over its bound, relative to the greatest bound.
-double friction_violation(const Problem& problem, const State& state) {
-  double excess = 0, largest = 0;
+/// Of each part the greatest excess of a friction force over its bound, relative to the greatest bound; the greatest of all parts.
+double friction_violation(const Problem& problem, const State& state, const Parts& parts) {
+  std::vector<double> excess(parts.count, 0), largest(parts.count, 0);
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k) {
       const double bound = group.bound(k, state.lambda);
-      excess = std::max(excess, state.lambda.segment(group.row(k), group.components).norm() - bound);
-      largest = std::max(largest, bound);
+      const int part = parts.of_row[group.row(k)];
+      excess[part] = std::max(excess[part], state.lambda.segment(group.row(k), group.components).norm() - bound);
+      largest[part] = std::max(largest[part], bound);
     }
-  return largest > 0 ? excess / largest : excess;
+  double most = 0;
+  for (int p = 0; p < parts.count; ++p) most = std::max(most, largest[p] > 0 ? excess[p] / largest[p] : excess[p]);
+  return most;
 }
 
 /// Ku, Bᵀλ and f of all blocks.
 struct Forces {
   Vector internal, contact, load;
-  double size() const { return internal.stableNorm() + contact.stableNorm() + load.stableNorm(); }
 };
 
 Forces forces(const Problem& problem, const State& state) {
@@ -85,6 +94,8 @@ Forces forces(const Problem& problem, const State& state) {
   for (const Block& block : problem.blocks) all.load.segment(block.first, block.size()) = block.f;
   return all;
 }
+
+double greatest(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0; }
 
 /// |K||w|.
 Vector gross_forces(const Block& block, const Vector& w) {
@@ -103,22 +114,36 @@ double moved_forces(const Block& block, const Vector& u) {
   return gross_forces(block, R * R.colPivHouseholderQr().solve(u)).stableNorm();
 }
 
-/// Where nothing loads the bodies, the least that counts as a force, and as work: what half of the digits of K|u| are. Bodies that
-/// get out of an obstacle's way end free of forces, and rounding of K times their motion is all that is left of those.
-struct Least {
-  double force = 0, work = 0;
+/// What one part is measured by.
+struct Sizes {
+  double internal = 0, contact = 0, load = 0;  ///< ‖Ku‖, ‖Bᵀλ‖, ‖f‖
+  double greatest_load = 0, greatest_displacement = 0;
+  /// Where nothing loads the bodies, the least that counts as a force, and as work: what half of the digits of K|u| are. Bodies that
+  /// get out of an obstacle's way end free of forces, and rounding of K times their motion is all that is left of those.
+  double least_force = 0, least_work = 0;
+  double force() const { return std::max(internal + contact + load, least_force); }
 };
 
-Least least(const Problem& problem, const State& state, double load) {
-  if (load > 0) return {};
+void add(double& norm, const Eigen::Ref<const Vector>& v) { norm = std::hypot(norm, v.stableNorm()); }
+
+std::vector<Sizes> sizes(const Problem& problem, const State& state, const Forces& all, const Parts& parts) {
+  std::vector<Sizes> result(static_cast<std::size_t>(parts.count));
+  const auto each_block = [&](const auto& visit) {
+    for (std::size_t b = 0; b < problem.blocks.size(); ++b) visit(problem.blocks[b], result[static_cast<std::size_t>(parts.of_block[b])]);
+  };
+  each_block([&](const Block& block, Sizes& part) {
+    const auto own = [&](const Vector& v) { return v.segment(block.first, block.size()); };
+    add(part.internal, own(all.internal)), add(part.contact, own(all.contact)), add(part.load, block.f);
+    part.greatest_load = std::max(part.greatest_load, greatest(block.f));
+    part.greatest_displacement = std::max(part.greatest_displacement, greatest(own(state.u)));
+  });
   const double half = std::sqrt(std::numeric_limits<double>::epsilon());
-  Least result;
-  for (const Block& block : problem.blocks) {
-    const auto u = state.u.segment(block.first, block.size());
-    const Vector gross = gross_forces(block, u);
-    result.force = std::hypot(result.force, half * gross.stableNorm());
-    result.work += half * gross.dot(u.cwiseAbs());
-  }
+  each_block([&](const Block& block, Sizes& part) {
+    if (part.load > 0) return;
+    const Vector u = state.u.segment(block.first, block.size()), gross = gross_forces(block, u);
+    add(part.least_force, half * gross);
+    part.least_work += half * gross.dot(u.cwiseAbs());
+  });
   return result;
 }
 
@@ -136,99 +161,132 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
   constexpr double kRoundings = 4;  // of u itself and of the sums in Ku
   const Forces all = forces(problem, state);
   const Vector gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + all.load.cwiseAbs();
-  const Least least = problem::least(problem, state, all.load.stableNorm());
+  const Parts parts = problem::parts(problem);
+  const std::vector<Sizes> sizes = problem::sizes(problem, state, all, parts);
+  std::vector<double> beyond(sizes.size(), 0);
   MotionResidual result;
   double greatest = 0;
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const Block& block = problem.blocks[b];
+    const auto part = static_cast<std::size_t>(parts.of_block[b]);
     const auto own = [&](const Vector& v) { return v.segment(block.first, block.size()); };
     const Vector force = own(all.contact) - own(all.load);
     const double left = (own(all.internal) + force).stableNorm();
     double granted = 0;
     if (block.kernel.cols() > 0) {
       granted = kRoundings * std::numeric_limits<double>::epsilon() * moved_forces(block, own(state.u));
-      result.resultants = std::max(result.resultants, unbalanced(block, force, std::max(own(gross).sum(), least.force)));
+      result.resultants = std::max(result.resultants, unbalanced(block, force, std::max(own(gross).sum(), sizes[part].least_force)));
     }
     if (std::min(left, granted) > greatest) greatest = std::min(left, granted), result.most = static_cast<int>(b);
-    result.beyond = std::hypot(result.beyond, std::max(0.0, left - granted));
+    beyond[part] = std::hypot(beyond[part], std::max(0.0, left - granted));
   }
-  if (const double scale = std::max(all.size(), least.force); scale > 0) result.beyond /= scale;
+  for (std::size_t p = 0; p < sizes.size(); ++p)
+    if (const double scale = sizes[p].force(); scale > 0) result.beyond = std::max(result.beyond, beyond[p] / scale);
   return result;
 }
 
 namespace {
 
-/// The greatest distance of a row, or of a friction point, from its law's graph; see Residual.
-double greatest_distance(const Problem& problem, const Vector& lambda, const Vector& x, const Scales& scales) {
-  const auto rho = [&](double gap) { return scales.force / std::max(scales.length, gap); };
-  double most = 0;
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r) {
-      const double k = rho(std::abs(problem.c[r]));
-      most = std::max(most, std::abs(lambda[r] - group.law->project(r - group.first, lambda[r] + k * x[r], k).lambda));
-    }
-  for (const FrictionGroup& group : problem.friction)
-    for (int i = 0; i < group.points(); ++i) {
-      const int r = group.row(i), n = group.components;
-      const auto own = lambda.segment(r, n);
-      const Vector y = own + rho(problem.c.segment(r, n).lpNorm<Eigen::Infinity>()) * x.segment(r, n);
-      most = std::max(most, (own - project_disc(y, group.bound(i, lambda)).value).norm());
-    }
-  return most / scales.force;
+/// What the multipliers of each part would move its stiffest row by, times a millionth. Where loads meet their reactions at the contact
+/// itself nothing moves but by rounding: this is the least scale.
+std::vector<double> yielding(const Problem& problem, const State& state, const Parts& parts) {
+  std::vector<double> force = parts.greatest(state.lambda);
+  const std::vector<double> stiffest = parts.greatest(problem.row_stiffness());
+  for (std::size_t p = 0; p < force.size(); ++p) force[p] *= stiffest[p] > 0 ? 1e-6 / stiffest[p] : 0;
+  return force;
 }
 
-double greatest(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0; }
+std::vector<Scales> scales(const Problem& problem, const State& state, const Parts& parts, const std::vector<Sizes>& sizes) {
+  std::vector<Scales> result(sizes.size());
+  const std::vector<double> forces = parts.greatest(state.lambda), jumps = parts.greatest(problem.B * state.u),
+                            least = yielding(problem, state, parts);
+  for (std::size_t p = 0; p < sizes.size(); ++p) {
+    if (const double force = std::max({forces[p], sizes[p].greatest_load, sizes[p].least_force}); force > 0) result[p].force = force;
+    if (const double length = std::max({jumps[p], sizes[p].greatest_displacement, least[p]}); length > 0) result[p].length = length;
+  }
+  return result;
+}
 
-/// What the multipliers would move a row of the greatest stiffness by, times a millionth. Where loads meet their reactions at the
-/// contact itself nothing moves but by rounding: this is the least scale.
-double yielding(const Problem& problem, const State& state) {
-  const double stiffest = problem.rows() > 0 ? problem.row_stiffness().maxCoeff() : 0;
-  return stiffest > 0 ? 1e-6 * greatest(state.lambda) / stiffest : 0;
+/// Greatest ‖Ku + Bᵀλ − f‖ of a part, relative to its forces.
+double equilibrium(const Problem& problem, const Forces& all, const Parts& parts, const std::vector<Sizes>& sizes) {
+  const Vector left = all.internal + all.contact - all.load;
+  std::vector<double> norm(sizes.size(), 0);
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
+    add(norm[static_cast<std::size_t>(parts.of_block[b])], left.segment(problem.blocks[b].first, problem.blocks[b].size()));
+  double most = 0;
+  for (std::size_t p = 0; p < sizes.size(); ++p)
+    if (const double scale = sizes[p].force(); scale > 0) most = std::max(most, norm[p] / scale);
+  return most;
+}
+
+/// Σ|λ x| over the unilateral rows of a part against its work; the greatest of all parts.
+double complementarity(const Problem& problem, const State& state, const Vector& x, const Forces& all, const Parts& parts,
+                       const std::vector<Sizes>& sizes) {
+  const std::vector<double> least = yielding(problem, state, parts);
+  std::vector<double> product(sizes.size(), 0), work = product, internal = product, external = product;
+  for (std::size_t p = 0; p < sizes.size(); ++p) work[p] = sizes[p].least_work;
+  for (int r = 0; r < problem.rows(); ++r) work[parts.of_row[r]] += std::abs(state.lambda[r]) * least[parts.of_row[r]];
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
+      product[parts.of_row[r]] += std::abs(state.lambda[r] * x[r]);
+      work[parts.of_row[r]] += std::abs(state.lambda[r] * problem.c[r]);
+    }
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    const auto own = [&](const Vector& v) { return v.segment(problem.blocks[b].first, problem.blocks[b].size()); };
+    internal[parts.of_block[b]] += 0.5 * own(state.u).dot(own(all.internal));
+    external[parts.of_block[b]] += own(state.u).dot(own(all.load));
+  }
+  double most = 0;
+  for (std::size_t p = 0; p < sizes.size(); ++p) {
+    const double scale = work[p] + std::abs(internal[p]) + std::abs(external[p]);
+    if (scale > 0) most = std::max(most, product[p] / scale);
+  }
+  return most;
 }
 
 }  // namespace
 
-Scales scales(const Problem& problem, const State& state) {
-  Scales result;
-  const Forces all = forces(problem, state);
-  const double least = problem::least(problem, state, all.load.stableNorm()).force;
-  if (const double force = std::max({greatest(state.lambda), greatest(all.load), least}); force > 0) result.force = force;
-  const double length = std::max({greatest(problem.B * state.u), greatest(state.u), yielding(problem, state)});
-  if (length > 0) result.length = length;
-  return result;
+std::vector<Scales> scales(const Problem& problem, const State& state) {
+  const Parts parts = problem::parts(problem);
+  return scales(problem, state, parts, sizes(problem, state, forces(problem, state), parts));
 }
 
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
   const Forces all = forces(problem, state);
-  const Least least = problem::least(problem, state, all.load.stableNorm());
-  const double scale = std::max(all.size(), least.force);
-  if (scale > 0) result.equilibrium = (all.internal + all.contact - all.load).stableNorm() / scale;
+  const Parts parts = problem::parts(problem);
+  const std::vector<Sizes> sizes = problem::sizes(problem, state, all, parts);
+  result.equilibrium = equilibrium(problem, all, parts, sizes);
   if (problem.rows() == 0) return result;
 
   const Vector x = problem.B * state.u - problem.c;
-  const Scales scales = problem::scales(problem, state);
-  double work = state.lambda.lpNorm<1>() * yielding(problem, state), product = 0;
-  for (const RowGroup& group : problem.groups) {
-    if (!group.law->unilateral()) continue;
-    for (int r = group.first; r < group.first + group.count; ++r) {
-      result.penetration = std::max(result.penetration, x[r] / std::max(scales.length, std::abs(problem.c[r])));
-      product += std::abs(state.lambda[r] * x[r]);
-      work += std::abs(state.lambda[r] * problem.c[r]);
-    }
-  }
-  work += least.work + std::abs(0.5 * state.u.dot(all.internal)) + std::abs(state.u.dot(all.load));
-  if (work > 0) result.complementarity = product / work;
-  result.friction = friction_violation(problem, state);
-  result.law = greatest_distance(problem, state.lambda, x, scales);
+  const std::vector<Scales> by_part = scales(problem, state, parts, sizes);
+  const auto scale = [&](int r) { return by_part[static_cast<std::size_t>(parts.of_row[r])]; };
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
+      result.penetration = std::max(result.penetration, x[r] / std::max(scale(r).length, std::abs(problem.c[r])));
+  result.complementarity = complementarity(problem, state, x, all, parts, sizes);
+  result.friction = friction_violation(problem, state, parts);
+  const auto rho = [&](int r, double gap) { return scale(r).force / std::max(scale(r).length, gap); };
+  const Vector off = distances(
+      problem, x, state.lambda, [&](int r) { return rho(r, std::abs(problem.c[r])); },
+      [&](const FrictionGroup& group, int k) {
+        return rho(group.row(k), problem.c.segment(group.row(k), group.components).lpNorm<Eigen::Infinity>());
+      });
+  for (int r = 0; r < problem.rows(); ++r) result.law = std::max(result.law, off[r] / scale(r).force);
   return result;
 }
 
 double rounding_of_equilibrium(const Problem& problem, const State& state) {
-  double gross = 0;
-  for (const Block& block : problem.blocks) gross = std::hypot(gross, gross_forces(block, state.u.segment(block.first, block.size())).stableNorm());
-  const double size = forces(problem, state).size();
-  return size > 0 ? std::numeric_limits<double>::epsilon() * gross / size : 0;
+  const Parts parts = problem::parts(problem);
+  const std::vector<Sizes> sizes = problem::sizes(problem, state, forces(problem, state), parts);
+  std::vector<double> gross(sizes.size(), 0);
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
+    add(gross[static_cast<std::size_t>(parts.of_block[b])], gross_forces(problem.blocks[b], state.u.segment(problem.blocks[b].first, problem.blocks[b].size())));
+  double most = 0;
+  for (std::size_t p = 0; p < sizes.size(); ++p)
+    if (const double size = sizes[p].internal + sizes[p].contact + sizes[p].load; size > 0) most = std::max(most, gross[p] / size);
+  return std::numeric_limits<double>::epsilon() * most;
 }
 
 std::string describe(const Residual& r) {

@@ -6,13 +6,13 @@ namespace dotyk::problem {
 
 /// How far a state is from optimal; each number is relative and its scale named.
 ///
-/// The forces of a problem are measured by F, the greatest of |λ|, |f| (where f = 0: of |λ| and √ε ‖|K||u|‖), its
+/// The forces of a problem, of each of its Parts for itself, are measured by F, the greatest of |λ|, |f| (where f = 0: of |λ| and √ε ‖|K||u|‖), its
 /// displacements by X, the greatest of |Bu|, |u| and a millionth of what a force of max|λ| would move a row by; a row of
 /// a gap c_r > X by |c_r|. A row is right where a change of its force by a small part of F, or of its gap by a small part
 /// of X, puts it on its law's graph. In the units F and X the distance from the graph is, up to a factor of √2, the natural
 /// residual |λ − P(λ + ρx)|/F with ρ = F/X. Hence it depends neither on units, nor (without gaps) on the size of the load
 /// or of the stiffness. With ρ the stiffness that a row sees, the rounding of a displacement that is great beside the
-/// strains would count as a force.
+/// strains would count as a force. Each number is the greatest of all parts.
 struct Residual {
   double equilibrium = 0;      ///< ‖Ku + Bᵀλ − f‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖); where f = 0, / √ε ‖|K||u|‖ if that is more
   double penetration = 0;      ///< greatest (Bu − c)⁺ over unilateral rows / X
@@ -25,14 +25,14 @@ struct Residual {
 Residual residual(const Problem& problem, const State& state);
 
 /// The size of Residual::equilibrium that rounding alone explains, with one rounding error in each product of K u:
-/// ε‖|K||u|‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖).
+/// ε‖|K||u|‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖), the greatest of all parts.
 double rounding_of_equilibrium(const Problem& problem, const State& state);
 
-/// F and X; 1 where they would vanish.
+/// F and X of each of the problem's parts(); 1 where they would vanish.
 struct Scales {
   double force = 1, length = 1;
 };
-Scales scales(const Problem& problem, const State& state);
+std::vector<Scales> scales(const Problem& problem, const State& state);
 
 /// "equilibrium 1e-16, penetration 0, complementarity 0, friction 0, law 2e-16".
 std::string describe(const Residual& residual);
@@ -43,7 +43,7 @@ std::string describe(const Residual& residual);
 /// against u and λ. It is granted to a block up to 4ε‖|K||w|‖, and its resultants are asked for instead, which no rounding
 /// of w enters as RᵀK = 0: Rᵀ(Bᵀλ − f) = 0. Where f = 0, forces below √ε‖|K||u|‖ are no scale here either.
 struct MotionResidual {
-  double beyond = 0;      ///< √Σ (‖Ku + Bᵀλ − f‖ − 4ε‖|K||w|‖)⁺², norms of each block / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖) of all
+  double beyond = 0;      ///< √Σ (‖Ku + Bᵀλ − f‖ − 4ε‖|K||w|‖)⁺², norms of each block / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖) of the part
   /// Greatest |rᵀ(Bᵀλ − f)| / (max|r| Σ(|Bᵀ||λ| + |f|)) of all columns r of all R, sums over its block.
   double resultants = 0;
   int most = -1;          ///< the block with the greatest residual that is granted; -1: none
@@ -57,10 +57,10 @@ double energy(const Problem& problem, const State& state);
 /// solution's own normal multipliers).
 double friction_energy(const Problem& problem, const State& state);
 
-/// ‖λ − P(λ + ρx)‖, a force: the distance from the laws, in the plane of λ and ρx.
-double distance_from_laws(const Problem& problem, const algebra::Vector& x, const algebra::Vector& lambda, const algebra::Vector& rho);
+/// |λ − P(λ + ρx)| of each row, a force: the distance from its law, in the plane of λ and ρx; of a friction point at its first row.
+algebra::Vector distances_from_laws(const Problem& problem, const algebra::Vector& x, const algebra::Vector& lambda, const algebra::Vector& rho);
 
-/// The same / ‖λ‖ (the numerator alone where λ = 0), the natural residual.
+/// The norm of all distances / ‖λ‖ (the numerator alone where λ = 0), the natural residual.
 double natural_residual(const Problem& problem, const algebra::Vector& x,
                         const algebra::Vector& lambda, const algebra::Vector& rho);
 

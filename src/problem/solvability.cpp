@@ -8,6 +8,7 @@
 
 #include "algebra/bounded_least_squares.hpp"
 #include "algebra/cone_least_squares.hpp"
+#include "problem/parts.hpp"
 
 namespace dotyk::problem {
 
@@ -16,12 +17,31 @@ using algebra::Vector;
 
 namespace {
 
+/// The load's size in each of the problem's parts(), by row; 1 where there is none. In units of it no part is small beside another.
+struct Units {
+  Vector of_row, of_mode;
+};
+
+Units units(const RigidMotions& rigid, const Problem& problem) {
+  const Parts parts = problem::parts(problem);
+  std::vector<double> size(static_cast<std::size_t>(parts.count), 0);
+  std::vector<std::size_t> part_of_mode;
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
+    part_of_mode.insert(part_of_mode.end(), static_cast<std::size_t>(problem.blocks[b].kernel.cols()), static_cast<std::size_t>(parts.of_block[b]));
+  for (std::size_t k = 0; k < part_of_mode.size(); ++k) size[part_of_mode[k]] = std::hypot(size[part_of_mode[k]], rigid.e[static_cast<Eigen::Index>(k)]);
+  const auto of = [&](std::size_t part) { return size[part] > 0 ? size[part] : 1; };
+  Units result{Vector(problem.rows()), Vector(rigid.count())};
+  for (int r = 0; r < problem.rows(); ++r) result.of_row[r] = of(static_cast<std::size_t>(parts.of_row[static_cast<std::size_t>(r)]));
+  for (std::size_t k = 0; k < part_of_mode.size(); ++k) result.of_mode[static_cast<Eigen::Index>(k)] = of(part_of_mode[k]);
+  return result;
+}
+
 /// Work below this part of the load's size counts as none: rounding of Rᵀf and of the modes.
 constexpr double kRounding = 1e-10;
 /// A load this close (as an angle) to the edge of what can be carried is a limit case.
 constexpr double kLimit = 1e-6;
 
-Vector unit(const Vector& v) { return v / v.lpNorm<Eigen::Infinity>(); }
+Vector greatest_one(const Vector& v) { return v / v.lpNorm<Eigen::Infinity>(); }
 
 /// What the laws can carry: multipliers in a convex set, and the rows of N that they act on, one a multiplier.
 struct Carrying {
@@ -30,17 +50,18 @@ struct Carrying {
 };
 
 /// Coulomb's friction stands for forces in the cone at a point, normal ones included, beside those that the normal row's own law gives.
-Carrying carrying(const RigidMotions& rigid, const Problem& problem) {
+Carrying carrying(const RigidMotions& rigid, const Problem& problem, const Vector& unit) {
   Carrying all;
   std::vector<int> row;
   for (const RowGroup& group : problem.groups)
     for (int k = 0; k < group.count; ++k) {
       const Interval bounds = group.law->multipliers(k);
-      row.push_back(group.first + k), all.set.low.push_back(bounds.low), all.set.high.push_back(bounds.high);
+      const int r = group.first + k;
+      row.push_back(r), all.set.low.push_back(bounds.low / unit[r]), all.set.high.push_back(bounds.high / unit[r]);
     }
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k) {
-      all.set.rounds.push_back({group.components, group.law->bound(k, 0), group.law->bound_slope(k)});
+      all.set.rounds.push_back({group.components, group.law->bound(k, 0) / unit[group.row(k)], group.law->bound_slope(k)});
       if (group.law->bound_slope(k) > 0) row.push_back(group.normal[k]);
       for (int i = 0; i < group.components; ++i) row.push_back(group.row(k) + i);
     }
@@ -97,30 +118,29 @@ std::optional<Vector> unbalanced(const RigidMotions& rigid, const Carrying& carr
 }
 
 /// From the load towards the middle of what rows with limits can carry, unit length; zero where there are none.
-Vector inwards(const RigidMotions& rigid, const Problem& problem, double load) {
-  Vector middle = Vector::Zero(rigid.count()), rays = middle;
-  const SparseRows N = rigid.N;
+Vector inwards(const RigidMotions& rigid, const Problem& problem, const Vector& unit, double load) {
+  Vector middle = Vector::Zero(problem.rows()), rays = middle;  // multipliers
   bool limits = false;
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
       const auto [low, high] = group.law->multipliers(r - group.first);
       const bool below = std::isfinite(low), above = std::isfinite(high);
       limits = limits || below || above;
-      const double base = below && above ? (low + high) / 2 : below ? low : above ? high : 0;
-      middle += base * Vector(N.row(r).transpose());
-      if (below != above) rays += (below ? 1 : -1) * Vector(N.row(r).transpose());
+      middle[r] = (below && above ? (low + high) / 2 : below ? low : above ? high : 0) / unit[r];
+      if (below != above) rays[r] = below ? 1 : -1;
     }
   if (!limits) return Vector::Zero(rigid.count());
-  Vector in = middle - rigid.e;
-  if (rays.norm() > 0) in += load * rays / rays.norm();
+  Vector in = rigid.N.transpose() * middle - rigid.e;
+  const Vector towards = rigid.N.transpose() * rays;
+  if (towards.norm() > 0) in += load * towards / towards.norm();
   return in.norm() > 0 ? Vector(in / in.norm()) : in;
 }
 
 /// What is left unbalanced of a load turned by kLimit towards the nearest edge of what can be carried; zero where that
 /// is balanced, nothing where that is not known. Ten times as much away from the middle shows the motion that this edge
 /// is the end of; the shortest way to the edge is along that motion.
-std::optional<Vector> beyond_edge(const RigidMotions& rigid, const Problem& problem, const Carrying& all, double load) {
-  const Vector in = inwards(rigid, problem, load), none = Vector::Zero(rigid.count());
+std::optional<Vector> beyond_edge(const RigidMotions& rigid, const Problem& problem, const Carrying& all, const Vector& unit, double load) {
+  const Vector in = inwards(rigid, problem, unit, load), none = Vector::Zero(rigid.count());
   if (in.norm() == 0) return none;
   const double least = 1e-3 * kLimit * load;
   const auto motion = unbalanced(rigid, all, rigid.e - 10 * kLimit * load * in);
@@ -132,10 +152,13 @@ std::optional<Vector> beyond_edge(const RigidMotions& rigid, const Problem& prob
 
 }  // namespace
 
-Solvability solvability(const RigidMotions& rigid, const Problem& problem) {
+Solvability solvability(const RigidMotions& given, const Problem& problem) {
   Solvability s;
-  if (rigid.count() == 0) return s;
-  const Carrying all = carrying(rigid, problem);
+  if (given.count() == 0) return s;
+  const Units unit = units(given, problem);
+  RigidMotions rigid = given;
+  rigid.e = given.e.cwiseQuotient(unit.of_mode);
+  const Carrying all = carrying(rigid, problem, unit.of_row);
   const double load = rigid.e.norm();
   const auto residual = load > 0 ? unbalanced(rigid, all, rigid.e) : std::optional<Vector>(Vector::Zero(rigid.count()));
   s.carried = residual && residual->norm() <= kRounding * load;
@@ -146,19 +169,19 @@ Solvability solvability(const RigidMotions& rigid, const Problem& problem) {
   if (!s.carried) {
     s.verdict = Solvability::Verdict::unsolvable;
     s.limit = residual->norm() < kLimit * load;
-    s.motion = unit(*residual);
-    s.work = rigid.e.dot(s.motion);
+    s.motion = greatest_one(residual->unaryExpr([](double r) { return std::abs(r) > kRounding ? r : 0; }).cwiseProduct(unit.of_mode));
+    s.work = given.e.dot(s.motion);
     return s;
   }
-  const auto edge = beyond_edge(rigid, problem, all, load > 0 ? load : 1);
+  const auto edge = beyond_edge(rigid, problem, all, unit.of_row, load > 0 ? load : 1);
   s.limit = edge && edge->norm() > 0;
   if (rigid.unnoticed.cols() > 0) {
     s.verdict = Solvability::Verdict::up_to_motion;
-    s.motion = unit(Vector(rigid.unnoticed.col(0)));
+    s.motion = greatest_one(Vector(rigid.unnoticed.col(0)));
   } else if (s.limit) {
     s.verdict = Solvability::Verdict::up_to_motion;
-    s.motion = unit(*edge);
-    s.work = rigid.e.dot(s.motion);
+    s.motion = greatest_one(*edge);
+    s.work = given.e.dot(s.motion);
   } else if (!edge) {
     s.verdict = Solvability::Verdict::unknown;
   }

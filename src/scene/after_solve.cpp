@@ -8,6 +8,8 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "problem/free_motions.hpp"
+#include "problem/parts.hpp"
+#include "problem/residual.hpp"
 #include "program/active_set.hpp"
 #include "solver/verdict.hpp"
 
@@ -32,10 +34,13 @@ void open_without_force(const problem::Problem& problem, solver::Result& result)
   const Vector& lambda = result.state.lambda;
   const Vector x = problem.B * result.state.u - problem.c;
   const Vector none = problem::small_forces(problem, lambda, kOnBound);
-  const double most = lambda.lpNorm<Eigen::Infinity>(), apart = kOnBound * result.state.u.lpNorm<Eigen::Infinity>();
+  const problem::Parts parts = problem::parts(problem);
+  const std::vector<problem::Scales> by_part = problem::scales(problem, result.state);
   for (const problem::RowGroup& group : problem.groups)
-    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
-      if (lambda[r] <= kRounding * most || (lambda[r] <= none[r] && x[r] < -apart)) result.active_sets.back()[r] = 0;
+    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
+      const problem::Scales& scale = by_part[static_cast<std::size_t>(parts.of_row[r])];
+      if (lambda[r] <= kRounding * scale.force || (lambda[r] <= none[r] && x[r] < -kOnBound * scale.length)) result.active_sets.back()[r] = 0;
+    }
 }
 
 /// The amounts of free motions nearest to `wanted` in the metric G = DᵀD of their displacements: within their limits, from 0 on.

@@ -9,6 +9,7 @@
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "problem/parts.hpp"
 #include "problem/residual.hpp"
 #include "solver/active_set.hpp"
 #include "solver/box_barrier.hpp"
@@ -47,7 +48,7 @@ class Iteration {
   Iteration(const Problem& problem, const Pdas& settings, Monitor& monitor)
       : problem_(problem), settings_(settings), monitor_(monitor), solvable_(require_solvable(problem, result_.clock, monitor)),
         holder_(problem, rigid_),
-        rho_(settings.rho * problem.row_stiffness()), compliance_(problem.row_compliance()) {
+        rho_(settings.rho * problem.row_stiffness()), compliance_(problem.row_compliance()), parts_(problem::parts(problem)) {
     // A row that no unknown moves has no stiffness; any ρ will do.
     const double largest = rho_.size() && rho_.maxCoeff() > 0 ? rho_.maxCoeff() : 1;
     for (int r = 0; r < rho_.size(); ++r)
@@ -273,19 +274,21 @@ class Iteration {
     return true;
   }
 
-  /// What rounding leaves on rows that touch without force: a few digits of the greatest multiplier,
-  /// and of the displacements and the row's own gap that cancel in x, each turned into the other by the
+  /// What rounding leaves on rows that touch without force: a few digits of the greatest multiplier of
+  /// their part, and of the displacements and the row's own gap that cancel in x, each turned into the other by the
   /// row's stiffness. A gap that says "never" (1e30) is no measure of the others' rounding.
   Noise noise(const Vector& lambda, const Vector& x) const {
     if (lambda.size() == 0) return {lambda, lambda};
-    const double force = lambda.lpNorm<Eigen::Infinity>();
-    double moved = 0;
-    for (int r = 0; r < x.size(); ++r) {
-      const double jump = std::abs(x[r] + problem_.c[r]);
-      if (std::abs(problem_.c[r]) < 1e6 * jump) moved = std::max(moved, jump);
-    }
+    Vector jump = (x + problem_.c).cwiseAbs();
+    for (Eigen::Index r = 0; r < x.size(); ++r)
+      if (!(std::abs(problem_.c[r]) < 1e6 * jump[r])) jump[r] = 0;
+    const std::vector<double> force = parts_.greatest(lambda), moved = parts_.greatest(jump);
     const Vector stiffness = compliance_.cwiseInverse();
-    const Vector most = (1e-13 * (force + stiffness.array() * problem_.c.array().abs().max(moved))).matrix();
+    Vector most(x.size());
+    for (Eigen::Index r = 0; r < x.size(); ++r) {
+      const int part = parts_.of_row[r];
+      most[r] = 1e-13 * (force[part] + stiffness[r] * std::max(std::abs(problem_.c[r]), moved[part]));
+    }
     return {most, most.cwiseQuotient(stiffness)};
   }
 
@@ -440,6 +443,7 @@ class Iteration {
   const problem::RigidMotions& rigid_ = solvable_.rigid;
   Holder holder_;
   Vector rho_, compliance_;  ///< of the rows
+  problem::Parts parts_;
   problem::Condenser own_;
   const CondensedProblem* condensed_ = nullptr;
   std::optional<Screws> screws_;

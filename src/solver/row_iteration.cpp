@@ -31,9 +31,16 @@ RowIteration::RowIteration(const Problem& on, RowScales scales, const CondensedP
 }
 
 double RowIteration::residual() const {
-  const double force = scales_.force(lambda_), off = problem::distance_from_laws(problem, value_.x, lambda_, scales_.rho(lambda_, alpha_, value_.x, settings_.tol));
-  const double all = std::hypot(off, map_.balancing(value_.unbalanced).norm());
-  return force > 0 ? all / force : all;
+  const Vector off = problem::distances_from_laws(problem, value_.x, lambda_, scales_.rho(lambda_, alpha_, value_.x, settings_.tol));
+  const Vector force = scales_.forces(lambda_).unaryExpr([](double f) { return f > 0 ? f : 1; });
+  return std::hypot(off.cwiseQuotient(force).norm(), map_.balancing(value_.unbalanced).cwiseQuotient(force).norm());
+}
+
+double RowIteration::force() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double f : scales_.forces(lambda_))
+    if (f > 0) least = std::min(least, f);
+  return std::isfinite(least) ? least : 0;
 }
 
 void RowIteration::move_to(Vector lambda, Vector alpha) {

@@ -20,13 +20,21 @@ double greatest(const Vector& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinit
 }  // namespace
 
 RowScales::RowScales(const problem::Problem& problem, const problem::CondensedProblem& condensed)
-    : condensed_(&condensed), c_(problem.c), stiffness_(stiffness_of_rows(condensed)) {
-  for (const problem::Block& block : problem.blocks) load_ = std::max(load_, greatest(block.f));
+    : condensed_(&condensed), c_(problem.c), stiffness_(stiffness_of_rows(condensed)), parts_(problem::parts(problem)),
+      least_(static_cast<std::size_t>(parts_.count), 0) {
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
+    least_[parts_.of_block[b]] = std::max(least_[parts_.of_block[b]], greatest(problem.blocks[b].f));
+  const std::vector<double> at_rest = parts_.greatest(stiffness_.cwiseProduct(condensed.x0()));
+  for (std::size_t p = 0; p < least_.size(); ++p) least_[p] = std::sqrt(kEps) * (least_[p] > 0 ? least_[p] : at_rest[p]);
 }
 
-double RowScales::force(const Vector& lambda) const {
-  const double least = load_ > 0 ? load_ : greatest(stiffness_.cwiseProduct(condensed_->x0()));
-  return std::max(lambda.norm(), std::sqrt(kEps) * least);
+Vector RowScales::forces(const Vector& lambda) const {
+  std::vector<double> of_part(least_.size(), 0);
+  for (Eigen::Index r = 0; r < lambda.size(); ++r) of_part[parts_.of_row[r]] += lambda[r] * lambda[r];
+  for (std::size_t p = 0; p < least_.size(); ++p) of_part[p] = std::max(std::sqrt(of_part[p]), least_[p]);
+  Vector forces(lambda.size());
+  for (Eigen::Index r = 0; r < lambda.size(); ++r) forces[r] = of_part[parts_.of_row[r]];
+  return forces;
 }
 
 double RowScales::rounding(const Vector& alpha, const Vector& x) const {
@@ -39,12 +47,16 @@ Vector RowScales::rho(const Vector& lambda, const Vector& alpha, const Vector& x
   // Row by row: where one body goes far, others' gaps are known as before. Nor may Wλ and Nα cancel.
   Vector gross = condensed_->x0().cwiseAbs() + condensed_->W().cwiseAbs() * lambda.cwiseAbs();
   if (alpha.size() > 0) gross += condensed_->N().cwiseAbs() * alpha.cwiseAbs();
-  const double F = force(lambda), stiffest = stiffness_.maxCoeff();
-  const double X = std::max(greatest(x + c_), stiffest > 0 ? greatest(lambda) / stiffest : 0);
+  const Vector F = forces(lambda);
+  const std::vector<double> greatest_force = parts_.greatest(lambda), stiffest = parts_.greatest(stiffness_);
+  std::vector<double> moved = parts_.greatest(x + c_);
+  for (std::size_t p = 0; p < moved.size(); ++p)
+    if (stiffest[p] > 0) moved[p] = std::max(moved[p], greatest_force[p] / stiffest[p]);
   Vector rho = stiffness_;
   for (Eigen::Index r = 0; r < x.size(); ++r) {
-    if (const double length = std::max(X, std::abs(c_[r])); length > 0) rho[r] = std::max(rho[r], greatest(lambda) / length);
-    if (const double rounding = kSumRoundings * kEps * gross[r]; rounding > 0) rho[r] = std::min(rho[r], tol * F / rounding);
+    const int part = parts_.of_row[r];
+    if (const double length = std::max(moved[part], std::abs(c_[r])); length > 0) rho[r] = std::max(rho[r], greatest_force[part] / length);
+    if (const double rounding = kSumRoundings * kEps * gross[r]; rounding > 0) rho[r] = std::min(rho[r], tol * F[r] / rounding);
   }
   return rho;
 }

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "problem/condensed.hpp"
+#include "problem/parts.hpp"
 
 namespace dotyk::solver {
 
 /// What counts as a force and as a gap on the rows of a condensed problem, so that one number says of an iterate how far it is
-/// from the laws: ‖λ − P(λ + ρx)‖ / F. A greater ρ asks more of gaps, and a row's force is known to tol F only where ρ_r is not
+/// from the laws: ‖λ − P(λ + ρx)‖ / F, with an F of each part of the problem that has nothing to do with others. A greater ρ asks more of gaps, and a row's force is known to tol F only where ρ_r is not
 /// below the stiffness that the row sees, 1/W_rr. Two things bound it:
 ///
 /// - below F/X a gap that is great beside the displacements X would hardly count: on soft springs, whose 1/W_rr is far less.
@@ -21,9 +22,9 @@ class RowScales {
 
   /// 1/W_rr; see stiffness_of_rows().
   const algebra::Vector& stiffness() const { return stiffness_; }
-  /// F: ‖λ‖, or √ε of the greatest load |f| (where nothing is loaded, of what would hold the rows where they are at rest), if that
-  /// is more: bodies that get out of each other's way end free of forces, and rounding is all that is left of those.
-  double force(const algebra::Vector& lambda) const;
+  /// F by row, that of its part: ‖λ‖, or √ε of the greatest load |f| (where nothing is loaded, of what would hold the rows where they are at
+  /// rest), if that is more: bodies that get out of each other's way end free of forces, and rounding is all that is left of those.
+  algebra::Vector forces(const algebra::Vector& lambda) const;
   /// kεG: what rounding may leave of x, a displacement.
   double rounding(const algebra::Vector& alpha, const algebra::Vector& x) const;
   /// ρ.
@@ -32,7 +33,8 @@ class RowScales {
  private:
   const problem::CondensedProblem* condensed_;
   algebra::Vector c_, stiffness_;
-  double load_ = 0;
+  problem::Parts parts_;
+  std::vector<double> least_;  ///< force of each part
 };
 
 }  // namespace dotyk::solver

@@ -61,7 +61,7 @@ TEST_CASE("free bodies with friction in the plane: the search excludes all piece
     if (!exists) continue;
     // A point without a broken pair solves the problem up to the accuracy of programmes.
     const Vector x = rows.jump(found.lambda, found.alpha);
-    CHECK(problem::distance_from_laws(p, x, found.lambda, Vector::Ones(x.size())) < 1e-6 * (1 + found.lambda.norm() + x.norm()));
+    CHECK(problem::distances_from_laws(p, x, found.lambda, Vector::Ones(x.size())).norm() < 1e-6 * (1 + found.lambda.norm() + x.norm()));
     CHECK((rows.N().transpose() * found.lambda - rows.e()).norm() < 1e-7 * (1 + rows.e().norm()));
   }
   CHECK(solvable > 20);

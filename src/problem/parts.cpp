@@ -1,0 +1,51 @@
+#include "problem/parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "problem/rigid_motions.hpp"
+
+namespace dotyk::problem {
+namespace {
+
+int root_of(std::vector<int>& parent, int b) {
+  while (parent[b] != b) b = parent[b] = parent[parent[b]];
+  return b;
+}
+
+}  // namespace
+
+std::vector<double> Parts::greatest(const algebra::Vector& v) const {
+  std::vector<double> most(count, 0);
+  for (Eigen::Index r = 0; r < v.size(); ++r) most[of_row[r]] = std::max(most[of_row[r]], std::abs(v[r]));
+  return most;
+}
+
+Parts parts(const Problem& problem) {
+  const int blocks = static_cast<int>(problem.blocks.size());
+  const std::vector<std::size_t> block_of = blocks_of_unknowns(problem);
+  std::vector<int> parent(blocks), first(problem.rows(), 0);
+  for (int b = 0; b < blocks; ++b) parent[b] = b;
+  for (int r = 0; r < problem.rows(); ++r) {
+    int joined = -1;
+    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) {
+      if (it.value() == 0) continue;
+      const int b = root_of(parent, static_cast<int>(block_of[static_cast<std::size_t>(it.col())]));
+      if (joined >= 0) parent[b] = joined;
+      else joined = b;
+    }
+    if (joined >= 0) first[r] = joined;
+  }
+  Parts result;
+  std::vector<int> number(blocks, -1);
+  for (int b = 0; b < blocks; ++b) {
+    int& part = number[root_of(parent, b)];
+    if (part < 0) part = result.count++;
+    result.of_block.push_back(part);
+  }
+  for (const int b : first) result.of_row.push_back(blocks > 0 ? result.of_block[b] : 0);
+  result.count = std::max(result.count, 1);
+  return result;
+}
+
+}  // namespace dotyk::problem

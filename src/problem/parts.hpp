@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "problem/problem.hpp"
+
+namespace dotyk::problem {
+
+/// The parts of a problem that have nothing to do with one another: blocks that rows join, directly or through others, are one part. What is
+/// small beside the forces or displacements of one part may be all there is in another: scales are a part's own.
+struct Parts {
+  int count = 0;
+  std::vector<int> of_block, of_row;  ///< part of each block and row
+
+  /// The greatest |v_r| of each part's rows; 0 of a part without rows.
+  std::vector<double> greatest(const algebra::Vector& v) const;
+};
+Parts parts(const Problem& problem);
+
+}  // namespace dotyk::problem
