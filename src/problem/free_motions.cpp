@@ -89,12 +89,23 @@ class Conditions {
   std::vector<double> slack_;
 };
 
-/// Forces below this fraction of the greatest one in their part of the problem are rounding of the solve.
+/// Forces below this fraction of the greatest one are rounding of the solve.
 constexpr double kOfAll = 1e-12;
 
 /// Greatest amount 1.
 void normalise(SparseMatrix& motions) {
   for (int k = 0; k < motions.cols(); ++k) motions.col(k) /= Vector(motions.col(k)).lpNorm<Eigen::Infinity>();
+}
+
+/// The greatest multiplier of each part; where nothing loads it, of all parts.
+std::vector<double> greatest_of_loaded(const Problem& problem, const Parts& parts, const Vector& lambda) {
+  std::vector<double> greatest = parts.greatest(lambda);
+  std::vector<char> loaded(greatest.size(), 0);
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
+    if (!problem.blocks[b].f.isZero(0)) loaded[static_cast<std::size_t>(parts.of_block[b])] = 1;
+  for (std::size_t p = 0; p < greatest.size(); ++p)
+    if (!loaded[p]) greatest[p] = lambda.lpNorm<Eigen::Infinity>();
+  return greatest;
 }
 
 }  // namespace
@@ -103,7 +114,7 @@ Vector small_forces(const Problem& problem, const Vector& lambda, double toleran
   if (lambda.size() == 0) return lambda;
   const std::vector<std::size_t> body = blocks_of_unknowns(problem);
   const Parts parts = problem::parts(problem);
-  const std::vector<double> greatest = parts.greatest(lambda);
+  const std::vector<double> greatest = greatest_of_loaded(problem, parts, lambda);
   std::vector<double> of_body(problem.blocks.size(), 0);
   const auto each = [&](const auto& visit) {
     for (int r = 0; r < problem.rows(); ++r)

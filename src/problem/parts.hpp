@@ -17,4 +17,8 @@ struct Parts {
 };
 Parts parts(const Problem& problem);
 
+/// The least scale of a part that nothing loads, relative to the greatest forces or displacements of all parts. Mostly its solution is zero, and
+/// what methods that treat all parts at once leave there by rounding must be below their tolerances relative to this scale.
+constexpr double kOfOthers = 1e-4;
+
 }  // namespace dotyk::problem

@@ -120,9 +120,20 @@ struct Sizes {
   double greatest_load = 0, greatest_displacement = 0;
   /// Where nothing loads the bodies, the least that counts as a force, and as work: what half of the digits of K|u| are. Bodies that
   /// get out of an obstacle's way end free of forces, and rounding of K times their motion is all that is left of those.
-  double least_force = 0, least_work = 0;
+  double least_force = 0, least_length = 0, least_work = 0;
   double force() const { return std::max(internal + contact + load, least_force); }
 };
+
+void add_scales_of_others(std::vector<Sizes>& parts) {
+  double force = 0, length = 0;
+  for (const Sizes& part : parts) force = std::max(force, part.force()), length = std::max(length, part.greatest_displacement);
+  for (Sizes& part : parts) {
+    if (part.load > 0) continue;
+    part.least_force = std::max(part.least_force, kOfOthers * force);
+    part.least_length = kOfOthers * length;
+    part.least_work += part.least_force * part.least_length;
+  }
+}
 
 void add(double& norm, const Eigen::Ref<const Vector>& v) { norm = std::hypot(norm, v.stableNorm()); }
 
@@ -144,6 +155,7 @@ std::vector<Sizes> sizes(const Problem& problem, const State& state, const Force
     add(part.least_force, half * gross);
     part.least_work += half * gross.dot(u.cwiseAbs());
   });
+  add_scales_of_others(result);
   return result;
 }
 
@@ -202,7 +214,7 @@ std::vector<Scales> scales(const Problem& problem, const State& state, const Par
                             least = yielding(problem, state, parts);
   for (std::size_t p = 0; p < sizes.size(); ++p) {
     if (const double force = std::max({forces[p], sizes[p].greatest_load, sizes[p].least_force}); force > 0) result[p].force = force;
-    if (const double length = std::max({jumps[p], sizes[p].greatest_displacement, least[p]}); length > 0) result[p].length = length;
+    if (const double length = std::max({jumps[p], sizes[p].greatest_displacement, sizes[p].least_length, least[p]}); length > 0) result[p].length = length;
   }
   return result;
 }

@@ -25,7 +25,9 @@ RowScales::RowScales(const problem::Problem& problem, const problem::CondensedPr
   for (std::size_t b = 0; b < problem.blocks.size(); ++b)
     least_[parts_.of_block[b]] = std::max(least_[parts_.of_block[b]], greatest(problem.blocks[b].f));
   const std::vector<double> at_rest = parts_.greatest(stiffness_.cwiseProduct(condensed.x0()));
-  for (std::size_t p = 0; p < least_.size(); ++p) least_[p] = std::sqrt(kEps) * (least_[p] > 0 ? least_[p] : at_rest[p]);
+  const double rounding = problem::kOfOthers * std::max(*std::max_element(least_.begin(), least_.end()), *std::max_element(at_rest.begin(), at_rest.end()));
+  for (std::size_t p = 0; p < least_.size(); ++p)
+    least_[p] = least_[p] > 0 ? std::sqrt(kEps) * least_[p] : std::max(std::sqrt(kEps) * at_rest[p], rounding);
 }
 
 Vector RowScales::forces(const Vector& lambda) const {
