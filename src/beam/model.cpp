@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "beam/element.hpp"
+#include "problem/range.hpp"
 
 namespace dotyk::beam {
 
@@ -76,6 +77,7 @@ class Builder {
     for (const Support& support : beam_.supports) add_support(support);
     problem::add(model_.problem, block(n));
     finish_rows(n);
+    if (model_.problem.rows() > 0) problem::require_moderate(model_.problem, problem::kMostForceOnRows);
     return std::move(model_);
   }
 

@@ -10,6 +10,7 @@
 #include "plate/loads.hpp"
 #include "plate/rows.hpp"
 #include "plate/stiffness.hpp"
+#include "problem/range.hpp"
 
 namespace dotyk::plate {
 
@@ -97,6 +98,7 @@ Model build(Plate plate) {
   add_law_loads(model.space, model.deflections, model.rotations, model.load);
   problem::add(model.problem, block(plate, model));
   add_rows(plate, model);
+  if (model.problem.rows() > 0) problem::require_moderate(model.problem, problem::kMostForceOnRows);
   model.problem.blocks.front().node = nodes(model);
   for (const auto* samples : {&model.deflections, &model.rotations})
     for (auto& chain : row_chains(model, *samples)) model.problem.chains.push_back(std::move(chain));

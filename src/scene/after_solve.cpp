@@ -10,6 +10,7 @@
 #include "problem/free_motions.hpp"
 #include "problem/parts.hpp"
 #include "problem/residual.hpp"
+#include "problem/uniqueness.hpp"
 #include "program/active_set.hpp"
 #include "solver/verdict.hpp"
 
@@ -25,6 +26,9 @@ constexpr double kOnBound = 1e-8;
 constexpr double kRounding = 1e-12;
 /// Half the width of contact, in cells, that does not tell a rotation from none.
 constexpr double kNarrow = 1.5;
+
+/// What is known of the stress where the displacement is not unique.
+const char* stress(const problem::Problem& problem) { return problem::has_coulomb(problem) ? "; with the stress of this solution" : "; unique stress"; }
 
 std::string end(double amount) { return std::isfinite(amount) ? text(amount) : amount < 0 ? "-infinity" : "infinity"; }
 
@@ -75,7 +79,7 @@ void take_nearest(const problem::Problem& problem, const problem::FreeMotions& f
   }
   if (range.high - range.low <= 1e-9 * result.state.u.lpNorm<Eigen::Infinity>()) return;  // they have nowhere to go
   const std::string which = describe(problem::body_motions(problem), Vector(free.motions.col(widest)));
-  result.reason += text("; unique stress, displacement up to ", count == 1 ? which : text(count, " motions, one of them ", which), ", by ", end(range.low), " to ", end(range.high),
+  result.reason += text(stress(problem), ", displacement up to ", count == 1 ? which : text(count, " motions, one of them ", which), ", by ", end(range.low), " to ", end(range.high),
                         " at the most: the contacts that hold leave ", count == 1 ? "it" : "them", " free until the next node closes or sticks, so that the mesh decides how "
                         "far; this is the ", before.isZero(0) ? "least" : "nearest to the step before");
 }
@@ -132,7 +136,7 @@ void settle(const Scene& scene, const Model& model, const problem::Problem& prob
   if (free.count == 1 || (free.count > 0 && free.count <= problem::kMostModes && solver::loaded(problem)))
     take_nearest(problem, free, before, result);
   else if (free.count > 0)
-    result.reason += text("; unique stress, displacement up to ", free.count, " motions that the contacts that hold leave free",
+    result.reason += text(stress(problem), ", displacement up to ", free.count, " motions that the contacts that hold leave free",
                           free.motions.cols() > 0 ? ", one of them " + describe(problem::body_motions(problem), Vector(free.motions.col(0))) : "");
   else
     result.reason += resisted_by_cells(scene, model, problem, free, result.state.lambda);

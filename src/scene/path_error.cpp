@@ -1,5 +1,6 @@
 #include "scene/path_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -7,18 +8,42 @@
 
 namespace dotyk::scene {
 
-bool follows_path(const Solution& solution) {
-  const Model& model = solution.model();
-  for (std::size_t c = 0; c < model.friction.size(); ++c)
-    for (const FrictionRows& rows : model.friction[c])
-      for (const contact::Term& jump : rows.cell.jumps) {
-        const int r = model.contact_row[c][static_cast<std::size_t>(jump.row)];
-        const Contact& contact = *model.contacts[c];
-        const double touching = contact::kTouching * contact.first.body->mesh->size();
-        if (r >= 0 && solution.active(r) && std::abs(contact.rows[static_cast<std::size_t>(jump.row)].gap) > touching) return true;
-      }
-  return false;
+namespace {
+
+/// Has a node of a point of friction closed from a gap?
+bool closed_on_the_way(const Solution& solution, std::size_t c, const FrictionRows& rows) {
+  const Contact& contact = *solution.model().contacts[c];
+  const double touching = contact::kTouching * contact.first.body->mesh->size();
+  return std::any_of(rows.cell.jumps.begin(), rows.cell.jumps.end(), [&](const contact::Term& jump) {
+    const int r = solution.model().contact_row[c][static_cast<std::size_t>(jump.row)];
+    return r >= 0 && solution.active(r) && std::abs(contact.rows[static_cast<std::size_t>(jump.row)].gap) > touching;
+  });
 }
+
+double force_of(const Solution& solution, const FrictionRows& rows) {
+  double size = 0;
+  for (int i = 0; i < rows.count; ++i) size = std::hypot(size, solution.result().state.lambda[rows.row[i]]);
+  return size;
+}
+
+}  // namespace
+
+std::optional<double> share_of_path(const Solution& solution) {
+  bool follows = false;
+  double stuck = 0, sum = 0;
+  for (std::size_t c = 0; c < solution.model().friction.size(); ++c)
+    for (const FrictionRows& rows : solution.model().friction[c]) {
+      const double force = force_of(solution, rows);
+      sum += force;
+      if (!closed_on_the_way(solution, c, rows)) continue;
+      follows = true;
+      if (const auto& slips = solution.result().slipping; slips.empty() || !slips[rows.row[0]]) stuck += force;
+    }
+  if (!follows) return std::nullopt;
+  return sum > 0 ? stuck / sum : 0;
+}
+
+bool follows_path(const Solution& solution) { return share_of_path(solution).has_value(); }
 
 namespace {
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "scene/solution.hpp"
 
 namespace dotyk::scene {
@@ -8,6 +10,10 @@ namespace dotyk::scene {
 /// a single step takes all of the jump since rest for slip, also what came before the node closed. Where all gaps of closed nodes are 0,
 /// a solution under Coulomb friction at a part of the load is that part of it, and one step is exact.
 bool follows_path(const Solution& solution);
+
+/// Of what friction bears, Σ|λ_t|, the share at points that closed so and stick at the end: nothing else depends on the way but through where points
+/// stick, as |λ_t| is the bound where they slip. Nothing unless follows_path().
+std::optional<double> share_of_path(const Solution& solution);
 
 /// How far one load step is from kPathSteps equal ones of the load, the prescribed displacements and the rigid shapes' displacements:
 /// Σ|λ_t − λ_t'| over the points of friction in Σ|λ_t'|, λ_t' their forces after the steps. A node that sticks where a share τ of the load

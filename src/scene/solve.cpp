@@ -1,3 +1,4 @@
+#include <iomanip>
 #include <utility>
 
 #include "algebra/stop_factoring.hpp"
@@ -90,8 +91,9 @@ class History {
     const auto solution = std::make_shared<Solution>(scene_, is_last ? std::move(model_) : without_stiffness(),
                                                      is_last ? nullptr : &model_.problem, std::move(result),
                                                      std::move(past));
-    if (is_last && !solution->follows() && solution->result().converged && follows_path(*solution))
-      solution->add_reason("; one load step, while friction follows the path: path_error() says how far from eight");
+    if (const auto share = is_last && !solution->follows() && solution->result().converged ? share_of_path(*solution) : std::nullopt)
+      solution->add_reason(text("; one load step, while friction follows the path: of its force ", std::setprecision(3), 100 * *share,
+                                " % is at points that closed on the way and stick, where one step may be wrong; path_error() says how far from eight"));
     solution->set_total(watch_.seconds());
     clock_ = solution->clock();
     last_ = solution;

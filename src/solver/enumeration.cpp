@@ -162,10 +162,11 @@ class BranchSearch {
     Members members;
     members.pieces = pieces_;
     const Vector origin = members.origin = coordinates(system, least);
-    members.directions = DenseMatrix(origin.size(), Z.cols());
-    for (Eigen::Index k = 0; k < Z.cols(); ++k) members.directions.col(k) = coordinates(system, least + Z.col(k)) - origin;
     members.size = std::max(size(origin), scale_);
     if (!(members.size > 0)) members.size = 1;
+    members.directions = DenseMatrix(origin.size(), Z.cols());
+    for (Eigen::Index k = 0; k < Z.cols(); ++k)  // steps of the origin's size, so that their difference keeps its digits
+      members.directions.col(k) = (coordinates(system, least + members.size * Z.col(k)) - origin) / members.size;
     members.inequalities(*this);
     members.set = algebra::polyhedron(members.A, members.b, kRelative);
     const int dimension = members.set.dimension(kRelative);

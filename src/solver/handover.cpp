@@ -60,7 +60,8 @@ std::string search(RowIteration& iteration, double tol) {
   const PieceSearch found = search_pieces(iteration.problem, iteration.condensed, newton_from(iteration, settings, monitor), iteration.monitor());
   const std::string programmes = text(found.programmes, found.programmes == 1 ? " linear programme" : " linear programmes");
   if (found.verdict == PieceSearch::Verdict::none) {
-    if (!iteration.problem.blocks.empty()) refuse_unbearable(iteration.problem, programmes + " exclude all states of contact, stick and slip");
+    if (const auto motion = stopped_by_friction_alone(iteration.problem))
+      refuse_unbearable(*motion, programmes + " exclude all states of contact, stick and slip");
     return text("; ", programmes, " exclude all states of contact, stick and slip: there is no solution");
   }
   if (found.verdict == PieceSearch::Verdict::undecided) return found.programmes == 0 ? "" : text("; tried a search of pieces, ", programmes);
@@ -75,6 +76,7 @@ std::string search(RowIteration& iteration, double tol) {
 }  // namespace
 
 void hand_over(RowIteration& iteration, double tol) {
+  if (bounds_depend_on_normal(iteration.problem)) require_bearable(iteration.problem, iteration.condensed, iteration.monitor());
   std::string tried = text("newton lost its way in ", iteration.iterations(), " iterations");
   for (const Alternative& next : alternatives(iteration.problem)) {
     if (iteration.monitor().stop()) break;

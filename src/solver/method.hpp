@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "solver/advice.hpp"
 #include "solver/row_iteration.hpp"
 #include "solver/treatable.hpp"
 
@@ -33,7 +34,7 @@ class Method {
           if (!from.start.empty()) started.start = std::move(from.start);
           started.from = std::move(from.from);
           started.condenser = std::move(from.condenser);
-          return as_asked(solve(problem, started, monitor), started.tol);
+          return ended(problem, solve(problem, started, monitor), started.tol, monitor);
         }),
         with_tol_([chosen](double tol) {
           Chosen other = chosen;
@@ -56,7 +57,7 @@ class Method {
   /// On a problem already condensed. Throws InputError for a method that works on bodies.
   Result run(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) const {
     if (!on_rows_) throw InputError(text("this method works on scenes alone; on rows alone work ", kRowMethods));
-    return as_asked(solve(problem, condensed, *on_rows_, monitor), on_rows_->tol);
+    return ended(problem, solve(problem, condensed, *on_rows_, monitor), on_rows_->tol, monitor);
   }
   /// The method, where it works on the condensed problem alone; else null.
   const std::shared_ptr<const RowMethod>& on_rows() const { return on_rows_; }
@@ -64,8 +65,9 @@ class Method {
  private:
   /// The residuals that a scene measures are no more than so many times the natural residual that tol is about.
   static constexpr double kMost = 1e4;
-  static Result as_asked(Result result, double tol) {
+  static Result ended(const problem::Problem& problem, Result result, double tol, Monitor& monitor) {
     result.asked = kMost * tol;
+    if (!result.converged && !monitor.stop()) result.reason += advice(problem, result);
     return result;
   }
 

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "problem/uniqueness.hpp"
 
 namespace dotyk::solver {
 
@@ -85,19 +86,15 @@ std::string unbalanced_motion(const problem::Problem& problem, const algebra::Ve
   return text(", most of all ", describe(motions, one), ", with ", greatest, ". ", what_would_hold(motions, one));
 }
 
-void refuse_unbearable(const problem::Problem& problem, const std::string& proof) {
-  problem::Problem smooth = problem;
-  std::erase_if(smooth.friction, [](const problem::FrictionGroup& group) {
-    for (int k = 0; k < group.points(); ++k)
-      if (group.law->bound_slope(k) > 0) return true;
-    return false;
-  });
-  const problem::RigidMotions rigid = problem::rigid_motions(problem);
-  const problem::Solvability s = problem::solvability(rigid, smooth);
-  if (s.verdict != problem::Solvability::Verdict::unsolvable) return;
-  throw InputError(text("not held: friction cannot bear what nothing else stops, ", describe(rigid.motions, s.motion), "; the load does work ", s.work,
+void refuse_unbearable(const FrictionalMotion& on, const std::string& proof) {
+  throw InputError(text("not held: friction cannot bear what nothing else stops, ", describe(on.rigid.motions, on.amounts), "; the load does work ", on.work,
                         " on a unit of this motion, and no pressures that the bodies can build up have friction enough (", proof, "). ",
-                        what_would_hold(rigid.motions, s.motion)));
+                        what_would_hold(on.rigid.motions, on.amounts)));
+}
+
+void require_bearable(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) {
+  const auto motion = stopped_by_friction_alone(problem);
+  if (motion && friction_is_too_weak(problem, condensed, *motion, monitor)) refuse_unbearable(*motion, "two convex programs over all forces in balance and within the cones of friction");
 }
 
 KnownBefore require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid) {
@@ -111,10 +108,11 @@ KnownBefore require_solvable(const problem::Problem& problem, const problem::Rig
   if (s.verdict == Verdict::unknown)
     return {s.carried ? "whether it is unique was unknown before solving" : "whether there is a solution was unknown before solving", s.carried};
   std::string note;
+  const bool coulomb = problem::has_coulomb(problem);  // under it the stress need not be unique
   if (s.verdict == Verdict::up_to_motion)
-    note = text("unique up to ", unnoticed_motions(rigid, s.motion), rigid.unnoticed.cols() > 0
-                    ? ", which no support or contact notices: the stress is unique, the displacement is the least"
-                    : "");
+    note = text(coulomb ? "a solution may be moved by " : "unique up to ", unnoticed_motions(rigid, s.motion), rigid.unnoticed.cols() == 0 ? ""
+                : coulomb ? ", which no support or contact notices: the displacement is the least"
+                          : ", which no support or contact notices: the stress is unique, the displacement is the least");
   if (s.limit) note += text(note.empty() ? "" : "; ", "a limit case: turned by 1e-6, the load has no solution");
   return {note, true};
 }

@@ -5,6 +5,7 @@
 #include "base/monitor.hpp"
 #include "problem/condensed_block.hpp"
 #include "problem/solvability.hpp"
+#include "solver/friction_bound.hpp"
 
 namespace dotyk::solver {
 
@@ -24,9 +25,12 @@ struct Solvable {
 };
 Solvable require_solvable(const problem::Problem& problem, problem::Clock& clock, Monitor& monitor);
 
-/// Refuses a problem with Coulomb friction whose load only friction could stop, after a proof that no attainable pressure gives enough
-/// friction: throws InputError, naming the motion. Returns if something else than friction stops it. `proof`: how it was proved, one phrase.
-void refuse_unbearable(const problem::Problem& problem, const std::string& proof);
+/// Refuses a load that only friction could stop, after a proof that no attainable pressure gives enough friction: throws InputError, naming the
+/// motion. `proof`: how it was proved, one phrase.
+[[noreturn]] void refuse_unbearable(const FrictionalMotion& motion, const std::string& proof);
+
+/// Refuses where friction_is_too_weak(): for a method that has failed.
+void require_bearable(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor);
 
 /// Of the resultants of loads that nothing balances, one for each mode of the blocks' kernels, which is the greatest and
 /// what would hold it: ", most of all 'lid': translation along x, with 3.5. Hold …"; empty where modes have no names.

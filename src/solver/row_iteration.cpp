@@ -197,6 +197,7 @@ Result solve(const Problem& problem, const RowMethod& method, Monitor& monitor) 
   const CondensedProblem& condensed =
       (method.condenser ? *method.condenser : own).condense(problem, rigid, method.ordering, clock, monitor);
   Result result = solve(problem, condensed, method, monitor);
+  if (!result.converged && !monitor.stop()) require_bearable(problem, condensed, monitor);
   if (!note.empty()) result.reason += "; " + note;
   clock.iterate += result.clock.iterate;
   clock.recover += result.clock.recover;

@@ -203,6 +203,21 @@ TEST_CASE("a triangle on a floor, μ = 3, slips by any amount between sticking a
     CHECK(std::abs(std::min(ends[0][0], ends[1][0])) < 1e-12);
     CHECK(std::abs(std::max(ends[0][0], ends[1][0]) - 2) < 1e-12);
   }
+  for (const double unit : {1e-9, 1e6, 1e9, 1e12, 1e15}) {  // of force: the ends keep their digits
+    CAPTURE(unit);
+    auto p = test::program(unit * DenseMatrix{{3.0 / 8, -1.0 / 8}, {-1.0 / 8, 29.0 / 96}}, unit * Vector{{0.75, -0.25}}, DenseMatrix{{0, -1}, {-1, 0}}, Vector::Zero(2));
+    p.groups = {test::group(problem::unilateral(), 0, 1)};
+    p.friction = {{"friction", problem::coulomb({3.0}), 1, 1, {0}}};
+    const auto all = solver::enumerate(p, quiet);
+    REQUIRE(all.families.size() == 1);
+    REQUIRE(all.families[0].ends.size() == 2);
+    for (const auto& end : all.families[0].ends) {
+      CHECK(std::abs(std::abs(end.result.state.u[0] - 1) - 1) < 1e-12);
+      const double force = std::max(end.result.state.lambda.norm(), 1e-3 * unit);
+      const double off = problem::natural_residual(p, p.B * end.result.state.u - p.c, end.result.state.lambda, Vector::Constant(2, unit));
+      CHECK(off * (end.result.state.lambda.norm() > 0 ? end.result.state.lambda.norm() : 1) < 1e-12 * force);
+    }
+  }
 }
 
 TEST_CASE("two such nodes: a square of solutions, all pieces of it in one continuum; beside them isolated nodes keep theirs") {

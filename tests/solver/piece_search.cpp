@@ -7,6 +7,7 @@
 #include "problem/residual.hpp"
 #include "problem/rigid_motions.hpp"
 #include "solver/enumeration.hpp"
+#include "solver/friction_bound.hpp"
 #include "solver/newton.hpp"
 
 using namespace dotyk;
@@ -94,4 +95,27 @@ TEST_CASE("free bodies with friction in space: what the search excludes, no meth
   }
   CHECK(solved > 10);
   CHECK(excluded > 5);
+}
+
+TEST_CASE("free bodies with friction in the plane: what the energy bound excludes has no solution") {
+  Monitor quiet;
+  int proved = 0, unsolvable = 0;
+  for (unsigned seed = 0; seed < 600; ++seed) {
+    CAPTURE(seed);
+    test::Random random(seed);
+    const auto p = free_body(random, 3, 1, 0.1 + 0.002 * seed);
+    const auto motion = solver::stopped_by_friction_alone(p);
+    if (!motion) continue;
+    const bool excluded = solver::friction_is_too_weak(p, condensed(p), *motion, quiet);
+    proved += excluded;
+    try {
+      const auto all = solver::enumerate(p, quiet);
+      const bool exists = !all.solutions.empty() || !all.families.empty();
+      CHECK_FALSE((exists && excluded));
+      unsolvable += !exists;
+    } catch (const InputError&) {  // not held at all
+    }
+  }
+  MESSAGE(proved << " proved of " << unsolvable);
+  CHECK(proved > 5);
 }
