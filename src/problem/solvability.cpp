@@ -98,21 +98,20 @@ std::optional<Vector> unbalanced(const RigidMotions& rigid, const Carrying& carr
 
 /// From the load towards the middle of what rows with limits can carry, unit length; zero where there are none.
 Vector inwards(const RigidMotions& rigid, const Problem& problem, double load) {
-  Vector middle = Vector::Zero(rigid.count()), rays = middle;
-  const SparseRows N = rigid.N;
+  Vector middle = Vector::Zero(problem.rows()), rays = middle;  // multipliers
   bool limits = false;
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
       const auto [low, high] = group.law->multipliers(r - group.first);
       const bool below = std::isfinite(low), above = std::isfinite(high);
       limits = limits || below || above;
-      const double base = below && above ? (low + high) / 2 : below ? low : above ? high : 0;
-      middle += base * Vector(N.row(r).transpose());
-      if (below != above) rays += (below ? 1 : -1) * Vector(N.row(r).transpose());
+      middle[r] = below && above ? (low + high) / 2 : below ? low : above ? high : 0;
+      if (below != above) rays[r] = below ? 1 : -1;
     }
   if (!limits) return Vector::Zero(rigid.count());
-  Vector in = middle - rigid.e;
-  if (rays.norm() > 0) in += load * rays / rays.norm();
+  Vector in = rigid.N.transpose() * middle - rigid.e;
+  const Vector towards = rigid.N.transpose() * rays;
+  if (towards.norm() > 0) in += load * towards / towards.norm();
   return in.norm() > 0 ? Vector(in / in.norm()) : in;
 }
 
