@@ -72,12 +72,11 @@ class Minimisation {
     double unit = 0;
     for (int r = 0; r < A_.rows(); ++r) unit += A_.row(r).squaredNorm();
     unit = unit > 0 ? static_cast<double>(A_.cols()) / unit : 1;
-    s_ = kFirst * unit;
     std::vector<int> own(static_cast<std::size_t>(A_.cols()));
     std::iota(own.begin(), own.end(), 0);
     if (A_.rows() > 0) cholesky_.emplace_back(H_, own, std::vector<int>{});
-    project(x_);  // 0, or what is nearest to it
-    x_ = value_;
+    s_ = kLast * unit;
+    if (!start_without_limits()) s_ = kFirst * unit;
     residual_ = b_ - A_.transpose() * x_;
     w_ = residual_;
     bool done = residual_.norm() <= enough_ || A_.rows() == 0;
@@ -185,6 +184,21 @@ class Minimisation {
       }
     }
     return cholesky_.front().factor(H_);
+  }
+
+  /// x: what balances b best without limits and is shortest, where that lies in the set, so that far steps may follow; else false, and
+  /// x is the point of the set that is nearest to 0.
+  bool start_without_limits() {
+    project(x_);
+    const Vector nearest = value_;
+    for (Small& slope : slopes_) slope.setIdentity();
+    const bool solved = A_.rows() > 0 && factor();
+    steps_ += solved;
+    const Vector shortest = solved ? Vector(s_ * (A_ * cholesky_.front().solve(b_))) : nearest;
+    project(shortest);
+    const bool within = solved && value_ == shortest;
+    x_ = within ? shortest : nearest;
+    return within;
   }
 
   /// The better beginning of two: the last w, as where nothing balances b; or less by as much as s has grown, as where w is on its way to 0.

@@ -31,7 +31,8 @@ struct ConeLeastSquares {
 /// the optimality condition of a strongly convex function of w, with a damped semismooth Newton method: its matrices I + s AᵀDA, with D a
 /// derivative of the projection Π, are positive definite and as sparse as AᵀA. s grows (R. T. Rockafellar 1976; X. Li, D. Sun, K.-C. Toh,
 /// A highly efficient semismooth Newton augmented Lagrangian method for solving Lasso problems, 2018). A's entries are to be of
-/// the order of 1. Ends where ‖b − Aᵀx‖ ≤ enough · ‖b‖ as well. Asks at every step whether to stop (see ask_to_stop()).
+/// the order of 1. Begins with the shortest x that is best without C, where that lies in C. Ends where ‖b − Aᵀx‖ ≤ enough · ‖b‖ as well.
+/// Asks at every step whether to stop (see ask_to_stop()).
 ConeLeastSquares cone_least_squares(const SparseRows& A, const Vector& b, const ConvexSet& set, double enough = 1e-13);
 
 }  // namespace dotyk::algebra

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "algebra/dense.hpp"
 #include "algebra/lanczos.hpp"
 
 namespace dotyk::algebra {
@@ -23,6 +24,16 @@ double largest_eigenvalue(const DenseMatrix& A, const Vector& scale) {
   // Rounding of the Ritz value itself is allowed for.
   const auto scaled = [&](const Vector& v) -> Vector { return s.cwiseProduct(A * s.cwiseProduct(v)); };
   return std::min(always, (1 + 1e-12) * lanczos(scaled, lanczos_start(s.size()), kSteps, Ends::greatest).bound());
+}
+
+double proved_largest_eigenvalue(const DenseMatrix& A) {
+  double bound = largest_eigenvalue(A);
+  for (; bound > 0; bound *= 1.01) {
+    DenseMatrix above = -A;
+    above.diagonal().array() += bound;
+    if (cholesky(above)) break;
+  }
+  return bound;
 }
 
 }  // namespace dotyk::algebra

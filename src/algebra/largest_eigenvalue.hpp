@@ -11,4 +11,8 @@ namespace dotyk::algebra {
 /// and Li 2011, "Bounding the spectrum of large Hermitian matrices"). 0 for an empty or zero matrix.
 double largest_eigenvalue(const DenseMatrix& A, const Vector& s = {});
 
+/// A proved upper bound of the greatest eigenvalue of a symmetric positive semidefinite A: the first of largest_eigenvalue() times powers of
+/// 1.01 that leaves bound · I − A with a Cholesky factor. Asks whether to stop, as cholesky() does.
+double proved_largest_eigenvalue(const DenseMatrix& A);
+
 }  // namespace dotyk::algebra

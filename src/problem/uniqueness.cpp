@@ -1,12 +1,12 @@
 #include "problem/uniqueness.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "algebra/dense.hpp"
+#include "algebra/largest_eigenvalue.hpp"
 #include "algebra/null_space.hpp"
 #include "problem/rigid_motions.hpp"
 
@@ -78,10 +78,6 @@ bool coercive_without_friction(const Problem& problem) {
   return s.verdict == Solvability::Verdict::unique && !s.limit;
 }
 
-double greatest_eigenvalue(const DenseMatrix& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<DenseMatrix>(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-}
-
 }  // namespace
 
 bool has_coulomb(const Problem& problem) {
@@ -139,7 +135,7 @@ std::optional<double> uniqueness_factor(const Problem& problem, const CondensedP
   DenseMatrix tangential = W(rows, rows);
   const Eigen::Map<const Vector> s(scales.data(), static_cast<Eigen::Index>(scales.size()));
   tangential = s.asDiagonal() * tangential * s.asDiagonal();
-  return 2 / std::sqrt(greatest_eigenvalue(algebra::gram(columns)) * greatest_eigenvalue(tangential));
+  return 2 / std::sqrt(algebra::proved_largest_eigenvalue(algebra::gram(columns)) * algebra::proved_largest_eigenvalue(tangential));
 }
 
 }  // namespace dotyk::problem

@@ -29,7 +29,7 @@ struct Uniqueness {
 Uniqueness uniqueness(const RigidMotions& rigid, const Problem& problem);
 
 /// A factor: for Coulomb's coefficients times anything below it, the solution is unique under every load, and the loop g := μλ_n contracts.
-/// 2/√(greatest eigenvalue of [s_i^½ μ_i (W⁻¹)_{n_i n_j} μ_j s_j^½] · that of [s_i^-½ W_{t_i t_j} s_j^-½]), s_i the mean of W_tt at
+/// 2/√(bound of the greatest eigenvalue of [s_i^½ μ_i (W⁻¹)_{n_i n_j} μ_j s_j^½] · that of [s_i^-½ W_{t_i t_j} s_j^-½]), s_i the mean of W_tt at
 /// point i. For the difference z of two solutions' multipliers has zᵀWz ≤ Σ μ_i |z_n,i| |(Wz)_t,i|, as its other products z_r (Wz)_r are
 /// not positive; with y = W^½z the right side is at most ‖Ay‖‖By‖, A = s^½ μ P_n W^-½ and B = s^-½ P_t W^½, and as
 /// A Bᵀ = 0 that is at most ½‖A‖‖B‖‖y‖². Falls as the mesh is refined. Nothing where W is singular (dependent rows) or

@@ -132,6 +132,24 @@ TEST_CASE("a tower of a thousand bodies takes a few factorisations") {
   }
 }
 
+TEST_CASE("a tower that is pressed from above takes next to none: what balances its load without limits is within them") {
+  for (const bool friction : {false, true}) {
+    CAPTURE(friction);
+    constexpr int bodies = 5000;
+    const SparseRows A = tower(bodies, friction);
+    ConvexSet set;
+    if (friction) set.rounds.assign(3 * bodies, {1, 0, 0.3});
+    else set.low.assign(3 * bodies, 0), set.high.assign(3 * bodies, kInfinity);
+    Vector load = Vector::Zero(3 * bodies);
+    for (int b = 0; b < bodies; ++b) load[3 * b + 1] = -0.01;
+    load[3 * bodies - 2] -= 1;
+    const auto rests = algebra::cone_least_squares(A, load, set, 1e-10);
+    CHECK(rests.converged);
+    CHECK((load - A.transpose() * rests.x).norm() <= 1e-10 * load.norm());
+    CHECK(rests.steps <= 10);
+  }
+}
+
 TEST_CASE("it ends when it is asked to stop") {
   Stopped monitor;
   const algebra::StopFactoring stop(monitor);

@@ -7,6 +7,7 @@
 
 #include "../support/random.hpp"
 #include "algebra/lanczos.hpp"
+#include "algebra/stop_factoring.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -31,6 +32,35 @@ TEST_CASE("the greatest eigenvalue is bounded from above, closely, with and with
         CHECK(bound <= 1.01 * value);
       }
     }
+}
+
+TEST_CASE("a proved bound holds where Lanczos does not see the greatest eigenvalue, and is as close as another elsewhere") {
+  test::Random random(8);
+  for (const int n : {1, 2, 10, 61, 150}) {
+    const DenseMatrix G = random.matrix(n, n), A = G * G.transpose();
+    CHECK(algebra::proved_largest_eigenvalue(A) >= exact(A));
+    CHECK(algebra::proved_largest_eigenvalue(A) <= 1.01 * exact(A));
+    if (n < 10) continue;
+    // I, and a direction of eigenvalue 2 that the start has no part in.
+    const Vector start = algebra::lanczos_start(n);
+    Vector hidden = random.matrix(n, 1);
+    hidden -= start * start.dot(hidden);
+    hidden.normalize();
+    const DenseMatrix B = DenseMatrix::Identity(n, n) + hidden * hidden.transpose();
+    CHECK(algebra::largest_eigenvalue(B) < 1.99);
+    CHECK(algebra::proved_largest_eigenvalue(B) >= 2 - 1e-12);
+    CHECK(algebra::proved_largest_eigenvalue(B) <= 2.03);
+  }
+  CHECK(algebra::proved_largest_eigenvalue(DenseMatrix(0, 0)) == 0);
+  CHECK(algebra::proved_largest_eigenvalue(DenseMatrix::Zero(4, 4)) == 0);
+}
+
+TEST_CASE("the proof ends when it is asked to stop") {
+  struct Stopped final : Monitor {
+    bool stop() override { return true; }
+  } monitor;
+  const algebra::StopFactoring stop(monitor);
+  CHECK_THROWS_AS(algebra::proved_largest_eigenvalue(DenseMatrix::Identity(4, 4)), Interrupted);
 }
 
 TEST_CASE("the greatest eigenvalue of the chain's stiffness, in closed form") {
