@@ -17,8 +17,9 @@ struct Parts {
 };
 Parts parts(const Problem& problem);
 
-/// The least scale of a part that nothing loads, relative to the greatest forces or displacements of all parts. Mostly its solution is zero, and
-/// what methods that treat all parts at once leave there by rounding must be below their tolerances relative to this scale.
-constexpr double kOfOthers = 1e-4;
+/// The least scale of each part that nothing loads, by a number of each (its greatest force, or displacement): so much of the greatest of the
+/// others. Mostly its solution is zero, and what methods that treat all parts at once leave there by rounding must be below their tolerances
+/// relative to this scale.
+std::vector<double> least_beside_others(const std::vector<double>& of_part);
 
 }  // namespace dotyk::problem

@@ -125,13 +125,14 @@ struct Sizes {
 };
 
 void add_scales_of_others(std::vector<Sizes>& parts) {
-  double force = 0, length = 0;
-  for (const Sizes& part : parts) force = std::max(force, part.force()), length = std::max(length, part.greatest_displacement);
-  for (Sizes& part : parts) {
-    if (part.load > 0) continue;
-    part.least_force = std::max(part.least_force, kOfOthers * force);
-    part.least_length = kOfOthers * length;
-    part.least_work += part.least_force * part.least_length;
+  std::vector<double> force, length;
+  for (const Sizes& part : parts) force.push_back(part.force()), length.push_back(part.greatest_displacement);
+  force = least_beside_others(force), length = least_beside_others(length);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].load > 0) continue;
+    parts[p].least_force = std::max(parts[p].least_force, force[p]);
+    parts[p].least_length = length[p];
+    parts[p].least_work += force[p] * length[p];
   }
 }
 

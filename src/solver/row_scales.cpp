@@ -24,10 +24,11 @@ RowScales::RowScales(const problem::Problem& problem, const problem::CondensedPr
       least_(static_cast<std::size_t>(parts_.count), 0) {
   for (std::size_t b = 0; b < problem.blocks.size(); ++b)
     least_[parts_.of_block[b]] = std::max(least_[parts_.of_block[b]], greatest(problem.blocks[b].f));
-  const std::vector<double> at_rest = parts_.greatest(stiffness_.cwiseProduct(condensed.x0()));
-  const double rounding = problem::kOfOthers * std::max(*std::max_element(least_.begin(), least_.end()), *std::max_element(at_rest.begin(), at_rest.end()));
+  std::vector<double> driving = parts_.greatest(stiffness_.cwiseProduct(condensed.x0()));
   for (std::size_t p = 0; p < least_.size(); ++p)
-    least_[p] = least_[p] > 0 ? std::sqrt(kEps) * least_[p] : std::max(std::sqrt(kEps) * at_rest[p], rounding);
+    if (least_[p] > 0) driving[p] = least_[p];
+  const std::vector<double> beside_others = problem::least_beside_others(driving);
+  for (std::size_t p = 0; p < least_.size(); ++p) least_[p] = std::max(std::sqrt(kEps) * driving[p], least_[p] > 0 ? 0 : beside_others[p]);
 }
 
 Vector RowScales::forces(const Vector& lambda) const {
