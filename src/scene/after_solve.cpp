@@ -28,7 +28,9 @@ constexpr double kRounding = 1e-12;
 constexpr double kNarrow = 1.5;
 
 /// What is known of the stress where the displacement is not unique.
-const char* stress(const problem::Problem& problem) { return problem::has_coulomb(problem) ? "; with the stress of this solution" : "; unique stress"; }
+const char* stress(const problem::Problem& problem) {
+  return problem::has_coulomb(problem) ? "; with the stress of this solution" : "; unique stress";
+}
 
 std::string end(double amount) { return std::isfinite(amount) ? text(amount) : amount < 0 ? "-infinity" : "infinity"; }
 
@@ -79,7 +81,8 @@ void take_nearest(const problem::Problem& problem, const problem::FreeMotions& f
   }
   if (range.high - range.low <= 1e-9 * result.state.u.lpNorm<Eigen::Infinity>()) return;  // they have nowhere to go
   const std::string which = describe(problem::body_motions(problem), Vector(free.motions.col(widest)));
-  result.reason += text(stress(problem), ", displacement up to ", count == 1 ? which : text(count, " motions, one of them ", which), ", by ", end(range.low), " to ", end(range.high),
+  result.reason += text(stress(problem), ", displacement up to ", count == 1 ? which : text(count, " motions, one of them ", which),
+                        ", by ", end(range.low), " to ", end(range.high),
                         " at the most: the contacts that hold leave ", count == 1 ? "it" : "them", " free until the next node closes or sticks, so that the mesh decides how "
                         "far; this is the ", before.isZero(0) ? "least" : "nearest to the step before");
 }

@@ -93,7 +93,8 @@ class History {
                                                      std::move(past));
     if (const auto share = is_last && !solution->follows() && solution->result().converged ? share_of_path(*solution) : std::nullopt)
       solution->add_reason(text("; one load step, while friction follows the path: of its force ", std::setprecision(3), 100 * *share,
-                                " % is at points that closed on the way and stick, where one step may be wrong; path_error() says how far from eight"));
+                                " % is at points that closed on the way and stick, where one step may be "
+                                "wrong; path_error() says how far from eight"));
     solution->set_total(watch_.seconds());
     clock_ = solution->clock();
     last_ = solution;

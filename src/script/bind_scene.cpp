@@ -258,7 +258,8 @@ void bind_scene(Library& library) {
                                                      "midpoints of edges, in space on cells of several facets; not with Coulomb friction").fallback("nodal"),
                                          key::positive("friction_size", "P1-P0: extent H of the cells of friction. In space the inf-sup constant settles at about 0.8 with H = 2h "
                                                        "as h falls, and goes to 0 with H = h (contact:inf_sup)").unit("length").otherwise("in the plane one dual cell, in space twice the widest facet"),
-                                         key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest; else that is refused, where the first part's nodes see it: of two meshes name the finer one first").fallback(false)})
+                                         key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest; else that is refused, "
+                                                      "where the first part's nodes see it: of two meshes name the finer one first").fallback(false)})
                                  .with(key::object<Part>("parts", "one part, or two").count(1, 2))},
                .returns = "contact",
                .run = add_contact})

@@ -32,8 +32,8 @@ std::string too_little_friction(const problem::Problem& problem, const Result& f
   if (!motion) return "";
   const double capacity = friction_capacity(problem, *motion, failed.state.lambda);
   if (!(capacity < kEnough * motion->work)) return "";
-  return text("; there may be no solution: only friction stops ", describe(motion->rigid.motions, motion->amounts), ", on a unit of which the load does work ",
-              motion->work, ", and friction under the pressures of this state ", capacity, " at most");
+  return text("; there may be no solution: only friction stops ", describe(motion->rigid.motions, motion->amounts),
+              ", on a unit of which the load does work ", motion->work, ", and friction under the pressures of this state ", capacity, " at most");
 }
 
 }  // namespace

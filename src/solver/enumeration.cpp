@@ -162,8 +162,7 @@ class BranchSearch {
     Members members;
     members.pieces = pieces_;
     const Vector origin = members.origin = coordinates(system, least);
-    members.size = std::max(size(origin), scale_);
-    if (!(members.size > 0)) members.size = 1;
+    if (const double greatest = std::max(size(origin), scale_); greatest > 0) members.size = greatest;
     members.directions = DenseMatrix(origin.size(), Z.cols());
     for (Eigen::Index k = 0; k < Z.cols(); ++k)  // steps of the origin's size, so that their difference keeps its digits
       members.directions.col(k) = (coordinates(system, least + members.size * Z.col(k)) - origin) / members.size;

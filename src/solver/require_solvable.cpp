@@ -87,14 +87,15 @@ std::string unbalanced_motion(const problem::Problem& problem, const algebra::Ve
 }
 
 void refuse_unbearable(const FrictionalMotion& on, const std::string& proof) {
-  throw InputError(text("not held: friction cannot bear what nothing else stops, ", describe(on.rigid.motions, on.amounts), "; the load does work ", on.work,
-                        " on a unit of this motion, and no pressures that the bodies can build up have friction enough (", proof, "). ",
+  throw InputError(text("not held: friction cannot bear what nothing else stops, ", describe(on.rigid.motions, on.amounts), "; the load does work ",
+                        on.work, " on a unit of this motion, and no pressures that the bodies can build up have friction enough (", proof, "). ",
                         what_would_hold(on.rigid.motions, on.amounts)));
 }
 
 void require_bearable(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) {
   const auto motion = stopped_by_friction_alone(problem);
-  if (motion && friction_is_too_weak(problem, condensed, *motion, monitor)) refuse_unbearable(*motion, "two convex programs over all forces in balance and within the cones of friction");
+  if (motion && friction_is_too_weak(problem, condensed, *motion, monitor))
+    refuse_unbearable(*motion, "two convex programs over all forces in balance and within the cones of friction");
 }
 
 KnownBefore require_solvable(const problem::Problem& problem, const problem::RigidMotions& rigid) {

@@ -88,11 +88,11 @@ printf '%s\n' 'local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, 
   'print(pcall(s.error_estimate, s))' \
   'local beam = dotyk.beam{ load = -1, left = { deflection = dotyk.law.signorini() }, right = { deflection = dotyk.law.signorini() } }' \
   'dotyk.solver.psor{ max_iterations = 1 }:solve(beam)' >doubtful.lua
-expect "solutions that are none" 0 $'false\tNOT CONVERGED: no convergence within 4 iterations (psor, 4 iterations)
-false\tdoubtful.lua:8: error_estimate: the solution has not converged, so that the error estimate, which is of a solution, does not apply (no convergence within 4 iterations)' \
-  $'doubtful.lua:5: not converged (psor): no convergence within 2 iterations (said once for this line)
-doubtful.lua:7: not converged (psor): no convergence within 1 iterations (said once for this line)
-doubtful.lua:10: not converged (psor): no convergence within 1 iterations (said once for this line)' "$dotyk" doubtful.lua
+expect "solutions that are none" 0 $'false\tNOT CONVERGED: no convergence within 4 iterations (psor, 4 iterations); a method to try next: pdas
+false\tdoubtful.lua:8: error_estimate: the solution has not converged, so that the error estimate, which is of a solution, does not apply (no convergence within 4 iterations; a method to try next: pdas)' \
+  $'doubtful.lua:5: not converged (psor): no convergence within 2 iterations; a method to try next: pdas (said once for this line)
+doubtful.lua:7: not converged (psor): no convergence within 1 iterations; a method to try next: pdas (said once for this line)
+doubtful.lua:10: not converged (psor): no convergence within 1 iterations; a method to try next: pdas (said once for this line)' "$dotyk" doubtful.lua
 
 "$dotyk" --traceback wrong.lua 2>&1 >/dev/null | grep -q 'stack traceback' || fail "--traceback"
 [[ $(ldd "$dotyk" | grep -c 'liblua') == 1 ]] || fail "linked with other than one Lua library"

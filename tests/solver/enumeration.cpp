@@ -205,7 +205,8 @@ TEST_CASE("a triangle on a floor, μ = 3, slips by any amount between sticking a
   }
   for (const double unit : {1e-9, 1e6, 1e9, 1e12, 1e15}) {  // of force: the ends keep their digits
     CAPTURE(unit);
-    auto p = test::program(unit * DenseMatrix{{3.0 / 8, -1.0 / 8}, {-1.0 / 8, 29.0 / 96}}, unit * Vector{{0.75, -0.25}}, DenseMatrix{{0, -1}, {-1, 0}}, Vector::Zero(2));
+    const DenseMatrix K = unit * DenseMatrix{{3.0 / 8, -1.0 / 8}, {-1.0 / 8, 29.0 / 96}};
+    auto p = test::program(K, unit * Vector{{0.75, -0.25}}, DenseMatrix{{0, -1}, {-1, 0}}, Vector::Zero(2));
     p.groups = {test::group(problem::unilateral(), 0, 1)};
     p.friction = {{"friction", problem::coulomb({3.0}), 1, 1, {0}}};
     const auto all = solver::enumerate(p, quiet);

@@ -116,6 +116,6 @@ TEST_CASE("free bodies with friction in the plane: what the energy bound exclude
     } catch (const InputError&) {  // not held at all
     }
   }
-  MESSAGE(proved << " proved of " << unsolvable);
-  CHECK(proved > 5);
+  CHECK(unsolvable > 40);
+  CHECK(proved > 0.8 * unsolvable);
 }
