@@ -35,6 +35,9 @@ std::string method(const problem::Problem& problem, bool any_free) {
   switch (solver::default_method(problem)) {
     case solver::DefaultMethod::linear: return text("one linear solve of ", problem.unknowns(), " unknowns");
     case solver::DefaultMethod::newton: return "newton on the condensed rows of contact and friction" + factored;
+    case solver::DefaultMethod::sparse_pdas:
+      return text("pdas on all ", problem.unknowns(), " unknowns, one sparse factorisation an iteration (reduced = false): ", problem.rows(),
+                  " rows are too many to condense");
     case solver::DefaultMethod::pdas: break;
   }
   return text("pdas on ", problem.rows(), " condensed rows", factored, ": finite and exact for frictionless contact",

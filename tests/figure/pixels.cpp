@@ -32,6 +32,31 @@ Pixels read_png(const std::string& file) {
   return out;
 }
 
+Difference greatest_difference(const Pixels& a, const Pixels& b) {
+  if (a.width != b.width || a.height != b.height) throw std::invalid_argument("pictures of different sizes");
+  constexpr int n = Difference::kWindow;
+  const auto row = 3 * static_cast<std::size_t>(a.width);
+  Difference greatest;
+  std::vector<int> of_rows(row, 0);  // the differences, summed over the window's rows
+  const auto add = [&](int y, int sign) {
+    for (std::size_t k = 0, i = static_cast<std::size_t>(y) * row; k < row; ++k, ++i) of_rows[k] += sign * (a.rgb[i] - b.rgb[i]);
+  };
+  for (int y = 0; y < a.height; ++y) {
+    add(y, 1);
+    if (y >= n) add(y - n, -1);
+    for (std::size_t colour = 0; y >= n - 1 && colour < 3; ++colour) {
+      int sum = 0;
+      for (int x = 0; x < a.width; ++x) {
+        sum += of_rows[3 * static_cast<std::size_t>(x) + colour];
+        if (x >= n) sum -= of_rows[3 * static_cast<std::size_t>(x - n) + colour];
+        const double levels = std::abs(sum) / static_cast<double>(n * n);
+        if (x >= n - 1 && levels > greatest.levels) greatest = {levels, x - n + 1, y - n + 1};
+      }
+    }
+  }
+  return greatest;
+}
+
 bool exists(const std::string& file) { return std::ifstream(file).good(); }
 
 bool near(Colour a, Colour b, int tolerance) {

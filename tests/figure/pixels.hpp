@@ -19,6 +19,17 @@ struct Pixels {
 // Throws where the file is no complete PNG.
 Pixels read_png(const std::string& file);
 
+// How two pictures of one size differ: the greatest difference of a mean colour of kWindow x kWindow pixels, in levels of 255, and the
+// upper left pixel of these. Single pixels count little, since rasterisers disagree about those on edges: of Mesa's two, one differs from
+// the other by up to 85 levels in a pixel of a chart, and by up to 11 in these means. Means up to kSame are the same picture.
+struct Difference {
+  static constexpr int kWindow = 8;
+  static constexpr double kSame = 12;
+  double levels = 0;
+  int x = 0, y = 0;
+};
+Difference greatest_difference(const Pixels& a, const Pixels& b);
+
 using dotyk::test::bytes_of;
 bool exists(const std::string& file);
 
