@@ -21,14 +21,14 @@ std::vector<double> Parts::greatest(const algebra::Vector& v) const {
   return most;
 }
 
-std::vector<double> least_beside_others(const std::vector<double>& of_part) {
-  constexpr double kOfOthers = 1e-4;
+std::vector<double> least_beside_others(const std::vector<double>& of_part, bool loaded) {
+  const double of_others = loaded ? 1e-4 : 1;
   const auto most = std::max_element(of_part.begin(), of_part.end());
   double second = 0;
   for (auto it = of_part.begin(); it != of_part.end(); ++it)
     if (it != most) second = std::max(second, *it);
-  std::vector<double> least(of_part.size(), kOfOthers * *most);
-  least[static_cast<std::size_t>(most - of_part.begin())] = kOfOthers * second;
+  std::vector<double> least(of_part.size(), of_others * *most);
+  least[static_cast<std::size_t>(most - of_part.begin())] = of_others * second;
   return least;
 }
 

@@ -17,9 +17,9 @@ struct Parts {
 };
 Parts parts(const Problem& problem);
 
-/// The least scale of each part that nothing loads, by a number of each (its greatest force, or displacement): so much of the greatest of the
+/// The least scale of each part that nothing loads, by a number of each (its greatest force or displacement, its work): so much of the greatest of the
 /// others. Mostly its solution is zero, and what methods that treat all parts at once leave there by rounding must be below their tolerances
-/// relative to this scale.
-std::vector<double> least_beside_others(const std::vector<double>& of_part);
+/// relative to this scale. Where no part is loaded, the greatest itself: all forces may vanish then.
+std::vector<double> least_beside_others(const std::vector<double>& of_part, bool loaded);
 
 }  // namespace dotyk::problem

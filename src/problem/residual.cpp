@@ -124,15 +124,19 @@ struct Sizes {
   double force() const { return std::max(internal + contact + load, least_force); }
 };
 
+bool any_loaded(const std::vector<Sizes>& parts) {
+  return std::any_of(parts.begin(), parts.end(), [](const Sizes& part) { return part.load > 0; });
+}
+
 void add_scales_of_others(std::vector<Sizes>& parts) {
   std::vector<double> force, length;
   for (const Sizes& part : parts) force.push_back(part.force()), length.push_back(part.greatest_displacement);
-  force = least_beside_others(force), length = least_beside_others(length);
+  const bool loaded = any_loaded(parts);
+  force = least_beside_others(force, loaded), length = least_beside_others(length, loaded);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (parts[p].load > 0) continue;
     parts[p].least_force = std::max(parts[p].least_force, force[p]);
     parts[p].least_length = length[p];
-    parts[p].least_work += force[p] * length[p];
   }
 }
 
@@ -249,11 +253,11 @@ double complementarity(const Problem& problem, const State& state, const Vector&
     internal[parts.of_block[b]] += 0.5 * own(state.u).dot(own(all.internal));
     external[parts.of_block[b]] += own(state.u).dot(own(all.load));
   }
+  for (std::size_t p = 0; p < sizes.size(); ++p) work[p] += std::abs(internal[p]) + std::abs(external[p]);
+  const std::vector<double> beside_others = least_beside_others(work, any_loaded(sizes));
   double most = 0;
-  for (std::size_t p = 0; p < sizes.size(); ++p) {
-    const double scale = work[p] + std::abs(internal[p]) + std::abs(external[p]);
-    if (scale > 0) most = std::max(most, product[p] / scale);
-  }
+  for (std::size_t p = 0; p < sizes.size(); ++p)
+    if (const double scale = sizes[p].load > 0 ? work[p] : std::max(work[p], beside_others[p]); scale > 0) most = std::max(most, product[p] / scale);
   return most;
 }
 
@@ -295,7 +299,8 @@ double rounding_of_equilibrium(const Problem& problem, const State& state) {
   const std::vector<Sizes> sizes = problem::sizes(problem, state, forces(problem, state), parts);
   std::vector<double> gross(sizes.size(), 0);
   for (std::size_t b = 0; b < problem.blocks.size(); ++b)
-    add(gross[static_cast<std::size_t>(parts.of_block[b])], gross_forces(problem.blocks[b], state.u.segment(problem.blocks[b].first, problem.blocks[b].size())));
+    add(gross[static_cast<std::size_t>(parts.of_block[b])],
+        gross_forces(problem.blocks[b], state.u.segment(problem.blocks[b].first, problem.blocks[b].size())));
   double most = 0;
   for (std::size_t p = 0; p < sizes.size(); ++p)
     if (const double size = sizes[p].internal + sizes[p].contact + sizes[p].load; size > 0) most = std::max(most, gross[p] / size);

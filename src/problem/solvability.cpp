@@ -29,7 +29,7 @@ Units units(const RigidMotions& rigid, const Problem& problem) {
   for (std::size_t b = 0; b < problem.blocks.size(); ++b)
     part_of_mode.insert(part_of_mode.end(), static_cast<std::size_t>(problem.blocks[b].kernel.cols()), static_cast<std::size_t>(parts.of_block[b]));
   for (std::size_t k = 0; k < part_of_mode.size(); ++k) size[part_of_mode[k]] = std::hypot(size[part_of_mode[k]], rigid.e[static_cast<Eigen::Index>(k)]);
-  const auto of = [&](std::size_t part) { return size[part] > 0 ? size[part] : 1; };
+  const auto of = [&](std::size_t part) { return size[part] > 0 && std::isfinite(size[part]) ? size[part] : 1; };
   Units result{Vector(problem.rows()), Vector(rigid.count())};
   for (int r = 0; r < problem.rows(); ++r) result.of_row[r] = of(static_cast<std::size_t>(parts.of_row[static_cast<std::size_t>(r)]));
   for (std::size_t k = 0; k < part_of_mode.size(); ++k) result.of_mode[static_cast<Eigen::Index>(k)] = of(part_of_mode[k]);

@@ -27,8 +27,10 @@ RowScales::RowScales(const problem::Problem& problem, const problem::CondensedPr
   std::vector<double> driving = parts_.greatest(stiffness_.cwiseProduct(condensed.x0()));
   for (std::size_t p = 0; p < least_.size(); ++p)
     if (least_[p] > 0) driving[p] = least_[p];
-  const std::vector<double> beside_others = problem::least_beside_others(driving);
-  for (std::size_t p = 0; p < least_.size(); ++p) least_[p] = std::max(std::sqrt(kEps) * driving[p], least_[p] > 0 ? 0 : beside_others[p]);
+  const bool loaded = *std::max_element(least_.begin(), least_.end()) > 0;
+  const std::vector<double> beside_others = problem::least_beside_others(driving, loaded);
+  for (std::size_t p = 0; p < least_.size(); ++p)
+    least_[p] = std::max(std::sqrt(kEps) * driving[p], least_[p] > 0 ? 0 : (loaded ? 1 : std::sqrt(kEps)) * beside_others[p]);
 }
 
 Vector RowScales::forces(const Vector& lambda) const {
