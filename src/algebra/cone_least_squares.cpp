@@ -186,8 +186,8 @@ class Minimisation {
     return cholesky_.front().factor(H_);
   }
 
-  /// x: what balances b best without limits and is shortest, where that lies in the set, so that far steps may follow; else false, and
-  /// x is the point of the set that is nearest to 0.
+  /// Sets x to the shortest of those that fit b best without limits, if it lies in the set. Long steps may follow then: true. Otherwise x
+  /// is the point of the set that is nearest to 0: false.
   bool start_without_limits() {
     project(x_);
     const Vector nearest = value_;

@@ -118,8 +118,9 @@ double moved_forces(const Block& block, const Vector& u) {
 struct Sizes {
   double internal = 0, contact = 0, load = 0;  ///< ‖Ku‖, ‖Bᵀλ‖, ‖f‖
   double greatest_load = 0, greatest_displacement = 0;
-  /// Where nothing loads the bodies, the least that counts as a force, and as work: what half of the digits of K|u| are. Bodies that
-  /// get out of an obstacle's way end free of forces, and rounding of K times their motion is all that is left of those.
+  /// Where nothing loads the part, the least that counts as a force, a displacement and work: what half of the digits of K|u| are, and
+  /// least_beside_others(). Bodies that get out of an obstacle's way end free of forces, and rounding of K times their motion is all that is
+  /// left of those.
   double least_force = 0, least_length = 0, least_work = 0;
   double force() const { return std::max(internal + contact + load, least_force); }
 };
@@ -214,14 +215,16 @@ std::vector<double> yielding(const Problem& problem, const State& state, const P
 }
 
 std::vector<Scales> scales(const Problem& problem, const State& state, const Parts& parts, const std::vector<Sizes>& sizes) {
-  std::vector<Scales> result(sizes.size());
+  std::vector<Scales> of_part(sizes.size());
   const std::vector<double> forces = parts.greatest(state.lambda), jumps = parts.greatest(problem.B * state.u),
                             least = yielding(problem, state, parts);
   for (std::size_t p = 0; p < sizes.size(); ++p) {
-    if (const double force = std::max({forces[p], sizes[p].greatest_load, sizes[p].least_force}); force > 0) result[p].force = force;
-    if (const double length = std::max({jumps[p], sizes[p].greatest_displacement, sizes[p].least_length, least[p]}); length > 0) result[p].length = length;
+    if (const double force = std::max({forces[p], sizes[p].greatest_load, sizes[p].least_force}); force > 0) of_part[p].force = force;
+    if (const double length = std::max({jumps[p], sizes[p].greatest_displacement, sizes[p].least_length, least[p]}); length > 0) of_part[p].length = length;
   }
-  return result;
+  std::vector<Scales> of_row;
+  for (const int p : parts.of_row) of_row.push_back(of_part[static_cast<std::size_t>(p)]);
+  return of_row;
 }
 
 /// Greatest ‖Ku + Bᵀλ − f‖ of a part, relative to its forces.
@@ -277,8 +280,8 @@ Residual residual(const Problem& problem, const State& state) {
   if (problem.rows() == 0) return result;
 
   const Vector x = problem.B * state.u - problem.c;
-  const std::vector<Scales> by_part = scales(problem, state, parts, sizes);
-  const auto scale = [&](int r) { return by_part[static_cast<std::size_t>(parts.of_row[r])]; };
+  const std::vector<Scales> of_row = scales(problem, state, parts, sizes);
+  const auto scale = [&](int r) { return of_row[static_cast<std::size_t>(r)]; };
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
       result.penetration = std::max(result.penetration, x[r] / std::max(scale(r).length, std::abs(problem.c[r])));

@@ -28,7 +28,7 @@ Residual residual(const Problem& problem, const State& state);
 /// ε‖|K||u|‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖), the greatest of all parts.
 double rounding_of_equilibrium(const Problem& problem, const State& state);
 
-/// F and X of each of the problem's parts(); 1 where they would vanish.
+/// F and X of each row, those of its part (see Parts); 1 where they would vanish.
 struct Scales {
   double force = 1, length = 1;
 };

@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "problem/free_motions.hpp"
-#include "problem/parts.hpp"
 #include "problem/residual.hpp"
 #include "problem/uniqueness.hpp"
 #include "program/active_set.hpp"
@@ -40,11 +39,10 @@ void open_without_force(const problem::Problem& problem, solver::Result& result)
   const Vector& lambda = result.state.lambda;
   const Vector x = problem.B * result.state.u - problem.c;
   const Vector none = problem::small_forces(problem, lambda, kOnBound);
-  const problem::Parts parts = problem::parts(problem);
-  const std::vector<problem::Scales> by_part = problem::scales(problem, result.state);
+  const std::vector<problem::Scales> scales = problem::scales(problem, result.state);
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
-      const problem::Scales& scale = by_part[static_cast<std::size_t>(parts.of_row[r])];
+      const problem::Scales& scale = scales[static_cast<std::size_t>(r)];
       if (lambda[r] <= kRounding * scale.force || (lambda[r] <= none[r] && x[r] < -kOnBound * scale.length)) result.active_sets.back()[r] = 0;
     }
 }

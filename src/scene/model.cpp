@@ -112,7 +112,6 @@ void set_load(const Body& body, const Numbering& numbering, problem::Block& bloc
       block.offset += numbering.prescribed[k] * (0.5 * held[k] - body.force[k]);
 }
 
-/// All rows anew, for the prescribed displacements and moves as they are now.
 /// Refuses an interference at a node that other contacts or supports hold: friction without a bound, for example.
 void require_consistent(const Scene& scene, const problem::Problem& problem) {
   double size = 0;
@@ -122,6 +121,7 @@ void require_consistent(const Scene& scene, const problem::Problem& problem) {
                           "no displacement can part them"));
 }
 
+/// All rows anew, for the prescribed displacements and moves as they are now.
 void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   model.problem.groups.clear();
   model.problem.friction.clear();

@@ -11,8 +11,8 @@ namespace dotyk::scene {
 /// a solution under Coulomb friction at a part of the load is that part of it, and one step is exact.
 bool follows_path(const Solution& solution);
 
-/// Of what friction bears, Σ|λ_t|, the share at points that closed so and stick at the end: nothing else depends on the way but through where points
-/// stick, as |λ_t| is the bound where they slip. Nothing unless follows_path().
+/// The share of friction's force, Σ|λ_t|, at points that closed on the way and stick at the end. Where points slip, |λ_t| is its bound and does
+/// not depend on the way. Nothing unless follows_path().
 std::optional<double> share_of_path(const Solution& solution);
 
 /// How far one load step is from kPathSteps equal ones of the load, the prescribed displacements and the rigid shapes' displacements:

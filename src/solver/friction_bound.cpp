@@ -92,13 +92,14 @@ class FrictionPrograms {
       for (int i = 0; i < components; ++i) slipping_(t + i, n) = mu * root_[n] / root_[t + i] * slip_[t + i] / length;
   }
 
-  /// Σ of these entries times the forces is not negative.
+  /// Adds the inequality Σ value · λ_column ≥ 0, over the entries of the row.
   void limit(const std::vector<std::pair<int, double>>& row) {
     for (const auto& [column, value] : row) limits_.emplace_back(count_, column, value);
     ++count_;
   }
 
-  /// Is N_tᵀ(μsp) a multiple of e for all forces in balance? On motions that the load does no work on both sides are to be combinations of Nᵀλ.
+  /// Is N_tᵀ(μsp) = NᵀSλ a multiple of e for all forces in balance? It is if qᵀNᵀSλ = 0 for every motion q ⟂ e. As qᵀNᵀλ = qᵀe = 0, it
+  /// suffices that the columns of SᵀNQ are combinations of those of NQ, with Q a basis of these motions.
   bool parallel() const {
     if (e_.size() < 2) return true;
     const DenseMatrix Q = Eigen::HouseholderQR<DenseMatrix>(e_).householderQ();
@@ -107,13 +108,14 @@ class FrictionPrograms {
     return left.norm() <= kParallel * slipping_.norm() * N_.norm();
   }
 
-  /// The least of (λ − Sλ)ᵀ(Wλ − x₀) + linearᵀλ + constant; nothing where that is not convex or not known. Sets size_ to the size of its terms.
+  /// The least value of (λ − Sλ)ᵀ(Wλ − x₀) + linearᵀλ + constant on the forces in balance and in the cones. Nothing if this is not convex or
+  /// the program is not solved. Sets size_ to the magnitude of the terms.
   std::optional<double> least(const DenseMatrix& S, const Vector& linear, double constant, Monitor& monitor) {
     const Eigen::Index modes = e_.size();
     const DenseMatrix half = W_ - S.transpose() * W_, squared = N_ * N_.transpose();
     // The program is solved in units of force and energy in which it is of size 1.
     const double force = e_.norm() / N_.norm(), yield = half.norm(), energy = yield * force * force;
-    // A multiple of ‖Nᵀλ − e‖² makes it convex where it is so on the forces in balance.
+    // ‖Nᵀλ − e‖² is 0 for forces in balance. A multiple of it makes the program convex everywhere if it is convex there.
     const double weight = 10 / squared.norm();
     program::QuadraticProgram program;
     program.name = "friction";

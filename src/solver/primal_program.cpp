@@ -5,7 +5,6 @@
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
-#include "problem/parts.hpp"
 #include "problem/residual.hpp"
 #include "solver/require_solvable.hpp"
 #include "solver/treatable.hpp"
@@ -169,14 +168,13 @@ class Recorder final : public Monitor {
 /// all displacements. An interior-point method may end while slack and multiplier of a row are still of one size in the program's units.
 std::vector<char> closed_rows(const Problem& problem, const PrimalProgram& primal, const program::Result& solved, const problem::State& state) {
   std::vector<char> closed(problem.rows(), 1);  // elastic and bilateral rows always act
-  const problem::Parts parts = problem::parts(problem);
-  const std::vector<problem::Scales> by_part = problem::scales(problem, state);
+  const std::vector<problem::Scales> scales = problem::scales(problem, state);
   const Vector jump = problem.B * state.u - problem.c;
   for (std::size_t k = 0; k < primal.rows().size(); ++k) {
     const int r = primal.rows()[k];
     const bool held = !solved.working.empty() && solved.working[k] != program::Side::free;
-    const problem::Scales& scales = by_part[static_cast<std::size_t>(parts.of_row[r])];
-    closed[r] = held || std::abs(state.lambda[r]) * scales.length > std::abs(jump[r]) * scales.force;
+    const problem::Scales& scale = scales[static_cast<std::size_t>(r)];
+    closed[r] = held || std::abs(state.lambda[r]) * scale.length > std::abs(jump[r]) * scale.force;
   }
   return closed;
 }

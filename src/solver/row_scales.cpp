@@ -29,8 +29,9 @@ RowScales::RowScales(const problem::Problem& problem, const problem::CondensedPr
     if (least_[p] > 0) driving[p] = least_[p];
   const bool loaded = *std::max_element(least_.begin(), least_.end()) > 0;
   const std::vector<double> beside_others = problem::least_beside_others(driving, loaded);
+  const double half = std::sqrt(kEps), of_others = loaded ? 1 : half;
   for (std::size_t p = 0; p < least_.size(); ++p)
-    least_[p] = std::max(std::sqrt(kEps) * driving[p], least_[p] > 0 ? 0 : (loaded ? 1 : std::sqrt(kEps)) * beside_others[p]);
+    least_[p] = least_[p] > 0 ? half * least_[p] : std::max(half * driving[p], of_others * beside_others[p]);
 }
 
 Vector RowScales::forces(const Vector& lambda) const {

@@ -50,8 +50,8 @@ void refuse_residuals(const Problem& problem, const Residual& r, Result& result)
   // A penalised state is off its laws by what the method says, and no more.
   double penalty = 0;
   if (result.penalty)
-    for (const problem::Scales& part : problem::scales(problem, result.state))
-      penalty = std::max(penalty, (1 + asked) * result.penalty->penetration / part.length);
+    for (const problem::Scales& row : problem::scales(problem, result.state))
+      penalty = std::max(penalty, (1 + asked) * result.penalty->penetration / row.length);
   const double laws = result.penalty ? r.law : std::max({r.penetration, r.complementarity, r.law});
   if (equilibrium > allowed)
     refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", loaded(problem) ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)",

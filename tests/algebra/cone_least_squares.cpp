@@ -43,6 +43,15 @@ class Stopped final : public Monitor {
   bool stop() override { return true; }
 };
 
+/// Points that press, or that rub as well.
+ConvexSet held_by(int points, double mu) {
+  ConvexSet set;
+  const auto count = static_cast<std::size_t>(points);
+  if (mu > 0) set.rounds.assign(count, {1, 0, mu});
+  else set.low.assign(count, 0), set.high.assign(count, kInfinity);
+  return set;
+}
+
 }  // namespace
 
 TEST_CASE("intervals and plane cones: the residual of dense active sets") {
@@ -115,9 +124,7 @@ TEST_CASE("a tower of a thousand bodies takes a few factorisations") {
     CAPTURE(friction);
     constexpr int bodies = 1000;
     const SparseRows A = tower(bodies, friction);
-    ConvexSet set;
-    if (friction) set.rounds.assign(3 * bodies, {1, 0, 0.5});
-    else set.low.assign(3 * bodies, 0), set.high.assign(3 * bodies, kInfinity);
+    const ConvexSet set = held_by(3 * bodies, friction ? 0.5 : 0);
     Vector weight = Vector::Zero(3 * bodies);
     for (int b = 0; b < bodies; ++b) weight[3 * b + 1] = -1;
     const auto rests = algebra::cone_least_squares(A, weight, set, 1e-10);
@@ -137,9 +144,7 @@ TEST_CASE("a tower that is pressed from above takes next to none: what balances 
     CAPTURE(friction);
     constexpr int bodies = 5000;
     const SparseRows A = tower(bodies, friction);
-    ConvexSet set;
-    if (friction) set.rounds.assign(3 * bodies, {1, 0, 0.3});
-    else set.low.assign(3 * bodies, 0), set.high.assign(3 * bodies, kInfinity);
+    const ConvexSet set = held_by(3 * bodies, friction ? 0.3 : 0);
     Vector load = Vector::Zero(3 * bodies);
     for (int b = 0; b < bodies; ++b) load[3 * b + 1] = -0.01;
     load[3 * bodies - 2] -= 1;

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <optional>
+
 #include "../support/friction.hpp"
 #include "base/error.hpp"
 #include "problem/residual.hpp"
@@ -36,6 +38,17 @@ problem::CondensedProblem condensed(const problem::Problem& p) {
   return {p, problem::rigid_motions(p), algebra::Ordering::automatic, clock, quiet};
 }
 
+/// By all combinations of pieces; nothing where the body is not held at all.
+std::optional<bool> has_solution(const problem::Problem& p) {
+  Monitor quiet;
+  try {
+    const auto all = solver::enumerate(p, quiet);
+    return !all.solutions.empty() || !all.families.empty();
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 /// The points of programmes are all that is tried.
 const solver::Attempt no_attempt = [](Vector&, Vector&) { return false; };
 
@@ -48,18 +61,13 @@ TEST_CASE("free bodies with friction in the plane: the search excludes all piece
     CAPTURE(seed);
     test::Random random(seed);
     const auto p = free_body(random, 3, 1, 0.1 + 0.01 * seed);
-    bool exists;
-    try {
-      const auto all = solver::enumerate(p, quiet);
-      exists = !all.solutions.empty() || !all.families.empty();
-    } catch (const InputError&) {
-      continue;  // not held at all
-    }
+    const std::optional<bool> exists = has_solution(p);
+    if (!exists) continue;
     const problem::CondensedProblem rows = condensed(p);
     const auto found = solver::search_pieces(p, rows, no_attempt, quiet);
-    REQUIRE(found.verdict == (exists ? Verdict::near : Verdict::none));
-    ++(exists ? solvable : unsolvable);
-    if (!exists) continue;
+    REQUIRE(found.verdict == (*exists ? Verdict::near : Verdict::none));
+    ++(*exists ? solvable : unsolvable);
+    if (!*exists) continue;
     // A point without a broken pair solves the problem up to the accuracy of programmes.
     const Vector x = rows.jump(found.lambda, found.alpha);
     CHECK(problem::distances_from_laws(p, x, found.lambda, Vector::Ones(x.size())).norm() < 1e-6 * (1 + found.lambda.norm() + x.norm()));
@@ -108,13 +116,10 @@ TEST_CASE("free bodies with friction in the plane: what the energy bound exclude
     if (!motion) continue;
     const bool excluded = solver::friction_is_too_weak(p, condensed(p), *motion, quiet);
     proved += excluded;
-    try {
-      const auto all = solver::enumerate(p, quiet);
-      const bool exists = !all.solutions.empty() || !all.families.empty();
-      CHECK_FALSE((exists && excluded));
-      unsolvable += !exists;
-    } catch (const InputError&) {  // not held at all
-    }
+    const std::optional<bool> exists = has_solution(p);
+    if (!exists) continue;
+    CHECK_FALSE((*exists && excluded));
+    unsolvable += !*exists;
   }
   CHECK(unsolvable > 40);
   CHECK(proved > 0.8 * unsolvable);
