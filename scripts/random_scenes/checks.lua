@@ -232,7 +232,9 @@ return function(scene, made, solution)
       for _, node in ipairs(given and supports[k].nodes or {}) do rubbing = rubbing + law.numbers[1] * node.weight end
     end
   end
-  tol.energy = (1e-9 * tol.gross + 1e-7 * rubbing) * tol.length + 1e-12 * scene.stiffest * tol.length^2 * scene.size^(scene.dimension - 2)
+  -- Where loads meet their reactions at once nothing moves: forces count by what they would move the stiffest body by.
+  local moved <const> = math.max(tol.length, tol.stress * scene.size / scene.stiffest)
+  tol.energy = (1e-9 * tol.gross + 1e-7 * rubbing) * moved + 1e-12 * scene.stiffest * tol.length^2 * scene.size^(scene.dimension - 2)
   if tol.gross < 1e-6 * scene.stress then -- nothing is loaded
     tol.energy = tol.energy + 1e-10 * scene.stiffest * scene.size^scene.dimension
   end

@@ -205,12 +205,12 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
 
 namespace {
 
-/// What the multipliers of each part would move its stiffest row by, times a millionth. Where loads meet their reactions at the contact
-/// itself nothing moves but by rounding: this is the least scale.
+/// What the greatest multiplier of each part would move its stiffest row by. Where loads meet their reactions at the contact itself nothing
+/// moves but by rounding: this is the least scale, and a small part of it is as small a part of the forces.
 std::vector<double> yielding(const Problem& problem, const State& state, const Parts& parts) {
   std::vector<double> force = parts.greatest(state.lambda);
   const std::vector<double> stiffest = parts.greatest(problem.row_stiffness());
-  for (std::size_t p = 0; p < force.size(); ++p) force[p] *= stiffest[p] > 0 ? 1e-6 / stiffest[p] : 0;
+  for (std::size_t p = 0; p < force.size(); ++p) force[p] *= stiffest[p] > 0 ? 1 / stiffest[p] : 0;
   return force;
 }
 
@@ -308,6 +308,21 @@ double rounding_of_equilibrium(const Problem& problem, const State& state) {
   for (std::size_t p = 0; p < sizes.size(); ++p)
     if (const double size = sizes[p].internal + sizes[p].contact + sizes[p].load; size > 0) most = std::max(most, gross[p] / size);
   return std::numeric_limits<double>::epsilon() * most;
+}
+
+Vector rounding_of_forces(const Problem& problem, const State& state) {
+  if (problem.rows() == 0) return {};
+  Vector gross(state.u.size());
+  for (const Block& block : problem.blocks) gross.segment(block.first, block.size()) = gross_forces(block, state.u.segment(block.first, block.size()));
+  Vector rounding = std::numeric_limits<double>::epsilon() * (algebra::SparseRows(problem.B.cwiseAbs()) * gross);
+  for (int r = 0; r < problem.rows(); ++r)
+    if (const double square = problem.B.row(r).squaredNorm(); square > 0) rounding[r] /= square;
+  const Vector x = problem.B * state.u - problem.c;
+  const std::vector<Scales> of_row = scales(problem, state);
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
+      if (-x[r] > 1e-6 * of_row[static_cast<std::size_t>(r)].length) rounding[r] = 0;
+  return rounding;
 }
 
 std::string describe(const Residual& r) {

@@ -7,7 +7,7 @@ namespace dotyk::problem {
 /// How far a state is from optimal; each number is relative and its scale named.
 ///
 /// The forces of a problem, of each of its Parts for itself, are measured by F, the greatest of |λ|, |f| (where f = 0: of |λ| and √ε ‖|K||u|‖), its
-/// displacements by X, the greatest of |Bu|, |u| and a millionth of what a force of max|λ| would move a row by; a row of
+/// displacements by X, the greatest of |Bu|, |u| and what a force of max|λ| would move the stiffest row by; a row of
 /// a gap c_r > X by |c_r|. A row is right where a change of its force by a small part of F, or of its gap by a small part
 /// of X, puts it on its law's graph. In the units F and X the distance from the graph is, up to a factor of √2, the natural
 /// residual |λ − P(λ + ρx)|/F with ρ = F/X. Hence it depends neither on units, nor (without gaps) on the size of the load
@@ -27,6 +27,11 @@ Residual residual(const Problem& problem, const State& state);
 /// The size of Residual::equilibrium that rounding alone explains, with one rounding error in each product of K u:
 /// ε‖|K||u|‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖), the greatest of all parts.
 double rounding_of_equilibrium(const Problem& problem, const State& state);
+
+/// What rounding of Ku leaves unknown of each row's force: ε(|B||K||u|)_r / Σ_j B_rj². It is great where cells are so thin that their
+/// stiffness times the displacement is beyond 1/ε of the forces. 0 of rows that are open by
+/// more than a millionth of X.
+algebra::Vector rounding_of_forces(const Problem& problem, const State& state);
 
 /// F and X of each row, those of its part (see Parts); 1 where they would vanish.
 struct Scales {

@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "program/active_set.hpp"
 #include "program/barrier.hpp"
 #include "program/certificate.hpp"
 #include "program/scaling.hpp"
@@ -125,6 +126,17 @@ Result attempt(const Scaled& scaled, const InteriorPoint& settings, Monitor& mon
   return result;
 }
 
+/// From this result on, where unknowns of little energy are hidden: slack and multiplier of their rows part only far below tol.
+Result by_active_sets(const QuadraticProgram& program, const Result& from, Monitor& monitor) {
+  ActiveSet settings;
+  settings.start = ActiveSet::Start::cold;
+  settings.working = from.working, settings.point = from.x;
+  Result result = solve(program, settings, monitor);
+  result.iterations += from.iterations, result.factorisations += from.factorisations;
+  result.reason += text("; ended by active sets, ", kHiddenReason);
+  return result;
+}
+
 }  // namespace
 
 Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Monitor& monitor) {
@@ -151,7 +163,7 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
         const Result other = attempt(*other_units, finer, monitor);
         if (other.status == Status::solved && off(other, Rounding::own) < off(result, Rounding::own)) result = other;
       }
-      if (off(result, Rounding::of_greatest) > kHidden) result.status = Status::stopped, result.reason = text(kHiddenReason, "; active_set may");
+      if (off(result, Rounding::of_greatest) > kHidden) result = by_active_sets(program, result, monitor);
     }
   }
   measure(program, result);

@@ -85,23 +85,27 @@ std::optional<Scaled> scale_by_curvature(const QuadraticProgram& p) {
 }
 
 double imbalance(const QuadraticProgram& program, const Vector& x, const Vector& y, Rounding nothing) {
-  constexpr double kRounding = 1e-15;
+  constexpr double kRounding = 1e-15, kDriven = 1e-3;
   const auto scaled = scale_by_curvature(program);
   if (!scaled) return 0;
   const QuadraticProgram& p = scaled->program;
   const Vector u = x.cwiseQuotient(scaled->column), v = scaled->cost * y.cwiseQuotient(scaled->row), Au = p.A * u;
   const SparseRows sizes = p.A.cwiseAbs();
-  const Vector terms = times(p.P.cwiseAbs(), u.cwiseAbs()) + p.q.cwiseAbs() + sizes.transpose() * v.cwiseAbs(), moved = sizes * terms;
+  // What drives the unknowns, and with the multipliers of rows. Those of rows that are far from their limits are no scale of anything.
+  const Vector own = times(p.P.cwiseAbs(), u.cwiseAbs()) + p.q.cwiseAbs(), terms = own + sizes.transpose() * v.cwiseAbs();
+  const Vector moved = sizes * terms, moved_by_own = sizes * own;
   const double greatest = peak(terms);
-  const auto share = [&](double left, double of) { return left > kRounding * (nothing == Rounding::own ? of : greatest) ? left / of : 0; };
+  const auto share = [&](double left, double of, bool driven = false) {
+    return left > kRounding * (driven || nothing == Rounding::own ? of : greatest) ? left / of : 0;
+  };
   double worst = 0;
   Vector apart = v.cwiseAbs();
   for (int r = 0; r < p.rows(); ++r) {
     worst = std::max(worst, share(std::max(p.low[r] - Au[r], Au[r] - p.high[r]), moved[r]));
-    apart[r] *= std::min(1.0, share(std::abs(Au[r] - (v[r] > 0 ? p.high[r] : p.low[r])), moved[r]));
+    apart[r] *= std::min(1.0, share(std::abs(Au[r] - (v[r] > 0 ? p.high[r] : p.low[r])), moved_by_own[r]));
   }
   const Vector left = (times(p.P, u) + p.q + p.A.transpose() * v).cwiseAbs() + sizes.transpose() * apart;
-  for (int j = 0; j < p.unknowns(); ++j) worst = std::max(worst, share(left[j], terms[j]));
+  for (int j = 0; j < p.unknowns(); ++j) worst = std::max(worst, share(left[j], terms[j], std::abs(p.q[j]) > kDriven * terms[j]));
   return worst;
 }
 

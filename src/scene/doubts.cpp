@@ -56,6 +56,27 @@ void see_chords(const Contact& contact, std::vector<const contact::ContactRow*> 
                      "; take cells of order 2 (P2, Q2), nodes that match, or finer facets"));
 }
 
+/// A pressure that is uncertain by more than this part of the contact's greatest says nothing.
+constexpr double kMostRounding = 0.01;
+
+/// Where cells are so thin that rounding of their stiffness is beside the pressure.
+void see_rounding(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
+  const Contact& contact = *solution.scene().contacts[index];
+  double greatest = 0, uncertain = 0;
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < contact.rows.size(); ++i) {
+    const int row = solution.model().contact_row[index][i];
+    if (row < 0) continue;
+    const double measure = solution.model().normal[index][i].measure;
+    greatest = std::max(greatest, solution.result().state.lambda[row] / measure);
+    if (const double here = solution.rounding_of_forces()[row] / measure; here > uncertain) uncertain = here, worst = i;
+  }
+  if (uncertain > kMostRounding * greatest)
+    all.push_back(text(contact.name, ": rounding leaves the pressure uncertain by ", uncertain, " at ",
+                       point_text(contact.first.body->mesh->point(contact.rows[worst].node).data(), contact.first.body->dimension()), ", the greatest is ", greatest,
+                       ": cells there are too thin, or bodies move too far beside how they deform; grade the mesh less"));
+}
+
 /// A rotation whose square, which small displacements neglect, is a thousandth.
 constexpr double kGreatRotation = 0.03;
 
@@ -104,6 +125,7 @@ std::vector<std::string> doubts(const Solution& solution) {
       if (row >= 0 && solution.active(row)) rows.push_back(&contact.rows[i]);
     }
     see_chords(contact, std::move(rows), all);
+    see_rounding(solution, c, all);
   }
   for (std::size_t b = 0; solution.result().converged && b < solution.scene().bodies.size(); ++b)
     see_rotation(*solution.scene().bodies[b], solution.displacement(static_cast<int>(b)), all);

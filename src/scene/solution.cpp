@@ -39,6 +39,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     settle(*scene_, model_, problem, state_before(past_, result_.state.u), result_);
   result_.clock.motions += watch.lap();
   residual_ = solver::judge(problem, result_, model_.softest);
+  rounding_ = problem::rounding_of_forces(problem, result_.state);
   energy_ = problem::energy(problem, result_.state);
   friction_energy_ = problem::friction_energy(problem, result_.state);
   add_step(problem);

@@ -152,6 +152,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
   /// As the scene was solved; a step that is not the last has no stiffness matrices.
   const Model& model() const { return model_; }
   bool active(int row) const;
+  /// See problem::rounding_of_forces().
+  const algebra::Vector& rounding_of_forces() const { return rounding_; }
 
  private:
   ErrorEstimate make_error_estimate() const;
@@ -165,7 +167,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   problem::Residual residual_;
   double energy_ = 0, friction_energy_ = 0;
   Past past_;
-  algebra::Vector slip_;
+  algebra::Vector slip_, rounding_;
   std::vector<double> dissipated_;
   std::vector<std::vector<double>> displacement_;
   mutable std::vector<std::vector<elasticity::Stress>> stress_;

@@ -49,8 +49,10 @@ Vector compliance_of_rows(const RowIteration& on) {
   return compliance;
 }
 
-/// A force: the rounding of x, of which springs make the more the stiffer they are.
-double noise(const RowIteration& on, const Vector& springs) { return springs.cwiseInverse().norm() * on.rounding(); }
+/// Of the forces that count: the rounding of x, of which springs make the more the stiffer they are.
+double noise(const RowIteration& on, const Vector& springs) {
+  return on.rounding().cwiseQuotient(springs).cwiseQuotient(on.forces()).norm();
+}
 
 /// Newton's method on the problem with springs, from (λ_k, α_k) on.
 class Springs {
@@ -60,8 +62,8 @@ class Springs {
       : convex_(convex), centre_(on.lambda()), W_(on.condensed.W()), softened_(on.condensed.softened(springs, centre_)),
         map_(on.problem, softened_, convex ? Vector(springs.cwiseInverse()) : Vector((on.map.rho().cwiseInverse() + springs).cwiseInverse())),
         anchor_(map_.scaled_alpha(on.alpha())), holding_(sigma * std::min(kHolding, kHolding * sigma / kSigma)),
-        unit_(map_.rho().size() > 0 ? std::sqrt(map_.rho().maxCoeff()) : 1), place_{on.lambda(), on.alpha()}, value_(map_.at(place_.lambda, place_.alpha)),
-        enough_(tol * on.force()), noise_(map_.rho().norm() * on.rounding()) {}
+        forces_(on.forces()), place_{on.lambda(), on.alpha()}, value_(map_.at(place_.lambda, place_.alpha)), enough_(tol),
+        noise_(noise(on, map_.rho().cwiseInverse())) {}
 
   /// False where it did not come near a solution. One step is always made: the first error may be rounding, and λ yet to move.
   bool solve() {
@@ -102,16 +104,13 @@ class Springs {
   /// a − a_k.
   Vector motion() const { return map_.scaled_alpha(place_.alpha) - anchor_; }
 
-  /// Of the problem with springs, a force: ‖F‖, and with springs on α, in the map's units, of the equation Qᵀv + δ(a − a_k) = ê.
-  double error() const {
-    if (holding_ == 0 || anchor_.size() == 0) return value_.norm;
-    return std::hypot((place_.lambda - value_.projected).norm(), unit_ * (value_.unbalanced - holding_ * motion()).norm());
-  }
-
-  /// How far from (λ_k, α_k), a force.
-  double moved() const {
-    const double far = (place_.lambda - centre_).norm();
-    return anchor_.size() == 0 ? far : std::hypot(far, unit_ * holding_ * motion().norm());
+  /// Of the problem with springs, against the forces that count: F, and of the equation Qᵀv + δ(a − a_k) = ê the forces that would make it
+  /// hold.
+  double error() const { return sum(place_.lambda - value_.projected, value_.unbalanced - holding_ * motion()); }
+  /// How far from (λ_k, α_k), against the forces that count.
+  double moved() const { return sum(place_.lambda - centre_, holding_ * motion()); }
+  double sum(const Vector& force, const Vector& unbalanced) const {
+    return std::hypot(force.cwiseQuotient(forces_).norm(), map_.balancing(unbalanced).cwiseQuotient(forces_).norm());
   }
 
   void move(const Iterate& from, const Iterate& way, double length) {
@@ -160,11 +159,11 @@ class Springs {
   const NaturalMap map_;
   const Vector anchor_;
   const double holding_;  ///< δ
-  const double unit_;     ///< √ρ, the greatest: of λ against v
+  const Vector forces_;   ///< that count, by row
   Iterate place_;
   NaturalMap::Value value_;
-  const double enough_;   ///< a force, of tol
-  const double noise_;    ///< a force: what rounding of x may make
+  const double enough_;   ///< of tol
+  const double noise_;    ///< what rounding of x may make; against the forces that count, as these errors are
   int steps_ = 0;
   bool rounded_ = false;
 };
@@ -200,7 +199,7 @@ void Proximal::iterate(RowIteration& iteration) const {
       before = iteration.residual();
       const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeastSigma);
       if (springs.rounded()) softness = std::min(kSofter * softness, std::max(softness, sigma));  // of which rounding makes less
-      else if (noise(iteration, harder * compliance) <= kNoisyStep * iteration.residual() * iteration.force()) softness = harder;
+      else if (noise(iteration, harder * compliance) <= kNoisyStep * iteration.residual()) softness = harder;
     } else {
       softness *= kSofter;
     }

@@ -32,15 +32,12 @@ RowIteration::RowIteration(const Problem& on, RowScales scales, const CondensedP
 
 double RowIteration::residual() const {
   const Vector off = problem::distances_from_laws(problem, value_.x, lambda_, scales_.rho(lambda_, alpha_, value_.x, settings_.tol));
-  const Vector force = scales_.forces(lambda_).unaryExpr([](double f) { return f > 0 ? f : 1; });
+  const Vector force = forces();
   return std::hypot(off.cwiseQuotient(force).norm(), map_.balancing(value_.unbalanced).cwiseQuotient(force).norm());
 }
 
-double RowIteration::force() const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const double f : scales_.forces(lambda_))
-    if (f > 0) least = std::min(least, f);
-  return std::isfinite(least) ? least : 0;
+Vector RowIteration::forces() const {
+  return scales_.forces(lambda_).unaryExpr([](double f) { return f > 0 ? f : 1; });
 }
 
 void RowIteration::move_to(Vector lambda, Vector alpha) {
@@ -143,7 +140,7 @@ bool astray(const RowIteration& iteration) {
   const Vector& rho = iteration.map.rho();
   if (rho.size() == 0) return false;
   const double met = rho.cwiseProduct(iteration.condensed.x0()).norm() + iteration.condensed.e().norm();
-  return !(iteration.rounding() * rho.maxCoeff() <= kMost * met);
+  return !(iteration.rounding().cwiseProduct(rho).maxCoeff() <= kMost * met);
 }
 
 /// A method's own test may ask for more than rounding leaves: of forces that are small beside the loads, where bodies end up out of each

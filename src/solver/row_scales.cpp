@@ -38,14 +38,19 @@ Vector RowScales::forces(const Vector& lambda) const {
   std::vector<double> of_part(least_.size(), 0);
   for (Eigen::Index r = 0; r < lambda.size(); ++r) of_part[parts_.of_row[r]] += lambda[r] * lambda[r];
   for (std::size_t p = 0; p < least_.size(); ++p) of_part[p] = std::max(std::sqrt(of_part[p]), least_[p]);
-  Vector forces(lambda.size());
-  for (Eigen::Index r = 0; r < lambda.size(); ++r) forces[r] = of_part[parts_.of_row[r]];
-  return forces;
+  return by_row(of_part);
 }
 
-double RowScales::rounding(const Vector& alpha, const Vector& x) const {
+Vector RowScales::rounding(const Vector& alpha, const Vector& x) const {
   const Vector moved = alpha.size() > 0 ? Vector(condensed_->N() * alpha) : Vector::Zero(x.size());
+  const auto greatest = [&](const Vector& v) { return by_row(parts_.greatest(v)); };
   return kSumRoundings * kEps * (greatest(condensed_->x0()) + greatest(moved) + greatest(condensed_->x0() + moved - x));
+}
+
+Vector RowScales::by_row(const std::vector<double>& of_part) const {
+  Vector values(static_cast<Eigen::Index>(parts_.of_row.size()));
+  for (Eigen::Index r = 0; r < values.size(); ++r) values[r] = of_part[static_cast<std::size_t>(parts_.of_row[r])];
+  return values;
 }
 
 Vector RowScales::rho(const Vector& lambda, const Vector& alpha, const Vector& x, double tol) const {

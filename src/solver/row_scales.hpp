@@ -25,12 +25,14 @@ class RowScales {
   /// F by row, that of its part: ‖λ‖, or √ε of the greatest load |f| (where nothing is loaded, of what would hold the rows where they are at
   /// rest), if that is more: bodies that get out of each other's way end free of forces, and rounding is all that is left of those.
   algebra::Vector forces(const algebra::Vector& lambda) const;
-  /// kεG: what rounding may leave of x, a displacement.
-  double rounding(const algebra::Vector& alpha, const algebra::Vector& x) const;
+  /// kεG by row, that of its part: what rounding may leave of x, a displacement.
+  algebra::Vector rounding(const algebra::Vector& alpha, const algebra::Vector& x) const;
   /// ρ.
   algebra::Vector rho(const algebra::Vector& lambda, const algebra::Vector& alpha, const algebra::Vector& x, double tol) const;
 
  private:
+  algebra::Vector by_row(const std::vector<double>& of_part) const;
+
   const problem::CondensedProblem* condensed_;
   algebra::Vector c_, stiffness_;
   problem::Parts parts_;

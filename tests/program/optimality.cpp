@@ -159,6 +159,45 @@ TEST_CASE("an unknown whose energy is nothing beside another's is found as well"
   }
 }
 
+TEST_CASE("parts of a program, their energies 1e-8 to 1e8 of each other's and their units unlike, do not hide one another") {
+  Random random(307);
+  Monitor quiet;
+  constexpr int trials = 200, parts = 2, of_part = 3, n = parts * of_part, together = 2;
+  int by_active_sets = 0, by_interior_points = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    DenseMatrix P = DenseMatrix::Zero(n, n), A = DenseMatrix::Zero(n + together, n);
+    Vector q(n), unit(n), exact(n), low = Vector::Constant(n + together, -INFINITY);
+    A.topRows(n).setIdentity();
+    for (int part = 0; part < n; part += of_part) {
+      const DenseMatrix own = random.positive_definite(of_part, 0.2);
+      const Vector pull = random.vector(of_part);
+      for (int j = 0; j < of_part; ++j)
+        if (random.coin()) low[part + j] = 0;
+      const auto alone = program::solve(test::quadratic(own, pull, DenseMatrix::Identity(of_part, of_part), low.segment(part, of_part),
+                                                        Vector::Constant(of_part, INFINITY)), test::one(), quiet);
+      REQUIRE(alone.status == program::Status::solved);
+      const double energy = std::pow(10.0, random.between(-8, 8));
+      for (double& u : unit.segment(part, of_part)) u = std::pow(10.0, random.between(-4, 4));
+      const auto units = unit.segment(part, of_part);
+      P.block(part, part, of_part, of_part) = energy * units.asDiagonal() * own * units.asDiagonal();
+      q.segment(part, of_part) = energy * units.cwiseProduct(pull);
+      exact.segment(part, of_part) = alone.x.cwiseQuotient(units);
+    }
+    // Rows over all unknowns, which do not hold any.
+    for (int r = n; r < n + together; ++r) A.row(r) = random.vector(n).cwiseProduct(unit).transpose(), low[r] = A.row(r).dot(exact) - random.between(0.1, 1);
+    const auto p = test::quadratic(P, q, A, low, Vector::Constant(n + together, INFINITY));
+    const auto right = [&](const program::Result& r) {
+      if (r.status != program::Status::solved) return false;  // it says that it did not get there
+      CHECK_MESSAGE((r.x - exact).cwiseProduct(unit).lpNorm<Eigen::Infinity>() < 1e-4, trial << ": " << r.reason);
+      return true;
+    };
+    by_active_sets += right(program::solve(p, test::one(), quiet));
+    by_interior_points += right(program::solve(p, program::InteriorPoint{}, quiet));
+  }
+  CHECK(by_active_sets >= 0.99 * trials);
+  CHECK(by_interior_points >= 0.85 * trials);
+}
+
 TEST_CASE("a program without rows, and one whose rows never matter") {
   Random random(305);
   Monitor quiet;
