@@ -205,12 +205,12 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
 
 namespace {
 
-/// What the greatest multiplier of each part would move its stiffest row by. Where loads meet their reactions at the contact itself nothing
+/// A tenth of what the greatest multiplier of each part would move its stiffest row by. Where loads meet their reactions at the contact itself nothing
 /// moves but by rounding: this is the least scale, and a small part of it is as small a part of the forces.
 std::vector<double> yielding(const Problem& problem, const State& state, const Parts& parts) {
   std::vector<double> force = parts.greatest(state.lambda);
   const std::vector<double> stiffest = parts.greatest(problem.row_stiffness());
-  for (std::size_t p = 0; p < force.size(); ++p) force[p] *= stiffest[p] > 0 ? 1 / stiffest[p] : 0;
+  for (std::size_t p = 0; p < force.size(); ++p) force[p] *= stiffest[p] > 0 ? 0.1 / stiffest[p] : 0;
   return force;
 }
 

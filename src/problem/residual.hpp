@@ -7,7 +7,7 @@ namespace dotyk::problem {
 /// How far a state is from optimal; each number is relative and its scale named.
 ///
 /// The forces of a problem, of each of its Parts for itself, are measured by F, the greatest of |λ|, |f| (where f = 0: of |λ| and √ε ‖|K||u|‖), its
-/// displacements by X, the greatest of |Bu|, |u| and what a force of max|λ| would move the stiffest row by; a row of
+/// displacements by X, the greatest of |Bu|, |u| and a tenth of what a force of max|λ| would move the stiffest row by; a row of
 /// a gap c_r > X by |c_r|. A row is right where a change of its force by a small part of F, or of its gap by a small part
 /// of X, puts it on its law's graph. In the units F and X the distance from the graph is, up to a factor of √2, the natural
 /// residual |λ − P(λ + ρx)|/F with ρ = F/X. Hence it depends neither on units, nor (without gaps) on the size of the load

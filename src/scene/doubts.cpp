@@ -125,7 +125,7 @@ std::vector<std::string> doubts(const Solution& solution) {
       if (row >= 0 && solution.active(row)) rows.push_back(&contact.rows[i]);
     }
     see_chords(contact, std::move(rows), all);
-    see_rounding(solution, c, all);
+    if (solution.result().converged) see_rounding(solution, c, all);
   }
   for (std::size_t b = 0; solution.result().converged && b < solution.scene().bodies.size(); ++b)
     see_rotation(*solution.scene().bodies[b], solution.displacement(static_cast<int>(b)), all);
