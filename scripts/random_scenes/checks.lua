@@ -3,9 +3,9 @@
 --
 -- Tolerances. Methods end at a natural residual of 1e-10 of the greatest force and lose some digits where stiffnesses differ by six
 -- orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest one; where nothing is pressed,
--- forces to 1e-9 of the stiffness and displacements to 1e-15 of the size. A node's force is known to 1e-9 of the greatest stress on the
--- scene's section, which may be much as a pressure where the node's share of the area is small. Rounding of large motions is 1e-12 of the forces that strains
--- of their size would make.
+-- forces to 1e-9 of the stiffness. Displacements count as known to 1e-14 of the size, which is what rounding leaves of a gap across an
+-- inclined plane. A node's force is known to 1e-9 of the greatest stress on the scene's section, which may be much as a pressure where
+-- the node's share of the area is small. Rounding of large motions is 1e-12 of the forces that strains of their size would make.
 
 local laws <const>, solids <const> = ...
 local accuracy <const> = 1e-6
@@ -24,7 +24,7 @@ local function scales(scene, contacts, supports, displacement)
   for _, body in ipairs(scene.bodies) do
     for _, load in ipairs(body.loads) do scale.stress = math.max(scale.stress, norm(load.force) / scene.size^(scene.dimension - 1)) end
   end
-  scale.length = math.max(displacement, 1e-9 * scene.size)
+  scale.length = math.max(displacement, 1e-8 * scene.size)
   local function see(nodes)
     for _, node in ipairs(nodes) do
       scale.stress = math.max(scale.stress, math.abs(node.pressure), norm(node.shear))

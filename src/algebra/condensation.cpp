@@ -80,10 +80,16 @@ DenseMatrix Condensation::half_compliance(const SparseRows& B) const {
   return x;
 }
 
-Vector Condensation::recover(const Vector& boundary_values) const {
-  Vector swept = swept_;
-  factor_.set_boundary_part(swept,
-                            l_gamma_.transpose().triangularView<Eigen::Upper>() * boundary_values);
+Vector Condensation::recover(const Vector& boundary_values) const { return from_boundary(swept_, boundary_values); }
+
+Vector Condensation::response(const Vector& f, const Vector& added) const {
+  Vector swept = factor_.forward(f);
+  const Vector load = l_gamma_.triangularView<Eigen::Lower>() * factor_.boundary_part(swept);
+  return from_boundary(std::move(swept), solve(load) + added);
+}
+
+Vector Condensation::from_boundary(Vector swept, const Vector& boundary_values) const {
+  factor_.set_boundary_part(swept, l_gamma_.transpose().triangularView<Eigen::Upper>() * boundary_values);
   return factor_.backward(swept);
 }
 

@@ -46,9 +46,14 @@ class Condensation {
   /// The whole u from u_Γ, for the f of the last condense(): one backward sweep.
   Vector recover(const Vector& boundary_values) const;
 
+  /// K⁻¹f (a generalised inverse where there is a kernel), with `added` to u_Γ, continued as K does: a sweep each way.
+  Vector response(const Vector& f, const Vector& added) const;
+
   const Cholesky& cholesky() const { return factor_; }
 
  private:
+  Vector from_boundary(Vector swept, const Vector& boundary_values) const;
+
   Cholesky factor_;
   std::vector<int> pinned_;   ///< unknowns off Γ that hold the motions vanishing on Γ
   DenseMatrix kernel_;        ///< R on Γ

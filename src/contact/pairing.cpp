@@ -211,6 +211,12 @@ PairedRows chords_seen(PairedRows paired, const Face& first, const Face& second)
   return paired;
 }
 
+double area(const std::vector<ContactRow>& rows) {
+  double sum = 0;
+  for (const ContactRow& row : rows) sum += row.weight;
+  return sum;
+}
+
 }  // namespace
 
 PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairing> pairing,
@@ -227,8 +233,12 @@ PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairin
     const double wider = wider_across(here.rows, first, second);
     return used == Pairing::mortar ? wider > kAlike : wider < 1 / kAlike;
   };
-  if (other_way())
-    if (Rows there = paired(second, first, used, added, interference, monitor); !there.rows.empty())
+  // Means over cells of order 2 differ by the side that they are taken on: of sides that are alike the one with the greater area has them.
+  const bool means = used == Pairing::mortar && first.mesh.topology().order == 2 && second.mesh.topology().order == 2 && !here.rows.empty() && !here.folded;
+  const bool other = other_way();
+  if (other || means)
+    if (Rows there = paired(second, first, used, added, interference, monitor);
+        !there.rows.empty() && (other || (!there.folded && wider_across(there.rows, second, first) <= kAlike && area(there.rows) > 1.000001 * area(here.rows))))
       return chords_seen({used, std::move(there.rows), true}, second, first);
   if (here.rows.empty()) throw nothing_across(first, second, used);
   return chords_seen({used, std::move(here.rows)}, first, second);

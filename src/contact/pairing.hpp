@@ -21,7 +21,7 @@ struct PairedRows {
 /// facets follow the curve.
 /// Rows of contact by the pairing asked for; none asked for: at nodes where all match and facets are of one kind, else mortar. So that
 /// the order of naming decides nothing, mortar's multipliers are those of the part that is coarser where the parts are nearest, of two
-/// alike the first's: on the finer the pressure wavers (scripts/mortar.lua, P1: Hertz's contact 80 cells on 112, 0.9 of the error of matching
+/// alike the first's, and of order 2, where this makes some per cent on coarse meshes, that with the greater area: on the finer the pressure wavers (scripts/mortar.lua, P1: Hertz's contact 80 cells on 112, 0.9 of the error of matching
 /// nodes; the other way round 1.4), and forces of friction are further off. Nodes to segments are the finer part's: a coarser one's would let
 /// nodes between them through. Where the second part lies above itself, the rows are the first's whatever the widths. Throws InputError
 /// where nodes do not match though that was asked for, where parts do not face each other, and as matching_rows().

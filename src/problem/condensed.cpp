@@ -73,6 +73,13 @@ CondensedProblem CondensedProblem::softened(const Vector& compliance, const Vect
   return soft;
 }
 
+CondensedProblem CondensedProblem::missing(const Vector& lambda, const Vector& x) const {
+  CondensedProblem rest(W_, x);
+  rest.N_ = N_;
+  rest.e_ = e_ - N_.transpose() * lambda;
+  return rest;
+}
+
 void CondensedProblem::add(const Problem& problem, const Block& block, algebra::Ordering ordering,
                            Clock& clock, Monitor& monitor) {
   Part part{condense(problem, block, ordering, clock, monitor), modes_};
@@ -104,6 +111,15 @@ Vector CondensedProblem::recover(const Vector& lambda, const Vector& alpha) cons
     if (modes) boundary += part.condensation.boundary_kernel() * motion.segment(part.first_mode, modes);
     u.segment(part.first_unknown, part.size) = part.condensation.recover(boundary);
   }
+  return least(unnoticed_, std::move(u));
+}
+
+Vector CondensedProblem::response(const Vector& f, const Vector& alpha) const {
+  Vector u(unknowns_);
+  const Vector motion = alpha.size() ? Vector(noticed_ * alpha) : Vector::Zero(modes_);
+  for (const Part& part : parts_)
+    u.segment(part.first_unknown, part.size) = part.condensation.response(
+        f.segment(part.first_unknown, part.size), part.condensation.boundary_kernel() * motion.segment(part.first_mode, part.condensation.kernel_size()));
   return least(unnoticed_, std::move(u));
 }
 

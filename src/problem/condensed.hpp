@@ -32,6 +32,9 @@ class CondensedProblem {
   /// Without displacements to recover.
   CondensedProblem softened(const algebra::Vector& compliance, const algebra::Vector& centre) const;
 
+  /// The rows for what is missing to λ, where the jump is x: x' = x − Wλ' + Nα', Nᵀλ' = e − Nᵀλ. Without displacements to recover.
+  CondensedProblem missing(const algebra::Vector& lambda, const algebra::Vector& x) const;
+
   int rows() const { return static_cast<int>(x0_.size()); }
   int unknowns() const { return unknowns_; }
   int kernel_size() const { return static_cast<int>(e_.size()); }
@@ -43,6 +46,9 @@ class CondensedProblem {
   algebra::Vector jump(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
   /// All unknowns, from the multipliers and the amounts of rigid motion: one backward sweep a block.
   algebra::Vector recover(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
+
+  /// K⁻¹f + Rα of other forces f on all unknowns.
+  algebra::Vector response(const algebra::Vector& f, const algebra::Vector& alpha) const;
 
   double factor_bytes() const;
   std::string ordering() const;

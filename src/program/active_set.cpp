@@ -131,6 +131,11 @@ Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor
     if (const auto units = scale_by_curvature(program)) {
       Result other = attempt(program, *units, settings, monitor);
       if (off(other) < off(result)) result = std::move(other);
+      if (settings.start == ActiveSet::Start::automatic && settings.working.empty() && off(result) > kHidden) {
+        ActiveSet predicted = settings;
+        predicted.start = ActiveSet::Start::interior_point;
+        if (other = attempt(program, *units, predicted, monitor); off(other) < off(result)) result = std::move(other);
+      }
     }
   if (result.status == Status::solved && off(result) > kHidden) result.status = Status::stopped, result.reason = kHiddenReason;
   measure(program, result);

@@ -16,6 +16,8 @@ namespace {
 
 /// Residual at which iterates that do not get better are still taken for the solution, relative to `tol`.
 constexpr double kEnough = 100;
+/// Unknowns and rows up to which active sets end it: exactly, in next to no time.
+constexpr int kEndsExactly = 200;
 /// Iterations without a better one before it is called so.
 constexpr int kPatience = 15;
 /// The same where all that is asked for yet is `fine`.
@@ -126,14 +128,16 @@ Result attempt(const Scaled& scaled, const InteriorPoint& settings, Monitor& mon
   return result;
 }
 
-/// From this result on, where unknowns of little energy are hidden: slack and multiplier of their rows part only far below tol.
+/// From this result on: slack and multiplier of rows of unknowns with little energy part only far below tol. `from` where that is no better.
 Result by_active_sets(const QuadraticProgram& program, const Result& from, Monitor& monitor) {
   ActiveSet settings;
   settings.start = ActiveSet::Start::cold;
   settings.working = from.working, settings.point = from.x;
   Result result = solve(program, settings, monitor);
+  const auto off = [&](const Result& r) { return imbalance(program, r.x, r.y, Rounding::own); };
+  if (result.status != Status::solved || (from.status == Status::solved && off(result) > off(from))) return from;
   result.iterations += from.iterations, result.factorisations += from.factorisations;
-  result.reason += text("; ended by active sets, ", kHiddenReason);
+  result.reason = from.reason + "; then by active sets: " + result.reason;
   return result;
 }
 
@@ -163,8 +167,13 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
         const Result other = attempt(*other_units, finer, monitor);
         if (other.status == Status::solved && off(other, Rounding::own) < off(result, Rounding::own)) result = other;
       }
-      if (off(result, Rounding::of_greatest) > kHidden) result = by_active_sets(program, result, monitor);
+      if (off(result, Rounding::of_greatest) > kHidden) {
+        result = by_active_sets(program, result, monitor);
+        if (off(result, Rounding::of_greatest) > kHidden) result.status = Status::stopped, result.reason = kHiddenReason;
+      }
     }
+    const bool may_go_on = !settings.fine && !monitor.stop() && program.unknowns() + program.rows() <= kEndsExactly;
+    if (may_go_on && (result.status == Status::solved || result.status == Status::stopped)) result = by_active_sets(program, result, monitor);
   }
   measure(program, result);
   result.seconds = clock.seconds();

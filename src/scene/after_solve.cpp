@@ -80,7 +80,7 @@ void take_nearest(const problem::Problem& problem, const problem::FreeMotions& f
   if (range.high - range.low <= 1e-9 * result.state.u.lpNorm<Eigen::Infinity>()) return;  // they have nowhere to go
   const std::string which = describe(problem::body_motions(problem), Vector(free.motions.col(widest)));
   result.reason += text(stress(problem), ", displacement up to ", count == 1 ? which : text(count, " motions, one of them ", which),
-                        ", by ", end(range.low), " to ", end(range.high),
+                        ", by displacements from ", end(range.low), " to ", end(range.high),
                         " at the most: the contacts that hold leave ", count == 1 ? "it" : "them", " free until the next node closes or sticks, so that the mesh decides how "
                         "far; this is the ", before.isZero(0) ? "least" : "nearest to the step before");
 }

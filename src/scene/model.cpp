@@ -50,6 +50,22 @@ std::string nearly_free(const Body& body, const Numbering& numbering, const prob
               " as stiff as the body");
 }
 
+}  // namespace
+
+std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& model) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> all;
+  std::size_t more = 0;
+  for (std::size_t b = 0; b < model.nearly_free.size(); ++b)
+    if (model.nearly_free[b].empty()) continue;
+    else if (all.size() < most) all.push_back("'" + scene.bodies[b]->name + "' is " + model.nearly_free[b]);
+    else ++more;
+  if (more > 0) all.push_back(text(more, " more bodies are nearly free"));
+  return all;
+}
+
+namespace {
+
 void add_body(const Body& body, Model& model) {
   require_memory(2 * elasticity::matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
   model.numbering.push_back(number(body));

@@ -68,6 +68,8 @@ struct Model {
 /// problem::require_moderate(). Adds its time to clock.assembly. With a `decomposition` the bodies are also cut into subdomains by it: see cut().
 Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading = {},
             const std::optional<problem::Decomposition>& decomposition = {});
+/// "'b1' is nearly free: …" of the first three such bodies, and how many more there are.
+std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& model);
 /// Puts another loading on a model: f (of subdomains, too) and c change, K and B stay. `bodies`: the scene's, unscaled, as
 /// when it was built. Throws as build.
 void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& loading, Model& model,

@@ -47,8 +47,7 @@ std::string method(const problem::Problem& problem, bool any_free) {
 /// Whether the load can be carried, and by supports worth the name.
 std::string verdict(const Scene& scene, const Model& model) {
   std::string warnings;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    if (!model.nearly_free[b].empty()) warnings += "\n  warning: '" + scene.bodies[b]->name + "' is " + model.nearly_free[b];
+  for (const std::string& body : describe_nearly_free(scene, model)) warnings += "\n  warning: " + body;
   return known_before(model.problem, problem::rigid_motions(model.problem)).text + warnings;
 }
 

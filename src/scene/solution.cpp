@@ -43,8 +43,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
   energy_ = problem::energy(problem, result_.state);
   friction_energy_ = problem::friction_energy(problem, result_.state);
   add_step(problem);
-  for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
-    if (!model_.nearly_free[b].empty()) result_.reason += "; '" + scene_->bodies[b]->name + "' is " + model_.nearly_free[b];
+  for (const std::string& body : describe_nearly_free(*scene_, model_)) result_.reason += "; " + body;
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
   result_.clock.recover += watch.lap();

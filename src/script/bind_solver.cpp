@@ -23,8 +23,8 @@ Key start_key() {
   return key::either("start",
                      {key::object<Solution>("", "a solution of a like scene, usually on a coarser mesh"),
                       key::list("", key::integer("", ""), "numbers of the rows (contact nodes, in order) that start closed")},
-                     "where to start: a solution, of which methods that can (all but interior_point and feti) take over the whole state where it "
-                     "has the same meshes and contacts, and the contact status of nearest nodes otherwise; or a list of the closed rows");
+                     "where to start: a solution, of which all methods but interior_point and feti take over the whole state where it has the same meshes and "
+                     "contacts; otherwise pdas, newton and active_set take over the contact status of nearest nodes; or a list of the closed rows");
 }
 
 int count_rows(const Scene& scene) {

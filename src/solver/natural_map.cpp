@@ -72,11 +72,11 @@ int NaturalMap::Value::differences(const Value& other) const {
   return count;
 }
 
-NaturalMap::Value NaturalMap::at(const Vector& lambda, const Vector& alpha) const {
+NaturalMap::Value NaturalMap::with_jump(const Vector& lambda, Vector x) const {
   const int m = problem_->rows();
   Value v;
   v.projected = Vector::Zero(m);
-  v.x = condensed_->jump(lambda, alpha);
+  v.x = std::move(x);
   v.y = lambda + rho_.cwiseProduct(v.x);
   v.closed.assign(m, 0);
   v.slipping.assign(m, 0);

@@ -32,7 +32,9 @@ class NaturalMap {
     int active = 0, stick = 0, slip = 0;
     int differences(const Value& other) const;
   };
-  Value at(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
+  Value at(const algebra::Vector& lambda, const algebra::Vector& alpha) const { return with_jump(lambda, condensed_->jump(lambda, alpha)); }
+  /// The same where the jump is x, known better than the condensed problem does.
+  Value with_jump(const algebra::Vector& lambda, algebra::Vector x) const;
   /// The pieces with every row that touches at rest closed and sticking (or those flagged).
   Value sticking(const std::vector<char>& start) const;
 

@@ -20,6 +20,7 @@
 #include "solver/linearisation.hpp"
 #include "solver/nested_start.hpp"
 #include "solver/proximal.hpp"
+#include "solver/refine.hpp"
 #include "solver/require_solvable.hpp"
 #include "solver/rest.hpp"
 #include "solver/screws.hpp"
@@ -376,12 +377,26 @@ class Iteration {
 
   /// Where bodies have gone far for the sake of rows that bear nothing, rounding of the way may spoil the gaps of others.
   void confirm_laws() {
-    const problem::Residual r = problem::residual(problem_, result_.state);
-    const double laws = std::max({r.penetration, r.complementarity, r.law});
-    if (!(laws > result_.noise)) return;
+    double laws = off_laws(problem_, result_.state);
+    if (condensed_ && laws > result_.noise && refine(problem_, *condensed_, result_.state)) laws = off_laws(problem_, result_.state);
+    if (!(laws > result_.noise) || on_all_unknowns(laws)) return;
     by_proximal(text("rounding put the state off its laws by ", laws));
     result_.state.lambda = lambda_;
     if (settled_) result_.state.u = *settled_;
+  }
+
+  /// Where the condensed problem has lost too many digits: the same on all unknowns. True where that is nearer to the laws than `laws`.
+  bool on_all_unknowns(double laws) {
+    if (!condensed_) return false;
+    Pdas whole = settings_;
+    whole.reduced = false, whole.start = result_.active_sets.back();
+    InnerMonitor monitor(monitor_);
+    Result found = solve(problem_, whole, monitor);
+    if (!found.converged || !(off_laws(problem_, found.state) < laws)) return false;
+    result_.state = std::move(found.state);
+    result_.active_sets.push_back(found.active_sets.back());
+    result_.reason += text("; condensed, rounding put the state off its laws by ", laws, ": ", found.iterations, " iterations on all unknowns");
+    return true;
   }
 
   /// The proximal point method, which converges from everywhere as the energy is convex, whatever the laws; `why` it is asked.

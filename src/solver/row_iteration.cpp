@@ -6,6 +6,7 @@
 #include "algebra/stop_factoring.hpp"
 #include "base/text.hpp"
 #include "problem/residual.hpp"
+#include "solver/refine.hpp"
 #include "solver/require_solvable.hpp"
 
 namespace dotyk::solver {
@@ -125,6 +126,8 @@ Result RowIteration::finish() {
 
 namespace {
 
+constexpr double kRounded = 1e-9;  // of laws
+
 /// The amounts of rigid motion that come nearest to the state's jumps.
 Vector rigid_motion_of(const problem::State& state, const Problem& problem, const CondensedProblem& condensed) {
   if (condensed.kernel_size() == 0) return Vector(0);
@@ -143,10 +146,16 @@ bool astray(const RowIteration& iteration) {
   return !(iteration.rounding().cwiseProduct(rho).maxCoeff() <= kMost * met);
 }
 
+/// Is the state further from its laws than the method means it to be? Then rounding of the condensed problem may be what is left.
+void improve(const Problem& problem, const CondensedProblem& condensed, Result& result) {
+  if (!result.converged || problem.blocks.empty() || off_laws(problem, result.state) <= kRounded) return;
+  if (refine(problem, condensed, result.state)) result.reason += "; refined from the displacements";
+}
+
 /// A method's own test may ask for more than rounding leaves: of forces that are small beside the loads, where bodies end up out of each
 /// other's way. What judges any method's state decides then, too.
 void accept(const Problem& problem, Result& result) {
-  constexpr double kRounded = 1e-9, kRoundings = 100;  // of laws; of a product K u
+  constexpr double kRoundings = 100;  // of a product K u
   if (result.converged || problem.blocks.empty()) return;
   const problem::Residual r = problem::residual(problem, result.state);
   const double laws = std::max({r.penetration, r.complementarity, r.law});
@@ -179,6 +188,7 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
   result.method = method.name();
   result.clock.iterate = watch.lap();
   result.state.u = condensed.recover(result.state.lambda, alpha);
+  improve(problem, condensed, result);
   if (!monitor.stop() && !astray(iteration)) accept(problem, result);
   result.clock.recover = watch.lap();
   result.factor_bytes = condensed.factor_bytes();

@@ -88,3 +88,25 @@ do
   refused(function() dotyk.scene{ ball, base }:contact{ low, base:part "top", pairing = "node_to_segment" } end,
     "no facet of one has feet of all its nodes on the other, as node_to_segment asks of order 2: take smaller cells, or mortar")
 end
+
+-- Curved sides in space, of cells alike: the answer does not depend on which part is named first.
+local function pressed(element, swapped)
+  local function box(name, base, height, E)
+    local mesh <const> = dotyk.mesh.box{ from = {0, 0, base}, to = {4, 4, base + 4}, cells = {2, 2, 2}, element = element }
+    mesh:transform(function(x, y, z) return x, y, z + height(x, y) * (1 - math.abs(z) / 4) end)
+    return dotyk.body{ name = name, mesh = mesh, material = dotyk.material{ E = E, nu = 0.2 } }
+  end
+  local upper <const> = box("upper", 0, function(x, y) return 0.02 * (x^2 + y^2) end, 3000)
+  local lower <const> = box("lower", -4, function(x) return -0.03 * x^2 end, 1000)
+  upper:part "top":displace{ x = 0.05, y = 0.02, z = -0.2 }
+  lower:part "bottom":fix()
+  local parts = { upper:part "bottom", lower:part "top" }
+  if swapped then parts[1], parts[2] = parts[2], parts[1] end
+  local scene <const> = dotyk.scene{ upper, lower }
+  local contact <const> = scene:contact{ parts[1], parts[2], friction = dotyk.friction.coulomb(0.2) }
+  local s <const> = dotyk.solve(scene)
+  check.that(s.converged, s.reason)
+  local force <const>, sign <const> = s:contact(contact).force, swapped and -1 or 1
+  return { sign * force[1], sign * force[2], sign * force[3] }
+end
+for _, element in ipairs{ "P2", "Q2" } do check.near(pressed(element, false), pressed(element, true), 1e-7) end
