@@ -25,7 +25,7 @@ do
   for _, method in ipairs{ S.pdas{}, S.pdas{ reduced = false }, S.active_set{}, S.interior_point{}, S.feti{}, S.projected_cg{}, S.newton{} } do
     local s = method:solve(scene)
     check.that(s.converged, s.reason)
-    has(s.reason, "displacement up to 'disc': rotation about (0, 0), by -0.0479")
+    has(s.reason, "displacement up to 'disc': rotation about (0, 0), by displacements from -0.0479")
     local x = s:displacement(d, 0, 0.5)
     local _, y = s:displacement(d, 0.5, 0)
     first = first or { x, y }
