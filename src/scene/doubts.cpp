@@ -77,6 +77,14 @@ void see_rounding(const Solution& solution, std::size_t index, std::vector<std::
                        ": cells there are too thin, or bodies move too far beside how they deform; grade the mesh less"));
 }
 
+/// Where supports hold the contact across everywhere: they bear what presses, and no friction comes of it.
+void see_held(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
+  const Contact& contact = *solution.scene().contacts[index];
+  const std::vector<int>& row = solution.model().contact_row[index];
+  if (contact.friction == Friction::Kind::coulomb && std::all_of(row.begin(), row.end(), [](int r) { return r < 0; }))
+    all.push_back(contact.name + ": supports hold all of it across the contact: they bear what presses, not the contact, and there is no friction");
+}
+
 /// A rotation whose square, which small displacements neglect, is a thousandth.
 constexpr double kGreatRotation = 0.03;
 
@@ -125,6 +133,7 @@ std::vector<std::string> doubts(const Solution& solution) {
       if (row >= 0 && solution.active(row)) rows.push_back(&contact.rows[i]);
     }
     see_chords(contact, std::move(rows), all);
+    see_held(solution, c, all);
     if (solution.result().converged) see_rounding(solution, c, all);
   }
   for (std::size_t b = 0; solution.result().converged && b < solution.scene().bodies.size(); ++b)

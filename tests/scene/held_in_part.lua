@@ -41,3 +41,12 @@ for _, mu in ipairs{ 0, 0.1 } do
     check(scene, scene:contact(parts), mu)
   end
 end
+
+-- All of a part held across its contact: the support bears what presses, and a warning says that Coulomb friction has nothing to do.
+local b = dotyk.body{ name = "b", material = soft, mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {3,3} } }
+b:part"bottom":slide()
+b:part"left":spring{ x = 1 }
+b:part"top":load{ 0.1, -1 }
+local scene = dotyk.scene{ b }
+scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} }, friction = dotyk.friction.coulomb(0.3) }
+assert(table.concat(dotyk.solve(scene).warnings):find("they bear what presses, not the contact, and there is no friction", 1, true))
