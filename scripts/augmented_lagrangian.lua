@@ -11,45 +11,24 @@
 local nodes <const> = tonumber(arg[1]) or 21 -- a side of each square
 local h <const> = 1 / (nodes - 1)
 
--- 1. Five-point differences as an energy: half a spring weight along the edges of a square. Unknowns of
--- square 1 are columns x = h … 1, of square 2 columns x = 1 … 2 − h; the held columns have no unknowns.
+-- 1. Five-point differences as an energy, and P in the middle of each cell as loads of its corners.
+local B <const>, D <const>, unknown <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/papers/two_squares.lua")(nodes)
 local function load_density(x, y)
   if x < 1 then return y > 0.5 and -1 or 0 end
   return y < 0.5 and 2 or 0
 end
-
-local function unknown(square, i, j) -- i, j = 0 … nodes − 1; nil where u = 0
-  local column = square == 1 and i - 1 or i
-  if column < 0 or column > nodes - 2 then return nil end
-  return (square - 1) * (nodes - 1) * nodes + column * nodes + j + 1
-end
-
-local B, c, D = { i = {}, j = {}, value = {} }, {}, { i = {}, j = {}, value = {} }
-local function add(matrix, i, j, value)
-  local k = #matrix.i + 1
-  matrix.i[k], matrix.j[k], matrix.value[k] = i, j, value
-end
+local c <const> = {}
 for k = 1, 2 * (nodes - 1) * nodes do c[k] = 0 end
-
-local function spring(a, b, weight)
-  if a then add(B, a, a, weight) end
-  if b then add(B, b, b, weight) end
-  if a and b then add(B, a, b, -weight) add(B, b, a, -weight) end
-end
 for square = 1, 2 do
   for i = 0, nodes - 2 do
     for j = 0, nodes - 2 do
-      local here, right = unknown(square, i, j), unknown(square, i + 1, j)
-      local up, across = unknown(square, i, j + 1), unknown(square, i + 1, j + 1)
-      spring(here, right, 0.5) spring(up, across, 0.5) spring(here, up, 0.5) spring(right, across, 0.5)
-      local P = load_density(square - 1 + (i + 0.5) * h, (j + 0.5) * h)
-      for _, k in pairs{ here, right, up, across } do c[k] = c[k] + P * h^2 / 4 end
+      local P <const> = load_density(square - 1 + (i + 0.5) * h, (j + 0.5) * h)
+      for _, corner in ipairs{ {i, j}, {i + 1, j}, {i, j + 1}, {i + 1, j + 1} } do
+        local k <const> = unknown(square, table.unpack(corner))
+        if k then c[k] = c[k] + P * h^2 / 4 end
+      end
     end
   end
-end
-for j = 0, nodes - 1 do
-  add(D, j + 1, unknown(1, nodes - 1, j), 1)
-  add(D, j + 1, unknown(2, 0, j), -1)
 end
 local glued <const> = dotyk.qp{ B = B, c = c, D = D }
 print(glued)

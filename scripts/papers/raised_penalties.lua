@@ -12,37 +12,16 @@
 
 local nodes <const> = tonumber(arg[1]) or 21 -- a side of each square
 
--- 1. Five-point differences of −Δ times h²: half a spring along the edges of a square. Square 1 has the columns x = h to 1,
--- square 2 x = 1 to 2 − h; the held columns have no unknowns.
-local function unknown(square, i, j) -- i, j = 0 to nodes − 1; nil where u = 0
-  local column = square == 1 and i - 1 or i
-  if column < 0 or column > nodes - 2 then return nil end
-  return (square - 1) * (nodes - 1) * nodes + column * nodes + j + 1
-end
-local function add(matrix, i, j, value)
-  local k = #matrix.i + 1
-  matrix.i[k], matrix.j[k], matrix.value[k] = i, j, value
-end
-local B, P, D = { i = {}, j = {}, value = {} }, {}, { i = {}, j = {}, value = {} }
-local function spring(a, b, weight)
-  if a then add(B, a, a, weight) end
-  if b then add(B, b, b, weight) end
-  if a and b then add(B, a, b, -weight) add(B, b, a, -weight) end
-end
+-- 1. Five-point differences of −Δ times h², and P at each node.
+local B <const>, D <const>, unknown <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/two_squares.lua")(nodes)
+local P <const> = {}
 for square = 1, 2 do
   for i = 0, nodes - 1 do
     for j = 0, nodes - 1 do
-      local here, right, up = unknown(square, i, j), i < nodes - 1 and unknown(square, i + 1, j), unknown(square, i, j + 1)
-      if i < nodes - 1 then spring(here, right, (j == 0 or j == nodes - 1) and 0.5 or 1) end
-      if j < nodes - 1 then spring(here, up, (i == 0 or i == nodes - 1) and 0.5 or 1) end
-      local y = j / (nodes - 1)
+      local here <const>, y <const> = unknown(square, i, j), j / (nodes - 1)
       if here then P[here] = square == 1 and (y > 0.5 and -1 or 0) or square == 2 and (y < 0.5 and 2 or 0) end
     end
   end
-end
-for j = 0, nodes - 1 do
-  add(D, j + 1, unknown(1, nodes - 1, j), 1)
-  add(D, j + 1, unknown(2, 0, j), -1)
 end
 
 -- 2. Which first penalties are raised, as text: the powers of ten among them.
