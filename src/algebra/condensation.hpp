@@ -46,7 +46,8 @@ class Condensation {
   /// The whole u from u_Γ, for the f of the last condense(): one backward sweep.
   Vector recover(const Vector& boundary_values) const;
 
-  /// K⁻¹f (a generalised inverse where there is a kernel), with `added` to u_Γ, continued as K does: a sweep each way.
+  /// The displacement under other forces f (of a generalised inverse where there is a kernel), to which the one is added that has the values
+  /// `added` on Γ and no forces off it: one forward and one backward sweep.
   Vector response(const Vector& f, const Vector& added) const;
 
   const Cholesky& cholesky() const { return factor_; }

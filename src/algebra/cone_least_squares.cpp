@@ -186,8 +186,8 @@ class Minimisation {
     return cholesky_.front().factor(H_);
   }
 
-  /// Sets x to the shortest of those that fit b best without limits, if it lies in the set. Long steps may follow then: true. Otherwise x
-  /// is the point of the set that is nearest to 0: false.
+  /// Of all x that fit b best without limits, the shortest: if it lies in the set, starts there and returns true (long steps may follow).
+  /// Otherwise starts at the point of the set nearest to 0 and returns false.
   bool start_without_limits() {
     project(x_);
     const Vector nearest = value_;

@@ -233,12 +233,13 @@ PairedRows pair_rows(const Face& first, const Face& second, std::optional<Pairin
     const double wider = wider_across(here.rows, first, second);
     return used == Pairing::mortar ? wider > kAlike : wider < 1 / kAlike;
   };
-  // Means over cells of order 2 differ by the side that they are taken on: of sides that are alike the one with the greater area has them.
-  const bool means = used == Pairing::mortar && first.mesh.topology().order == 2 && second.mesh.topology().order == 2 && !here.rows.empty() && !here.folded;
-  const bool other = other_way();
-  if (other || means)
-    if (Rows there = paired(second, first, used, added, interference, monitor);
-        !there.rows.empty() && (other || (!there.folded && wider_across(there.rows, second, first) <= kAlike && area(there.rows) > 1.000001 * area(here.rows))))
+  // In order 2 the mean over a cell is not the same on both sides: if their cells are alike, it is taken on the side of greater area.
+  const bool by_area = used == Pairing::mortar && first.mesh.topology().order == 2 && second.mesh.topology().order == 2 && !here.rows.empty() && !here.folded;
+  const auto greater = [&](const Rows& there) {
+    return !there.folded && wider_across(there.rows, second, first) <= kAlike && area(there.rows) > 1.000001 * area(here.rows);
+  };
+  if (const bool other = other_way(); other || by_area)
+    if (Rows there = paired(second, first, used, added, interference, monitor); !there.rows.empty() && (other || greater(there)))
       return chords_seen({used, std::move(there.rows), true}, second, first);
   if (here.rows.empty()) throw nothing_across(first, second, used);
   return chords_seen({used, std::move(here.rows)}, first, second);

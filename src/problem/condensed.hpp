@@ -32,7 +32,8 @@ class CondensedProblem {
   /// Without displacements to recover.
   CondensedProblem softened(const algebra::Vector& compliance, const algebra::Vector& centre) const;
 
-  /// The rows for what is missing to λ, where the jump is x: x' = x − Wλ' + Nα', Nᵀλ' = e − Nᵀλ. Without displacements to recover.
+  /// The problem of the corrections λ' and α' to a state of multipliers λ and jump x: x' = x − Wλ' + Nα', Nᵀλ' = e − Nᵀλ. Without
+  /// displacements to recover.
   CondensedProblem missing(const algebra::Vector& lambda, const algebra::Vector& x) const;
 
   int rows() const { return static_cast<int>(x0_.size()); }
@@ -47,7 +48,7 @@ class CondensedProblem {
   /// All unknowns, from the multipliers and the amounts of rigid motion: one backward sweep a block.
   algebra::Vector recover(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
 
-  /// K⁻¹f + Rα of other forces f on all unknowns.
+  /// The displacement K⁻¹f + Rα under other forces f (unknowns), by a generalised inverse for free blocks, with amounts α of rigid motions.
   algebra::Vector response(const algebra::Vector& f, const algebra::Vector& alpha) const;
 
   double factor_bytes() const;

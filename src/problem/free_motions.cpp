@@ -112,13 +112,12 @@ std::vector<double> greatest_of_loaded(const Problem& problem, const Parts& part
 
 Vector small_forces(const Problem& problem, const Vector& lambda, double tolerance) {
   if (lambda.size() == 0) return lambda;
-  const std::vector<std::size_t> body = blocks_of_unknowns(problem);
   const Parts parts = problem::parts(problem);
   const std::vector<double> greatest = greatest_of_loaded(problem, parts, lambda);
   std::vector<double> of_body(problem.blocks.size(), 0);
   const auto each = [&](const auto& visit) {
     for (int r = 0; r < problem.rows(); ++r)
-      for (SparseRows::InnerIterator it(problem.B, r); it; ++it) visit(r, body[static_cast<std::size_t>(it.col())]);
+      for (SparseRows::InnerIterator it(problem.B, r); it; ++it) visit(r, problem.block_of(it.col()));
   };
   each([&](int r, std::size_t b) { of_body[b] = std::max(of_body[b], std::abs(lambda[r])); });
   Vector least = Vector::Constant(lambda.size(), lambda.lpNorm<Eigen::Infinity>()), rounding = Vector::Zero(lambda.size());

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "problem/rigid_motions.hpp"
-
 namespace dotyk::problem {
 namespace {
 
@@ -34,14 +32,13 @@ std::vector<double> least_beside_others(const std::vector<double>& of_part, bool
 
 Parts parts(const Problem& problem) {
   const int blocks = static_cast<int>(problem.blocks.size());
-  const std::vector<std::size_t> block_of = blocks_of_unknowns(problem);
   std::vector<int> parent(blocks), first(problem.rows(), 0);
   for (int b = 0; b < blocks; ++b) parent[b] = b;
   for (int r = 0; r < problem.rows(); ++r) {
     int joined = -1;
     for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) {
       if (it.value() == 0) continue;
-      const int b = root_of(parent, static_cast<int>(block_of[static_cast<std::size_t>(it.col())]));
+      const int b = root_of(parent, static_cast<int>(problem.block_of(it.col())));
       if (joined >= 0) parent[b] = joined;
       else joined = b;
     }

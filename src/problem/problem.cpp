@@ -1,5 +1,7 @@
 #include "problem/problem.hpp"
 
+#include <algorithm>
+
 #include "algebra/generalised_inverse.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -10,6 +12,11 @@ namespace dotyk::problem {
 using algebra::SparseMatrix;
 using algebra::SparseRows;
 using algebra::Vector;
+
+std::size_t Problem::block_of(Eigen::Index unknown) const {
+  const auto next = std::upper_bound(blocks.begin(), blocks.end(), unknown, [](Eigen::Index u, const Block& block) { return u < block.first; });
+  return static_cast<std::size_t>(next - blocks.begin()) - 1;
+}
 
 std::vector<const RowGroup*> Problem::group_of_rows() const {
   std::vector<const RowGroup*> of(rows());
@@ -23,13 +30,13 @@ namespace {
 /// Σ_j B_rj² term(K_jj), row by row.
 template <class Term>
 Vector over_diagonal(const Problem& problem, const Term& term) {
-  Vector terms(problem.unknowns());
-  for (const Block& block : problem.blocks)
-    for (int j = 0; j < block.size(); ++j)  // the first entry of a lower column is its diagonal
-      terms[block.first + j] = term(block.K.valuePtr()[block.K.outerIndexPtr()[j]]);
   Vector sum = Vector::Zero(problem.rows());
   for (int r = 0; r < problem.rows(); ++r)
-    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) sum[r] += it.value() * it.value() * terms[it.col()];
+    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
+      const Block& block = problem.blocks[problem.block_of(it.col())];
+      const double diagonal = block.K.valuePtr()[block.K.outerIndexPtr()[it.col() - block.first]];  // a lower column's first entry
+      sum[r] += it.value() * it.value() * term(diagonal);
+    }
   return sum;
 }
 

@@ -51,6 +51,8 @@ struct Problem {
 
   int unknowns() const { return blocks.empty() ? 0 : blocks.back().first + blocks.back().size(); }
   int rows() const { return static_cast<int>(c.size()); }
+  /// The index of the block that an unknown belongs to.
+  std::size_t block_of(Eigen::Index unknown) const;
   /// The group of every row.
   std::vector<const RowGroup*> group_of_rows() const;
   /// Stiffness seen by each row: Σ_j B_rj² K_jj, in force per displacement. The unit of ρ.

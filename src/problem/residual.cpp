@@ -44,12 +44,14 @@ double natural_residual(const Problem& problem, const Vector& x, const Vector& l
   return distances_from_laws(problem, x, lambda, rho).norm() / (scale > 0 ? scale : 1);
 }
 
-double energy(const Problem& problem, const State& state) {
-  const Vector force = stiffness_times(problem, state.u);
+namespace {
+
+/// `internal`: Ku.
+double energy(const Problem& problem, const State& state, const Vector& internal) {
   double e = 0;
   for (const Block& block : problem.blocks) {
     const auto u = state.u.segment(block.first, block.size());
-    e += block.offset + 0.5 * u.dot(force.segment(block.first, block.size())) - u.dot(block.f);
+    e += block.offset + 0.5 * u.dot(internal.segment(block.first, block.size())) - u.dot(block.f);
   }
   const Vector x = problem.B * state.u - problem.c;
   for (const RowGroup& group : problem.groups)
@@ -57,6 +59,10 @@ double energy(const Problem& problem, const State& state) {
       e += group.law->energy(r - group.first, x[r]);
   return e;
 }
+
+}  // namespace
+
+double energy(const Problem& problem, const State& state) { return energy(problem, state, stiffness_times(problem, state.u)); }
 
 double friction_energy(const Problem& problem, const State& state) {
   const Vector x = problem.B * state.u - problem.c;
@@ -84,14 +90,20 @@ double friction_violation(const Problem& problem, const State& state, const Part
   return most;
 }
 
-/// Ku, Bᵀλ and f of all blocks.
+/// Ku (empty where a pass over K is not worth it), Bᵀλ and f of all blocks.
 struct Forces {
   Vector internal, contact, load;
 };
 
-Forces forces(const Problem& problem, const State& state) {
-  Forces all{stiffness_times(problem, state.u), problem.B.transpose() * state.lambda, Vector(problem.unknowns())};
+Forces external_forces(const Problem& problem, const State& state) {
+  Forces all{{}, problem.B.transpose() * state.lambda, Vector(problem.unknowns())};
   for (const Block& block : problem.blocks) all.load.segment(block.first, block.size()) = block.f;
+  return all;
+}
+
+Forces forces(const Problem& problem, const State& state) {
+  Forces all = external_forces(problem, state);
+  all.internal = stiffness_times(problem, state.u);
   return all;
 }
 
@@ -116,13 +128,14 @@ double moved_forces(const Block& block, const Vector& u) {
 
 /// What one part is measured by.
 struct Sizes {
-  double internal = 0, contact = 0, load = 0;  ///< ‖Ku‖, ‖Bᵀλ‖, ‖f‖
+  double internal = 0, contact = 0, load = 0;  ///< ‖Ku‖ (0 where it is not at hand), ‖Bᵀλ‖, ‖f‖
   double greatest_load = 0, greatest_displacement = 0;
   /// Where nothing loads the part, the least that counts as a force, a displacement and work: what half of the digits of K|u| are, and
   /// least_beside_others(). Bodies that get out of an obstacle's way end free of forces, and rounding of K times their motion is all that is
   /// left of those.
   double least_force = 0, least_length = 0, least_work = 0;
   double force() const { return std::max(internal + contact + load, least_force); }
+  double external() const { return std::max(contact + load, least_force); }
 };
 
 bool any_loaded(const std::vector<Sizes>& parts) {
@@ -131,7 +144,7 @@ bool any_loaded(const std::vector<Sizes>& parts) {
 
 void add_scales_of_others(std::vector<Sizes>& parts) {
   std::vector<double> force, length;
-  for (const Sizes& part : parts) force.push_back(part.force()), length.push_back(part.greatest_displacement);
+  for (const Sizes& part : parts) force.push_back(part.external()), length.push_back(part.greatest_displacement);
   const bool loaded = any_loaded(parts);
   force = least_beside_others(force, loaded), length = least_beside_others(length, loaded);
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -150,7 +163,8 @@ std::vector<Sizes> sizes(const Problem& problem, const State& state, const Force
   };
   each_block([&](const Block& block, Sizes& part) {
     const auto own = [&](const Vector& v) { return v.segment(block.first, block.size()); };
-    add(part.internal, own(all.internal)), add(part.contact, own(all.contact)), add(part.load, block.f);
+    if (all.internal.size() > 0) add(part.internal, own(all.internal));
+    add(part.contact, own(all.contact)), add(part.load, block.f);
     part.greatest_load = std::max(part.greatest_load, greatest(block.f));
     part.greatest_displacement = std::max(part.greatest_displacement, greatest(own(state.u)));
   });
@@ -268,7 +282,7 @@ double complementarity(const Problem& problem, const State& state, const Vector&
 
 std::vector<Scales> scales(const Problem& problem, const State& state) {
   const Parts parts = problem::parts(problem);
-  return scales(problem, state, parts, sizes(problem, state, forces(problem, state), parts));
+  return scales(problem, state, parts, sizes(problem, state, external_forces(problem, state), parts));
 }
 
 Residual residual(const Problem& problem, const State& state) {
@@ -276,6 +290,7 @@ Residual residual(const Problem& problem, const State& state) {
   const Forces all = forces(problem, state);
   const Parts parts = problem::parts(problem);
   const std::vector<Sizes> sizes = problem::sizes(problem, state, all, parts);
+  result.energy = energy(problem, state, all.internal);
   result.equilibrium = equilibrium(problem, all, parts, sizes);
   if (problem.rows() == 0) return result;
 

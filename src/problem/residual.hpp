@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "problem/problem.hpp"
 
 namespace dotyk::problem {
@@ -20,6 +22,9 @@ struct Residual {
                                ///< where f = 0, + √ε |u|ᵀ|K||u|
   double law = 0;              ///< greatest |λ − P(λ + ρx)| / F of all rows, ρ = F/X: whatever the law, friction included
   double friction = 0;         ///< greatest violation of a friction bound / the greatest bound
+  double energy = 0;           ///< the state's: see energy()
+  /// How far the state is from its laws: the greatest of penetration, complementarity and law.
+  double laws() const { return std::max({penetration, complementarity, law}); }
 };
 
 Residual residual(const Problem& problem, const State& state);
@@ -28,9 +33,9 @@ Residual residual(const Problem& problem, const State& state);
 /// ε‖|K||u|‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖), the greatest of all parts.
 double rounding_of_equilibrium(const Problem& problem, const State& state);
 
-/// What rounding of Ku leaves unknown of each row's force: ε(|B||K||u|)_r / Σ_j B_rj². It is great where cells are so thin that their
-/// stiffness times the displacement is beyond 1/ε of the forces. 0 of rows that are open by
-/// more than a millionth of X.
+/// By row, the error of its force that one rounding error in each product of Ku may make: ε(|B||K||u|)_r / Σ_j B_rj². It is comparable to
+/// the force where cells are so thin that their stiffness times the displacement is 1/ε of it. 0 for rows that are open by more than a
+/// millionth of X.
 algebra::Vector rounding_of_forces(const Problem& problem, const State& state);
 
 /// F and X of each row, those of its part (see Parts); 1 where they would vanish.

@@ -34,21 +34,13 @@ Vector resultants(const Block& block) {
 
 }  // namespace
 
-std::vector<std::size_t> blocks_of_unknowns(const Problem& problem) {
-  std::vector<std::size_t> block_of(static_cast<std::size_t>(problem.unknowns()));
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
-    std::fill_n(block_of.begin() + problem.blocks[b].first, problem.blocks[b].size(), b);
-  return block_of;
-}
-
 SparseMatrix jumps_of_modes(const Problem& problem) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<int> first_mode{0};
   for (const Block& block : problem.blocks) first_mode.push_back(first_mode.back() + static_cast<int>(block.kernel.cols()));
-  const std::vector<std::size_t> block_of = blocks_of_unknowns(problem);
   for (int r = 0; r < problem.rows(); ++r)
     for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) {
-      const std::size_t b = block_of[static_cast<std::size_t>(it.col())];
+      const std::size_t b = problem.block_of(it.col());
       const Block& block = problem.blocks[b];
       for (int k = 0; k < block.kernel.cols(); ++k) entries.emplace_back(r, first_mode[b] + k, it.value() * block.kernel(it.col() - block.first, k));
     }

@@ -32,8 +32,6 @@ struct RigidMotions {
 };
 /// Asks whether to stop, see algebra::ask_to_stop().
 RigidMotions rigid_motions(const Problem& problem);
-/// The index of the block that each unknown belongs to.
-std::vector<std::size_t> blocks_of_unknowns(const Problem& problem);
 /// B R, rows × modes.
 algebra::SparseMatrix jumps_of_modes(const Problem& problem);
 /// The same motions under another f: sets e and noticed_e.

@@ -128,7 +128,8 @@ Result attempt(const Scaled& scaled, const InteriorPoint& settings, Monitor& mon
   return result;
 }
 
-/// From this result on: slack and multiplier of rows of unknowns with little energy part only far below tol. `from` where that is no better.
+/// Active sets from this result on. They find unknowns of little energy, for which slack and multiplier of a row differ only far below tol.
+/// Returns `from` if that is no worse.
 Result by_active_sets(const QuadraticProgram& program, const Result& from, Monitor& monitor) {
   ActiveSet settings;
   settings.start = ActiveSet::Start::cold;
@@ -158,6 +159,7 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
     result = attempt(scale(program), settings, monitor);
     const auto off = [&](const Result& r, Rounding nothing) { return imbalance(program, r.x, r.y, nothing); };
     const double most = std::max(kImbalanced, settings.tol);
+    bool hidden = false;
     if (result.status == Status::solved && off(result, Rounding::own) > most) {
       InteriorPoint finer = settings;
       finer.fine = [&](const Vector& x, const Vector& y) {
@@ -167,13 +169,11 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
         const Result other = attempt(*other_units, finer, monitor);
         if (other.status == Status::solved && off(other, Rounding::own) < off(result, Rounding::own)) result = other;
       }
-      if (off(result, Rounding::of_greatest) > kHidden) {
-        result = by_active_sets(program, result, monitor);
-        if (off(result, Rounding::of_greatest) > kHidden) result.status = Status::stopped, result.reason = kHiddenReason;
-      }
+      hidden = off(result, Rounding::of_greatest) > kHidden;
     }
-    const bool may_go_on = !settings.fine && !monitor.stop() && program.unknowns() + program.rows() <= kEndsExactly;
-    if (may_go_on && (result.status == Status::solved || result.status == Status::stopped)) result = by_active_sets(program, result, monitor);
+    const bool few = !settings.fine && !monitor.stop() && program.unknowns() + program.rows() <= kEndsExactly;
+    if (hidden || (few && (result.status == Status::solved || result.status == Status::stopped))) result = by_active_sets(program, result, monitor);
+    if (hidden && off(result, Rounding::of_greatest) > kHidden) result.status = Status::stopped, result.reason = kHiddenReason;
   }
   measure(program, result);
   result.seconds = clock.seconds();

@@ -55,12 +55,12 @@ std::string nearly_free(const Body& body, const Numbering& numbering, const prob
 std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& model) {
   constexpr std::size_t most = 3;
   std::vector<std::string> all;
-  std::size_t more = 0;
   for (std::size_t b = 0; b < model.nearly_free.size(); ++b)
-    if (model.nearly_free[b].empty()) continue;
-    else if (all.size() < most) all.push_back("'" + scene.bodies[b]->name + "' is " + model.nearly_free[b]);
-    else ++more;
-  if (more > 0) all.push_back(text(more, " more bodies are nearly free"));
+    if (!model.nearly_free[b].empty()) all.push_back("'" + scene.bodies[b]->name + "' is " + model.nearly_free[b]);
+  if (all.size() <= most) return all;
+  const std::string others = text(all.size() - most, " more bodies are nearly free");
+  all.resize(most);
+  all.push_back(others);
   return all;
 }
 

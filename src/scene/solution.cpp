@@ -39,8 +39,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     settle(*scene_, model_, problem, state_before(past_, result_.state.u), result_);
   result_.clock.motions += watch.lap();
   residual_ = solver::judge(problem, result_, model_.softest);
-  rounding_ = problem::rounding_of_forces(problem, result_.state);
-  energy_ = problem::energy(problem, result_.state);
+  if (with_stiffness) rounding_of_forces_ = problem::rounding_of_forces(problem, result_.state);
   friction_energy_ = problem::friction_energy(problem, result_.state);
   add_step(problem);
   for (const std::string& body : describe_nearly_free(*scene_, model_)) result_.reason += "; " + body;
@@ -114,6 +113,11 @@ elasticity::Stress Solution::stress(int body, const Point& x) const {
   for (int a = 0; a < b.mesh->topology().nodes; ++a)
     for (std::size_t v = 0; v < s.size(); ++v) s[v] += at.shape[a] * nodal[b.mesh->cell(at.cell)[a]][v];
   return s;
+}
+
+const algebra::Vector& Solution::rounding_of_forces() const {
+  if (!rounding_of_forces_) rounding_of_forces_ = problem::rounding_of_forces(model_.problem, result_.state);
+  return *rounding_of_forces_;
 }
 
 bool Solution::active(int row) const {

@@ -115,7 +115,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   void add_reason(const std::string& more) { result_.reason += more; }
   /// "step 3 of 10: " before the reason.
   void name_step(const std::string& step) { result_.reason = step + result_.reason; }
-  double energy() const { return energy_; }
+  double energy() const { return residual_.energy; }
   /// Σ bound ‖increment of slip‖: what friction dissipates in this step.
   double friction_energy() const { return friction_energy_; }
   const Loading& loading() const { return past_.loading; }
@@ -152,8 +152,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
   /// As the scene was solved; a step that is not the last has no stiffness matrices.
   const Model& model() const { return model_; }
   bool active(int row) const;
-  /// See problem::rounding_of_forces().
-  const algebra::Vector& rounding_of_forces() const { return rounding_; }
+  /// See problem::rounding_of_forces(); made on first use.
+  const algebra::Vector& rounding_of_forces() const;
 
  private:
   ErrorEstimate make_error_estimate() const;
@@ -165,15 +165,16 @@ class Solution : public std::enable_shared_from_this<Solution> {
   Model model_;
   mutable solver::Result result_;
   problem::Residual residual_;
-  double energy_ = 0, friction_energy_ = 0;
+  double friction_energy_ = 0;
   Past past_;
-  algebra::Vector slip_, rounding_;
+  algebra::Vector slip_;
   std::vector<double> dissipated_;
   std::vector<std::vector<double>> displacement_;
   mutable std::vector<std::vector<elasticity::Stress>> stress_;
   mutable std::vector<std::unique_ptr<Locator>> locators_;
   mutable std::optional<ErrorEstimate> error_estimate_;
   mutable std::optional<double> path_error_;
+  mutable std::optional<algebra::Vector> rounding_of_forces_;
 };
 
 /// Where contacts and supports by laws start: as a coarser solution's nearest nodes were (its contact or support of the

@@ -98,8 +98,8 @@ class FrictionPrograms {
     ++count_;
   }
 
-  /// Is N_tᵀ(μsp) = NᵀSλ a multiple of e for all forces in balance? It is if qᵀNᵀSλ = 0 for every motion q ⟂ e. As qᵀNᵀλ = qᵀe = 0, it
-  /// suffices that the columns of SᵀNQ are combinations of those of NQ, with Q a basis of these motions.
+  /// True if NᵀSλ = N_tᵀ(μsp) is a multiple of e for all forces in balance. The condition is qᵀNᵀSλ = 0 for each motion q ⟂ e. Forces in
+  /// balance have qᵀNᵀλ = qᵀe = 0, so it holds if SᵀNq is a combination of the columns of NQ, Q a basis of these motions.
   bool parallel() const {
     if (e_.size() < 2) return true;
     const DenseMatrix Q = Eigen::HouseholderQR<DenseMatrix>(e_).householderQ();
@@ -115,7 +115,7 @@ class FrictionPrograms {
     const DenseMatrix half = W_ - S.transpose() * W_, squared = N_ * N_.transpose();
     // The program is solved in units of force and energy in which it is of size 1.
     const double force = e_.norm() / N_.norm(), yield = half.norm(), energy = yield * force * force;
-    // ‖Nᵀλ − e‖² is 0 for forces in balance. A multiple of it makes the program convex everywhere if it is convex there.
+    // Forces in balance have Nᵀλ = e. If the program is convex on them, it becomes convex everywhere by adding a multiple of ‖Nᵀλ − e‖².
     const double weight = 10 / squared.norm();
     program::QuadraticProgram program;
     program.name = "friction";

@@ -377,8 +377,9 @@ class Iteration {
 
   /// Where bodies have gone far for the sake of rows that bear nothing, rounding of the way may spoil the gaps of others.
   void confirm_laws() {
-    double laws = off_laws(problem_, result_.state);
-    if (condensed_ && laws > result_.noise && refine(problem_, *condensed_, result_.state)) laws = off_laws(problem_, result_.state);
+    problem::Residual r = problem::residual(problem_, result_.state);
+    if (condensed_ && r.laws() > result_.noise) refine(problem_, *condensed_, result_.state, r);
+    const double laws = r.laws();
     if (!(laws > result_.noise) || on_all_unknowns(laws)) return;
     by_proximal(text("rounding put the state off its laws by ", laws));
     result_.state.lambda = lambda_;
@@ -392,7 +393,7 @@ class Iteration {
     whole.reduced = false, whole.start = result_.active_sets.back();
     InnerMonitor monitor(monitor_);
     Result found = solve(problem_, whole, monitor);
-    if (!found.converged || !(off_laws(problem_, found.state) < laws)) return false;
+    if (!found.converged || !(problem::residual(problem_, found.state).laws() < laws)) return false;
     result_.state = std::move(found.state);
     result_.active_sets.push_back(found.active_sets.back());
     result_.reason += text("; condensed, rounding put the state off its laws by ", laws, ": ", found.iterations, " iterations on all unknowns");

@@ -1,9 +1,9 @@
 #include "solver/refine.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "algebra/lu.hpp"
-#include "problem/residual.hpp"
 #include "solver/natural_map.hpp"
 
 namespace dotyk::solver {
@@ -15,12 +15,10 @@ using problem::State;
 
 namespace {
 
+/// f − Ku − Bᵀλ.
 Vector out_of_balance(const Problem& problem, const State& state) {
-  Vector left = -(problem.B.transpose() * state.lambda);
-  for (const problem::Block& block : problem.blocks) {
-    const auto u = state.u.segment(block.first, block.size());
-    left.segment(block.first, block.size()) += block.f - block.K.selfadjointView<Eigen::Lower>() * u;
-  }
+  Vector left = -(problem::stiffness_times(problem, state.u) + problem.B.transpose() * state.lambda);
+  for (const problem::Block& block : problem.blocks) left.segment(block.first, block.size()) += block.f;
   return left;
 }
 
@@ -30,7 +28,8 @@ std::optional<State> step(const Problem& problem, const CondensedProblem& conden
   const Vector x = problem.B * balanced - problem.c;
   const CondensedProblem missing = condensed.missing(from.lambda, x);
   const NaturalMap map(problem, missing, stiffness_of_rows(condensed));
-  // λ + λ' = P + S (λ + λ' + ρ(x − Wλ' + Nα') − y), y = λ + ρx, an equation of λ' that the missing problem's own x = x − … turns into the map's.
+  // With d the correction to λ: λ + d = P + S(λ + d + ρ(x − Wd + Nα) − y) and y = λ + ρx. That is d = (P − λ) + S(d + ρ(x − Wd + Nα) − ρx),
+  // the map's own equation on the missing problem with P − λ for P and ρx for y.
   NaturalMap::Value value = map.with_jump(from.lambda, x);
   value.projected -= from.lambda;
   value.y = map.rho().cwiseProduct(x);
@@ -45,27 +44,18 @@ std::optional<State> step(const Problem& problem, const CondensedProblem& conden
 
 }  // namespace
 
-double off_laws(const Problem& problem, const State& state) {
-  const problem::Residual r = problem::residual(problem, state);
-  return std::max({r.penetration, r.complementarity, r.law});
-}
-
-bool refine(const Problem& problem, const CondensedProblem& condensed, State& state) {
+bool refine(const Problem& problem, const CondensedProblem& condensed, State& state, problem::Residual& at) {
   constexpr int kSteps = 3;
-  const auto off = [&](const State& s) {
-    const problem::Residual r = problem::residual(problem, s);
-    return std::max({r.penetration, r.complementarity, r.law, r.equilibrium});
-  };
-  double before = off(state);
+  const auto off = [](const problem::Residual& r) { return std::max(r.laws(), r.equilibrium); };
   bool better = false;
   for (int k = 0; k < kSteps; ++k) {
     std::optional<State> next = step(problem, condensed, state);
     if (!next) break;
-    const double left = off(*next);
-    if (!(left < before)) break;
-    state = std::move(*next), better = true;
-    if (left > 0.1 * before) break;
-    before = left;
+    const double before = off(at);
+    const problem::Residual there = problem::residual(problem, *next);
+    if (!(off(there) < before)) break;
+    state = std::move(*next), at = there, better = true;
+    if (off(at) > 0.1 * before) break;
   }
   return better;
 }

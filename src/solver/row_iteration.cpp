@@ -148,8 +148,9 @@ bool astray(const RowIteration& iteration) {
 
 /// Is the state further from its laws than the method means it to be? Then rounding of the condensed problem may be what is left.
 void improve(const Problem& problem, const CondensedProblem& condensed, Result& result) {
-  if (!result.converged || problem.blocks.empty() || off_laws(problem, result.state) <= kRounded) return;
-  if (refine(problem, condensed, result.state)) result.reason += "; refined from the displacements";
+  if (!result.converged || problem.blocks.empty()) return;
+  problem::Residual r = problem::residual(problem, result.state);
+  if (!(r.laws() <= kRounded) && refine(problem, condensed, result.state, r)) result.reason += "; refined from the displacements";
 }
 
 /// A method's own test may ask for more than rounding leaves: of forces that are small beside the loads, where bodies end up out of each
@@ -158,7 +159,7 @@ void accept(const Problem& problem, Result& result) {
   constexpr double kRoundings = 100;  // of a product K u
   if (result.converged || problem.blocks.empty()) return;
   const problem::Residual r = problem::residual(problem, result.state);
-  const double laws = std::max({r.penetration, r.complementarity, r.law});
+  const double laws = r.laws();
   if (!(laws <= kRounded)) return;
   if (r.equilibrium > std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, result.state))) return;
   result.converged = true;

@@ -39,9 +39,9 @@ class RowIteration {
   /// Of the iterate: its distance from the laws and the forces out of balance, against the forces that count; see RowScales. It does
   /// not depend on the map's ρ: a small one would let the force of a slipping point pass in whatever direction.
   double residual() const;
-  /// The forces that count, of the iterate: by row, not 0.
+  /// By row, the force that the iterate's errors are measured by (RowScales::forces()); 1 where it would vanish.
   algebra::Vector forces() const;
-  /// What rounding may leave of its jump: displacements by row.
+  /// By row, how far rounding may put the iterate's jump off, a displacement.
   algebra::Vector rounding() const { return scales_.rounding(alpha_, value_.x); }
   /// ‖λ − P(λ + ρx)‖ of the iterate: F without what is out of balance.
   double law_residual() const { return (lambda_ - value_.projected).norm(); }

@@ -18,7 +18,7 @@ using problem::Residual;
 constexpr double kMostGranted = 0.1;
 
 void require_finite(const Problem& problem, const Result& result, const Residual& r) {
-  const double sum = problem::energy(problem, result.state) + problem::friction_energy(problem, result.state) + r.equilibrium +
+  const double sum = r.energy + problem::friction_energy(problem, result.state) + r.equilibrium +
                      r.penetration + r.complementarity + r.law;
   if (result.state.u.allFinite() && result.state.lambda.allFinite() && std::isfinite(sum)) return;
   throw std::runtime_error(
@@ -52,7 +52,7 @@ void refuse_residuals(const Problem& problem, const Residual& r, Result& result)
   if (result.penalty)
     for (const problem::Scales& row : problem::scales(problem, result.state))
       penalty = std::max(penalty, (1 + asked) * result.penalty->penetration / row.length);
-  const double laws = result.penalty ? r.law : std::max({r.penetration, r.complementarity, r.law});
+  const double laws = result.penalty ? r.law : r.laws();
   if (equilibrium > allowed)
     refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", loaded(problem) ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)",
                 ": stiffnesses, supports or sizes are too far apart ",
