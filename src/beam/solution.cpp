@@ -12,7 +12,7 @@ namespace dotyk::beam {
 
 Solution::Solution(Beam beam, Model model, solver::Result result)
     : beam_(std::move(beam)), model_(std::move(model)), result_(std::move(result)),
-      residual_(solver::judge(model_.problem, result_)), energy_(problem::energy(model_.problem, result_.state)) {
+      residual_(solver::judge(model_.problem, result_)) {
   sum_loads();
 }
 

@@ -22,7 +22,7 @@ class Solution {
   const Model& model() const { return model_; }
   const solver::Result& result() const { return result_; }
   const problem::Residual& residual() const { return residual_; }
-  double energy() const { return energy_; }  ///< with the supports', force·length
+  double energy() const { return residual_.energy; }  ///< with the supports', force·length
 
   double deflection(double x) const;  ///< of the cubic elements; with constant EJ exact at nodes
   double rotation(double x) const;
@@ -48,7 +48,6 @@ class Solution {
   Model model_;
   solver::Result result_;
   problem::Residual residual_;
-  double energy_ = 0;
   std::vector<PointLoad> forces_;            ///< point loads and reactions
   std::vector<double> sum_q_, sum_moment_;   ///< ∫ q and ∫ (x_i − s) q(s) ds from 0 to each node
 };

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "beam/solvable.hpp"
 #include "solver/pdas.hpp"
+#include "solver/settle.hpp"
 
 namespace dotyk::beam {
 
@@ -46,7 +47,8 @@ solver::Result run(const Model& model, const std::string& note, const solver::Me
     result.converged = false;
     result.reason = kUnbalanced;
   }
-  if (!note.empty() && result.reason.find("unique up to") == std::string::npos) result.reason += "; " + note;
+  if (note.empty()) solver::settle(model.problem, algebra::Vector::Zero(result.state.u.size()), result);
+  else if (result.reason.find("unique up to") == std::string::npos) result.reason += "; " + note;
   return result;
 }
 

@@ -20,6 +20,15 @@ problem::Interval allowed(const problem::Law& law, int row, double lambda, doubl
 
 }  // namespace
 
+Vector of_freedoms(const Model& model, const Vector& amounts) {
+  const problem::Block& block = model.problem.blocks.front();
+  Vector moved = block.kernel * amounts;
+  Vector all = Vector::Zero(model.space.count());
+  for (int i = 0; i < all.size(); ++i)
+    if (model.unknown[i] >= 0) all[i] = moved[model.unknown[i]];
+  return all / all.lpNorm<Eigen::Infinity>();
+}
+
 Vector by_motion(const algebra::SparseRows& B, const Vector& moved) {
   Vector by = B * moved;
   const double greatest = moved.size() ? moved.lpNorm<Eigen::Infinity>() : 0;

@@ -10,6 +10,9 @@ struct Family {
   double from, to;          ///< may be infinite
 };
 
+/// The motion by these amounts of the modes of the problem's kernel: of all freedoms, greatest 1.
+algebra::Vector of_freedoms(const Model& model, const algebra::Vector& amounts);
+
 /// B·moved, zero where it is no more than rounding, 1e-9 of Σⱼ|Bᵢⱼ| max|moved|: the row does not notice the motion.
 algebra::Vector by_motion(const algebra::SparseRows& B, const algebra::Vector& moved);
 

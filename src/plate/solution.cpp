@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 
 Solution::Solution(std::shared_ptr<const Model> model, solver::Result result, std::optional<Family> family)
     : model_(std::move(model)), result_(std::move(result)), residual_(solver::judge(model_->problem, result_)),
-      energy_(problem::energy(model_->problem, result_.state)), u_(model_->freedoms(result_.state.u)), family_(std::move(family)), finder_(model_->space) {
+      u_(model_->freedoms(result_.state.u)), family_(std::move(family)), finder_(model_->space) {
 }
 
 Eigen::Matrix<double, 6, 1> Solution::values(const Place& place, const Vector& freedoms) const {

@@ -25,7 +25,7 @@ class Solution {
   const Model& model() const { return *model_; }
   const solver::Result& result() const { return result_; }
   const problem::Residual& residual() const { return residual_; }
-  double energy() const { return energy_; }  ///< with the supports', force·length
+  double energy() const { return residual_.energy; }  ///< with the supports', force·length
   /// Every freedom of the model's space.
   const algebra::Vector& freedoms() const { return u_; }
   /// Where the solution is not the only one: all of them.
@@ -48,7 +48,6 @@ class Solution {
   std::shared_ptr<const Model> model_;
   solver::Result result_;
   problem::Residual residual_;
-  double energy_ = 0;
   algebra::Vector u_;
   std::optional<Family> family_;
   Finder finder_;

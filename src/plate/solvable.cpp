@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "plate/family.hpp"
 #include "problem/solvability.hpp"
 
 namespace dotyk::plate {
@@ -56,15 +57,6 @@ double left_to_bear(const Model& model, const problem::RigidMotions& rigid, cons
       if (std::abs(by) > rounding[group.first + k]) sum += by * (by > 0 ? high : low);
     }
   return sum;
-}
-
-algebra::Vector of_freedoms(const Model& model, const algebra::Vector& amounts) {
-  const problem::Block& block = model.problem.blocks.front();
-  algebra::Vector moved = block.kernel * amounts;
-  algebra::Vector all = algebra::Vector::Zero(model.space.count());
-  for (int i = 0; i < all.size(); ++i)
-    if (model.unknown[i] >= 0) all[i] = moved[model.unknown[i]];
-  return all / all.lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace

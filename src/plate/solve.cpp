@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "plate/auxiliary.hpp"
 #include "plate/solvable.hpp"
+#include "solver/settle.hpp"
 
 namespace dotyk::plate {
 
@@ -27,6 +28,14 @@ void normalise(const Model& model, Vector& unknowns) {
     moments.col(i) = loads(with, model.space);
   }
   unknowns -= R * (moments.transpose() * R).inverse() * (moments.transpose() * unknowns);
+}
+
+/// Edges apart from one another may bear the most that they can, one up and one down, and leave the plate free to move. All solutions then,
+/// if they differ by one motion; the state becomes the least of them.
+std::optional<Family> settled(const Model& model, solver::Result& result) {
+  const problem::FreeMotions free = solver::settle(model.problem, Vector::Zero(result.state.u.size()), result);
+  if (free.count != 1) return {};
+  return family(model, result.state, of_freedoms(model, Vector(free.motions.col(0))));
 }
 
 /// What is known before in place of what methods say of it in general.
@@ -51,6 +60,7 @@ std::shared_ptr<const Solution> solve(std::shared_ptr<const Model> model, const 
   } else {
     result = run(model->problem, method, monitor);
     if (verdict.motion && result.converged) all = family(*model, result.state, *verdict.motion);
+    else all = settled(*model, result);
   }
   tell(verdict.note, result.reason);
   if (model->problem.rows() == 0 && model->problem.blocks.front().kernel.cols() == 3) normalise(*model, result.state.u);
