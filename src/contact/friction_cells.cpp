@@ -51,14 +51,15 @@ int component_of(const SurfaceFacet& f, const std::vector<int>& component) {
   return -1;
 }
 
-/// Half edges, their cells named by the moving node they belong to; halves between nodes that stay are left out.
-std::vector<CellShare> dual_shares(const Surface& surface, const std::vector<char>& moves) {
+/// Half edges, their cells named by the moving node they belong to; halves between nodes that stay, and those of bare nodes, are left out.
+std::vector<CellShare> dual_shares(const Surface& surface, const std::vector<char>& moves, const std::vector<char>& bare) {
   std::vector<CellShare> shares;
   for (std::size_t k = 0; k < surface.facets.size(); ++k) {
     const SurfaceFacet& f = surface.facets[k];
     const Point v = surface.mesh.facet_area_vector(f.facet);
     for (int c = 0; c < 2; ++c) {
       int owner = f.row[c];
+      if (owner >= 0 && !bare.empty() && bare[owner]) continue;
       if (owner < 0 || !moves[owner]) owner = f.row[1 - c];
       if (owner >= 0 && moves[owner]) shares.push_back({&f, static_cast<int>(k), half_gram(std::hypot(v[0], v[1]), c), c, owner});
     }
@@ -151,10 +152,10 @@ double facet_width(const Surface& surface) {
 }
 
 std::vector<FrictionCell> friction_cells(const Surface& surface, const std::vector<double>& g,
-                                         const std::vector<char>& moves, double size) {
+                                         const std::vector<char>& moves, double size, const std::vector<char>& bare) {
   std::vector<CellShare> shares;
   if (surface.mesh.dimension() == 2) {
-    shares = dual_shares(surface, moves);
+    shares = dual_shares(surface, moves, bare);
     join_dual_cells(surface, size, shares);
   } else {
     shares = facet_shares(surface, size);

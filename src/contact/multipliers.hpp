@@ -52,11 +52,11 @@ struct FrictionCell {
 
 /// The cells of p1_p0 for the bound g at the contact rows (g_h is its linear interpolation; at a crack's tip the
 /// mean of the facet's other corners). Cells where g_h vanishes are left out.
-/// In the plane a dual cell a node; the half cells of a node that does not move belong to its neighbour's. `size`
-/// joins dual cells, or in space facets, into cells of about that extent H (see partition.hpp); 0 stands for the
+/// In the plane a dual cell a node; the half cells of a node that does not move belong to its neighbour's, those of a node that is `bare`
+/// (none given: none is) to no cell: they bear no friction. `size` joins dual cells, or in space facets, into cells of about that extent H (see partition.hpp); 0 stands for the
 /// dual cells themselves, in space for kCellWidth times the widest facet.
 std::vector<FrictionCell> friction_cells(const Surface& surface, const std::vector<double>& g,
-                                         const std::vector<char>& moves, double size);
+                                         const std::vector<char>& moves, double size, const std::vector<char>& bare = {});
 
 /// h in space: the side of the square that the widest facet, a quadrilateral or a triangle and its mirror image,
 /// fills; in the plane the longest edge.

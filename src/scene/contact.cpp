@@ -122,6 +122,10 @@ void set_discretisation(Contact& contact, const Discretisation& discretisation) 
                    contact.friction == Friction::Kind::none))
     throw InputError("'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"; it is given "
                      "without them");
+  if (discretisation.ends != CellEnds::own && (discretisation.multipliers == contact::Multipliers::nodal ||
+                                               contact.friction == Friction::Kind::none || contact.first.body->dimension() != 2))
+    throw InputError("'friction_ends' is about the cells of friction on a line, with multipliers = \"P1-P0\"; it is given "
+                     "without them");
   if (discretisation.multipliers == contact::Multipliers::nodal) return;
   for (const Part* part : {&contact.first, &contact.second})
     if (part->body && part->body->mesh->topology().order == 2)

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "contact/friction_shares.hpp"
 #include "contact/tangents.hpp"
 
 namespace dotyk::scene {
@@ -88,19 +89,46 @@ class ContactRowMaker {
                             " inside the other side; no displacement can part them"));
   }
 
+  /// Each row's surroundings for friction. At corners of the part they are its neighbours', so that B keeps its rank.
+  std::vector<std::vector<contact::Term>> surroundings(std::vector<char> aside) const {
+    if (!contact_.discretisation.share_fixed) aside.assign(aside.size(), 0);
+    std::vector<char> slides;
+    for (std::size_t k = 0; k < contact_.rows.size(); ++k) slides.push_back(!scene::free_tangents(free_[k], contact_.rows[k].normal, dim_).empty());
+    return contact::friction_shares(contact_.rows, aside, slides);
+  }
+
   std::vector<Candidate> nodal_points() const {
     std::vector<Candidate> points;
+    const std::vector<std::vector<contact::Term>> nodes = surroundings(contact::at_corners(contact_.rows));
     for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
+      if (nodes[k].empty()) continue;
       const contact::ContactRow& row = contact_.rows[k];
-      const double value = contact_.friction_value[k];
-      const int n = model_.contact_row.back()[k], index = static_cast<int>(k);
-      const double bound = contact_.friction == Friction::Kind::tresca ? value * row.weight : value;
-      if (bound == 0 || (n < 0 && contact_.friction == Friction::Kind::coulomb)) continue;  // a product below all numbers is no friction, either
-      Candidate point{{{{index, 1}}, {{index, 1}}, bound, row.weight, {}}, std::isfinite(value), n, {}};
+      const bool given = contact_.friction == Friction::Kind::tresca;
+      double bound = 0, measure = 0;
+      for (const contact::Term& node : nodes[k]) {
+        const double weight = node.weight * contact_.rows[node.row].weight;
+        bound += contact_.friction_value[node.row] * (given ? weight : weight / row.weight);  // what is taken over presses as the node does
+        measure += weight;
+      }
+      const int n = model_.contact_row.back()[k];
+      if (bound == 0 || (n < 0 && !given)) continue;  // a product below all numbers is no friction, either
+      Candidate point{{{{static_cast<int>(k), 1}}, nodes[k], bound, measure, {}}, std::isfinite(bound), n, {}};
       point.tangents = scene::free_tangents(free_[k], row.normal, dim_);
       points.push_back(std::move(point));
     }
     return points;
+  }
+
+  /// Friction cells in the plane: the rows whose half cells belong to their neighbours', and those whose have no friction.
+  void set_ends(std::vector<char>& moving, std::vector<char>& bare) const {
+    if (dim_ != 2) return;
+    std::vector<char> aside = contact::at_corners(contact_.rows);
+    const CellEnds ends = contact_.discretisation.ends;
+    if (ends != CellEnds::own) aside = contact::at_ends(contact_.rows);
+    const std::vector<std::vector<contact::Term>> nodes = surroundings(aside);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (nodes[k].empty()) moving[k] = 0;
+    if (ends == CellEnds::bare) bare = std::move(aside);
   }
 
   std::vector<Candidate> cell_points() const {
@@ -113,9 +141,11 @@ class ContactRowMaker {
       moving.push_back(std::any_of(t.begin(), t.end(), [&](const Point& d) { return moves(k, d); }));
     }
     if (!contact_.discretisation.share_fixed) moving.assign(moving.size(), 1);
+    std::vector<char> bare;
+    set_ends(moving, bare);
     std::vector<Candidate> points;
     for (contact::FrictionCell& cell :
-         contact::friction_cells(surface_of(contact_), g, moving, contact_.discretisation.friction_size)) {
+         contact::friction_cells(surface_of(contact_), g, moving, contact_.discretisation.friction_size, bare)) {
       Candidate point{std::move(cell), slips, -1, {}};
       Point mean{0, 0, 0};
       double most = 0;

@@ -3,7 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "algebra/null_space.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::scene {
@@ -85,6 +87,70 @@ void see_held(const Solution& solution, std::size_t index, std::vector<std::stri
     all.push_back(contact.name + ": supports hold all of it across the contact: they bear what presses, not the contact, and there is no friction");
 }
 
+/// A contact's row of B, and the contact row where it acts.
+struct Acting {
+  int row;
+  const Contact* contact;
+  const contact::ContactRow* at;
+};
+
+/// The rows that bear forces free to change, pressures and friction that sticks, and may depend on one another: at nodes with rows of several
+/// sides or contacts; with P1-P0 multipliers all.
+std::vector<Acting> may_depend(const Solution& solution) {
+  const Scene& scene = solution.scene();
+  std::map<std::pair<const Body*, int>, int> count;
+  const auto nodes = [](const Contact& contact, const contact::ContactRow& row) {
+    std::vector<std::pair<const Body*, int>> own{{contact.first.body.get(), row.node}};
+    if (row.partners.size() == 1) own.emplace_back(contact.second.body.get(), row.partners.front().node);
+    return own;
+  };
+  for (const auto& contact : scene.contacts)
+    for (const contact::ContactRow& row : contact->rows)
+      for (const auto& node : nodes(*contact, row)) ++count[node];
+  std::vector<Acting> acting;
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    const Contact& contact = *scene.contacts[c];
+    const auto meets = [&](const contact::ContactRow& row) {
+      if (contact.discretisation.multipliers != contact::Multipliers::nodal) return true;
+      const auto own = nodes(contact, row);
+      return std::any_of(own.begin(), own.end(), [&](const auto& node) { return count[node] > 1; });
+    };
+    for (std::size_t k = 0; k < contact.rows.size(); ++k)
+      if (const int r = solution.model().contact_row[c][k]; r >= 0 && solution.active(r) && meets(contact.rows[k])) acting.push_back({r, &contact, &contact.rows[k]});
+    for (const FrictionRows& friction : solution.model().friction[c]) {
+      const contact::ContactRow& at = contact.rows[friction.cell.jumps.front().row];
+      const std::vector<char>& slips = solution.result().slipping;
+      for (int i = 0; i < friction.count; ++i)
+        if (solution.result().state.lambda[friction.row[i]] != 0 && (slips.empty() || !slips[friction.row[i]]) && meets(at)) acting.push_back({friction.row[i], &contact, &at});
+    }
+  }
+  return acting;
+}
+
+/// To so many rows that may depend on one another their rank is looked at.
+constexpr std::size_t kMostDependent = 2000;
+
+/// Combinations of forces that do nothing to the bodies.
+void see_dependent(const Solution& solution, std::vector<std::string>& all) {
+  const std::vector<Acting> acting = may_depend(solution);
+  if (acting.empty() || acting.size() > kMostDependent) return;
+  const algebra::SparseRows& B = solution.model().problem.B;
+  algebra::SparseMatrix columns(B.cols(), static_cast<Eigen::Index>(acting.size()));
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    columns.startVec(k);
+    for (algebra::SparseRows::InnerIterator it(B, acting[static_cast<std::size_t>(k)].row); it; ++it) columns.insertBack(it.col(), k) = it.value();
+  }
+  columns.finalize();
+  const algebra::SparseMatrix lost = algebra::range_and_null(columns, 1e-10).unseen;
+  if (lost.cols() == 0) return;
+  Eigen::Index most;
+  algebra::Vector(lost.col(0)).cwiseAbs().maxCoeff(&most);
+  const Acting& one = acting[static_cast<std::size_t>(most)];
+  all.push_back(text(one.contact->name, ": forces of contact that meet ", lost.cols() > 1 ? text("in ", lost.cols(), " places, one of them ") : "",
+                     "at ", point_text(one.contact->first.body->mesh->point(one.at->node).data(), one.contact->first.body->dimension()),
+                     " balance each other in part: pressure and shear there are not unique, the method decides; displacements and the force on each node are"));
+}
+
 /// A rotation whose square, which small displacements neglect, is a thousandth.
 constexpr double kGreatRotation = 0.03;
 
@@ -136,6 +202,7 @@ std::vector<std::string> doubts(const Solution& solution) {
     see_held(solution, c, all);
     if (solution.result().converged) see_rounding(solution, c, all);
   }
+  if (solution.result().converged) see_dependent(solution, all);
   for (std::size_t b = 0; solution.result().converged && b < solution.scene().bodies.size(); ++b)
     see_rotation(*solution.scene().bodies[b], solution.displacement(static_cast<int>(b)), all);
   return all;

@@ -20,11 +20,16 @@ struct Friction {
   elasticity::ScalarField value;  ///< evaluated at the contact nodes when the contact is made, not kept
 };
 
-/// The multipliers of a contact. `friction_size`: see contact::friction_cells; for p1_p0 with friction only.
+/// The half cells of friction at the ends of a contact line: a cell each (m + 1 cells on m edges), joined to the next ones (m − 1), or without
+/// friction, as TR965 (2.14) is printed (m − 1).
+enum class CellEnds { own, joined, bare };
+
+/// The multipliers of a contact. `friction_size`: see contact::friction_cells; it and `ends` (in the plane) for p1_p0 with friction only.
 struct Discretisation {
   contact::Multipliers multipliers = contact::Multipliers::nodal;
   double friction_size = 0;
-  bool share_fixed = true;  ///< false, for the study of (3.16): nodes that do not move keep multipliers of their own
+  CellEnds ends = CellEnds::own;
+  bool share_fixed = true;  ///< false, for the study of (3.16): nodes that do not move, and corners, keep multipliers of their own
 };
 
 /// A pair of parts, or a part and a rigid shape, in contact or glued.

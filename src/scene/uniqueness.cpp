@@ -25,7 +25,7 @@ KnownBefore known_before(const problem::Problem& problem, const problem::RigidMo
   const auto [note, exists] = solver::require_solvable(problem, rigid);
   KnownBefore known{problem::uniqueness(rigid, problem), ""};
   problem::Uniqueness& theory = known.theory;
-  if (!theory.coulomb) theory.exists = exists, theory.unique = theory.unique && exists;
+  if (!theory.coulomb) theory.exists = exists, theory.unique = theory.unique && exists && note.empty();
   if (!exists && !(theory.coulomb && theory.exists))
     known.text = "whether there is a solution, and only one, is unknown before solving: neither forces that balance the load were found nor a "
                  "motion that nothing stops";
@@ -39,7 +39,7 @@ KnownBefore known_before(const problem::Problem& problem, const problem::RigidMo
                                     : "a unique solution exists: the load presses every free body against what holds it";
   else if (theory.motion.size() > 0)
     known.text = "a solution exists with unique stress, displacement up to " + describe(rigid.motions, theory.motion) +
-                 ": friction may hold it in a range of places";
+                 ": what holds it may do so in a range of places";
   else
     known.text = "a solution exists with unique stress; whether its displacement is unique is unknown before solving: it is, unless "
                  "the contacts that hold leave a motion free, which the solution then names";

@@ -39,7 +39,7 @@ void bind_contact(Library& library) {
                .example = "print(contact:inf_sup{ part = \"normal\" }.constant)",
                .arguments = {key::table({key::choice("part", {"tangential", "normal", "both"}, "which multipliers").fallback("tangential"),
                                          key::choice("fixed_nodes", {"shared", "kept"},
-                                                     "multipliers of nodes held on both sides: shared out among their neighbours, as in a solve, or kept").fallback("shared")})},
+                                                     "multipliers of nodes held on both sides, and those of friction at corners of the part: shared out among their neighbours, as in a solve, or kept").fallback("shared")})},
                .run = inf_sup})
       .text([](const Contact& c) { return c.name; });
 }

@@ -47,6 +47,7 @@ scene::Discretisation discretisation(Call& call) {
   scene::Discretisation d;
   d.multipliers = static_cast<contact::Multipliers>(call.choice("multipliers"));
   if (call.has("friction_size")) d.friction_size = call.number("friction_size");
+  d.ends = static_cast<scene::CellEnds>(call.choice("friction_ends"));
   return d;
 }
 
@@ -258,6 +259,9 @@ void bind_scene(Library& library) {
                                                      "midpoints of edges, in space on cells of several facets; not with Coulomb friction").fallback("nodal"),
                                          key::positive("friction_size", "P1-P0: extent H of the cells of friction. In space the inf-sup constant settles at about 0.8 with H = 2h "
                                                        "as h falls, and goes to 0 with H = h (contact:inf_sup)").unit("length").otherwise("in the plane one dual cell, in space twice the widest facet"),
+                                         key::choice("friction_ends", {"own", "joined", "bare"},
+                                                     "P1-P0 in the plane: the half cells at the ends of the contact line have friction of their own, "
+                                                     "that of the next cell, or none (TR965 (2.14)). At a corner within the line they are always the next cell's").fallback("own"),
                                          key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest; else that is refused, "
                                                       "where the first part's nodes see it: of two meshes name the finer one first").fallback(false)})
                                  .with(key::object<Part>("parts", "one part, or two").count(1, 2))},
