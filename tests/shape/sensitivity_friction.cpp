@@ -11,9 +11,11 @@ namespace {
 
 scene::Friction given(elasticity::ScalarField g) { return {scene::Friction::Kind::tresca, std::move(g)}; }
 
-/// A block on another, pressed and pulled sideways.
-test::ScenePtr blocks(int dimension, Family family, int n, const scene::Friction& friction) {
-  const auto lower = test::block("lower", dimension, family, n, 0, 1000), upper = test::block("upper", dimension, family, n, 1, 600);
+using BodyPtr = std::shared_ptr<scene::Body>;
+
+/// A body on another, pressed and pulled sideways.
+test::ScenePtr pressed(const BodyPtr& lower, const BodyPtr& upper, const scene::Friction& friction) {
+  const int dimension = lower->dimension();
   test::fix(lower, "bottom");
   test::springs(upper, "right", {30, dimension == 3 ? 25.0 : 0.0, 0});
   test::pull(upper, "top", [=](const Point& x) {
@@ -24,6 +26,10 @@ test::ScenePtr blocks(int dimension, Family family, int n, const scene::Friction
   const auto scene = scene::make_scene({lower, upper});
   scene::add_contact(*scene, test::part(upper, "bottom"), test::part(lower, "top"), {}, friction, true);
   return scene;
+}
+
+test::ScenePtr blocks(int dimension, Family family, int n, const scene::Friction& friction) {
+  return pressed(test::block("lower", dimension, family, n, 0, 1000), test::block("upper", dimension, family, n, 1, 600), friction);
 }
 
 /// Moves without turning the contact's plane in space, whose tangents' axis would change with it.
@@ -68,6 +74,16 @@ TEST_CASE("given friction that holds everywhere, and friction that cannot slip")
 TEST_CASE("Coulomb friction: its bound follows the pressure") {
   for (const int dimension : {2, 3})
     check(blocks(dimension, Family::q1, dimension == 2 ? 8 : 4, test::coulomb(dimension == 2 ? 0.2 : 0.25)), motion(dimension), true, true);
+}
+
+TEST_CASE("a corner of the contact, whose friction the nodes beside it bear: given and Coulomb's") {
+  const auto folded = [](const std::string& name, double lift, double E) {
+    mesh::Mesh m = test::unit(2, Family::q1, 8);
+    mesh::transform(m, [&](Point x) { return x[1] += lift + 0.5 * std::abs(x[0] - 0.5), x; });
+    return test::body(name, std::move(m), E);
+  };
+  for (const scene::Friction& friction : {given([](const Point&) { return 0.6; }), test::coulomb(0.2)})
+    check(pressed(folded("lower", 0, 1000), folded("upper", 1, 600), friction), motion(2), true, true);
 }
 
 TEST_CASE("given friction against a rigid ball, whose tangents turn") {
