@@ -6,7 +6,8 @@
 -- friction T₂ (first example) or Signorini's condition (second and third). With W = -⟨q, x⟩ the paper claims:
 -- 1. M₁ < |W|, T₁ > |⟨q, 1 - x⟩|, T₂ > |⟨q, x⟩|: the beam turns at 0, both ends stay in place (first exceptional case);
 -- 2. M₁ < |W|, T₁ > |⟨q, 1 - x⟩|, W > 0, Signorini at 1: the same;
--- 3. M₁ > |W|, T₁ > |⟨q, 1 - x⟩|, W = 0, Signorini at 1: clamped at 0 and free at 1 (second exceptional case).
+-- 3. M₁ > |W|, T₁ > |⟨q, 1 - x⟩|, W = 0, Signorini at 1: clamped at 0 and free at 1 (second exceptional case). The paper does not name the
+--    support at 1; were there none, theorem 4 would give this case for every M₁ > |W|, without W = 0.
 -- What holds: let m_c = -½ ∫ q x (1 - x)(2 - x) dx be the moment of the beam clamped at 0 and supported at 1. While T₁ is large and
 -- the other end can push up only, friction bears the moment
 --      m = min(max(-M₁, min(M₁, m_c)), W),   the stop R = W - m;   no solution for M₁ < -W.
@@ -23,7 +24,6 @@ local function near(value, exact)
   worst = math.max(worst, math.abs(value - exact))
   assert(math.abs(value - exact) < 1e-9, ("%g instead of %g"):format(value, exact))
 end
-
 local function tidy(value) return math.abs(value) < 1e-12 and 0 or value end
 
 -- 1. q = -1 between two ends with friction: which regime, over M₁ and T₁, with T₂ = 1.
@@ -63,13 +63,13 @@ for _, M in ipairs{ 0.06, 0.122, 0.125, 0.2, 0.3, 0.4, 0.49 } do
 end
 
 -- 2. Signorini at 1, by forces at points: { x, force upwards }.
-local function moments(loads) -- W, m_c, |resultant|
-  local W, m, sum = 0, 0, 0
+local function moments(loads) -- W, m_c
+  local W, m = 0, 0
   for _, load in ipairs(loads) do
     local x <const>, f <const> = load.x, load.force
-    W, m, sum = W - f * x, m - f * x * (1 - x) * (2 - x) / 2, sum + math.abs(f)
+    W, m = W - f * x, m - f * x * (1 - x) * (2 - x) / 2
   end
-  return W, m, sum
+  return W, m
 end
 local function stopped(loads, M, q)
   return dotyk.beam{ load = q or 0, loads = loads, cells = 4, left = { deflection = law.friction(10), rotation = law.friction(M) },

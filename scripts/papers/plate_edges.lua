@@ -11,9 +11,10 @@
 --    up on the left (Tₙ = -κ), down on the right (Tₙ = κ), and sticks between (|Tₙ| < κ). Loads that friction bears satisfy
 --    |∫f| ≤ ∫κ (lemma 12); where uniform loads are refused is found by bisection.
 -- One-sided springs, (65)-(72), which push up: A > 0 and Tₙ = 0 left of 3/8; to the right A < 0 and k = Tₙ/(-u).
--- Shown: errors of both elements and their orders, 1 in energy and 2 in L2 with Morley, 2 and 2 with HCT (laws of an edge act by
--- their values at nodes, so HCT's order 4 in L2, which scripts/plate.lua has under g₂ alone, is lost). A and so the edge's deflection
--- begin with the fourth power where sticking or open parts end; deflections are off by h², such an end by √h. FINEST: cells along a side, 32, 64, …
+-- Shown: errors of both elements and their orders, 1 in energy and 2 in L2 with Morley, 2 and 2 with HCT. Laws of an edge act by their
+-- values at nodes; so HCT's order 4 in L2, which scripts/plate.lua has under g₂ alone, is lost, and the errors of both in L2 agree
+-- for the free plate. Where sticking or open parts end, the deflection of the edge begins with the fourth power; deflections are off
+-- by h², so these ends are off by √h. FINEST: cells along a side, 32, 64, …
 -- Draws images/papers_plate_edges.png, …_free.png, …_friction.png and …_springs.png.
 
 local law <const>, here <const> = dotyk.law, arg[0]:match "^(.*)/[^/]*$" or "."
