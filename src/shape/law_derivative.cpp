@@ -131,6 +131,7 @@ class Branches {
                             "to one side it sticks, to the other it slips; the solution has no derivative there"));
     slips(r, slip, bound);
     result_.slips.push_back({r, slip / slip.norm()});
+    if (slope == 0) return;
     for (int i = 0; i < m; ++i) following_.emplace_back(r + i, unknown_[n], slope * slip[i] / slip.norm());
   }
 
