@@ -115,6 +115,9 @@ Vector small_forces(const Problem& problem, const Vector& lambda, double toleran
   const Parts parts = problem::parts(problem);
   const std::vector<double> greatest = greatest_of_loaded(problem, parts, lambda);
   std::vector<double> of_body(problem.blocks.size(), 0);
+  std::vector<double> of_unloaded;  // by block, the rounding of the greatest of its part
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
+    of_unloaded.push_back(problem.blocks[b].f.isZero(0) ? kOfAll * greatest[static_cast<std::size_t>(parts.of_block[b])] : 0);
   const auto each = [&](const auto& visit) {
     for (int r = 0; r < problem.rows(); ++r)
       for (SparseRows::InnerIterator it(problem.B, r); it; ++it) visit(r, problem.block_of(it.col()));
@@ -124,7 +127,7 @@ Vector small_forces(const Problem& problem, const Vector& lambda, double toleran
   each([&](int r, std::size_t b) {
     if (of_body[b] > least[r]) return;
     least[r] = of_body[b];
-    rounding[r] = problem.blocks[b].f.isZero(0) ? kOfAll * greatest[static_cast<std::size_t>(parts.of_block[b])] : 0;
+    rounding[r] = of_unloaded[b];
   });
   return (tolerance * least).cwiseMax(rounding);
 }

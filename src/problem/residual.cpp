@@ -120,6 +120,20 @@ Vector gross_forces(const Block& block, const Vector& w) {
   return sum;
 }
 
+/// About ‖|K||w|‖ and rarely less, without a pass over K: no entry is greater than the greatest on the diagonal.
+double size_of_gross_forces(const Block& block, const Vector& w) {
+  double greatest = 0;
+  int entries = 0;
+  for (int j = 0; j < block.size(); ++j) {
+    const int* outer = block.K.outerIndexPtr() + j;
+    greatest = std::max(greatest, block.K.valuePtr()[*outer]);
+    entries = std::max(entries, 2 * (outer[1] - outer[0]));
+  }
+  return greatest * entries * w.stableNorm();
+}
+/// Where half of the digits of K|u| are below this part of the forces of contact they need not be known.
+constexpr double kBelowForces = 0.01;
+
 /// ‖|K||w|‖, w the part of u in the block's kernel.
 double moved_forces(const Block& block, const Vector& u) {
   const algebra::DenseMatrix& R = block.kernel;
@@ -171,7 +185,9 @@ std::vector<Sizes> sizes(const Problem& problem, const State& state, const Force
   const double half = std::sqrt(std::numeric_limits<double>::epsilon());
   each_block([&](const Block& block, Sizes& part) {
     if (part.load > 0) return;
-    const Vector u = state.u.segment(block.first, block.size()), gross = gross_forces(block, u);
+    const Vector u = state.u.segment(block.first, block.size());
+    if (half * size_of_gross_forces(block, u) < kBelowForces * part.contact) return;
+    const Vector gross = gross_forces(block, u);
     add(part.least_force, half * gross);
     part.least_work += half * gross.dot(u.cwiseAbs());
   });
@@ -285,6 +301,25 @@ std::vector<Scales> scales(const Problem& problem, const State& state) {
   return scales(problem, state, parts, sizes(problem, state, external_forces(problem, state), parts));
 }
 
+namespace {
+
+/// Sets Residual::penetration and law.
+void add_laws(const Problem& problem, const State& state, const Vector& x, const std::vector<Scales>& of_row, Residual& result) {
+  const auto scale = [&](int r) { return of_row[static_cast<std::size_t>(r)]; };
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
+      result.penetration = std::max(result.penetration, x[r] / std::max(scale(r).length, std::abs(problem.c[r])));
+  const auto rho = [&](int r, double gap) { return scale(r).force / std::max(scale(r).length, gap); };
+  const Vector off = distances(
+      problem, x, state.lambda, [&](int r) { return rho(r, std::abs(problem.c[r])); },
+      [&](const FrictionGroup& group, int k) {
+        return rho(group.row(k), problem.c.segment(group.row(k), group.components).lpNorm<Eigen::Infinity>());
+      });
+  for (int r = 0; r < problem.rows(); ++r) result.law = std::max(result.law, off[r] / scale(r).force);
+}
+
+}  // namespace
+
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
   const Forces all = forces(problem, state);
@@ -293,23 +328,17 @@ Residual residual(const Problem& problem, const State& state) {
   result.energy = energy(problem, state, all.internal);
   result.equilibrium = equilibrium(problem, all, parts, sizes);
   if (problem.rows() == 0) return result;
-
   const Vector x = problem.B * state.u - problem.c;
-  const std::vector<Scales> of_row = scales(problem, state, parts, sizes);
-  const auto scale = [&](int r) { return of_row[static_cast<std::size_t>(r)]; };
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
-      result.penetration = std::max(result.penetration, x[r] / std::max(scale(r).length, std::abs(problem.c[r])));
+  add_laws(problem, state, x, scales(problem, state, parts, sizes), result);
   result.complementarity = complementarity(problem, state, x, all, parts, sizes);
   result.friction = friction_violation(problem, state, parts);
-  const auto rho = [&](int r, double gap) { return scale(r).force / std::max(scale(r).length, gap); };
-  const Vector off = distances(
-      problem, x, state.lambda, [&](int r) { return rho(r, std::abs(problem.c[r])); },
-      [&](const FrictionGroup& group, int k) {
-        return rho(group.row(k), problem.c.segment(group.row(k), group.components).lpNorm<Eigen::Infinity>());
-      });
-  for (int r = 0; r < problem.rows(); ++r) result.law = std::max(result.law, off[r] / scale(r).force);
   return result;
+}
+
+double distance_from_laws(const Problem& problem, const State& state) {
+  Residual result;
+  if (problem.rows() > 0) add_laws(problem, state, problem.B * state.u - problem.c, scales(problem, state), result);
+  return result.laws();
 }
 
 double rounding_of_equilibrium(const Problem& problem, const State& state) {

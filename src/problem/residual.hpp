@@ -29,6 +29,9 @@ struct Residual {
 
 Residual residual(const Problem& problem, const State& state);
 
+/// The greatest of Residual::penetration and law: mostly without a pass over K.
+double distance_from_laws(const Problem& problem, const State& state);
+
 /// The size of Residual::equilibrium that rounding alone explains, with one rounding error in each product of K u:
 /// ε‖|K||u|‖ / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖), the greatest of all parts.
 double rounding_of_equilibrium(const Problem& problem, const State& state);

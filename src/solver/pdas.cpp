@@ -90,7 +90,7 @@ class Iteration {
   void place_screws() {
     if (settings_.kernel != Pdas::Kernel::screws || rigid_.noticed.cols() == 0) return;
     if (!settings_.reduced) throw InputError("kernel = \"screws\" needs reduced = true");
-    screws_.emplace(problem_, rigid_, settings_.screws);
+    screws_.emplace(problem_, algebra::DenseMatrix(rigid_.noticed_N), rigid_.noticed_e, settings_.screws);
     result_.method = "pdas with screws";
     note_screws();
   }
@@ -377,6 +377,7 @@ class Iteration {
 
   /// Where bodies have gone far for the sake of rows that bear nothing, rounding of the way may spoil the gaps of others.
   void confirm_laws() {
+    if (problem::distance_from_laws(problem_, result_.state) <= result_.noise) return;
     problem::Residual r = problem::residual(problem_, result_.state);
     if (condensed_ && r.laws() > result_.noise) refine(problem_, *condensed_, result_.state, r);
     const double laws = r.laws();

@@ -148,9 +148,9 @@ bool astray(const RowIteration& iteration) {
 
 /// Is the state further from its laws than the method means it to be? Then rounding of the condensed problem may be what is left.
 void improve(const Problem& problem, const CondensedProblem& condensed, Result& result) {
-  if (!result.converged || problem.blocks.empty()) return;
+  if (!result.converged || problem.blocks.empty() || problem::distance_from_laws(problem, result.state) <= kRounded) return;
   problem::Residual r = problem::residual(problem, result.state);
-  if (!(r.laws() <= kRounded) && refine(problem, condensed, result.state, r)) result.reason += "; refined from the displacements";
+  if (refine(problem, condensed, result.state, r)) result.reason += "; refined from the displacements";
 }
 
 /// A method's own test may ask for more than rounding leaves: of forces that are small beside the loads, where bodies end up out of each

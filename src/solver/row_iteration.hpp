@@ -67,6 +67,11 @@ class RowIteration {
   const std::string& reason() const { return result_.reason; }
   /// Gives up, for this reason.
   void give_up(std::string reason) { result_.reason = std::move(reason); }
+  /// Magnetic screws, where they are now.
+  void note(ScrewPlacement screws) {
+    result_.screws.push_back(std::move(screws));
+    result_.screw_moves = static_cast<int>(result_.screws.size()) - 1;
+  }
   /// Adds a remark to the reason, however the method ends.
   void remark(std::string text) { remarks_.push_back(std::move(text)); }
 

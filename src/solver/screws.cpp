@@ -14,6 +14,7 @@ namespace dotyk::solver {
 
 using algebra::DenseMatrix;
 using algebra::Vector;
+using problem::FrictionGroup;
 using problem::Problem;
 
 namespace {
@@ -33,18 +34,15 @@ double regularity_of(const DenseMatrix& N) {
   return s[0] > 0 ? s[s.size() - 1] / s[0] : 0;
 }
 
-std::vector<char> unilateral_rows(const Problem& problem) {
-  std::vector<char> flags(problem.rows(), 0);
-  for (const problem::RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r) flags[r] = group.law->unilateral();
-  return flags;
-}
-
 }  // namespace
 
-Screws::Screws(const Problem& problem, const problem::RigidMotions& rigid, std::vector<int> rows)
-    : problem_(problem), N_(rigid.noticed_N), e_(rigid.noticed_e),
+Screws::Screws(const Problem& problem, DenseMatrix N, Vector e, std::vector<int> rows)
+    : problem_(problem), N_(std::move(N)), e_(std::move(e)), unilateral_(problem.rows(), 0), friction_(problem.rows(), nullptr),
       rows_(std::move(rows)), tried_(problem.rows(), 0) {
+  for (const problem::RowGroup& group : problem.groups) std::fill_n(unilateral_.begin() + group.first, group.count, group.law->unilateral());
+  may_hold_ = unilateral_;
+  for (const FrictionGroup& group : problem.friction)
+    for (int r = group.first; r < group.row(group.points()); ++r) friction_[r] = &group, may_hold_[r] = group.bound((r - group.first) / group.components, Vector::Zero(problem.rows())) > 0;
   const std::size_t count = static_cast<std::size_t>(N_.cols());
   if (rows_.empty()) {
     complete();
@@ -70,51 +68,56 @@ bool Screws::regular(const std::vector<int>& rows) const {
 }
 
 void Screws::complete() {
-  const auto unilateral = unilateral_rows(problem_);
-  Vector low(problem_.rows()), high(problem_.rows());
+  Vector low = Vector::Zero(problem_.rows()), high = low;
   for (int r = 0; r < problem_.rows(); ++r) {
-    low[r] = 0;
-    high[r] = unilateral[r] ? INFINITY : 0;
+    if (unilateral_[r]) high[r] = INFINITY;
+    if (!may_hold_[r] || unilateral_[r]) continue;
+    high[r] = friction_[r]->bound((r - friction_[r]->first) / friction_[r]->components, low);
+    low[r] = -high[r];
   }
   const Vector carried = algebra::bounded_least_squares(N_.transpose(), e_, low, high).x;
-  std::vector<int> order;
+  std::vector<int> order;  // first what presses, then what is farthest from slipping
   for (int r = 0; r < problem_.rows(); ++r)
-    if (unilateral[r]) order.push_back(r);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return carried[a] > carried[b]; });
-  // Greedily, those with the greatest predicted force that add a new direction.
+    if (may_hold_[r]) order.push_back(r);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return unilateral_[a] != unilateral_[b] ? unilateral_[a] > unilateral_[b] : excess(a, carried) < excess(b, carried);
+  });
+  add(order, 1e-3);
+  add(order, kRegular);  // badly conditioned contacts: whatever is regular at all
+}
+
+void Screws::add(const std::vector<int>& order, double least) {
   for (int r : order) {
     if (static_cast<Eigen::Index>(rows_.size()) == N_.cols()) return;
     std::vector<int> more = rows_;
     more.push_back(r);
     const Vector s = algebra::singular_values(pick(N_, more));
-    if (s[static_cast<Eigen::Index>(more.size()) - 1] > 1e-3 * s[0]) rows_ = more;
-  }
-  for (int r : order) {  // badly conditioned contacts: whatever is regular at all
-    if (static_cast<Eigen::Index>(rows_.size()) == N_.cols()) return;
-    std::vector<int> more = rows_;
-    more.push_back(r);
-    const Vector s = algebra::singular_values(pick(N_, more));
-    if (s[static_cast<Eigen::Index>(more.size()) - 1] > kRegular * s[0]) rows_ = more;
+    if (s[static_cast<Eigen::Index>(more.size()) - 1] > least * s[0]) rows_ = more;
   }
 }
 
+double Screws::excess(int row, const Vector& lambda) const {
+  const FrictionGroup* group = friction_[row];
+  if (!group) return -lambda[row];
+  const int point = (row - group->first) / group->components;
+  return lambda.segment(group->row(point), group->components).norm() - group->bound(point, lambda);
+}
+
 bool Screws::pulls(const Vector& lambda, double noise) const {
-  return std::any_of(rows_.begin(), rows_.end(), [&](int r) { return lambda[r] < -noise; });
+  return std::any_of(rows_.begin(), rows_.end(), [&](int r) { return excess(r, lambda) > noise; });
 }
 
 bool Screws::move(const Vector& lambda, double noise) {
   if (!pulls(lambda, noise)) return false;
-  const auto worst = std::min_element(rows_.begin(), rows_.end(),
-                                      [&](int a, int b) { return lambda[a] < lambda[b]; });
+  const auto worst = std::max_element(rows_.begin(), rows_.end(), [&](int a, int b) { return excess(a, lambda) < excess(b, lambda); });
   tried_[*worst] = 1;
-  // Neighbours on the contact see rigid motions alike: the distance of rows of N. Rows that press
-  // come first, others only where none presses.
-  const auto unilateral = unilateral_rows(problem_);
+  // Neighbours on the contact see rigid motions alike: the distance of rows of N. Rows that press or stick
+  // come first, others only where none does.
   int best = -1;
   double nearest = INFINITY;
   for (int r = 0; r < problem_.rows(); ++r) {
-    if (!unilateral[r] || tried_[r] || std::find(rows_.begin(), rows_.end(), r) != rows_.end()) continue;
-    const double far = lambda[r] > noise ? 0 : 1e6;
+    if (!may_hold_[r] || tried_[r] || std::find(rows_.begin(), rows_.end(), r) != rows_.end()) continue;
+    const double far = excess(r, lambda) < -noise ? 0 : 1e6;
     const double distance = far + (N_.row(r) - N_.row(*worst)).norm();
     if (!(distance < nearest)) continue;
     std::vector<int> moved = rows_;

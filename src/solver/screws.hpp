@@ -8,17 +8,17 @@
 
 namespace dotyk::solver {
 
-/// Magnetic screws (TR965 1.2.2): unilateral rows taken as closed, as many as there are rigid motions
-/// that rows notice, such that they hold them all: N_S is regular (lemmas 1.10–1.12; the determinant
-/// of remark 1.6). Motions that no row notices (a planar contact's, a surface of revolution's) are
-/// held by the condition that their amount is zero, the report's p(v) = 0 (1.77).
+/// Magnetic screws (TR965 1.2.2): unilateral rows taken as closed, and rows of given friction taken as stuck where those leave motions along
+/// the contact free ((3.32), p(v) = 0), as many as there are rigid motions that rows notice, such that they hold them all: N_S is regular
+/// (lemmas 1.10–1.12; the determinant of remark 1.6). Motions that no row notices (a planar contact's without friction, a surface of
+/// revolution's) are held by the condition that their amount is zero, the report's p(v) = 0 (1.77).
 class Screws {
  public:
-  /// `rows`: where they are placed, or empty for an automatic choice: the rows that carry the load in
-  /// the sparsest equilibrium of the rigid bodies (their predicted pressures are positive), completed
+  /// N, e: those of the motions that rows notice, Nᵀλ = e. `rows`: where they are placed, or empty for an automatic choice: the rows that
+  /// carry the load in the sparsest equilibrium of the rigid bodies (their predicted pressures are positive), completed
   /// by rows next to them. Throws InputError where the rows given are too few or too many, repeat, or
   /// do not hold every motion.
-  Screws(const problem::Problem& problem, const problem::RigidMotions& rigid, std::vector<int> rows);
+  Screws(const problem::Problem& problem, algebra::DenseMatrix N, algebra::Vector e, std::vector<int> rows);
 
   const std::vector<int>& rows() const { return rows_; }
   /// Ratio of the least to the greatest singular value of N_S: near zero where screws hold badly.
@@ -27,18 +27,25 @@ class Screws {
   double determinant() const;
   int moves() const { return moves_; }
 
-  /// Moves the screw with the most negative multiplier to the closed row with λ > 0 nearest along N
-  /// that keeps N_S regular. False where none is negative (beyond `noise`) or nothing is left to try.
+  /// Moves the screw that pulls most, or bears most beyond its friction bound, to the row nearest along N that presses or sticks and keeps
+  /// N_S regular. False where none does (beyond `noise`) or nothing is left to try.
   bool move(const algebra::Vector& lambda, double noise);
   bool pulls(const algebra::Vector& lambda, double noise) const;
 
  private:
   void complete();
   bool regular(const std::vector<int>& rows) const;
+  /// Adds, in this order, rows that hold a motion more, by `least` of the greatest singular value.
+  void add(const std::vector<int>& order, double least);
+  /// How much the row's force is beyond what a screw there may bear, a force: it presses, or sticks, below 0.
+  double excess(int row, const algebra::Vector& lambda) const;
 
   const problem::Problem& problem_;
   algebra::DenseMatrix N_;  ///< rows × noticed motions
   algebra::Vector e_;
+  /// Of each row: may a screw be there, and whose friction it is.
+  std::vector<char> unilateral_, may_hold_;
+  std::vector<const problem::FrictionGroup*> friction_;
   std::vector<int> rows_;
   std::vector<char> tried_;  ///< rows that a screw was moved away from
   int moves_ = 0;
