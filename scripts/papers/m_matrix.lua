@@ -256,9 +256,11 @@ for _, case in ipairs(cases) do
       local apart = compare(case, n, W, nodes)
       wrong, problems, repeats = math.max(wrong, unequal, apart), problems + trials, repeats + repeated
       if case.cantilever then
-        strip.least, strip.most, strip.other = math.min(strip.least, least or strip.least), math.max(strip.most, least or strip.most), strip.other and not product
+        strip.least, strip.most = math.min(strip.least, least or strip.least), math.max(strip.most, least or strip.most)
+        strip.other = strip.other and not product
       else
-        block.least, block.most, block.grows = math.min(block.least, least or block.least), math.max(block.most, product), block.grows and product > last
+        block.least, block.most = math.min(block.least, least or block.least), math.max(block.most, product)
+        block.grows = block.grows and product > last
         most_steps, last = math.max(most_steps, steps), product
         size:add(n, product)
         if least then left:add(n, least) end
