@@ -46,6 +46,8 @@ struct Problem {
   std::vector<Subdomain> subdomains;
   /// Rows of one kind that follow one another along an edge, where that is known; every row is in one chain at most, but for the ends.
   std::vector<std::vector<int>> chains;
+  /// The length or area κ_r that the pressure of a contact's row stands for; 0, or none given, on other rows.
+  std::vector<double> measure;
   /// Where a row is, for messages: "node 12 of 'block' at (0.5, 0)". May be empty.
   std::function<std::string(int)> row_name;
 

@@ -47,7 +47,10 @@ class ContactRowMaker {
         pulls.push_back(pull(jump, contact_.rows[jump.row].normal));
         gap += jump.weight * contact_.rows[jump.row].gap;
       }
-      model_.contact_row.back().push_back(pulls.empty() || (held[k] && nodal(contact_)) ? -1 : builder_.add(first_, second_, pulls, gap));
+      const int r = pulls.empty() || (held[k] && nodal(contact_)) ? -1 : builder_.add(first_, second_, pulls, gap);
+      model_.contact_row.back().push_back(r);
+      std::vector<double>& measure = model_.problem.measure;
+      if (r >= 0) measure.resize(static_cast<std::size_t>(r) + 1, 0), measure.back() = row.measure;
     }
   }
 

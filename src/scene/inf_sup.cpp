@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "contact/trace_norm.hpp"
 #include "elasticity/h1_norm.hpp"
+#include "scene/cone_constant.hpp"
 #include "scene/model.hpp"
 
 namespace dotyk::scene {
@@ -52,28 +53,29 @@ Basis normal_basis(const Contact& contact, const contact::Surface& surface, cons
   return basis;
 }
 
-/// The shear of a unit force on a cell: g_h/∫g_h on it, 1/measure where the bound is infinite; nodal cells: hats.
-Density cell_density(const Contact& contact, const contact::Surface& surface, const contact::FrictionCell& cell) {
-  if (cell.pieces.empty()) return hats(surface, cell.nodes, 1 / cell.measure);
+/// The shear of a unit force on a cell: g_h/∫g_h on it, 1/measure where the bound is infinite; nodal cells: hats. `own`: the multiplier μ
+/// of that shear, 1/∫g_h.
+Density cell_density(const Contact& contact, const contact::Surface& surface, const contact::FrictionCell& cell, bool own) {
+  if (cell.pieces.empty()) return hats(surface, cell.nodes, 1 / (own && std::isfinite(cell.bound) ? cell.bound : cell.measure));
   Density density;
   for (const contact::CellPiece& piece : cell.pieces) {
     const contact::SurfaceFacet& f = surface.facets[piece.facet];
     contact::DensityPiece d{piece.facet, piece.half, {0, 0, 0, 0}};
     for (int a = 0; a < f.corners; ++a) {
       const double g = f.row[a] >= 0 ? contact.friction_value[f.row[a]] : INFINITY;
-      d.corner[a] = std::isfinite(g) ? g / cell.bound : 1 / cell.measure;
+      d.corner[a] = std::isfinite(g) ? (own ? 1 : g) / cell.bound : 1 / cell.measure;
     }
     density.push_back(d);
   }
   return density;
 }
 
-Basis tangential_basis(const Contact& contact, const contact::Surface& surface, const Model& model) {
+Basis tangential_basis(const Contact& contact, const contact::Surface& surface, const Model& model, bool own) {
   Basis basis;
   for (const FrictionRows& rows : model.friction[0])
     for (int i = 0; i < rows.count; ++i) {
       basis.rows.push_back(rows.row[i]);
-      basis.densities.push_back(cell_density(contact, surface, rows.cell));
+      basis.densities.push_back(cell_density(contact, surface, rows.cell, own));
       basis.directions.push_back(rows.direction[i]);
     }
   return basis;
@@ -156,12 +158,13 @@ Basis join(Basis a, const Basis& b) {
 
 }  // namespace
 
-InfSup inf_sup(const Contact& given, MultiplierPart part, bool share_fixed, Monitor& monitor) {
+InfSup inf_sup(const Contact& given, const InfSupSettings& settings, Monitor& monitor) {
+  const MultiplierPart part = settings.part;
   if (given.kind == Contact::Kind::glue) throw InputError(given.name + " is a glue; only contacts have multipliers");
   if (given.pairing != contact::Pairing::matching)
     throw InputError(given.name + " has nodes that do not match; inf-sup constants are computed for matching nodes");
   Contact contact = given;
-  contact.discretisation.share_fixed = share_fixed;
+  contact.discretisation.share_fixed = settings.share_fixed;
   Scene scene;
   scene.bodies.push_back(contact.first.body);
   if (contact.second.body && contact.second.body != contact.first.body) scene.bodies.push_back(contact.second.body);
@@ -171,7 +174,7 @@ InfSup inf_sup(const Contact& given, MultiplierPart part, bool share_fixed, Moni
   contact = *model.contacts.front();
   const contact::Surface surface = surface_of(contact);
   const Basis none, normal = part == MultiplierPart::tangential ? none : normal_basis(contact, surface, model),
-                    tangential = part == MultiplierPart::normal ? none : tangential_basis(contact, surface, model);
+                    tangential = part == MultiplierPart::normal ? none : tangential_basis(contact, surface, model, settings.own_norm);
   const Basis all = join(normal, tangential);
   if (all.rows.empty() || (part != MultiplierPart::normal && tangential.rows.empty()))
     throw InputError(given.name + (part == MultiplierPart::normal ? " has no multipliers" : " has no friction, so no "
@@ -181,8 +184,10 @@ InfSup inf_sup(const Contact& given, MultiplierPart part, bool share_fixed, Moni
   DenseMatrix N = DenseMatrix::Zero(n + t, n + t);
   if (n > 0) N.topLeftCorner(n, n) = gram(normal, surface, moving(scene, contact, model, true), length, monitor);
   if (t > 0) N.bottomRightCorner(t, t) = gram(tangential, surface, moving(scene, contact, model, false), length, monitor);
-  const algebra::Vector beta = constants(compliance(model, all.rows, length, monitor), N);
+  const DenseMatrix W = compliance(model, all.rows, length, monitor);
+  const algebra::Vector beta = constants(W, N);
   InfSup result;
+  if (settings.cone) result.cone = cone_constant(W, N, n, monitor);
   // β² of a kernel is rounding, 1e-12 of the greatest at most; β itself then 1e-6.
   while (result.kernel < beta.size() && beta[result.kernel] < 1e-5 * beta[beta.size() - 1]) ++result.kernel;
   result.constant = result.kernel > 0 ? 0 : beta[0];

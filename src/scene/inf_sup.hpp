@@ -1,11 +1,21 @@
 #pragma once
 
+#include <optional>
+
 #include "base/monitor.hpp"
 #include "scene/scene.hpp"
 
 namespace dotyk::scene {
 
 enum class MultiplierPart { tangential, normal, both };
+
+/// What an inf-sup constant is asked of.
+struct InfSupSettings {
+  MultiplierPart part = MultiplierPart::tangential;
+  bool share_fixed = true;      ///< false: multipliers stay at nodes that supports hold on both sides, and at corners
+  bool own_norm = false;        ///< the norm of μ_t itself, as in (3.16), not of the shear g_h μ_t
+  bool cone = false;            ///< also over the cone of (3.16)
+};
 
 /// The stability of a contact's multipliers against the displacements, TR965 (3.16): the greatest β with
 ///   sup_v b(μ, v)/‖v‖₁ ≥ β ‖μ‖_{-1/2}  for all multipliers μ,
@@ -21,11 +31,12 @@ struct InfSup {
   int multipliers = 0;      ///< rows
   double h = 0;             ///< contact::facet_width
   double H = 0;             ///< extent of the cells of friction: friction_size or its default
+  std::optional<double> cone;  ///< over pressures ≥ 0 alone, see cone_constant()
 };
 
-/// With `share_fixed` false multipliers stay at nodes that supports hold on both sides. Throws InputError for a
+/// Throws InputError for a
 /// glue, for nodes that do not match, and where the contact has no multiplier of that part (no friction); Interrupted where the
 /// monitor asks to stop.
-InfSup inf_sup(const Contact& contact, MultiplierPart part, bool share_fixed, Monitor& monitor);
+InfSup inf_sup(const Contact& contact, const InfSupSettings& settings, Monitor& monitor);
 
 }  // namespace dotyk::scene

@@ -11,16 +11,17 @@ namespace {
 using scene::Contact;
 
 int inf_sup(Call& call) {
-  const auto part = static_cast<scene::MultiplierPart>(call.choice("part"));
+  const scene::InfSupSettings settings{static_cast<scene::MultiplierPart>(call.choice("part")), call.choice("fixed_nodes") == 0, call.choice("norm") == 1, call.boolean("cone")};
   Watch watch(call.state(), "inf-sup constants");
-  const scene::InfSup s = scene::inf_sup(*call.self<Contact>(), part, call.choice("fixed_nodes") == 0, watch);
-  return call.give(Record{"inf-sup",
-                          {{"constant", s.constant},
-                           {"above_kernel", s.above_kernel},
-                           {"kernel", static_cast<long long>(s.kernel)},
-                           {"multipliers", static_cast<long long>(s.multipliers)},
-                           {"h", s.h},
-                           {"H", s.H}}});
+  const scene::InfSup s = scene::inf_sup(*call.self<Contact>(), settings, watch);
+  std::vector<Entry> entries{{"constant", s.constant},
+                             {"above_kernel", s.above_kernel},
+                             {"kernel", static_cast<long long>(s.kernel)},
+                             {"multipliers", static_cast<long long>(s.multipliers)},
+                             {"h", s.h},
+                             {"H", s.H}};
+  if (s.cone) entries.push_back({"cone", *s.cone});
+  return call.give(Record{"inf-sup", entries, {"cone"}});
 }
 
 }  // namespace
@@ -39,7 +40,9 @@ void bind_contact(Library& library) {
                .example = "print(contact:inf_sup{ part = \"normal\" }.constant)",
                .arguments = {key::table({key::choice("part", {"tangential", "normal", "both"}, "which multipliers").fallback("tangential"),
                                          key::choice("fixed_nodes", {"shared", "kept"},
-                                                     "multipliers of nodes held on both sides, and those of friction at corners of the part: shared out among their neighbours, as in a solve, or kept").fallback("shared")})},
+                                                     "multipliers of nodes held on both sides, and those of friction at corners of the part: shared out among their neighbours, as in a solve, or kept").fallback("shared"),
+                                         key::choice("norm", {"shear", "multiplier"}, "of friction: of the shear g mu, or of mu itself, as TR965 (3.16) has it").fallback("shear"),
+                                         key::boolean("cone", "also .cone: the least constant found over pressures that are not negative").fallback(false)})},
                .run = inf_sup})
       .text([](const Contact& c) { return c.name; });
 }

@@ -2,6 +2,7 @@
 #include "base/text.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
+#include "script/row_method.hpp"
 #include "script/setups.hpp"
 #include "script/wrapped.hpp"
 #include "solver/coulomb_loop.hpp"
@@ -28,9 +29,9 @@ int make_uzawa_pdas(Call& call) {
   auto method = settings_of<solver::UzawaPdas>(call);
   method.rho = call.number("rho");
   using Unit = solver::UzawaPdas::Unit;
-  method.unit = call.choice("unit") == 0 ? Unit::bound : Unit::stiffness;
-  return give_method(call, method,
-                     text("uzawa_pdas: rho = ", method.rho, method.unit == Unit::bound ? "" : " force per displacement"));
+  method.unit = static_cast<Unit>(call.choice("unit"));
+  return give_row_method(call, method,
+                         text("uzawa_pdas: rho = ", method.rho, method.unit == Unit::bound ? "" : method.unit == Unit::stiffness ? " force per displacement" : " in the report's units"));
 }
 
 int make_psor(Call& call) {
@@ -87,9 +88,10 @@ void bind_friction_methods(Library& library) {
        .setup = setup::pressed_block(", friction = dotyk.friction.tresca(2)"),
        .example = "local s = dotyk.solver.uzawa_pdas{ rho = 1 }:solve(scene)",
        .arguments = {key::table(method_keys(
-           {key::positive("rho", "length of the projected steps, and weight of the jumps where sets are chosen").fallback(0.5),
-            key::choice("unit", {"bound", "force/displacement"}, "of rho: Uzawa's bound 2/λ_max, as for uzawa, or force per "
-                        "displacement, the same on every row").fallback("bound")}, 1000))},
+           with_kernel({key::positive("rho", "length of the projected steps, and weight of the jumps where sets are chosen").fallback(0.5),
+                        key::choice("unit", {"bound", "force/displacement", "report"}, "of rho: Uzawa's bound 2/λ_max, as for uzawa; force per "
+                                    "displacement, the same on every row; or the report's, in which pressures and parts of the bound are the "
+                                    "multipliers: given friction").fallback("bound")}), 1000))},
        .returns = "solver",
        .run = make_uzawa_pdas});
   library.function(

@@ -1,6 +1,7 @@
 #include "base/text.hpp"
 #include "script/library.hpp"
 #include "script/method_keys.hpp"
+#include "script/row_method.hpp"
 #include "script/setups.hpp"
 #include "solver/newton.hpp"
 #include "solver/pdas.hpp"
@@ -12,13 +13,8 @@ int make_pdas(Call& call) {
   auto pdas = settings_of<solver::Pdas>(call);
   pdas.rho = call.number("rho");
   pdas.reduced = call.boolean("reduced");
-  pdas.kernel = call.choice("kernel") == 0 ? solver::Pdas::Kernel::exact : solver::Pdas::Kernel::screws;
-  if (call.has("screws"))
-    for (const long long row : call.integers("screws")) pdas.screws.push_back(static_cast<int>(row - 1));
   std::string shown = text("pdas: rho = ", pdas.rho, ", ", pdas.reduced ? "reduced" : "full");
-  if (pdas.kernel == solver::Pdas::Kernel::screws) shown += ", kernel by screws";
-  for (std::size_t k = 0; k < pdas.screws.size(); ++k)
-    shown += text(k == 0 ? " first at rows " : ", ", pdas.screws[k] + 1);
+  if (auto screws = screws_of(call, shown)) pdas.kernel = solver::Pdas::Kernel::screws, pdas.screws = std::move(*screws);
   return give_method(call, std::move(pdas), shown);
 }
 
@@ -31,7 +27,7 @@ int make_newton(Call& call) {
     newton.seed = static_cast<unsigned>(call.integer("seed"));
     shown += text(", seed = ", *newton.seed);
   }
-  return give_method(call, newton, shown);
+  return give_row_method(call, newton, shown);
 }
 
 }  // namespace
@@ -44,15 +40,10 @@ void bind_methods(Library& library) {
        .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.pdas{ reduced = true }:solve(scene)",
        .arguments = {key::table(method_keys(
-           {key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
+           with_kernel({key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
                                  "multiplies each row's own stiffness").fallback(1.0),
             key::boolean("reduced", "iterate on the contact boundary alone, after one factorisation; else on the "
-                                    "whole system, factored anew in each iteration").fallback(true),
-            key::choice("kernel", {"exact", "screws"}, "rigid motions of free bodies: exactly, as constraints of the "
-                        "dual problem, or by magnetic screws (contact nodes taken as closed, moved where they pull)")
-                .fallback("exact"),
-            key::list("screws", key::integer("", "").at_least(1), "rows (contact nodes, in order) where the screws "
-                      "are placed first").otherwise("chosen by the load's equilibrium")}))},
+                                    "whole system, factored anew in each iteration").fallback(true)})))},
        .returns = "solver",
        .run = make_pdas});
   library.function(
@@ -61,14 +52,14 @@ void bind_methods(Library& library) {
                "or Coulomb friction, in the plane and in space, on the contact boundary alone.",
        .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.newton{ tol = 1e-10 }:solve(scene)",
-       .arguments = {key::table(method_keys(
+       .arguments = {key::table(method_keys(with_kernel(
            {key::positive("rho", "weight of slip and gap against force in the projections; multiplies the stiffness "
                                  "that each row sees").fallback(1.0),
             key::boolean("watch", "history[k].singular_value exactly; else estimated from the factors, right up to the "
                                   "root of the number of rows").fallback(false),
             key::integer("seed", "start at random multipliers, the same for the same seed: in a box from a tenth to a "
                                  "hundred times the size of those with everything stuck").within(0, 4294967295.0)
-                .otherwise("start with all that touches stuck")}))},
+                .otherwise("start with all that touches stuck")})))},
        .returns = "solver",
        .run = make_newton});
   bind_friction_methods(library);

@@ -287,7 +287,7 @@ void bind_solution(Library& library) {
                }})
       .method({.name = "solution:distance",
                .help = "How far it is from another solution of the same bodies and contacts, taken for exact (usually of a finer "
-                       "mesh), relative to that: energy (norm of the difference: the square root of twice the energy of "
+                       "mesh, which should refine this one's: elsewhere its kinks are smoothed and the energy comes out too small), relative to that: energy (norm of the difference: the square root of twice the energy of "
                        "strains, springs and elastic laws of supports), displacement (L2 over the bodies), and with "
                        "contact pressure (L2 over the contacts, at this solution's nodes) and peak_pressure.",
                .example = "local soft = dotyk.solver.penalty{ factor = 100 }:solve(scene)\nprint(soft:distance(s).energy)",

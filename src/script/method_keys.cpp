@@ -28,6 +28,25 @@ void read_settings(const Call& call, solver::Settings& settings) {
   settings.ordering = static_cast<algebra::Ordering>(call.choice("ordering"));
 }
 
+std::vector<Key> with_kernel(std::vector<Key> own) {
+  own.push_back(key::choice("kernel", {"exact", "screws"}, "rigid motions of free bodies: exactly, as constraints of the "
+                            "dual problem, or by magnetic screws (contact nodes taken as closed, with given friction also as stuck; moved where they pull, "
+                            "or bear more than friction can)").fallback("exact"));
+  own.push_back(key::list("screws", key::integer("", "").at_least(1), "rows (contact nodes, in order; then those of friction) where the screws "
+                          "are placed first").otherwise("chosen by the load's equilibrium"));
+  return own;
+}
+
+std::optional<std::vector<int>> screws_of(const Call& call, std::string& shown) {
+  if (call.choice("kernel") == 0) return {};
+  shown += ", kernel by screws";
+  std::vector<int> rows;
+  if (call.has("screws"))
+    for (const long long row : call.integers("screws")) rows.push_back(static_cast<int>(row - 1));
+  for (std::size_t k = 0; k < rows.size(); ++k) shown += dotyk::text(k == 0 ? " first at rows " : ", ", rows[k] + 1);
+  return rows;
+}
+
 int give_method(Call& call, solver::Method method, std::string text) {
   std::string common = dotyk::text(", max_iterations = ", call.integer("max_iterations"));
   if (call.choice("ordering") != 0) common += ", ordering = " + call.text("ordering");

@@ -1,5 +1,6 @@
 #pragma once
 // What the makers of methods, dotyk.solver.*, share.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ Method settings_of(const Call& call) {
   read_settings(call, method);
   return method;
 }
+// `own`, and the keys kernel and screws: how rigid motions of free bodies are treated.
+std::vector<Key> with_kernel(std::vector<Key> own);
+// The rows where screws are placed first, from 0, empty where they are chosen; nothing where the kernel is exact. Added to `shown`.
+std::optional<std::vector<int>> screws_of(const Call& call, std::string& shown);
 // The solver object: `text` is its name and options as printed.
 int give_method(Call& call, solver::Method method, std::string text);
 

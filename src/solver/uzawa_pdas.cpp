@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "algebra/lu.hpp"
+#include "base/error.hpp"
 #include "base/text.hpp"
+#include "problem/uniqueness.hpp"
 #include "solver/projection.hpp"
 #include "solver/stationary_iteration.hpp"
 
@@ -126,12 +128,36 @@ class Alternation {
 
 }  // namespace
 
+void UzawaPdas::require_treatable(const problem::Problem& problem) const {
+  if (unit == Unit::report && problem::has_coulomb(problem))
+    throw InputError("unit = \"report\" goes with given friction: the report scales friction forces by their bound, which Coulomb's has not before the pressure is known");
+}
+
+namespace {
+
+/// What ρ multiplies in each row.
+Vector units(const RowIteration& it, UzawaPdas::Unit unit) {
+  if (unit == UzawaPdas::Unit::bound) return it.map.rho();
+  Vector D = Vector::Ones(it.map.rho().size());
+  if (unit == UzawaPdas::Unit::stiffness) return D;
+  const std::vector<double>& measure = it.problem.measure;
+  for (std::size_t r = 0; r < measure.size(); ++r)
+    if (measure[r] > 0) D[static_cast<Eigen::Index>(r)] = measure[r];
+  const Vector g = friction_bounds(it.problem, Vector::Zero(D.size()));
+  Eigen::Index point = 0;
+  for (const FrictionGroup& group : it.problem.friction)
+    for (int k = 0; k < group.points(); ++k, ++point) D.segment(group.row(k), group.components).setConstant(g[point] * g[point]);
+  return D;
+}
+
+}  // namespace
+
 void UzawaPdas::iterate(RowIteration& it) const {
   Alternation alternation(it);
-  const Vector stiffness = unit == Unit::bound ? it.map.rho() : Vector(Vector::Ones(it.map.rho().size()));
+  const Vector stiffness = units(it, unit);
   const double bound = alternation.step_bound(stiffness), length = unit == Unit::bound ? rho * bound : rho;
   it.remark(text("rho = ", length, " for Uzawa's bound 2/λ_max of ", bound,
-                 unit == Unit::bound ? " (in units of 1/W_rr)" : " (force per displacement)",
+                 unit == Unit::bound ? " (in units of 1/W_rr)" : unit == Unit::stiffness ? " (force per displacement)" : " (the report's units)",
                  length >= bound ? ", beyond which sets need not settle" : ""));
   alternation.begin(length * stiffness);
   while (it.next()) {

@@ -16,9 +16,9 @@ namespace dotyk::solver {
 /// Other scalar laws take their projection P for (·)⁺ and its derivative for A. Printed for given friction
 /// b; for Coulomb's, b is that of the M at hand: in step 1 of the last iteration, in step 2 of step 2a.
 ///
-/// The report scales Λ to the unit disc and M to a pressure (its ρ ∈ (10³, 10⁴) then has two units); here
-/// both are nodal forces, and ρ is a force per displacement: the same on every row, or, as for Uzawa's
-/// method, a part of the bound 2/λ_max(D^½WD^½) times D, D_r = 1/W_rr.
+/// The report scales Λ to the unit disc and M to a pressure, so that its ρ ∈ (10³, 10⁴) has two units: on nodal forces it is ρκ_r on a
+/// row of pressure that stands for the measure κ_r, and ρ(∫g)² on a friction row of bound ∫g. That is unit `report`. Else ρ is a force per
+/// displacement, the same on every row, or, as for Uzawa's method, a part of the bound 2/λ_max(D^½WD^½) times D, D_r = 1/W_rr.
 ///
 /// Once the sets A and stick no longer change, and in the plane, ρ is without influence: 1a and 2a change
 /// nothing, and 1c and 2c alternate exactly between the minimisers of the dual energy over M and over Λ
@@ -28,9 +28,11 @@ namespace dotyk::solver {
 /// that throws it open by more than x, 1b leaves it out again, for ever. In space stick and slip may go round
 /// for every ρ (scripts/alternating.lua).
 struct UzawaPdas : RowMethod {
-  enum class Unit { bound, stiffness };
+  enum class Unit { bound, stiffness, report };
   double rho = 0.5;
-  Unit unit = Unit::bound;  ///< of ρ: Uzawa's bound, or force per displacement
+  Unit unit = Unit::bound;  ///< of ρ: Uzawa's bound, force per displacement, or the report's
+  /// Throws InputError for the report's unit with Coulomb friction, which has no bound g.
+  void require_treatable(const problem::Problem& problem) const override;
   const char* name() const override { return "uzawa_pdas"; }
   void iterate(RowIteration& iteration) const override;
 };

@@ -37,7 +37,7 @@ JoinedBlocks stack(int dim, mesh::Family family, int n, const scene::Discretisat
 }
 
 double constant(const JoinedBlocks& s, MultiplierPart part = MultiplierPart::tangential) {
-  return scene::inf_sup(*s.contact, part, true, quiet).constant;
+  return scene::inf_sup(*s.contact, {part, true}, quiet).constant;
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ TEST_CASE("one constant multiplier against a rigid floor: √coth, with the far 
         up[dim - 1] = 1;
         const auto contact = scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, 0, 0}, up}, {}, false,
                                                 given(1), {Multipliers::p1_p0, 10});
-        const auto s = scene::inf_sup(*contact, MultiplierPart::tangential, true, quiet);
+        const auto s = scene::inf_sup(*contact, {MultiplierPart::tangential, true}, quiet);
         CHECK(s.multipliers == dim - 1);
         const double length = dim == 2 ? 1 : std::sqrt(2.0), t = std::tanh(1 / length);
         CHECK(s.constant == doctest::Approx(std::sqrt(held ? t : 1 / t)).epsilon(0.002));  // h²/24ℓ² of the discrete v
@@ -91,8 +91,7 @@ TEST_CASE("dual cells, and cells in space of two facets' width, are stable; cell
     for (int dim : {2, 3})
       CHECK(constant(stack(dim, family, 8, {}), MultiplierPart::both) == doctest::Approx(std::sqrt(2.0)).epsilon(0.03));
   }
-  const auto triangles = scene::inf_sup(*stack(3, mesh::Family::p1, 4, {Multipliers::p1_p0, 1e-3}).contact,
-                                        MultiplierPart::tangential, true, quiet);
+  const auto triangles = scene::inf_sup(*stack(3, mesh::Family::p1, 4, {Multipliers::p1_p0, 1e-3}).contact, {MultiplierPart::tangential, true}, quiet);
   CHECK(triangles.multipliers == 64);
   CHECK(triangles.kernel > 0);
   CHECK(triangles.constant == 0);
@@ -103,19 +102,19 @@ TEST_CASE("nodes held on both sides: a kernel of two where their multipliers are
   for (const auto family : test::kFamilies)
     for (int n : {4, 8}) {
       const auto s = stack(2, family, n, {Multipliers::p1_p0, 0}, true);
-      const auto kept = scene::inf_sup(*s.contact, MultiplierPart::tangential, false, quiet);
+      const auto kept = scene::inf_sup(*s.contact, {MultiplierPart::tangential, false}, quiet);
       CHECK(kept.multipliers == n + 1);
       CHECK(kept.kernel == 2);
       CHECK(kept.constant == 0);
-      const auto shared = scene::inf_sup(*s.contact, MultiplierPart::tangential, true, quiet);
+      const auto shared = scene::inf_sup(*s.contact, {MultiplierPart::tangential, true}, quiet);
       CHECK(shared.multipliers == n - 1);
       CHECK(shared.kernel == 0);
       CHECK(shared.constant > 0.8);
     }
   const auto space = stack(3, mesh::Family::p1, 4, {Multipliers::p1_p0, 0}, true);
-  CHECK(scene::inf_sup(*space.contact, MultiplierPart::normal, false, quiet).kernel > 0);
-  CHECK(scene::inf_sup(*space.contact, MultiplierPart::normal, true, quiet).kernel == 0);
-  CHECK(scene::inf_sup(*space.contact, MultiplierPart::normal, true, quiet).constant > 0.6);
+  CHECK(scene::inf_sup(*space.contact, {MultiplierPart::normal, false}, quiet).kernel > 0);
+  CHECK(scene::inf_sup(*space.contact, {MultiplierPart::normal, true}, quiet).kernel == 0);
+  CHECK(scene::inf_sup(*space.contact, {MultiplierPart::normal, true}, quiet).constant > 0.6);
 }
 
 TEST_CASE("a constant bound, finite or not, does not change the constant") {
@@ -129,6 +128,6 @@ TEST_CASE("no friction, no tangential multipliers") {
   const auto block = test::block("block", 2, mesh::Family::p1, 2);
   auto scene = scene::make_scene({block});
   const auto contact = scene::add_contact(*scene, test::part(block, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, {}, false);
-  CHECK_THROWS_WITH_AS(scene::inf_sup(*contact, MultiplierPart::tangential, true, quiet), doctest::Contains("has no friction"), InputError);
-  CHECK(scene::inf_sup(*contact, MultiplierPart::normal, true, quiet).constant > 0.5);
+  CHECK_THROWS_WITH_AS(scene::inf_sup(*contact, {MultiplierPart::tangential, true}, quiet), doctest::Contains("has no friction"), InputError);
+  CHECK(scene::inf_sup(*contact, {MultiplierPart::normal, true}, quiet).constant > 0.5);
 }
