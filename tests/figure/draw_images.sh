@@ -18,7 +18,8 @@ long="punch cattaneo_mindlin mortar cont roller wall three_blocks plate plate_fr
   papers/semicoercive_theorems papers/semicoercive_working_sets
   papers/plate_edges
   papers/rates papers/newton_remainder papers/m_matrix
-  papers/channel_fields"
+  papers/channel_fields
+  papers/penalised_spectra"
 timed="adaptivity fclib feti_scaling second_order stability/interrupted work_precision/ball work_precision/beam
   work_precision/friction work_precision/hertz work_precision/plate work_precision/semicoercive work_precision/three_blocks
   work_precision/tolerances"
