@@ -84,7 +84,7 @@ TEST_CASE("inf-sup constants of order 2 with the corners' hats stay away from 0 
         test::Stack s = test::stack(dim, family, family, n, n);
         test::fix(s.low, "bottom");
         test::touch(s, true, test::given(1));
-        constants.push_back(scene::inf_sup(*s.contact, scene::MultiplierPart::both, true, quiet).constant);
+        constants.push_back(scene::inf_sup(*s.contact, {scene::MultiplierPart::both, true}, quiet).constant);
       }
       CAPTURE(test::name(family));
       CAPTURE(dim);
