@@ -14,23 +14,10 @@ local gap <const> = 0.025
 local short <const> = arg[1] == "short"
 
 -- 1. The scene.
-local function body(name, y, height, E)
-  return dotyk.body{ name = name, material = dotyk.material{ E = E, nu = 0.3, plane = "stress" },
-    mesh = dotyk.mesh.rectangle{ from = { 0, y }, to = { 2, y + height }, cells = { 40, 20 }, element = "Q1" } }
-end
-local upper <const>, lower <const> = body("upper", gap, 0.75, 2.1e5), body("lower", -1, 1, 1e5)
-upper:part"left":fix()
-upper:part"top":load{ 0, -1000 }
-lower:part"bottom":fix()
-local scene <const> = dotyk.scene{ upper, lower }
-local contact <const> = scene:contact{ upper:part"bottom", lower:part"top" }
-
+local cont <const> = dofile((arg[0]:match "^(.*)/[^/]*$" or ".") .. "/papers/two_bodies.lua"){
+  gap = gap, height = 0.75, fix = { upper_left = "xy", lower_bottom = "xy" } }
+local upper <const>, contact <const>, shape <const>, paper <const> = cont.upper, cont.contact, cont.shape, cont.paper
 local cg <const> = dotyk.solver.projected_cg{ tol = 1e-6 }
-local function shape(differences, method)
-  return dotyk.shape{ scene = scene, objective = "compliance", constraints = { { quantity = "volume" } }, differences = differences,
-    method = method or cg,
-    moves = { { part = upper:part"bottom", control_points = 6, direction = { 0, 1 }, lower = -gap, upper = 0.25, extension = "structured" } } }
-end
 
 -- 2. Derivatives of the vertical displacement at the first design: what differences leave of them. Small steps lose what the solves
 --    are not precise in, large ones what lies between.
@@ -73,7 +60,6 @@ end
 -- 3. The optimisation, from seven radii of the first trust region.
 local kinds <const> = { { name = "exact" }, { name = "h = 2.5e-2", h = 2.5e-2 }, { name = "h = 2.5e-3", h = 2.5e-3 }, { name = "h = 2.5e-5", h = 2.5e-5 } }
 local radii <const> = { 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.5 }
-local paper <const> = { { 36, 25.1552, 8.7547, 1.5, 310, 808 }, { 87, 25.1552, 9.9906, 6.3, 810, 5599 }, { 46, 25.1552, 12.0877, 5.58, 425, 2502 } }
 local variables <const> = shape().variables
 print "\nfinal compliance (designs), by the first radius"
 print((" "):rep(34) .. "         exact        h = 2.5e-2        h = 2.5e-3        h = 2.5e-5")
