@@ -14,6 +14,11 @@
 -- 10 to 14 vectors, needs 0.26 to 0.31 for either beam. SCG pays in the first system, for conjugation and memory, more than
 -- CGLAN; block CG takes fewest iterations, of six products each. For seven systems of this size a Cholesky factor costs least
 -- time; where one system is all there is, CG may.
+-- The order of methods. Work is counted in products with K. The paper's counts of iterations and its memory for the factor give its
+-- order by seconds but for one or two of 21 pairs. Ours is another for two reasons. By its work the factor is no better here than there,
+-- but dense kernels do an operation of it in a fraction of the time of one of CG; in the paper an operation of the solves with the
+-- factor takes 4.5 times as long as one of CG. And SCG and CGLAN orthogonalise in full here, for which the paper's times of the first
+-- system leave no room: for ITER's 272 directions this costs more products than the iterations of all seven systems.
 -- CELLS: across the section, 9. Draws images/iter.png.
 
 local cells <const> = tonumber(arg[1]) or 9
@@ -120,7 +125,75 @@ local function paper(name, rows)
     for i = 2, #rows[k], 2 do entries[#entries + 1] = ("%8d %4s"):format(rows[k][i], rows[k][i + 1] or "") end
     line(row, entries)
   end
+  return rows
 end
+-- Work in products with K, 2 operations an entry. `run`: method, unknowns, entries of K and of the factor, iterations of the first system
+-- and of all later ones, number of these, vectors kept by CGLAN, orthogonalised in full or not. A step of CG costs one product by
+-- Eisenstat's trick, two with IC. A factor of c_j entries in column j costs Σ c_j², at least (Σ c_j)²/n, which is taken, and 4 Σ c_j a solve;
+-- Σ c_j is estimated by its memory. A start from m vectors costs 6 n m, full orthogonalisation of m vectors 2 n m², k combinations of them 2 n m k.
+local function work(run)
+  local kind <const>, n <const>, m <const> = run.method[2], run.n, run.first
+  if kind == "cholesky" then return (run.factor^2 / n + 4 * run.factor * (run.later + 1)) / (2 * run.entries) end
+  local vectors <const> = kind == "scg" and m or kind == "cglan" and run.kept or 0
+  local operations = 6 * n * vectors * run.later + (kind == "cglan" and 2 * n * m * vectors or 0)
+  if run.full and vectors > 0 then operations = operations + 2 * n * m^2 end
+  return (run.first + run.rest) * (run.method[3] == "ic" and 2 or 1) + operations / (2 * run.entries)
+end
+local function entries(along, across) return 9 * (3 * along - 2) * (3 * across - 2)^2 end
+local function ranked(values)
+  local texts <const> = {}
+  for k, value in ipairs(values) do
+    local rank = 1
+    for _, other in ipairs(values) do if other < value then rank = rank + 1 end end
+    texts[k] = ("%11.4g (%d)"):format(value, rank)
+  end
+  return texts
+end
+local function order(name, results, sums, rows)
+  local seconds <const>, ours <const> = {}, {}
+  local n <const> = results[1].unknowns
+  for k = 1, 7 do
+    seconds[k] = sums[k].total
+    ours[k] = work{ method = methods[k], n = n, entries = entries((34 * cells + 4) // 9, cells + 1), factor = results[1].bytes / 8,
+      first = results[k].systems[1].iterations, rest = sums[k].sensitivities, later = 6, kept = results[k].kept, full = true }
+  end
+  print(("\n%s: order of methods (rank)"):format(name))
+  local head <const> = {}
+  for k = 1, 7 do head[k] = ("%15s"):format(methods[k][1]) end
+  local function row(label, values) print(("%-34s"):format(label) .. table.concat(values)) end
+  row("", head)
+  if rows then -- the paper's table: n = 10500, a factor of 24.899 MB, two of the six variables without work, at least 10 vectors of CGLAN
+    local printed <const>, counted <const>, factor <const> = {}, {}, 24.899e6 / 8
+    for k = 1, 7 do
+      printed[k] = rows[9][k == 1 and 1 or 2 * k - 2]
+      counted[k] = work{ method = methods[k], n = 10500, entries = entries(35, 10), factor = factor, first = k > 1 and rows[1][2 * k - 1],
+        rest = k > 1 and rows[10][2 * k - 1], later = k == 1 and 6 or 4, kept = 10 }
+    end
+    row("paper, seconds (Sum2)", ranked(printed))
+    row("paper, work from its counts", ranked(counted))
+    local inverted = 0
+    for k = 1, 7 do for l = 1, k - 1 do if (printed[k] - printed[l]) * (counted[k] - counted[l]) < 0 then inverted = inverted + 1 end end end
+    print(("  of 21 pairs %d are in another order by work than by seconds"):format(inverted))
+    assert(inverted <= 2)
+    local product <const> = 2 * entries(35, 10)
+    local step <const> = printed[2] / counted[2]
+    local solve <const> = rows[10][1] / 6 / (4 * factor / product) / step
+    print(("  an operation takes, relative to one of CG with SSOR: of the factorisation %.2f, of a solve with the factor %.1f"):format(
+      rows[1][1] / (factor^2 / 10500 / product) / step, solve))
+    assert(solve > 4)
+  end
+  row("here, processor's seconds, assembly too", ranked(seconds))
+  row("here, work", ranked(ours))
+  local product <const>, factor <const> = 2 * entries((34 * cells + 4) // 9, cells + 1), results[1].bytes / 8
+  local step <const> = (results[2].systems[1].seconds + sums[2].seconds) / ours[2]
+  local factorisation <const>, solve <const> = results[1].setup_seconds / (factor^2 / n / product) / step, sums[1].seconds / 6 / (4 * factor / product) / step
+  print(("  an operation takes, relative to one of CG with SSOR: of the factorisation %.2f, of a solve with the factor %.2f"):format(factorisation, solve))
+  local m <const> = results[4].systems[1].iterations
+  print(("  full orthogonalisation of SCG SSOR's %d directions costs %.0f products, its iterations %d"):format(m, 2 * n * m^2 / product, m + sums[4].sensitivities))
+  assert(cells < 9 or factorisation < 1 and solve < 1)
+  assert(not rows or name ~= "ITER" or 2 * n * m^2 / product > m + sums[4].sensitivities)
+end
+
 local none <const> = { 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 local function row(cholesky, others) return table.move(others, 1, #others, 2, { cholesky }) end
 local function total(all)
@@ -128,15 +201,16 @@ local function total(all)
   for i = 2, 7 do entries[2 * i - 2], entries[2 * i - 1] = all[i], false end
   return entries
 end
+local slender_paper, wide_paper
 if cells == 9 then
-  paper("ITER", { row(83, { 55, 251, 63, 175, 60, 251, 65, 175, 87, 251, 83, 175 }),
+  slender_paper = paper("ITER", { row(83, { 55, 251, 63, 175, 60, 251, 65, 175, 87, 251, 83, 175 }),
     row(8, { 39, 189, 57, 161, 8, 10, 7, 8, 4, 13, 7, 16 }), row(9, { 46, 217, 62, 173, 9, 11, 8, 8, 9, 37, 13, 34 }),
     row(8, { 41, 200, 57, 161, 9, 10, 8, 8, 6, 23, 8, 19 }), row(8, { 46, 217, 61, 173, 9, 11, 8, 7, 9, 39, 14, 36 }),
     row(9, none), row(8, none),
     row(133, { 227, 1074, 324, 843, 95, 293, 120, 206, 115, 363, 149, 280 }),
     row(133, { 227, 1074, 300, 843, 95, 293, 96, 206, 115, 363, 125, 280 }),
     row(50, { 172, 823, 237, 668, 35, 42, 31, 31, 28, 112, 42, 105 }), total{ 288, 329, 425, 211, 239, 221, 259 } })
-  paper("ITER2", { row(83, { 19, 86, 16, 44, 20, 86, 18, 44, 29, 86, 22, 44 }),
+  wide_paper = paper("ITER2", { row(83, { 19, 86, 16, 44, 20, 86, 18, 44, 29, 86, 22, 44 }),
     row(8, { 17, 80, 15, 42, 5, 17, 4, 8, 5, 18, 6, 13 }), row(9, { 17, 80, 12, 32, 5, 15, 4, 7, 5, 17, 5, 13 }),
     row(8, { 13, 58, 13, 34, 5, 17, 4, 7, 5, 17, 5, 13 }), row(8, { 17, 83, 15, 43, 6, 20, 5, 9, 5, 20, 9, 24 }),
     row(9, none), row(8, none),
@@ -144,6 +218,9 @@ if cells == 9 then
     row(133, { 83, 387, 71, 195, 41, 155, 35, 75, 49, 158, 47, 107 }),
     row(50, { 64, 301, 55, 151, 21, 69, 17, 31, 20, 72, 25, 63 }), total{ 288, 185, 200, 145, 165, 152, 177 } })
 end
+
+order("ITER", slender_results, slender, slender_paper)
+order("ITER2", wide_results, wide, wide_paper)
 
 -- 3. What earlier systems are worth.
 print ""

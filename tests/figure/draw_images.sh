@@ -19,7 +19,8 @@ long="punch cattaneo_mindlin mortar cont roller wall three_blocks plate plate_fr
   papers/plate_edges
   papers/rates papers/newton_remainder papers/m_matrix
   papers/channel_fields
-  papers/penalised_spectra"
+  papers/penalised_spectra
+  papers/cont_figures papers/cont_table"
 timed="adaptivity fclib feti_scaling second_order stability/interrupted work_precision/ball work_precision/beam
   work_precision/friction work_precision/hertz work_precision/plate work_precision/semicoercive work_precision/three_blocks
   work_precision/tolerances"
