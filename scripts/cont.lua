@@ -5,7 +5,8 @@
 -- Two bodies of 41 × 21 nodes, E = 2.1e5 and 1e5, ν = 0.3, load -1000 per length. The paper's drawing is lost; here the upper body is
 -- clamped at its left side, a gap above the lower one, and loaded on its top. Six control points of its lower edge (a cubic B-spline)
 -- move vertically, from touching the other body to 0.25 upwards; the volume must not grow. The compliance is to be least, by sequential
--- linear programming. scripts/papers/cont_table.lua has the paper's 3298 unknowns; here are 3320. Forward differences solve six more scenes for each design, with conjugate gradients to 1e-6 as in the paper.
+-- linear programming. Forward differences solve six more scenes for each design, with conjugate gradients to 1e-6 as in the paper. These
+-- supports leave 3320 unknowns; scripts/papers/cont_table.lua has the paper's 3298.
 -- Compliance is concave in the gap (its derivative is the pressure), so that designs end in corners of what is allowed, of which there are
 -- several: where a run ends depends on its first steps. So every kind of derivative starts with seven trust regions, and the sums count;
 -- figures show the best design. Lengths, forces per length: any consistent units.
