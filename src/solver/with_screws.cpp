@@ -22,6 +22,7 @@ Problem other_rows(const Problem& problem, const std::vector<int>& screws) {
   std::vector<char> screwed(static_cast<std::size_t>(problem.rows()), 0);
   Problem rows;
   rows.c = problem.c;
+  rows.B = algebra::SparseRows(problem.rows(), 0);  // no bodies
   rows.row_name = problem.row_name;
   for (const int r : screws) screwed[r] = 1, rows.groups.push_back({"screw", problem::elastic({0.0}), r, 1});
   for (const RowGroup& group : problem.groups) {
