@@ -21,7 +21,8 @@ namespace {
 class Conditions {
  public:
   Conditions(const Problem& problem, const State& state, double tolerance)
-      : x_(problem.B * state.u - problem.c), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)) {
+      : x_(problem.B * state.u - problem.c), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)),
+        stiffness_(problem.row_stiffness()) {
     for (const RowGroup& group : problem.groups)
       for (int k = 0; k < group.count; ++k) add(*group.law, group.first + k, k);
     for (const FrictionGroup& group : problem.friction)
@@ -42,9 +43,11 @@ class Conditions {
       return;
     }
     const Interval following = problem::following(law, k);
-    if (lambda_[row] - low <= small_[row])
+    // On a row that is open, or beyond its law's other end, a multiplier is what the method left.
+    const auto open = [&](double force, double gap) { return force <= std::max(small_[row], stiffness_[row] * gap); };
+    if (open(lambda_[row] - low, following.low - x_[row]))
       limit(row, 1, following.low - x_[row]);
-    else if (high - lambda_[row] <= small_[row])
+    else if (open(high - lambda_[row], x_[row] - following.high))
       limit(row, -1, x_[row] - following.high);
     else
       held_.emplace_back(held_count_++, row, 1.0);
@@ -83,7 +86,7 @@ class Conditions {
 
   Vector x_;
   const Vector& lambda_;
-  Vector small_;  ///< by row: forces that are none
+  Vector small_, stiffness_;  ///< by row: forces that are none; see Problem::row_stiffness()
   Triplets held_, limited_;
   int held_count_ = 0;
   std::vector<double> slack_;
@@ -115,9 +118,11 @@ Vector small_forces(const Problem& problem, const Vector& lambda, double toleran
   const Parts parts = problem::parts(problem);
   const std::vector<double> greatest = greatest_of_loaded(problem, parts, lambda);
   std::vector<double> of_body(problem.blocks.size(), 0);
-  std::vector<double> of_unloaded;  // by block, the rounding of the greatest of its part
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
-    of_unloaded.push_back(problem.blocks[b].f.isZero(0) ? kOfAll * greatest[static_cast<std::size_t>(parts.of_block[b])] : 0);
+  std::vector<double> of_rounding;  // by block: of its load, without one of the greatest force of its part
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    const double load = problem.blocks[b].f.size() > 0 ? problem.blocks[b].f.lpNorm<Eigen::Infinity>() : 0;
+    of_rounding.push_back(kOfAll * (load > 0 ? load : greatest[static_cast<std::size_t>(parts.of_block[b])]));
+  }
   const auto each = [&](const auto& visit) {
     for (int r = 0; r < problem.rows(); ++r)
       for (SparseRows::InnerIterator it(problem.B, r); it; ++it) visit(r, problem.block_of(it.col()));
@@ -127,7 +132,7 @@ Vector small_forces(const Problem& problem, const Vector& lambda, double toleran
   each([&](int r, std::size_t b) {
     if (of_body[b] > least[r]) return;
     least[r] = of_body[b];
-    rounding[r] = of_unloaded[b];
+    rounding[r] = of_rounding[b];
   });
   return (tolerance * least).cwiseMax(rounding);
 }

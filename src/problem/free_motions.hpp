@@ -25,7 +25,7 @@ struct FreeMotions {
 inline constexpr int kMostModes = 30, kMostFree = 600;
 
 /// By row, the forces that are none: those within `tolerance` of the greatest |λ| on a body that the row touches, of two bodies the lesser, as forces
-/// on one body do not say what is small for another; where that body has no load, those within rounding of the greatest of all as well.
+/// on one body do not say what is small for another; those within rounding of that body's load, or where it has none of the greatest of all, as well.
 algebra::Vector small_forces(const Problem& problem, const algebra::Vector& lambda, double tolerance);
 
 /// `tolerance`: of small_forces(); multipliers so near to a bound are on it.

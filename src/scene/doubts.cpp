@@ -60,18 +60,23 @@ void see_chords(const Contact& contact, std::vector<const contact::ContactRow*> 
 
 /// A pressure that is uncertain by more than this part of the contact's greatest says nothing.
 constexpr double kMostRounding = 0.01;
+/// Beside all forces on the bodies a contact's force below this part is none.
+constexpr double kNoForce = 1e-6;
 
 /// Where cells are so thin that rounding of their stiffness is beside the pressure.
 void see_rounding(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
   const Contact& contact = *solution.scene().contacts[index];
   double greatest = 0, uncertain = 0;
   std::size_t worst = 0;
+  const std::vector<problem::Scales> scales = problem::scales(solution.model().problem, solution.result().state);
   for (std::size_t i = 0; i < contact.rows.size(); ++i) {
     const int row = solution.model().contact_row[index][i];
     if (row < 0) continue;
     const double measure = solution.model().normal[index][i].measure;
     greatest = std::max(greatest, solution.result().state.lambda[row] / measure);
-    if (const double here = solution.rounding_of_forces()[row] / measure; here > uncertain) uncertain = here, worst = i;
+    const double rounding = solution.rounding_of_forces()[row];
+    if (rounding <= kNoForce * scales[static_cast<std::size_t>(row)].force) continue;
+    if (const double here = rounding / measure; here > uncertain) uncertain = here, worst = i;
   }
   if (uncertain > kMostRounding * greatest)
     all.push_back(text(contact.name, ": rounding leaves the pressure uncertain by ", uncertain, " at ",

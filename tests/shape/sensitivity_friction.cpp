@@ -82,7 +82,7 @@ TEST_CASE("a corner of the contact, whose friction the nodes beside it bear: giv
     mesh::transform(m, [&](Point x) { return x[1] += lift + 0.5 * std::abs(x[0] - 0.5), x; });
     return test::body(name, std::move(m), E);
   };
-  for (const scene::Friction& friction : {given([](const Point&) { return 0.6; }), test::coulomb(0.2)})
+  for (const scene::Friction& friction : {given([](const Point& x) { return 2 * (1 + x[0]); }), test::coulomb(0.4)})
     check(pressed(folded("lower", 0, 1000), folded("upper", 1, 600), friction), motion(2), true, true);
 }
 
