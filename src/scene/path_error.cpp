@@ -10,10 +10,9 @@ namespace dotyk::scene {
 
 namespace {
 
-/// Has a node of a point of friction closed from a gap?
-bool closed_on_the_way(const Solution& solution, std::size_t c, const FrictionRows& rows) {
+/// Has a node of a point of friction closed from a gap beyond `touching`?
+bool closed_on_the_way(const Solution& solution, std::size_t c, const FrictionRows& rows, double touching) {
   const Contact& contact = *solution.model().contacts[c];
-  const double touching = contact::kTouching * contact.first.body->mesh->size();
   return std::any_of(rows.cell.jumps.begin(), rows.cell.jumps.end(), [&](const contact::Term& jump) {
     const int r = solution.model().contact_row[c][static_cast<std::size_t>(jump.row)];
     return r >= 0 && solution.active(r) && std::abs(contact.rows[static_cast<std::size_t>(jump.row)].gap) > touching;
@@ -31,14 +30,17 @@ double force_of(const Solution& solution, const FrictionRows& rows) {
 std::optional<double> share_of_path(const Solution& solution) {
   bool follows = false;
   double stuck = 0, sum = 0;
-  for (std::size_t c = 0; c < solution.model().friction.size(); ++c)
+  for (std::size_t c = 0; c < solution.model().friction.size(); ++c) {
+    if (solution.model().friction[c].empty()) continue;
+    const double touching = contact::kTouching * solution.model().contacts[c]->first.body->mesh->size();
     for (const FrictionRows& rows : solution.model().friction[c]) {
       const double force = force_of(solution, rows);
       sum += force;
-      if (!closed_on_the_way(solution, c, rows)) continue;
+      if (!closed_on_the_way(solution, c, rows, touching)) continue;
       follows = true;
       if (const auto& slips = solution.result().slipping; slips.empty() || !slips[rows.row[0]]) stuck += force;
     }
+  }
   if (!follows) return std::nullopt;
   return sum > 0 ? stuck / sum : 0;
 }
