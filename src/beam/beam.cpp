@@ -8,6 +8,8 @@
 
 namespace dotyk::beam {
 
+using Kind = problem::SupportLaw::Kind;
+
 namespace {
 
 /// Supports nearer to each other than this part of the length are refused: what rounding leaves grows as the inverse cube.
@@ -19,7 +21,42 @@ void require_on_beam(const Beam& beam, double x, const std::string& what) {
     throw InputError(text(what, " is at x = ", x, "; the beam goes from 0 to ", beam.length));
 }
 
+bool rigid(const problem::SupportLaw& law) {
+  return law.kind == Kind::prescribed || law.kind == Kind::signorini || law.kind == Kind::friction || law.kind == Kind::one_sided_friction;
+}
+
+/// At a point that both hold rigidly.
+void require_agreement(const Support& s, const Foundation& f, double length) {
+  const std::string both = text("the support ", s.name, " (", problem::describe(s.deflection), ") and the foundation there (", problem::describe(f.law), ")");
+  if (s.deflection.kind != Kind::prescribed)
+    throw InputError(text(both, " both hold the deflection rigidly, and which of them bears what is not known; keep one of them"));
+  const double u = s.deflection.value + s.deflection_at, floor = f.at + f.law.value * (f.law.kind == Kind::prescribed), rounding = 1e-12 * length;
+  if (f.law.kind == Kind::signorini ? u < floor - rounding : f.law.kind == Kind::prescribed && std::abs(u - floor) > rounding)
+    throw InputError(text(both, " contradict each other: deflections ", u, " and ", floor));
+}
+
+void require_foundation(const Beam& beam) {
+  const std::vector<double> x = nodes(beam);
+  if (beam.foundation.size() != x.size()) throw InputError(text("its foundation has ", beam.foundation.size(), " laws for ", x.size(), " nodes"));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Foundation& f = beam.foundation[i];
+    if (f.law.kind == Kind::load || f.law.kind == Kind::breaking)
+      throw InputError(text("the foundation's law at x = ", x[i], " is ", problem::describe(f.law),
+                            f.law.kind == Kind::load ? "; loads along the beam are its load" : "; of supports at points alone all branches are found. capped_elastic limits the pressure"));
+    require_valid(f.law);
+    if (!std::isfinite(f.at)) throw InputError(text("the foundation is at ", f.at, " where x = ", x[i]));
+  }
+  for (const Support& s : beam.supports)
+    if (const Foundation& f = beam.foundation[nearest(x, s.x)]; rigid(s.deflection) && rigid(f.law)) require_agreement(s, f, beam.length);
+}
+
 }  // namespace
+
+bool has_row(const Beam& beam, const std::vector<double>& nodes, int node) {
+  if (!rigid(beam.foundation[node].law)) return true;
+  return std::none_of(beam.supports.begin(), beam.supports.end(),
+                      [&](const Support& s) { return s.deflection.kind == Kind::prescribed && nearest(nodes, s.x) == node; });
+}
 
 void require_valid(const Beam& beam) {
   if (!(beam.length > 0) || !std::isfinite(beam.length)) throw InputError(text("its length is ", beam.length, "; it must be positive"));
@@ -38,6 +75,8 @@ void require_valid(const Beam& beam) {
     require_on_beam(beam, s.x, "the support " + s.name);
     require_valid(s.deflection);
     require_valid(s.rotation);
+    if (!std::isfinite(s.deflection_at) || !std::isfinite(s.rotation_at))
+      throw InputError(text("the laws of the support ", s.name, " are about the deflection ", s.deflection_at, " and the rotation ", s.rotation_at));
     if (i == 0) continue;
     const Support& before = beam.supports[i - 1];
     if (s.x == before.x) throw InputError(text("the supports ", before.name, " and ", s.name, " are at one point"));
@@ -45,6 +84,7 @@ void require_valid(const Beam& beam) {
       throw InputError(text("the supports ", before.name, " and ", s.name, " are ", s.x - before.x, " apart, too near for rounding to tell: at least ", kNear,
                             " of the length, or one support with laws for deflection and rotation"));
   }
+  if (!beam.foundation.empty()) require_foundation(beam);
 }
 
 std::vector<double> nodes(const Beam& beam) {

@@ -14,6 +14,13 @@ struct Support {
   std::string name;  ///< "left", "right", "x = 0.5": for messages and reactions
   double x = 0;
   problem::SupportLaw deflection, rotation;
+  double deflection_at = 0, rotation_at = 0;  ///< the laws are about u − deflection_at, u' − rotation_at
+};
+
+/// A law per length about the deflection u − at.
+struct Foundation {
+  problem::SupportLaw law;
+  double at = 0;
 };
 
 /// At a point; it may lie within a cell.
@@ -37,11 +44,18 @@ struct Beam {
   std::function<double(double)> q_of;      ///< of x; empty: constant
   std::vector<PointLoad> loads;
   std::vector<Support> supports;           ///< ascending in x
+  /// At each of nodes(beam), where it stands for half of the cells about: of order 2 in their size. Empty: none. At a node that a
+  /// support prescribes, a rigid law of the foundation has no row: its force there is the support's.
+  std::vector<Foundation> foundation;
 };
 
 /// Throws InputError where the length or a stiffness is not positive, a point lies off the beam, two supports are at
-/// one point or nearer than 1e-4 of the length, there are no cells, or a law is not valid (problem::require_valid).
+/// one point or nearer than 1e-4 of the length, there are no cells, a law is not valid (problem::require_valid), the foundation has not one law
+/// a node, one that may break or is a load, or one that is as rigid as a support's at the same node.
 void require_valid(const Beam& beam);
+
+/// Has the foundation a row at this node?
+bool has_row(const Beam& beam, const std::vector<double>& nodes, int node);
 
 /// The nodes, ascending: of cells of equal length, but that each support has moved the nearest one to its point, or has one
 /// more where another support has that.

@@ -75,6 +75,7 @@ class Builder {
     add_stiffness();
     for (const PointLoad& load : beam_.loads) add_load(load);
     for (const Support& support : beam_.supports) add_support(support);
+    for (std::size_t i = 0; i < beam_.foundation.size(); ++i) add_foundation(static_cast<int>(i));
     problem::add(model_.problem, block(n));
     finish_rows(n);
     if (model_.problem.rows() > 0) problem::require_moderate(model_.problem, problem::kMostForceOnRows);
@@ -113,23 +114,29 @@ class Builder {
     SupportRows rows;
     rows.node = nearest(model_.nodes, support.x);
     rows.turn = problem::directed(support.rotation.kind) ? -1 : 1;
-    rows.deflection = add_row(support.deflection, support.name + " deflection", 2 * rows.node, 1, 1);
-    rows.rotation = add_row(support.rotation, support.name + " rotation", 2 * rows.node + 1, model_.unit, rows.turn);
+    rows.deflection = add_row(support.deflection, support.name + " deflection", 2 * rows.node, 1, 1, support.deflection_at);
+    rows.rotation = add_row(support.rotation, support.name + " rotation", 2 * rows.node + 1, model_.unit, rows.turn, support.rotation_at);
     model_.supports.push_back(rows);
   }
 
-  /// The row of a law about turn·w, w an unknown; −1 where it has none.
-  int add_row(const SupportLaw& law, const std::string& name, int unknown, double unit, double turn) {
+  void add_foundation(int node) {
+    const auto& [law, at] = beam_.foundation[node];
+    const bool row = has_row(beam_, model_.nodes, node);
+    model_.foundation.push_back(row ? add_row(law, text("foundation at x = ", model_.nodes[node]), 2 * node, 1, 1, at, model_.share(node)) : -1);
+  }
+
+  /// The row of a law about turn·(w/unit − at), w an unknown, for this share; −1 where it has none.
+  int add_row(const SupportLaw& law, const std::string& name, int unknown, double unit, double turn, double at, double share = 1) {
     if (law.kind == Kind::load) f_[unknown] += law.value / unit;
     if (law.kind == Kind::breaking && is_broken()) {
       if (law.value > 0) offset_ += 0.5 * law.limit * law.limit / law.value;  // what breaking took
       return -1;
     }
-    const auto row_law = problem::row_law(law, unit);
+    const auto row_law = problem::row_law(law, unit, {share});
     if (!row_law) return -1;
     const int row = static_cast<int>(c_.size());
     B_.emplace_back(row, unknown, -turn);
-    c_.push_back(law.kind == Kind::prescribed ? -law.value * unit : 0);
+    c_.push_back(-unit * ((law.kind == Kind::prescribed ? law.value : 0) + turn * at));
     model_.problem.groups.push_back({name, row_law, row, 1});
     return row;
   }
@@ -178,6 +185,11 @@ class Builder {
 };
 
 }  // namespace
+
+double Model::share(int node) const {
+  const int last = static_cast<int>(nodes.size()) - 1;
+  return (nodes[std::min(node + 1, last)] - nodes[std::max(node - 1, 0)]) / 2;
+}
 
 Model build(const Beam& beam, const std::vector<Broken>& broken) { return Builder(beam, broken)(); }
 

@@ -10,7 +10,7 @@ namespace dotyk::beam {
 /// Rows of a support: −1 where it has none.
 struct SupportRows {
   int node = 0;
-  int deflection = -1, rotation = -1;  ///< x = c − w, w = u, or w = ∓ℓu' (see `turn`)
+  int deflection = -1, rotation = -1;  ///< x = given − w, w = u, or w = ∓ℓu' (see `turn`)
   double turn = 1;                     ///< the rotation's law is about v = turn·u': −1 for one-sided ones, u' ≤ 0
 };
 
@@ -20,6 +20,9 @@ struct Model {
   std::vector<double> nodes;
   double unit = 1;  ///< ℓ
   std::vector<SupportRows> supports;
+  std::vector<int> foundation;  ///< the row of each node, −1: none; empty: no foundation
+  /// The length that a node stands for: half of the cells about it.
+  double share(int node) const;
   problem::Problem problem;
 };
 

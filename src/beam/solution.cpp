@@ -22,6 +22,7 @@ void Solution::sum_loads() {
     const Reaction r = reaction(static_cast<int>(i));
     forces_.push_back({model_.nodes[model_.supports[i].node], r.force, r.moment});
   }
+  for (std::size_t i = 0; i < model_.foundation.size(); ++i) forces_.push_back({model_.nodes[i], foundation_force(static_cast<int>(i)), 0});
   sum_q_ = sum_moment_ = {0};
   for (std::size_t i = 0; i + 1 < model_.nodes.size(); ++i) {
     const double a = model_.nodes[i], b = model_.nodes[i + 1];
@@ -77,6 +78,17 @@ double Solution::moment(double x) const {
   for (const PointLoad& f : forces_)
     if (f.x <= x && f.x < beam_.length) sum += f.force * (x - f.x) - f.moment;
   return -sum;
+}
+
+double Solution::foundation_force(int node) const {
+  const int row = model_.foundation.empty() ? -1 : model_.foundation[node];
+  return row < 0 ? 0 : result_.state.lambda[row];
+}
+
+double Solution::pressure(double x) const {
+  const auto [cell, s] = place(x);
+  const auto at = [&](int node) { return foundation_force(node) / model_.share(node); };
+  return (1 - s) * at(cell) + s * at(cell + 1);
 }
 
 Reaction Solution::reaction(int support) const {

@@ -26,10 +26,13 @@ class Solution {
 
   double deflection(double x) const;  ///< of the cubic elements; with constant EJ exact at nodes
   double rotation(double x) const;
-  /// M = −EJ u'' and T = DM of the exact solution of a beam under these loads and the reactions: by equilibrium, from
-  /// the left. At a point where they jump: their values to the right of it; at the right end to the left.
+  /// M = −EJ u'' and T = DM of the exact solution of a beam under these loads and the reactions (a foundation's at the nodes): by
+  /// equilibrium, from the left. At a point where they jump: their values to the right of it; at the right end to the left.
   double moment(double x) const;
   double shear(double x) const;
+  /// The foundation's force on the beam at a node, up, and its force per length, between nodes linear; 0 without a row.
+  double foundation_force(int node) const;
+  double pressure(double x) const;
   /// Of a support of the beam, by its place in Beam::supports.
   Reaction reaction(int support) const;
 

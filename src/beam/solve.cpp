@@ -33,7 +33,7 @@ bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std:
     const Support& support = beam.supports[which[k].support];
     const Reaction r = s.reaction(which[k].support);
     const auto& law = which[k].rotation ? support.rotation : support.deflection;
-    const double against = which[k].rotation ? r.rotation : -r.deflection;  // one-sided: deflections down, rotations up
+    const double against = which[k].rotation ? r.rotation - support.rotation_at : support.deflection_at - r.deflection;  // one-sided: deflections down, rotations up
     const bool beyond = law.value * against > law.limit;
     if (beyond != (broken[k] == Broken::yes)) return false;
   }

@@ -38,8 +38,9 @@ void add_bending_diagrams(BeamView& view, std::function<double(double)> moment, 
   view.diagrams[BeamPanel::moment] = std::move(M), view.diagrams[BeamPanel::shear] = std::move(T);
 }
 
-ViewedLaw viewed(const problem::SupportLaw& law, double displacement, double reaction, LawSide of, bool right_end = false) {
-  return {law, displacement, reaction, turned(law, of, right_end)};
+ViewedLaw viewed(const problem::SupportLaw& law, double displacement, double reaction, LawSide of, const thermoelastic::Driven& driven = {}, bool right_end = false) {
+  const double load = law.kind == problem::SupportLaw::Kind::load ? law.value : 0;
+  return {law, displacement, reaction, turned(law, of, right_end), driven.place, driven.force - load};
 }
 
 }  // namespace
@@ -69,10 +70,15 @@ BeamView view(const beam::Solution& s) {
   for (const beam::PointLoad& load : b.loads) out.loads.push_back({load.x, load.force, load.moment});
   for (std::size_t i = 0; i < b.supports.size(); ++i) {
     const beam::Support& support = b.supports[i];
+    const auto at = [](const problem::SupportLaw& law, double place) {
+      return thermoelastic::Driven{place, law.kind == problem::SupportLaw::Kind::load ? law.value : 0};
+    };
     const beam::Reaction r = s.reaction(static_cast<int>(i));
-    out.supports.push_back({support.x, viewed(support.deflection, r.deflection, r.force, LawSide::deflection),
-                            viewed(support.rotation, r.rotation, r.moment, LawSide::rotation), {}});
+    out.supports.push_back({support.x, viewed(support.deflection, r.deflection, r.force, LawSide::deflection, at(support.deflection, support.deflection_at)),
+                            viewed(support.rotation, r.rotation, r.moment, LawSide::rotation, at(support.rotation, support.rotation_at)), {}});
   }
+  for (std::size_t i = 0; i < s.model().foundation.size(); ++i)
+    if (const double force = s.foundation_force(static_cast<int>(i)); force != 0) out.loads.push_back({out.nodes[i], force, 0});
   const double u = most(out.nodes, out.deflection), EJ = b.EJ_of ? b.EJ_of(b.length / 2) : b.EJ;
   out.bending = positive(u, 0, std::max(greatest_force(out), EJ * u / (b.length * b.length * b.length)), b.length);
   add_bending_diagrams(out, [&s](double x) { return s.moment(x); }, [&s](double x) { return s.shear(x); });
@@ -91,9 +97,9 @@ BeamView view(const thermoelastic::Stepping& s, std::function<double(double)> lo
   for (std::size_t i = 0; i < data.supports.size(); ++i) {
     const thermoelastic::Support& support = data.supports[i];
     const thermoelastic::Reaction r = s.reaction(static_cast<int>(i));
-    out.supports.push_back({support.x, viewed(support.deflection, r.deflection, r.force, LawSide::deflection),
-                            viewed(support.rotation, r.rotation, r.moment, LawSide::rotation),
-                            viewed(support.displacement, r.displacement, r.axial, LawSide::displacement, i + 1 == data.supports.size())});
+    out.supports.push_back({support.x, viewed(support.deflection, r.deflection, r.force, LawSide::deflection, r.driven[0]),
+                            viewed(support.rotation, r.rotation, r.moment, LawSide::rotation, r.driven[1]),
+                            viewed(support.displacement, r.displacement, r.axial, LawSide::displacement, r.driven[2], i + 1 == data.supports.size())});
     axial_force = std::max(axial_force, std::abs(r.axial));
   }
   const auto field = [&](BeamPanel panel, double (thermoelastic::Stepping::*of)(double) const) {

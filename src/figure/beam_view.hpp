@@ -31,6 +31,8 @@ struct ViewedLaw {
   double displacement = 0;  // u, u' or u₁
   double reaction = 0;      // on the beam: up, anticlockwise, along x
   bool turned = false;      // the law is about what is opposite to the displacement
+  double place = 0;         // the law is about displacement - place
+  double force = 0;         // of the reaction: what is added beside the law
 };
 
 struct ViewedSupport {

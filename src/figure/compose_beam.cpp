@@ -141,10 +141,10 @@ BeamDrawing beam_drawing(const BeamView& view) {
   out.loads = view.loads;
   for (const ViewedSupport& s : view.supports) {
     const Scales bending = scales(view, LawSide::deflection), turning = scales(view, LawSide::rotation);
-    out.supports.push_back({s.x, working_point(s.deflection, bending).displacement, working_point(s.rotation, turning).displacement,
+    out.supports.push_back({s.x, s.deflection.place + working_point(s.deflection, bending).displacement, s.rotation.place + working_point(s.rotation, turning).displacement,
                             element(s.deflection, bending), element(s.rotation, turning), problem::directed(s.rotation.law.kind)});
-    const double force = s.deflection.law.kind == Kind::load ? s.deflection.law.value : 0;
-    const double moment = s.rotation.law.kind == Kind::load ? s.rotation.law.value : 0;
+    const double force = s.deflection.force + (s.deflection.law.kind == Kind::load ? s.deflection.law.value : 0);
+    const double moment = s.rotation.force + (s.rotation.law.kind == Kind::load ? s.rotation.law.value : 0);
     if (force != 0 || moment != 0) out.loads.push_back({s.x, force, moment});
   }
   return out;

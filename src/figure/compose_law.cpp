@@ -110,7 +110,7 @@ PagePicture law_page(std::vector<PageCell> cells) {
 
 WorkingPoint working_point(const ViewedLaw& at, const Scales& scale) {
   const auto clean = [](double value, double size) { return std::abs(value) > kRounding * size ? value : 0; };
-  return {clean(at.displacement, scale.displacement), clean(at.reaction, scale.force)};
+  return {clean(at.displacement - at.place, scale.displacement), clean(at.reaction - at.force, scale.force)};
 }
 
 PagePicture compose(const SupportLaw& law, LawSide of, const Units& units) { return law_page(law_cells(law, of, turned(law, of), std::nullopt, {}, units)); }

@@ -1,7 +1,9 @@
 #include "script/bind_beam.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "beam/sampled.hpp"
 #include "script/bind.hpp"
@@ -18,13 +20,46 @@ Key law_key(const char* name, const char* help) { return key::object<SupportLaw>
 
 SupportLaw law(const Arguments& from, const char* name) { return from.has(name) ? *from.object<SupportLaw>(name) : SupportLaw{}; }
 
+bool stands_somewhere(const Arguments& from, const char* name) {
+  const std::string at = std::string(name) + "_at";
+  if (!from.has(at)) return false;
+  const SupportLaw::Kind kind = law(from, name).kind;
+  if (kind == SupportLaw::Kind::free || kind == SupportLaw::Kind::load)
+    throw InputError(text("'", at, "' is where the law of '", name, "' stands, and that is ", problem::support_name(kind), "; give a law that acts somewhere, as dotyk.law.signorini()"));
+  return true;
+}
+
 namespace {
 
 using beam::Beam;
 using beam::Broken;
 
 beam::Support beam_support(const Arguments& from, std::string name, double x) {
-  return {std::move(name), x, law(from, "deflection"), law(from, "rotation")};
+  beam::Support out{std::move(name), x, law(from, "deflection"), law(from, "rotation")};
+  if (stands_somewhere(from, "deflection")) out.deflection_at = from.number("deflection_at");
+  if (stands_somewhere(from, "rotation")) out.rotation_at = from.number("rotation_at");
+  return out;
+}
+
+std::vector<Key> beam_support_keys() {
+  std::vector<Key> keys = support_law_keys();
+  keys.push_back(key::number("deflection_at", "where the law of the deflection stands: it is about the deflection less this").unit("length").otherwise("0"));
+  keys.push_back(key::number("rotation_at", "the same of the rotation").unit("rad").otherwise("0"));
+  return keys;
+}
+
+/// Laws at the nodes.
+void take_foundation(Call& call, Beam& beam) {
+  if (!call.has("foundation")) {
+    if (call.has("foundation_at")) throw InputError("'foundation_at' is where the foundation stands, and there is none; give 'foundation', a law of dotyk.law or a function of x");
+    return;
+  }
+  const std::optional<Field> at = call.has("foundation_at") ? std::optional<Field>(call.field("foundation_at")) : std::nullopt;
+  for (const double x : beam::nodes(beam)) {
+    const std::vector<double> point{x};
+    const auto given = call.holds<SupportLaw>("foundation") ? call.object<SupportLaw>("foundation") : call.function("foundation").object<SupportLaw>(point);
+    beam.foundation.push_back({*given, at ? (*at)(point)[0] : 0});
+  }
 }
 
 void add_end(Call& call, const char* name, double x, Beam& beam) {
@@ -54,13 +89,15 @@ int make_beam(Call& call) {
   require_valid(*beam);
   take(call, "EJ", *beam, beam->EJ, beam->EJ_of);
   take(call, "load", *beam, beam->q, beam->q_of);
+  take_foundation(call, *beam);
   beam::build(*beam);  // refuses at once what cannot be solved
   return call.give(beam);
 }
 
 std::string beam_text(const Beam& b) {
   return text("beam: length ", b.length, ", ", b.cells, " cells, EJ ", b.EJ_of ? "a function" : text(b.EJ), ", load ",
-              b.q_of ? "a function" : text(b.q), ", ", b.supports.size(), " supports, ", b.loads.size(), " point loads");
+              b.q_of ? "a function" : text(b.q), ", ", b.supports.size(), " supports, ", b.loads.size(), " point loads",
+              b.foundation.empty() ? "" : ", on a foundation");
 }
 
 template <double (beam::Solution::*value)(double) const>
@@ -104,6 +141,11 @@ std::string show_result(const BeamResult& r) {
     const beam::Reaction at = s.reaction(static_cast<int>(i));
     out += text("\n  ", s.beam().supports[i].name, ": force ", at.force, ", moment ", at.moment, ", deflection ", at.deflection, ", rotation ", at.rotation);
   }
+  if (!s.beam().foundation.empty()) {
+    double force = 0;
+    for (std::size_t i = 0; i < s.model().nodes.size(); ++i) force += s.foundation_force(static_cast<int>(i));
+    out += text("\n  foundation: force ", force);
+  }
   return out;
 }
 
@@ -127,6 +169,9 @@ void bind_beam_solution(Library& library) {
                .run = value_at<&beam::Solution::moment>})
       .method({.name = "beam_solution:shear", .help = "The shear force, the derivative of the moment, by equilibrium; where it jumps, to the right.",
                .example = "print(s:shear(0))", .arguments = x_key(), .run = value_at<&beam::Solution::shear>})
+      .method({.name = "beam_solution:pressure", .help = "The force per length of the foundation on the beam, positive upwards; linear between nodes, 0 without a foundation.",
+               .example = "print(dotyk.solve(dotyk.beam{ load = -1, foundation = dotyk.law.elastic(100) }):pressure(0.5))",
+               .arguments = x_key(), .run = value_at<&beam::Solution::pressure>})
       .method({.name = "beam_solution:reaction",
                .help = "What a support does to the beam: force (up) and moment (anticlockwise), and the deflection and rotation there.",
                .example = "print(s:reaction(\"left\").force, s:reaction(0.5).force)",
@@ -166,18 +211,21 @@ void bind_beam(Library& library) {
   library.function(
       {.name = "dotyk.beam",
        .help = "A straight beam (Bernoulli's hypothesis, cubic elements) with supports at its ends and within, each with a law for the deflection and "
-               "one for the rotation. Solved by dotyk.solve or a solver. Functions are taken at eight points of every cell, when the beam is made.",
+               "one for the rotation. Solved by dotyk.solve or a solver. A foundation is a law along its length. Functions are taken at eight points of every cell, when the beam is made.",
        .example = "local b = dotyk.beam{ length = 1, EJ = 1, load = -1,\n"
                   "  left = { deflection = dotyk.law.signorini() }, right = { deflection = dotyk.law.signorini() } }\n"
                   "print(dotyk.solve(b):deflection(0.5))",
        .arguments = {key::table(
-           {key::positive("length", "of the beam, from x = 0").unit("length").fallback(1.0),
+           {key::either("foundation", {key::object<SupportLaw>("", ""), key::function("", "")},
+                        "a law per length about the deflection, or a function of x that gives one; taken at the nodes, each for half of the cells about it").otherwise("none"),
+            key::field("foundation_at", "where it stands: the law is about the deflection less this; a number or a function of x").unit("length").otherwise("0"),
+            key::positive("length", "of the beam, from x = 0").unit("length").fallback(1.0),
             key::field("EJ", "bending stiffness, positive").unit("force·length²").otherwise("1"),
             key::integer("cells", "elements, of equal length; a support within one divides it. Rounding grows as the fourth power: 1e-12 with 32, 1e-6 with 1000").within(1, 1000).fallback(32.0),
             key::field("load", "per length, upwards: a number or a function of x").unit("force/length").otherwise("0"),
-            key::table("left", support_law_keys(), "the support at x = 0"), key::table("right", support_law_keys(), "the support at x = length"),
+            key::table("left", beam_support_keys(), "the support at x = 0"), key::table("right", beam_support_keys(), "the support at x = length"),
             [] {
-              Key item = key::table("", support_law_keys(), "");
+              Key item = key::table("", beam_support_keys(), "");
               item.keys.insert(item.keys.begin(), key::number("x", "where").unit("length").required());
               return key::list("supports", item, "supports within the beam");
             }(),

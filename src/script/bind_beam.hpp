@@ -29,6 +29,8 @@ struct Wrapped<BeamResult> {
 // A key for a law of dotyk.law; the law given, else free.
 Key law_key(const char* name, const char* help);
 problem::SupportLaw law(const Arguments& from, const char* name);
+// Is the key for where the law `name` stands given? Throws InputError where there is no such law that could be there.
+bool stands_somewhere(const Arguments& from, const char* name);
 // The keys for the laws of a support, and for where on a beam a value is asked.
 inline std::vector<Key> support_law_keys() { return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")}; }
 inline std::vector<Key> x_key() { return {key::number("x", "from the left end").unit("length").required()}; }

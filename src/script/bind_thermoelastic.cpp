@@ -21,10 +21,11 @@ using thermoelastic::Stepping;
 
 const std::array<const char*, 2> kEnds{"left", "right"};
 
-// Where a function is kept: "load", "ambient.above", "left.temperature".
+// Where a function is kept: "load", "ambient.above", "left.temperature", "supports[1].force".
 struct Place {
   std::string table, name;
-  std::string kept() const { return table.empty() ? name : table + "." + name; }
+  int item = -1;  // of a list
+  std::string kept() const { return (table.empty() ? "" : item < 0 ? table + "." : text(table, "[", item + 1, "].")) + name; }
 };
 
 // Every load, with where a script says it.
@@ -40,6 +41,18 @@ void each_load(Loads& loads, Use use) {
     use(Place{kEnds[end], "temperature"}, loads.mean[end]);
     use(Place{kEnds[end], "gradient"}, loads.gradient[end]);
   }
+  for (int i = 0; i < static_cast<int>(loads.supports.size()); ++i) {
+    const bool end = i < 2;  // the left and the right one, then those of the list
+    const auto at = [&](const char* name) { return Place{end ? kEnds[i] : "supports", name, end ? -1 : i - 2}; };
+    auto& [x, deflection, rotation, displacement] = loads.supports[i];
+    use(at("deflection_at"), deflection.place);
+    use(at("force"), deflection.force);
+    use(at("rotation_at"), rotation.place);
+    use(at("moment"), rotation.force);
+    if (!end) continue;
+    use(at("displacement_at"), displacement.place);
+    use(at("axial_force"), displacement.force);
+  }
 }
 
 void set_function(Source& load, Function function) {
@@ -49,31 +62,38 @@ void set_function(History& load, Function function) {
   load.of = [f = std::move(function)](double t) { return f.number(std::vector<double>{t}); };
 }
 
+// The supports within the beam as the script gives them.
+std::vector<Arguments> given_supports(Call& call) { return call.has("supports") ? call.tables("supports") : std::vector<Arguments>{}; }
+
 // The arguments that a place is in; nothing where its table is not given.
-std::optional<Arguments> holder(Call& call, const Place& at) {
+std::optional<Arguments> holder(Call& call, const std::vector<Arguments>& supports, const Place& at) {
   if (at.table.empty()) return call;
+  if (at.item >= 0) return supports[at.item];
   if (!call.has(at.table)) return std::nullopt;
   return call.table(at.table);
 }
 
 // Constants, and the functions as long as the making of the object runs.
-Loads given_loads(Call& call, Loads& constants) {
+Loads given_loads(Call& call, const std::vector<Arguments>& supports, Loads& constants) {
+  constants.supports.resize(2);
+  constants.supports[1].x = call.number("length");
+  for (const Arguments& s : supports) constants.supports.push_back({s.number("x"), {}, {}, {}});
   Loads all;
   each_load(constants, [&](const Place& at, auto& load) {
-    const auto from = holder(call, at);
+    const auto from = holder(call, supports, at);
     if (from && from->is(at.name, LUA_TNUMBER)) load.constant = from->number(at.name);
   });
   all = constants;
   each_load(all, [&](const Place& at, auto& load) {
-    const auto from = holder(call, at);
+    const auto from = holder(call, supports, at);
     if (from && from->is(at.name, LUA_TFUNCTION)) set_function(load, Function(call.state(), from->slot(at.name), at.kept(), call.descriptor().short_name()));
   });
   return all;
 }
 
-void keep_functions(Call& call, int object, Loads& constants) {
+void keep_functions(Call& call, int object, const std::vector<Arguments>& supports, Loads& constants) {
   each_load(constants, [&](const Place& at, auto&) {
-    const auto from = holder(call, at);
+    const auto from = holder(call, supports, at);
     if (from && from->is(at.name, LUA_TFUNCTION)) call.keep(object, at.kept(), from->slot(at.name));
   });
 }
@@ -90,6 +110,8 @@ thermoelastic::Support thermoelastic_support(const Arguments* from, std::string 
   if (!from) return out;
   out.deflection = law(*from, "deflection");
   out.rotation = law(*from, "rotation");
+  stands_somewhere(*from, "deflection");
+  stands_somewhere(*from, "rotation");
   return out;
 }
 
@@ -102,16 +124,27 @@ void add_end(Call& call, int end, Data& data) {
   const Arguments from = call.table(kEnds[end]);
   data.supports.push_back(thermoelastic_support(&from, kEnds[end], x));
   data.supports.back().displacement = law(from, "displacement");
+  stands_somewhere(from, "displacement");
   data.heat_ends[end] = {from.has("temperature"), from.has("gradient")};
 }
 
-Data given_data(Call& call) {
+// A constant, or a function of x; of a function the value in the middle is the constant.
+void take_along(Call& call, const char* name, double length, double& constant, std::function<double(double)>& of) {
+  if (call.is(name, LUA_TNUMBER)) {
+    constant = call.number(name);
+    return;
+  }
+  of = [f = call.function(name)](double x) { return f.number(std::vector<double>{x}); };
+  constant = of(length / 2);
+}
+
+Data given_data(Call& call, const std::vector<Arguments>& supports) {
   Data data;
   data.length = call.number("length");
   data.height = call.number("height");
   data.width = call.number("width");
-  data.E = call.number("E");
-  data.expansion = call.number("expansion");
+  take_along(call, "E", data.length, data.E, data.E_of);
+  take_along(call, "expansion", data.length, data.expansion, data.expansion_of);
   data.conductivity = call.number("conductivity");
   data.heat_capacity = call.number("heat_capacity");
   data.reference = call.number("reference_temperature");
@@ -122,17 +155,17 @@ Data given_data(Call& call) {
     data.exchange_below = exchange.number("below");
   }
   add_end(call, 0, data);
-  if (call.has("supports"))
-    for (const Arguments& s : call.tables("supports")) data.supports.push_back(thermoelastic_support(&s, text("x = ", s.number("x")), s.number("x")));
+  for (const Arguments& s : supports) data.supports.push_back(thermoelastic_support(&s, text("x = ", s.number("x")), s.number("x")));
   add_end(call, 1, data);
   std::stable_sort(data.supports.begin(), data.supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   return data;
 }
 
 int make_thermoelastic_beam(Call& call) {
-  const Data data = given_data(call);
+  const std::vector<Arguments> supports = given_supports(call);
+  const Data data = given_data(call, supports);
   auto beam = std::make_shared<ThermoelasticBeam>();
-  const Loads loads = given_loads(call, beam->constants);
+  const Loads loads = given_loads(call, supports, beam->constants);
   thermoelastic::Initial initial;
   if (call.has("initial")) initial = {at_first(call.table("initial"), "temperature"), at_first(call.table("initial"), "gradient")};
   thermoelastic::Scheme scheme;
@@ -144,7 +177,7 @@ int make_thermoelastic_beam(Call& call) {
   beam->stepping = std::make_unique<Stepping>(data, initial, scheme, loads, watch);
   call.give(beam);
   const int object = lua_gettop(call.state());
-  keep_functions(call, object, beam->constants);
+  keep_functions(call, object, supports, beam->constants);
   lua_settop(call.state(), object);
   return 1;
 }
@@ -220,22 +253,33 @@ const char* kBeam =
 
 Key varying(const char* name, const char* help) { return key::either(name, {key::number("", ""), key::function("", "")}, help); }
 
-Key end_key(const char* name, const char* help) {
+std::vector<Key> driven_support_keys() {
   std::vector<Key> keys = support_law_keys();
+  keys.push_back(varying("deflection_at", "where the law of the deflection stands, a settlement: it is about the deflection less this; a function is of t").unit("length").otherwise("0"));
+  keys.push_back(varying("force", "up, beside the law; a function is of t").unit("force").otherwise("0"));
+  keys.push_back(varying("rotation_at", "where the law of the rotation stands; a function is of t").unit("rad").otherwise("0"));
+  keys.push_back(varying("moment", "anticlockwise, beside the law; a function is of t").unit("force·length").otherwise("0"));
+  return keys;
+}
+
+Key end_key(const char* name, const char* help) {
+  std::vector<Key> keys = driven_support_keys();
   keys.push_back(law_key("displacement", "a law about the displacement along the axis; one-sided ones keep the end within its place"));
+  keys.push_back(varying("displacement_at", "where that law stands; a function is of t").unit("length").otherwise("0"));
+  keys.push_back(varying("axial_force", "along x, beside the law; a function is of t").unit("force").otherwise("0"));
   keys.push_back(varying("temperature", "prescribed, over the reference: a function is of t").unit("temperature").otherwise("no heat passes"));
   keys.push_back(varying("gradient", "prescribed: a function is of t").unit("temperature/length").otherwise("no heat passes"));
   return key::table(name, keys, help);
 }
 
 std::vector<Key> thermoelastic_beam_keys() {
-  Key inner = key::table("", support_law_keys(), "");
+  Key inner = key::table("", driven_support_keys(), "");
   inner.keys.insert(inner.keys.begin(), key::number("x", "where").unit("length").required());
   return {key::positive("length", "from x = 0").unit("length").fallback(1.0),
           key::positive("height", "of the section").unit("length").required(),
           key::positive("width", "of the section").unit("length").fallback(1.0),
-          key::positive("E", "Young's modulus").unit("stress").required(),
-          key::number("expansion", "coefficient of thermal expansion").at_least(0).unit("1/temperature").required(),
+          key::either("E", {key::positive("", ""), key::function("", "")}, "Young's modulus; a function is of x, taken at the middles of the cells").unit("stress").required(),
+          key::either("expansion", {key::number("", "").at_least(0), key::function("", "")}, "coefficient of thermal expansion; a function is of x, as E").unit("1/temperature").required(),
           key::positive("conductivity", "of heat").unit("power/(length·temperature)").required(),
           key::positive("heat_capacity", "per volume").unit("energy/(length³·temperature)").required(),
           key::positive("reference_temperature", "absolute, at which it is free of stress").unit("temperature").fallback(293.15),

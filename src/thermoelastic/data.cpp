@@ -34,11 +34,11 @@ void require_valid(const Data& data) {
   beam::require_valid(plain(data));
   require_positive(data.height, "height");
   require_positive(data.width, "width");
-  require_positive(data.E, "Young's modulus E");
+  if (!data.E_of) require_positive(data.E, "Young's modulus E");
   require_positive(data.conductivity, "conductivity");
   require_positive(data.heat_capacity, "heat capacity");
   require_positive(data.reference, "reference temperature (absolute)");
-  require_not_negative(data.expansion, "expansion");
+  if (!data.expansion_of) require_not_negative(data.expansion, "expansion");
   require_not_negative(data.exchange_above, "heat exchange above");
   require_not_negative(data.exchange_below, "heat exchange below");
   if (data.length < data.height / 1000)

@@ -36,6 +36,7 @@ struct Data {
   double length = 1, height = 0.1, width = 1;
   double E = 1;               ///< Young's modulus, stress
   double expansion = 0;       ///< α, 1/temperature
+  std::function<double(double)> E_of, expansion_of;  ///< of x, at the middles of the cells; empty: constant
   double conductivity = 1;    ///< k, power/(length·temperature)
   double heat_capacity = 1;   ///< per volume, energy/(length³·temperature)
   double reference = 293.15;  ///< θ₀, absolute temperature
@@ -53,7 +54,7 @@ void require_valid(const Data& data);
 /// Its length, cells and supports as of a plain beam: what theorems 2 to 5 and the nodes are about.
 beam::Beam plain(const Data& data);
 
-/// The coefficients of P4, and those of the energy: the equation of ϑ₁ times kF/θ₀, that of ϑ₂ times kJ/θ₀.
+/// The coefficients of P4 (a₂ with the constants E and α), and those of the energy: the equation of ϑ₁ times kF/θ₀, that of ϑ₂ times kJ/θ₀.
 struct Coefficients {
   explicit Coefficients(const Data& data);
   double F, J;  ///< area and second moment of the section
@@ -76,6 +77,17 @@ struct History {
   double operator()(double t) const { return of ? of(t) : constant; }
 };
 
+/// What drives a support about one displacement v: its law is about v − place, and `force` is added to its reaction.
+struct Drive {
+  History place;  ///< a settlement û(t); length, of a rotation rad
+  History force;  ///< T̂(t), M̂(t) of P4 as acting on the beam: up, anticlockwise, along x
+};
+/// Of the support at x.
+struct SupportLoads {
+  double x = 0;
+  Drive deflection, rotation, displacement;
+};
+
 /// What drives the beam. Functions are called during the calls that they are given to and not kept.
 struct Loads {
   Source transverse;                      ///< q, upwards, force/length
@@ -84,6 +96,7 @@ struct Loads {
   Source heat_gradient;                   ///< its slope in z, power/volume/length
   History ambient_above, ambient_below;   ///< over the reference
   std::array<History, 2> mean, gradient;  ///< ϑ₁ and ϑ₂ at the ends where they are prescribed
+  std::vector<SupportLoads> supports;     ///< in any order; a support that is not here is driven by nothing
 };
 
 /// ϑ₁ and ϑ₂ at t = 0.

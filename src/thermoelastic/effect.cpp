@@ -18,8 +18,8 @@ const double kRoot3 = std::sqrt(3.0);
 
 Eigen::Vector3d quadratic(double s) { return {(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)}; }
 
-Effect::Effect(Kind kind, const std::vector<double>& nodes, double modulus, double beta)
-    : kind_(kind), nodes_(nodes), modulus_(modulus), beta_(beta) {
+Effect::Effect(Kind kind, const std::vector<double>& nodes, Vector modulus, Vector beta)
+    : kind_(kind), nodes_(nodes), modulus_(std::move(modulus)), beta_(std::move(beta)) {
   for (int cell = 0; cell < cells(); ++cell) {
     const CellStrain B = cell_strain(cell);
     const Eigen::Matrix2d first = h(cell) * B.leftCols<2>(), last = B.rightCols<2>();

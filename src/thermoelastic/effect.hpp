@@ -24,11 +24,12 @@ Eigen::Vector3d quadratic(double s);
 class Effect {
  public:
   enum class Kind { stretching, bending };
-  Effect(Kind kind, const std::vector<double>& nodes, double modulus, double beta);
+  /// C and β: of each cell.
+  Effect(Kind kind, const std::vector<double>& nodes, algebra::Vector modulus, algebra::Vector beta);
 
   Kind kind() const { return kind_; }
-  double modulus() const { return modulus_; }
-  double beta() const { return beta_; }
+  const algebra::Vector& modulus() const { return modulus_; }
+  const algebra::Vector& beta() const { return beta_; }
   int cells() const { return static_cast<int>(nodes_.size()) - 1; }
   int unknowns() const { return 2 * cells() + cell_unknowns() - 2; }
   int cell_unknowns() const { return kind_ == Kind::bending ? 4 : 3; }
@@ -51,7 +52,7 @@ class Effect {
   CellStrain cell_strain(int cell) const;
   Kind kind_;
   std::vector<double> nodes_;
-  double modulus_, beta_;
+  algebra::Vector modulus_, beta_;
   std::vector<CellStrain> strain_;
   std::vector<Eigen::Matrix2d> from_forces_;  ///< a cell's stress from the forces on its first two unknowns
   std::vector<Eigen::Matrix2d> from_strain_;  ///< its last two unknowns from its strain, the first ones zero

@@ -22,7 +22,8 @@ struct Stepping::Group {
   algebra::Vector entropy;
   std::optional<Rates> rates;  ///< at the end of the last step
 
-  double stored(const Fields& fields) const;
+  double stored(const Fields& fields, const Forces& loads) const;
+  double work_of_places(const Fields& to, const Forces& loads, bool trapezoidal) const;  ///< since `now`
 };
 
 /// The end of a step, and what it put in and dissipated.

@@ -45,7 +45,7 @@ Interface::Interface(const Model& model, std::vector<int> parts, const std::vect
   for (const int p : parts_) motions += static_cast<int>(model.parts[p].kernel.cols());
   block.kernel = DenseMatrix::Zero(n, motions);
   std::vector<Eigen::Triplet<double>> B;
-  std::vector<double> c;
+  int row = 0;
   int mode = 0;
   for (const int p : parts_) {
     const Part& part = model.parts[p];
@@ -59,18 +59,16 @@ Interface::Interface(const Model& model, std::vector<int> parts, const std::vect
       block.motions.insert(block.motions.end(),
                            {{Motion::Kind::translation, {0, 1}}, {Motion::Kind::rotation, {}, {model.data.length / 2, 0}}});
     for (const Held& held : part.held) {
-      const int row = static_cast<int>(c.size());
       B.emplace_back(row, static_cast<int>(std::find(gamma.begin(), gamma.end(), held.unknown) - gamma.begin()), -held.turn);
-      c.push_back(held.law.kind == problem::SupportLaw::Kind::prescribed ? -held.law.value * held.unit : 0);
-      problem_.groups.push_back({held.name, problem::row_law(held.law, held.unit), row, 1});
+      problem_.groups.push_back({held.name, problem::row_law(held.law, held.unit), row++, 1});
     }
   }
   block.K = DenseMatrix(S.triangularView<Eigen::Lower>()).sparseView();
   for (int i = 0; i < n; ++i) block.node.push_back(i);
   problem_.blocks.push_back(std::move(block));  // its kernel is one up to what rounding left of stiff cells in S
-  problem_.B = algebra::SparseRows(static_cast<int>(c.size()), n);
+  problem_.B = algebra::SparseRows(row, n);
   problem_.B.setFromTriplets(B.begin(), B.end());
-  problem_.c = Eigen::Map<const Vector>(c.data(), static_cast<int>(c.size()));
+  problem_.c = Vector::Zero(row);
   problem_.row_name = [groups = problem_.groups](int row) { return groups[row].name; };
 }
 
@@ -87,12 +85,15 @@ void Interface::require_solvable(double t) {
   solvable_ = rigid.e;
 }
 
-Vector Interface::solve(Vector g, const Vector& resultants, double t, const solver::Method& method,
-                        std::vector<Vector>& reactions, Work& work, Monitor& monitor) {
+Vector Interface::solve(Vector g, const Vector& resultants, const SupportsDriven& driven, double t,
+                        const solver::Method& method, std::vector<Vector>& reactions, Work& work, Monitor& monitor) {
   // Heat moves nothing rigidly: the resultants are the load's, and not what rounding makes of them.
   const DenseMatrix& R = problem_.blocks.front().kernel;
   g -= R * (R.transpose() * R).ldlt().solve(R.transpose() * g - resultants);
   problem_.blocks.front().f = g;
+  int row = 0;
+  for (const int p : parts_)
+    for (const Held& held : model_.parts[p].held) problem_.c[row++] = -held.given(driven);
   require_solvable(t);
   if (problem_.rows() == 0) {  // no support at all: the load is balanced, and the least solution as good as any
     const DenseMatrix S = DenseMatrix(problem_.blocks.front().K).selfadjointView<Eigen::Lower>();
@@ -110,7 +111,7 @@ Vector Interface::solve(Vector g, const Vector& resultants, double t, const solv
   work.reason = result.reason;
   work.iterations += result.iterations;
   work.method = result.method;
-  int row = 0;
+  row = 0;
   for (const int p : parts_) {
     const auto& held = model_.parts[p].held;
     reactions[p].resize(static_cast<int>(held.size()));

@@ -22,11 +22,11 @@ class Interface {
   /// `parts`: those whose supports it is about; `gamma`: their unknowns w among all u; S: on these.
   Interface(const Model& model, std::vector<int> parts, const std::vector<int>& gamma, const algebra::DenseMatrix& S);
 
-  /// w, for g and the load's resultants Rᵀf on the motions of the parts one after the other; and into `reactions` the forces of
+  /// w, for g, the load's resultants Rᵀf on the motions of the parts one after the other, and the supports' places; and into `reactions` the forces of
   /// the supports on it, part by part as Part::held. Throws InputError where there is no solution, naming the motion that nothing
   /// stops, or where the method did not converge.
-  algebra::Vector solve(algebra::Vector g, const algebra::Vector& resultants, double t, const solver::Method& method,
-                        std::vector<algebra::Vector>& reactions, Work& work, Monitor& monitor);
+  algebra::Vector solve(algebra::Vector g, const algebra::Vector& resultants, const SupportsDriven& driven, double t,
+                        const solver::Method& method, std::vector<algebra::Vector>& reactions, Work& work, Monitor& monitor);
 
  private:
   void require_solvable(double t);

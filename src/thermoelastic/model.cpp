@@ -1,6 +1,7 @@
 #include "thermoelastic/model.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -46,9 +47,21 @@ std::function<double(double)> at_time(const Source& source, const char* what, do
   return [&source, what, t](double x) { return checked(source.of(x, t), what, x, t); };
 }
 
+/// A number, or a function of x at the middles of the cells.
+Vector on_cells(double constant, const std::function<double(double)>& of, const std::vector<double>& nodes, const char* what, bool positive) {
+  Vector out = Vector::Constant(static_cast<int>(nodes.size()) - 1, constant);
+  for (int cell = 0; of && cell < out.size(); ++cell) {
+    const double x = (nodes[cell] + nodes[cell + 1]) / 2;
+    out[cell] = of(x);
+    if (!std::isfinite(out[cell]) || !(positive ? out[cell] > 0 : out[cell] >= 0))
+      throw InputError(text("", what, " is ", out[cell], " at x = ", x, "; it must be ", positive ? "positive" : "zero or positive"));
+  }
+  return out;
+}
+
 std::vector<Held> held(const Data& data, const std::vector<double>& nodes, Effect::Kind kind) {
   std::vector<Held> out;
-  const auto add = [&](const Support& s, std::size_t i, Held::What what, const char* of, const problem::SupportLaw& law,
+  const auto add = [&](const Support& s, std::size_t i, What what, const char* of, const problem::SupportLaw& law,
                        int unknown, double unit, double turn) {
     if (carries(law))
       out.push_back({static_cast<int>(i), what, s.name + of, unknown, unit, problem::directed(law.kind) ? turn : 1, law});
@@ -57,10 +70,10 @@ std::vector<Held> held(const Data& data, const std::vector<double>& nodes, Effec
     const Support& s = data.supports[i];
     const int node = beam::nearest(nodes, s.x);
     if (kind == Effect::Kind::bending) {
-      add(s, i, Held::What::deflection, " deflection", s.deflection, 2 * node, 1, 1);
-      add(s, i, Held::What::rotation, " rotation", s.rotation, 2 * node + 1, data.length, -1);
+      add(s, i, What::deflection, " deflection", s.deflection, 2 * node, 1, 1);
+      add(s, i, What::rotation, " rotation", s.rotation, 2 * node + 1, data.length, -1);
     } else if (node == 0 || node + 1 == static_cast<int>(nodes.size())) {
-      add(s, i, Held::What::displacement, " displacement", s.displacement, 2 * node, 1, node == 0 ? 1 : -1);
+      add(s, i, What::displacement, " displacement", s.displacement, 2 * node, 1, node == 0 ? 1 : -1);
     }
   }
   return out;
@@ -68,15 +81,22 @@ std::vector<Held> held(const Data& data, const std::vector<double>& nodes, Effec
 
 }  // namespace
 
+double Held::given(const SupportsDriven& driven) const {
+  return unit * ((law.kind == Kind::prescribed ? law.value : 0) + turn * place(driven));
+}
+
 Model::Model(const Data& given, const std::vector<Effect::Kind>& effects) : data(given), coefficients(given), heat(nodes(given)) {
   for (const Effect::Kind kind : effects) add_part(kind, heat.nodes());
   add_matrices();
   unit_heat_ = heat.load([](double) { return 1.0; });
+  data.E_of = data.expansion_of = nullptr;  // they may not outlive the call that gave them
 }
 
 void Model::add_part(Effect::Kind kind, const std::vector<double>& nodes) {
   const bool bending = kind == Effect::Kind::bending;
-  Effect effect(kind, nodes, data.E * (bending ? coefficients.J : coefficients.F), bending ? -data.expansion : data.expansion);
+  const Vector E = on_cells(data.E, data.E_of, nodes, "Young's modulus E", true);
+  const Vector expansion = on_cells(data.expansion, data.expansion_of, nodes, "expansion", false);
+  Effect effect(kind, nodes, E * (bending ? coefficients.J : coefficients.F), bending ? -expansion : expansion);
   Part part{effect,
             0,
             static_cast<int>(parts.size()) * heat.unknowns(),
@@ -101,11 +121,11 @@ void Model::add_matrices() {
   for (int cell = 0; cell < heat.cells(); ++cell) {
     const Eigen::Matrix4d mass = heat.mass(cell), D = heat.conduction(cell);
     for (const Part& p : parts) {
-      const double C = p.effect.modulus(), h = p.effect.h(cell);
+      const double C = p.effect.modulus()[cell], h = p.effect.h(cell);
       const CellStrain B = p.effect.strain_matrix(cell);
       const int at = p.first + 2 * cell, at_heat = p.first_heat + 2 * cell;
       add(stiffness, at, at, C * h * B.transpose() * B);
-      add(coupling, at, at_heat, -p.effect.beta() * C * h * B.transpose() * heat.projection(cell));
+      add(coupling, at, at_heat, -p.effect.beta()[cell] * C * h * B.transpose() * heat.projection(cell));
       add(capacities, at_heat, at_heat, p.weight * a.a1 * mass);
       add(conductions, at_heat, at_heat, p.weight * (D + (p.effect.kind() == Effect::Kind::bending ? a.a22 : a.a11) * mass));
     }
@@ -131,8 +151,29 @@ Source Model::heat_source(const Part& part, const Loads& loads, double t) const 
   return {0, [&given, exchanged, k](double x, double time) { return exchanged + given.of(x, time) / k; }};
 }
 
+SupportsDriven Model::driven(const Loads& loads, double t) const {
+  SupportsDriven out(data.supports.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Support& s = data.supports[i];
+    const std::array<const problem::SupportLaw*, 3> laws{&s.deflection, &s.rotation, &s.displacement};
+    for (int k = 0; k < 3; ++k)
+      if (laws[k]->kind == Kind::load) out[i][k].force = laws[k]->value;
+  }
+  for (const SupportLoads& given : loads.supports) {
+    const auto at = std::find_if(data.supports.begin(), data.supports.end(), [&](const Support& s) { return s.x == given.x; });
+    if (at == data.supports.end()) throw InputError(text("no support is at x = ", given.x, ", where loads of one are given"));
+    const std::array<const Drive*, 3> drives{&given.deflection, &given.rotation, &given.displacement};
+    for (int k = 0; k < 3; ++k) {
+      Driven& now = out[at - data.supports.begin()][k];
+      now.place = checked(drives[k]->place(t), "the place of a support", given.x, t);
+      now.force += checked(drives[k]->force(t), "the force at a support", given.x, t);
+    }
+  }
+  return out;
+}
+
 Forces Model::forces(const Loads& loads, double t) const {
-  Forces out{Vector::Zero(K.rows()), Vector::Zero(capacity.rows()), Vector(held_heat.size()), {}};
+  Forces out{Vector::Zero(K.rows()), Vector::Zero(capacity.rows()), Vector(held_heat.size()), {}, driven(loads, t)};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& p = parts[i];
     const bool bending = p.effect.kind() == Effect::Kind::bending;
@@ -143,11 +184,11 @@ Forces Model::forces(const Loads& loads, double t) const {
         cells.col(c) = p.effect.cell_load(c, at_time(given, bending ? "the load" : "the axial load", t));
     for (int c = 0; c < p.effect.cells(); ++c) out.f.segment(p.first + 2 * c, p.effect.cell_unknowns()) += cells.col(c);
     out.on_cells.push_back(std::move(cells));
-    for (const Support& s : data.supports) {
-      const int at = p.first + 2 * beam::nearest(heat.nodes(), s.x);
-      if (bending && s.deflection.kind == Kind::load) out.f[at] += s.deflection.value;
-      if (bending && s.rotation.kind == Kind::load) out.f[at + 1] += s.rotation.value / data.length;
-      if (!bending && s.displacement.kind == Kind::load) out.f[at] += s.displacement.value;
+    for (std::size_t s = 0; s < data.supports.size(); ++s) {
+      const int at = p.first + 2 * beam::nearest(heat.nodes(), data.supports[s].x);
+      const auto force = [&](What what) { return out.supports[s][static_cast<int>(what)].force; };
+      out.f[at] += force(bending ? What::deflection : What::displacement);
+      if (bending) out.f[at + 1] += force(What::rotation) / data.length;
     }
     const Source source = heat_source(p, loads, t);
     out.r.segment(p.first_heat, heat.unknowns()) =

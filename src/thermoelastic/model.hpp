@@ -8,15 +8,28 @@
 
 namespace dotyk::thermoelastic {
 
-/// A support's law about v = turn·w/unit, w one of the mechanical unknowns (a length); its force r on w is turn·(the
-/// law's reaction)/unit.
+/// What a support's law is about.
+enum class What { deflection, rotation, displacement };
+
+/// A Drive's values at a time; `force` with a load given as law.
+struct Driven {
+  double place = 0, force = 0;
+  bool operator==(const Driven&) const = default;
+};
+using SupportsDriven = std::vector<std::array<Driven, 3>>;  ///< in the order of Data::supports, by What
+
+/// A support's law about v = turn·(w/unit − place), w one of the mechanical unknowns (a length); its force r on w is
+/// turn·(the law's reaction)/unit.
 struct Held {
   int support = 0;
-  enum class What { deflection, rotation, displacement } what = What::deflection;
+  What what = What::deflection;
   std::string name;
   int unknown = 0;
   double unit = 1, turn = 1;
   problem::SupportLaw law;
+  double place(const SupportsDriven& driven) const { return driven[support][static_cast<int>(what)].place; }
+  /// The row of the law is x = given − turn·w.
+  double given(const SupportsDriven& driven) const;
 };
 
 /// An effect, its supports, and what its temperature weighs.
@@ -42,6 +55,7 @@ struct Forces {
   algebra::Vector r;                           ///< on ϑ, weighted
   algebra::Vector held_heat;                   ///< values, in the order of Model::held_heat
   std::vector<algebra::DenseMatrix> on_cells;  ///< f's distributed part cell by cell, of each part
+  SupportsDriven supports;                     ///< their forces are in f
 };
 
 /// The effects that are coupled with each other, discretised in space. With the weights the coupling is skew:
@@ -66,6 +80,7 @@ struct Model {
  private:
   void add_part(Effect::Kind kind, const std::vector<double>& nodes);
   void add_matrices();
+  SupportsDriven driven(const Loads& loads, double t) const;
   Source heat_source(const Part& part, const Loads& loads, double t) const;
   std::vector<algebra::DenseMatrix> unit_loads_;  ///< of a transverse or axial load 1
   algebra::Vector unit_heat_;                     ///< ∫ η

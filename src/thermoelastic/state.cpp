@@ -7,7 +7,6 @@
 namespace dotyk::thermoelastic {
 
 using beam::Hermite;
-using Kind = problem::SupportLaw::Kind;
 
 CellVector Stepping::Place::u() const { return group.now.u.segment(part.first + 2 * cell, part.effect.cell_unknowns()); }
 
@@ -18,7 +17,7 @@ Hermite Stepping::Place::shape() const { return {s, part.effect.h(cell)}; }
 CellVector Stepping::Place::end_forces() const {
   const CellStrain B = part.effect.strain_matrix(cell);
   const Eigen::Vector2d stress =
-      part.effect.modulus() * (B * u() - part.effect.beta() * group.model.heat.projection(cell) * theta());
+      part.effect.modulus()[cell] * (B * u() - part.effect.beta()[cell] * group.model.heat.projection(cell) * theta());
   const std::size_t index = static_cast<std::size_t>(&part - group.model.parts.data());
   return part.effect.h(cell) * B.transpose() * stress - group.forces.on_cells[index].col(cell);
 }
@@ -90,24 +89,24 @@ double Stepping::normal(double x) const {
 }
 
 Reaction Stepping::reaction(int support) const {
-  const Support& s = data().supports[support];
   Reaction out;
-  if (s.deflection.kind == Kind::load) out.force = s.deflection.value;
-  if (s.rotation.kind == Kind::load) out.moment = s.rotation.value;
-  if (s.displacement.kind == Kind::load) out.axial = s.displacement.value;
+  out.driven = groups_.front()->forces.supports[support];
+  std::array<double, 3> force{};
+  for (int k = 0; k < 3; ++k) force[k] = out.driven[k].force;
   for (const auto& group : groups_)
     for (std::size_t p = 0; p < group->model.parts.size(); ++p) {
       const Part& part = group->model.parts[p];
       for (std::size_t i = 0; i < part.held.size(); ++i) {
         const Held& held = part.held[i];
         if (held.support != support) continue;
-        double& to = held.what == Held::What::deflection ? out.force : held.what == Held::What::rotation ? out.moment : out.axial;
-        to = group->now.reactions[p][static_cast<int>(i)] * held.unit + 0.0;  // no −0
+        force[static_cast<int>(held.what)] += group->now.reactions[p][static_cast<int>(i)] * held.unit + 0.0;  // no −0
       }
     }
-  out.deflection = deflection(s.x);
-  out.rotation = rotation(s.x);
-  out.displacement = displacement(s.x);
+  out.force = force[0], out.moment = force[1], out.axial = force[2];
+  const double x = data().supports[support].x;
+  out.deflection = deflection(x);
+  out.rotation = rotation(x);
+  out.displacement = displacement(x);
   return out;
 }
 

@@ -32,7 +32,8 @@ bool determinate(const Part& part) {
   return values[values.size() - 1] > kNoSay * values[0];
 }
 
-std::optional<Static> by_statics(const Part& part, const Vector& f) {
+std::optional<Static> by_statics(const Part& part, const Forces& forces) {
+  const Vector f = forces.f.segment(part.first, part.effect.unknowns());
   const DenseMatrix N = on_laws(part);
   const Vector e = part.kernel.transpose() * f;
   Static out{Vector::Zero(N.rows()), Vector::Zero(N.rows()), {}};
@@ -46,7 +47,7 @@ std::optional<Static> by_statics(const Part& part, const Vector& f) {
     const double r = out.reactions[static_cast<int>(i)];
     const auto v = problem::sole_displacement(held.law, held.turn * r * held.unit);
     if (!v) return std::nullopt;
-    out.w[static_cast<int>(i)] = held.turn * held.unit * *v;
+    out.w[static_cast<int>(i)] = held.unit * (held.turn * *v + held.place(forces.supports));
     all[held.unknown - part.first] += r;
   }
   out.stress = part.effect.stress(all);

@@ -12,14 +12,14 @@ namespace dotyk::thermoelastic {
 /// condition of solvability forces one of them (theorems 2 to 5): with as many laws as motions that these notice.
 bool determinate(const Part& part);
 
-/// What statics gives for the nodal forces f on the part's unknowns.
+/// What statics gives for the loads.
 struct Static {
   algebra::Vector reactions;  ///< of Part::held, on w
   algebra::Vector w;          ///< displacements that the laws answer with these
   OnCells stress;
 };
 /// Nothing where a law does not give its reaction at one displacement alone: at a limit, or where there is no solution.
-std::optional<Static> by_statics(const Part& part, const algebra::Vector& f);
+std::optional<Static> by_statics(const Part& part, const Forces& forces);
 
 /// The displacement of these strains with the laws' displacements w, and no part in motions that no law notices.
 algebra::Vector displacement(const Part& part, const OnCells& strain, const algebra::Vector& w);

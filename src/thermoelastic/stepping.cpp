@@ -39,12 +39,22 @@ void require_finite(const Fields& fields, double energies, double t) {
 
 }  // namespace
 
-double Stepping::Group::stored(const Fields& fields) const {
+double Stepping::Group::stored(const Fields& fields, const Forces& loads) const {
   double sum = 0.5 * fields.u.dot(model.K * fields.u) + 0.5 * fields.theta.dot(model.capacity * fields.theta);
   for (const Part& part : model.parts)
-    for (const Held& held : part.held) {
-      const double given = held.law.kind == problem::SupportLaw::Kind::prescribed ? held.law.value * held.unit : 0;
-      sum += problem::row_law(held.law, held.unit)->energy(0, given - held.turn * fields.u[held.unknown]);
+    for (const Held& held : part.held)
+      sum += problem::row_law(held.law, held.unit)->energy(0, held.given(loads.supports) - held.turn * fields.u[held.unknown]);
+  return sum;
+}
+
+double Stepping::Group::work_of_places(const Fields& to, const Forces& loads, bool trapezoidal) const {
+  double sum = 0;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    for (std::size_t i = 0; i < model.parts[p].held.size(); ++i) {
+      const Held& held = model.parts[p].held[i];
+      const int k = static_cast<int>(i);
+      const double force = trapezoidal ? 0.5 * (now.reactions[p][k] + to.reactions[p][k]) : to.reactions[p][k];
+      sum += force * held.unit * (held.place(loads.supports) - held.place(forces.supports));
     }
   return sum;
 }
@@ -66,7 +76,7 @@ Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& schem
     group->forces = group->model.forces(loads, 0);
     group->now = at_rest(group->model, group->forces, group->model.initial(initial), 0, scheme_.method, work_, monitor);
     group->entropy = group->model.entropy(group->now.u, group->now.theta);
-    const double stored = group->stored(group->now);
+    const double stored = group->stored(group->now, group->forces);
     require_finite(group->now, stored, 0);
     at_first_ += stored;
     groups_.push_back(std::move(group));
@@ -136,8 +146,9 @@ Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, 
   }
   const Vector moved = out.fields.u - group.now.u;
   out.put_in += scheme_.order == Order::one ? out.forces.f.dot(moved) : 0.5 * (group.forces.f + out.forces.f).dot(moved);
+  out.put_in += group.work_of_places(out.fields, out.forces, scheme_.order == Order::two);
   out.rates = std::move(stages.back());
-  require_finite(out.fields, out.put_in + out.dissipated + group.stored(out.fields), time_ + tau);
+  require_finite(out.fields, out.put_in + out.dissipated + group.stored(out.fields, out.forces), time_ + tau);
   return out;
 }
 
@@ -166,7 +177,7 @@ std::vector<std::string> Stepping::decomposed() const {
 
 Energy Stepping::energy() const {
   Energy out = energy_;
-  for (const auto& group : groups_) out.stored += group->stored(group->now);
+  for (const auto& group : groups_) out.stored += group->stored(group->now, group->forces);
   out.defect = out.stored + out.dissipated - out.put_in - at_first_;
   return out;
 }

@@ -24,7 +24,7 @@ struct Scheme {
 
 /// Energies of P4's equations with the weights kF/θ₀ and kJ/θ₀, since t = 0:
 ///   stored: ½∫ EF (Du₁)² + EJ (D²u₂)² + (c/θ₀)(F ϑ₁² + J ϑ₂²) and the supports',
-///   put in: the loads' work, and 1/θ₀ of the heat supplied times the temperature,
+///   put in: the loads' work, that of supports which are moved, and 1/θ₀ of the heat supplied times the temperature,
 ///   dissipated: conduction and exchange. stored + dissipated = put in + what was stored at first, to the scheme's order (but
 ///   where a prescribed temperature jumps from the one at first).
 struct Energy {
@@ -34,8 +34,9 @@ struct Energy {
 
 /// What a support does now.
 struct Reaction {
-  double force = 0, moment = 0, axial = 0;  ///< on the beam: up, anticlockwise, along x; loads given as laws included
+  double force = 0, moment = 0, axial = 0;  ///< on the beam: up, anticlockwise, along x; loads given as laws and forces added included
   double deflection = 0, rotation = 0, displacement = 0;
+  std::array<Driven, 3> driven{};  ///< by What
 };
 
 /// A thermoelastic beam stepped in time. Where α_h = α_d, stretching and bending are stepped on their own. A call that throws

@@ -89,10 +89,10 @@ SparseMatrix System::matrix() const {
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
     if (!decomposed_[p]) continue;
     const Part& part = model_.parts[p];
-    const double factor = part.effect.beta() * part.effect.beta() * part.effect.modulus();
+    const Vector factor = part.effect.beta().cwiseAbs2().cwiseProduct(part.effect.modulus());
     for (int cell = 0; cell < part.effect.cells(); ++cell) {
       const auto P = model_.heat.projection(cell);
-      const Eigen::Matrix4d added = factor * part.effect.h(cell) * P.transpose() * P;
+      const Eigen::Matrix4d added = factor[cell] * part.effect.h(cell) * P.transpose() * P;
       const int at = heat_ + part.first_heat + 2 * cell;
       for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) put(at + i, at + j, -added(i, j));
@@ -101,20 +101,21 @@ SparseMatrix System::matrix() const {
   return lower(heat_ + static_cast<int>(heat.rows()), entries);
 }
 
-bool System::update_statics(const Vector& f) {
-  if (f_.size() == f.size() && f_ == f) return true;
+bool System::update_statics(const Forces& forces) {
+  if (f_.size() == forces.f.size() && f_ == forces.f && driven_ == forces.supports) return true;
   f_.resize(0);
   statics_.resize(model_.parts.size());
   heating_ = Vector::Zero(model_.capacity.rows());
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
     if (!decomposed_[p]) continue;
     const Part& part = model_.parts[p];
-    auto found = by_statics(part, f.segment(part.first, part.effect.unknowns()));
+    auto found = by_statics(part, forces);
     if (!found) return false;
-    heating_.segment(part.first_heat, model_.heat.unknowns()) = -part.effect.beta() * model_.heat.product(found->stress);
+    heating_.segment(part.first_heat, model_.heat.unknowns()) = model_.heat.product(found->stress * (-part.effect.beta()).asDiagonal());
     statics_[p] = *std::move(found);
   }
-  f_ = f;
+  f_ = forces.f;
+  driven_ = forces.supports;
   return true;
 }
 
@@ -123,8 +124,8 @@ void System::add_decomposed(Fields& fields) const {
     if (!decomposed_[p]) continue;
     const Part& part = model_.parts[p];
     const OnCells strain =
-        statics_[p].stress / part.effect.modulus() +
-        part.effect.beta() * model_.heat.projected(fields.theta.segment(part.first_heat, model_.heat.unknowns()));
+        statics_[p].stress * part.effect.modulus().cwiseInverse().asDiagonal() +
+        model_.heat.projected(fields.theta.segment(part.first_heat, model_.heat.unknowns())) * part.effect.beta().asDiagonal();
     fields.u.segment(part.first, part.effect.unknowns()) = displacement(part, strain, statics_[p].w);
     fields.reactions[p] = statics_[p].reactions;
   }
@@ -132,7 +133,7 @@ void System::add_decomposed(Fields& fields) const {
 
 std::optional<Fields> System::solve(const Forces& forces, const Vector& b, double t, bool displaced, const solver::Method& method,
                                     Work& work, Monitor& monitor) {
-  if (!update_statics(forces.f)) return std::nullopt;
+  if (!update_statics(forces)) return std::nullopt;
   const int heats = static_cast<int>(b.size()), own = static_cast<int>(gamma_.size());
   Vector right(heat_ + heats);
   for (std::size_t i = 0; i < place_.size(); ++i)
@@ -144,7 +145,7 @@ std::optional<Fields> System::solve(const Forces& forces, const Vector& b, doubl
   if (interface_) {
     const Vector g = condensation_->condensed(right).head(own) -
                      condensation_->schur().topRightCorner(own, forces.held_heat.size()) * forces.held_heat;
-    on_gamma.head(own) = interface_->solve(g, resultants(model_, coupled_, forces.f), t, method, out.reactions, work, monitor);
+    on_gamma.head(own) = interface_->solve(g, resultants(model_, coupled_, forces.f), forces.supports, t, method, out.reactions, work, monitor);
   }
   const Vector x = condensation_->recovered(right, on_gamma);
   out.theta = x.tail(heats);
@@ -166,8 +167,8 @@ Fields at_rest(const Model& model, const Forces& forces, Vector theta, double t,
   Interface interface(model, parts, gamma, condensation.schur());
   const Vector right = forces.f - model.G * theta;
   Fields out{{}, std::move(theta), std::vector<Vector>(model.parts.size())};
-  out.u = condensation.recovered(right, interface.solve(condensation.condensed(right), resultants(model, parts, forces.f), t,
-                                                        method, out.reactions, work, monitor));
+  out.u = condensation.recovered(right, interface.solve(condensation.condensed(right), resultants(model, parts, forces.f),
+                                                        forces.supports, t, method, out.reactions, work, monitor));
   finish(model, out, parts);
   return out;
 }

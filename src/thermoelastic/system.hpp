@@ -35,7 +35,7 @@ class System {
  private:
   void number();
   algebra::SparseMatrix matrix() const;
-  bool update_statics(const algebra::Vector& f);
+  bool update_statics(const Forces& forces);
   void add_decomposed(Fields& fields) const;
 
   const Model& model_;
@@ -47,7 +47,8 @@ class System {
   std::vector<int> gamma_;    ///< all u at supports and ends of coupled parts
   std::optional<Condensation> condensation_;
   std::optional<Interface> interface_;
-  algebra::Vector f_;            ///< that the following belong to
+  algebra::Vector f_;            ///< that, with driven_, the following belong to
+  SupportsDriven driven_;
   std::vector<Static> statics_;  ///< of decomposed parts
   algebra::Vector heating_;      ///< −β∫Sη, on all ϑ
 };
