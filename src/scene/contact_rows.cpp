@@ -92,7 +92,7 @@ class ContactRowMaker {
                             " inside the other side; no displacement can part them"));
   }
 
-  /// Each row's surroundings for friction. At corners of the part they are its neighbours', so that B keeps its rank.
+  /// Each row's surroundings for given friction. At corners of the part they are its neighbours', so that B keeps its rank.
   std::vector<std::vector<contact::Term>> surroundings(std::vector<char> aside) const {
     if (!contact_.discretisation.share_fixed) aside.assign(aside.size(), 0);
     std::vector<char> slides;
@@ -102,15 +102,17 @@ class ContactRowMaker {
 
   std::vector<Candidate> nodal_points() const {
     std::vector<Candidate> points;
-    const std::vector<std::vector<contact::Term>> nodes = surroundings(contact::at_corners(contact_.rows));
+    const bool given = contact_.friction == Friction::Kind::tresca;
+    std::vector<char> aside = contact::at_corners(contact_.rows);
+    if (!given) aside.assign(aside.size(), 0);  // the bound goes with the node's own pressure: a neighbour's may be none
+    const std::vector<std::vector<contact::Term>> nodes = surroundings(aside);
     for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
       if (nodes[k].empty()) continue;
       const contact::ContactRow& row = contact_.rows[k];
-      const bool given = contact_.friction == Friction::Kind::tresca;
       double bound = 0, measure = 0;
       for (const contact::Term& node : nodes[k]) {
         const double weight = node.weight * contact_.rows[node.row].weight;
-        bound += contact_.friction_value[node.row] * (given ? weight : weight / row.weight);  // what is taken over presses as the node does
+        bound += contact_.friction_value[node.row] * (given ? weight : 1);
         measure += weight;
       }
       const int n = model_.contact_row.back()[k];

@@ -130,8 +130,10 @@ class Branches {
       throw InputError(text(group.name, ": ", place(problem_, r), " bears all its friction bound ", bound, " and does not slip: "
                             "to one side it sticks, to the other it slips; the solution has no derivative there"));
     slips(r, slip, bound);
-    result_.slips.push_back({r, slip / slip.norm()});
-    if (slope == 0) return;
+    if (slope == 0) {
+      result_.slips.push_back({r, slip / slip.norm()});
+      return;
+    }
     for (int i = 0; i < m; ++i) following_.emplace_back(r + i, unknown_[n], slope * slip[i] / slip.norm());
   }
 

@@ -23,7 +23,7 @@ struct LawDerivative {
   algebra::Vector C;           ///< compliances, displacement per force
   std::vector<int> weak;       ///< unknowns y in weak contact
   std::vector<int> weak_row;   ///< their rows
-  std::vector<Slip> slips;     ///< of points that slip; their bound b' is that of RowChanges
+  std::vector<Slip> slips;     ///< of points whose bound b' is given
   bool symmetric = true;       ///< E = F
   int size() const { return static_cast<int>(C.size()); }
 };

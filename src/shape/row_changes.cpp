@@ -130,13 +130,9 @@ class ContactChanges {
       const int k = rows.cell.jumps.front().row;  // nodal: a cell is a node's surroundings
       for (int i = 0; i < rows.count; ++i)
         turn(rows.row[i], k, scene::free_tangent_derivative(free_[k], contact_.rows[k].normal, derivatives_[k].normal, rows.direction[i], dim_), 0);
-      if (!std::isfinite(rows.cell.bound)) continue;
-      const bool given = contact_.friction == scene::Friction::Kind::tresca;
-      const double own = contact_.rows[k].weight, pressure = given ? 0 : solution_.result().state.lambda[model_.contact_row[index_][k]] / own;
-      for (const contact::Term& node : rows.cell.nodes) {
-        const double change = given ? weight[node.row] : pressure * (weight[node.row] - contact_.rows[node.row].weight * weight[k] / own);
-        changes_.bound[rows.row[0]] += node.weight * contact_.friction_value[node.row] * change;
-      }
+      if (contact_.friction != scene::Friction::Kind::tresca || !std::isfinite(rows.cell.bound)) continue;
+      for (const contact::Term& node : rows.cell.nodes)
+        changes_.bound[rows.row[0]] += node.weight * contact_.friction_value[node.row] * weight[node.row];
     }
   }
 

@@ -10,7 +10,7 @@ namespace dotyk::shape {
 struct RowChanges {
   algebra::Vector c;      ///< c' − B'u, one a row
   std::vector<std::vector<double>> force;  ///< B'ᵀλ: body → node × dimension, prescribed components included
-  algebra::Vector bound;  ///< of each friction point at these multipliers, at the first of its rows; 0 on all others
+  algebra::Vector bound;  ///< of each point of given friction, at the first of its rows; 0 on all others
 };
 
 /// Throws InputError where a part that moves is in contact by p1_p0 multipliers, whose rows' derivatives are not known,

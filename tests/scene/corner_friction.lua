@@ -1,16 +1,18 @@
--- Broken contact lines and surfaces with friction: at the corner each side has its condition across, friction acts beside it, so that forces are
--- unique (B has full rank) and all methods find the same. Where two contacts meet in a corner that is not so, and is said.
+-- Broken contact lines and surfaces with given friction: at the corner each side has its condition across, friction acts beside it, so that
+-- forces are unique (B has full rank) and all methods find the same. With Coulomb friction, whose bound goes with the pressure of its own node,
+-- and where two contacts meet in a corner, that is not so, and is said.
 local check <const> = require "check"
 local steel <const> = dotyk.material{ E = 2000, nu = 0.3 }
 
-local function compare(scene, contact, about)
+local function compare(scene, contact, about, unique)
   local first
   for _, name in ipairs{ "newton", "projected_cg", "psor", "uzawa_pdas" } do
     local s <const> = dotyk.solver[name]{ max_iterations = 20000, tol = 1e-12 }:solve(scene)
-    check.that(s.converged and #s.warnings == 0, about .. " " .. name .. ": " .. (s.warnings[1] or s.reason))
+    check.that(s.converged and #s.warnings == (unique and 0 or 1), about .. " " .. name .. ": " .. (s.warnings[1] or s.reason))
     local c <const> = s:contact(contact)
     first = first or c
-    for k, node in ipairs(c.nodes) do
+    check.near(c.force, first.force, 1e-6 * math.abs(first.max_pressure), about .. " " .. name)
+    for k, node in ipairs(unique and c.nodes or {}) do
       check.near(node.force, first.nodes[k].force, 1e-6 * math.abs(first.max_pressure), about .. " " .. name)
       check.near(node.shear, first.nodes[k].shear, 1e-4 * math.abs(first.max_pressure), about .. " " .. name)
     end
@@ -22,20 +24,21 @@ end
 local function fold(from, to)
   return dotyk.mesh.rectangle{ from = from, to = to, cells = { 8, 4 } }:transform(function(x, y) return x, y + math.abs(x) end)
 end
-for _, case in ipairs{ { "nodal", dotyk.friction.tresca(10) }, { "P1-P0", dotyk.friction.tresca(10) }, { "nodal", dotyk.friction.coulomb(0.2) } } do
+for _, case in ipairs{ { "nodal", dotyk.friction.tresca(10), true }, { "P1-P0", dotyk.friction.tresca(10), true }, { "nodal", dotyk.friction.coulomb(0.5), false } } do
   local wedge <const> = dotyk.body{ name = "wedge", material = steel, mesh = fold({ -1, 0 }, { 1, 1 }) }
   local notch <const> = dotyk.body{ name = "notch", material = steel, mesh = fold({ -1, -1 }, { 1, 0 }) }
   notch:part"bottom":fix()
   wedge:part"top":displace{ x = 0.002, y = -0.02 }
   local scene <const> = dotyk.scene{ wedge, notch }
   local contact <const> = scene:contact{ wedge:part"bottom", notch:part"top", multipliers = case[1], friction = case[2] }
-  local c <const> = compare(scene, contact, "wedge, " .. case[1])
+  local unique <const> = case[3]
+  local c <const> = compare(scene, contact, "wedge, " .. case[1], unique)
   local tip = 0
   for _, node in ipairs(c.nodes) do
-    if math.abs(node.x) < 1e-12 then tip = tip + 1; check.that(node.pressure > 1) end
+    if math.abs(node.x) < 1e-12 then tip = tip + 1 end
   end
   check.that(tip == 2 and c.stick + c.slip > 0)
-  if tostring(case[2]):find "tresca" then
+  if unique then
     check.equal(contact:inf_sup{ part = "both" }.kernel, 0, case[1])
     check.that(contact:inf_sup{ part = "both", fixed_nodes = "kept" }.kernel > 0, case[1])
   end
@@ -53,7 +56,7 @@ do
   local scene <const> = dotyk.scene{ cube, frame }
   local contact <const> = scene:contact{ cube:part("corner", function(x, y, z) return math.min(x, y, z) < 0.5 + 1e-9 end), frame:part"legs",
     friction = dotyk.friction.tresca(2) }
-  compare(scene, contact, "cube")
+  compare(scene, contact, "cube", true)
 end
 
 -- 3. The wedge's flanks as two contacts.
