@@ -76,10 +76,10 @@ local function inclined(normal)
 end
 
 -- At a corner of the part, a node with sides of its own, given friction acts at the nodes beside it.
-local function at_corner(nodes, node)
+local function at_corner(scene, nodes, node)
   local sides = 0
   for _, other in ipairs(nodes) do
-    if other.x == node.x and other.y == node.y and other.z == node.z then sides = sides + 1 end
+    if other.x == node.x and other.y == node.y and (scene.dimension == 2 or other.z == node.z) then sides = sides + 1 end
   end
   return sides > 1
 end
@@ -96,7 +96,7 @@ local function check_contact(scene, contact, result, scale, wrong)
     if node.status == "open" and math.abs(p) > tol.p then wrong("open with pressure %.3g at %s", p, at) end
     if node.status ~= "open" and gap > tol.u then wrong("%s with gap %.3g at %s", node.status, gap, at) end
     if law then check_friction(at, node, law.kind == "tresca" and law.value or law.value * math.max(p, 0), tol, wrong,
-      law.kind == "tresca" and at_corner(result.nodes, node) or
+      law.kind == "tresca" and at_corner(scene, result.nodes, node) or
       is_held(scene, contact, node) and (contact.second or contact.first.body.disc or inclined(node.normal)))
     elseif norm(node.shear) > tol.p then wrong("shear without friction at %s", at) end
   end
