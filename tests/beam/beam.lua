@@ -59,3 +59,27 @@ check.equal(b.branches[1].energy <= b.branches[2].energy, true)
 local broken <const> = #b.branches[1].broken == 1 and b.branches[1] or b.branches[2]
 check.equal(broken.broken, { "right deflection" })
 check.near(broken:deflection(1), -0.1, 1e-11)
+
+-- Supports that stand at h, and foundations: a law, or a function of x that gives one.
+local stop <const> = dotyk.solve(dotyk.beam{ left = { deflection = law.prescribed(), rotation = law.prescribed() }, right = { deflection = law.signorini(), deflection_at = 0.1 } })
+check.near(stop:deflection(1), 0.1)
+check.near(stop:reaction("right").force, 0.3, 1e-11)
+check.equal(stop:pressure(0.5), 0)
+for _, foundation in ipairs{ law.elastic(50), function() return law.elastic(50) end } do
+  local w <const> = dotyk.solve(dotyk.beam{ loads = { { x = 0, force = -1 }, { x = 1, force = -1 }, { x = 0.5, force = 2 } }, load = -2, foundation = foundation,
+                                            foundation_at = function(x) return 0.1 + 0.2 * x end })
+  local force = 0
+  for i = 0, 32 do force = force + w:pressure(i / 32) / (i % 32 == 0 and 64 or 32) end
+  check.near(force, 2, 1e-9)
+  check.near(w:pressure(0.25), 50 * (0.15 - w:deflection(0.25)), 1e-9)
+  check.that(tostring(w):find("foundation: force 2", 1, true))
+end
+check.that(tostring(dotyk.beam{ load = -1, foundation = law.signorini() }):find("on a foundation", 1, true))
+refused(function() dotyk.beam{ left = { deflection_at = 1 } } end, "'deflection_at' is where the law of 'deflection' stands, and that is free")
+refused(function() dotyk.beam{ left = { rotation = law.load(1), rotation_at = 1 } } end, "'rotation_at'", "that is load")
+refused(function() dotyk.beam{ foundation_at = 1 } end, "'foundation_at'", "give 'foundation'")
+refused(function() dotyk.beam{ foundation = 3 } end, "'foundation'")
+refused(function() dotyk.beam{ foundation = function(x) return x end } end, "function 'foundation' returned the number 0, expected a law")
+refused(function() dotyk.beam{ foundation = law.breaking(1, 1) } end, "the foundation's law at x = 0 is breaking 1", "capped_elastic")
+refused(function() dotyk.beam{ foundation = law.signorini(), left = { deflection = law.signorini() } } end, "the support left", "both hold the deflection rigidly")
+refused(function() dotyk.solve(dotyk.beam{ load = 1, foundation = law.one_sided_elastic(1) }) end, "no solution")

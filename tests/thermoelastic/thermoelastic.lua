@@ -94,3 +94,27 @@ for i, u in ipairs{ 1, 1e-9, 1e9 } do
 end
 check.near(forces[2], forces[1], 1e-6 * forces[1])
 check.near(forces[3], forces[1], 1e-6 * forces[1])
+
+-- Supports that move and forces at them, as numbers and functions of t, at ends and within; E and expansion as functions of x.
+local driven <const> = beam{ left = { deflection = l.prescribed(), deflection_at = math.sin, rotation_at = 0, rotation = l.elastic(1), displacement = l.prescribed(), displacement_at = function(t) return -t end },
+  right = { deflection = l.elastic(2), deflection_at = function(t) return 3 * t end, force = function(t) return 2 * t end, moment = 0.25, axial_force = function(t) return t end },
+  supports = { { x = 0.7, force = function(t) return -t end }, { x = 0.3, deflection = l.elastic(1), deflection_at = 0.5, moment = function(t) return t end } },
+  E = function(x) return 100 + x end, expansion = function() return 0.1 end }
+driven:run(1)
+check.near(driven:deflection(0), math.sin(1), 1e-10)
+check.near(driven:displacement(0), -1, 1e-10)
+check.near(driven:normal(0.5), 1, 1e-9)
+check.near(driven:reaction("right").force, 2 + 2 * (3 - driven:deflection(1)), 1e-9)
+check.near(driven:reaction("right").moment, 0.25)
+check.near(driven:reaction(0.7).force, -1)
+check.near(driven:reaction(0.3).force, 0.5 - driven:deflection(0.3), 1e-9)
+check.near(driven:reaction(0.3).moment, 1)
+local sum = 0
+for _, at in ipairs{ "left", 0.3, 0.7, "right" } do sum = sum + driven:reaction(at).force end
+check.near(sum, 0, 1e-9)
+refused(function() beam{ left = { deflection_at = math.sin } } end, "'deflection_at'", "that is free")
+refused(function() beam{ right = { displacement_at = 1 } } end, "'displacement_at'", "that is free")
+refused(function() beam{ supports = { { x = 0.5, axial_force = 1 } } } end, "unknown key 'axial_force'")
+refused(function() beam{ E = function(x) return -x end, left = { deflection = l.prescribed(), rotation = l.prescribed() } } end, "Young's modulus E is -", "it must be positive")
+refused(function() beam{ E = -1 } end, "'E'")
+refused(function() beam{ supports = { { x = 0.5, force = function() end } } } end, "function 'supports[1].force' returned nothing")
