@@ -72,8 +72,8 @@ for _, f in ipairs(foundations) do
     assert(not f.touches or math.abs(touches - f.touches) <= long / n)
     if n == most then
       local points <const>, line <const> = common.curve(f.name), common.curve(f.name .. ", exact", { reference = true, style = "line" })
-      for i = -18, 18 do points:add(i / 4.5, s:pressure(long / 2 + i / 4.5)) end
-      for i = -160, 160 do
+      for i = -27, 27 do points:add(i / 4.5, s:pressure(long / 2 + i / 4.5)) end
+      for i = -240, 240 do
         local p = f.exact(math.abs(i) / 40)
         if f.touches then p = math.max(p, 0) end
         line:add(i / 40, f.name == "capped" and math.min(p, cap) or p)
@@ -161,7 +161,7 @@ local shown <const> = { pressures[1], pressures[2], pressures[3], lines[1], line
 for i = 4, 6 do shapes[i] = lines[i] end
 for i, line in ipairs(lines) do line.name, line.reference, line.style = (i == 1 or i == 4) and "exact" or nil, true, nil end
 dotyk.chart{ file = "images/papers_beam_foundations.png", columns = 3, size = { 2100, 700 }, panels = {
-  { title = "A force on a long beam", x = "λx", y = "pressure / (½ λP)", x_range = { -4.2, 4.2 }, series = shown },
+  { title = "A force on a long beam", x = "λx", y = "pressure / (½ λP)", x_range = { -6, 6 }, series = shown },
   { title = "A clamped beam meets a floor", x = "x", y = "deflection / d", series = shapes },
   { title = "Greatest error of the deflection", x = "length of a cell", y = "relative error", log = "xy", slopes = { 2 }, series = order } } }
 print "images/papers_beam_foundations.png"
