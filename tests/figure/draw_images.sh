@@ -20,7 +20,8 @@ long="punch cattaneo_mindlin mortar cont roller wall three_blocks plate plate_fr
   papers/rates papers/newton_remainder papers/m_matrix
   papers/channel_fields
   papers/penalised_spectra
-  papers/cont_figures papers/cont_table"
+  papers/cont_figures papers/cont_table
+  papers/modified_cholesky"
 timed="adaptivity fclib feti_scaling second_order stability/interrupted work_precision/ball work_precision/beam
   work_precision/friction work_precision/hertz work_precision/plate work_precision/semicoercive work_precision/three_blocks
   work_precision/tolerances"
