@@ -43,9 +43,20 @@ Guess guess(const QuadraticProgram& p, const Scaled& scaled, const ActiveSet& se
   return g;
 }
 
+/// Does x = 0 keep every row exactly, and with the multipliers found all else to the tolerance? Where the solution is 0 and
+/// no row at work has another limit, x is rounding, and a violation has nothing to be compared with but x itself.
+bool zero_solves(const QuadraticProgram& p, const ActiveSet& settings, const Vector& y) {
+  const Residuals at_zero = residuals(p, Vector::Zero(p.unknowns()), y);
+  return at_zero.feasibility == 0 && std::max(at_zero.stationarity, at_zero.complementarity) <= settings.tol;
+}
+
 /// Far away rounding hides that rows contradict one another: is there any feasible point?
 void doubt(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monitor, Result& result) {
   const bool violated = result.status == Status::solved && residuals(p, result.x, result.y).feasibility > kFeasible;
+  if (violated && zero_solves(p, settings, result.y)) {
+    result.x.setZero();
+    return;
+  }
   if (!violated && result.status != Status::unbounded) return;
   const QuadraticProgram nearest = nearest_point(p);
   const Guess start = equalities(p);

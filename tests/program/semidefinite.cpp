@@ -50,6 +50,35 @@ TEST_CASE("linear programs are programs with P = 0") {
   }
 }
 
+TEST_CASE("programs whose only solution is 0, where only rounding is left of x to measure violations by") {
+  // q = −Aᵀy with y > 0 and A of full rank: qᵀx = −yᵀAx > 0 for x ≠ 0 in the cone Ax ≤ 0.
+  Random random(323);
+  Monitor quiet;
+  const auto check = [&](const program::QuadraticProgram& p) {
+    const auto other = program::solve(p, program::InteriorPoint{}, quiet);
+    for (const auto& settings : {test::one(), test::many()}) {
+      const auto r = program::solve(p, settings, quiet);
+      INFO(r.reason << "; interior point: " << other.reason);
+      REQUIRE(r.status == Status::solved);
+      CHECK(r.x.norm() <= 1e-12);
+      CHECK(test::worst(r.residual) < 1e-9);
+      CHECK(std::abs(r.objective - other.objective) <= 1e-6);
+    }
+  };
+  check(test::quadratic(DenseMatrix::Zero(2, 2), Vector{{4, -4}}, DenseMatrix{{-1, 1}, {0, -1}}, Vector::Constant(2, -INFINITY), Vector::Zero(2)));
+  for (int trial = 0; trial < 400; ++trial) {
+    const int n = 1 + trial % 5, rows = n + random.below(4), far = random.below(2);
+    DenseMatrix A = random.matrix(rows + far, n);
+    if (trial % 2) A = (3 * A).array().round();
+    if (Eigen::FullPivLU<DenseMatrix>(A.topRows(rows)).rank() < n) continue;
+    Vector y = Vector::Zero(rows + far), high = Vector::Zero(rows + far);
+    for (int r = 0; r < rows; ++r) y[r] = random.between(0.1, 4);
+    high.tail(far).setOnes();  // rows that do not matter
+    const DenseMatrix P = test::semidefinite(random, n, random.below(n));
+    check(test::quadratic(P, -A.transpose() * y, A, Vector::Constant(rows + far, -INFINITY), high));
+  }
+}
+
 TEST_CASE("zigzagging is noticed and ends: Beale's program, on which Dantzig's rule cycles") {
   Monitor quiet;
   // min −¾x₁ + 150x₂ − x₃/50 + 6x₄, rows ≤ 0, 0, 1, x ≥ 0; optimum −1/20 (Beale 1955).
