@@ -38,9 +38,11 @@ int make_feti(Call& call) {
   read_settings(call, feti);
   feti.decomposition = read_decomposition(call);
   feti.preconditioner = static_cast<solver::Feti::Preconditioner>(call.choice("preconditioner"));
+  feti.stop = static_cast<solver::Feti::Stop>(call.choice("stop"));
   feti.outer.update = static_cast<solver::Smalbe::Update>(call.choice("update"));
   feti.outer.M = call.number("M");
   feti.outer.rho = call.number("rho");
+  feti.outer.eta = call.number("eta");
   feti.face_coarse = call.choice("coarse") == 0;
   feti.expansion = static_cast<solver::MprgpSettings::Expansion>(call.choice("expansion"));
   feti.max_inner = static_cast<int>(std::min<long long>(call.integer("max_inner"), 100'000'000));
@@ -78,6 +80,10 @@ void bind_feti(Library& library) {
                         "fixed (SMALBE-M), of rho with M fixed (the paper's algorithm 4.1), or whichever holds it up").fallback("both"),
             key::positive("M", "an inner minimisation ends at |projected gradient| <= M |G lambda - e|; in units of |PFP|").fallback(1.0),
             key::positive("rho", "penalty of G lambda = e, at first; in units of |PFP|").below(1e10).fallback(30.0),
+            key::choice("stop", {"Pd", "d"}, "what tol compares the projected gradient with; d, the paper's, depends on the generalised "
+                        "inverse, and then nothing is asked of what a subdomain's forces leave unbalanced but |G lambda - e|").fallback("Pd"),
+            key::positive("eta", "first bound of algorithm 4.1 on |G lambda - e|, beyond which rho grows, in units of |P d|/|PFP|; for other "
+                        "updates on the projected gradient, in units of |P d|").fallback(0.1),
             key::choice("expansion", {"fixed_step", "projected_cg"}, "how the inner method lets multipliers reach their bounds: "
                         "fixed projected steps (MPRGP), or projected conjugate gradient steps (proportioning with "
                         "projections)").fallback("projected_cg"),

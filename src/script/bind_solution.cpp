@@ -49,7 +49,7 @@ std::optional<Record> feti_record(const Solution& s) {
   const auto number = [](int value) { return static_cast<long long>(value); };
   Record r{"feti", {{"subdomains", number(f->subdomains)}, {"factors", number(f->factors)}, {"rows", number(f->rows)},
                     {"kernel", number(f->kernel)}, {"inner", number(f->inner)}, {"products", number(f->products)},
-                    {"loops", number(f->loops)}, {"norm", f->norm}}};
+                    {"loops", number(f->loops)}, {"norm", f->norm}, {"rho", f->rho}}};
   if (f->condition > 0) r.entries.push_back({"condition", f->condition});
   else r.absent = {"condition"};
   return r;
@@ -225,7 +225,7 @@ void bind_solution(Library& library) {
       .field("penalty", "of penalty, else nil: factor, penetration (length), energy (force·length, too low by)", penalty_record)
       .field("feti", "of feti, else nil: subdomains, factors (distinct ones), rows of the dual problem, kernel (size of the coarse "
                      "space), inner (steps), products (with F), loops (updates of Coulomb's bounds), norm (bound of |PFP|), "
-                     "condition (of PFP, with spectrum = true, else nil)", feti_record)
+                     "rho (the last penalty, in units of norm), condition (of PFP, with spectrum = true, else nil)", feti_record)
       .field("history", "one entry an iteration: active stick slip changed residual time, and of newton singular_value: the least one "
                          "of the scaled derivative of that step; of coulomb_loop contraction", [](const Solution& s) { return history_records(s.result()); })
       .field("ordering", "elimination order used", [](const Solution& s) { return s.result().ordering; })

@@ -90,6 +90,7 @@ class FetiRun {
     program_.b = coarse_.P(d - Fshift);
     x_ = nu_ = Vector::Zero(dual_.rows());
     displacement_ = program_.b.norm(), noise_ = rounding(d, Fshift);
+    if (method_.stop == Feti::Stop::d) displacement_ = d.norm(), gross_ = 0;
   }
 
   /// What of Pd is rounding, where that may be all of it (λ̄ is the solution: of uniform stress it is), else zero.
@@ -255,6 +256,7 @@ class FetiRun {
     counts_.factors = static_cast<int>(dual_.kinds().size());
     counts_.rows = dual_.rows();
     counts_.kernel = coarse_.modes();
+    counts_.rho = rho_;
     result_.feti = counts_;
     result_.reason += text("; ", counts_.inner, " inner steps", counts_.loops ? text(", bounds updated ", counts_.loops, " times") : "");
   }

@@ -16,7 +16,7 @@ namespace dotyk::solver {
 /// the gradients divided by an upper bound of ‖PFP‖ it is solved by augmented Lagrangians (Smalbe) with Mprgp within.
 /// It stops where
 ///   ‖g^P‖ ≤ tol ‖Pd‖,  d = d̃ − Fλ̄,  and  ‖Gλ − e‖ = ‖Qx‖ ≤ tol ‖f‖        (‖λ‖ in place of ‖f‖ where there is no load)
-/// (P2, §5, but for ‖d̃‖ there, which depends on what the generalised inverse fixes), rows scaled by the stiffness of what they
+/// (P2, §5, but for ‖d̃‖ there, which depends on what the generalised inverse fixes: Stop::d), rows scaled by the stiffness of what they
 /// join (TornProblem) and ‖f‖ by force_unit(), 1 where all is as stiff as each other; and where no resultant on a piece is above tol
 /// times the greatest gross_load(). Where λ̄ is the solution already, Pd is rounding: g^P is then zero as far as it is. Rows that
 /// depend on each other make F singular, nothing else; of their multipliers one choice is returned. Coulomb
@@ -29,7 +29,12 @@ struct Feti : Settings {
     lumped,    ///< P B K Bᵀ P + Q/ρ
     dirichlet  ///< with the Schur complement on the unknowns that carry rows in place of K
   };
+  enum class Stop {
+    Pd,  ///< as above
+    d    ///< ‖d̃‖ in place of ‖Pd‖, and nothing asked of the resultants
+  };
   problem::Decomposition decomposition;
+  Stop stop = Stop::Pd;
   Preconditioner preconditioner = Preconditioner::none;
   /// The coarse space of the face in its conjugate gradients (FaceCoarse); else only in the projectors (P2).
   bool face_coarse = true;

@@ -46,6 +46,7 @@ struct FetiCounts {
   int products = 0;    ///< with F
   int loops = 0;       ///< updates of Coulomb's bounds
   double norm = 0;     ///< upper bound of ‖PFP‖, a displacement per force
+  double rho = 0;      ///< last penalty, in units of `norm`
   double condition = 0;  ///< of PFP on im P, where asked for; else 0
 };
 

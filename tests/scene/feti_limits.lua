@@ -36,3 +36,19 @@ for most = 1, 4 do
 end
 local s <const> = dotyk.solver.feti{ max_inner = 5 }:solve(rubbing)
 assert(s.feti.inner <= 5 and not s.converged, s.reason)
+
+-- The last penalty, in units of |PFP|: rho times 10 for each outer step of algorithm 4.1 after which |G lambda - e| is above eta.
+local grown = 0
+for _, case in ipairs{ { 30, 0.1 }, { 30, 1e-9 }, { 1, 1e-9 } } do
+  local s <const> = dotyk.solver.feti{ update = "penalty", rho = case[1], eta = case[2], M = 1000 }:solve(scene)
+  assert(s.converged, s.reason)
+  local times <const> = math.log(s.feti.rho / case[1], 10)
+  assert(math.abs(times - math.floor(times + 0.5)) < 1e-9 and times >= 0, s.feti.rho)
+  grown = grown + times
+end
+assert(grown > 0)
+assert(dotyk.solver.feti{ update = "precision", rho = 7 }:solve(scene).feti.rho == 7)
+
+-- The paper's stopping rule: |d| is above |P d| here, so that it ends no later.
+local own <const>, paper <const> = dotyk.solver.feti{ tol = 1e-3 }:solve(scene), dotyk.solver.feti{ tol = 1e-3, stop = "d" }:solve(scene)
+assert(own.converged and paper.converged and paper.feti.inner <= own.feti.inner)
