@@ -1,5 +1,6 @@
 #include "program/active_set.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/stopwatch.hpp"
@@ -43,20 +44,21 @@ Guess guess(const QuadraticProgram& p, const Scaled& scaled, const ActiveSet& se
   return g;
 }
 
-/// Does x = 0 keep every row exactly, and with the multipliers found all else to the tolerance? Where the solution is 0 and
-/// no row at work has another limit, x is rounding, and a violation has nothing to be compared with but x itself.
-bool zero_solves(const QuadraticProgram& p, const ActiveSet& settings, const Vector& y) {
-  const Residuals at_zero = residuals(p, Vector::Zero(p.unknowns()), y);
-  return at_zero.feasibility == 0 && std::max(at_zero.stationarity, at_zero.complementarity) <= settings.tol;
+/// Where the solution is 0 in all unknowns of the rows, a violation has nothing to be compared with but their rounding. Sets
+/// unknowns that are 0 to the tolerance to 0 where the multipliers found prove that this is a solution.
+bool solved_by_zeros(const QuadraticProgram& p, const ActiveSet& settings, Result& result) {
+  const double rounding = settings.tol * (1 + peak(result.x));
+  const Vector x = (result.x.array().abs() <= rounding).select(0.0, result.x);
+  const Residuals at = residuals(p, x, result.y);
+  if (!(std::max({at.stationarity, at.feasibility, at.complementarity}) <= settings.tol)) return false;
+  result.x = x;
+  return true;
 }
 
 /// Far away rounding hides that rows contradict one another: is there any feasible point?
 void doubt(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monitor, Result& result) {
   const bool violated = result.status == Status::solved && residuals(p, result.x, result.y).feasibility > kFeasible;
-  if (violated && zero_solves(p, settings, result.y)) {
-    result.x.setZero();
-    return;
-  }
+  if (violated && solved_by_zeros(p, settings, result)) return;
   if (!violated && result.status != Status::unbounded) return;
   const QuadraticProgram nearest = nearest_point(p);
   const Guess start = equalities(p);

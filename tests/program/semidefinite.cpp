@@ -76,6 +76,15 @@ TEST_CASE("programs whose only solution is 0, where only rounding is left of x t
     high.tail(far).setOnes();  // rows that do not matter
     const DenseMatrix P = test::semidefinite(random, n, random.below(n));
     check(test::quadratic(P, -A.transpose() * y, A, Vector::Constant(rows + far, -INFINITY), high));
+    // The same beside an unknown in no row.
+    DenseMatrix wider = DenseMatrix::Identity(n + 1, n + 1);
+    wider.topLeftCorner(n, n) = P;
+    Vector q(n + 1);
+    q << -A.transpose() * y, -4;
+    const auto r = program::solve(test::quadratic(wider, q, DenseMatrix(A * DenseMatrix::Identity(n, n + 1)), Vector::Constant(rows + far, -INFINITY), high), test::one(), quiet);
+    REQUIRE(r.status == Status::solved);
+    CHECK(r.x.head(n).norm() <= 1e-9);
+    CHECK(std::abs(r.x[n] - 4) <= 1e-8);
   }
 }
 
