@@ -16,7 +16,7 @@ long="punch cattaneo_mindlin mortar cont roller wall three_blocks plate plate_fr
   open_question cycles alternating shape_derivatives iter stability/coulomb stability/cycling stability/inf_sup stability/screws
   papers/cube_with_friction papers/augmented_estimates papers/raised_penalties papers/friction_cells
   papers/semicoercive_theorems papers/semicoercive_working_sets
-  papers/plate_edges papers/screws_with_friction papers/report_scaling
+  papers/plate_edges papers/screws_with_friction papers/normalisation papers/report_scaling
   papers/rates papers/newton_remainder papers/m_matrix
   papers/channel_fields
   papers/penalised_spectra
