@@ -47,8 +47,8 @@ solver::Result run(const Model& model, const std::string& note, const solver::Me
     result.converged = false;
     result.reason = kUnbalanced;
   }
-  if (note.empty()) solver::settle(model.problem, algebra::Vector::Zero(result.state.u.size()), result);
-  else if (result.reason.find("unique up to") == std::string::npos) result.reason += "; " + note;
+  const bool told = solver::settle(model.problem, algebra::Vector::Zero(result.state.u.size()), result).count > 0;
+  if (!told && !note.empty() && result.reason.find("unique up to") == std::string::npos) result.reason += "; " + note;
   return result;
 }
 

@@ -59,8 +59,8 @@ std::shared_ptr<const Solution> solve(std::shared_ptr<const Model> model, const 
     all = std::move(limit->all);
   } else {
     result = run(model->problem, method, monitor);
-    if (verdict.motion && result.converged) all = family(*model, result.state, *verdict.motion);
-    else all = settled(*model, result);
+    all = settled(*model, result);
+    if (verdict.motion && result.converged && !all) all = family(*model, result.state, *verdict.motion);
   }
   tell(verdict.note, result.reason);
   if (model->problem.rows() == 0 && model->problem.blocks.front().kernel.cols() == 3) normalise(*model, result.state.u);

@@ -61,24 +61,24 @@ void see_chords(const Contact& contact, std::vector<const contact::ContactRow*> 
 /// A pressure that is uncertain by more than this part of the contact's greatest says nothing.
 constexpr double kMostRounding = 0.01;
 /// Beside all forces on the bodies a contact's force below this part is none.
-constexpr double kNoForce = 1e-6;
+constexpr double kNoForce = 1e-12;
 
 /// Where cells are so thin that rounding of their stiffness is beside the pressure.
 void see_rounding(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
   const Contact& contact = *solution.scene().contacts[index];
   double greatest = 0, uncertain = 0;
   std::size_t worst = 0;
+  bool bears = false;
   const std::vector<problem::Scales> scales = problem::scales(solution.model().problem, solution.result().state);
   for (std::size_t i = 0; i < contact.rows.size(); ++i) {
     const int row = solution.model().contact_row[index][i];
     if (row < 0) continue;
     const double measure = solution.model().normal[index][i].measure;
     greatest = std::max(greatest, solution.result().state.lambda[row] / measure);
-    const double rounding = solution.rounding_of_forces()[row];
-    if (rounding <= kNoForce * scales[static_cast<std::size_t>(row)].force) continue;
-    if (const double here = rounding / measure; here > uncertain) uncertain = here, worst = i;
+    bears = bears || solution.result().state.lambda[row] > kNoForce * scales[static_cast<std::size_t>(row)].force;
+    if (const double here = solution.rounding_of_forces()[row] / measure; here > uncertain) uncertain = here, worst = i;
   }
-  if (uncertain > kMostRounding * greatest)
+  if (bears && uncertain > kMostRounding * greatest)
     all.push_back(text(contact.name, ": rounding leaves the pressure uncertain by ", uncertain, " at ",
                        point_text(contact.first.body->mesh->point(contact.rows[worst].node).data(), contact.first.body->dimension()), ", the greatest is ", greatest,
                        ": cells there are too thin, or bodies move too far beside how they deform; grade the mesh less"));
@@ -112,6 +112,11 @@ std::vector<Acting> may_depend(const Solution& solution) {
   for (const auto& contact : scene.contacts)
     for (const contact::ContactRow& row : contact->rows)
       for (const auto& node : nodes(*contact, row)) ++count[node];
+  const problem::Problem& problem = solution.model().problem;
+  const algebra::Vector x = problem.B * solution.result().state.u - problem.c;
+  const std::vector<problem::Scales> scales = problem::scales(problem, solution.result().state);
+  // A point of friction without slip may bear less, though it bears all that it can.
+  const auto rests = [&](int r) { return std::abs(x[r]) <= 1e-8 * scales[static_cast<std::size_t>(r)].length; };
   std::vector<Acting> acting;
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = *scene.contacts[c];
@@ -124,9 +129,8 @@ std::vector<Acting> may_depend(const Solution& solution) {
       if (const int r = solution.model().contact_row[c][k]; r >= 0 && solution.active(r) && meets(contact.rows[k])) acting.push_back({r, &contact, &contact.rows[k]});
     for (const FrictionRows& friction : solution.model().friction[c]) {
       const contact::ContactRow& at = contact.rows[friction.cell.jumps.front().row];
-      const std::vector<char>& slips = solution.result().slipping;
       for (int i = 0; i < friction.count; ++i)
-        if (solution.result().state.lambda[friction.row[i]] != 0 && (slips.empty() || !slips[friction.row[i]]) && meets(at)) acting.push_back({friction.row[i], &contact, &at});
+        if (const int r = friction.row[i]; solution.result().state.lambda[r] != 0 && rests(r) && meets(at)) acting.push_back({r, &contact, &at});
     }
   }
   return acting;

@@ -10,13 +10,16 @@ namespace dotyk::scene {
 
 namespace {
 
-/// Has a node of a point of friction closed from a gap beyond `touching`?
-bool closed_on_the_way(const Solution& solution, std::size_t c, const FrictionRows& rows, double touching) {
+/// By contact row: has it closed from a gap?
+std::vector<char> closed_on_the_way(const Solution& solution, std::size_t c) {
   const Contact& contact = *solution.model().contacts[c];
-  return std::any_of(rows.cell.jumps.begin(), rows.cell.jumps.end(), [&](const contact::Term& jump) {
-    const int r = solution.model().contact_row[c][static_cast<std::size_t>(jump.row)];
-    return r >= 0 && solution.active(r) && std::abs(contact.rows[static_cast<std::size_t>(jump.row)].gap) > touching;
-  });
+  const double touching = contact::kTouching * contact.first.body->mesh->size();
+  std::vector<char> closed;
+  for (std::size_t k = 0; k < contact.rows.size(); ++k) {
+    const int r = solution.model().contact_row[c][k];
+    closed.push_back(r >= 0 && solution.active(r) && std::abs(contact.rows[k].gap) > touching);
+  }
+  return closed;
 }
 
 double force_of(const Solution& solution, const FrictionRows& rows) {
@@ -28,19 +31,20 @@ double force_of(const Solution& solution, const FrictionRows& rows) {
 }  // namespace
 
 std::optional<double> share_of_path(const Solution& solution) {
-  bool follows = false;
+  bool follows = false, by_others = false;
   double stuck = 0, sum = 0;
-  for (std::size_t c = 0; c < solution.model().friction.size(); ++c) {
-    if (solution.model().friction[c].empty()) continue;
-    const double touching = contact::kTouching * solution.model().contacts[c]->first.body->mesh->size();
+  for (std::size_t c = 0; c < solution.model().contacts.size(); ++c) {
+    const std::vector<char> closed = closed_on_the_way(solution, c);
+    if (solution.model().friction[c].empty()) by_others = by_others || std::find(closed.begin(), closed.end(), 1) != closed.end();
     for (const FrictionRows& rows : solution.model().friction[c]) {
       const double force = force_of(solution, rows);
       sum += force;
-      if (!closed_on_the_way(solution, c, rows, touching)) continue;
+      if (std::none_of(rows.cell.jumps.begin(), rows.cell.jumps.end(), [&](const contact::Term& jump) { return closed[static_cast<std::size_t>(jump.row)]; })) continue;
       follows = true;
       if (const auto& slips = solution.result().slipping; slips.empty() || !slips[rows.row[0]]) stuck += force;
     }
   }
+  if (sum > 0 && by_others) return 1;  // where bodies went before another contact stopped them is not known
   if (!follows) return std::nullopt;
   return sum > 0 ? stuck / sum : 0;
 }
