@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kStationary = 1e-6;  ///< gradient left at a solution, beside the data
 constexpr double kFeasible = 1e-7;    ///< relative violation with which a solution is still one
+constexpr double kBroken = 0.01;      ///< one with which a point is none, whatever its units
 
 /// A first working set, point and multipliers, in the scaled program.
 struct Guess {
@@ -152,6 +153,10 @@ Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor
     }
   if (result.status == Status::solved && off(result) > kHidden) result.status = Status::stopped, result.reason = kHiddenReason;
   measure(program, result);
+  // Units in which a row is kept may differ from its own by the range of numbers; but x may be nothing but rounding.
+  const Residuals& at = result.residual;
+  if (result.status == Status::solved && at.feasibility > kBroken && at.feasibility_scale > settings.tol * (1 + peak(result.x)))
+    result.status = Status::stopped, result.reason = "rows stay violated: units of unknowns are too far apart";
   result.seconds = clock.seconds();
   return result;
 }

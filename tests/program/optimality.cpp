@@ -221,3 +221,14 @@ TEST_CASE("a solution that is nothing but rounding is one: rows are measured by 
   }
   CHECK(program::residuals(p, Vector::Constant(1, -1e-5), -Vector::Ones(1)).feasibility > 0.9);  // beyond rounding it is none
 }
+
+TEST_CASE("a point that breaks a row is no solution, however far apart the units of unknowns are") {
+  Monitor quiet;
+  for (const double unit : {1e-6, 1e-15, 1e-24, 1e-40}) {
+    const auto p = test::quadratic(DenseMatrix{{unit, 0}, {0, 1 / unit}}, Vector{{-unit, -1 / unit}}, DenseMatrix{{1, 1}}, Vector{{-INFINITY}}, Vector{{1.0}});
+    for (const auto& settings : {test::one(), test::many()}) {
+      const auto found = program::solve(p, settings, quiet);
+      if (found.status == program::Status::solved) CHECK(found.x[0] + found.x[1] <= 1 + 1e-6);
+    }
+  }
+}
