@@ -22,7 +22,7 @@ class Conditions {
  public:
   Conditions(const Problem& problem, const State& state, double tolerance)
       : x_(problem.B * state.u - problem.c), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)),
-        stiffness_(problem.row_stiffness()) {
+        compliance_(problem.row_compliance()) {
     for (const RowGroup& group : problem.groups)
       for (int k = 0; k < group.count; ++k) add(*group.law, group.first + k, k);
     for (const FrictionGroup& group : problem.friction)
@@ -44,7 +44,7 @@ class Conditions {
     }
     const Interval following = problem::following(law, k);
     // On a row that is open, or beyond its law's other end, a multiplier is what the method left.
-    const auto open = [&](double force, double gap) { return force <= std::max(small_[row], stiffness_[row] * gap); };
+    const auto open = [&](double force, double gap) { return force <= small_[row] || compliance_[row] * force <= gap; };
     if (open(lambda_[row] - low, following.low - x_[row]))
       limit(row, 1, following.low - x_[row]);
     else if (open(high - lambda_[row], x_[row] - following.high))
@@ -86,7 +86,7 @@ class Conditions {
 
   Vector x_;
   const Vector& lambda_;
-  Vector small_, stiffness_;  ///< by row: forces that are none; see Problem::row_stiffness()
+  Vector small_, compliance_;  ///< by row: forces that are none; see Problem::row_compliance()
   Triplets held_, limited_;
   int held_count_ = 0;
   std::vector<double> slack_;

@@ -25,13 +25,13 @@ void open_without_force(const problem::Problem& problem, solver::Result& result)
   const Vector& lambda = result.state.lambda;
   const Vector x = problem.B * result.state.u - problem.c;
   const Vector none = problem::small_forces(problem, lambda, kOnBound);
-  const Vector stiffness = problem.row_stiffness();
+  const Vector compliance = problem.row_compliance();
   const std::vector<problem::Scales> scales = problem::scales(problem, result.state);
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
       const problem::Scales& scale = scales[static_cast<std::size_t>(r)];
       const bool parted = x[r] < -kOnBound * scale.length;
-      if (lambda[r] <= kRounding * scale.force || (parted && lambda[r] <= std::max(none[r], -stiffness[r] * x[r]))) result.active_sets.back()[r] = 0;
+      if (lambda[r] <= kRounding * scale.force || (parted && (lambda[r] <= none[r] || compliance[r] * lambda[r] <= -x[r]))) result.active_sets.back()[r] = 0;
     }
 }
 
