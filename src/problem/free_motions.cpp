@@ -17,12 +17,20 @@ using algebra::Vector;
 
 namespace {
 
+double greatest_force(const Problem& problem, const Vector& lambda) {
+  double most = lambda.size() > 0 ? lambda.lpNorm<Eigen::Infinity>() : 0;
+  for (const Block& block : problem.blocks)
+    if (block.f.size() > 0) most = std::max(most, block.f.lpNorm<Eigen::Infinity>());
+  return most;
+}
+
 /// What the rows ask of a motion at these multipliers, as combinations of rows of B: held · r = 0, and limited · r ≤ slack.
 class Conditions {
  public:
   Conditions(const Problem& problem, const State& state, double tolerance)
       : x_(problem.B * state.u - problem.c), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)),
-        compliance_(problem.row_compliance()) {
+        compliance_(problem.row_compliance()),
+        left_(10 * tolerance * greatest_force(problem, state.lambda)) {
     for (const RowGroup& group : problem.groups)
       for (int k = 0; k < group.count; ++k) add(*group.law, group.first + k, k);
     for (const FrictionGroup& group : problem.friction)
@@ -44,7 +52,7 @@ class Conditions {
     }
     const Interval following = problem::following(law, k);
     // On a row that is open, or beyond its law's other end, a multiplier is what the method left.
-    const auto open = [&](double force, double gap) { return force <= small_[row] || compliance_[row] * force <= gap; };
+    const auto open = [&](double force, double gap) { return force <= small_[row] || (force <= left_ && compliance_[row] * force <= kBesideGap * gap); };
     if (open(lambda_[row] - low, following.low - x_[row]))
       limit(row, 1, following.low - x_[row]);
     else if (open(high - lambda_[row], x_[row] - following.high))
@@ -87,6 +95,7 @@ class Conditions {
   Vector x_;
   const Vector& lambda_;
   Vector small_, compliance_;  ///< by row: forces that are none; see Problem::row_compliance()
+  double left_;                ///< what a method may leave of a force
   Triplets held_, limited_;
   int held_count_ = 0;
   std::vector<double> slack_;

@@ -28,6 +28,9 @@ inline constexpr int kMostModes = 30, kMostFree = 600;
 /// on one body do not say what is small for another; those within rounding of that body's load, or where it has none of the greatest of all, as well.
 algebra::Vector small_forces(const Problem& problem, const algebra::Vector& lambda, double tolerance);
 
+/// Of a gap: a force that yields less on a row which is open that far is what the method left.
+inline constexpr double kBesideGap = 1e-3;
+
 /// `tolerance`: of small_forces(); multipliers so near to a bound are on it.
 FreeMotions free_motions(const Problem& problem, const State& state, double tolerance);
 

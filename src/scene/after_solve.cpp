@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "problem/free_motions.hpp"
 #include "problem/residual.hpp"
 #include "solver/settle.hpp"
 
@@ -31,7 +32,7 @@ void open_without_force(const problem::Problem& problem, solver::Result& result)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
       const problem::Scales& scale = scales[static_cast<std::size_t>(r)];
       const bool parted = x[r] < -kOnBound * scale.length;
-      if (lambda[r] <= kRounding * scale.force || (parted && (lambda[r] <= none[r] || compliance[r] * lambda[r] <= -x[r]))) result.active_sets.back()[r] = 0;
+      if (lambda[r] <= kRounding * scale.force || (parted && (lambda[r] <= none[r] || (lambda[r] <= 10 * kOnBound * scale.force && compliance[r] * lambda[r] <= -problem::kBesideGap * x[r])))) result.active_sets.back()[r] = 0;
     }
 }
 
