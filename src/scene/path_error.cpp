@@ -79,6 +79,8 @@ Step part_of(double share, const Scene& scene, const Model& model) {
 }  // namespace
 
 double estimate_path_error(const Solution& solution, Monitor& monitor) {
+  if (!solution.result().converged)
+    throw InputError("the solution has not converged, so that path_error, which is of a solution, does not apply (" + solution.result().reason + ")");
   if (solution.follows()) throw InputError("path_error is of one load step from rest; this solution follows another: halve the steps and compare");
   if (!follows_path(solution)) return 0;
   const auto scene = as_solved(solution);

@@ -91,7 +91,7 @@ class History {
     const auto solution = std::make_shared<Solution>(scene_, is_last ? std::move(model_) : without_stiffness(),
                                                      is_last ? nullptr : &model_.problem, std::move(result),
                                                      std::move(past));
-    if (const auto share = is_last && !solution->follows() && solution->result().converged ? share_of_path(*solution) : std::nullopt; share && *share > 0)
+    if (const auto share = is_last && !solution->follows() && solution->result().converged ? share_of_path(*solution) : std::nullopt)
       solution->add_reason(text("; one load step, while friction follows the path: of its force ", std::setprecision(3), 100 * *share,
                                 " % is at points that closed on the way and stick, or of bodies that another contact stopped on the way, where one step may be "
                                 "wrong; path_error() says how far from eight"));

@@ -62,3 +62,18 @@ check.near(slipped:path_error(), 0, 1e-8)
 -- It speaks of one step from rest.
 local _, stepped <const> = friction(0.3, 4)
 check.error(function() stepped:path_error() end, "follows another")
+
+-- 5. A contact without friction that closes on the way: bodies slip before it stops them, and friction is less after more steps.
+do
+  local body <const> = dotyk.body{ name = "slider", material = dotyk.material{ E = 1000, nu = 0.3 },
+    mesh = dotyk.mesh.rectangle{ from = { 0, 0 }, to = { 4, 1 }, cells = { 16, 4 }, element = "Q1" } }
+  body:part"top":load{ 1.5, -3 }
+  local scene <const> = dotyk.scene{ body }
+  scene:contact{ body:part"bottom", rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } }, friction = dotyk.friction.coulomb(0.3) }
+  scene:contact{ body:part("stop", function(x, y) return x > 4 - 1e-9 and y > 0.4 end), rigid = dotyk.rigid.plane{ point = { 4.003, 0 }, normal = { -1, 0 } } }
+  local s <const> = dotyk.solve(scene)
+  check.that(s.converged and s.reason:find("another contact stopped on the way", 1, true), s.reason)
+  check.that(s:path_error() > 0.1)
+  local cut <const> = dotyk.solver.psor{ max_iterations = 2 }:solve(scene)
+  check.error(function() cut:path_error() end, "does not apply")
+end
