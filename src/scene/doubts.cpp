@@ -61,7 +61,7 @@ void see_chords(const Contact& contact, std::vector<const contact::ContactRow*> 
 /// A pressure that is uncertain by more than this part of the contact's greatest says nothing.
 constexpr double kMostRounding = 0.01;
 /// Beside all forces on the bodies a contact's force below this part is none.
-constexpr double kNoForce = 1e-12;
+constexpr double kNoForce = 1e-5;
 
 /// Where cells are so thin that rounding of their stiffness is beside the pressure.
 void see_rounding(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
