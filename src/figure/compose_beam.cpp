@@ -57,8 +57,8 @@ SupportState state(const SupportLaw& law, double v, double r, const Scales& scal
       if (std::abs(r) > kRounding * scale.force) return pushes ? SupportState::pushing : SupportState::pulling;
       return moved ? SupportState::open : SupportState::acting;
     case Kind::breaking:
-      if (-law.value * v > law.limit) return SupportState::broken;
-      return pushes ? SupportState::pushing : SupportState::open;
+      if (pushes) return SupportState::pushing;
+      return moved && v < 0 ? SupportState::broken : SupportState::open;
     case Kind::free:
     case Kind::prescribed:
     case Kind::load:

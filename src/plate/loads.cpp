@@ -111,12 +111,55 @@ Vector loads(const Plate& plate, const Space& space) {
   return load;
 }
 
-void add_law_loads(const Space& space, const std::vector<Sample>& deflections, const std::vector<Sample>& rotations, Vector& load) {
-  using Kind = problem::SupportLaw::Kind;
-  for (const Sample& s : deflections)
-    if (s.law.kind == Kind::load) add(load, deflection(space, s), s.law.value * s.share);
-  for (const Sample& s : rotations)
-    if (s.law.kind == Kind::load) add(load, rotation(space, s), s.law.value * s.share);
+namespace {
+
+/// Of a load on an edge, by s from −1 to 1: mean + slope s is its L² projection on the linear functions.
+struct LinearLoad {
+  double mean, slope;
+};
+
+/// By Gauss's rule of three points; nothing where the law is no load at one of these.
+std::optional<LinearLoad> projected(const LawField& law, const std::string& part, const Edge& edge) {
+  const double root = std::sqrt(0.6);
+  LinearLoad out{0, 0};
+  for (const auto& [s, weight] : {std::pair(-root, 5. / 18), {0., 8. / 18}, {root, 5. / 18}}) {
+    const problem::SupportLaw at = law_at(law, part, edge.middle + s * edge.length / 2 * edge.tangent);
+    if (at.kind != problem::SupportLaw::Kind::load) return std::nullopt;
+    out.mean += weight * at.value;
+    out.slope += 3 * weight * s * at.value;
+  }
+  return out;
+}
+
+void add_forces(const EdgeSupport& on, const Space& space, const Edge& edge, int index, Vector& load) {
+  Vector2d at_ends(0, 0);
+  bool all = true;
+  for (int end = 0; end < 2; ++end) {
+    const problem::SupportLaw at = law_at(on.deflection, on.part, node_position(*space.mesh, edge.node[end]));
+    if (at.kind == problem::SupportLaw::Kind::load) at_ends[end] = at.value;
+    else all = false;
+  }
+  if (const auto linear = all ? projected(on.deflection, on.part, edge) : std::nullopt) at_ends = {linear->mean - linear->slope, linear->mean + linear->slope};
+  for (int end = 0; end < 2; ++end)
+    if (at_ends[end] != 0) add(load, space.mean_deflection(index, edge.node[end]), at_ends[end]);
+}
+
+}  // namespace
+
+void add_law_loads(const Plate& plate, const Space& space, const std::vector<Sample>& rotations, Vector& load) {
+  for (const EdgeSupport& on : plate.edges) {
+    if (!on.deflection) continue;
+    for (const mesh::Facet f : on.facets) {
+      const int edge = space.edges.of_cell[f.cell][f.local];
+      add_forces(on, space, space.edges.edges[edge], edge, load);
+    }
+  }
+  for (const Sample& s : rotations) {
+    if (s.law.kind != problem::SupportLaw::Kind::load) continue;
+    const EdgeSupport& on = plate.edges[s.support];
+    const auto linear = space.element == Element::morley ? projected(on.rotation, on.part, space.edges.edges[s.place]) : std::nullopt;
+    add(load, rotation(space, s), (linear ? linear->mean : s.law.value) * s.share);
+  }
 }
 
 }  // namespace dotyk::plate

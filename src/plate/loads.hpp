@@ -28,7 +28,8 @@ class Finder {
 /// f is not finite, or a load is off the plate.
 algebra::Vector loads(const Plate& plate, const Space& space);
 
-/// Adds what laws of kind `load` do.
-void add_law_loads(const Space& space, const std::vector<Sample>& deflections, const std::vector<Sample>& rotations, algebra::Vector& load);
+/// Adds what laws of kind `load` do. Forces that vary along an edge act by their L² projection on its linear functions, so that their resultants
+/// are exact and what they do else to the order h⁴; moments by their mean on the edge (Morley) or Simpson's rule (HCT).
+void add_law_loads(const Plate& plate, const Space& space, const std::vector<Sample>& rotations, algebra::Vector& load);
 
 }  // namespace dotyk::plate

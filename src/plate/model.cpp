@@ -41,6 +41,16 @@ void balance(const DenseMatrix& R, Vector& f) {
   f -= R * (R.transpose() * R).ldlt().solve(resultant);
 }
 
+/// Is a load along an edge a function?
+bool load_varies(const std::vector<Sample>& samples) {
+  using Kind = problem::SupportLaw::Kind;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const Sample &a = samples[i - 1], &b = samples[i];
+    if (a.support == b.support && a.law.kind == Kind::load && b.law.kind == Kind::load && a.law.value != b.law.value) return true;
+  }
+  return false;
+}
+
 problem::Block block(const Plate& plate, const Model& model) {
   problem::Block block;
   block.name = "plate";
@@ -51,7 +61,7 @@ problem::Block block(const Plate& plate, const Model& model) {
   for (int i = 0; i < model.space.count(); ++i)
     if (model.unknown[i] >= 0) block.f[model.unknown[i]] += model.load[i];
   FreeMotions motions = free_motions(model.space, model.held, model.unknown);
-  if (plate.f_of) balance(motions.kernel, block.f);
+  if (plate.f_of || load_varies(model.deflections) || load_varies(model.rotations)) balance(motions.kernel, block.f);
   block.kernel = std::move(motions.kernel);
   block.motions = std::move(motions.motions);
   return block;
@@ -95,7 +105,7 @@ Model build(Plate plate) {
     if (!model.held.is[i]) model.unknown[i] = count++;
   if (count == 0) throw InputError("its supports hold every freedom: the mesh is too coarse; give it more cells");
   model.load = loads(plate, model.space);
-  add_law_loads(model.space, model.deflections, model.rotations, model.load);
+  add_law_loads(plate, model.space, model.rotations, model.load);
   problem::add(model.problem, block(plate, model));
   add_rows(plate, model);
   if (model.problem.rows() > 0) problem::require_moderate(model.problem, problem::kMostForceOnRows);

@@ -15,6 +15,8 @@ namespace {
 
 int edge_of(const Space& space, const mesh::Facet& facet) { return space.edges.of_cell[facet.cell][facet.local]; }
 
+}  // namespace
+
 SupportLaw law_at(const LawField& law, const std::string& part, const Vector2d& x) {
   const SupportLaw at = law(x[0], x[1]);
   try {
@@ -25,6 +27,8 @@ SupportLaw law_at(const LawField& law, const std::string& part, const Vector2d& 
   if (at.kind == SupportLaw::Kind::breaking) throw InputError(text("edge '", part, "': supports of plates do not break; capped_elastic yields instead"));
   return at;
 }
+
+namespace {
 
 /// Samples of one support, those of a vertex together where `same` says so.
 class SampleCollector {

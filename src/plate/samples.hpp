@@ -21,6 +21,9 @@ struct Sample {
   bool held = false;     ///< its freedoms are held
 };
 
+/// The law of an edge's part at a point. Throws InputError, naming both, where it is not valid there or one that plates do not have.
+problem::SupportLaw law_at(const LawField& law, const std::string& part, const Eigen::Vector2d& x);
+
 /// Where the laws of the deflection act, for half of either edge: the vertices. What they act on is with Morley's element the deflection there; with HCT its
 /// mean about the vertex, weighted by the hat function, so that reactions are linear along an edge and the forces on the slopes are theirs, too:
 /// forces at vertices alone would let edges sag between them, and leave of the order h² in energy h^1.5.

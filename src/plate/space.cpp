@@ -45,6 +45,7 @@ Functional Space::mean_deflection(int number, int vertex) const {
   const int end = edge.node[0] == vertex ? 0 : 1;
   const Vector2d away = end == 0 ? edge.tangent : Vector2d(-edge.tangent);
   const int other = edge.node[1 - end];
+  if (element == Element::morley) return {{of_vertex(vertex), h / 3}, {of_vertex(other), h / 6}};
   Functional out{{of_vertex(vertex), h * 7 / 20}, {of_vertex(other), h * 3 / 20}};
   for (const Term& term : slope_of_vertex(vertex, away)) out.push_back({term.freedom, term.factor * h * h / 20});
   for (const Term& term : slope_of_vertex(other, away)) out.push_back({term.freedom, -term.factor * h * h / 30});

@@ -53,7 +53,7 @@ struct Space {
   /// HCT: ∂u along a direction.
   Functional slope_of_vertex(int vertex, const Eigen::Vector2d& direction) const;
   Functional slope_of_edge(int edge) const { return {{of_edge(edge), 1 / unit}}; }
-  /// HCT, on the boundary: ∫ ψu along an edge, ψ = 1 at this end of it, 0 at the other, linear between; on the curve that the edge approximates, which stands
+  /// On the boundary ∫ ψu along an edge, ψ = 1 at this end of it, 0 at the other, linear between. Morley: of the linear u between the vertices. HCT: on the curve that the edge approximates, which stands
   /// out of it by s at its middle, where u + s ∂ₙu is taken for the deflection.
   Functional mean_deflection(int edge, int vertex) const;
   /// u within a cell.

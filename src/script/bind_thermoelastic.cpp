@@ -214,9 +214,15 @@ int thermoelastic_reaction(Call& call) {
                            {"deflection", r.deflection}, {"rotation", r.rotation}, {"displacement", r.displacement}}});
 }
 
+std::vector<Record> broken(const ThermoelasticBeam& beam) {
+  std::vector<Record> out;
+  for (const auto& b : beam.stepping->broken()) out.push_back({"broken support", {{"name", b.name}, {"time", b.time}}});
+  return out;
+}
+
 Record energy(const ThermoelasticBeam& beam) {
   const thermoelastic::Energy e = beam.stepping->energy();
-  return {"energy", {{"stored", e.stored}, {"put_in", e.put_in}, {"dissipated", e.dissipated}, {"defect", e.defect}}};
+  return {"energy", {{"stored", e.stored}, {"put_in", e.put_in}, {"dissipated", e.dissipated}, {"released", e.released}, {"defect", e.defect}}};
 }
 
 std::string thermoelastic_beam_text(const ThermoelasticBeam& beam) {
@@ -227,6 +233,7 @@ std::string thermoelastic_beam_text(const ThermoelasticBeam& beam) {
   if (decomposed.empty()) out += "nothing decomposed";
   for (std::size_t i = 0; i < decomposed.size(); ++i) out += (i == 0 ? "" : " and ") + decomposed[i];
   if (!decomposed.empty()) out += " decomposed";
+  for (const auto& b : s.broken()) out += text("\n  ", b.name, " broke at t = ", b.time);
   for (std::size_t i = 0; i < s.data().supports.size(); ++i) {
     const thermoelastic::Reaction r = s.reaction(static_cast<int>(i));
     out += text("\n  ", s.data().supports[i].name, ": force ", r.force, ", moment ", r.moment, ", axial ", r.axial, ", deflection ", r.deflection, ", rotation ", r.rotation,
@@ -242,7 +249,8 @@ const char* kHelp =
     "bending are apart where the heat exchange above and below is equal. Where statics alone gives the reactions (simply "
     "supported, cantilever, simply supported and guided, rigid or elastic, or forced to that by a condition of solvability) the "
     "heat is solved without the displacement (decomposed), with the same result. Without a law an end is free; without "
-    "temperature (gradient) no heat passes there. Functions are of x and t, or of t, and called in every step.";
+    "temperature (gradient) no heat passes there. A support whose law breaks bears nothing from then on: the step is divided there, and "
+    "the beam jumps without exchanging heat. Functions are of x and t, or of t, and called in every step.";
 
 const char* kBeam =
     "local l = dotyk.law\n"
@@ -347,8 +355,9 @@ void bind_thermoelastic(Library& library) {
   using B = ThermoelasticBeam;
   type.field("time", "now", [](const B& b) { return b.stepping->time(); }, "time")
       .field("steps", "steps done", [](const B& b) { return b.stepping->steps(); })
-      .field("decomposed", "effects, \"bending\" or \"stretching\", that were decomposed in every step", [](const B& b) { return b.stepping->decomposed(); })
-      .field("energy", "stored, put_in and dissipated since t = 0, and the defect of their balance, which tends to 0 with the step to the scheme's order where prescribed temperatures agree with the first ones", energy, "energy")
+      .field("decomposed", "effects, \"bending\" or \"stretching\", that were decomposed in every step since a support broke last", [](const B& b) { return b.stepping->decomposed(); })
+      .field("energy", "stored, put_in, dissipated, and released where supports broke, since t = 0, and the defect of their balance, which tends to 0 with the step to the scheme's order where prescribed temperatures agree with the first ones", energy, "energy")
+      .field("broken", "the supports that broke, in the order of time: name (\"right deflection\") and time", broken)
       .field("method", "of the contact problems; empty where all was decomposed", [](const B& b) { return b.stepping->work().method; })
       .field("reason", "how the last of them ended, and up to which motion it is unique", [](const B& b) { return b.stepping->work().reason; })
       .field("problems", "contact problems solved", [](const B& b) { return b.stepping->work().problems; })

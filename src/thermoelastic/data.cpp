@@ -7,8 +7,6 @@
 
 namespace dotyk::thermoelastic {
 
-using Kind = problem::SupportLaw::Kind;
-
 beam::Beam plain(const Data& data) {
   beam::Beam beam;
   beam.length = data.length;
@@ -44,14 +42,7 @@ void require_valid(const Data& data) {
   if (data.length < data.height / 1000)
     throw InputError(
         text("its length is ", data.length, " and its height ", data.height, ": no beam, whose length is many times its height"));
-  for (const Support& s : data.supports) {
-    require_valid(s.displacement);
-    for (const auto* law : {&s.deflection, &s.rotation, &s.displacement})
-      if (law->kind == Kind::breaking)
-        throw InputError(text("the support ", s.name,
-                              " may break; its history would have many branches. "
-                              "capped_elastic limits its force; dotyk.beam finds all branches"));
-  }
+  for (const Support& s : data.supports) require_valid(s.displacement);
 }
 
 Coefficients::Coefficients(const Data& d)

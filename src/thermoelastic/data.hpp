@@ -32,6 +32,9 @@ struct HeldHeat {
 /// Misprints of P4: (1) and (P_v) have +a₁₂ϑ₂, the form B_C has −a₁₂ beside +a₂₁; exchange of heat damps, which
 /// asks for F a₁₂ = J a₂₁ with one sign. Its q₁ is −p/EF. After theorem 5 it says that ℳ₁ < |∫ q x| makes a support with
 /// friction against rotation slip: the other supports bear a part of that moment, and it need not.
+///
+/// A support with a breaking law breaks when its reaction reaches the limit, and bears nothing from then on (P4, section 4,
+/// figures 16 and 17; there without a memory). The beam jumps without exchanging heat: Cϑ − Gᵀu stays.
 struct Data {
   double length = 1, height = 0.1, width = 1;
   double E = 1;               ///< Young's modulus, stress
@@ -47,8 +50,8 @@ struct Data {
   std::array<HeldHeat, 2> heat_ends;
 };
 
-/// Throws InputError where a number is not positive (expansion and exchange: negative), a law is not valid or may
-/// break, two supports are at one point, or one lies off the beam.
+/// Throws InputError where a number is not positive (expansion and exchange: negative), a law is not valid, two supports
+/// are at one point, or one lies off the beam.
 void require_valid(const Data& data);
 
 /// Its length, cells and supports as of a plain beam: what theorems 2 to 5 and the nodes are about.

@@ -12,11 +12,11 @@ struct Rates {
 };
 
 struct Stepping::Group {
-  Group(const Data& data, const std::vector<Effect::Kind>& effects) : model(data, effects) {}
-  Model model;
-  std::vector<char> decomposed;         ///< of each part
-  bool always_decomposed = true;        ///< so far
-  std::optional<System> system, whole;  ///< as `decomposed` says; coupled, where statics did not do
+  void take(Model with, bool decompose);
+  std::shared_ptr<const Model> model;
+  std::vector<char> decomposed;           ///< of each part
+  bool always_decomposed = true;          ///< since the model was taken
+  std::shared_ptr<System> system, whole;  ///< as `decomposed` says; coupled, where statics did not do
   Fields now;
   Forces forces;
   algebra::Vector entropy;
@@ -24,7 +24,17 @@ struct Stepping::Group {
 
   double stored(const Fields& fields, const Forces& loads) const;
   double work_of_places(const Fields& to, const Forces& loads, bool trapezoidal) const;  ///< since `now`
+  /// The greatest reaction of a breaking support, its limit for unit.
+  double overload(const std::vector<algebra::Vector>& reactions) const;
+  /// The model without those that bear most of their limit now; their names.
+  std::vector<std::string> break_worst(bool decompose);
 };
+
+/// Runs it; an InputError tells which supports broke before, those from `first` on.
+void telling(const std::vector<Broken>& broken, std::size_t first, const std::function<void()>& run);
+
+/// A breaking support bears so much of its limit; beyond it is not rounding.
+constexpr double kBears = 1 + 1e-9;
 
 /// The end of a step, and what it put in and dissipated.
 struct Stepping::Stage {

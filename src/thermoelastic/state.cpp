@@ -17,8 +17,8 @@ Hermite Stepping::Place::shape() const { return {s, part.effect.h(cell)}; }
 CellVector Stepping::Place::end_forces() const {
   const CellStrain B = part.effect.strain_matrix(cell);
   const Eigen::Vector2d stress =
-      part.effect.modulus()[cell] * (B * u() - part.effect.beta()[cell] * group.model.heat.projection(cell) * theta());
-  const std::size_t index = static_cast<std::size_t>(&part - group.model.parts.data());
+      part.effect.modulus()[cell] * (B * u() - part.effect.beta()[cell] * group.model->heat.projection(cell) * theta());
+  const std::size_t index = static_cast<std::size_t>(&part - group.model->parts.data());
   return part.effect.h(cell) * B.transpose() * stress - group.forces.on_cells[index].col(cell);
 }
 
@@ -26,11 +26,11 @@ Stepping::Place Stepping::place(Effect::Kind kind, double x) const {
   if (!(x >= 0 && x <= data().length))
     throw InputError(text("x = ", x, " is not on the beam, which goes from 0 to ", data().length));
   for (const auto& group : groups_)
-    for (const Part& part : group->model.parts)
+    for (const Part& part : group.model->parts)
       if (part.effect.kind() == kind) {
-        const auto& nodes = group->model.heat.nodes();
+        const auto& nodes = group.model->heat.nodes();
         const int cell = beam::cell_of(nodes, x);
-        return {*group, part, cell, (x - nodes[cell]) / (nodes[cell + 1] - nodes[cell])};
+        return {group, part, cell, (x - nodes[cell]) / (nodes[cell + 1] - nodes[cell])};
       }
   throw std::logic_error("no such effect");
 }
@@ -90,16 +90,16 @@ double Stepping::normal(double x) const {
 
 Reaction Stepping::reaction(int support) const {
   Reaction out;
-  out.driven = groups_.front()->forces.supports[support];
+  out.driven = groups_.front().forces.supports[support];
   std::array<double, 3> force{};
   for (int k = 0; k < 3; ++k) force[k] = out.driven[k].force;
   for (const auto& group : groups_)
-    for (std::size_t p = 0; p < group->model.parts.size(); ++p) {
-      const Part& part = group->model.parts[p];
+    for (std::size_t p = 0; p < group.model->parts.size(); ++p) {
+      const Part& part = group.model->parts[p];
       for (std::size_t i = 0; i < part.held.size(); ++i) {
         const Held& held = part.held[i];
         if (held.support != support) continue;
-        force[static_cast<int>(held.what)] += group->now.reactions[p][static_cast<int>(i)] * held.unit + 0.0;  // no −0
+        force[static_cast<int>(held.what)] += group.now.reactions[p][static_cast<int>(i)] * held.unit + 0.0;  // no −0
       }
     }
   out.force = force[0], out.moment = force[1], out.axial = force[2];

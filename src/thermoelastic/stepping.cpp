@@ -40,8 +40,8 @@ void require_finite(const Fields& fields, double energies, double t) {
 }  // namespace
 
 double Stepping::Group::stored(const Fields& fields, const Forces& loads) const {
-  double sum = 0.5 * fields.u.dot(model.K * fields.u) + 0.5 * fields.theta.dot(model.capacity * fields.theta);
-  for (const Part& part : model.parts)
+  double sum = 0.5 * fields.u.dot(model->K * fields.u) + 0.5 * fields.theta.dot(model->capacity * fields.theta);
+  for (const Part& part : model->parts)
     for (const Held& held : part.held)
       sum += problem::row_law(held.law, held.unit)->energy(0, held.given(loads.supports) - held.turn * fields.u[held.unknown]);
   return sum;
@@ -49,9 +49,9 @@ double Stepping::Group::stored(const Fields& fields, const Forces& loads) const 
 
 double Stepping::Group::work_of_places(const Fields& to, const Forces& loads, bool trapezoidal) const {
   double sum = 0;
-  for (std::size_t p = 0; p < model.parts.size(); ++p)
-    for (std::size_t i = 0; i < model.parts[p].held.size(); ++i) {
-      const Held& held = model.parts[p].held[i];
+  for (std::size_t p = 0; p < model->parts.size(); ++p)
+    for (std::size_t i = 0; i < model->parts[p].held.size(); ++i) {
+      const Held& held = model->parts[p].held[i];
       const int k = static_cast<int>(i);
       const double force = trapezoidal ? 0.5 * (now.reactions[p][k] + to.reactions[p][k]) : to.reactions[p][k];
       sum += force * held.unit * (held.place(loads.supports) - held.place(forces.supports));
@@ -60,6 +60,8 @@ double Stepping::Group::work_of_places(const Fields& to, const Forces& loads, bo
 }
 
 Stepping::~Stepping() = default;
+Stepping::Stepping(const Stepping&) = default;
+Stepping& Stepping::operator=(Stepping&&) = default;
 
 Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor)
     : scheme_(scheme) {
@@ -71,15 +73,20 @@ Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& schem
   const auto kinds = split ? std::vector<std::vector<Kind>>{{Kind::stretching}, {Kind::bending}}
                            : std::vector<std::vector<Kind>>{{Kind::stretching, Kind::bending}};
   for (const auto& effects : kinds) {
-    auto group = std::make_unique<Group>(data, effects);
-    for (const Part& part : group->model.parts) group->decomposed.push_back(scheme.decompose && determinate(part));
-    group->forces = group->model.forces(loads, 0);
-    group->now = at_rest(group->model, group->forces, group->model.initial(initial), 0, scheme_.method, work_, monitor);
-    group->entropy = group->model.entropy(group->now.u, group->now.theta);
-    const double stored = group->stored(group->now, group->forces);
-    require_finite(group->now, stored, 0);
+    Group& group = groups_.emplace_back();
+    group.take({data, effects}, scheme.decompose);
+    group.forces = group.model->forces(loads, 0);
+    const Vector theta = group.model->initial(initial);
+    const auto rest = [&] { group.now = at_rest(*group.model, group.forces, theta, 0, scheme_.method, work_, monitor); };
+    rest();
+    while (group.overload(group.now.reactions) > kBears) {
+      for (const std::string& name : group.break_worst(scheme.decompose)) broken_.push_back({name, 0});
+      telling(broken_, 0, rest);
+    }
+    group.entropy = group.model->entropy(group.now.u, group.now.theta);
+    const double stored = group.stored(group.now, group.forces);
+    require_finite(group.now, stored, 0);
     at_first_ += stored;
-    groups_.push_back(std::move(group));
   }
 }
 
@@ -98,14 +105,26 @@ void Stepping::run(double t, const Loads& loads, Monitor& monitor) {
 }
 
 void Stepping::advance(double tau, const Loads& loads, Monitor& monitor) {
-  std::vector<Stage> ends;
   Work work = work_;
-  for (auto& group : groups_) ends.push_back(stepped(*group, tau, loads, work, monitor));
+  std::vector<Stage> ends = trial(tau, loads, work, monitor);
+  if (overload(ends) <= kBears) return accept(std::move(ends), tau, work);
+  Stepping later(*this);
+  later.break_within(tau, loads, monitor);
+  *this = std::move(later);
+}
+
+std::vector<Stepping::Stage> Stepping::trial(double tau, const Loads& loads, Work& work, Monitor& monitor) {
+  std::vector<Stage> ends;
+  for (Group& group : groups_) ends.push_back(stepped(group, tau, loads, work, monitor));
+  return ends;
+}
+
+void Stepping::accept(std::vector<Stage> ends, double tau, const Work& work) {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    groups_[i]->now = std::move(ends[i].fields);
-    groups_[i]->forces = std::move(ends[i].forces);
-    groups_[i]->entropy = std::move(ends[i].entropy);
-    groups_[i]->rates = std::move(ends[i].rates);
+    groups_[i].now = std::move(ends[i].fields);
+    groups_[i].forces = std::move(ends[i].forces);
+    groups_[i].entropy = std::move(ends[i].entropy);
+    groups_[i].rates = std::move(ends[i].rates);
     energy_.put_in += ends[i].put_in;
     energy_.dissipated += ends[i].dissipated;
   }
@@ -116,7 +135,7 @@ void Stepping::advance(double tau, const Loads& loads, Monitor& monitor) {
 
 Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, Work& work, Monitor& monitor) {
   const Tableau& scheme = tableau(scheme_.order, !group.rates);
-  const Model& model = group.model;
+  const Model& model = *group.model;
   const double part = scheme.diagonal * tau;
   Stage out;
   std::vector<Rates> stages;
@@ -154,8 +173,8 @@ Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, 
 
 Fields Stepping::solve(Group& group, const Forces& forces, const Vector& b, double t, double tau, bool displaced, Work& work,
                        Monitor& monitor) {
-  const auto of = [&](std::optional<System>& system, const std::vector<char>& decomposed) -> System& {
-    if (!system || std::abs(system->tau() - tau) > kSameStep * tau) system.emplace(group.model, decomposed, tau);
+  const auto of = [&](std::shared_ptr<System>& system, const std::vector<char>& decomposed) -> System& {
+    if (!system || std::abs(system->tau() - tau) > kSameStep * tau) system = std::make_shared<System>(*group.model, decomposed, tau);
     return *system;
   };
   if (auto fields = of(group.system, group.decomposed).solve(forces, b, t, displaced, scheme_.method, work, monitor))
@@ -165,20 +184,20 @@ Fields Stepping::solve(Group& group, const Forces& forces, const Vector& b, doub
               .solve(forces, b, t, displaced, scheme_.method, work, monitor);
 }
 
-const Data& Stepping::data() const { return groups_.front()->model.data; }
+const Data& Stepping::data() const { return groups_.front().model->data; }
 
 std::vector<std::string> Stepping::decomposed() const {
   std::vector<std::string> out;
   for (const auto& group : groups_)
-    for (std::size_t p = 0; p < group->decomposed.size(); ++p)
-      if (group->decomposed[p] && group->always_decomposed) out.push_back(name(group->model.parts[p].effect.kind()));
+    for (std::size_t p = 0; p < group.decomposed.size(); ++p)
+      if (group.decomposed[p] && group.always_decomposed) out.push_back(name(group.model->parts[p].effect.kind()));
   return out;
 }
 
 Energy Stepping::energy() const {
   Energy out = energy_;
-  for (const auto& group : groups_) out.stored += group->stored(group->now, group->forces);
-  out.defect = out.stored + out.dissipated - out.put_in - at_first_;
+  for (const auto& group : groups_) out.stored += group.stored(group.now, group.forces);
+  out.defect = out.stored + out.dissipated + out.released - out.put_in - at_first_;
   return out;
 }
 

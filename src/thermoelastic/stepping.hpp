@@ -29,7 +29,14 @@ struct Scheme {
 ///   where a prescribed temperature jumps from the one at first).
 struct Energy {
   double stored = 0, put_in = 0, dissipated = 0;
-  double defect = 0;  ///< stored + dissipated − put in − stored at first
+  double released = 0;  ///< set free where supports broke, for a motion that this model does not follow; ≥ 0
+  double defect = 0;    ///< stored + dissipated + released − put in − stored at first
+};
+
+/// A support's law that broke: "right deflection".
+struct Broken {
+  std::string name;
+  double time = 0;
 };
 
 /// What a support does now.
@@ -39,13 +46,15 @@ struct Reaction {
   std::array<Driven, 3> driven{};  ///< by What
 };
 
-/// A thermoelastic beam stepped in time. Where α_h = α_d, stretching and bending are stepped on their own. A call that throws
-/// leaves the state as it was.
+/// A thermoelastic beam stepped in time. Where α_h = α_d, stretching and bending are stepped on their own. A step within which
+/// a support breaks is divided there, so that the scheme keeps its order. A call that throws leaves the state as it was.
 class Stepping {
  public:
   /// At t = 0, at rest under the loads and temperatures of that time. Throws InputError as require_valid() and
   /// Interface::solve().
   Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor);
+  Stepping(const Stepping&);
+  Stepping& operator=(Stepping&&);
   ~Stepping();
 
   void step(const Loads& loads, Monitor& monitor) { advance(scheme_.step, loads, monitor); }
@@ -55,10 +64,11 @@ class Stepping {
   double time() const { return time_; }
   int steps() const { return steps_; }
   const Data& data() const;
-  /// What is decomposed in every step so far (in words: "bending"), and what was not.
+  /// What was decomposed in every step since a support broke last (in words: "bending").
   std::vector<std::string> decomposed() const;
   const Work& work() const { return work_; }
   Energy energy() const;
+  const std::vector<Broken>& broken() const { return broken_; }  ///< in the order of time
 
   /// At x on the beam, else InputError.
   double deflection(double x) const;
@@ -76,17 +86,23 @@ class Stepping {
   struct Stage;
   struct Place;
   void advance(double tau, const Loads& loads, Monitor& monitor);
+  std::vector<Stage> trial(double tau, const Loads& loads, Work& work, Monitor& monitor);
+  double overload(const std::vector<Stage>& ends) const;
+  void accept(std::vector<Stage> ends, double tau, const Work& work);
+  void break_within(double tau, const Loads& loads, Monitor& monitor);
+  void break_supports(Group& group, Monitor& monitor);
   Stage stepped(Group& group, double tau, const Loads& loads, Work& work, Monitor& monitor);
   Fields solve(Group& group, const Forces& forces, const algebra::Vector& b, double t, double tau, bool displaced, Work& work,
                Monitor& monitor);
   Place place(Effect::Kind kind, double x) const;
 
   Scheme scheme_;
-  std::vector<std::unique_ptr<Group>> groups_;
+  std::vector<Group> groups_;
   double time_ = 0, at_first_ = 0;
   int steps_ = 0;
   Work work_;
-  Energy energy_;  ///< put_in and dissipated
+  Energy energy_;  ///< put_in, dissipated and released
+  std::vector<Broken> broken_;
 };
 
 }  // namespace dotyk::thermoelastic

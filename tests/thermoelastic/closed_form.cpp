@@ -142,7 +142,6 @@ TEST_CASE("numbers that make no sense are refused") {
   refused([](Data& d) { d.exchange_above = -1; });
   refused([](Data& d) { d.reference = 0; });
   refused([](Data& d) { d.cells = 0; });
-  refused([](Data& d) { d.supports[0].deflection = law(LawKind::breaking, 1, 1); });
   refused([](Data& d) { d.supports[0].deflection = law(LawKind::elastic, -1); });
   Data d = thermal_beam(4);
   CHECK_THROWS_AS(Stepping(d, {}, {0, Order::one, true, {}}, {}, monitor), InputError);
