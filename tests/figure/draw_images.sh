@@ -11,7 +11,7 @@
 quick="first friction two_blocks tower corner stack several_solutions ladder screws breaking beam beam_laws foundation supports hertz ball
   gears lug load_cone plate_cases plate_corners plate_obstacle channel penalty augmented_lagrangian coulomb_loop stability/degenerate stability/uzawa
   stability/rho stability/locking stability/contrast stability/weak_springs stability/load_limit stability/overconstrained
-  stability/penalty stability/stretched papers/beam_examples papers/beam_foundations"
+  stability/penalty stability/stretched papers/beam_examples papers/beam_foundations papers/beam_breaking"
 long="punch cattaneo_mindlin mortar cont roller wall three_blocks plate plate_friction thermoelastic semicoercive inf_sup
   open_question cycles alternating shape_derivatives iter stability/coulomb stability/cycling stability/inf_sup stability/screws
   papers/cube_with_friction papers/augmented_estimates papers/raised_penalties papers/friction_cells
