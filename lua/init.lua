@@ -26,6 +26,23 @@ core.describe{
   arguments = { { name = "f", kind = "any", required = true, help = "a function" } },
   run = core.lazily("source", "run") }
 
+local getinfo <const> = debug.getinfo
+core.describe{
+  name = "include",
+  help = "Runs a file of Lua and gives what it returns, as dofile does, but looks for it from the folder of the file that the call is in: "
+    .. "a script that includes others runs from every folder.",
+  example = "local common <const> = include \"lib/common.lua\"",
+  arguments = { { name = "file", kind = "string", required = true, help = "its name, from the folder of the script that includes it; at the prompt from the present one" } },
+  run = function(file)
+    local level, from = 2, getinfo(2, "S")
+    while from and from.what == "C" do
+      level = level + 1
+      from = getinfo(level, "S")
+    end
+    local folder <const> = not file:find "^/" and from and from.source:match "^@(.*/)"
+    return dofile((folder or "") .. file)
+  end }
+
 core.describe{
   name = "dotyk.adapt",
   help = "Refines meshes where a solution errs, until the error estimate is small: solves, estimates (solution:error_estimate), bisects "

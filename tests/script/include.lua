@@ -1,0 +1,16 @@
+-- include: from the folder of the file that calls it, however it is called.
+local check <const> = require "check"
+os.execute "mkdir -p include/lib"
+local function write(name, text)
+  local file <close> = assert(io.open(name, "w"))
+  file:write(text)
+end
+write("include/lib/one.lua", 'local two <const> = include "two.lua" return two + 1, "and more"')
+write("include/lib/two.lua", "return 2")
+write("include/lib/tail.lua", 'return include "two.lua"')
+write("include/first.lua", 'return include "lib/one.lua"')
+check.equal({ dofile "include/first.lua" }, { 3, "and more" })
+check.equal(dofile "include/lib/tail.lua", 2)
+write("include/calls.lua", 'return pcall(include, "lib/two.lua")')
+check.equal({ dofile "include/calls.lua" }, { true, 2 })
+check.equal({ pcall(dofile, "include/missing.lua") }, { false, "cannot open include/missing.lua: No such file or directory" })
