@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -119,11 +120,12 @@ struct LinearLoad {
 };
 
 /// By Gauss's rule of three points; nothing where the law is no load at one of these.
-std::optional<LinearLoad> projected(const LawField& law, const std::string& part, const Edge& edge) {
+std::optional<LinearLoad> projected(const LawField& law, const std::string& part, const Space& space, const Edge& edge) {
   const double root = std::sqrt(0.6);
+  const Vector2d a = node_position(*space.mesh, edge.node[0]), along = node_position(*space.mesh, edge.node[1]) - a;
   LinearLoad out{0, 0};
   for (const auto& [s, weight] : {std::pair(-root, 5. / 18), {0., 8. / 18}, {root, 5. / 18}}) {
-    const problem::SupportLaw at = law_at(law, part, edge.middle + s * edge.length / 2 * edge.tangent);
+    const problem::SupportLaw at = law_at(law, part, a + (1 + s) / 2 * along);  // x = 1 stays 1
     if (at.kind != problem::SupportLaw::Kind::load) return std::nullopt;
     out.mean += weight * at.value;
     out.slope += 3 * weight * s * at.value;
@@ -131,34 +133,46 @@ std::optional<LinearLoad> projected(const LawField& law, const std::string& part
   return out;
 }
 
-void add_forces(const EdgeSupport& on, const Space& space, const Edge& edge, int index, Vector& load) {
-  Vector2d at_ends(0, 0);
+/// The loads of a side at its ends: their linear course between does the load's work on every linear deflection. Where the law is no load all
+/// along, its values at those ends where it is one.
+Vector2d at_ends(const EdgeSupport& on, const Space& space, const Edge& edge) {
+  Vector2d out(0, 0);
   bool all = true;
   for (int end = 0; end < 2; ++end) {
     const problem::SupportLaw at = law_at(on.deflection, on.part, node_position(*space.mesh, edge.node[end]));
-    if (at.kind == problem::SupportLaw::Kind::load) at_ends[end] = at.value;
+    if (at.kind == problem::SupportLaw::Kind::load) out[end] = at.value;
     else all = false;
   }
-  if (const auto linear = all ? projected(on.deflection, on.part, edge) : std::nullopt) at_ends = {linear->mean - linear->slope, linear->mean + linear->slope};
-  for (int end = 0; end < 2; ++end)
-    if (at_ends[end] != 0) add(load, space.mean_deflection(index, edge.node[end]), at_ends[end]);
+  if (const auto linear = all ? projected(on.deflection, on.part, space, edge) : std::nullopt) out = {linear->mean - linear->slope, linear->mean + linear->slope};
+  return out;
 }
 
 }  // namespace
 
-void add_law_loads(const Plate& plate, const Space& space, const std::vector<Sample>& rotations, Vector& load) {
-  for (const EdgeSupport& on : plate.edges) {
+void add_law_loads(const Plate& plate, const Space& space, std::vector<Sample>& deflections, std::vector<Sample>& rotations, Vector& load) {
+  std::map<std::pair<int, int>, double> forces;  // by support and vertex
+  for (std::size_t s = 0; s < plate.edges.size(); ++s) {
+    const EdgeSupport& on = plate.edges[s];
     if (!on.deflection) continue;
     for (const mesh::Facet f : on.facets) {
-      const int edge = space.edges.of_cell[f.cell][f.local];
-      add_forces(on, space, space.edges.edges[edge], edge, load);
+      const int index = space.edges.of_cell[f.cell][f.local];
+      const Edge& edge = space.edges.edges[index];
+      const Vector2d values = at_ends(on, space, edge);
+      for (int end = 0; end < 2; ++end) {
+        if (values[end] == 0) continue;
+        add(load, space.mean_deflection(index, edge.node[end]), values[end]);
+        forces[{static_cast<int>(s), edge.node[end]}] += values[end] * edge.length / 2;
+      }
     }
   }
-  for (const Sample& s : rotations) {
+  for (Sample& s : deflections)
+    if (s.law.kind == problem::SupportLaw::Kind::load) s.law.value = forces[{s.support, s.place}] / s.share;
+  for (Sample& s : rotations) {
     if (s.law.kind != problem::SupportLaw::Kind::load) continue;
     const EdgeSupport& on = plate.edges[s.support];
-    const auto linear = space.element == Element::morley ? projected(on.rotation, on.part, space.edges.edges[s.place]) : std::nullopt;
-    add(load, rotation(space, s), (linear ? linear->mean : s.law.value) * s.share);
+    if (space.element == Element::morley)
+      if (const auto linear = projected(on.rotation, on.part, space, space.edges.edges[s.place])) s.law.value = linear->mean;
+    add(load, rotation(space, s), s.law.value * s.share);
   }
 }
 

@@ -28,8 +28,10 @@ class Finder {
 /// f is not finite, or a load is off the plate.
 algebra::Vector loads(const Plate& plate, const Space& space);
 
-/// Adds what laws of kind `load` do. Forces that vary along an edge act by their L² projection on its linear functions, so that their resultants
-/// are exact and what they do else to the order h⁴; moments by their mean on the edge (Morley) or Simpson's rule (HCT).
-void add_law_loads(const Plate& plate, const Space& space, const std::vector<Sample>& rotations, algebra::Vector& load);
+/// Adds what laws of kind `load` do, and writes the values that act into the samples. Forces that vary along an edge act by their L² projection on the
+/// linear functions of each side, so that their resultants are theirs up to Gauss's rule of three points, and what they do else to the order h⁴; moments by
+/// their mean on a side (Morley) or Simpson's rule (HCT). A law that is a load at nodes and none between
+/// them acts by its values at nodes.
+void add_law_loads(const Plate& plate, const Space& space, std::vector<Sample>& deflections, std::vector<Sample>& rotations, algebra::Vector& load);
 
 }  // namespace dotyk::plate

@@ -105,7 +105,7 @@ Model build(Plate plate) {
     if (!model.held.is[i]) model.unknown[i] = count++;
   if (count == 0) throw InputError("its supports hold every freedom: the mesh is too coarse; give it more cells");
   model.load = loads(plate, model.space);
-  add_law_loads(plate, model.space, model.rotations, model.load);
+  add_law_loads(plate, model.space, model.deflections, model.rotations, model.load);
   problem::add(model.problem, block(plate, model));
   add_rows(plate, model);
   if (model.problem.rows() > 0) problem::require_moderate(model.problem, problem::kMostForceOnRows);

@@ -65,7 +65,7 @@ std::string conditions(const Model& model) {
   const Kinds is = kinds(model);
   std::string out;
   const auto add = [&](const std::string& condition) { out += (out.empty() ? "" : "; ") + condition; };
-  if (!is.signorini && !is.one_sided_elastic && !is.friction) add("nothing but the load acts on it: its resultant and moments must vanish (P5 (33))");
+  if (!is.signorini && !is.one_sided_elastic && !is.friction) add("nothing but the load acts on it: its resultant and moments must vanish (P5 (33)), where they are functions as quadrature takes them and to 1e-6 of all forces");
   if (is.signorini) add("one-sided supports: the load must press on them, its resultant < 0 (P5 (45))");
   if (is.friction) add(text("friction: the resultant must be below all that it can bear, ", is.bound, " (P5 (63))"));
   if (is.one_sided_elastic) add("one-sided elastic supports: the load must press on them, its resultant < 0 (P5 (74), where u counts downwards)");

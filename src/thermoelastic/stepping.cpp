@@ -149,19 +149,25 @@ Stepping::Stage Stepping::stepped(Group& group, double tau, const Loads& loads, 
     out.fields = solve(group, out.forces, base + part * out.forces.r, t, part, last || !model.held_heat.empty(), work, monitor);
     const Vector& theta = out.fields.theta;
     const Vector loss = model.conduction * theta;
-    Rates rates{out.forces.r - loss};  // by the heat equation, but where a temperature is held
-    if (!model.held_heat.empty()) rates.entropy = (model.entropy(out.fields.u, theta) - base) / part;
+    Rates rates{out.forces.r - loss};  // by the heat equation, which does not hold where a temperature is
     out.entropy = base + part * rates.entropy;
+    if (last && !model.held_heat.empty()) {
+      const Vector entropy = model.entropy(out.fields.u, theta);
+      for (const HeldTemperature& held : model.held_heat) out.entropy[held.unknown] = entropy[held.unknown];
+    }
     rates.dissipated = theta.dot(loss);
     rates.supplied = out.forces.r.dot(theta);
-    for (const HeldTemperature& held : model.held_heat)  // what flows in there keeps the temperature
-      rates.supplied += (rates.entropy + loss - out.forces.r)[held.unknown] * theta[held.unknown];
+    for (const HeldTemperature& held : model.held_heat) rates.supplied -= rates.entropy[held.unknown] * theta[held.unknown];
     stages.push_back(std::move(rates));
   }
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const double weight = tau * (i + 1 < stages.size() ? scheme.a.back()[i] : scheme.diagonal);
     out.dissipated += weight * stages[i].dissipated;
     out.put_in += weight * stages[i].supplied;
+  }
+  for (const HeldTemperature& held : model.held_heat) {  // what flows in there keeps the temperature
+    const double before = group.now.theta[held.unknown], after = out.fields.theta[held.unknown];
+    out.put_in += (out.entropy - group.entropy)[held.unknown] * (scheme_.order == Order::one ? after : 0.5 * (before + after));
   }
   const Vector moved = out.fields.u - group.now.u;
   out.put_in += scheme_.order == Order::one ? out.forces.f.dot(moved) : 0.5 * (group.forces.f + out.forces.f).dot(moved);

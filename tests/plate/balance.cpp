@@ -170,3 +170,19 @@ TEST_CASE("corners where two parts meet") {
     CHECK((a->freedoms() - b->freedoms()).norm() < 1e-9 * a->freedoms().norm());
   }
 }
+
+TEST_CASE("loads that vary along an edge are told as they act: with what holds the plate they balance") {
+  for (const plate::Element element : kElements)
+    for (const int n : {4, 8}) {
+      Plate p = test::plate_on(test::rough(n), element);
+      test::support(p, "bottom", {Kind::prescribed}, {Kind::prescribed});
+      test::support(p, "top", kFree, kFree);
+      p.edges.back().deflection = [](double x, double) { return SupportLaw{Kind::load, -std::pow(x, 4)}; };
+      const auto s = test::solved(p);
+      double top = 0;
+      for (const auto& piece : plate::reaction(*s, 1).pieces)
+        for (const auto& at : piece) top += at.force;
+      CHECK(top == doctest::Approx(-0.2).epsilon(n == 4 ? 1e-6 : 1e-8));  // ∫x⁴; Gauss's rule of three points is exact to x⁵
+      CHECK(std::abs(supported(*s)[0]) < kTight);
+    }
+}

@@ -157,3 +157,22 @@ TEST_CASE("a bar between walls breaks a support along its axis while bending goe
   CHECK(s.normal(0.5) == doctest::Approx(0));
   CHECK(s.displacement(1) > 0);
 }
+
+TEST_CASE("a temperature that jumps while a support breaks, or before a short step, puts in what it does otherwise") {
+  Data d = propped(0.4);
+  d.heat_ends[0].mean = d.heat_ends[0].gradient = true;
+  Loads jumping = pressing();
+  jumping.mean[0] = history([](double t) { return t > 0.3 ? 1.0 : 0; });
+  jumping.gradient[0] = history([](double t) { return t > 0.3 ? 2.0 : 0; });
+  const auto put_in = [&](int steps, double shortest) {
+    Stepping s(d, {}, {1.0 / steps, Order::two, true, {}}, jumping, monitor);
+    s.run(0.3, jumping, monitor);
+    s.run(0.3 + shortest, jumping, monitor);
+    s.run(1, jumping, monitor);
+    CHECK(s.broken().size() == 1);
+    CHECK(std::abs(s.energy().defect) < 0.1 * s.energy().put_in);
+    return s.energy().put_in;
+  };
+  const double expected = put_in(400, 0.001);
+  for (const double shortest : {1e-10, 1e-6, 1e-3}) CHECK(put_in(200, shortest) == doctest::Approx(expected).epsilon(0.02));
+}
