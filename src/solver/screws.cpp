@@ -38,7 +38,7 @@ double regularity_of(const DenseMatrix& N) {
 
 Screws::Screws(const Problem& problem, DenseMatrix N, Vector e, std::vector<int> rows)
     : problem_(problem), N_(std::move(N)), e_(std::move(e)), unilateral_(problem.rows(), 0), friction_(problem.rows(), nullptr),
-      rows_(std::move(rows)), tried_(problem.rows(), 0) {
+      rows_(std::move(rows)) {
   for (const problem::RowGroup& group : problem.groups) std::fill_n(unilateral_.begin() + group.first, group.count, group.law->unilateral());
   may_hold_ = unilateral_;
   for (const FrictionGroup& group : problem.friction)
@@ -96,6 +96,13 @@ void Screws::add(const std::vector<int>& order, double least) {
   }
 }
 
+namespace {
+std::vector<int> sorted(std::vector<int> rows) {
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+}  // namespace
+
 double Screws::excess(int row, const Vector& lambda) const {
   const FrictionGroup* group = friction_[row];
   if (!group) return -lambda[row];
@@ -108,26 +115,34 @@ bool Screws::pulls(const Vector& lambda, double noise) const {
 }
 
 bool Screws::move(const Vector& lambda, double noise) {
-  if (!pulls(lambda, noise)) return false;
-  const auto worst = std::max_element(rows_.begin(), rows_.end(), [&](int a, int b) { return excess(a, lambda) < excess(b, lambda); });
-  tried_[*worst] = 1;
+  tried_.insert(sorted(rows_));
+  std::vector<int> pulling;
+  for (int k = 0; k < static_cast<int>(rows_.size()); ++k)
+    if (excess(rows_[k], lambda) > noise) pulling.push_back(k);
+  std::sort(pulling.begin(), pulling.end(), [&](int a, int b) { return excess(rows_[a], lambda) > excess(rows_[b], lambda); });
+  for (const int k : pulling)
+    if (move(k, lambda, noise)) return true;
+  return false;
+}
+
+bool Screws::move(int screw, const Vector& lambda, double noise) {
   // Neighbours on the contact see rigid motions alike: the distance of rows of N. Rows that press or stick
   // come first, others only where none does.
-  int best = -1;
+  std::vector<int> best;
   double nearest = INFINITY;
   for (int r = 0; r < problem_.rows(); ++r) {
-    if (!may_hold_[r] || tried_[r] || std::find(rows_.begin(), rows_.end(), r) != rows_.end()) continue;
+    if (!may_hold_[r] || std::find(rows_.begin(), rows_.end(), r) != rows_.end()) continue;
     const double far = excess(r, lambda) < -noise ? 0 : 1e6;
-    const double distance = far + (N_.row(r) - N_.row(*worst)).norm();
+    const double distance = far + (N_.row(r) - N_.row(rows_[screw])).norm();
     if (!(distance < nearest)) continue;
     std::vector<int> moved = rows_;
-    moved[worst - rows_.begin()] = r;
-    if (!regular(moved)) continue;
+    moved[screw] = r;
+    if (tried_.count(sorted(moved)) || !regular(moved)) continue;
     nearest = distance;
-    best = r;
+    best = std::move(moved);
   }
-  if (best < 0) return false;
-  *worst = best;
+  if (best.empty()) return false;
+  rows_ = std::move(best);
   ++moves_;
   return true;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "problem/condensed.hpp"
@@ -27,12 +28,13 @@ class Screws {
   double determinant() const;
   int moves() const { return moves_; }
 
-  /// Moves the screw that pulls most, or bears most beyond its friction bound, to the row nearest along N that presses or sticks and keeps
-  /// N_S regular. False where none does (beyond `noise`) or nothing is left to try.
+  /// Moves the screw that pulls most, or bears most beyond its friction bound (else the next such), to the row nearest along N that presses or sticks and
+  /// keeps N_S regular, never back to a placement. False where none does (beyond `noise`) or nothing is left to try.
   bool move(const algebra::Vector& lambda, double noise);
   bool pulls(const algebra::Vector& lambda, double noise) const;
 
  private:
+  bool move(int screw, const algebra::Vector& lambda, double noise);
   void complete();
   bool regular(const std::vector<int>& rows) const;
   /// Adds, in this order, rows that hold a motion more, by `least` of the greatest singular value.
@@ -47,7 +49,7 @@ class Screws {
   std::vector<char> unilateral_, may_hold_;
   std::vector<const problem::FrictionGroup*> friction_;
   std::vector<int> rows_;
-  std::vector<char> tried_;  ///< rows that a screw was moved away from
+  std::set<std::vector<int>> tried_;  ///< placements, ascending
   int moves_ = 0;
 };
 

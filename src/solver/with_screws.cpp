@@ -106,12 +106,10 @@ void WithScrews::iterate(RowIteration& it) const {
     const Vector lambda = held.multipliers(found.state.lambda);
     it.move_to(lambda, held.amounts(it.condensed.jump(lambda, Vector())));
     if (it.record()) break;
-    if (!found.converged) {
-      it.give_up(text("held by screws: ", found.reason));
-      break;
-    }
+    // Where the inner method does not end, a screw may be where the solution slips.
     placed = places.moves() < max_moves && places.move(lambda, 1e-9 * lambda.lpNorm<Eigen::Infinity>());
-    if (!placed) it.give_up(text("a screw still pulls, or slips, after ", places.moves(), " moves"));
+    if (!placed) it.give_up(text(found.converged ? std::string() : "held by screws: " + found.reason + "; ", "a screw still pulls, or slips, after ", places.moves(),
+                                " moves: where fewer points stick than motions are free no place is right; kernel = \"exact\" needs none"));
   }
   it.remark(text(iterations, " iterations of ", inner->name()));
 }

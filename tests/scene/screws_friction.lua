@@ -29,6 +29,24 @@ for _, multipliers in ipairs{ "nodal", "P1-P0" } do
   end
 end
 
+-- A free cube in space, which turns and slips: screws that were placed where it slips move.
+do
+  local cube <const> = dotyk.body{ name = "cube", material = dotyk.material{ E = 1000, nu = 0.3 },
+    mesh = dotyk.mesh.box{ from = { 0, 0, 0 }, to = { 1, 1, 1 }, cells = { 3, 3, 3 } } }
+  cube:part"top":load{ 0.3, 0, -3 }
+  local scene <const> = dotyk.scene{ cube }
+  local contact <const> = scene:contact{ cube:part"bottom", rigid = dotyk.rigid.plane{ point = { 0, 0, 0 }, normal = { 0, 0, 1 } }, friction = dotyk.friction.tresca(1) }
+  local exact <const> = dotyk.solver.newton{ tol = 1e-12 }:solve(scene)
+  for _, name in ipairs{ "newton", "uzawa_pdas" } do
+    local s <const> = dotyk.solver[name]{ tol = 1e-12, max_iterations = 5000, kernel = "screws" }:solve(scene)
+    check.that(s.converged and s.screw_moves > 0 and #s.screws[1].rows == 6, s.reason)
+    for k, node in ipairs(s:contact(contact).nodes) do
+      check.near(node.pressure, exact:contact(contact).nodes[k].pressure, 1e-8)
+      check.near(node.shear, exact:contact(contact).nodes[k].shear, 1e-8)
+    end
+  end
+end
+
 -- Two screws at one node, too few, and what they do not go with.
 local scene <const> = block(dotyk.friction.tresca(1))
 refused.intact = function() check.that(dotyk.solver.newton{ kernel = "screws" }:solve(scene).converged) end
