@@ -62,7 +62,7 @@ std::vector<FrictionCell> friction_cells(const Surface& surface, const std::vect
 /// fills; in the plane the longest edge.
 double facet_width(const Surface& surface);
 
-/// The default H/h in space, by the inf-sup constants of scripts/inf_sup.lua (two unit blocks, h = 1/4, 1/8, 1/16):
+/// The default H/h in space, by the inf-sup constants of scripts/papers/tr965/inf_sup.lua (two unit blocks, h = 1/4, 1/8, 1/16):
 /// those of cells of two triangles, H = h, fall with h (0.45, 0.22, 0.10; quadrilaterals 0.46, 0.14, 0.04), single
 /// triangles have a kernel; with H = 2h they settle (1.16, 0.90, 0.81; quadrilaterals 1.30, 1.15, 1.10) where the
 /// dual cells of the plane are (0.83; quadrilaterals 1.10). H = 3h and 4h gain little more (1.00 and 1.21 at

@@ -21,7 +21,7 @@ struct PairedRows {
 /// facets follow the curve.
 /// Rows of contact by the pairing asked for; none asked for: at nodes where all match and facets are of one kind, else mortar. So that
 /// the order of naming decides nothing, mortar's multipliers are those of the part that is coarser where the parts are nearest: on the
-/// finer the pressure wavers (scripts/mortar.lua, P1: Hertz's contact 80 cells on 112, 0.9 of the error of matching nodes; the other way
+/// finer the pressure wavers (scripts/studies/accuracy/mortar.lua, P1: Hertz's contact 80 cells on 112, 0.9 of the error of matching nodes; the other way
 /// round 1.4), and forces of friction are further off. Of two alike they are the first's; in order 2, where the choice makes some per cent
 /// on coarse meshes, those of the part with the greater area. Nodes to segments are the finer part's: a coarser one's would let nodes
 /// between them through. Where the second part lies above itself, the rows are the first's whatever the widths. Throws InputError

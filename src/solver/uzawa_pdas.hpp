@@ -26,7 +26,7 @@ namespace dotyk::solver {
 /// and 2c move slipping forces along their circles by Uzawa steps of length ρ. The sets themselves settle
 /// only for ρ below Uzawa's bound: a row left out of A that closes in 1c is pushed by ρx in 2a, and where
 /// that throws it open by more than x, 1b leaves it out again, for ever. In space stick and slip may go round
-/// for every ρ (scripts/alternating.lua).
+/// for every ρ (scripts/papers/tr965/alternating.lua).
 struct UzawaPdas : RowMethod {
   enum class Unit { bound, stiffness, report };
   double rho = 0.5;

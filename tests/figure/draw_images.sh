@@ -4,27 +4,31 @@
 #   tests/figure/draw_images.sh DOTYK [quick|long|timed|SCRIPT]…                 puts them into images/; without names quick and long
 #   tests/figure/draw_images.sh --compare SAME_PICTURE DOTYK [quick|long|SCRIPT]…  changes nothing, and fails where one differs
 #
-# SCRIPT is a file of scripts/ without .lua, as stability/rho. A picture whose script fails stays as it is.
+# SCRIPT is a file of scripts/ without .lua, as studies/stability/rho. A picture whose script fails stays as it is.
 # Pictures that show seconds or memory are timed: to be drawn on a machine that does nothing else, never compared. Of the others those
 # are quick whose scripts take up to six seconds of a processor; the test figure/images compares them.
 # long: up to some minutes; to be compared by hand after changes of solvers or figures, or once a week.
-quick="first friction two_blocks tower corner stack several_solutions ladder screws breaking beam beam_laws foundation supports hertz ball
-  gears lug load_cone plate_cases plate_corners plate_obstacle channel penalty augmented_lagrangian coulomb_loop stability/degenerate stability/uzawa
-  stability/rho stability/locking stability/contrast stability/weak_springs stability/load_limit stability/overconstrained
-  stability/penalty stability/stretched papers/beam_examples papers/beam_foundations papers/beam_breaking"
-long="punch cattaneo_mindlin mortar cont roller wall three_blocks plate plate_friction thermoelastic semicoercive inf_sup
-  open_question cycles alternating shape_derivatives iter stability/coulomb stability/cycling stability/inf_sup stability/screws
-  papers/cube_with_friction papers/augmented_estimates papers/raised_penalties papers/friction_cells
-  papers/semicoercive_theorems papers/semicoercive_working_sets
-  papers/plate_edges papers/screws_with_friction papers/normalisation papers/report_scaling
-  papers/rates papers/newton_remainder papers/m_matrix
-  papers/channel_fields
-  papers/penalised_spectra
-  papers/cont_figures papers/cont_table
-  papers/modified_cholesky"
-timed="adaptivity fclib feti_scaling second_order stability/interrupted work_precision/ball work_precision/beam
-  work_precision/friction work_precision/hertz work_precision/plate work_precision/semicoercive work_precision/three_blocks
-  work_precision/tolerances"
+quick="first examples/friction examples/two_blocks examples/tower examples/corner examples/stack examples/several_solutions
+  examples/ladder papers/tr965/screws examples/breaking examples/beam studies/accuracy/beam_laws examples/foundation examples/supports
+  studies/accuracy/hertz examples/ball examples/gears examples/lug examples/load_cone papers/horak_fibinger/plate_cases
+  examples/plate_corners examples/plate_obstacle papers/hlavacova/channel studies/methods/penalty papers/alesawi/augmented_lagrangian
+  studies/methods/coulomb_loop studies/stability/degenerate studies/stability/uzawa studies/stability/rho studies/stability/locking
+  studies/stability/contrast studies/stability/weak_springs studies/stability/load_limit studies/stability/overconstrained
+  studies/stability/penalty studies/stability/stretched papers/horak/beam_examples papers/horak/beam_foundations
+  papers/horak/beam_breaking"
+long="examples/punch studies/accuracy/cattaneo_mindlin studies/accuracy/mortar papers/vondrak/cont examples/roller examples/wall
+  papers/dostal/three_blocks examples/plate examples/plate_friction examples/thermoelastic papers/netuka/semicoercive
+  papers/tr965/inf_sup papers/tr965/open_question studies/matrices/cycles papers/tr965/alternating studies/accuracy/shape_derivatives
+  papers/vondrak/iter studies/stability/coulomb studies/stability/cycling studies/stability/inf_sup studies/stability/screws
+  papers/tr965/cube_with_friction papers/alesawi/augmented_estimates papers/alesawi/raised_penalties papers/tr965/friction_cells
+  papers/netuka/semicoercive_theorems papers/netuka/semicoercive_working_sets papers/horak_fibinger/plate_edges
+  papers/tr965/screws_with_friction papers/tr965/normalisation papers/tr965/report_scaling papers/tr965/rates
+  papers/tr965/newton_remainder papers/tr965/m_matrix papers/hlavacova/channel_fields papers/dostal/penalised_spectra
+  papers/vondrak/cont_figures papers/vondrak/cont_table papers/netuka/modified_cholesky"
+timed="studies/accuracy/adaptivity studies/matrices/fclib studies/methods/feti_scaling studies/accuracy/second_order
+  studies/stability/interrupted studies/work_precision/ball studies/work_precision/beam studies/work_precision/friction
+  studies/work_precision/hertz studies/work_precision/plate studies/work_precision/semicoercive studies/work_precision/three_blocks
+  studies/work_precision/tolerances"
 
 usage() { sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 2; }
 same=

@@ -1,5 +1,5 @@
 -- FETI where rows depend on each other: four blocks around a point, joints in contact or glued, as
--- scripts/stability/overconstrained.lua has them. Under uniform pressure the multipliers that the coarse space begins
+-- scripts/studies/stability/overconstrained.lua has them. Under uniform pressure the multipliers that the coarse space begins
 -- with are the solution, and what is left of the dual's right-hand side is rounding; under others there is work to do.
 local check <const> = require "check"
 

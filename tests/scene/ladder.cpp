@@ -46,7 +46,7 @@ struct Ladder {
     floor = lean("left", {0, 1, 0}, mu_floor);
     wall = lean("right", {1, 0, 0}, mu_wall);
   }
-  /// The least x of the load that floor and wall carry (scripts/ladder.lua derives it).
+  /// The least x of the load that floor and wall carry (scripts/examples/ladder.lua derives it).
   static double limit(double mu_floor, double mu_wall) { return (D - mu_floor * wide * H) / (1 + mu_floor * mu_wall); }
 };
 

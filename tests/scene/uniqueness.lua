@@ -102,7 +102,7 @@ do
   check.that(one.exists and one.unique == (one.factor > 1))
   check.that(#dotyk.all_solutions(lid(0.1 * one.factor)) == 1)
 end
--- The bound is never above the coefficient from which on a strut has several solutions (scripts/stability/coulomb.lua).
+-- The bound is never above the coefficient from which on a strut has several solutions (scripts/studies/stability/coulomb.lua).
 for _, angle in ipairs{ 45, 60, 75 } do
   local function strut(mu)
     local mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 6}, cells = {1, 6} }

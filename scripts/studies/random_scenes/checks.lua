@@ -1,0 +1,252 @@
+-- Is a state that a method calls converged a solution? Checks of the scenes of scripts/studies/random_scenes.lua from nodal output and from
+-- loads integrated there. Loaded by include; returns check(scene, made, solution), a list of what is wrong.
+--
+-- Tolerances. Methods end at a natural residual of 1e-10 of the greatest force and lose some digits where stiffnesses differ by six
+-- orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest one; where nothing is pressed,
+-- forces to 1e-9 of the stiffness. Displacements count as known to 1e-14 of the size, which is what rounding leaves of a gap across an
+-- inclined plane. A node's force is known to 1e-9 of the greatest stress on the scene's section, which may be much as a pressure where
+-- the node's share of the area is small. Rounding of large motions is 1e-12 of the forces that strains of their size would make.
+
+local laws <const>, solids <const> = include "laws.lua", include "solids.lua"
+local accuracy <const> = 1e-6
+
+local function dot(a, b)
+  local sum = 0
+  for k, v in ipairs(a) do sum = sum + v * b[k] end
+  return sum
+end
+local function norm(a) return dot(a, a)^0.5 end
+local function point(scene, node) return { node.x, node.y, scene.dimension == 3 and node.z or nil } end
+
+-- 1. Scales: the greatest pressure or traction, and the greatest displacement.
+local function scales(scene, contacts, supports, displacement)
+  local scale = { stress = 0 }
+  for _, body in ipairs(scene.bodies) do
+    for _, load in ipairs(body.loads) do scale.stress = math.max(scale.stress, norm(load.force) / scene.size^(scene.dimension - 1)) end
+  end
+  scale.length = math.max(displacement, 1e-8 * scene.size)
+  local function see(nodes)
+    for _, node in ipairs(nodes) do
+      scale.stress = math.max(scale.stress, math.abs(node.pressure), norm(node.shear))
+      scale.length = math.max(scale.length, norm(node.slip))
+    end
+  end
+  for _, contact in ipairs(contacts) do see(contact.nodes) end
+  for _, support in ipairs(supports) do see(support.nodes) end
+  scale.stress = math.max(scale.stress, 1e-6 * scene.stiffest * scale.length / scene.size)
+  if scale.stress < 1e-8 * scene.stiffest then scale.stress = 1e-3 * scene.stiffest end -- nothing is pressed
+  return { p = accuracy * scale.stress, u = accuracy * scale.length, stress = scale.stress, length = scale.length,
+    force = 1e-3 * accuracy * scale.stress * scene.size^(scene.dimension - 1) }
+end
+
+-- 2. Laws. Friction: at most `bound`; below it no slip, against the slip where there is some. A slip known up to 10 tol.u
+-- has a direction known up to that / |slip|.
+local function check_friction(at, node, bound, tol, wrong, held)
+  local shear, slip = norm(node.shear), norm(node.slip)
+  if shear > bound + tol.p then wrong("shear %.3g beyond its bound %.3g at %s", shear, bound, at) end
+  if slip <= tol.u or held then return end
+  if bound == math.huge then return wrong("slip %.3g where there is none at %s", slip, at) end
+  local off = {}
+  for k, s in ipairs(node.slip) do off[k] = node.shear[k] + bound * s / slip end
+  if norm(off) > tol.p + 10 * bound * tol.u / slip then
+    wrong("slip %.3g, shear %.6g of %.6g, off by %.3g at %s", slip, shear, bound, norm(off), at)
+  end
+end
+
+-- A node whose distance is held, by supports on both sides, has no condition of its own: it lies on sides of both bodies that are held (on a
+-- disc anywhere). One that is held in a direction inclined to its normal, as on a disc's facets, slips as it approaches: the row of that
+-- tangent says what the normal's does, and is left out. So is friction across a plane of symmetry.
+local function holds_at(scene, body, x)
+  for _, support in ipairs(scene.supports) do
+    local law <const> = support.law
+    local holds <const> = not law or (law.normal and law.normal.name == "prescribed") or (law.tangential and law.tangential.name == "prescribed")
+    if support.body == body.index and holds and (body.disc or solids.on(scene, x, body, support.side)) then return true end
+  end
+  return false
+end
+
+local function is_held(scene, contact, node)
+  local x <const> = { node.x, node.y, scene.dimension == 3 and node.z or nil }
+  return holds_at(scene, contact.first.body, x) and (not contact.second or holds_at(scene, contact.second.body, x))
+end
+
+local function inclined(normal)
+  for _, n in ipairs(normal) do if math.abs(n) > 1 - 1e-9 then return false end end
+  return true
+end
+
+-- At a corner of the part, a node with sides of its own, given friction acts at the nodes beside it.
+local function at_corner(scene, nodes, node)
+  local sides = 0
+  for _, other in ipairs(nodes) do
+    if other.x == node.x and other.y == node.y and (scene.dimension == 2 or other.z == node.z) then sides = sides + 1 end
+  end
+  return sides > 1
+end
+
+local function check_contact(scene, contact, result, scale, wrong)
+  for k, node in ipairs(result.nodes) do
+    local tol = { p = math.max(scale.p, scale.force / node.weight), u = scale.u }
+    local at = ("node %d of %s"):format(k, contact.name)
+    local p, gap, law = node.pressure, node.gap, contact.friction
+    if not (p == p and gap == gap) then wrong("not a number at %s", at) end
+    if p < -tol.p then wrong("tension %.3g at %s", p, at) end
+    if gap < -tol.u and not (p == 0 and is_held(scene, contact, node)) then wrong("penetration %.3g at %s", -gap, at) end
+    if p > tol.p and gap > tol.u then wrong("pressure %.3g across a gap of %.3g at %s", p, gap, at) end
+    if node.status == "open" and math.abs(p) > tol.p then wrong("open with pressure %.3g at %s", p, at) end
+    if node.status ~= "open" and gap > tol.u then wrong("%s with gap %.3g at %s", node.status, gap, at) end
+    if law then check_friction(at, node, law.kind == "tresca" and law.value or law.value * math.max(p, 0), tol, wrong,
+      law.kind == "tresca" and at_corner(scene, result.nodes, node) or
+      is_held(scene, contact, node) and (contact.second or contact.first.body.disc or inclined(node.normal)))
+    elseif norm(node.shear) > tol.p then wrong("shear without friction at %s", at) end
+  end
+end
+
+local function check_support(support, result, tol, wrong)
+  for k, node in ipairs(result.nodes) do
+    local at = ("node %d of %s"):format(k, support.name)
+    local normal, tangential = support.law.normal, support.law.tangential
+    local function on(law, which, v, r)
+      local off = laws.distance(law, v, r, tol.u, tol.p)
+      if off > 1 then wrong("%s law %s: v = %.6g, r = %.6g at %s", which, law.name, v, r, at) end
+    end
+    if normal then on(normal, "normal", node.away, node.pressure)
+    elseif math.abs(node.pressure) > tol.p then wrong("pressure without a law at %s", at) end
+    if not tangential then
+      if norm(node.shear) > tol.p then wrong("shear without a law at %s", at) end
+    elseif tangential.name == "friction" then
+      check_friction(at, node, tangential.numbers[1], tol, wrong)
+    elseif #node.normal == 2 then
+      local t = { -node.normal[2], node.normal[1] }
+      on(tangential, "tangential", dot(node.slip, t), dot(node.shear, t))
+    else
+      for i = 1, 3 do on(tangential, "tangential", node.slip[i], node.shear[i]) end
+    end
+  end
+end
+
+-- 3. Equilibrium of bodies, those that are glued together as one: forces, and moments where all forces are known at points
+-- (supports by fix, slide, displace and spring tell their sum alone; on curved
+-- facets of order 2 the mean in which a node's force acts is not at the node).
+local function parts_of_equilibrium(scene)
+  local group = {}
+  for k in ipairs(scene.bodies) do group[k] = k end
+  for _, tie in ipairs(scene.glues) do
+    local from, to = group[tie.one], group[tie.other]
+    for k, v in ipairs(group) do if v == from then group[k] = to end end
+  end
+  local sums = {}
+  for k in ipairs(scene.bodies) do
+    sums[group[k]] = sums[group[k]] or { force = { 0, 0, 0 }, moment = { 0, 0, 0 }, gross = 0, gross_moment = 0, whole = true }
+  end
+  return sums, group
+end
+
+-- Adds `share` times a force at x; moments are about the origin, levers those of the scene's extent.
+local function push(sum, x, force, share, extent)
+  local f = { share * force[1], share * force[2], share * (force[3] or 0) }
+  local r = { x[1], x[2], x[3] or 0 }
+  for k = 1, 3 do
+    local i, j = k % 3 + 1, (k + 1) % 3 + 1
+    sum.force[k] = sum.force[k] + f[k]
+    sum.moment[k] = sum.moment[k] + r[i] * f[j] - r[j] * f[i]
+  end
+  sum.gross = sum.gross + norm(f)
+  sum.gross_moment = sum.gross_moment + norm(f) * extent
+end
+
+local function node_force(node)
+  local f = {}
+  for k, n in ipairs(node.normal) do f[k] = node.weight * (node.shear[k] - node.pressure * n) end
+  return f
+end
+
+-- Where a node's force acts on the side of a body that is plane: across the gap, along the normal of that side.
+local function foot(scene, where, x)
+  local plane = scene.plane(where.body, where.side)
+  local d = dot(plane.normal, x) - dot(plane.normal, plane.point)
+  local y = {}
+  for k, v in ipairs(x) do y[k] = v - d * plane.normal[k] end
+  return y
+end
+
+local function check_equilibrium(scene, made, solution, contacts, supports, tol, wrong)
+  local sums, group = parts_of_equilibrium(scene)
+  local extent = scene.extent
+  for k, body in ipairs(scene.bodies) do
+    for _, load in ipairs(body.loads) do push(sums[group[k]], load.x, load.force, 1, extent) end
+  end
+  for k, contact in ipairs(scene.contacts) do
+    for side, share in pairs{ first = 1, second = -1 } do
+      local where = contact[side]
+      local sum = where and sums[group[where.body.index]]
+      if sum and contact.curved and (contact.second or contact.first.body.element:sub(2) == "2") then sum.whole = false end
+      for _, node in ipairs(sum and contacts[k].nodes or {}) do
+        local x = point(scene, node)
+        push(sum, contact.curved and x or foot(scene, where, x), node_force(node), share, extent)
+      end
+    end
+  end
+  for k, support in ipairs(scene.supports) do
+    local sum = sums[group[support.body]]
+    for _, node in ipairs(support.law and supports[k].nodes or {}) do push(sum, point(scene, node), node_force(node), 1, extent) end
+    local body = scene.bodies[support.body]
+    if not support.law or (body.element:sub(2) == "2" and (body.disc or body.bend ~= 0)) then sum.whole = false end
+    if not support.law then
+      push(sum, { 0, 0, 0 }, { solution:reaction(made.supports[k]) }, 1, extent)
+    end
+  end
+  tol.gross = 0
+  for _, sum in pairs(sums) do tol.gross = tol.gross + sum.gross end
+  for k, sum in pairs(sums) do
+    -- Beside the accuracy of forces: rounding of inner forces, a body's stiffness times its motion.
+    local rounding = 1e-12 * scene.stiffest * tol.length * scene.size^(scene.dimension - 2) + 1e-9 * tol.gross
+    if not (norm(sum.force) <= accuracy * sum.gross + rounding) then -- also where it is not a number
+      wrong("forces on b%d do not balance: %.3g of %.3g", k, norm(sum.force), sum.gross)
+    elseif sum.whole and norm(sum.moment) > accuracy * sum.gross_moment + rounding * extent then
+      wrong("moments on b%d do not balance: %.3g of %.3g", k, norm(sum.moment), sum.gross_moment)
+    end
+  end
+end
+
+-- The greatest displacement of the bodies' middles and their contact nodes.
+local function greatest_displacement(scene, made, solution)
+  local most = 0
+  for k, body in ipairs(scene.bodies) do
+    for _, x in ipairs(scene.samples(body)) do
+      most = math.max(most, norm{ solution:displacement(made.bodies[k], table.unpack(x)) })
+    end
+  end
+  return most
+end
+
+return function(scene, made, solution)
+  local complaints, contacts, supports = {}, {}, {}
+  local function wrong(...) table.insert(complaints, (string.format(...))) end
+  for k in ipairs(scene.contacts) do contacts[k] = solution:contact(made.contacts[k]) end
+  for k, support in ipairs(scene.supports) do supports[k] = support.law and solution:support(made.supports[k]) or { nodes = {} } end
+  local tol = scales(scene, contacts, supports, greatest_displacement(scene, made, solution))
+  for k, contact in ipairs(scene.contacts) do check_contact(scene, contact, contacts[k], tol, wrong) end
+  for k, support in ipairs(scene.supports) do
+    if support.law then check_support(support, supports[k], tol, wrong) end
+  end
+  check_equilibrium(scene, made, solution, contacts, supports, tol, wrong)
+  local rubbing = 0 -- given friction's bounds, of which slips known to 1e-7 make work
+  for k, contact in ipairs(scene.contacts) do
+    local given = contact.friction and contact.friction.kind == "tresca" and contact.friction.value < math.huge
+    for _, node in ipairs(given and contacts[k].nodes or {}) do rubbing = rubbing + contact.friction.value * node.weight end
+  end
+  for k, support in ipairs(scene.supports) do
+    for _, law in pairs(support.law or {}) do
+      local given = law.name == "friction" or law.name == "one_sided_friction"
+      for _, node in ipairs(given and supports[k].nodes or {}) do rubbing = rubbing + law.numbers[1] * node.weight end
+    end
+  end
+  -- Where loads meet their reactions at once nothing moves: forces count by what they would move the stiffest body by.
+  local moved <const> = math.max(tol.length, tol.stress * scene.size / scene.stiffest)
+  tol.energy = (1e-9 * tol.gross + 1e-7 * rubbing) * moved + 1e-12 * scene.stiffest * tol.length^2 * scene.size^(scene.dimension - 2)
+  if tol.gross < 1e-6 * scene.stress then -- nothing is loaded
+    tol.energy = tol.energy + 1e-10 * scene.stiffest * scene.size^scene.dimension
+  end
+  return complaints, tol
+end
