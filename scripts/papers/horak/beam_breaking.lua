@@ -1,4 +1,4 @@
--- Supports that break under a coupled thermoelastic beam (Nedoma, ODAM 2001, section 4, figures 16 and 17: the evolutionary
+-- Supports that break under a coupled thermoelastic beam (Horák, ODAM 2001, section 4, figures 16 and 17: the evolutionary
 -- hemivariational inequality).
 --
 --   ./dotyk scripts/papers/horak/beam_breaking.lua [FINEST]
