@@ -40,12 +40,26 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
   result_.clock.motions += watch.lap();
   residual_ = solver::judge(problem, result_, model_.softest);
   if (with_stiffness) rounding_of_forces_ = problem::rounding_of_forces(problem, result_.state);
+  take_state(problem);
+  for (const std::string& body : describe_nearly_free(*scene_, model_)) result_.reason += "; " + body;
+  result_.clock.recover += watch.lap();
+}
+
+void Solution::take_state(const problem::Problem& problem) {
   friction_energy_ = problem::friction_energy(problem, result_.state);
   add_step(problem);
-  for (const std::string& body : describe_nearly_free(*scene_, model_)) result_.reason += "; " + body;
+  displacement_.clear();
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
     displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
-  result_.clock.recover += watch.lap();
+}
+
+std::shared_ptr<Solution> Solution::with(algebra::Vector u) const {
+  const auto other = std::make_shared<Solution>(scene_, model_, nullptr, result_, past_);
+  other->result_ = result_;
+  other->result_.state.u = std::move(u);
+  other->residual_ = problem::residual(model_.problem, other->result_.state);
+  other->take_state(model_.problem);
+  return other;
 }
 
 void Solution::add_step(const problem::Problem& problem) {

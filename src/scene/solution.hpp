@@ -109,6 +109,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
   const problem::Residual& residual() const { return residual_; }
   const problem::Clock& clock() const { return result_.clock; }
   void set_total(double seconds) { result_.clock.total = seconds; }
+  /// The same with another displacement that obeys the laws under the same forces.
+  std::shared_ptr<Solution> with(algebra::Vector u) const;
   /// Does it follow another in a history?
   bool follows() const { return !past_.steps.empty() || past_.slip.size() > 0; }
   /// "; one load step" after the reason.
@@ -158,6 +160,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
  private:
   ErrorEstimate make_error_estimate() const;
   SupportNode support_node(const LawSupport& support, std::size_t node, const SupportRows& rows, int body) const;
+  void take_state(const problem::Problem& problem);
   void add_step(const problem::Problem& problem);
   const Locator& locator(int body) const;
 

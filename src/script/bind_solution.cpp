@@ -2,6 +2,7 @@
 
 #include "scene/distance.hpp"
 #include "scene/doubts.hpp"
+#include "scene/moved_rigidly.hpp"
 #include "script/bind.hpp"
 #include "script/library.hpp"
 #include "script/result_records.hpp"
@@ -87,6 +88,27 @@ mesh::Point point(const Call& call, const Solution& s) {
 std::vector<Key> solution_point_keys() {
   return {key::object<Body>("body", "which body").required(), key::number("x", "the point at rest").unit("length").required(),
           key::number("y", "its second coordinate").unit("length").required(), key::number("z", "in space only").unit("length")};
+}
+
+mesh::Point vector_of(const Arguments& from, const char* name, int dimension) {
+  mesh::Point out{};
+  if (!from.has(name)) return out;
+  const std::vector<double> given = from.vector(name);
+  if (static_cast<int>(given.size()) != dimension) throw InputError(text("'", name, "' has ", given.size(), " components in a scene of ", dimension, " dimensions"));
+  std::copy(given.begin(), given.end(), out.begin());
+  return out;
+}
+
+int moved(Call& call) {
+  const auto s = call.self<Solution>();
+  const int dim = s->scene().dimension();
+  scene::RigidMotion motion{vector_of(call, "translation", dim), {}, vector_of(call, "about", dim)};
+  const bool angle = call.is("rotation", LUA_TNUMBER);
+  if (angle && dim == 3) throw InputError("'rotation' is a number, but in space it is a vector along the axis");
+  if (angle) motion.rotation = {0, 0, call.number("rotation")};
+  else motion.rotation = vector_of(call, "rotation", 3);
+  if (dim == 2 && !angle && call.has("rotation")) throw InputError("'rotation' is a vector, but in the plane it is a number");
+  return call.give(scene::moved_rigidly(*s, index_of(*s, *call.object<Body>("body")), motion));
 }
 
 int solution_displacement(Call& call) {
@@ -276,6 +298,16 @@ void bind_solution(Library& library) {
                        "complementarity (pressure where the gap opens), laws (elastic ones act at nodes, not between them); and cells[i], the estimate of each cell of the i-th body.",
                .example = "local relative, parts = s:error_estimate()\nprint(relative, parts.contact_pressure, #parts.cells[1])",
                .run = error_estimate})
+      .method({.name = "solution:moved",
+               .help = "Another member of a solution that is unique up to a rigid motion (its reason says which, and how far): the same with one body moved. "
+                       "Of all members a solve gives the one of least displacement. Refused where supports or laws do not allow the motion.",
+               .example = "print(pcall(s.moved, s, { body = body, translation = {0.1, 0} }))",
+               .arguments = {key::table({key::object<Body>("body", "which body").required(),
+                                         key::vector("translation", "by which all of it moves").count(2, 3).unit("length").otherwise("none"),
+                                         key::either("rotation", {key::number("", ""), key::vector("", "").count(3, 3)}, "small; in the plane anticlockwise, in space a vector along the axis").unit("rad").otherwise("none"),
+                                         key::vector("about", "a point that the rotation leaves").count(2, 3).unit("length").otherwise("the origin")})},
+               .returns = Wrapped<Solution>::name,
+               .run = moved})
       .method({.name = "solution:path_error",
                .help = "How far one load step from rest is from eight equal ones: the sum of |friction force - that after eight steps| "
                        "over the nodes, relative. 0 where no node closed from a gap under friction: then steps change nothing. It costs eight "
