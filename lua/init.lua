@@ -31,7 +31,7 @@ core.describe{
   name = "include",
   help = "Runs a file of Lua and gives what it returns, as dofile does, but looks for it from the folder of the file that the call is in: "
     .. "a script that includes others runs from every folder.",
-  example = "local common <const> = include \"lib/common.lua\"",
+  example = "print(pcall(include, \"lib/common.lua\"))",
   arguments = { { name = "file", kind = "string", required = true, help = "its name, from the folder of the script that includes it; at the prompt from the present one" } },
   run = function(file)
     local level, from = 2, getinfo(2, "S")
@@ -40,7 +40,9 @@ core.describe{
       from = getinfo(level, "S")
     end
     local folder <const> = not file:find "^/" and from and from.source:match "^@(.*/)"
-    return dofile((folder or "") .. file)
+    local chunk <const>, why = loadfile((folder or "") .. file, "t")
+    if not chunk then error(why, 0) end
+    return chunk()
   end }
 
 core.describe{

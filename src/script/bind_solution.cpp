@@ -301,7 +301,7 @@ void bind_solution(Library& library) {
       .method({.name = "solution:moved",
                .help = "Another member of a solution that is unique up to a rigid motion (its reason says which, and how far): the same with one body moved. "
                        "Of all members a solve gives the one of least displacement. Refused where supports or laws do not allow the motion.",
-               .example = "print(pcall(s.moved, s, { body = body, translation = {0.1, 0} }))",
+               .example = "print(pcall(s.moved, s, { body = block, translation = {0.1, 0} }))",
                .arguments = {key::table({key::object<Body>("body", "which body").required(),
                                          key::vector("translation", "by which all of it moves").count(2, 3).unit("length").otherwise("none"),
                                          key::either("rotation", {key::number("", ""), key::vector("", "").count(3, 3)}, "small; in the plane anticlockwise, in space a vector along the axis").unit("rad").otherwise("none"),
