@@ -100,6 +100,11 @@ end
 dotyk.chart{ file = "images/papers_raised_penalties.png", panels = panels, columns = 5, size = { 2000, 850 } }
 print "images/papers_raised_penalties.png"
 print(("The updates take the same number of outer and CG steps in %d of 55 runs, in %d of 25 with ρ₀ ≥ 1e6, which take at most %d outer steps."):format(same, large, most_outer))
-print(("verdict: the printed list of raised penalties, which is for 21 nodes, %s with P at each node of %d × %d, %s with h²P, %s with P and no ½ in the functional"):format(
-  agreed and "comes out for both updates" or "does not come out", nodes, nodes, others[consistent] and "does" or "does not", others[doubled] and "does" or "does not"))
-assert(nodes ~= 21 or agreed and not others[consistent], "the verdict has changed")
+assert(large == 25 and most_outer <= 2, "large penalties tell the updates apart")
+if nodes == 21 then
+  assert(agreed and not others[consistent], "the verdict has changed")
+  print(("verdict: the printed list of raised penalties comes out for both updates with P at each node of 21 × 21, does not with h²P, %s with P and no ½ in the functional"):format(
+    others[doubled] and "does" or "does not"))
+else
+  print(("verdict: alike for large penalties; the printed list is for 21 nodes and not compared with %d"):format(nodes))
+end
