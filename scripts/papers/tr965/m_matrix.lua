@@ -13,8 +13,8 @@
 --    δ = −v̂⁽ᵏ⁾ ≤ 0 on A, and (1.68) Q̂_II δ_I = λ⁽ᵏ⁾_I − Q̂_IA δ_A. So the sum of v̂ falls until the solution is met if
 --        1ᵀ(Q̂_II)⁻¹ > 0  and  1ᵀ(Q̂_II)⁻¹Q̂_IA < 1ᵀ  for every set I and its complement A:
 --    no set comes twice, and PDAS converges from every start for every load. The margin is the least of all entries of
---    1ᵀ(Q̂_II)⁻¹, times the diagonal's entry, and of 1ᵀ − 1ᵀ(Q̂_II)⁻¹Q̂_IA; it is 1 for M-matrices. Over all 2ᵐ sets for m ≤ 9, a
---    proof if it is positive; for 9 < m ≤ 33 the least that exchanges of single rows find from six random sets, no proof.
+--    1ᵀ(Q̂_II)⁻¹, times the diagonal's entry, and of 1ᵀ − 1ᵀ(Q̂_II)⁻¹Q̂_IA; it is 1 for M-matrices. Over all 2ᵐ sets for m ≤ 9,
+--    in floating point; for 9 < m ≤ 33 the least that exchanges of single rows find from six random sets.
 -- 4. PDAS (dotyk.lcp's newton_min) for random loads q̂ and for random gaps, from random first sets: how often does a set come
 --    twice? (Between two walls it does: scripts/studies/stability/cycling.lua.)
 -- Prints tables and draws images/papers_m_matrix.png. FINEST: the largest n in the plane.
@@ -279,5 +279,5 @@ dotyk.chart{ file = "images/papers_m_matrix.png", size = { 1000, 1200 }, panels 
 print "images/papers_m_matrix.png"
 common.verdict(wrong < 1e-9 and block.grows and block.least > 0 and strip.other and strip.most < -1 and repeats == 0, (
   "for blocks the perturbation grows with every refinement, up to ‖K̂⁻¹‖₁‖P̂‖₁ = %.2f, but margins stay positive, %.2f at "
-  .. "least (a proof of global convergence where all sets were tried), and PDAS ends after at most %d steps; for a strip K̂ is no M-matrix and the margins are %.0f to %.0f, yet no set came "
+  .. "least (over all sets, in floating point, of matrices of up to 9 rows), and PDAS ends after at most %d steps; for a strip K̂ is no M-matrix and the margins are %.0f to %.0f, yet no set came "
   .. "twice in any of %d random problems"):format(block.most, block.least, most_steps, strip.least, strip.most, problems))
