@@ -41,7 +41,7 @@ core.describe{
     end
     local folder <const> = not file:find "^/" and from and from.source:match "^@(.*/)"
     local chunk <const>, why = loadfile((folder or "") .. file, "t")
-    if not chunk then error(why, 0) end
+    if not chunk then core.fail(why) end
     return chunk()
   end }
 

@@ -1,0 +1,1 @@
+return pcall(include, "lib/two.lua")

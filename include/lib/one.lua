@@ -1,0 +1,1 @@
+local two <const> = include "two.lua" return two + 1, "and more"
