@@ -1,5 +1,5 @@
 -- The part of dotyk written in Lua. Every file here is called with one table of
--- functions from C++ (described in src/script/lua_side.hpp) and returns its own.
+-- functions from C++ (described in src/script/bridge/lua_side.hpp) and returns its own.
 -- Only what start-up needs is loaded here: the rest is loaded on first use.
 local core <const> = ...
 

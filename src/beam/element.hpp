@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "algebra/quadrature.hpp"
+#include "algebra/dense/quadrature.hpp"
 
 namespace dotyk::beam {
 

@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "beam/element.hpp"
-#include "solver/verdict.hpp"
+#include "solver/core/verdict.hpp"
 
 namespace dotyk::beam {
 

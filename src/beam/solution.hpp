@@ -2,7 +2,7 @@
 
 #include "beam/model.hpp"
 #include "problem/residual.hpp"
-#include "solver/solver.hpp"
+#include "solver/core/solver.hpp"
 
 namespace dotyk::beam {
 

@@ -7,8 +7,8 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "beam/solvable.hpp"
-#include "solver/pdas.hpp"
-#include "solver/settle.hpp"
+#include "solver/active/pdas.hpp"
+#include "solver/core/settle.hpp"
 
 namespace dotyk::beam {
 

@@ -5,7 +5,7 @@
 
 #include "base/monitor.hpp"
 #include "beam/solution.hpp"
-#include "solver/method.hpp"
+#include "solver/core/method.hpp"
 
 namespace dotyk::beam {
 

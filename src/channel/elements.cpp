@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "algebra/quadrature.hpp"
+#include "algebra/dense/quadrature.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "algebra/quadrature.hpp"
+#include "algebra/dense/quadrature.hpp"
 
 namespace dotyk::channel {
 namespace {

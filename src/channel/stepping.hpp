@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "algebra/sparse_lu.hpp"
+#include "algebra/direct/sparse_lu.hpp"
 #include "base/monitor.hpp"
 #include "channel/data.hpp"
 #include "channel/elements.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "algebra/quadrature.hpp"
+#include "algebra/dense/quadrature.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::contact {

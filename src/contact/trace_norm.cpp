@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "algebra/cholesky.hpp"
+#include "algebra/direct/cholesky.hpp"
 #include "base/error.hpp"
 
 namespace dotyk::contact {

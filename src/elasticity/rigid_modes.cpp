@@ -4,7 +4,7 @@
 #include <Eigen/SVD>
 
 #include "elasticity/load.hpp"
-#include "algebra/dense.hpp"
+#include "algebra/dense/dense.hpp"
 #include "elasticity/rigid_frame.hpp"
 
 namespace dotyk::elasticity {

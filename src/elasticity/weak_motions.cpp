@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "algebra/generalised_inverse.hpp"
+#include "algebra/dense/generalised_inverse.hpp"
 #include "elasticity/kernel.hpp"
-#include "algebra/dense.hpp"
+#include "algebra/dense/dense.hpp"
 #include "elasticity/rigid_frame.hpp"
 
 namespace dotyk::elasticity {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "algebra/cholesky.hpp"
-#include "algebra/dense.hpp"
-#include "algebra/sparse_lu.hpp"
+#include "algebra/direct/cholesky.hpp"
+#include "algebra/dense/dense.hpp"
+#include "algebra/direct/sparse_lu.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"

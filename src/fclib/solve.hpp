@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fclib/cone.hpp"
-#include "solver/method.hpp"
+#include "solver/core/method.hpp"
 
 namespace dotyk::fclib {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "plate/rows.hpp"
-#include "solver/pdas.hpp"
+#include "solver/active/pdas.hpp"
 
 namespace dotyk::plate {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "plate/family.hpp"
-#include "solver/method.hpp"
+#include "solver/core/method.hpp"
 
 namespace dotyk::plate {
 

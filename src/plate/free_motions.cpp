@@ -4,7 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "algebra/dense.hpp"
+#include "algebra/dense/dense.hpp"
 
 namespace dotyk::plate {
 

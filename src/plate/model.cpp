@@ -9,7 +9,7 @@
 #include "plate/free_motions.hpp"
 #include "plate/loads.hpp"
 #include "plate/rows.hpp"
-#include "plate/stiffness.hpp"
+#include "plate/element/stiffness.hpp"
 #include "problem/range.hpp"
 
 namespace dotyk::plate {

@@ -7,7 +7,7 @@
 #include <Eigen/QR>
 
 #include "plate/chains.hpp"
-#include "plate/stiffness.hpp"
+#include "plate/element/stiffness.hpp"
 
 namespace dotyk::plate {
 

@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "plate/edges.hpp"
+#include "plate/element/edges.hpp"
 
 namespace dotyk::plate {
 

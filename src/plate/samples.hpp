@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "plate/space.hpp"
+#include "plate/element/space.hpp"
 
 namespace dotyk::plate {
 

@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "solver/verdict.hpp"
+#include "solver/core/verdict.hpp"
 
 namespace dotyk::plate {
 

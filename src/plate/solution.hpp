@@ -7,7 +7,7 @@
 #include "plate/loads.hpp"
 #include "plate/model.hpp"
 #include "problem/residual.hpp"
-#include "solver/solver.hpp"
+#include "solver/core/solver.hpp"
 
 namespace dotyk::plate {
 

@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "plate/auxiliary.hpp"
 #include "plate/solvable.hpp"
-#include "solver/settle.hpp"
+#include "solver/core/settle.hpp"
 
 namespace dotyk::plate {
 

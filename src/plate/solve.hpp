@@ -4,7 +4,7 @@
 
 #include "base/monitor.hpp"
 #include "plate/solution.hpp"
-#include "solver/method.hpp"
+#include "solver/core/method.hpp"
 
 namespace dotyk::plate {
 

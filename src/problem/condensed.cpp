@@ -1,7 +1,7 @@
 #include "problem/condensed.hpp"
 
-#include "algebra/dense.hpp"
-#include "algebra/stop_factoring.hpp"
+#include "algebra/dense/dense.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"

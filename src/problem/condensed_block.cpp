@@ -1,6 +1,6 @@
 #include "problem/condensed_block.hpp"
 
-#include "algebra/stop_factoring.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"

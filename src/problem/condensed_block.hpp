@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/condensation.hpp"
+#include "algebra/direct/condensation.hpp"
 #include "base/monitor.hpp"
 #include "problem/problem.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/null_space.hpp"
+#include "algebra/dense/null_space.hpp"
 #include "problem/parts.hpp"
 #include "problem/rigid_motions.hpp"
 

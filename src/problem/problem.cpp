@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "algebra/generalised_inverse.hpp"
+#include "algebra/dense/generalised_inverse.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "problem/precise.hpp"

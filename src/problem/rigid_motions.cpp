@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/null_space.hpp"
+#include "algebra/dense/null_space.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::problem {

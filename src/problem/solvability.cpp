@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "algebra/bounded_least_squares.hpp"
-#include "algebra/cone_least_squares.hpp"
+#include "algebra/dense/bounded_least_squares.hpp"
+#include "algebra/dense/cone_least_squares.hpp"
 #include "problem/parts.hpp"
 
 namespace dotyk::problem {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/dense.hpp"
-#include "algebra/largest_eigenvalue.hpp"
-#include "algebra/null_space.hpp"
+#include "algebra/dense/dense.hpp"
+#include "algebra/krylov/largest_eigenvalue.hpp"
+#include "algebra/dense/null_space.hpp"
 #include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "algebra/quasi_definite.hpp"
+#include "algebra/direct/quasi_definite.hpp"
 #include "program/program.hpp"
 
 namespace dotyk::program {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "algebra/quasi_definite.hpp"
+#include "algebra/direct/quasi_definite.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 

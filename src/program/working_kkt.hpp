@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/lu.hpp"
+#include "algebra/dense/lu.hpp"
 #include "program/kkt.hpp"
 
 namespace dotyk::program {

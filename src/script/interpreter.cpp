@@ -6,15 +6,15 @@
 #include <new>
 #include <stdexcept>
 
-#include "script/bind.hpp"
-#include "script/kept_locals.hpp"
-#include "script/library.hpp"
-#include "script/lua.hpp"
-#include "script/lua_guards.hpp"
-#include "script/lua_side.hpp"
-#include "script/position.hpp"
-#include "script/push.hpp"
-#include "script/strict.hpp"
+#include "script/bind/bind.hpp"
+#include "script/prompt/kept_locals.hpp"
+#include "script/bridge/library.hpp"
+#include "script/bridge/lua.hpp"
+#include "script/guard/lua_guards.hpp"
+#include "script/bridge/lua_side.hpp"
+#include "script/bridge/position.hpp"
+#include "script/bridge/push.hpp"
+#include "script/guard/strict.hpp"
 
 namespace dotyk::script {
 namespace {

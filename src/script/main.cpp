@@ -19,12 +19,12 @@
 #include <unistd.h>
 
 #include "script/interpreter.hpp"
-#include "script/interrupt.hpp"
-#include "script/library.hpp"
-#include "script/manifest.hpp"
-#include "script/process_limits.hpp"
-#include "script/prompt.hpp"
-#include "script/safe.hpp"
+#include "script/prompt/interrupt.hpp"
+#include "script/bridge/library.hpp"
+#include "script/guard/manifest.hpp"
+#include "script/guard/process_limits.hpp"
+#include "script/prompt/prompt.hpp"
+#include "script/guard/safe.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "algebra/quasi_definite.hpp"
+#include "algebra/direct/quasi_definite.hpp"
 
 namespace dotyk::thermoelastic {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "algebra/quadrature.hpp"
+#include "algebra/dense/quadrature.hpp"
 #include "beam/element.hpp"
 
 namespace dotyk::thermoelastic {

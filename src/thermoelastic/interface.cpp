@@ -8,8 +8,8 @@
 #include "base/text.hpp"
 #include "beam/solvable.hpp"
 #include "problem/solvability.hpp"
-#include "solver/pdas.hpp"
-#include "solver/verdict.hpp"
+#include "solver/active/pdas.hpp"
+#include "solver/core/verdict.hpp"
 
 namespace dotyk::thermoelastic {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "solver/method.hpp"
+#include "solver/core/method.hpp"
 #include "thermoelastic/model.hpp"
 
 namespace dotyk::thermoelastic {

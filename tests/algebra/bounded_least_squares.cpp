@@ -1,4 +1,4 @@
-#include "algebra/bounded_least_squares.hpp"
+#include "algebra/dense/bounded_least_squares.hpp"
 
 #include <doctest/doctest.h>
 

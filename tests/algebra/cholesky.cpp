@@ -1,11 +1,11 @@
-#include "algebra/cholesky.hpp"
+#include "algebra/direct/cholesky.hpp"
 
 #include <doctest/doctest.h>
 
 #include <numeric>
 
 #include "../support/spring_grid.hpp"
-#include "algebra/stop_factoring.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 #include "base/parallel.hpp"
 #include "spd_matrices.hpp"
 

@@ -1,4 +1,4 @@
-#include "algebra/condensation.hpp"
+#include "algebra/direct/condensation.hpp"
 
 #include <doctest/doctest.h>
 

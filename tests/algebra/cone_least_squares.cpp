@@ -1,4 +1,4 @@
-#include "algebra/cone_least_squares.hpp"
+#include "algebra/dense/cone_least_squares.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "algebra/bounded_least_squares.hpp"
-#include "algebra/stop_factoring.hpp"
+#include "algebra/dense/bounded_least_squares.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 
 using namespace dotyk;

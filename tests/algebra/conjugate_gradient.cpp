@@ -1,11 +1,11 @@
-#include "algebra/conjugate_gradient.hpp"
+#include "algebra/krylov/conjugate_gradient.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "algebra/tridiagonal.hpp"
+#include "algebra/dense/tridiagonal.hpp"
 #include "base/error.hpp"
 #include "iterations.hpp"
 #include "spd_matrices.hpp"

@@ -1,4 +1,4 @@
-#include "algebra/dense.hpp"
+#include "algebra/dense/dense.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "../support/random.hpp"
-#include "algebra/stop_factoring.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 
 using namespace dotyk;

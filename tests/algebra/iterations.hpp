@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/preconditioner.hpp"
+#include "algebra/krylov/preconditioner.hpp"
 #include "base/monitor.hpp"
 
 namespace dotyk::test {

@@ -1,4 +1,4 @@
-#include "algebra/largest_eigenvalue.hpp"
+#include "algebra/krylov/largest_eigenvalue.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "../support/random.hpp"
-#include "algebra/lanczos.hpp"
-#include "algebra/stop_factoring.hpp"
+#include "algebra/krylov/lanczos.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

@@ -1,4 +1,4 @@
-#include "algebra/lu.hpp"
+#include "algebra/dense/lu.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "../support/random.hpp"
-#include "algebra/stop_factoring.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 
 using namespace dotyk;
 using namespace dotyk::algebra;

@@ -1,10 +1,10 @@
-#include "algebra/null_space.hpp"
+#include "algebra/dense/null_space.hpp"
 
 #include <doctest/doctest.h>
 
 #include <random>
 
-#include "algebra/dense.hpp"
+#include "algebra/dense/dense.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

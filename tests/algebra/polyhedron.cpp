@@ -1,4 +1,4 @@
-#include "algebra/polyhedron.hpp"
+#include "algebra/dense/polyhedron.hpp"
 
 #include <doctest/doctest.h>
 

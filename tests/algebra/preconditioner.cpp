@@ -1,10 +1,10 @@
-#include "algebra/preconditioner.hpp"
+#include "algebra/krylov/preconditioner.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
 
-#include "algebra/conjugate_gradient.hpp"
+#include "algebra/krylov/conjugate_gradient.hpp"
 #include "base/error.hpp"
 #include "spd_matrices.hpp"
 

@@ -1,4 +1,4 @@
-#include "algebra/quadrature.hpp"
+#include "algebra/dense/quadrature.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,12 +1,12 @@
-#include "algebra/repeated_systems.hpp"
+#include "algebra/krylov/repeated_systems.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "algebra/block_cg.hpp"
-#include "algebra/cglan.hpp"
-#include "algebra/successive_cg.hpp"
+#include "algebra/krylov/block_cg.hpp"
+#include "algebra/krylov/cglan.hpp"
+#include "algebra/krylov/successive_cg.hpp"
 #include "base/error.hpp"
 #include "iterations.hpp"
 #include "spd_matrices.hpp"

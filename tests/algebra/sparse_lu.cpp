@@ -1,4 +1,4 @@
-#include "algebra/sparse_lu.hpp"
+#include "algebra/direct/sparse_lu.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,10 +5,10 @@
 
 #include "../support/exact_beam.hpp"
 #include "base/error.hpp"
-#include "solver/interior_point.hpp"
-#include "solver/newton.hpp"
-#include "solver/pdas.hpp"
-#include "solver/proximal.hpp"
+#include "solver/programs/interior_point.hpp"
+#include "solver/rows/newton.hpp"
+#include "solver/active/pdas.hpp"
+#include "solver/rows/proximal.hpp"
 
 using namespace dotyk;
 using beam::Beam;

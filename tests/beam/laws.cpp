@@ -4,7 +4,7 @@
 
 #include "../support/exact_beam.hpp"
 #include "base/error.hpp"
-#include "solver/newton.hpp"
+#include "solver/rows/newton.hpp"
 
 using namespace dotyk;
 using problem::SupportLaw;

@@ -6,7 +6,7 @@
 #include "../support/random.hpp"
 #include "base/error.hpp"
 #include "beam/solve.hpp"
-#include "solver/proximal.hpp"
+#include "solver/rows/proximal.hpp"
 
 using namespace dotyk;
 using problem::SupportLaw;

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "../support/exact_beam.hpp"
-#include "solver/newton.hpp"
-#include "solver/pdas.hpp"
-#include "solver/projected_cg.hpp"
-#include "solver/proximal.hpp"
-#include "solver/psor.hpp"
-#include "solver/uzawa.hpp"
+#include "solver/rows/newton.hpp"
+#include "solver/active/pdas.hpp"
+#include "solver/rows/projected_cg.hpp"
+#include "solver/rows/proximal.hpp"
+#include "solver/rows/psor.hpp"
+#include "solver/rows/uzawa.hpp"
 
 using namespace dotyk;
 using beam::Beam;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "algebra/quadrature.hpp"
+#include "algebra/dense/quadrature.hpp"
 
 using namespace dotyk;
 using namespace dotyk::channel;

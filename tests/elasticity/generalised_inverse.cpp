@@ -1,4 +1,4 @@
-#include "algebra/generalised_inverse.hpp"
+#include "algebra/dense/generalised_inverse.hpp"
 
 #include <doctest/doctest.h>
 

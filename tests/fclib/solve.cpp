@@ -4,10 +4,10 @@
 
 #include "program/active_set.hpp"
 #include "reference.hpp"
-#include "solver/newton.hpp"
-#include "solver/pdas.hpp"
-#include "solver/proximal.hpp"
-#include "solver/psor.hpp"
+#include "solver/rows/newton.hpp"
+#include "solver/active/pdas.hpp"
+#include "solver/rows/proximal.hpp"
+#include "solver/rows/psor.hpp"
 
 using namespace dotyk;
 using fclib::ContactProblem;

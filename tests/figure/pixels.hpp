@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "../support/file.hpp"
-#include "figure/picture.hpp"
+#include "figure/door/picture.hpp"
 
 struct Pixels {
   int width = 0, height = 0;

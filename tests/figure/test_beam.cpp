@@ -8,7 +8,7 @@
 #include "../support/plain_laws.hpp"
 #include "base/monitor.hpp"
 #include "beam/solve.hpp"
-#include "figure/compose_beam.hpp"
+#include "figure/compose/compose_beam.hpp"
 #include "pixels.hpp"
 
 using namespace dotyk;

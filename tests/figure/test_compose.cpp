@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "elasticity/material.hpp"
-#include "figure/compose.hpp"
+#include "figure/compose/compose.hpp"
 #include "mesh/generators.hpp"
-#include "solver/psor.hpp"
+#include "solver/rows/psor.hpp"
 
 using namespace dotyk;
 

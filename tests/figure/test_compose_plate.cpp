@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../support/plain_laws.hpp"
-#include "figure/compose_plate.hpp"
+#include "figure/compose/compose_plate.hpp"
 #include "mesh/generators.hpp"
 #include "pixels.hpp"
 #include "plate/reaction.hpp"

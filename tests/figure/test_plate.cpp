@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "figure/plate_picture.hpp"
+#include "figure/plate/plate_picture.hpp"
 #include "pixels.hpp"
 
 using namespace dotyk::figure;

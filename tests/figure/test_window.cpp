@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "figure/window.hpp"
+#include "figure/canvas/window.hpp"
 #include "pixels.hpp"
 
 using namespace dotyk::figure;

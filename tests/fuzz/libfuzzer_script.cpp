@@ -13,8 +13,8 @@
 #include <string>
 
 #include "script/interpreter.hpp"
-#include "script/interrupt.hpp"
-#include "script/safe.hpp"
+#include "script/prompt/interrupt.hpp"
+#include "script/guard/safe.hpp"
 
 namespace {
 

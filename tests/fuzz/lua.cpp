@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "machine.hpp"
 #include "openings.hpp"
-#include "script/lua.hpp"
+#include "script/bridge/lua.hpp"
 #include "values.hpp"
 
 namespace {

@@ -19,8 +19,8 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "base/whole_file.hpp"
-#include "script/interrupt.hpp"
-#include "script/lua.hpp"
+#include "script/prompt/interrupt.hpp"
+#include "script/bridge/lua.hpp"
 
 namespace dotyk::fuzz {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "script/descriptor.hpp"
+#include "script/bridge/descriptor.hpp"
 
 namespace dotyk::fuzz {
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/plates.hpp"
-#include "solver/pdas.hpp"
+#include "solver/active/pdas.hpp"
 
 using namespace dotyk;
 using algebra::Vector;

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/plate_laws.hpp"
-#include "solver/pdas.hpp"
+#include "solver/active/pdas.hpp"
 
 using namespace dotyk;
 using plate::Plate;

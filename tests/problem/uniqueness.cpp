@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../support/random.hpp"
-#include "algebra/stop_factoring.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

@@ -1,4 +1,4 @@
-#include "scene/doubts.hpp"
+#include "scene/solve/doubts.hpp"
 
 #include <doctest/doctest.h>
 

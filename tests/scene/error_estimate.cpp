@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "../support/scenes.hpp"
-#include "scene/adaptive.hpp"
-#include "scene/distance.hpp"
+#include "scene/solve/adaptive.hpp"
+#include "scene/result/distance.hpp"
 
 using namespace dotyk;
 

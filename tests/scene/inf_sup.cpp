@@ -1,4 +1,4 @@
-#include "scene/inf_sup.hpp"
+#include "scene/study/inf_sup.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 #include <doctest/doctest.h>
 
 #include "../support/scenes.hpp"
-#include "algebra/generalised_inverse.hpp"
+#include "algebra/dense/generalised_inverse.hpp"
 #include "base/error.hpp"
-#include "scene/model.hpp"
+#include "scene/model/model.hpp"
 
 using namespace dotyk;
 using mesh::Point;

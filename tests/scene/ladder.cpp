@@ -4,7 +4,7 @@
 
 #include "../support/scenes.hpp"
 #include "problem/solvability.hpp"
-#include "scene/model.hpp"
+#include "scene/model/model.hpp"
 
 using namespace dotyk;
 using mesh::Point;

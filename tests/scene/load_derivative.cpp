@@ -1,7 +1,7 @@
 // Exact derivatives of loads and forces by moving nodes against central differences of moved scenes, over steps from 1e-2 to 1e-11: the
 // error falls as h² until rounding, some 1e-16/h, takes over; where both are alike, about h = 1e-5, 1e-11 to 1e-10 are left, so that
 // 1e-9 is asked for.
-#include "scene/load_derivative.hpp"
+#include "scene/result/load_derivative.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 
 #include "../support/scenes.hpp"
 #include "base/error.hpp"
-#include "scene/moved.hpp"
+#include "scene/model/moved.hpp"
 
 using namespace dotyk;
 using mesh::Point;

@@ -6,7 +6,7 @@
 #include "../support/scenes.hpp"
 #include "../support/stacks.hpp"
 #include "base/error.hpp"
-#include "scene/moved.hpp"
+#include "scene/model/moved.hpp"
 
 using namespace dotyk;
 using contact::Pairing;

@@ -1,5 +1,5 @@
 // A scene whose nodes have moved against one set up there: all data constant, so that the two are the same to the last bit.
-#include "scene/moved.hpp"
+#include "scene/model/moved.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "mesh/generators.hpp"
-#include "scene/solution.hpp"
-#include "solver/pdas.hpp"
+#include "scene/result/solution.hpp"
+#include "solver/active/pdas.hpp"
 
 // Scenes S2 and S3 of the reference values: a rigid parabola pressed into a block.
 

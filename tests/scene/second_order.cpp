@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "../support/stacks.hpp"
-#include "solver/coulomb_loop.hpp"
-#include "solver/proximal.hpp"
+#include "solver/rows/coulomb_loop.hpp"
+#include "solver/rows/proximal.hpp"
 
 using namespace dotyk;
 using contact::Pairing;

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "../support/stacks.hpp"
-#include "scene/inf_sup.hpp"
+#include "scene/study/inf_sup.hpp"
 
 using namespace dotyk;
 using mesh::Family;

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "../support/scenes.hpp"
-#include "scene/solution.hpp"
+#include "scene/result/solution.hpp"
 
 using namespace dotyk;
 using algebra::Vector;

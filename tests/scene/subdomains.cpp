@@ -1,4 +1,4 @@
-#include "scene/subdomains.hpp"
+#include "scene/model/subdomains.hpp"
 
 #include <doctest/doctest.h>
 

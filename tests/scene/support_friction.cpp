@@ -6,9 +6,9 @@
 #include "../support/laws.hpp"
 #include "base/error.hpp"
 #include "problem/solvability.hpp"
-#include "solver/projected_cg.hpp"
-#include "solver/uzawa.hpp"
-#include "solver/uzawa_pdas.hpp"
+#include "solver/rows/projected_cg.hpp"
+#include "solver/rows/uzawa.hpp"
+#include "solver/rows/uzawa_pdas.hpp"
 
 using namespace dotyk;
 using mesh::Point;

@@ -5,12 +5,12 @@
 
 #include "../support/laws.hpp"
 #include "base/error.hpp"
-#include "solver/active_set.hpp"
-#include "solver/interior_point.hpp"
-#include "solver/penalty.hpp"
-#include "solver/projected_cg.hpp"
-#include "solver/uzawa.hpp"
-#include "solver/uzawa_pdas.hpp"
+#include "solver/programs/active_set.hpp"
+#include "solver/programs/interior_point.hpp"
+#include "solver/programs/penalty.hpp"
+#include "solver/rows/projected_cg.hpp"
+#include "solver/rows/uzawa.hpp"
+#include "solver/rows/uzawa_pdas.hpp"
 
 using namespace dotyk;
 using mesh::Point;

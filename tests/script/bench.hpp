@@ -6,7 +6,7 @@
 #include <string>
 
 #include "script/interpreter.hpp"
-#include "script/library.hpp"
+#include "script/bridge/library.hpp"
 
 namespace dotyk::script {
 

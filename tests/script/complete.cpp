@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "bench.hpp"
-#include "script/complete.hpp"
-#include "script/complete_context.hpp"
+#include "script/complete/complete.hpp"
+#include "script/complete/complete_context.hpp"
 
 using namespace dotyk::script;
 

@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include "bench.hpp"
-#include "script/help.hpp"
-#include "script/lua.hpp"
+#include "script/help/help.hpp"
+#include "script/bridge/lua.hpp"
 
 using namespace dotyk::script;
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "bench.hpp"
-#include "script/interrupt.hpp"
+#include "script/prompt/interrupt.hpp"
 
 using dotyk::script::Bench;
 

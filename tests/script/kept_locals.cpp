@@ -2,8 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "bench.hpp"
-#include "script/help.hpp"
-#include "script/kept_locals.hpp"
+#include "script/help/help.hpp"
+#include "script/prompt/kept_locals.hpp"
 
 using namespace dotyk::script;
 

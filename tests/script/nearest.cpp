@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "script/nearest.hpp"
+#include "script/help/nearest.hpp"
 
 using namespace dotyk::script;
 

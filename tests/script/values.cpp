@@ -2,8 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "bench.hpp"
-#include "script/lua.hpp"
-#include "script/lua_side.hpp"
+#include "script/bridge/lua.hpp"
+#include "script/bridge/lua_side.hpp"
 
 using namespace dotyk::script;
 

@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include "bench.hpp"
-#include "script/interrupt.hpp"
-#include "script/watch.hpp"
+#include "script/prompt/interrupt.hpp"
+#include "script/prompt/watch.hpp"
 
 using namespace dotyk::script;
 

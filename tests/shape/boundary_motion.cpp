@@ -1,11 +1,11 @@
-#include "shape/boundary_motion.hpp"
+#include "shape/derivative/boundary_motion.hpp"
 
 #include <doctest/doctest.h>
 
 #include "../support/scenes.hpp"
 #include "base/error.hpp"
-#include "shape/bspline.hpp"
-#include "shape/chain.hpp"
+#include "shape/design/bspline.hpp"
+#include "shape/design/chain.hpp"
 
 using namespace dotyk;
 using mesh::Point;

@@ -1,4 +1,4 @@
-#include "shape/bspline.hpp"
+#include "shape/design/bspline.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/monitor.hpp"
-#include "shape/optimiser.hpp"
+#include "shape/optimise/optimiser.hpp"
 
 namespace dotyk::test {
 

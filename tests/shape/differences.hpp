@@ -8,8 +8,8 @@
 #include <random>
 
 #include "../support/scenes.hpp"
-#include "scene/moved.hpp"
-#include "shape/sensitivity.hpp"
+#include "scene/model/moved.hpp"
+#include "shape/derivative/sensitivity.hpp"
 
 // Derivatives of solutions against differences of scenes solved again at moved nodes.
 

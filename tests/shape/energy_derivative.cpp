@@ -1,10 +1,10 @@
 // The derivative of a solution's energy, without u' and λ', against central differences of scenes solved again; weights of
 // contact rows, too.
-#include "shape/energy_derivative.hpp"
+#include "shape/derivative/energy_derivative.hpp"
 
 #include "base/error.hpp"
 #include "differences.hpp"
-#include "shape/row_changes.hpp"
+#include "shape/derivative/row_changes.hpp"
 
 using namespace dotyk;
 using mesh::Family;

@@ -1,4 +1,4 @@
-#include "shape/extension.hpp"
+#include "shape/design/extension.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Right by optimality: A d ≤ b, bounds, y ≥ 0, z = g + Aᵀ y with the signs of active bounds, complementary; and by closed forms.
-#include "shape/linear_program.hpp"
+#include "shape/optimise/linear_program.hpp"
 
 #include <doctest/doctest.h>
 

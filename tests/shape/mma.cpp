@@ -1,4 +1,4 @@
-#include "shape/mma.hpp"
+#include "shape/optimise/mma.hpp"
 
 #include <doctest/doctest.h>
 

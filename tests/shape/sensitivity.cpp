@@ -1,7 +1,7 @@
 // Derivatives of contact solutions by the places of nodes, without friction, against central differences of scenes solved
 // again over steps from 1e-1 to 1e-10. At the bottom truncation, h², meets rounding, about 1e-14/h of the solution: 1e-8 is
 // asked for, 1e-9 to 1e-11 are reached (test_shape --success prints each).
-#include "shape/sensitivity.hpp"
+#include "shape/derivative/sensitivity.hpp"
 
 #include "base/error.hpp"
 #include "differences.hpp"

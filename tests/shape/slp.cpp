@@ -1,4 +1,4 @@
-#include "shape/slp.hpp"
+#include "shape/optimise/slp.hpp"
 
 #include <doctest/doctest.h>
 

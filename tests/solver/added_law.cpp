@@ -5,15 +5,15 @@
 
 #include "../support/programs.hpp"
 #include "problem/residual.hpp"
-#include "solver/active_set.hpp"
-#include "solver/default_method.hpp"
-#include "solver/feti.hpp"
-#include "solver/newton.hpp"
-#include "solver/pdas.hpp"
-#include "solver/projected_cg.hpp"
-#include "solver/proximal.hpp"
-#include "solver/psor.hpp"
-#include "solver/uzawa.hpp"
+#include "solver/programs/active_set.hpp"
+#include "solver/core/default_method.hpp"
+#include "solver/feti/feti.hpp"
+#include "solver/rows/newton.hpp"
+#include "solver/active/pdas.hpp"
+#include "solver/rows/projected_cg.hpp"
+#include "solver/rows/proximal.hpp"
+#include "solver/rows/psor.hpp"
+#include "solver/rows/uzawa.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

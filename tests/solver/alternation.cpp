@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "../support/friction.hpp"
-#include "solver/coulomb_loop.hpp"
-#include "solver/newton.hpp"
-#include "solver/projected_cg.hpp"
-#include "solver/uzawa_pdas.hpp"
+#include "solver/rows/coulomb_loop.hpp"
+#include "solver/rows/newton.hpp"
+#include "solver/rows/projected_cg.hpp"
+#include "solver/rows/uzawa_pdas.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

@@ -5,7 +5,7 @@
 #include "../support/programs.hpp"
 #include "../support/random.hpp"
 #include "problem/limited.hpp"
-#include "solver/box_barrier.hpp"
+#include "solver/active/box_barrier.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

@@ -1,4 +1,4 @@
-#include "solver/coarse_space.hpp"
+#include "solver/feti/coarse_space.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "solver/descent.hpp"
+#include "solver/active/descent.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
-#include "solver/dirichlet.hpp"
+#include "solver/feti/dirichlet.hpp"
 
 #include <doctest/doctest.h>
 
 #include "../support/dual.hpp"
-#include "solver/feti.hpp"
-#include "solver/lumped.hpp"
+#include "solver/feti/feti.hpp"
+#include "solver/feti/lumped.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

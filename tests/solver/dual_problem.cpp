@@ -1,12 +1,12 @@
-#include "solver/dual_problem.hpp"
+#include "solver/feti/dual_problem.hpp"
 
 #include <doctest/doctest.h>
 
 #include "../support/dual.hpp"
 #include "../support/programs.hpp"
 #include "base/error.hpp"
-#include "solver/dirichlet.hpp"
-#include "solver/lumped.hpp"
+#include "solver/feti/dirichlet.hpp"
+#include "solver/feti/lumped.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

@@ -1,4 +1,4 @@
-#include "solver/dual_spectrum.hpp"
+#include "solver/feti/dual_spectrum.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "solver/enumeration.hpp"
+#include "solver/pieces/enumeration.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include "../support/friction.hpp"
 #include "base/error.hpp"
 #include "problem/residual.hpp"
-#include "solver/newton.hpp"
+#include "solver/rows/newton.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

@@ -6,14 +6,14 @@
 #include "../support/friction.hpp"
 #include "base/error.hpp"
 #include "problem/residual.hpp"
-#include "solver/coulomb_loop.hpp"
-#include "solver/method.hpp"
-#include "solver/newton.hpp"
-#include "solver/projected_cg.hpp"
-#include "solver/proximal.hpp"
-#include "solver/psor.hpp"
-#include "solver/uzawa.hpp"
-#include "solver/uzawa_pdas.hpp"
+#include "solver/rows/coulomb_loop.hpp"
+#include "solver/core/method.hpp"
+#include "solver/rows/newton.hpp"
+#include "solver/rows/projected_cg.hpp"
+#include "solver/rows/proximal.hpp"
+#include "solver/rows/psor.hpp"
+#include "solver/rows/uzawa.hpp"
+#include "solver/rows/uzawa_pdas.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

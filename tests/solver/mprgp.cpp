@@ -1,5 +1,5 @@
 // Mprgp on random dense programs whose solution is known, with what theory promises asserted at every step.
-#include "solver/mprgp.hpp"
+#include "solver/bounded/mprgp.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../support/known_minimum.hpp"
-#include "solver/mprgp.hpp"
+#include "solver/bounded/mprgp.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

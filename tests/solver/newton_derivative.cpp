@@ -4,8 +4,8 @@
 
 #include "../support/friction_rows.hpp"
 #include "../support/random.hpp"
-#include "algebra/dense.hpp"
-#include "solver/newton.hpp"
+#include "algebra/dense/dense.hpp"
+#include "solver/rows/newton.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

@@ -1,4 +1,4 @@
-#include "solver/piece_search.hpp"
+#include "solver/pieces/piece_search.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,9 +8,9 @@
 #include "base/error.hpp"
 #include "problem/residual.hpp"
 #include "problem/rigid_motions.hpp"
-#include "solver/enumeration.hpp"
-#include "solver/friction_bound.hpp"
-#include "solver/newton.hpp"
+#include "solver/pieces/enumeration.hpp"
+#include "solver/core/friction_bound.hpp"
+#include "solver/rows/newton.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

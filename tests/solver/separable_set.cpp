@@ -1,5 +1,5 @@
 // Products of intervals and discs: projections and gradients against what defines them.
-#include "solver/separable_set.hpp"
+#include "solver/bounded/separable_set.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SMALBE on random programs with equality constraints whose solution and multipliers are known.
-#include "solver/smalbe.hpp"
+#include "solver/bounded/smalbe.hpp"
 
 #include <doctest/doctest.h>
 

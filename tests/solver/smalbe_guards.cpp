@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../support/known_equality.hpp"
-#include "solver/smalbe.hpp"
+#include "solver/bounded/smalbe.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

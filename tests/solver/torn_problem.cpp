@@ -1,4 +1,4 @@
-#include "solver/torn_problem.hpp"
+#include "solver/feti/torn_problem.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "../support/programs.hpp"
-#include "solver/uzawa.hpp"
+#include "solver/rows/uzawa.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

@@ -1,5 +1,5 @@
 // The one check of results: what is off its laws, out of equilibrium or not finite is not called converged.
-#include "solver/verdict.hpp"
+#include "solver/core/verdict.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pieces.hpp"
-#include "solver/coarse_space.hpp"
-#include "solver/dual_problem.hpp"
+#include "solver/feti/coarse_space.hpp"
+#include "solver/feti/dual_problem.hpp"
 
 namespace dotyk::test {
 

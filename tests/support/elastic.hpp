@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "algebra/cholesky.hpp"
+#include "algebra/direct/cholesky.hpp"
 #include "elasticity/assembly.hpp"
 #include "elasticity/load.hpp"
 #include "elasticity/rigid_modes.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scenes.hpp"
-#include "solver/feti.hpp"
+#include "solver/feti/feti.hpp"
 
 namespace dotyk::test {
 

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <optional>
 
-#include "scene/model.hpp"
+#include "scene/model/model.hpp"
 #include "scenes.hpp"
-#include "solver/dual_bounds.hpp"
-#include "solver/dual_spectrum.hpp"
-#include "solver/face_coarse.hpp"
-#include "solver/projection.hpp"
-#include "solver/smalbe.hpp"
+#include "solver/feti/dual_bounds.hpp"
+#include "solver/feti/dual_spectrum.hpp"
+#include "solver/feti/face_coarse.hpp"
+#include "solver/rows/projection.hpp"
+#include "solver/bounded/smalbe.hpp"
 
 namespace dotyk::test {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "known_minimum.hpp"
-#include "solver/smalbe.hpp"
+#include "solver/bounded/smalbe.hpp"
 
 namespace dotyk::test {
 

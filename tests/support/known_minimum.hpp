@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "algebra/dense.hpp"
+#include "algebra/dense/dense.hpp"
 #include "random.hpp"
-#include "solver/mprgp.hpp"
+#include "solver/bounded/mprgp.hpp"
 
 namespace dotyk::test {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "feti.hpp"
-#include "solver/proximal.hpp"
-#include "solver/psor.hpp"
+#include "solver/rows/proximal.hpp"
+#include "solver/rows/psor.hpp"
 
 namespace dotyk::test {
 

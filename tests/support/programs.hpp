@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "chain.hpp"
-#include "solver/pdas.hpp"
+#include "solver/active/pdas.hpp"
 
 namespace dotyk::test {
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "facets.hpp"
-#include "scene/solution.hpp"
-#include "solver/newton.hpp"
-#include "solver/pdas.hpp"
+#include "scene/result/solution.hpp"
+#include "solver/rows/newton.hpp"
+#include "solver/active/pdas.hpp"
 
 namespace dotyk::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "random.hpp"
-#include "scene/model.hpp"
+#include "scene/model/model.hpp"
 #include "scenes.hpp"
 
 namespace dotyk::test {

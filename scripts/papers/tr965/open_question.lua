@@ -3,7 +3,7 @@
 --   ./dotyk scripts/papers/tr965/open_question.lua [STARTS]
 --
 -- In scaled unknowns the condensed derivative is G = I − S(I − W), S the slopes of the projections, W the compliance
--- of the rows (src/solver/newton.hpp has the proofs). The answer, for B of full rank:
+-- of the rows (src/solver/rows/newton.hpp has the proofs). The answer, for B of full rank:
 --   given friction, bodies held: always regular, on all pieces, in the plane and in space;
 --   given friction, a free body: singular exactly where the pieces leave it a rigid motion;
 --   Coulomb friction, bodies held: regular below a coefficient that depends on W alone; in the plane, beyond it,

@@ -1,0 +1,112 @@
+#include "algebra/dense/generalised_inverse.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/dense/dense.hpp"
+#include "algebra/dense/null_space.hpp"
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::algebra {
+
+namespace {
+
+/// Exchanges one unknown for another while that makes |det R_F| grow, by at least a tenth each time.
+void exchange(const DenseMatrix& kernel, std::vector<int>& unknowns) {
+  for (int round = 0; round < 100; ++round) {
+    const DenseMatrix held = kernel(unknowns, Eigen::all);
+    // (R R_F⁻¹)_ik: by what |det R_F| is multiplied when unknown i takes the place of F's k-th.
+    const DenseMatrix gain = held.transpose().partialPivLu().solve(kernel.transpose());
+    Eigen::Index k, i;
+    if (!(gain.cwiseAbs().maxCoeff(&k, &i) > 1.1)) return;
+    unknowns[k] = static_cast<int>(i);
+  }
+}
+
+double least_singular_value(const DenseMatrix& square) {
+  if (square.size() == 0) return 1;
+  return smallest_singular_value(square);
+}
+
+}  // namespace
+
+std::vector<int> fixing_unknowns(const DenseMatrix& kernel) {
+  std::vector<int> unknowns;
+  if (kernel.size() == 0) return unknowns;
+  const Eigen::ColPivHouseholderQR<DenseMatrix> qr(orthonormal(kernel).transpose());
+  for (Eigen::Index k = 0; k < kernel.cols(); ++k) unknowns.push_back(qr.colsPermutation().indices()[k]);
+  exchange(kernel, unknowns);
+  return unknowns;
+}
+
+std::vector<int> fixing_unknowns(const SparseMatrix& kernel) {
+  std::vector<int> unknowns;
+  for (const Piece& piece : pieces(kernel))
+    for (const int k : fixing_unknowns(dense(kernel, piece))) unknowns.push_back(piece.rows[k]);
+  return unknowns;
+}
+
+Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R) {
+  Vector rows = Vector::Zero(lower.rows());
+  for (int j = 0; R.cols() > 0 && j < lower.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+      rows[it.row()] += std::abs(it.value());
+      if (it.row() != j) rows[j] += std::abs(it.value());
+    }
+  Vector result = Vector::Zero(R.cols());
+  for (Eigen::Index k = 0; rows.size() > 0 && k < R.cols(); ++k) {
+    const Vector force = lower.selfadjointView<Eigen::Lower>() * R.col(k);
+    for (Eigen::Index i = 0; i < rows.size(); ++i)
+      if (rows[i] > 0) result[k] = std::max(result[k], std::abs(force[i]) / rows[i]);
+    result[k] /= R.col(k).lpNorm<Eigen::Infinity>();
+  }
+  return result;
+}
+
+SparseMatrix hold(SparseMatrix lower, const std::vector<int>& unknowns) {
+  std::vector<char> is_fixed(lower.rows(), 0);
+  for (int unknown : unknowns) is_fixed[unknown] = 1;
+  double largest = 0;
+  for (int j = 0; j < lower.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
+      if (it.row() == j) largest = std::max(largest, it.value());
+  for (int j = 0; j < lower.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
+      if (is_fixed[it.row()] || is_fixed[j]) it.valueRef() = it.row() != j ? 0 : largest > 0 ? largest : 1;
+  return lower;
+}
+
+GeneralisedInverse::GeneralisedInverse(const SparseMatrix& lower, const std::vector<int>& node,
+                                       const DenseMatrix& kernel, std::vector<int> fixed, Ordering ordering)
+    : fixed_(std::move(fixed)), basis_(orthonormal(kernel)), factor_(lower, node, {}, ordering) {
+  if (static_cast<Eigen::Index>(fixed_.size()) != basis_.cols())
+    throw InputError(text(fixed_.size(), " unknowns are fixed; the kernel has ", basis_.cols(), " motions"));
+  regularity_ = least_singular_value(basis_(fixed_, Eigen::all));
+  // Of ‖K⁺‖'s bound 1/regularity² no digit would be left.
+  if (!(regularity_ > 1e-8)) throw InputError("the unknowns fixed do not hold every motion of the kernel");
+}
+
+GeneralisedInverse::GeneralisedInverse(const SparseMatrix& lower, const std::vector<int>& node,
+                                       const DenseMatrix& kernel, Ordering ordering)
+    : GeneralisedInverse(lower, node, kernel, fixing_unknowns(kernel), ordering) {}
+
+bool GeneralisedInverse::factor(const SparseMatrix& lower) {
+  return factor_.factor(fixed_.empty() ? lower : hold(lower, fixed_));
+}
+
+DenseMatrix GeneralisedInverse::apply(const DenseMatrix& f) const {
+  if (fixed_.empty()) return factor_.solve(f);
+  DenseMatrix held = f;
+  held(fixed_, Eigen::all).setZero();
+  return factor_.solve(held);
+}
+
+DenseMatrix GeneralisedInverse::project(const DenseMatrix& u) const {
+  if (basis_.cols() == 0) return u;
+  return u - basis_ * (basis_.transpose() * u);
+}
+
+}  // namespace dotyk::algebra

@@ -1,0 +1,169 @@
+#include "algebra/direct/cholesky.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/direct/blas_threads.hpp"
+#include "algebra/direct/cholmod_handle.hpp"
+#include "algebra/direct/stop_factoring.hpp"
+#include "base/memory.hpp"
+
+namespace dotyk::algebra {
+namespace {
+
+/// CHOLMOD notes status and memory in its cholmod_common even where it only reads a factor: each thread that sweeps
+/// has one of its own.
+CholmodCommon& common_of_this_thread() {
+  thread_local CholmodCommon common;
+  return common;
+}
+
+}  // namespace
+
+struct Cholesky::Implementation {
+  CholmodCommon common;
+  cholmod_factor* factor = nullptr;  ///< null for a matrix without unknowns, which CHOLMOD does not take
+  std::vector<int> boundary;   ///< unknowns of Γ in the factor's order
+  std::vector<int> position;   ///< where they stand in the factor's order
+  double flops = 0;
+  std::string method;
+  ~Implementation() { cholmod_free_factor(&factor, common.get()); }
+
+  DenseMatrix sweep(int system, const DenseMatrix& b) const {
+    if (!factor || b.cols() == 0) return b;
+    CholmodCommon& own = common_of_this_thread();
+    cholmod_dense in{};
+    in.nrow = in.d = b.rows();
+    in.ncol = b.cols();
+    in.nzmax = b.size();
+    in.x = const_cast<double*>(b.data());
+    in.xtype = CHOLMOD_REAL;
+    in.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense* out = cholmod_solve(system, factor, &in, own.get());
+    own.check("back substitution");
+    DenseMatrix x = Eigen::Map<DenseMatrix>(static_cast<double*>(out->x), b.rows(), b.cols());
+    cholmod_free_dense(&out, own.get());
+    return x;
+  }
+};
+
+Cholesky::Cholesky(const SparseMatrix& lower, const std::vector<int>& node,
+                   const std::vector<int>& last, Ordering ordering)
+    : it_(std::make_unique<Implementation>()) {
+  Permutation permutation = order(lower, node, last, ordering);
+  it_->flops = permutation.flops;
+  it_->method = permutation.method;
+  if (node.empty()) return;
+  cholmod_common* c = it_->common.get();
+  c->nmethods = 1;
+  c->method[0].ordering = CHOLMOD_GIVEN;
+  c->postorder = true;
+  cholmod_sparse a = view(lower);
+  it_->factor = cholmod_analyze_p(&a, permutation.order.data(), nullptr, 0, c);
+  it_->common.check("symbolic factorisation");
+
+  // The postordering moves Γ among the rest, but keeps it closed under "ancestor in the
+  // elimination tree", so L[I,Γ] = 0 and L[Γ,Γ] is still the Schur complement's factor.
+  std::vector<char> is_last(node.empty() ? 0 : node.back() + 1, 0);
+  for (int n : last)
+    if (n < static_cast<int>(is_last.size())) is_last[n] = 1;
+  const int* perm = static_cast<int*>(it_->factor->Perm);
+  if (!last.empty())
+    for (int k = 0; k < static_cast<int>(node.size()); ++k)
+      if (is_last[node[perm[k]]]) {
+        it_->boundary.push_back(perm[k]);
+        it_->position.push_back(k);
+      }
+}
+
+Cholesky::~Cholesky() = default;
+Cholesky::Cholesky(Cholesky&&) noexcept = default;
+Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
+
+bool Cholesky::factor(const SparseMatrix& lower) {
+  if (!it_->factor) return true;
+  require_memory(bytes(), text("the factor of ", lower.rows(), " unknowns"));
+  const BlasThreads threads(it_->flops);
+  cholmod_sparse a = view(lower);
+  const StoppableFactoring factoring;
+  cholmod_factorize(&a, it_->factor, it_->common.get());
+  if (factoring.stopped()) throw Interrupted();
+  if (it_->common.get()->status == CHOLMOD_NOT_POSDEF) return false;
+  it_->common.check("factorisation");
+  return it_->factor->minor == it_->factor->n;
+}
+
+int Cholesky::failed_unknown() const {
+  if (!it_->factor || it_->factor->minor >= it_->factor->n) return -1;
+  return static_cast<int*>(it_->factor->Perm)[it_->factor->minor];
+}
+
+Vector Cholesky::pivots() const {
+  if (!it_->factor) return {};
+  const cholmod_factor& f = *it_->factor;
+  if (!f.is_super) throw std::runtime_error("pivots: the factor is not supernodal");
+  const int *super = static_cast<int*>(f.super), *pi = static_cast<int*>(f.pi), *px = static_cast<int*>(f.px);
+  const double* x = static_cast<double*>(f.x);
+  Vector result(f.n);
+  for (std::size_t s = 0; s < f.nsuper; ++s)
+    for (int column = super[s]; column < super[s + 1]; ++column) {
+      const std::ptrdiff_t k = column - super[s], height = pi[s + 1] - pi[s];
+      result[static_cast<int*>(f.Perm)[column]] = std::pow(x[px[s] + k * (height + 1)], 2);
+    }
+  return result;
+}
+
+DenseMatrix Cholesky::solve(const DenseMatrix& b) const { return it_->sweep(CHOLMOD_A, b); }
+
+const std::vector<int>& Cholesky::boundary() const { return it_->boundary; }
+
+DenseMatrix Cholesky::boundary_factor() const {
+  const int m = static_cast<int>(it_->position.size());
+  DenseMatrix l = DenseMatrix::Zero(m, m);
+  if (m == 0) return l;
+  const cholmod_factor& f = *it_->factor;
+  std::vector<int> rank(f.n, -1);
+  for (int k = 0; k < m; ++k) rank[it_->position[k]] = k;
+  if (!f.is_super) throw std::runtime_error("Schur complement: the factor is not supernodal");
+  const int *super = static_cast<int*>(f.super), *pi = static_cast<int*>(f.pi),
+            *px = static_cast<int*>(f.px), *rows = static_cast<int*>(f.s);
+  const double* x = static_cast<double*>(f.x);
+  for (std::size_t s = 0; s < f.nsuper; ++s) {
+    const int height = pi[s + 1] - pi[s];
+    for (int column = super[s]; column < super[s + 1]; ++column) {
+      if (rank[column] < 0) continue;
+      const double* values = x + px[s] + static_cast<std::ptrdiff_t>(column - super[s]) * height;
+      for (int k = column - super[s]; k < height; ++k) {
+        const int row = rank[rows[pi[s] + k]];
+        if (row >= 0) l(row, rank[column]) = values[k];
+      }
+    }
+  }
+  return l;
+}
+
+Vector Cholesky::forward(const Vector& b) const {
+  const Vector permuted = it_->sweep(CHOLMOD_P, b);
+  return it_->sweep(CHOLMOD_L, permuted);
+}
+
+Vector Cholesky::boundary_part(const Vector& swept) const {
+  Vector part(it_->position.size());
+  for (std::size_t k = 0; k < it_->position.size(); ++k) part[k] = swept[it_->position[k]];
+  return part;
+}
+
+void Cholesky::set_boundary_part(Vector& swept, const Vector& part) const {
+  for (std::size_t k = 0; k < it_->position.size(); ++k) swept[it_->position[k]] = part[k];
+}
+
+Vector Cholesky::backward(const Vector& swept) const {
+  const Vector permuted = it_->sweep(CHOLMOD_Lt, swept);
+  return it_->sweep(CHOLMOD_Pt, permuted);
+}
+
+double Cholesky::flops() const { return it_->flops; }
+double Cholesky::bytes() const { return it_->factor ? 8.0 * it_->factor->xsize : 0; }
+const std::string& Cholesky::method() const { return it_->method; }
+
+}  // namespace dotyk::algebra

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algebra/direct/ordering.hpp"
+#include "algebra/types.hpp"
+
+namespace dotyk::algebra {
+
+/// Sparse Cholesky factorisation A = Pᵀ L Lᵀ P of a symmetric positive definite
+/// matrix, with an optional set Γ of unknowns eliminated last. The trailing
+/// block L_Γ of the factor then gives the Schur complement onto Γ,
+///   S = A_ΓΓ − A_ΓI A_II⁻¹ A_IΓ = L_Γ L_Γᵀ,
+/// and one forward and one backward sweep around a problem on Γ solve the whole.
+class Cholesky {
+ public:
+  /// Orders and analyses. `lower`: lower triangle; `node`, `last` as in order().
+  Cholesky(const SparseMatrix& lower, const std::vector<int>& node,
+           const std::vector<int>& last, Ordering ordering = Ordering::automatic);
+  ~Cholesky();
+  Cholesky(Cholesky&&) noexcept;
+  Cholesky& operator=(Cholesky&&) noexcept;
+
+  /// Factors a matrix of the analysed pattern. False where it is not positive
+  /// definite to working precision; failed_unknown() then tells where.
+  bool factor(const SparseMatrix& lower);
+  /// The unknown whose pivot was not positive, or -1.
+  int failed_unknown() const;
+
+  /// The squares of L's diagonal, one an unknown: what was left of A's diagonal when the unknown's turn came.
+  Vector pivots() const;
+
+  /// A⁻¹ b for every column of b. Like the sweeps below it may be called by several threads at once.
+  DenseMatrix solve(const DenseMatrix& b) const;
+
+  /// Γ: unknown of each row of the condensed quantities below, in the factor's order.
+  const std::vector<int>& boundary() const;
+  /// L_Γ, lower triangular, |Γ| × |Γ|.
+  DenseMatrix boundary_factor() const;
+
+  /// The forward sweep L y = P b. Kept whole; its Γ part is L_Γ⁻¹ times the condensed right-hand side.
+  Vector forward(const Vector& b) const;
+  /// Γ part of a swept vector, and its replacement.
+  Vector boundary_part(const Vector& swept) const;
+  void set_boundary_part(Vector& swept, const Vector& part) const;
+  /// The backward sweep: x with Lᵀ P x = y.
+  Vector backward(const Vector& swept) const;
+
+  double flops() const;              ///< predicted by the ordering
+  double bytes() const;              ///< of the factor's numbers
+  const std::string& method() const; ///< of the ordering
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> it_;
+};
+
+}  // namespace dotyk::algebra

@@ -1,0 +1,96 @@
+#include "algebra/direct/condensation.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+
+#include "algebra/dense/dense.hpp"
+#include "algebra/dense/generalised_inverse.hpp"
+
+namespace dotyk::algebra {
+
+namespace {
+
+double& diagonal(SparseMatrix& lower, int unknown) {
+  return lower.valuePtr()[lower.outerIndexPtr()[unknown]];  // the first entry of its column
+}
+
+}  // namespace
+
+Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
+                           const std::vector<int>& last, const DenseMatrix& kernel,
+                           Ordering ordering)
+    : factor_(K, node, last, ordering) {
+  const Eigen::Index n = static_cast<Eigen::Index>(boundary().size()), modes = kernel.cols();
+  kernel_.resize(n, modes);
+  for (Eigen::Index k = 0; k < n; ++k) kernel_.row(k) = kernel.row(boundary()[k]);
+  if (modes == 0) return;
+  DenseMatrix square = DenseMatrix::Zero(std::max(n, modes), modes);
+  square.topRows(n) = kernel_;
+  const Eigen::JacobiSVD<DenseMatrix> svd(square, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  const double largest = kernel.lpNorm<Eigen::Infinity>();
+  Eigen::Index rank = 0;
+  while (rank < modes && svd.singularValues()[rank] > 1e-9 * largest) ++rank;
+  basis_ = svd.matrixU().topRows(n).leftCols(rank);
+  pinned_ = fixing_unknowns(kernel * svd.matrixV().rightCols(modes - rank));
+}
+
+bool Condensation::factor(const SparseMatrix& K) {
+  if (kernel_size() == 0) {
+    if (!factor_.factor(K)) return false;
+    l_gamma_ = factor_.boundary_factor();
+    return true;
+  }
+  // Shift by the diagonal itself: of the size of the stiffness, so that taking it off again
+  // loses a digit at most, and only on Γ.
+  SparseMatrix shifted = K;
+  for (int unknown : pinned_) diagonal(shifted, unknown) *= 2;
+  shift_.resize(static_cast<Eigen::Index>(boundary().size()));
+  for (std::size_t k = 0; k < boundary().size(); ++k) {
+    shift_[k] = diagonal(shifted, boundary()[k]);
+    diagonal(shifted, boundary()[k]) *= 2;
+  }
+  if (!factor_.factor(shifted)) return false;
+  l_gamma_ = factor_.boundary_factor();
+  l_dense_ = schur();
+  if (basis_.cols() > 0) l_dense_ += shift_.mean() * basis_ * basis_.transpose();
+  return algebra::cholesky(l_dense_);
+}
+
+DenseMatrix Condensation::schur() const {
+  DenseMatrix S = square(l_gamma_);
+  if (shift_.size()) S.diagonal() -= shift_;
+  return S;
+}
+
+Vector Condensation::condense(const Vector& f) {
+  swept_ = factor_.forward(f);
+  return l_gamma_.triangularView<Eigen::Lower>() * factor_.boundary_part(swept_);
+}
+
+Vector Condensation::solve(const Vector& b) const {
+  Vector x = b;
+  solve_lower(dense_factor(), x);
+  solve_lower_transposed(dense_factor(), x);
+  return x;
+}
+
+DenseMatrix Condensation::half_compliance(const SparseRows& B) const {
+  DenseMatrix x = DenseMatrix(B.transpose());
+  solve_lower(dense_factor(), x);
+  return x;
+}
+
+Vector Condensation::recover(const Vector& boundary_values) const { return from_boundary(swept_, boundary_values); }
+
+Vector Condensation::response(const Vector& f, const Vector& added) const {
+  Vector swept = factor_.forward(f);
+  const Vector load = l_gamma_.triangularView<Eigen::Lower>() * factor_.boundary_part(swept);
+  return from_boundary(std::move(swept), solve(load) + added);
+}
+
+Vector Condensation::from_boundary(Vector swept, const Vector& boundary_values) const {
+  factor_.set_boundary_part(swept, l_gamma_.transpose().triangularView<Eigen::Upper>() * boundary_values);
+  return factor_.backward(swept);
+}
+
+}  // namespace dotyk::algebra

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "algebra/direct/cholesky.hpp"
+#include "algebra/types.hpp"
+
+namespace dotyk::algebra {
+
+/// A symmetric positive semidefinite K condensed onto the unknowns Γ of some
+/// nodes: the Schur complement S from the trailing block of one factor, and
+/// what is needed to work with it.
+///
+/// A kernel R of K (rigid modes) is allowed: K is then factored with a known
+/// diagonal D added on Γ, S = L_Γ L_Γᵀ − D, and the small dense M = S + τ R̂R̂ᵀ
+/// (R̂ an orthonormal basis of R on Γ) is positive definite, M⁻¹ a generalised
+/// inverse of S. Motions in the kernel that vanish on Γ are held by a diagonal
+/// added at as many well-chosen unknowns (fixing_unknowns): it carries nothing
+/// for loads in equilibrium, so S is as it would be.
+class Condensation {
+ public:
+  /// Orders and analyses. `last`: nodes of Γ, see order(). `kernel`: K.rows() × modes.
+  Condensation(const SparseMatrix& K, const std::vector<int>& node, const std::vector<int>& last,
+               const DenseMatrix& kernel, Ordering ordering = Ordering::automatic);
+
+  /// Factors. False where K is not positive definite apart from its kernel;
+  /// failed_unknown() then tells an unknown that is not held (-1: none in particular).
+  bool factor(const SparseMatrix& K);
+  int failed_unknown() const { return factor_.failed_unknown(); }
+
+  const std::vector<int>& boundary() const { return factor_.boundary(); }  ///< unknowns of Γ
+  int kernel_size() const { return static_cast<int>(kernel_.cols()); }
+  /// R restricted to Γ, |Γ| × modes, in the basis given.
+  const DenseMatrix& boundary_kernel() const { return kernel_; }
+
+  /// Sweeps f down to Γ and returns the condensed load f_Γ − K_ΓI K_II⁻¹ f_I.
+  Vector condense(const Vector& f);
+  /// S on Γ, semidefinite with a kernel.
+  DenseMatrix schur() const;
+  /// M⁻¹ b, b on Γ (S⁻¹ b without a kernel).
+  Vector solve(const Vector& b) const;
+  /// X = L_M⁻¹ Bᵀ for a sparse B (rows × |Γ|, columns in boundary() order), so that
+  /// XᵀX = B M⁻¹ Bᵀ.
+  DenseMatrix half_compliance(const SparseRows& B) const;
+  /// The whole u from u_Γ, for the f of the last condense(): one backward sweep.
+  Vector recover(const Vector& boundary_values) const;
+
+  /// The displacement under other forces f (of a generalised inverse where there is a kernel), to which the one is added that has the values
+  /// `added` on Γ and no forces off it: one forward and one backward sweep.
+  Vector response(const Vector& f, const Vector& added) const;
+
+  const Cholesky& cholesky() const { return factor_; }
+
+ private:
+  Vector from_boundary(Vector swept, const Vector& boundary_values) const;
+
+  Cholesky factor_;
+  std::vector<int> pinned_;   ///< unknowns off Γ that hold the motions vanishing on Γ
+  DenseMatrix kernel_;        ///< R on Γ
+  DenseMatrix basis_;         ///< R̂
+  DenseMatrix l_gamma_;       ///< L_Γ (of the shifted matrix)
+  Vector shift_;              ///< D; empty without a kernel
+  DenseMatrix l_dense_;       ///< Cholesky factor of M; empty without a kernel
+  Vector swept_;
+
+  const DenseMatrix& dense_factor() const { return kernel_size() ? l_dense_ : l_gamma_; }
+};
+
+}  // namespace dotyk::algebra

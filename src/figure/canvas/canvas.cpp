@@ -1,0 +1,310 @@
+#include "figure/canvas/canvas.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <vtkActor2D.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLPolyDataMapper2D.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include "figure/canvas/osmesa_window.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+// The part of a convex polygon where sign (coordinate - bound) <= 0.
+std::vector<Point> cut(const std::vector<Point>& in, double Point::*coordinate, double bound, double sign) {
+  std::vector<Point> out;
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const Point p = in[i], q = in[(i + 1) % in.size()];
+    const double a = sign * (p.*coordinate - bound), b = sign * (q.*coordinate - bound);
+    if (a <= 0) out.push_back(p);
+    if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
+      const double t = a / (a - b);
+      out.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
+    }
+  }
+  return out;
+}
+
+double turn(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+
+// Paints in order, whatever has been painted there: the mapper of VTK tests
+// depth, and of triangles in one plane keeps the first.
+class PaintingMapper : public vtkOpenGLPolyDataMapper2D {
+public:
+  static PaintingMapper* New();
+  vtkTypeMacro(PaintingMapper, vtkOpenGLPolyDataMapper2D);
+  void RenderOverlay(vtkViewport* viewport, vtkActor2D* actor) override {
+    constexpr unsigned int depth_test = 0x0B71;  // GL_DEPTH_TEST
+    auto* window = static_cast<vtkOpenGLRenderWindow*>(viewport->GetVTKWindow());
+    window->GetState()->vtkglDisable(depth_test);
+    vtkOpenGLPolyDataMapper2D::RenderOverlay(viewport, actor);
+    window->GetState()->vtkglEnable(depth_test);
+  }
+};
+vtkStandardNewMacro(PaintingMapper);
+
+}  // namespace
+
+// Liang and Barsky.
+bool crop(Point& p, Point& q, const Box& box) {
+  double t0 = 0, t1 = 1;
+  const double d[4] = {p.x - q.x, q.x - p.x, p.y - q.y, q.y - p.y};
+  const double r[4] = {p.x - box.left, box.right - p.x, p.y - box.bottom, box.top - p.y};
+  for (int k = 0; k < 4; ++k) {
+    if (d[k] == 0) {
+      if (r[k] < 0) return false;
+    } else if (d[k] < 0) {
+      t0 = std::max(t0, r[k] / d[k]);
+    } else {
+      t1 = std::min(t1, r[k] / d[k]);
+    }
+  }
+  if (!(t0 <= t1)) return false;
+  const Point from = p;
+  p = {from.x + t0 * (q.x - from.x), from.y + t0 * (q.y - from.y)};
+  q = {from.x + t1 * (q.x - from.x), from.y + t1 * (q.y - from.y)};
+  return true;
+}
+
+void Canvas::emit(Point p, Colour c, double opacity) {
+  const auto alpha = static_cast<unsigned char>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
+  vertices_.push_back({static_cast<float>((origin_.x + p.x) * factor_), static_cast<float>((origin_.y + p.y) * factor_), {c.r, c.g, c.b, alpha}});
+}
+
+void Canvas::fan(std::span<const Point> corners, Colour colour, double opacity) {
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    emit(corners[0], colour, opacity);
+    emit(corners[i - 1], colour, opacity);
+    emit(corners[i], colour, opacity);
+  }
+}
+
+void Canvas::convex(std::span<const Point> corners, Colour colour, double opacity) {
+  for (const Point& p : corners)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) return;
+  const bool inside = !clipped_ || std::all_of(corners.begin(), corners.end(), [&](Point p) { return clip_.holds(p); });
+  if (inside) return fan(corners, colour, opacity);
+  std::vector<Point> rest(corners.begin(), corners.end());
+  rest = cut(rest, &Point::x, clip_.left, -1);
+  rest = cut(rest, &Point::x, clip_.right, 1);
+  rest = cut(rest, &Point::y, clip_.bottom, -1);
+  rest = cut(rest, &Point::y, clip_.top, 1);
+  if (rest.size() > 2) fan(rest, colour, opacity);
+}
+
+// Ear clipping: outlines of obstacles have some hundred corners at most.
+void Canvas::polygon(std::span<const Point> corners, Colour colour, double opacity) {
+  std::vector<Point> rest(corners.begin(), corners.end());
+  double area = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) area += turn({0, 0}, rest[i], rest[(i + 1) % rest.size()]);
+  if (area < 0) std::reverse(rest.begin(), rest.end());
+  while (rest.size() > 3) {
+    const std::size_t n = rest.size();
+    std::size_t ear = n;
+    for (std::size_t i = 0; i < n && ear == n; ++i) {
+      const Point a = rest[(i + n - 1) % n], b = rest[i], c = rest[(i + 1) % n];
+      if (turn(a, b, c) < 0) continue;
+      bool empty = true;
+      for (std::size_t j = 0; j < n && empty; ++j) {
+        if (j == i || j == (i + n - 1) % n || j == (i + 1) % n) continue;
+        empty = !(turn(a, b, rest[j]) > 0 && turn(b, c, rest[j]) > 0 && turn(c, a, rest[j]) > 0);
+      }
+      if (empty) ear = i;
+    }
+    if (ear == n) break;  // crosses itself: the rest is drawn as a fan
+    convex(std::array{rest[(ear + n - 1) % n], rest[ear], rest[(ear + 1) % n]}, colour, opacity);
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  convex(rest, colour, opacity);
+}
+
+void Canvas::box(const Box& b, Colour colour, double opacity) {
+  convex(std::array<Point, 4>{{{b.left, b.bottom}, {b.right, b.bottom}, {b.right, b.top}, {b.left, b.top}}}, colour, opacity);
+}
+
+void Canvas::line(Point p, Point q, double width, Colour colour, double opacity) {
+  const double length = std::hypot(q.x - p.x, q.y - p.y);
+  if (!(length > 0)) return;
+  const double nx = -(q.y - p.y) / length * width / 2, ny = (q.x - p.x) / length * width / 2;
+  convex(std::array<Point, 4>{{{p.x + nx, p.y + ny}, {p.x - nx, p.y - ny}, {q.x - nx, q.y - ny}, {q.x + nx, q.y + ny}}},
+         colour, opacity);
+}
+
+void Canvas::polyline(std::span<const Point> points, double width, Colour colour, std::span<const double> dash, bool closed) {
+  // Points closer than a quarter of a pixel do not show.
+  std::vector<Point> path;
+  for (const Point& p : points)
+    if (path.empty() || std::hypot(p.x - path.back().x, p.y - path.back().y) > 0.25) path.push_back(p);
+  if (!points.empty() && path.size() > 1) path.back() = points.back();
+  if (closed && path.size() > 2) path.push_back(path.front());
+
+  std::size_t turn_of = 0;
+  double left = dash.empty() ? 0 : dash[0];
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    Point p = path[i], q = path[i + 1];
+    // What lies outside is neither drawn nor dashed: it may be very long.
+    if (clipped_ && !crop(p, q, {clip_.left - width, clip_.bottom - width, clip_.right + width, clip_.top + width})) continue;
+    if (dash.empty()) {
+      line(p, q, width, colour);
+      if (width > 1.2 && (i > 0 || closed)) disc(p, width / 2, colour);
+      continue;
+    }
+    double length = std::hypot(q.x - p.x, q.y - p.y);
+    while (length > 0) {
+      const double step = std::min(left, length), t = step / length;
+      const Point end{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+      if (turn_of % 2 == 0) line(p, end, width, colour);
+      p = end, length -= step, left -= step;
+      if (left <= 0) left = dash[++turn_of % dash.size()];
+    }
+  }
+}
+
+void Canvas::disc(Point centre, double radius, Colour colour) {
+  const int n = std::clamp(static_cast<int>(4 * radius) + 6, 8, 64);
+  std::vector<Point> corners;
+  for (int k = 0; k < n; ++k) {
+    const double angle = 2 * std::numbers::pi * k / n;
+    corners.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  convex(corners, colour);
+}
+
+void Canvas::marker(Marker kind, Point c, double size, Colour colour) {
+  const Colour white{255, 255, 255};
+  const double rim = std::max(0.8, size / 12), r = size / 2;
+  const auto at = [&](double x, double y, double s) { return Point{c.x + s * x, c.y + s * y}; };
+  const auto shape = [&](std::initializer_list<Point> corners, double grow) {
+    for (const auto& [s, paint] : {std::pair{r * grow + rim * 1.3, white}, std::pair{r * grow, colour}}) {
+      std::vector<Point> moved;
+      for (const Point& p : corners) moved.push_back(at(p.x, p.y, s));
+      convex(moved, paint);
+    }
+  };
+  switch (kind) {
+    case Marker::disc:
+      disc(c, r + rim, white);
+      disc(c, r, colour);
+      break;
+    case Marker::ring:
+      disc(c, r + rim, white);
+      disc(c, r, colour);
+      disc(c, r - std::max(1.2, size / 5), white);
+      break;
+    case Marker::square: shape({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, 0.88); break;
+    case Marker::triangle: shape({{-0.95, -0.6}, {0.95, -0.6}, {0, 1.05}}, 1.12); break;
+    case Marker::down_triangle: shape({{0, -1.05}, {0.95, 0.6}, {-0.95, 0.6}}, 1.12); break;
+    case Marker::diamond: shape({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}, 1.2); break;
+    case Marker::plus:
+    case Marker::cross: {
+      const double d = kind == Marker::plus ? 0 : std::numbers::pi / 4;
+      for (const auto& [w, paint, l] : {std::tuple{size / 3.2 + 2 * rim, white, r * 1.1 + rim}, std::tuple{size / 3.2, colour, r * 1.1}})
+        for (const double a : {d, d + std::numbers::pi / 2})
+          line({c.x - l * std::cos(a), c.y - l * std::sin(a)}, {c.x + l * std::cos(a), c.y + l * std::sin(a)}, w, paint);
+      break;
+    }
+  }
+}
+
+Marker status_marker(Status status) {
+  switch (status) {
+    case Status::open: return Marker::ring;
+    case Status::closed: return Marker::disc;
+    case Status::stick: return Marker::square;
+    case Status::slip: return Marker::triangle;
+  }
+  return Marker::disc;
+}
+
+void Canvas::crossed_marker(Marker kind, Point c, double size, Colour colour) {
+  const auto pale = [](unsigned char value) { return static_cast<unsigned char>(255 - (255 - value) / 3); };
+  marker(kind, c, 1.2 * size, {pale(colour.r), pale(colour.g), pale(colour.b)});
+  const double arm = 0.55 * size;
+  for (const double side : {-1.0, 1.0}) line({c.x - arm, c.y - side * arm}, {c.x + arm, c.y + side * arm}, 0.16 * size, colour);
+}
+
+void Canvas::arrow(Point tail, Point head, double width, double head_length, Colour colour, double rim) {
+  const double length = std::hypot(head.x - tail.x, head.y - tail.y);
+  if (!(length > 0)) return;
+  const double tip = std::min(head_length, 0.7 * length);
+  const Point d{(head.x - tail.x) / length, (head.y - tail.y) / length};
+  const Point neck{head.x - tip * d.x, head.y - tip * d.y};
+  const double half = 0.38 * tip;
+  if (rim > 0) {
+    const Colour white{255, 255, 255};
+    const double grow = (half + rim) / half;
+    line({tail.x - rim * d.x, tail.y - rim * d.y}, neck, width + 2 * rim, white);
+    convex(std::array<Point, 3>{{{neck.x - rim * d.x - grow * half * d.y, neck.y - rim * d.y + grow * half * d.x},
+                                 {neck.x - rim * d.x + grow * half * d.y, neck.y - rim * d.y - grow * half * d.x},
+                                 {head.x + 2 * rim * d.x, head.y + 2 * rim * d.y}}}, white);
+  }
+  line(tail, {head.x - 0.9 * tip * d.x, head.y - 0.9 * tip * d.y}, width, colour);
+  convex(std::array<Point, 3>{{{neck.x - half * d.y, neck.y + half * d.x}, {neck.x + half * d.y, neck.y - half * d.x}, head}}, colour);
+}
+
+void Canvas::text(Point at, const std::string& text, const TextStyle& style) {
+  if (!text.empty()) texts_.push_back({{origin_.x + at.x, origin_.y + at.y}, text, style});
+}
+
+void Canvas::add_to(vtkRenderer* renderer) const {
+  if (vertices_.empty()) return;
+  const auto n = static_cast<vtkIdType>(vertices_.size());
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(n);
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(4);
+  colours->SetNumberOfTuples(n);
+  vtkNew<vtkTypeInt64Array> nodes;
+  nodes->SetNumberOfValues(n);
+  for (vtkIdType i = 0; i < n; ++i) {
+    const Vertex& v = vertices_[i];
+    coordinates->SetTypedComponent(i, 0, v.x);
+    coordinates->SetTypedComponent(i, 1, v.y);
+    coordinates->SetTypedComponent(i, 2, 0);
+    colours->SetTypedTuple(i, v.rgba);
+    nodes->SetValue(i, i);
+  }
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  vtkNew<vtkCellArray> triangles;
+  triangles->SetData(3, nodes);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(triangles);
+  data->GetPointData()->SetScalars(colours);
+  vtkNew<PaintingMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  renderer->AddViewProp(actor);
+}
+
+void write_canvas(const Canvas& canvas, int width, int height, const std::string& file) {
+  OsmesaWindow window(canvas.factor() * width, canvas.factor() * height);
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  window.vtk()->AddRenderer(renderer);
+  canvas.add_to(renderer);
+  Image image = reduce(window.render(), width, height, canvas.factor());
+  canvas.set_texts(image);
+  write_png(image, file);
+}
+
+}  // namespace dotyk::figure

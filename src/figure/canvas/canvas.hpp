@@ -1,0 +1,111 @@
+// Flat drawing in the pixels of the finished picture: origin at the lower
+// left, y upwards. Shapes become triangles for VTK, painted in the order of
+// the calls; texts are set on the finished image, above everything.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "figure/canvas/image.hpp"
+#include "figure/door/picture.hpp"
+
+class vtkRenderer;
+
+namespace dotyk::figure {
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+struct Box {
+  double left = 0, bottom = 0, right = 0, top = 0;
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+  bool holds(Point p, double margin = 0) const {
+    return p.x >= left - margin && p.x <= right + margin && p.y >= bottom - margin && p.y <= top + margin;
+  }
+};
+
+constexpr Colour load_colour{0, 70, 110};  // of arrows of loads
+
+// Cuts the segment p q down to its part in the box; false: there is none.
+bool crop(Point& p, Point& q, const Box& box);
+
+enum class Align { low, middle, high };  // which end of the text stands at its point
+
+struct TextStyle {
+  double size = 20;  // pixels
+  Align across = Align::low, up = Align::low;
+  bool upright = false;  // turned by 90 degrees, read from below
+  bool bold = false;
+  Colour colour = {20, 20, 20};
+  bool halo = false;  // white rim, for texts on a coloured ground
+};
+
+// Width and height in pixels of a line of text, not turned.
+Point text_extent(const std::string& text, double size, bool bold = false);
+
+// The size at which the text fits into so many pixels: at most `size`, and no
+// less than half of it.
+double fitting_size(const std::string& text, double size, double pixels, bool bold = false);
+
+enum class Marker { disc, square, triangle, diamond, down_triangle, plus, cross, ring };
+Marker status_marker(Status status);
+
+class Canvas {
+public:
+  explicit Canvas(int factor) : factor_(factor) {}
+
+  // Where (0, 0) of what follows is.
+  void origin(Point origin) { origin_ = origin; }
+  // Triangles outside the box are cut off from here on.
+  void clip(const Box& box) { clip_ = box, clipped_ = true; }
+  void no_clip() { clipped_ = false; }
+
+  void convex(std::span<const Point> corners, Colour colour, double opacity = 1);
+  void polygon(std::span<const Point> corners, Colour colour, double opacity = 1);
+  void box(const Box& box, Colour colour, double opacity = 1);
+  void line(Point from, Point to, double width, Colour colour, double opacity = 1);
+  // dash: lengths of stroke and gap by turns; empty: solid.
+  void polyline(std::span<const Point> points, double width, Colour colour,
+                std::span<const double> dash = {}, bool closed = false);
+  void disc(Point centre, double radius, Colour colour);
+  // size: the diameter. Rimmed in white so that it stands off its ground.
+  void marker(Marker kind, Point centre, double size, Colour colour);
+  // The same, pale and crossed out.
+  void crossed_marker(Marker kind, Point centre, double size, Colour colour);
+  // rim: pixels of white around it.
+  void arrow(Point tail, Point head, double width, double head_length, Colour colour, double rim = 0);
+  // A gradient rectangle is a row of boxes; texts need no clip.
+  void text(Point at, const std::string& text, const TextStyle& style);
+
+  void add_to(vtkRenderer* renderer) const;
+  void set_texts(Image& image) const;
+  int factor() const { return factor_; }
+
+private:
+  struct Vertex {
+    float x, y;
+    unsigned char rgba[4];
+  };
+  struct Text {
+    Point at;
+    std::string text;
+    TextStyle style;
+  };
+  void fan(std::span<const Point> corners, Colour colour, double opacity);
+  void emit(Point p, Colour colour, double opacity);
+
+  int factor_;
+  Point origin_;
+  bool clipped_ = false;
+  Box clip_;
+  std::vector<Vertex> vertices_;  // three a triangle
+  std::vector<Text> texts_;
+};
+
+// A canvas alone on white, as PNG.
+void write_canvas(const Canvas& canvas, int width, int height, const std::string& file);
+
+}  // namespace dotyk::figure

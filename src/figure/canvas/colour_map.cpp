@@ -1,0 +1,157 @@
+#include "figure/canvas/colour_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "figure/canvas/ticks.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+using Anchors = std::array<Colour, 11>;
+
+// Viridis (van der Walt & Smith, matplotlib) at tenths.
+constexpr Anchors viridis{{{68, 1, 84}, {72, 36, 117}, {65, 68, 135}, {53, 95, 141}, {42, 120, 142}, {33, 145, 140},
+                           {34, 168, 132}, {68, 191, 112}, {122, 209, 81}, {189, 223, 38}, {253, 231, 37}}};
+// RdBu (Brewer) from blue to red.
+constexpr Anchors blue_red{{{5, 48, 97}, {33, 102, 172}, {67, 147, 195}, {146, 197, 222}, {209, 229, 240}, {247, 247, 247},
+                            {253, 219, 199}, {244, 165, 130}, {214, 96, 77}, {178, 24, 43}, {103, 0, 31}}};
+
+Colour mix(const Anchors& anchors, double t) {
+  const double s = 10 * std::clamp(t, 0.0, 1.0);
+  const auto i = std::min<std::size_t>(9, static_cast<std::size_t>(s));
+  const double f = s - static_cast<double>(i);
+  const auto blend = [f](unsigned char a, unsigned char b) { return static_cast<unsigned char>(std::lround(a + f * (b - a))); };
+  const Colour a = anchors[i], b = anchors[i + 1];
+  return {blend(a.r, b.r), blend(a.g, b.g), blend(a.b, b.b)};
+}
+
+// "stress [MPa]", "stress [10⁶ Pa]": the power of ten stands with the unit.
+std::string label(const ScenePicture& p, int exponent) {
+  std::string unit = exponent ? (p.field_unit.empty() ? "× " : "") + power_of_ten(exponent) : "";
+  if (!p.field_unit.empty()) unit += (unit.empty() ? "" : " ") + p.field_unit;
+  return unit.empty() ? p.field_label : p.field_label + " [" + unit + "]";
+}
+
+Ticks bar_ticks(const ColourScale& scale) { return linear_ticks(scale.low, scale.high, 6); }
+
+constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small_label = 0.85, ends = 0.55, tip = 0.9;  // in em
+
+std::string extreme(const char* name, double value, const Ticks& ticks) { return std::string(name) + " " + scaled_number(value, ticks.exponent); }
+
+}  // namespace
+
+double ColourScale::from() const { return diverging ? -to() : low; }
+double ColourScale::to() const { return diverging ? std::max(std::abs(low), std::abs(high)) : high; }
+
+Colour ColourScale::at(double value) const {
+  const double a = from(), b = to();
+  return mix(diverging ? blue_red : viridis, b > a ? (value - a) / (b - a) : 0.5);
+}
+
+ColourScale colour_scale(const ScenePicture& p, const std::optional<Window>& window) {
+  ColourScale scale;
+  double least = 1e300, greatest = -1e300;
+  if (window) {
+    const Seen part = seen(p, *window);
+    least = part.least, greatest = part.greatest;
+  } else {
+    for (const BodyPicture& body : p.bodies)
+      for (const double v : body.values)
+        if (std::isfinite(v)) least = std::min(least, v), greatest = std::max(greatest, v);
+  }
+  const bool any = least <= greatest;
+  scale.shown = any;
+  if (!any) return scale;
+  scale.least = scale.low = least, scale.greatest = scale.high = greatest;
+  if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
+  // A field that dips below zero by rounding only has one sign.
+  const double lesser = std::min(-scale.low, scale.high), greater = std::max(-scale.low, scale.high);
+  scale.diverging = p.map == MapKind::diverging || (p.map == MapKind::automatic && lesser > 0.02 * greater);
+  if (!(scale.high - scale.low > 1e-12 * std::max(std::abs(scale.low), std::abs(scale.high)))) {
+    // A constant field: a bar of some height around it.
+    const double half = scale.low == 0 ? 1 : 0.1 * std::abs(scale.low);
+    scale.low -= half, scale.high += half;
+  }
+  return scale;
+}
+
+vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale) {
+  auto table = vtkSmartPointer<vtkLookupTable>::New();
+  constexpr int n = 1024;
+  table->SetNumberOfTableValues(n);
+  table->SetTableRange(scale.from(), scale.to());
+  for (int i = 0; i < n; ++i) {
+    const Colour c = scale.at(scale.from() + (scale.to() - scale.from()) * (i + 0.5) / n);
+    table->SetTableValue(i, c.r / 255.0, c.g / 255.0, c.b / 255.0, 1);
+  }
+  table->SetNanColor(0.85, 0.85, 0.85, 1);
+  return table;
+}
+
+double colour_bar_width(const ColourScale& scale, const ScenePicture& p, double em) {
+  if (!scale.shown || p.field_label.empty()) return 0;
+  const Ticks ticks = bar_ticks(scale);
+  double widest = 0;
+  for (const Tick& t : ticks.ticks) widest = std::max(widest, text_extent(t.label, em).x);
+  const double beside = (bar + tick + pad) * em + widest + 0.4 * em + 1.3 * em;
+  const double above = std::max(text_extent(extreme("max", scale.greatest, ticks), small_label * em).x, text_extent(extreme("min", scale.least, ticks), small_label * em).x);
+  return std::max(beside, above);
+}
+
+namespace {
+
+// The field goes on beyond that end of the bar.
+bool beyond(const ColourScale& scale, bool above) { return above ? scale.greatest > scale.high : scale.least < scale.low; }
+
+// A triangle on that end, in its colour.
+void draw_tip(Canvas& canvas, const ColourScale& scale, const Box& box, double em, bool above) {
+  const double foot = above ? box.top : box.bottom;
+  const std::array<Point, 3> corners{{{box.left, foot}, {box.right, foot}, {(box.left + box.right) / 2, foot + (above ? 1 : -1) * tip * em}}};
+  canvas.convex(corners, scale.at(above ? scale.high : scale.low));
+  canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
+}
+
+}  // namespace
+
+void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& p, double em, double left, double bottom, double top) {
+  if (!scale.shown || p.field_label.empty()) return;
+  const Ticks ticks = bar_ticks(scale);
+  const double tip_below = beyond(scale, false) ? tip * em : 0, tip_above = beyond(scale, true) ? tip * em : 0;
+  const Box box{left, bottom + (ends + 1.0) * em + tip_below, left + bar * em, top - (ends + 1.0) * em - tip_above};
+  const int n = std::max(2, static_cast<int>(box.height()));
+  for (int i = 0; i < n; ++i) {
+    const double y = box.bottom + box.height() * i / n;
+    canvas.box({box.left, y, box.right, box.bottom + box.height() * (i + 1) / n}, scale.at(scale.low + (scale.high - scale.low) * (i + 0.5) / n));
+  }
+  const std::array<Point, 4> edge{{{box.left, box.bottom}, {box.right, box.bottom}, {box.right, box.top}, {box.left, box.top}}};
+  canvas.polyline(edge, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
+  for (const bool above : {false, true})
+    if (beyond(scale, above)) draw_tip(canvas, scale, box, em, above);
+  TextStyle style;
+  style.size = em;
+  style.up = Align::middle;
+  double widest = 0;
+  for (const Tick& t : ticks.ticks) {
+    if (t.label.empty()) continue;
+    const double y = box.bottom + box.height() * (t.value - scale.low) / (scale.high - scale.low);
+    canvas.line({box.right, y}, {box.right + tick * em, y}, std::max(1.0, em / 20), {60, 60, 60});
+    canvas.text({box.right + (tick + pad) * em, y}, t.label, style);
+    widest = std::max(widest, text_extent(t.label, em).x);
+  }
+  TextStyle end = style;
+  end.size = small_label * em;
+  end.colour = {70, 70, 70};
+  end.up = Align::low;
+  canvas.text({box.left, box.top + tip_above + ends * em}, extreme("max", scale.greatest, ticks), end);
+  end.up = Align::high;
+  canvas.text({box.left, box.bottom - tip_below - ends * em}, extreme("min", scale.least, ticks), end);
+  style.upright = true;
+  const std::string name = label(p, ticks.exponent);
+  style.size = fitting_size(name, em, box.height());
+  canvas.text({box.right + (tick + pad) * em + widest + 0.4 * em, (box.bottom + box.top) / 2}, name, style);
+}
+
+}  // namespace dotyk::figure

@@ -1,0 +1,36 @@
+// Colours of a field, and the bar that explains them.
+#pragma once
+
+#include <vtkLookupTable.h>
+#include <vtkSmartPointer.h>
+
+#include "figure/canvas/canvas.hpp"
+#include "figure/door/picture.hpp"
+#include "figure/canvas/window.hpp"
+
+namespace dotyk::figure {
+
+struct ColourScale {
+  bool shown = false;      // some body has values, or the picture fixes a range
+  bool diverging = false;
+  double low = 0, high = 1;            // what the bar shows
+  double least = 0, greatest = 0;      // of the field itself
+
+  // Ends of the colours: low and high, or symmetric about zero.
+  double from() const;
+  double to() const;
+  Colour at(double value) const;
+};
+
+// Of all the bodies, or of what the window shows of them.
+ColourScale colour_scale(const ScenePicture& picture, const std::optional<Window>& window);
+
+vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale);
+
+// The upright bar with ticks, extremes and label, and a triangle on an end beyond
+// which the field goes on: its width, and its drawing with the left edge at
+// `left` between bottom and top.
+double colour_bar_width(const ColourScale& scale, const ScenePicture& picture, double em);
+void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& picture, double em, double left, double bottom, double top);
+
+}  // namespace dotyk::figure

@@ -1,0 +1,28 @@
+// The region of a scene in the plane that a figure shows, where it does not
+// show all of it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "figure/door/picture.hpp"
+
+namespace dotyk::figure {
+
+// Least x and y, greatest x and y, in the user's coordinates of the deformed
+// picture.
+using Window = std::array<double, 4>;
+
+// Nodes of those cells of a body, displaced by `factor`, whose boxes meet the
+// window, flat as in BodyPicture::cells.
+std::vector<int> cells_near(const BodyPicture& body, double factor, const Window& window);
+
+// What the window shows of the bodies. Values are interpolated to its border,
+// so that they are known where it lies within one cell.
+struct Seen {
+  bool body = false;                          // some area of some body
+  double least = 1e300, greatest = -1e300;    // of the finite values; least > greatest: there are none
+};
+Seen seen(const ScenePicture& picture, const Window& window);
+
+}  // namespace dotyk::figure

@@ -1,0 +1,212 @@
+#include "figure/compose/compose.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "figure/canvas/cell_shape.hpp"
+#include "figure/compose/compose_contact.hpp"
+#include "mesh/second_order.hpp"
+#include "solver/core/ending.hpp"
+
+namespace dotyk::figure {
+namespace {
+
+using scene::Body;
+using scene::Contact;
+using scene::Solution;
+
+const char* label(FieldChoice field) {
+  static const char* names[] = {"",  "displacement", "displacement along x", "displacement along y",
+                                "displacement along z", "von Mises stress", "stress xx", "stress yy",
+                                "stress zz", "stress yz", "stress xz", "stress xy"};
+  return names[static_cast<int>(field)];
+}
+
+bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises; }
+
+double value(FieldChoice field, const double* u, int dim, const elasticity::Stress& s) {
+  switch (field) {
+    case FieldChoice::displacement: return std::hypot(u[0], u[1], dim == 3 ? u[2] : 0);
+    case FieldChoice::ux: return u[0];
+    case FieldChoice::uy: return u[1];
+    case FieldChoice::uz: return u[2];
+    case FieldChoice::von_mises: return elasticity::von_mises(s);
+    case FieldChoice::xx: return s[0];
+    case FieldChoice::yy: return s[1];
+    case FieldChoice::zz: return s[2];
+    case FieldChoice::yz: return s[3];
+    case FieldChoice::xz: return s[4];
+    case FieldChoice::xy: return s[5];
+    default: return 0;
+  }
+}
+
+Vec3 at_node(const std::vector<double>& values, int node, int dim) {
+  Vec3 v{0, 0, 0};
+  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(node) * dim, dim, v.begin());
+  return v;
+}
+
+/// The edges of cells of order 2 (in space of the facets drawn, as others are behind), cut in two at their nodes.
+std::vector<int> second_order_edges(const mesh::Mesh& mesh) {
+  const mesh::ElementTopology& t = mesh.topology();
+  std::vector<int> edges;
+  const auto add = [&](int from, int middle, int to) { edges.insert(edges.end(), {from, middle, middle, to}); };
+  if (t.dimension == 2)
+    for (int c = 0; c < mesh.cell_count(); ++c)
+      for (int l = 0; l < t.facets; ++l) add(mesh.facet_node({c, l}, 0), mesh.facet_node({c, l}, 2), mesh.facet_node({c, l}, 1));
+  else
+    for (const mesh::Facet f : mesh::boundary(mesh))
+      for (int k = 0; k < t.facet_corners; ++k)
+        add(mesh.facet_node(f, k), mesh.facet_node(f, t.facet_corners + k), mesh.facet_node(f, (k + 1) % t.facet_corners));
+  return edges;
+}
+
+BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
+  const Body& body = s.body(index);
+  const mesh::Mesh mesh = mesh::cut_at_nodes(*body.mesh);
+  const int dim = body.dimension();
+  BodyPicture picture;
+  picture.name = body.name;
+  picture.dimension = dim;
+  picture.shape = cell_shape(mesh.element);
+  picture.cells = mesh.cells;
+  picture.nodes_per_facet = mesh.topology().nodes_per_facet;
+  if (body.mesh->topology().order == 2) picture.edges = second_order_edges(*body.mesh);
+  for (const mesh::Facet f : mesh::boundary(mesh))
+    for (int k = 0; k < picture.nodes_per_facet; ++k) picture.facets.push_back(mesh.facet_node(f, k));
+  const auto& u = s.displacement(index);
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    const Vec3 x = mesh.point(n), d = at_node(u, n, dim);
+    picture.points.insert(picture.points.end(), x.begin(), x.end());
+    picture.displacement.insert(picture.displacement.end(), d.begin(), d.end());
+  }
+  if (field == FieldChoice::none) return picture;
+  const elasticity::Stress none{};
+  for (int n = 0; n < mesh.node_count(); ++n)
+    picture.values.push_back(value(field, &u[static_cast<std::size_t>(n) * dim], dim,
+                                   is_stress(field) ? s.stress(index)[n] : none));
+  return picture;
+}
+
+SupportKind kind_of(scene::SupportKind kind) {
+  return kind == scene::SupportKind::fix     ? SupportKind::fix
+         : kind == scene::SupportKind::slide ? SupportKind::slide
+                                             : SupportKind::displace;
+}
+
+/// Laws, by the nearest of the known symbols: rollers for a rigid base, else springs; none where the support bears nothing.
+void add_law_supports(const Solution& s, int index, ScenePicture& picture) {
+  using Kind = problem::SupportLaw::Kind;
+  const Body& body = s.body(index);
+  for (const scene::LawSupport& on : body.laws) {
+    const auto result = s.support({s.scene().bodies[index], on.part.name, on.facets});
+    const Kind normal = on.normal.kind == Kind::free ? on.tangential.kind : on.normal.kind;
+    if (normal == Kind::load) continue;
+    const bool rigid = normal == Kind::signorini || normal == Kind::prescribed;
+    for (const scene::SupportNode& node : result.nodes)
+      if (!node.broken && (node.status != problem::Status::open || on.normal.kind == Kind::free))
+        picture.supports.push_back({node.x, at_node(s.displacement(index), node.node, body.dimension()), node.normal, {true, true, true},
+                                    rigid ? SupportKind::slide : SupportKind::spring});
+  }
+}
+
+void add_supports(const Solution& s, int index, ScenePicture& picture) {
+  const Body& body = s.body(index);
+  const auto& u = s.displacement(index);
+  const int dim = body.dimension();
+  for (const scene::Support& support : body.supports)
+    for (std::size_t k = 0; k < support.nodes.size(); ++k)
+      picture.supports.push_back({body.mesh->point(support.nodes[k]), at_node(u, support.nodes[k], dim),
+                                  support.normals[k], support.components[k], kind_of(support.kind)});
+  for (const scene::SlideRow& slide : body.slides)
+    picture.supports.push_back({body.mesh->point(slide.node), at_node(u, slide.node, dim), slide.normal,
+                                {true, true, true}, SupportKind::slide});
+  for (const scene::SpringPatch& patch : body.springs) {
+    const mesh::Point centre = body.mesh->facet_centre(patch.spring.facet);
+    const Vec3 normal = mesh::unit(body.mesh->facet_area_vector(patch.spring.facet));
+    const auto& k = patch.spring.stiffness.front();
+    picture.supports.push_back({centre, s.displacement(index, centre), normal,
+                                {k[0] > 0, k[1] > 0, k[2] > 0}, SupportKind::spring});
+  }
+  add_law_supports(s, index, picture);
+}
+
+void add_loads(const Solution& s, int index, ScenePicture& picture) {
+  const Body& body = s.body(index);
+  const std::vector<scene::LoadArrow> arrows = scene::load_arrows(body);
+  const std::size_t step = std::max<std::size_t>(1, arrows.size() / 200);
+  for (std::size_t k = 0; k < arrows.size(); k += step)
+    picture.loads.push_back({arrows[k].at, s.displacement(index, arrows[k].at), arrows[k].value});
+}
+
+double scene_size(const Solution& s) {
+  mesh::Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  for (const auto& body : s.scene().bodies)
+    for (int n = 0; n < body->mesh->node_count(); ++n) {
+      const mesh::Point x = body->mesh->point(n);
+      for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], x[i]), high[i] = std::max(high[i], x[i]);
+    }
+  return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+}
+
+/// The greatest factor at which bodies that moved into a gap are drawn overlapping by no more than 1 % of
+/// the scene's size, and those that an interference presses apart no further apart than that: between bodies
+/// the gap at rest is not magnified, the way is.
+double gap_limit(const Solution& s, double size) {
+  double limit = INFINITY;
+  for (const auto& contact : s.scene().contacts) {
+    if (contact->kind != Contact::Kind::contact || !contact->second.body) continue;
+    const scene::ContactResult result = s.contact(*contact);
+    for (std::size_t k = 0; k < contact->rows.size(); ++k) {
+      const double gap = contact->rows[k].gap, way = gap - result.nodes[k].gap;
+      if (gap > 0 && way > 0) limit = std::min(limit, (gap + 0.01 * size) / way);
+      if (gap < 0 && result.nodes[k].status != problem::Status::open) limit = std::min(limit, 1 - 0.01 * size / gap);
+    }
+  }
+  return limit;
+}
+
+}  // namespace
+
+double visible_deformation(const Solution& s) {
+  double largest = 0;
+  for (std::size_t b = 0; b < s.scene().bodies.size(); ++b)
+    for (double u : s.displacement(static_cast<int>(b))) largest = std::max(largest, std::abs(u));
+  if (!(largest > 0)) return 1;
+  const double size = scene_size(s), wanted = std::min(0.1 * size / largest, gap_limit(s, size));
+  if (wanted <= 1) return 1;
+  const double power = std::pow(10, std::floor(std::log10(wanted)));
+  return power * (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1);
+}
+
+ScenePicture compose(const Solution& s, const SceneOptions& options) {
+  const int dim = s.scene().dimension();
+  const auto missing = [&](FieldChoice f) { return options.field == f && dim == 2; };
+  if (missing(FieldChoice::uz) || missing(FieldChoice::yz) || missing(FieldChoice::xz))
+    throw InputError(std::string("field ") + label(options.field) + " does not exist: the scene is 2-D");
+  ScenePicture picture;
+  picture.caption = solver::doubt(s.result());
+  picture.field_label = label(options.field);
+  picture.deformation = options.deform.value_or(visible_deformation(s));
+  const double size = scene_size(s);
+  for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {
+    picture.bodies.push_back(body_picture(s, b, options.field));
+    if (options.supports) add_supports(s, b, picture);
+    if (options.loads) add_loads(s, b, picture);
+  }
+  if (!options.contact) return picture;
+  for (const auto& contact : s.scene().contacts) {
+    if (contact->kind != Contact::Kind::contact) continue;
+    const scene::ContactResult result = s.contact(*contact);
+    picture.contacts.push_back(contact_picture(*contact, result));
+    if (!contact->second.body && options.obstacle) {
+      RigidPicture obstacle = obstacle_picture(*contact, result, s.loading().move_of(s.scene().index_of(*contact)), picture.deformation, size);
+      if (obstacle.points.size() >= 6) picture.obstacles.push_back(std::move(obstacle));
+    }
+  }
+  return picture;
+}
+
+}  // namespace dotyk::figure

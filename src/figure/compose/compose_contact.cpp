@@ -1,0 +1,142 @@
+#include "figure/compose/compose_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace dotyk::figure {
+namespace {
+
+using scene::Contact;
+
+/// Positions in `nodes` of each contact facet's nodes; at a corner the entry of the facet's own side.
+std::vector<int> contact_facets(const Contact& contact, const std::vector<scene::ContactNode>& nodes) {
+  std::multimap<int, int> entries;
+  for (std::size_t k = 0; k < nodes.size(); ++k) entries.emplace(nodes[k].node, static_cast<int>(k));
+  const mesh::Mesh& mesh = *contact.first.body->mesh;
+  std::vector<int> result;
+  for (const mesh::Facet f : contact.first.facets) {
+    const mesh::Point normal = mesh.facet_area_vector(f);
+    std::vector<int> found;
+    for (int k = 0; k < mesh.topology().facet_corners; ++k) {
+      const auto [first, last] = entries.equal_range(mesh.facet_node(f, k));
+      int best = -1;
+      double most = -INFINITY;
+      for (auto it = first; it != last; ++it) {
+        const double along = mesh::dot(normal, nodes[it->second].normal);
+        if (along > most) most = along, best = it->second;
+      }
+      if (best >= 0) found.push_back(best);
+    }
+    if (static_cast<int>(found.size()) == mesh.topology().facet_corners)
+      result.insert(result.end(), found.begin(), found.end());
+  }
+  return result;
+}
+
+
+constexpr double kBeyond = 0.06;  // of the scene's size
+constexpr double kFacing = 0.05;  // least cosine between a facet's normal and the direction to the obstacle
+
+/// The rows with a facet that faces the obstacle: not those on the sides of a block that stands on a plane.
+std::vector<bool> facing(const Contact& contact) {
+  std::vector<bool> result;
+  for (const contact::ContactRow& row : contact.rows)
+    result.push_back(std::any_of(row.facets.begin(), row.facets.end(), [&](int f) {
+      return mesh::dot(mesh::unit(contact.first.body->mesh->facet_area_vector(contact.first.facets[f])), row.normal) > kFacing;
+    }));
+  return result;
+}
+
+Vec3 sum(const Vec3& a, const Vec3& b, double factor) { return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]}; }
+
+/// Where the obstacle is drawn, as each node sees it; see the header.
+std::vector<Vec3> seen_by_nodes(const Contact& contact, const scene::ContactResult& result, const Vec3& move, double factor) {
+  const bool plane = std::holds_alternative<contact::RigidPlane>(contact.shape), touches = result.area > 0;
+  double most = plane ? 0 : INFINITY;
+  for (std::size_t k = 0; k < contact.rows.size(); ++k) most = std::max(most, contact.rows[k].gap - result.nodes[k].gap);
+  std::vector<Vec3> at;
+  for (std::size_t k = 0; k < contact.rows.size(); ++k) {
+    const contact::ContactRow& row = contact.rows[k];
+    const Vec3 way = touches ? sum(result.nodes[k].displacement, move, -1) : Vec3{0, 0, 0};
+    const double magnified = std::min(row.gap, most) - mesh::dot(way, row.normal);  // with `way`: along n in place of w·n
+    Vec3 x = sum(result.nodes[k].x, row.normal, row.gap + (factor - 1) * magnified);
+    x = sum(sum(x, move, factor), way, factor - 1);
+    at.push_back(x);
+  }
+  return at;
+}
+
+/// The points in the order along the part, by the coordinate across `outward`; a plane's line goes beyond both ends.
+std::vector<double> polyline(const Contact& contact, const scene::ContactResult& result, const std::vector<Vec3>& at,
+                             const std::vector<int>& place, const Vec3& outward, double beyond) {
+  std::vector<std::pair<double, Vec3>> ordered;
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const Vec3& x = result.nodes[k].x;
+    if (place[k] >= 0) ordered.emplace_back(x[1] * outward[0] - x[0] * outward[1], at[k]);
+  }
+  std::sort(ordered.begin(), ordered.end());
+  if (const auto* plane = std::get_if<contact::RigidPlane>(&contact.shape); plane && !ordered.empty()) {
+    const Vec3 along{plane->normal[1], -plane->normal[0], 0};  // the way of the order, as `outward` is −normal
+    const Vec3 first = sum(ordered.front().second, along, -beyond), last = sum(ordered.back().second, along, beyond);
+    ordered.insert(ordered.begin(), {0, first});
+    ordered.emplace_back(0, last);
+  }
+  std::vector<double> points;
+  for (const auto& [t, x] : ordered) points.insert(points.end(), x.begin(), x.end());
+  return points;
+}
+
+/// The facets cut into triangles, those whose nodes all have a place.
+std::vector<int> triangles(const Contact& contact, const scene::ContactResult& result, const std::vector<int>& place) {
+  const auto facets = contact_facets(contact, result.nodes);
+  const int per_facet = contact.first.body->mesh->topology().facet_corners;
+  std::vector<int> out;
+  for (std::size_t f = 0; f + per_facet <= facets.size(); f += per_facet)
+    for (int t = 0; t + 2 < per_facet; ++t) {
+      const int corner[3] = {place[facets[f]], place[facets[f + t + 1]], place[facets[f + t + 2]]};
+      if (corner[0] >= 0 && corner[1] >= 0 && corner[2] >= 0) out.insert(out.end(), corner, corner + 3);
+    }
+  return out;
+}
+
+}  // namespace
+
+ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result) {
+  ContactPicture picture;
+  picture.name = contact.first.body->name + " " + contact.first.name;
+  picture.nodes_per_facet = contact.first.body->mesh->topology().facet_corners;
+  picture.facets = contact_facets(contact, result.nodes);
+  for (std::size_t k = 0; k < result.nodes.size(); ++k) {
+    const scene::ContactNode& n = result.nodes[k];
+    picture.nodes.push_back({n.x, n.displacement, n.normal, n.pressure, n.weight, static_cast<Status>(static_cast<int>(n.status)),
+                             n.shear, contact.second.body ? contact.rows[k].gap : 0});
+  }
+  return picture;
+}
+
+RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult& result, const Vec3& move, double factor,
+                              double size) {
+  RigidPicture picture;
+  const std::vector<Vec3> at = seen_by_nodes(contact, result, move, factor);
+  const std::vector<bool> faces = facing(contact);
+  const bool any = std::find(faces.begin(), faces.end(), true) != faces.end();  // else a corner alone looks at it
+  const double magnified = std::holds_alternative<contact::RigidPlane>(contact.shape) ? 1 : factor;
+  std::vector<int> place(at.size(), -1);
+  Vec3 outward{0, 0, 0};
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    if ((any && !faces[k]) || magnified * contact.rows[k].gap > 0.25 * size) continue;
+    outward = sum(outward, contact.rows[k].normal, 1);
+    place[k] = static_cast<int>(picture.points.size()) / 3;
+    picture.points.insert(picture.points.end(), at[k].begin(), at[k].end());
+  }
+  if (mesh::length(outward) > 0) outward = mesh::unit(outward);
+  picture.into_solid = outward;
+  if (contact.first.body->dimension() == 3)
+    picture.triangles = triangles(contact, result, place);
+  else
+    picture.points = polyline(contact, result, at, place, outward, kBeyond * size);
+  return picture;
+}
+
+}  // namespace dotyk::figure

@@ -1,0 +1,97 @@
+#include "figure/compose/compose_grid.hpp"
+
+#include <cmath>
+
+#include "figure/canvas/cell_shape.hpp"
+
+namespace dotyk::figure {
+namespace {
+
+using scene::Contact;
+using scene::Solution;
+
+/// The first node of every body in the file, and the number of all.
+std::vector<std::size_t> first_nodes(const scene::Scene& scene) {
+  std::vector<std::size_t> first{0};
+  for (const auto& body : scene.bodies) first.push_back(first.back() + body->mesh->node_count());
+  return first;
+}
+
+void add_body(const Solution& s, int index, std::size_t first, GridFile& file) {
+  const mesh::Mesh& mesh = *s.scene().bodies[index]->mesh;
+  GridBody body{s.scene().bodies[index]->name, cell_shape(mesh.element), mesh.cells, mesh.topology().order};
+  for (int& node : body.cells) node += static_cast<int>(first);
+  file.bodies.push_back(std::move(body));
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    const mesh::Point x = mesh.point(n);
+    file.points.insert(file.points.end(), x.begin(), x.end());
+  }
+}
+
+void add_fields(const Solution& s, std::size_t nodes, GridFile& file) {
+  static const int order[6] = {0, 1, 2, 5, 3, 4};  // ours is xx yy zz yz xz xy
+  GridArray displacement{"displacement", {"x", "y", "z"}, {}};
+  GridArray stress{"stress", {"xx", "yy", "zz", "xy", "yz", "xz"}, {}};
+  GridArray von_mises{"von_mises", {""}, {}};
+  displacement.values.reserve(3 * nodes);
+  stress.values.reserve(6 * nodes);
+  von_mises.values.reserve(nodes);
+  const int dim = s.scene().dimension();
+  for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {
+    const auto& u = s.displacement(b);
+    for (std::size_t k = 0; k < u.size(); k += dim)
+      for (int i = 0; i < 3; ++i) displacement.values.push_back(i < dim ? u[k + i] : 0.0);
+    for (const elasticity::Stress& at_node : s.stress(b)) {
+      for (const int v : order) stress.values.push_back(at_node[v]);
+      von_mises.values.push_back(elasticity::von_mises(at_node));
+    }
+  }
+  file.arrays.push_back(std::move(displacement));
+  file.arrays.push_back(std::move(stress));
+  file.arrays.push_back(std::move(von_mises));
+}
+
+void add_contacts(const Solution& s, const std::vector<std::size_t>& first, GridFile& file) {
+  GridArray pressure{"contact_pressure", {""}, std::vector<double>(first.back(), 0.0)};
+  GridArray gap{"contact_gap", {""}, std::vector<double>(first.back(), NAN)};
+  GridArray status{"contact_status", {""}, std::vector<double>(first.back(), -1.0)};
+  const auto show = [&](std::size_t node, const scene::ContactNode& n) {
+    const double p = pressure.values[node];
+    if (status.values[node] >= 0 && (p > n.pressure || (p == n.pressure && gap.values[node] <= n.gap))) return;
+    pressure.values[node] = n.pressure;
+    gap.values[node] = n.gap;
+    status.values[node] = static_cast<int>(n.status);
+  };
+  bool any = false;
+  for (const auto& contact : s.scene().contacts) {
+    if (contact->kind != Contact::Kind::contact) continue;
+    any = true;
+    const auto nodes = s.contact(*contact).nodes;
+    const int one = s.scene().index_of(contact->first.body.get());
+    const int other = s.scene().index_of(contact->second.body.get());
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      show(first[one] + nodes[k].node, nodes[k]);
+      if (other >= 0 && contact->pairing == contact::Pairing::matching)
+        show(first[other] + contact->rows[k].partners.front().node, nodes[k]);
+    }
+  }
+  if (!any) return;
+  file.arrays.push_back(std::move(pressure));
+  file.arrays.push_back(std::move(gap));
+  file.arrays.push_back(std::move(status));
+}
+
+}  // namespace
+
+GridFile compose_grid(const Solution& s, const std::string& name) {
+  GridFile file;
+  file.file = name;
+  const auto first = first_nodes(s.scene());
+  file.points.reserve(3 * first.back());
+  for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) add_body(s, b, first[b], file);
+  add_fields(s, first.back(), file);
+  add_contacts(s, first, file);
+  return file;
+}
+
+}  // namespace dotyk::figure

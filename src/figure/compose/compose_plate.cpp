@@ -1,0 +1,237 @@
+#include "figure/compose/compose_plate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "plate/reaction.hpp"
+#include "solver/core/ending.hpp"
+
+namespace dotyk::figure {
+
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+namespace {
+
+PlateSupport support_of(Kind kind) {
+  switch (kind) {
+    case Kind::free:
+    case Kind::load: return PlateSupport::free;
+    case Kind::prescribed: return PlateSupport::held;
+    case Kind::elastic:
+    case Kind::unequal_elastic: return PlateSupport::elastic;
+    case Kind::signorini:
+    case Kind::one_sided_elastic:
+    case Kind::breaking: return PlateSupport::one_sided;
+    case Kind::friction:
+    case Kind::one_sided_friction:
+    case Kind::capped_elastic: return PlateSupport::friction;
+  }
+  return PlateSupport::free;
+}
+
+// Of supports that hold without condition there is none to tell.
+std::optional<Status> told(PlateSupport support, problem::Status status) {
+  if (support != PlateSupport::one_sided && support != PlateSupport::friction) return std::nullopt;
+  switch (status) {
+    case problem::Status::open: return Status::open;
+    case problem::Status::closed: return Status::closed;
+    case problem::Status::stick: return Status::stick;
+    case problem::Status::slip: return Status::slip;
+  }
+  return std::nullopt;
+}
+
+using Ends = std::pair<int, int>;  // vertices of an edge of the mesh, counter-clockwise about the plate
+
+double within(const SupportLaw& law, double reaction) {
+  switch (law.kind) {
+    case Kind::signorini:
+    case Kind::one_sided_elastic: return std::max(0.0, reaction);
+    case Kind::one_sided_friction: return std::clamp(reaction, 0.0, law.value);
+    case Kind::friction: return std::clamp(reaction, -law.value, law.value);
+    case Kind::capped_elastic: return std::clamp(reaction, -law.limit, law.limit);
+    case Kind::free:
+    case Kind::prescribed:
+    case Kind::load:
+    case Kind::elastic:
+    case Kind::unequal_elastic:
+    case Kind::breaking: break;
+  }
+  return reaction;
+}
+
+// A corner's own force stands for itself: beside it the strip goes on as between the next two points, as corner_forces() has it,
+// as far as the law allows.
+EdgeSample sample(const std::vector<plate::EdgePoint>& piece, std::size_t i, std::ptrdiff_t inwards) {
+  const plate::EdgePoint& at = piece[i];
+  EdgeSample out;
+  out.deflection = at.deflection, out.reaction = at.per_length();
+  const auto second = static_cast<std::ptrdiff_t>(i) + 2 * inwards;
+  const bool known = second >= 0 && second < static_cast<std::ptrdiff_t>(piece.size());
+  if (!at.corner || at.status == problem::Status::open || !known) return out;
+  const plate::EdgePoint &after = piece[static_cast<std::size_t>(second)], &next = piece[static_cast<std::size_t>(second - inwards)];
+  const double share = (next.at - at.at) / (after.at - next.at);
+  out.reaction = within(at.deflection_law, next.per_length() + share * (next.per_length() - after.per_length()));
+  out.extrapolated = true;
+  return out;
+}
+
+// What holds a point beside an edge with friction has no status that friction has.
+std::optional<Status> status_at(const plate::EdgePoint& at, const plate::EdgePoint& next, PlateSupport support) {
+  const bool foreign = support == PlateSupport::friction && at.status == problem::Status::closed;
+  return told(support, (foreign ? next : at).status);
+}
+
+PlateEdge edge_of(const std::vector<plate::EdgePoint>& piece, std::size_t i) {
+  const plate::EdgePoint &a = piece[i], &b = piece[i + 1];
+  PlateEdge edge;
+  edge.support = support_of(a.deflection_law.kind);
+  edge.clamped = a.rotation_law.kind == Kind::prescribed;
+  edge.samples = {sample(piece, i, 1), sample(piece, i + 1, -1)};
+  edge.samples[0].status = status_at(a, b, edge.support), edge.samples[1].status = status_at(b, a, edge.support);
+  edge.samples[1].share = 1;
+  return edge;
+}
+
+std::map<Ends, PlateEdge> supported_edges(const plate::Solution& s) {
+  std::map<Ends, PlateEdge> out;
+  for (std::size_t k = 0; k < s.plate().edges.size(); ++k)
+    for (const auto& piece : plate::reaction(s, static_cast<int>(k)).pieces)
+      for (std::size_t i = 0; i + 1 < piece.size(); ++i) out[{piece[i].vertex, piece[i + 1].vertex}] = edge_of(piece, i);
+  return out;
+}
+
+// Loops of the boundary, one after the other.
+std::vector<Ends> boundary_loops(const plate::Edges& edges) {
+  std::multimap<int, int> next;
+  for (const plate::Edge& e : edges.edges)
+    if (e.boundary) next.emplace(e.node[0], e.node[1]);
+  std::vector<Ends> out;
+  while (!next.empty())
+    for (auto at = next.begin(); at != next.end(); at = next.find(out.back().second)) {
+      out.push_back(*at);
+      next.erase(at);
+    }
+  return out;
+}
+
+void add_boundary(PlatePicture& picture, const plate::Solution& s) {
+  const std::map<Ends, PlateEdge> supported = supported_edges(s);
+  const mesh::Mesh& mesh = *s.plate().mesh;
+  for (const Ends& ends : boundary_loops(s.model().space.edges)) {
+    const auto found = supported.find(ends);
+    PlateEdge edge = found == supported.end() ? PlateEdge{} : found->second;
+    if (edge.samples.empty()) edge.samples = {{0, s.vertex_deflection(ends.first), 0, {}}, {1, s.vertex_deflection(ends.second), 0, {}}};
+    edge.from = {mesh.node(ends.first)[0], mesh.node(ends.first)[1]};
+    edge.to = {mesh.node(ends.second)[0], mesh.node(ends.second)[1]};
+    picture.boundary.push_back(std::move(edge));
+  }
+}
+
+// A thousandth of what edges and points carry altogether: less is what the mesh leaves of zero.
+void add_forces(PlatePicture& picture, const plate::Solution& s) {
+  const plate::Plate& plate = s.plate();
+  double carried = 0;
+  for (std::size_t k = 0; k < plate.edges.size(); ++k)
+    for (const auto& piece : plate::reaction(s, static_cast<int>(k)).pieces)
+      for (const plate::EdgePoint& p : piece) carried += std::abs(p.force);
+  for (std::size_t k = 0; k < plate.supports.size(); ++k) {
+    const auto& [x, y, law] = plate.supports[k];
+    if (law.kind == Kind::free || law.kind == Kind::load) continue;
+    const double force = plate::point_reaction(s, static_cast<int>(k));
+    carried += std::abs(force);
+    picture.forces.push_back({x, y, force});
+    const PlateSupport support = support_of(law.kind);
+    const bool open = support == PlateSupport::one_sided && !(force > 0);
+    const bool limited = support == PlateSupport::friction && std::abs(force) >= (1 - 1e-9) * (law.kind == Kind::capped_elastic ? law.limit : law.value);
+    const problem::Status status = open ? problem::Status::open : support == PlateSupport::one_sided ? problem::Status::closed : limited ? problem::Status::slip : problem::Status::stick;
+    picture.supports.push_back({x, y, s.deflection(x, y), support, told(support, status)});
+  }
+  for (const plate::CornerForce& corner : plate::corner_forces(s)) picture.forces.push_back({corner.x, corner.y, corner.force});
+  std::erase_if(picture.forces, [&](const PlateForce& f) { return std::abs(f.force) <= 1e-3 * carried; });
+}
+
+// At vertices that have a row of their own: x = −u + height.
+void add_obstacle(PlatePicture& picture, const plate::Solution& s) {
+  const std::vector<int>& rows = s.model().obstacle_row;
+  const algebra::Vector &lambda = s.result().state.lambda, &c = s.model().problem.c;
+  if (rows.empty() || lambda.size() == 0) return;
+  const double noise = 1e-9 * lambda.lpNorm<Eigen::Infinity>();
+  const auto [low, high] = std::minmax_element(picture.deflection.begin(), picture.deflection.end());
+  const double floor = *low - 0.5 * (*high - *low);  // what is far below the plate is drawn a little below it
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    picture.obstacle.push_back(rows[i] < 0 ? NAN : std::max(floor, -c[rows[i]]));
+    if (rows[i] >= 0 && lambda[rows[i]] > noise) picture.bearing.push_back(static_cast<int>(i));
+  }
+}
+
+double field_value(const plate::Moment& m, PlateField field) {
+  const double mean = (m.xx + m.yy) / 2, radius = std::hypot((m.xx - m.yy) / 2, m.xy);
+  switch (field) {
+    case PlateField::xx: return m.xx;
+    case PlateField::yy: return m.yy;
+    case PlateField::xy: return m.xy;
+    case PlateField::greatest: return mean + radius;
+    case PlateField::least: return mean - radius;
+    case PlateField::von_mises: return std::sqrt(mean * mean + 3 * radius * radius);
+    default: return 0;
+  }
+}
+
+const char* field_label(PlateField field) {
+  switch (field) {
+    case PlateField::none: return "";
+    case PlateField::deflection: return "deflection u";
+    case PlateField::xx: return "moment Mxx";
+    case PlateField::yy: return "moment Myy";
+    case PlateField::xy: return "moment Mxy";
+    case PlateField::greatest: return "greatest principal moment";
+    case PlateField::least: return "least principal moment";
+    case PlateField::von_mises: return "von Mises moment";
+  }
+  return "";
+}
+
+void add_field(PlatePicture& picture, const plate::Solution& s, const PlateOptions& options) {
+  picture.field_label = field_label(options.field);
+  picture.field_unit = options.field == PlateField::deflection ? options.units.length : options.units.force;  // force·length per length
+  if (options.field == PlateField::deflection) picture.values = picture.deflection;
+  if (options.field == PlateField::none || options.field == PlateField::deflection) return;
+  for (const plate::Moment& m : s.vertex_moments()) picture.values.push_back(field_value(m, options.field));
+}
+
+}  // namespace
+
+double visible_deflection(const plate::Solution& s) {
+  double greatest = 0;
+  for (int i = 0; i < s.plate().mesh->node_count(); ++i) greatest = std::max(greatest, std::abs(s.vertex_deflection(i)));
+  const double most = 0.2 * s.plate().mesh->size() / greatest;
+  if (!(greatest > 0) || !std::isfinite(most)) return 1;
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  return most >= 5 * power ? 5 * power : most >= 2 * power ? 2 * power : power;
+}
+
+PlatePicture compose(const plate::Solution& s, const PlateOptions& options) {
+  PlatePicture picture;
+  picture.caption = solver::doubt(s.result());
+  const mesh::Mesh& mesh = *s.plate().mesh;
+  picture.view = options.view;
+  for (int i = 0; i < mesh.node_count(); ++i) {
+    picture.points.insert(picture.points.end(), {mesh.node(i)[0], mesh.node(i)[1]});
+    picture.deflection.push_back(s.vertex_deflection(i));
+  }
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (int k = 0; k < 3; ++k) picture.triangles.push_back(mesh.cell(c)[k]);
+  picture.deformation = options.deform.value_or(visible_deflection(s));
+  picture.force_unit = options.units.force;
+  picture.reaction_unit = options.units.force.empty() || options.units.length.empty() ? "" : options.units.force + "/" + options.units.length;
+  add_field(picture, s, options);
+  add_boundary(picture, s);
+  add_forces(picture, s);
+  add_obstacle(picture, s);
+  return picture;
+}
+
+}  // namespace dotyk::figure

@@ -1,0 +1,278 @@
+#include "figure/door/check.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <tuple>
+
+#include "base/error.hpp"
+#include "base/whole_file.hpp"
+#include "figure/canvas/window.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw std::runtime_error(message);
+}
+
+std::string count(std::size_t n) { return std::to_string(n); }
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+/// Without code points that stand for no character: what VTK refuses in the middle of a picture.
+bool is_utf8(const std::string& words) {
+  const auto* at = reinterpret_cast<const unsigned char*>(words.data());
+  const unsigned char* const end = at + words.size();
+  while (at < end) {
+    const int first = *at++, more = first < 0x80 ? 0 : first >= 0xc2 && first < 0xe0 ? 1 : first >= 0xe0 && first < 0xf0 ? 2 : first >= 0xf0 && first < 0xf5 ? 3 : -1;
+    if (more < 0 || end - at < more) return false;
+    static constexpr int mask[] = {0x7f, 0x1f, 0x0f, 0x07}, least[] = {0, 0x80, 0x800, 0x10000};
+    int point = first & mask[more];
+    for (int k = 0; k < more; ++k, ++at) {
+      if ((*at & 0xc0) != 0x80) return false;
+      point = point << 6 | (*at & 0x3f);
+    }
+    if (point < least[more] || point > 0x10ffff || (point >= 0xd800 && point < 0xe000) || point == 0xfffe || point == 0xffff) return false;
+  }
+  return true;
+}
+
+// Of every text that is drawn; `key` is what scripts call it.
+void check_text(const std::string& key, const std::string& words) {
+  constexpr std::size_t most = 1000;
+  if (words.size() > most) throw InputError(key + " has " + count(words.size()) + " bytes; a text in a figure has at most " + count(most));
+  if (!is_utf8(words)) throw InputError(key + " is not valid UTF-8");
+}
+
+// `ending` with its dot.
+void check_file(const std::string& file, const std::string& ending) {
+  require(!file.empty(), "a file name is needed, one that ends in " + ending);
+  require(file.size() > ending.size() && file.ends_with(ending),
+          "cannot write " + file + ": the file name must end in " + ending);
+  place_to_write(file);
+}
+
+void check_size(const std::string& file, int width, int height) {
+  require(width >= 160 && width <= 8192 && height >= 160 && height <= 8192,
+          "the size of " + file + " is " + std::to_string(width) + " x " + std::to_string(height) +
+              ", expected 160 to 8192 pixels each way");
+}
+
+void check_nodes(const std::vector<int>& nodes, int each, std::size_t n, const std::string& what) {
+  require(nodes.size() % static_cast<std::size_t>(each) == 0,
+          what + ": " + count(nodes.size()) + " entries are not a multiple of " + std::to_string(each));
+  for (const int i : nodes)
+    require(i >= 0 && static_cast<std::size_t>(i) < n,
+            what + ": node " + std::to_string(i) + " does not exist, there are " + count(n));
+}
+
+bool finite(const std::vector<double>& values) {
+  for (const double v : values)
+    if (!std::isfinite(v)) return false;
+  return true;
+}
+
+bool finite(const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+void check_body(const BodyPicture& body, int dimension) {
+  const std::string who = "body \"" + body.name + "\"";
+  require(body.dimension == 2 || body.dimension == 3, who + ": dimension must be 2 or 3");
+  require(body.dimension == dimension, who + ": all bodies of a picture have one dimension");
+  const bool solid = body.shape == CellShape::tetrahedron || body.shape == CellShape::hexahedron;
+  require(solid == (dimension == 3), who + ": the cells do not fit the dimension");
+  require(body.points.size() % 3 == 0, who + ": points come three coordinates each");
+  const std::size_t n = body.points.size() / 3;
+  require(body.displacement.empty() || body.displacement.size() == 3 * n,
+          who + ": " + count(body.displacement.size()) + " displacement components for " + count(n) + " nodes");
+  require(body.values.empty() || body.values.size() == n,
+          who + ": " + count(body.values.size()) + " field values for " + count(n) + " nodes");
+  require(finite(body.points), who + ": a coordinate is not finite");
+  require(finite(body.displacement), who + ": a displacement is not finite");
+  require(dimension == 2 ? body.nodes_per_facet == 2 : body.nodes_per_facet == 3 || body.nodes_per_facet == 4,
+          who + ": a facet has 2 nodes in the plane, 3 or 4 in space");
+  check_nodes(body.cells, nodes_per_cell(body.shape, 1), n, who + ", cells");
+  check_nodes(body.edges, 2, n, who + ", edges");
+  check_nodes(body.facets, body.nodes_per_facet, n, who + ", facets");
+}
+
+void check_window(const ScenePicture& p) {
+  if (!p.window) return;
+  const auto [x0, y0, x1, y1] = *p.window;
+  const std::string given = "window {" + number(x0) + ", " + number(y0) + ", " + number(x1) + ", " + number(y1) + "}";
+  const auto refuse = [&](const std::string& why) { throw InputError(given + " " + why); };
+  if (p.bodies.front().dimension != 2) refuse("needs a scene in the plane; this one is in space");
+  if (!(std::isfinite(x0) && std::isfinite(y0) && std::isfinite(x1) && std::isfinite(y1) && x0 < x1 && y0 < y1))
+    refuse("is empty; it must be {x0, y0, x1, y1} with x0 < x1 and y0 < y1");
+  if (seen(p, *p.window).body) return;
+  double left = 1e300, bottom = 1e300, right = -1e300, top = -1e300;
+  for (const BodyPicture& body : p.bodies)
+    for (std::size_t i = 0; i < body.points.size(); i += 3) {
+      const auto at = [&](std::size_t c) { return body.points[i + c] + (body.displacement.empty() ? 0 : p.deformation * body.displacement[i + c]); };
+      left = std::min(left, at(0)), right = std::max(right, at(0));
+      bottom = std::min(bottom, at(1)), top = std::max(top, at(1));
+    }
+  refuse("shows no body; as drawn, they lie within {" + number(left) + ", " + number(bottom) + ", " + number(right) + ", " + number(top) + "}");
+}
+
+}  // namespace
+
+void check(const ScenePicture& p) {
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
+  check_text("'title'", p.title);
+  for (const std::string& unit : {p.field_unit, p.pressure_unit}) check_text("'unit'", unit);
+  require(!p.bodies.empty(), "the picture " + p.file + " shows no body");
+  require(std::isfinite(p.deformation), "the deformation factor is not finite");
+  require(!p.field_range || (std::isfinite((*p.field_range)[0]) && std::isfinite((*p.field_range)[1]) &&
+                             (*p.field_range)[0] <= (*p.field_range)[1]),
+          "the range of the field must be {least, greatest}");
+  const int dimension = p.bodies.front().dimension;
+  for (const BodyPicture& body : p.bodies) check_body(body, dimension);
+  check_window(p);
+  for (const RigidPicture& rigid : p.obstacles) {
+    require(rigid.points.size() % 3 == 0 && finite(rigid.points), "an obstacle needs three finite coordinates a point");
+    check_nodes(rigid.triangles, 3, rigid.points.size() / 3, "obstacle, triangles");
+  }
+  for (const ContactPicture& contact : p.contacts) {
+    const std::string who = "contact \"" + contact.name + "\"";
+    for (const ContactNode& node : contact.nodes)
+      require(finite(node.position) && finite(node.displacement) && finite(node.normal) && finite(node.shear) && std::isfinite(node.pressure),
+              who + ": a node has a value that is not finite");
+    require(contact.nodes_per_facet >= 2 && contact.nodes_per_facet <= 4, who + ": a facet has 2, 3 or 4 nodes");
+    check_nodes(contact.facets, contact.nodes_per_facet, contact.nodes.size(), who + ", facets");
+  }
+  for (const SupportSymbol& s : p.supports)
+    require(finite(s.position) && finite(s.displacement) && finite(s.normal), "a support has a value that is not finite");
+  for (const LoadArrow& l : p.loads)
+    require(finite(l.position) && finite(l.displacement) && finite(l.vector), "a load has a value that is not finite");
+}
+
+static void check_chart(const ChartPicture& p) {
+  check_text("'title'", p.title);
+  check_text("'x'", p.x_label);
+  check_text("'y'", p.y_label);
+  for (std::size_t k = 0; k < p.series.size(); ++k) check_text("'name' of series " + count(k + 1), p.series[k].name);
+  for (const SeriesPicture& s : p.series) {
+    const std::string who = "series \"" + s.name + "\"";
+    require(s.x.size() == s.y.size() || (s.crossed && s.y.empty()), who + ": " + count(s.x.size()) + " x for " + count(s.y.size()) + " y");
+    require(!s.y.empty() || (s.low.empty() && s.x_low.empty()), who + ": points without y have no spread and no whiskers");
+    require(s.low.size() == s.high.size() && (s.low.empty() || s.low.size() == s.x.size()),
+            who + ": the spread needs as many low and high values as points");
+    require(s.x_low.size() == s.x_high.size() && (s.x_low.empty() || s.x_low.size() == s.x.size()),
+            who + ": whiskers need as many x_low and x_high values as points");
+  }
+  for (const SlopeGuide& guide : p.slopes) require(std::isfinite(guide.slope), "the slope of a guide is not finite");
+  for (const auto& [range, log, name] : {std::tuple{p.x_range, p.log_x, "x"}, std::tuple{p.y_range, p.log_y, "y"}})
+    if (range)
+      require(std::isfinite((*range)[0]) && std::isfinite((*range)[1]) && (*range)[0] < (*range)[1] && (!log || (*range)[0] > 0),
+              std::string("the range of the ") + name + " axis must be {least, greatest}" + (log ? ", both positive" : ""));
+}
+
+void check(const ChartPicture& p) {
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
+  check_chart(p);
+}
+
+void check(const ChartColumn& p) {
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
+  require(!p.panels.empty(), "the picture " + p.file + " has no panels");
+  require(p.columns >= 1 && p.columns <= static_cast<int>(p.panels.size()), count(p.panels.size()) + " panels in " + number(p.columns) + " columns");
+  check_text("'title'", p.title);
+  for (const ChartPicture& panel : p.panels) {
+    check_chart(panel);
+    require(!p.shared_x || panel.log_x == p.panels.front().log_x, "panels that share the x axis are all logarithmic in x, or none is");
+  }
+}
+
+void check_drawing(const BeamDrawing& b) {
+  require(b.length > 0 && std::isfinite(b.length), "the length of a beam is not positive");
+  require(b.x.size() >= 2 && b.x.size() == b.deflection.size() && (b.load.empty() || b.load.size() == b.x.size()),
+          "a beam needs as many deflections and loads as points, two at least");
+  require(finite(b.x) && finite(b.deflection) && finite(b.load), "a beam has a value that is not finite");
+  for (const BeamSupport& s : b.supports)
+    require(std::isfinite(s.x) && std::isfinite(s.deflection) && std::isfinite(s.rotation) && std::isfinite(s.below.slip) && std::isfinite(s.arc.slip),
+            "a support of a beam has a value that is not finite");
+  for (const BeamLoad& l : b.loads)
+    require(std::isfinite(l.x) && std::isfinite(l.force) && std::isfinite(l.moment), "a load of a beam has a value that is not finite");
+}
+
+void check_drawing(const CurveDrawing& c) {
+  require(!c.curves.empty(), "a cell without a curve");
+  for (const PageCurve& curve : c.curves)
+    require(!curve.x.empty() && curve.x.size() == curve.y.size() && finite(curve.x) && finite(curve.y), "a curve needs as many finite y as x, one at least");
+  for (const auto& range : {c.x_range, c.y_range})
+    require(!range || ((*range)[0] < (*range)[1] && std::isfinite((*range)[1] - (*range)[0])), "the range of an axis must be {least, greatest}");
+}
+
+void check(const PagePicture& p) {
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
+  check_text("'title'", p.title);
+  require(!p.rows.empty() && p.rows.size() == p.row_weights.size(), "a page needs rows, and a weight of each");
+  for (const auto& row : p.rows) {
+    require(!row.empty() && row.size() == p.column_weights.size(), "the rows of a page have one cell a column");
+    for (const PageCell& cell : row) {
+      check_text("'title'", cell.title);
+      for (const std::string& label : {cell.x_label, cell.y_label}) check_text("'units'", label);  // the rest of it is ours
+      std::visit([](const auto& drawing) { check_drawing(drawing); }, cell.drawing);
+    }
+  }
+  for (const auto& weights : {p.column_weights, p.row_weights})
+    for (const double w : weights) require(w > 0 && std::isfinite(w), "the weights of a page are positive");
+}
+
+void check_boundary(const PlateEdge& e) {
+  require(std::isfinite(e.from[0]) && std::isfinite(e.from[1]) && std::isfinite(e.to[0]) && std::isfinite(e.to[1]), "an edge of a plate has a coordinate that is not finite");
+  double last = 0;
+  for (const EdgeSample& s : e.samples) {
+    require(s.share >= last && s.share <= 1, "samples along an edge of a plate ascend from 0 to 1");
+    require(std::isfinite(s.deflection) && std::isfinite(s.reaction), "an edge of a plate has a value that is not finite");
+    last = s.share;
+  }
+}
+
+void check(const PlatePicture& p) {
+  check_file(p.file, ".png");
+  check_size(p.file, p.width, p.height);
+  check_text("'title'", p.title);
+  for (const std::string& unit : {p.field_unit, p.reaction_unit, p.force_unit}) check_text("'units'", unit);
+  require(p.points.size() % 2 == 0, "points of a plate come two coordinates each");
+  const std::size_t n = p.points.size() / 2;
+  require(!p.triangles.empty(), "the picture " + p.file + " shows no triangle");
+  check_nodes(p.triangles, 3, n, "plate, triangles");
+  check_nodes(p.bearing, 1, n, "plate, nodes that bear");
+  require(p.deflection.size() == n, "plate: " + count(p.deflection.size()) + " deflections for " + count(n) + " nodes");
+  require(p.values.empty() || p.values.size() == n, "plate: " + count(p.values.size()) + " field values for " + count(n) + " nodes");
+  require(p.obstacle.empty() || p.obstacle.size() == n, "plate: " + count(p.obstacle.size()) + " heights of the obstacle for " + count(n) + " nodes");
+  require(finite(p.points) && finite(p.deflection) && std::isfinite(p.deformation), "a plate has a value that is not finite");
+  require(!p.field_range || ((*p.field_range)[0] <= (*p.field_range)[1] && std::isfinite((*p.field_range)[1] - (*p.field_range)[0])),
+          "the range of the field must be {least, greatest}");
+  require(!p.view_from || finite(*p.view_from), "the direction towards the eye is not finite");
+  for (const PlateEdge& e : p.boundary) check_boundary(e);
+  for (const PlateForce& f : p.forces) require(std::isfinite(f.x) && std::isfinite(f.y) && std::isfinite(f.force), "a force on a plate is not finite");
+  for (const PlatePointSupport& s : p.supports)
+    require(std::isfinite(s.x) && std::isfinite(s.y) && std::isfinite(s.deflection), "a support of a plate has a value that is not finite");
+}
+
+void check(const GridFile& g) {
+  check_file(g.file, ".vtu");
+  require(g.points.size() % 3 == 0, g.file + ": points come three coordinates each");
+  require(finite(g.points), g.file + ": a coordinate is not finite");
+  const std::size_t n = g.points.size() / 3;
+  for (const GridBody& body : g.bodies)
+    check_nodes(body.cells, nodes_per_cell(body.shape, body.order), n, "body \"" + body.name + "\", cells");
+  for (const GridArray& a : g.arrays)
+    require(!a.components.empty() && a.values.size() == a.components.size() * n,
+            "array \"" + a.name + "\": " + count(a.values.size()) + " values for " + count(n) + " nodes of " +
+                count(a.components.size()) + " components");
+}
+
+}  // namespace dotyk::figure

@@ -1,0 +1,182 @@
+// Lays the cells of a page out in rows and columns and draws them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "figure/canvas/canvas.hpp"
+#include "figure/door/figures.hpp"
+#include "figure/canvas/legend.hpp"
+#include "figure/page/page_cells.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+class Page {
+public:
+  Page(const PagePicture& picture, int factor) : picture_(picture), canvas_(factor), columns_(picture.rows.front().size()) {
+    const double lowest = picture.height * *std::min_element(picture.row_weights.begin(), picture.row_weights.end()) / total(picture.row_weights);
+    em_ = std::min(0.02 * picture.width / std::pow(static_cast<double>(columns_), 0.35), 0.075 * lowest);
+    double top = picture.height - 0.4 * em_;
+    top = draw_title(top);
+    top = draw_legend(top);
+    place(top);
+    for (auto& row : axes_)
+      for (Axes& axes : row) axes.em = em_;
+    align();
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      for (std::size_t j = 0; j < columns_; ++j) draw(i, j);
+  }
+
+  const Canvas& canvas() const { return canvas_; }
+
+private:
+  static double total(const std::vector<double>& weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
+  const PageCell& cell(std::size_t i, std::size_t j) const { return picture_.rows[i][j]; }
+  bool labels_x(std::size_t i) const { return !picture_.shared_x || i + 1 == picture_.rows.size(); }
+
+  double draw_title(double top) {
+    if (picture_.title.empty()) return top - 0.4 * em_;
+    TextStyle style;
+    style.bold = true;
+    style.size = fitting_size(picture_.title, 1.25 * em_, picture_.width - 2 * em_, true);
+    style.across = Align::middle;
+    style.up = Align::high;
+    canvas_.text({picture_.width / 2.0, top - 0.4 * em_}, picture_.title, style);
+    return top - 0.7 * em_ - 1.5 * style.size;
+  }
+
+  // States of supports that occur; none where all do no more than act.
+  double draw_legend(double top) {
+    std::map<SupportState, bool> seen;
+    for (const auto& row : picture_.rows)
+      for (const PageCell& c : row)
+        if (const auto* beam = std::get_if<BeamDrawing>(&c.drawing))
+          for (const BeamSupport& s : beam->supports)
+            for (const SupportElement& e : {s.below, s.arc})
+              if (e.kind != ElementKind::none) seen[e.state] = true;
+    if (seen.empty() || (seen.size() == 1 && seen.contains(SupportState::acting))) return top;
+    std::vector<LegendEntry> entries;
+    for (const auto& [state, yes] : seen)
+      entries.push_back({std::string("support ") + state_name(state), [state = state](Canvas& c, const Box& b) {
+                           const double middle = (b.bottom + b.top) / 2, half = 0.16 * b.height();
+                           c.box({b.left + 0.3 * b.width(), middle - half, b.right, middle + half}, state_colour(state));
+                         }});
+    const Legend legend(std::move(entries), em_, picture_.width - em_);
+    legend.draw(canvas_, {(picture_.width - legend.width()) / 2, top - legend.height()}, false);
+    return top - legend.height();
+  }
+
+  // Rooms without the margins on the left, which align() finds.
+  void place(double top) {
+    const double gap = 0.5 * em_, width = picture_.width, height = top;
+    double y = height;
+    const double shared = picture_.shared_x ? 2.8 * em_ : 0;
+    for (std::size_t i = 0; i < picture_.rows.size(); ++i) {
+      const double share = (height - shared - gap) * picture_.row_weights[i] / total(picture_.row_weights);
+      std::vector<Axes> row;
+      double x = 0;
+      const bool titled = std::any_of(picture_.rows[i].begin(), picture_.rows[i].end(), [](const PageCell& c) { return !c.title.empty(); });
+      for (std::size_t j = 0; j < columns_; ++j) {
+        const double wide = width * picture_.column_weights[j] / total(picture_.column_weights);
+        Axes axes;
+        axes.room = {x, y - share + (picture_.shared_x ? 0.35 * em_ : 3.1 * em_), x + wide - 1.1 * em_, y - (titled ? 1.7 : 0.45) * em_};
+        row.push_back(axes);
+        x += wide;
+      }
+      axes_.push_back(std::move(row));
+      y -= share;
+    }
+  }
+
+  void align() {
+    for (std::size_t j = 0; j < columns_; ++j) {
+      double widest = 0;
+      for (std::size_t i = 0; i < axes_.size(); ++i) {
+        std::visit([&](const auto& drawing) { fit_y(drawing, axes_[i][j]); }, cell(i, j).drawing);
+        for (const Tick& t : axes_[i][j].y_ticks.ticks) widest = std::max(widest, text_extent(t.label, em_).x);
+      }
+      for (auto& row : axes_) {
+        row[j].room.left += widest + (0.6 + 1.7 + 0.5) * em_;
+        row[j].x.from = row[j].room.left, row[j].x.to = row[j].room.right;
+      }
+      for (std::size_t i = 0; i < axes_.size(); ++i) fit_x(i, j);
+    }
+  }
+
+  // In em of symbols, of all beams of a column.
+  double beyond_ends_of(std::size_t j) const {
+    double most = 0.9;
+    for (const auto& row : picture_.rows)
+      if (const auto* beam = std::get_if<BeamDrawing>(&row[j].drawing)) most = std::max(most, beyond_ends(*beam));
+    return most;
+  }
+
+  // Of a beam with room for walls beyond its ends; a diagram has the axis of the beam it belongs to.
+  void fit_x(std::size_t i, std::size_t j) {
+    Axes& axes = axes_[i][j];
+    const auto* curve = std::get_if<CurveDrawing>(&cell(i, j).drawing);
+    if (curve && curve->x_range) {
+      axes.x.low = (*curve->x_range)[0], axes.x.high = (*curve->x_range)[1];
+    } else {
+      const double length = curve ? curve->curves.front().x.back() : std::get<BeamDrawing>(cell(i, j).drawing).length;
+      const double pad = beyond_ends_of(j) * std::min(1.4 * em_, axes.room.width() / 22);
+      const double per_unit = (axes.room.width() - 2 * pad) / length;
+      axes.x.low = -pad / per_unit, axes.x.high = length + pad / per_unit;
+    }
+    axes.x_ticks = spaced_ticks(axes.x, em_);
+    if (!curve || !curve->x_range) {
+      const double low = -1e-9 * axes.x.high, high = (curve ? curve->curves.front().x.back() : std::get<BeamDrawing>(cell(i, j).drawing).length) * (1 + 1e-9);
+      std::erase_if(axes.x_ticks.ticks, [&](const Tick& t) { return t.value < low || t.value > high; });
+    }
+  }
+
+  void draw(std::size_t i, std::size_t j) {
+    const Axes& axes = axes_[i][j];
+    const PageCell& c = cell(i, j);
+    draw_grid(canvas_, axes);
+    std::visit([&](const auto& drawing) { draw_cell(canvas_, drawing, axes); }, c.drawing);
+    draw_ticks(canvas_, axes, labels_x(i));
+    draw_frame(canvas_, axes);
+    TextStyle style;
+    style.across = Align::middle;
+    if (labels_x(i)) {
+      const std::string name = axis_name(c.x_label, axes.x_ticks);
+      style.size = fitting_size(name, em_, axes.room.width());
+      style.up = Align::high;
+      canvas_.text({(axes.room.left + axes.room.right) / 2, axes.room.bottom - 1.75 * em_}, name, style);
+    }
+    const std::string name = axis_name(c.y_label, axes.y_ticks);
+    TextStyle upright;
+    upright.size = fitting_size(name, em_, axes.room.height());
+    upright.upright = true;
+    upright.up = Align::middle;
+    canvas_.text({left_of(j) + 0.5 * em_, (axes.room.bottom + axes.room.top) / 2}, name, upright);
+    TextStyle title;
+    title.bold = true;
+    title.size = fitting_size(c.title, em_, std::min(1.25 * axes.room.width(), picture_.width - axes.room.left - em_), true);
+    title.up = Align::low;
+    canvas_.text({axes.room.left, axes.room.top + 0.4 * em_}, c.title, title);
+  }
+
+  double left_of(std::size_t j) const {
+    return picture_.width * std::accumulate(picture_.column_weights.begin(), picture_.column_weights.begin() + static_cast<std::ptrdiff_t>(j), 0.0) / total(picture_.column_weights);
+  }
+
+  const PagePicture& picture_;
+  Canvas canvas_;
+  std::size_t columns_;
+  double em_ = 20;
+  std::vector<std::vector<Axes>> axes_;
+};
+
+}  // namespace
+
+void draw_page(const PagePicture& picture) {
+  const Page page(picture, oversampling(picture.width, picture.height));
+  write_canvas(page.canvas(), picture.width, picture.height, picture.file);
+}
+
+}  // namespace dotyk::figure

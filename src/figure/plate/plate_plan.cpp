@@ -1,0 +1,244 @@
+// A plate from above: contour lines, what bears, supports, reactions.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "figure/plate/plate_lines.hpp"
+#include "figure/plate/plate_stage.hpp"
+#include "figure/canvas/ticks.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+constexpr double support_width = 0.2;  // of lines, em
+
+std::vector<Point> flat(const Stage& stage, const PlateLine& line) {
+  std::vector<Point> out;
+  for (const Vec3& p : line) out.push_back(stage.view.flat({p[0], p[1], 0}));
+  return out;
+}
+
+bool overlap(const Box& a, const Box& b) { return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top; }
+
+// A place for a label on a contour line, clear of edges and other labels.
+class ContourLabels {
+public:
+  ContourLabels(Stage& stage, const Plate& plate) : stage_(stage), plate_(plate) {}
+
+  void add(const std::vector<Point>& line, const std::string& text) {
+    std::vector<double> length{0};
+    for (std::size_t i = 1; i < line.size(); ++i) length.push_back(length.back() + std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y));
+    const double em = stage_.em, size = 0.68 * em;
+    const Point extent = text_extent(text, size);
+    if (length.back() < 2.5 * extent.x + 2 * em) return;
+    for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9}) {
+      const auto i = static_cast<std::size_t>(std::lower_bound(length.begin(), length.end(), share * length.back()) - length.begin());
+      const Point at = line[std::min(i, line.size() - 1)];
+      const double pad = 0.35 * em;
+      const Box box{at.x - extent.x / 2 - pad, at.y - extent.y / 2 - pad, at.x + extent.x / 2 + pad, at.y + extent.y / 2 + pad};
+      if (!free(box)) continue;
+      taken_.push_back(box);
+      TextStyle style;
+      style.size = size;
+      style.across = style.up = Align::middle;
+      style.halo = true;
+      return stage_.over.text(at, text, style);
+    }
+  }
+
+private:
+  bool free(const Box& box) const {
+    if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return overlap(box, other); })) return false;
+    for (const EdgeRun& run : plate_.runs)
+      for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
+        Point p = stage_.view.flat(run.points[i].position), q = stage_.view.flat(run.points[i + 1].position);
+        if (crop(p, q, box)) return false;
+      }
+    const auto on = [&](double x, double y) { return box.holds(stage_.view.flat({x, y, 0}), stage_.em); };
+    return std::none_of(plate_.picture.forces.begin(), plate_.picture.forces.end(), [&](const PlateForce& f) { return on(f.x, f.y); }) &&
+           std::none_of(plate_.picture.supports.begin(), plate_.picture.supports.end(), [&](const PlatePointSupport& s) { return on(s.x, s.y); });
+  }
+
+  Stage& stage_;
+  const Plate& plate_;
+  std::vector<Box> taken_;
+};
+
+double brightness(Colour c) { return (0.3 * c.r + 0.59 * c.g + 0.11 * c.b) / 255; }
+
+// At the labelled ticks of the colour bar.
+void draw_contours(Stage& stage, const Plate& plate) {
+  if (plate.picture.values.empty() || !stage.scale.shown) return;
+  ContourLabels labels(stage, plate);
+  for (const Tick& tick : linear_ticks(stage.scale.low, stage.scale.high, 6).ticks) {
+    const Colour colour = brightness(stage.scale.at(tick.value)) < 0.35 ? Colour{225, 225, 225} : Colour{55, 55, 55};
+    for (const PlateLine& line : contour(plate.picture, tick.value)) {
+      const std::vector<Point> points = flat(stage, line);
+      stage.over.polyline(points, std::max(0.8, stage.em / (tick.label.empty() ? 40 : 22)), colour);
+      if (!tick.label.empty()) labels.add(points, tick.label);
+    }
+  }
+}
+
+void draw_bearing(Stage& stage, const Plate& plate) {
+  const Colour colour = status_colour(Status::closed);
+  const std::vector<int> zone = bearing_triangles(plate.picture);
+  const auto at = [&](int i) { return stage.view.flat({plate.picture.points[2 * static_cast<std::size_t>(i)], plate.picture.points[2 * static_cast<std::size_t>(i) + 1], 0}); };
+  for (const PlateLine& line : hatch(plate.picture, zone, 0.45 * stage.em / stage.view.scale)) {
+    const std::vector<Point> ends = flat(stage, line);
+    stage.over.line(ends[0], ends[1], std::max(1.0, stage.em / 18), colour);
+  }
+  const std::vector<int> edges = rim(zone, 3);
+  for (const std::vector<int>& chain : chains(edges)) {
+    std::vector<Point> points;
+    for (const int i : chain) points.push_back(at(i));
+    stage.over.polyline(points, std::max(1.6, stage.em / 10), colour);
+  }
+  std::vector<int> inside = zone;
+  std::sort(inside.begin(), inside.end());
+  for (const int i : plate.picture.bearing)
+    if (!std::binary_search(inside.begin(), inside.end(), i)) stage.over.marker(Marker::disc, at(i), 0.5 * stage.em, colour);
+}
+
+// Hatching outside an edge that cannot rotate, as of a wall.
+void draw_clamp(Stage& stage, const EdgeRun& run) {
+  const double em = stage.em, depth = 0.45 * em, step = 0.4 * em;
+  double rest = 0;
+  for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
+    const Point p = stage.view.flat(run.points[i].position), q = stage.view.flat(run.points[i + 1].position), n = stage.view.direction(run.points[i].normal);
+    const double length = std::hypot(q.x - p.x, q.y - p.y);
+    for (double s = rest; s <= length; s += step, rest = s) {
+      const Point d{(q.x - p.x) / length, (q.y - p.y) / length}, a{p.x + s * d.x, p.y + s * d.y};
+      stage.over.line(a, {a.x + depth * (n.x - 0.7 * d.x), a.y + depth * (n.y - 0.7 * d.y)}, std::max(1.0, em / 20), support_ink);
+    }
+    rest -= length;
+  }
+}
+
+// Supports without a status; those with one have been drawn with it.
+void draw_edge(Stage& stage, const EdgeRun& run) {
+  if (run.clamped) draw_clamp(stage, run);
+  if (run.support == PlateSupport::free) return;
+  for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
+    if (run.points[i].status || run.points[i + 1].status) continue;
+    stage.over.line(stage.view.flat(run.points[i].position), stage.view.flat(run.points[i + 1].position), support_width * stage.em, support_colour(run.support, std::nullopt));
+  }
+}
+
+double dot_size(const Stage& stage, const Plate& plate, const PlateForce& f) {
+  return stage.em * (0.4 + 0.5 * std::sqrt(std::abs(f.force) / plate.greatest_force));
+}
+
+bool carries(const Plate& plate, const PlateForce& f) { return std::abs(f.force) > 1e-6 * plate.greatest_force; }
+
+// Beyond a corner; elsewhere within the plate, clear of strips.
+PlateLabel force_label(const Stage& stage, const Plate& plate, const PlateForce& f) {
+  PlateLabel label;
+  const std::string& unit = plate.picture.force_unit;
+  label.text = number(f.force) + (unit.empty() ? "" : " " + unit);
+  label.colour = f.force < 0 ? pull_line : pressure_line;
+  const Point at = stage.view.flat({f.x, f.y, 0}), extent = text_extent(label.text, 0.85 * stage.em);
+  Point n = stage.view.direction(outwards_at(plate.runs, f.x, f.y));
+  const bool corner = std::abs(n.x) > 0.3 && std::abs(n.y) > 0.3;
+  if (!corner) n = n.x == 0 && n.y == 0 ? Point{0.7, 0.7} : Point{-n.x, -n.y};
+  label.ground = !corner;
+  const double off = dot_size(stage, plate, f) / 2 + (corner ? 0.15 : 0.3) * stage.em;
+  const auto side = [](double c) { return std::abs(c) > 0.3 ? (c > 0 ? 1.0 : -1.0) : 0.0; };
+  const Point middle{at.x + side(n.x) * (extent.x / 2 + off), at.y + side(n.y) * (extent.y / 2 + off)};
+  label.box = {middle.x - extent.x / 2, middle.y - extent.y / 2, middle.x + extent.x / 2, middle.y + extent.y / 2};
+  return label;
+}
+
+std::vector<PlateLabel> labels(const Stage& stage, const Plate& plate) {
+  std::vector<PlateLabel> out;
+  for (const PlateForce& f : plate.picture.forces)
+    if (carries(plate, f)) out.push_back(force_label(stage, plate, f));
+  for (PlateLabel& label : strip_labels(stage, plate)) out.push_back(std::move(label));
+  return out;
+}
+
+// The apex at the point, as on drawings.
+void draw_point_support(Stage& stage, const PlatePointSupport& s) {
+  const Point at = stage.view.flat({s.x, s.y, 0});
+  const double em = stage.em;
+  for (const auto& [grow, colour] : {std::pair{0.12 * em, Colour{255, 255, 255}}, std::pair{0.0, support_colour(s.support, s.status)}})
+    stage.over.convex(std::array<Point, 3>{{{at.x, at.y + grow}, {at.x - 0.5 * em - grow, at.y - 0.85 * em - 0.7 * grow}, {at.x + 0.5 * em + grow, at.y - 0.85 * em - 0.7 * grow}}}, colour);
+}
+
+void draw_above(Stage& stage, const Plate& plate) {
+  for (const EdgeRun& run : plate.runs) draw_edge(stage, run);
+  draw_strips(stage, plate);
+  for (const PlatePointSupport& s : plate.picture.supports) draw_point_support(stage, s);
+  for (const PlateForce& f : plate.picture.forces)
+    if (carries(plate, f)) stage.over.marker(Marker::disc, stage.view.flat({f.x, f.y, 0}), dot_size(stage, plate, f), f.force < 0 ? pull_line : pressure_line);
+  std::vector<Box> taken;
+  for (const PlateLabel& label : labels(stage, plate)) {
+    if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return overlap(label.box, other); })) continue;
+    taken.push_back(label.box);
+    draw_label(stage, label);
+  }
+}
+
+void add_bounds(const Stage& stage, const Plate& plate, Bounds& bounds) {
+  if (plate.greatest_reaction > 0)
+    for (const EdgeRun& run : plate.runs)
+      for (const EdgePoint& p : run.points) bounds.add(strip_tip(stage, plate, p));
+  if (plate.any([](const EdgeRun& run) { return run.clamped; }))
+    for (const EdgeRun& run : plate.runs)
+      for (const EdgePoint& p : run.points) bounds.add(strip_foot(stage, plate, p));
+  for (const PlatePointSupport& s : plate.picture.supports) {
+    const Point at = stage.view.flat({s.x, s.y, 0});
+    bounds.add(Point{at.x - 0.6 * stage.em, at.y - stage.em}), bounds.add(Point{at.x + 0.6 * stage.em, at.y});
+  }
+  for (const PlateLabel& label : labels(stage, plate)) bounds.add(Point{label.box.left, label.box.bottom}), bounds.add(Point{label.box.right, label.box.top});
+}
+
+// Per length and at points, as far as they occur.
+LegendEntry reaction_entry(double em, double sign, bool strip, bool force) {
+  return {sign > 0 ? "reaction, pushing up" : "reaction, pulling down", [em, sign, strip, force](Canvas& c, const Box& b) {
+            const double middle = (b.bottom + b.top) / 2;
+            const Colour colour = sign > 0 ? pressure_line : pull_line;
+            if (strip) {
+              c.box({b.left, middle - 0.36 * em, b.right, middle + 0.36 * em}, sign > 0 ? push_fill : pull_fill);
+              c.line({b.left, middle + 0.36 * em}, {b.right, middle + 0.36 * em}, std::max(1.2, em / 14), colour);
+            }
+            if (force) c.marker(Marker::disc, {(b.left + b.right) / 2, middle - (strip ? 0.05 * em : 0)}, 0.5 * em, colour);
+          }};
+}
+
+std::vector<LegendEntry> plan_legend(const Stage& stage, const Plate& plate) {
+  const double em = stage.em;
+  std::vector<LegendEntry> out = plate_legend(plate, em, support_width * em);
+  if (plate.any([](const EdgeRun& run) { return run.clamped; }))
+    out.push_back({"cannot rotate", [em](Canvas& c, const Box& b) {
+                     const double low = (b.bottom + b.top) / 2 - 0.2 * em;
+                     c.line({b.left, low}, {b.right, low}, std::max(1.2, em / 18), support_ink);
+                     for (double x = b.left; x < b.right; x += 0.4 * em) c.line({x, low}, {x + 0.3 * em, low + 0.45 * em}, std::max(1.0, em / 20), support_ink);
+                   }});
+  for (const double sign : {1.0, -1.0}) {
+    bool strip = false, force = false;
+    for (const EdgeRun& run : plate.runs)
+      for (const EdgePoint& p : run.points) strip = strip || sign * p.reaction > 1e-6 * plate.greatest_reaction;
+    for (const PlateForce& f : plate.picture.forces) force = force || sign * f.force > 1e-6 * plate.greatest_force;
+    if (strip || force) out.push_back(reaction_entry(em, sign, strip, force));
+  }
+  return out;
+}
+
+}  // namespace
+
+Additions plan_additions(const Plate& plate) {
+  Additions out;
+  out.axes_of_bodies = true;
+  out.legend = [&plate](const Stage& stage) { return plan_legend(stage, plate); };
+  out.bounds = [&plate](const Stage& stage, Bounds& bounds) { add_bounds(stage, plate, bounds); };
+  out.below = [&plate](Stage& stage, vtkRenderer*) {
+    draw_contours(stage, plate);
+    draw_bearing(stage, plate);
+  };
+  out.above = [&plate](Stage& stage, vtkRenderer*) { draw_above(stage, plate); };
+  return out;
+}
+
+}  // namespace dotyk::figure

@@ -1,0 +1,162 @@
+// A scene figure: three layers, one above the other. Obstacles of the plane
+// below, then bodies in VTK's own renderer, then symbols, legends and texts.
+#include <algorithm>
+#include <cmath>
+
+#include <vtkCamera.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include "figure/door/figures.hpp"
+#include "figure/canvas/osmesa_window.hpp"
+#include "figure/scene/spread.hpp"
+#include "figure/scene/stage.hpp"
+
+namespace dotyk::figure {
+
+Stage::Stage(const ScenePicture& p, int oversampled)
+    : picture(p), factor(oversampled), plane(p.bodies.front().dimension == 2),
+      em(0.032 * std::min<double>(p.height, 0.8 * p.width)), scale(colour_scale(p, p.window)), window(p.window),
+      under(oversampled), over(oversampled) {
+  set_greatest();
+  for (const BodyPicture& body : p.bodies) {
+    Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
+    for (std::size_t i = 0; i < body.points.size(); ++i) {
+      least[i % 3] = std::min(least[i % 3], body.points[i]);
+      most[i % 3] = std::max(most[i % 3], body.points[i]);
+    }
+    if (!body.points.empty()) body_boxes.push_back({least, most});
+  }
+}
+
+double Stage::strip_height() const {
+  if (window) return window_strip;
+  return std::clamp(0.12 * std::min(picture.width, picture.height), 2 * em, 4.5 * em);
+}
+
+bool Stage::strips() const {
+  return plane && (picture.pressure == PressureStyle::strip || picture.pressure == PressureStyle::automatic);
+}
+
+bool Stage::arrows() const {
+  return picture.pressure == PressureStyle::arrows ||
+         (!plane && (picture.pressure == PressureStyle::automatic || picture.pressure == PressureStyle::strip));
+}
+
+Vec3 Stage::deformed(const Vec3& position, const Vec3& displacement) const {
+  return plus(position, displacement, picture.deformation);
+}
+
+std::vector<bool> Stage::shown(const ContactPicture& contact) const {
+  std::vector<bool> out;
+  std::vector<Point> at;
+  for (const ContactNode& node : contact.nodes) {
+    at.push_back(view.flat(place(node)));
+    out.push_back(shows(at.back()));
+  }
+  if (!window || contact.nodes_per_facet != 2) return out;
+  for (std::size_t f = 0; f + 1 < contact.facets.size(); f += 2) {
+    const auto a = static_cast<std::size_t>(contact.facets[f]), b = static_cast<std::size_t>(contact.facets[f + 1]);
+    if (shows(at[a], at[b])) out[a] = out[b] = true;
+  }
+  return out;
+}
+
+void Stage::set_greatest() {
+  greatest_pressure = greatest_shear = 0;
+  for (const ContactPicture& contact : picture.contacts) {
+    const std::vector<bool> seen = shown(contact);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      if (seen[i]) {
+        greatest_pressure = std::max(greatest_pressure, contact.nodes[i].pressure);
+        if (picture.shear) greatest_shear = std::max(greatest_shear, std::sqrt(dot(contact.nodes[i].shear, contact.nodes[i].shear)));
+      }
+  }
+  if (greatest_shear < 1e-9 * greatest_pressure) greatest_shear = 0;  // rounding's
+}
+
+std::vector<std::size_t> Stage::spaced(const std::vector<Point>& positions, double spacing, double within) const {
+  std::vector<Point> at;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (shows(positions[i], within)) at.push_back(positions[i]), numbers.push_back(i);
+  std::vector<std::size_t> out = spread(at, spacing);
+  for (std::size_t& i : out) i = numbers[i];
+  return out;
+}
+
+namespace {
+
+// The bodies' renderer works in rendered pixels and sees the frame only.
+void set_camera(const Stage& stage, vtkRenderer* renderer) {
+  const double w = stage.picture.width, h = stage.picture.height, f = stage.factor;
+  const Box frame = stage.plane && !stage.window ? Box{0, 0, w, h} : stage.frame;
+  renderer->SetViewport(frame.left / w, frame.bottom / h, frame.right / w, frame.top / h);
+  const double x = f * (frame.left + frame.right) / 2, y = f * (frame.bottom + frame.top) / 2;
+  // Depths: bodies reach as far to and fro as across, about the origin's.
+  double near = 1e300, far = -1e300;
+  for (const auto& [least, most] : stage.body_boxes)
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p{corner & 1 ? most[0] : least[0], corner & 2 ? most[1] : least[1], corner & 4 ? most[2] : least[2]};
+      const double z = f * stage.view.pixel(p)[2];
+      near = std::min(near, z), far = std::max(far, z);
+    }
+  const double reach = 4 * f * (w + h);
+  near = stage.plane ? 0 : (near + far) / 2;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(f * frame.height() / 2);
+  camera->SetFocalPoint(x, y, near);
+  camera->SetPosition(x, y, near + reach);
+  camera->SetViewUp(0, 1, 0);
+  camera->SetClippingRange(0.01 * reach, 2 * reach);
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToCameraLight();
+  light->SetPosition(-0.35, 0.55, 1);
+  light->SetFocalPoint(0, 0, 0);
+  renderer->AddLight(light);
+}
+
+}  // namespace
+
+void draw_stage(Stage& stage) {
+  const ScenePicture& picture = stage.picture;
+  const int factor = stage.factor;
+  lay_out(stage);
+
+  OsmesaWindow window(factor * picture.width, factor * picture.height);
+  vtkNew<vtkRenderer> ground, bodies, overlay;
+  int layer = 0;
+  window.vtk()->SetNumberOfLayers(3);
+  for (vtkRenderer* renderer : {ground.Get(), bodies.Get(), overlay.Get()}) {
+    renderer->SetLayer(layer++);
+    window.vtk()->AddRenderer(renderer);
+  }
+  ground->SetBackground(1, 1, 1);
+  draw_obstacles(stage, bodies);
+  if (stage.window) stage.over.clip(stage.frame);
+  draw_bodies(stage, bodies);
+  if (stage.added.below) stage.added.below(stage, bodies);
+  draw_supports(stage);
+  draw_loads(stage);
+  draw_contacts(stage, bodies);
+  if (stage.added.above) stage.added.above(stage, bodies);
+  stage.over.no_clip();
+  if (stage.window) draw_rim(stage);
+  set_camera(stage, bodies);
+  stage.under.add_to(ground);
+  stage.over.add_to(overlay);
+
+  Image image = reduce(window.render(), picture.width, picture.height, factor);
+  stage.over.set_texts(image);
+  write_png(image, picture.file);
+}
+
+void draw_scene(const ScenePicture& picture) {
+  Stage stage(picture, oversampling(picture.width, picture.height));
+  draw_stage(stage);
+}
+
+}  // namespace dotyk::figure

@@ -1,0 +1,134 @@
+#include "plate/element/stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::plate {
+
+using algebra::SparseMatrix;
+using algebra::Vector;
+using Eigen::Vector2d;
+
+namespace {
+
+LocalMatrix cell_stiffness(const std::vector<double>& D, double nu, const Space& space, int cell) {
+  const Triangle t = triangle(*space.mesh, space.edges, cell);
+  const Rule& rule = stiffness_rule(space.element);
+  const std::size_t points = rule.points.size(), first = D.size() > points ? cell * points : 0;
+  LocalMatrix K = stiffness(*basis(space.element, t), rule, t, nu, &D[first]);
+  space.to_freedoms(cell, K);
+  K.transposeInPlace();
+  space.to_freedoms(cell, K);
+  return K;
+}
+
+/// Where the unknowns of a cell stand in a lower triangle: pattern first, then values, without a list of all entries.
+class Assembly {
+ public:
+  Assembly(const Space& space, const std::vector<int>& unknown) : space_(space), unknown_(unknown) {
+    const int n = static_cast<int>(unknown.size() - std::count(unknown.begin(), unknown.end(), -1));
+    std::vector<std::vector<int>> below(n);
+    each_cell([&](int, const std::array<int, 12>& at) {
+      for (int i = 0; i < space.local_size(); ++i)
+        for (int j = 0; j < space.local_size(); ++j)
+          if (at[j] >= 0 && at[i] >= at[j]) below[at[j]].push_back(at[i]);
+    });
+    std::vector<int> sizes(n);
+    for (int j = 0; j < n; ++j) {
+      std::sort(below[j].begin(), below[j].end());
+      below[j].erase(std::unique(below[j].begin(), below[j].end()), below[j].end());
+      sizes[j] = static_cast<int>(below[j].size());
+    }
+    K.resize(n, n);
+    K.reserve(sizes);
+    for (int j = 0; j < n; ++j)
+      for (const int i : below[j]) K.insert(i, j) = 0;
+    K.makeCompressed();
+  }
+
+  template <class Visit>
+  void each_cell(const Visit& visit) const {
+    for (int c = 0; c < space_.mesh->cell_count(); ++c) {
+      std::array<int, 12> at = space_.freedoms(c);
+      for (int i = 0; i < space_.local_size(); ++i) at[i] = unknown_[at[i]];
+      visit(c, at);
+    }
+  }
+
+  void add(const std::array<int, 12>& at, const LocalMatrix& local) {
+    for (int j = 0; j < local.cols(); ++j) {
+      if (at[j] < 0) continue;
+      const int* begin = K.innerIndexPtr() + K.outerIndexPtr()[at[j]];
+      const int* end = K.innerIndexPtr() + K.outerIndexPtr()[at[j] + 1];
+      for (int i = 0; i < local.rows(); ++i)
+        if (at[i] >= at[j]) K.valuePtr()[std::lower_bound(begin, end, at[i]) - K.innerIndexPtr()] += local(i, j);
+    }
+  }
+
+  SparseMatrix K;
+
+ private:
+  const Space& space_;
+  const std::vector<int>& unknown_;
+};
+
+}  // namespace
+
+std::vector<double> bending_stiffness(const Plate& plate) {
+  const Rule& rule = stiffness_rule(plate.element);
+  if (!plate.D_of) return std::vector<double>(rule.points.size(), plate.D);
+  const mesh::Mesh& mesh = *plate.mesh;
+  std::vector<double> out;
+  out.reserve(rule.points.size() * mesh.cell_count());
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (const Barycentric& b : rule.points) {
+      Vector2d x(0, 0);
+      for (int k = 0; k < 3; ++k) x += b[k] * Vector2d(mesh.node(mesh.cell(c)[k])[0], mesh.node(mesh.cell(c)[k])[1]);
+      out.push_back(plate.D_of(x[0], x[1]));
+      if (!(out.back() > 0) || !std::isfinite(out.back())) throw InputError(text("D is ", out.back(), " at (", x[0], ", ", x[1], "); it must be positive"));
+    }
+  return out;
+}
+
+Stiffness stiffness(const std::vector<double>& D, double nu, const Space& space, const Held& held, const std::vector<int>& unknown) {
+  Assembly assembly(space, unknown);
+  Stiffness out;
+  out.force_of_held = Vector::Zero(assembly.K.rows());
+  assembly.each_cell([&](int c, const std::array<int, 12>& at) {
+    const LocalMatrix K = cell_stiffness(D, nu, space, c);
+    assembly.add(at, K);
+    const auto freedom = space.freedoms(c);
+    LocalVector v(K.rows());
+    for (int i = 0; i < v.size(); ++i) v[i] = held.value[freedom[i]];
+    if (v.isZero(0)) return;
+    const LocalVector force = K * v;
+    out.energy_of_held += 0.5 * v.dot(force);
+    for (int i = 0; i < v.size(); ++i)
+      if (at[i] >= 0) out.force_of_held[at[i]] += force[i];
+  });
+  out.on_free = std::move(assembly.K);
+  return out;
+}
+
+Vector holding_forces(const std::vector<double>& D, double nu, const Space& space, const Held& held, const Vector& load, const Vector& u) {
+  Vector out = Vector::Zero(u.size());
+  for (int c = 0; c < space.mesh->cell_count(); ++c) {
+    const auto freedom = space.freedoms(c);
+    const auto end = freedom.begin() + space.local_size();
+    if (std::none_of(freedom.begin(), end, [&](int i) { return held.is[i]; })) continue;
+    const LocalMatrix K = cell_stiffness(D, nu, space, c);
+    LocalVector v(K.rows());
+    for (int i = 0; i < v.size(); ++i) v[i] = u[freedom[i]];
+    const LocalVector force = K * v;
+    for (int i = 0; i < v.size(); ++i)
+      if (held.is[freedom[i]]) out[freedom[i]] += force[i];
+  }
+  for (int i = 0; i < out.size(); ++i)
+    if (held.is[i]) out[i] -= load[i];
+  return out;
+}
+
+}  // namespace dotyk::plate

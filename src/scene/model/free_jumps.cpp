@@ -1,0 +1,189 @@
+#include "scene/model/free_jumps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/row_derivative.hpp"
+#include "contact/tangents.hpp"
+#include "scene/model/contact_rows.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+using mesh::Point;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
+Point point(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+/// Left of an axis that other axes span is rounding: such entries are exactly 0 or 1.
+Matrix3d cleaned(Matrix3d P) {
+  return P.unaryExpr([](double v) { return std::abs(v) < 1e-14 ? 0 : std::abs(v - 1) < 1e-14 ? 1 : v; });
+}
+
+/// Onto the range of a sum of projections.
+Matrix3d onto_range(const Matrix3d& sum) {
+  if (sum.isDiagonal(0)) return Matrix3d(sum.diagonal().unaryExpr([](double v) { return v > kHeld ? 1.0 : 0.0; }).asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(sum);
+  const Vector3d in = eigen.eigenvalues().unaryExpr([](double v) { return v > kHeld ? 1.0 : 0.0; });
+  return cleaned(eigen.eigenvectors() * in.asDiagonal() * eigen.eigenvectors().transpose());
+}
+
+/// The weight, relative to the row's own, below which a partner is there by rounding.
+constexpr double kNoWeight = 1e-9;
+/// Distance between planes that are one, relative to a body's size.
+constexpr double kInPlane = 1e-6;
+
+int dimension_of(const Matrix3d& V) { return static_cast<int>(std::lround(V.trace())); }
+
+}  // namespace
+
+FreeJumps::FreeJumps(const Scene& scene, const std::vector<Body>& bodies, const std::vector<elasticity::Numbering>& numbering,
+                     const Contact& contact)
+    : contact_(contact), second_{nullptr, {}}, dim_(scene.dimension()) {
+  const auto side = [&](const Part& part) {
+    const auto body = static_cast<std::size_t>(scene.index_of(part.body.get()));
+    return side_of(bodies[body], numbering[body]);
+  };
+  first_ = side(contact.first);
+  if (contact.second.body) second_ = side(contact.second);
+}
+
+FreeJumps::Side FreeJumps::side_of(const Body& body, const elasticity::Numbering& numbering) {
+  using Kind = problem::SupportLaw::Kind;
+  Side result{&numbering, {}};
+  for (const SlideRow& slide : body.slides) result.conditions[slide.node].push_back({slide.normal, 0});
+  for (const LawSupport& law : body.laws)
+    for (const contact::NodeSide& side : law.nodes) {
+      if (side.own.size() > 1) continue;
+      if (law.normal.kind == Kind::prescribed) result.conditions[side.node].push_back({side.normal, -law.normal.value});
+      if (law.tangential.kind == Kind::prescribed)
+        for (const Point& t : contact::tangents(side.normal, body.dimension())) result.conditions[side.node].push_back({t, law.tangential.value});
+    }
+  return result;
+}
+
+FreeJumps::Node FreeJumps::of_node(const Side& side, int node) const {
+  Node result{Matrix3d::Zero(), Vector3d::Zero()};
+  Matrix3d& P = result.free;
+  for (int i = 0; i < dim_; ++i) {
+    const std::size_t at = static_cast<std::size_t>(node) * dim_ + i;
+    P(i, i) = side.numbering->unknown[at] >= 0;
+    if (side.numbering->unknown[at] < 0) result.given[i] = side.numbering->prescribed[at];
+  }
+  const auto found = side.conditions.find(node);
+  if (found == side.conditions.end()) return result;
+  for (const Condition& c : found->second) {
+    const Vector3d e = P * vector(c.direction);
+    if (e.norm() <= kHeld) continue;
+    result.given += (c.value - vector(c.direction).dot(result.given)) / e.squaredNorm() * e;
+    P -= e * e.transpose() / e.squaredNorm();
+  }
+  P = cleaned(P);
+  return result;
+}
+
+Matrix3d FreeJumps::at(const contact::ContactRow& row) const {
+  const Matrix3d V = of_facing(row);
+  if (!second_.numbering || row.partners.size() <= 1 || on_plane_of_symmetry(row, V)) return V;
+  Matrix3d sum = V;
+  for (const contact::NodeWeight& partner : row.partners)
+    if (std::abs(partner.weight) > kNoWeight) sum += of_node(second_, partner.node).free;
+  return onto_range(sum);
+}
+
+Matrix3d FreeJumps::of_facing(const contact::ContactRow& row) const {
+  Matrix3d sum = Matrix3d::Zero();
+  for (const contact::NodeWeight& own : row.own) sum += of_node(first_, own.node).free;
+  if (second_.numbering && !row.partners.empty()) sum += of_node(second_, facing(contact_, row.node, row.partners)).free;
+  return onto_range(sum);
+}
+
+bool FreeJumps::on_plane_of_symmetry(const contact::ContactRow& row, const Matrix3d& V) const {
+  if ((V * vector(row.normal)).norm() <= kHeld) return false;
+  const mesh::Mesh &own = *contact_.first.body->mesh, &other = *contact_.second.body->mesh;
+  const Vector3d apart = vector(own.point(row.node)) - vector(other.point(facing(contact_, row.node, row.partners)));
+  return (apart - V * apart).norm() <= kInPlane * own.size();
+}
+
+std::optional<double> FreeJumps::given(const contact::ContactRow& row) const {
+  double sum = 0;
+  const auto add = [&](const Side& side, int node, double weight) {
+    const Node n = of_node(side, node);
+    sum += weight * n.given.dot(vector(row.normal));
+    return (n.free * vector(row.normal)).norm() <= kHeld;
+  };
+  for (const contact::NodeWeight& own : row.own)
+    if (!add(first_, own.node, own.weight)) return std::nullopt;
+  for (const contact::NodeWeight& partner : row.partners)
+    if (!add(second_, partner.node, -partner.weight)) return std::nullopt;
+  return sum;
+}
+
+std::vector<Point> free_tangents(const Matrix3d& V, const Point& normal, int dimension) {
+  std::vector<Point> all = contact::tangents(normal, dimension);
+  if (dimension_of(V) == dimension) return all;
+  if (dimension == 2 || dimension_of(V) < 2) {
+    // A plane has one tangent; V, a line or nothing, is spanned by the normal's projection, or has no normal row.
+    std::erase_if(all, [&](const Point& t) { return dimension_of(V) == 0 || (V * vector(normal)).norm() > kHeld || (V * vector(t)).norm() < kHeld; });
+    return all;
+  }
+  const Vector3d n = V * vector(normal);
+  if (n.norm() < kHeld) return all;  // the normal is held: V is the plane of the tangents
+  std::erase_if(all, [&](const Point& t) { return (V * vector(t) - vector(t)).norm() > kHeld || std::abs(vector(t).dot(n)) > kHeld; });
+  if (all.size() == 1) return all;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(V);  // the first vector is across V
+  const Vector3d t = n.cross(eigen.eigenvectors().col(0).eval());
+  if (t.norm() < kHeld) return {};
+  return {point(t.normalized())};
+}
+
+Point free_tangent_derivative(const Matrix3d& V, const Point& normal, const Point& dn, const Point& tangent, int dimension) {
+  if (dimension_of(V) == dimension || (V * vector(normal)).norm() < kHeld) {
+    const std::vector<Point> t = contact::tangents(normal, dimension), dt = contact::tangent_derivatives(normal, dn, dimension);
+    const auto which = std::find(t.begin(), t.end(), tangent) - t.begin();
+    return dt.at(static_cast<std::size_t>(which));
+  }
+  // V is a plane, in which n′ and the tangent turn together.
+  const Vector3d n = V * vector(normal), d = V * vector(dn);
+  return point(-(vector(tangent).dot(d) / n.squaredNorm()) * n);
+}
+
+namespace {
+
+/// Does V say the row's normal?
+bool decides(const Matrix3d& V, const contact::ContactRow& row) {
+  const Vector3d n = vector(row.normal), off = n - V * n;
+  return off.norm() > kHeld && off.norm() <= row.turn && off.norm() < 0.5;
+}
+
+}  // namespace
+
+std::shared_ptr<const Contact> with_held_normals(const std::shared_ptr<const Contact>& contact, const FreeJumps& jumps) {
+  std::shared_ptr<Contact> held;
+  for (std::size_t k = 0; k < contact->rows.size(); ++k) {
+    const contact::ContactRow& row = contact->rows[k];
+    if (!(row.turn > kHeld)) continue;
+    const Matrix3d V = jumps.at(row);
+    if (!decides(V, row)) continue;
+    if (!held) {
+      held = std::make_shared<Contact>(*contact);
+      held->origin = contact->origin ? contact->origin : contact;
+    }
+    const Vector3d n = V * vector(row.normal);
+    held->rows[k].normal = point(n.normalized());
+    held->rows[k].gap = (row.gap - row.added) / n.norm() + row.added;
+  }
+  return held ? held : contact;
+}
+
+void hold_normal(const Matrix3d& V, const contact::ContactRow& row, Point& dnormal, double& dgap) {
+  if (!decides(V, row)) return;
+  const Vector3d n = V * vector(row.normal), dn = V * vector(dnormal);
+  const double size = n.norm(), along = n.dot(dn) / size;
+  dgap = dgap / size - (row.gap - row.added) * along / (size * size);
+  dnormal = point((dn - along / size * n) / size);
+}
+
+}  // namespace dotyk::scene

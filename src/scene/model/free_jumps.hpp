@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <map>
+#include <optional>
+
+#include "scene/statement/scene.hpp"
+
+namespace dotyk::scene {
+
+/// What supports leave free of the jump u₁ − u₂ at the rows of a contact: the sum V of the spaces in which the row's nodes, own and
+/// partners, are not held by fix, slide or displace, oblique slides included, or by laws that prescribe a displacement, whatever its value;
+/// of order 2 such laws are about means, and hold no node.
+/// On a plane of symmetry V is the plane: the row's node and the partner facing it (see facing()) lie in it and stay in it, though further
+/// partners beside it have a weight in the row.
+class FreeJumps {
+ public:
+  /// Not kept: `bodies` as they are solved, `numbering` of each.
+  FreeJumps(const Scene& scene, const std::vector<Body>& bodies, const std::vector<elasticity::Numbering>& numbering, const Contact& contact);
+  /// The orthogonal projection onto V, 3 × 3.
+  Eigen::Matrix3d at(const contact::ContactRow& row) const;
+  /// The jump along the row's normal, Σ weight u_own − Σ weight u_partner, as supports say it; none where a node is free to move along it.
+  std::optional<double> given(const contact::ContactRow& row) const;
+
+ private:
+  /// direction·u = value.
+  struct Condition {
+    mesh::Point direction;  ///< unit
+    double value;
+  };
+  struct Side {
+    const elasticity::Numbering* numbering;
+    std::map<int, std::vector<Condition>> conditions;  ///< of nodes, but for those of single components
+  };
+  struct Node {
+    Eigen::Matrix3d free;   ///< projection onto what moves
+    Eigen::Vector3d given;  ///< displacement across it
+  };
+  static Side side_of(const Body& body, const elasticity::Numbering& numbering);
+  Node of_node(const Side& side, int node) const;
+  /// Of the row's node and the partner facing it alone.
+  Eigen::Matrix3d of_facing(const contact::ContactRow& row) const;
+  bool on_plane_of_symmetry(const contact::ContactRow& row, const Eigen::Matrix3d& V) const;
+
+  const Contact& contact_;
+  Side first_, second_;  ///< second: of a rigid shape without numbering
+  int dim_;
+};
+
+/// Is a projection of a unit vector no more than rounding?
+inline constexpr double kHeld = 1e-9;
+
+/// Unit tangents along which the jump is free: those of V that are perpendicular to the normal's projection n′ on V, by which rows of a
+/// node never depend on each other. All of them where V is everything.
+std::vector<mesh::Point> free_tangents(const Eigen::Matrix3d& V, const mesh::Point& normal, int dimension);
+/// d/dt of one of them, where the normal turns with dn and V stays.
+mesh::Point free_tangent_derivative(const Eigen::Matrix3d& V, const mesh::Point& normal, const mesh::Point& dn, const mesh::Point& tangent, int dimension);
+
+/// The contact with the normals that supports say. Where the normal is uncertain, at an end of a curved part whose facets are chords, and
+/// V lies within ContactRow::turn of it, as on a plane of symmetry, the normal is n′/|n′|; the gap at rest grows to gap/|n′|, so that
+/// in V the condition stays what it was. The same object where no row changes.
+std::shared_ptr<const Contact> with_held_normals(const std::shared_ptr<const Contact>& contact, const FreeJumps& jumps);
+/// The derivative of such a row, by that of the row as the contact has it.
+void hold_normal(const Eigen::Matrix3d& V, const contact::ContactRow& row, mesh::Point& dnormal, double& dgap);
+
+}  // namespace dotyk::scene

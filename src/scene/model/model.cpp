@@ -1,0 +1,229 @@
+#include "scene/model/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+#include "elasticity/rigid_modes.hpp"
+#include "elasticity/weak_motions.hpp"
+#include "problem/contradiction.hpp"
+#include "problem/range.hpp"
+#include "scene/model/contact_rows.hpp"
+#include "scene/model/subdomains.hpp"
+#include "scene/model/support_rows.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+using elasticity::Numbering;
+using mesh::Point;
+
+/// "fix of left (2 nodes), spring on top".
+std::string supports_of(const Body& body) {
+  static const char* kind[] = {"fix of ", "slide on ", "displacement of "};
+  std::vector<std::string> all;
+  for (const Support& s : body.supports)
+    all.push_back(text(kind[static_cast<int>(s.kind)], s.part.name, " (", s.nodes.size(),
+                       s.nodes.size() == 1 ? " node)" : " nodes)"));
+  for (std::size_t k = 0; k < body.springs.size(); ++k)
+    if (k == 0 || !(body.springs[k].part == body.springs[k - 1].part))
+      all.push_back("spring on " + body.springs[k].part.name);
+  std::string out;
+  for (std::size_t k = 0; k < all.size() && k < 4; ++k) out += (k ? ", " : "") + all[k];
+  return all.size() > 4 ? text(out, " and ", all.size() - 4, " more") : out;
+}
+
+/// The entry of Model::nearly_free; lowers `softest`.
+std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block, double& softest) {
+  const auto weak = elasticity::weak_motions(*body.mesh, numbering, block.K, block.kernel);
+  if (weak.motions.empty()) return "";
+  softest = std::min(softest, weak.stiffness);
+  std::string motions;
+  for (const Motion& motion : weak.motions) motions += (motions.empty() ? "" : ", ") + motion.text();
+  if (weak.stiffness == 0)
+    throw InputError(text("'", body.name, "' is as good as free: ", motions, " is held only by ", supports_of(body),
+                          ", whose stiffness is lost in rounding beside the body's; leave that away, or make it stiffer"));
+  return text("nearly free: ", motions, "; held only by ", supports_of(body), ", ", weak.stiffness,
+              " as stiff as the body");
+}
+
+}  // namespace
+
+std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& model) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> all;
+  for (std::size_t b = 0; b < model.nearly_free.size(); ++b)
+    if (!model.nearly_free[b].empty()) all.push_back("'" + scene.bodies[b]->name + "' is " + model.nearly_free[b]);
+  if (all.size() <= most) return all;
+  const std::string others = text(all.size() - most, " more bodies are nearly free");
+  all.resize(most);
+  all.push_back(others);
+  return all;
+}
+
+namespace {
+
+void add_body(const Body& body, Model& model) {
+  require_memory(2 * elasticity::matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
+  model.numbering.push_back(number(body));
+  const Numbering& numbering = model.numbering.back();
+  const auto springs = body.facet_springs();
+  auto system = elasticity::assemble(*body.mesh, body.material, springs, body.force, numbering);
+  auto rigid = elasticity::rigid_modes(*body.mesh, numbering, springs);
+  problem::Block block;
+  block.name = body.name;
+  block.K = std::move(system.K);
+  block.f = std::move(system.f);
+  block.offset = system.offset + broken_energy(body);
+  block.node = numbering.node;
+  block.kernel = std::move(rigid.modes);
+  block.motions = std::move(rigid.motions);
+  model.nearly_free.push_back(nearly_free(body, numbering, block, model.softest));
+  problem::add(model.problem, std::move(block));
+}
+
+void add_glue_rows(const Scene& scene, const Contact& contact, RowBuilder& builder,
+                   std::vector<int>& row_of) {
+  const int first = scene.index_of(contact.first.body.get());
+  const int second = scene.index_of(contact.second.body.get());
+  builder.open_group(contact.name, problem::bilateral());
+  for (const contact::Tie& tie : contact.glued)
+    for (int i = 0; i < scene.dimension(); ++i) {
+      Point direction{0, 0, 0};
+      direction[i] = 1;
+      double jump = 0;
+      const bool moves = tie.partners.size() == 1 || builder.moves(first, tie.own, direction) ||
+                         builder.moves(second, facing(contact, tie.node, tie.partners), direction);
+      row_of.push_back(moves ? builder.add(first, second, {{tie.own, tie.partners, direction}}, jump) : -1);
+      if (row_of.back() < 0 && std::abs(jump) > 1e-12 * contact.first.body->mesh->size())
+        throw InputError(text(contact.name, ": at ",
+                              point_text(contact.first.body->mesh->node(tie.node), scene.dimension()),
+                              " the two sides are prescribed displacements that differ by ", std::abs(jump)));
+    }
+}
+
+}  // namespace
+
+std::vector<double> Model::displacement(int body, const algebra::Vector& u) const {
+  std::vector<double> result = numbering[body].prescribed;
+  for (std::size_t k = 0; k < result.size(); ++k)
+    if (numbering[body].unknown[k] >= 0)
+      result[k] = u[problem.blocks[body].first + numbering[body].unknown[k]];
+  return result;
+}
+
+namespace {
+
+/// The load of a body's block for its prescribed components as they are now: f and offset as elasticity::assemble.
+void set_load(const Body& body, const Numbering& numbering, problem::Block& block) {
+  const auto held = elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), numbering.prescribed);
+  block.offset = broken_energy(body);
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (numbering.unknown[k] >= 0)
+      block.f[numbering.unknown[k]] = body.force[k] - held[k];
+    else
+      block.offset += numbering.prescribed[k] * (0.5 * held[k] - body.force[k]);
+}
+
+/// Refuses an interference at a node that other contacts or supports hold: friction without a bound, for example.
+void require_consistent(const Scene& scene, const problem::Problem& problem) {
+  double size = 0;
+  for (const auto& body : scene.bodies) size = std::max(size, body->mesh->size());
+  if (const auto found = problem::contradiction(problem, 1e-9 * size))
+    throw InputError(text(problem.row_name(found->row), " lies ", found->by, " inside the other side, and other contacts or supports hold it there; "
+                          "no displacement can part them"));
+}
+
+/// All rows anew, for the prescribed displacements and moves as they are now.
+void set_rows(const Scene& scene, const Loading& loading, Model& model) {
+  model.problem.groups.clear();
+  model.problem.friction.clear();
+  model.contacts.clear();
+  model.contact_row.clear();
+  model.normal.clear();
+  model.friction.clear();
+  model.glue_row.clear();
+  model.slide_row.clear();
+  model.support_row.clear();
+  model.move.clear();
+  RowBuilder builder(scene, model);
+  for (const auto& given : scene.contacts) {
+    const FreeJumps jumps(scene, model.bodies, model.numbering, *given);
+    const auto contact = model.contacts.emplace_back(with_held_normals(given, jumps));
+    model.move.push_back(loading.move_of(static_cast<int>(model.move.size())));
+    builder.set_move(model.move.back());
+    model.contact_row.emplace_back();
+    model.glue_row.emplace_back();
+    model.normal.emplace_back();
+    model.friction.emplace_back();
+    if (contact->kind == Contact::Kind::contact) {
+      add_normal_rows(scene, *contact, jumps, builder, model);
+      add_friction_rows(scene, *contact, jumps, builder, model);
+    } else {
+      add_glue_rows(scene, *contact, builder, model.glue_row.back());
+    }
+  }
+  builder.set_move({0, 0, 0});
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    model.slide_row.emplace_back();
+    add_support_rows(static_cast<int>(b), builder, model);
+    const Body& body = model.bodies[b];
+    if (body.slides.empty()) continue;
+    builder.open_group("slide of '" + body.name + "'", problem::bilateral());
+    for (const SlideRow& slide : body.slides) {
+      double jump = 0;
+      model.slide_row.back().push_back(
+          builder.add(static_cast<int>(b), slide.node, slide.normal, jump));
+      const mesh::Mesh& mesh = *body.mesh;
+      if (model.slide_row.back().back() < 0 && std::abs(jump) > 1e-12 * mesh.size())
+        throw InputError(text("contradictory supports on '", body.name, "': at the node ",
+                              point_text(mesh.node(slide.node), mesh.dimension()), " part '", slide.part.name,
+                              "' slides, but its displacement along the normal is prescribed to be ", -jump));
+    }
+  }
+  builder.finish();
+  require_consistent(scene, model.problem);
+}
+
+void require_moderate(const problem::Problem& problem, bool cut) {
+  if (cut) problem::require_moderate(problem, problem::kMostForceOnSubdomains);
+  else if (problem.rows() > 0) problem::require_moderate(problem, problem::kMostForceOnRows);
+}
+
+}  // namespace
+
+Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading,
+            const std::optional<problem::Decomposition>& decomposition) {
+  Stopwatch watch;
+  Model model;
+  for (const auto& body : scene.bodies) {
+    monitor.phase(text("assembling '", body->name, "' (", body->mesh->cell_count(), " cells)"));
+    model.bodies.push_back(loading.applied_to(*body));
+    add_body(model.bodies.back(), model);
+    monitor.check();
+  }
+  set_rows(scene, loading, model);
+  require_moderate(model.problem, decomposition.has_value());
+  if (decomposition) cut(*decomposition, model, monitor);
+  clock.assembly += watch.seconds();
+  return model;
+}
+
+void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& loading, Model& model,
+            problem::Clock& clock) {
+  Stopwatch watch;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    model.bodies[b] = loading.applied_to(bodies[b]);
+    model.numbering[b] = number(model.bodies[b]);
+    set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
+  }
+  set_rows(scene, loading, model);
+  require_moderate(model.problem, model.decomposition.has_value());
+  load_subdomains(model);
+  clock.assembly += watch.seconds();
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "problem/condensed.hpp"
+#include "problem/problem.hpp"
+#include "scene/statement/loading.hpp"
+
+namespace dotyk::scene {
+
+/// A cell of friction and its tangential rows: one in the plane, up to two in space (fewer where supports hold a
+/// direction on both sides).
+struct FrictionRows {
+  contact::FrictionCell cell;
+  int count = 0;
+  int row[2] = {-1, -1};
+  mesh::Point direction[2] = {};  ///< in space: unit, perpendicular to the cell's mean normal
+  /// The direction of row i at one of the cell's contact rows: perpendicular to its normal.
+  mesh::Point at(int i, const contact::ContactRow& row, int dimension) const;
+};
+
+/// The rows of B of a support's laws at one node of its part, -1 or fewer where other supports hold a direction.
+struct SupportRows {
+  int normal = -1;
+  int count = 0;  ///< tangential ones
+  int row[2] = {-1, -1};
+  mesh::Point direction[2] = {};
+  void add(int r, const mesh::Point& tangent) {
+    row[count] = r;
+    direction[count++] = tangent;
+  }
+};
+
+/// A scene as a problem, and the way back.
+struct Model {
+  problem::Problem problem;
+  std::vector<Body> bodies;                      ///< as they were: a script may add supports and loads later; scaled
+  std::vector<elasticity::Numbering> numbering;  ///< one a body
+  /// The scene's, their normals as the supports say: see with_held_normals(). Results and rows are by these.
+  std::vector<std::shared_ptr<const Contact>> contacts;
+  /// Contact → its row → row of B of the normal multiplier there, or -1 where no unknown moves it (both sides fixed).
+  std::vector<std::vector<int>> contact_row;
+  std::vector<std::vector<contact::NormalRow>> normal;  ///< contact → its row → what that row of B measures
+  std::vector<std::vector<FrictionRows>> friction;      ///< contact → its cells
+  /// Glue: contact → first row of B of each pair's component (dimension a pair), -1 likewise.
+  std::vector<std::vector<int>> glue_row;
+  std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1
+  std::vector<std::vector<std::vector<SupportRows>>> support_row;  ///< body → its LawSupport → its nodes
+  std::vector<mesh::Point> move;                 ///< contact → displacement of its rigid shape
+  std::optional<problem::Decomposition> decomposition;  ///< by which problem.subdomains were cut; none: they were not
+
+  /// Body → rigid motions that its supports hardly hold, with what they are and how stiff: "nearly free:
+  /// rotation about (0, 0); held only by fix of left (2 nodes), 3e-08 as stiff as the body". Mostly empty.
+  std::vector<std::string> nearly_free;
+  double softest = 1;  ///< how stiff the softest of these motions is held, relative to its body
+
+  /// A body's displacement, node × dimension, from the unknowns of all blocks.
+  std::vector<double> displacement(int body, const algebra::Vector& u) const;
+  /// The force that a contact's multipliers exert on its first body, at the node of each contact row (the
+  /// opposite one acts on the partner).
+  std::vector<mesh::Point> contact_force(int contact, const algebra::Vector& lambda) const;
+};
+
+/// Assembles. Throws InputError for contradictory supports, for a contact that nodes fixed on both sides
+/// make impossible, for a body whose supports are lost in rounding beside its stiffness, and, with rows or subdomains, as
+/// problem::require_moderate(). Adds its time to clock.assembly. With a `decomposition` the bodies are also cut into subdomains by it: see cut().
+Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading = {},
+            const std::optional<problem::Decomposition>& decomposition = {});
+/// "'b1' is nearly free: …" of the first three such bodies, and how many more there are.
+std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& model);
+/// Puts another loading on a model: f (of subdomains, too) and c change, K and B stay. `bodies`: the scene's, unscaled, as
+/// when it was built. Throws as build.
+void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& loading, Model& model,
+            problem::Clock& clock);
+
+}  // namespace dotyk::scene

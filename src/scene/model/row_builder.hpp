@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/model/model.hpp"
+
+namespace dotyk::scene {
+
+/// What nodes and their partners give to a row: direction·(Σ weight u_own − Σ weight u_partner), a weight in the direction's length.
+struct Pull {
+  std::span<const contact::NodeWeight> own;       ///< not kept
+  std::span<const contact::NodeWeight> partners;  ///< not kept
+  mesh::Point direction;
+};
+
+/// Gathers rows of B as they come. Used while a model is built.
+class RowBuilder {
+ public:
+  RowBuilder(const Scene& scene, Model& model) : scene_(scene), model_(model) {}
+
+  /// The rigid shape of rows added from now on is displaced by this: part of their gap.
+  void set_move(const mesh::Point& move) { move_ = move; }
+  /// Rows added from now on are under this law.
+  void open_group(const std::string& name, std::shared_ptr<const problem::Law> law);
+  /// Rows added from now on are tangential, under a law set later; returns the next row.
+  int open_friction();
+
+  /// direction·u at a node = jump; returns the row, or -1 where nothing is unknown.
+  /// `gap` is reduced by what prescribed components contribute and left so.
+  int add(int body, int node, const mesh::Point& direction, double& gap);
+
+  /// The same of several pulls (at least one) of two bodies, or of one and a rigid shape (other_body -1).
+  int add(int body, int other_body, const std::vector<Pull>& pulls, double& gap);
+  /// The row direction·Σ weight u.
+  int add(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction, double& gap);
+  /// Has the node (one of the nodes) an unknown along the direction?
+  bool moves(int body, int node, const mesh::Point& direction) const;
+  bool moves(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction) const;
+
+  /// Sets B, c and the rows' names.
+  void finish();
+
+ private:
+  void collect(int body, int node, const mesh::Point& direction, double sign, double& gap);
+
+  struct Place {
+    int body, node;
+  };
+  const Scene& scene_;
+  Model& model_;
+  mesh::Point move_{0, 0, 0};
+  bool scalar_ = true;  ///< rows belong to the last scalar group
+  int count_ = 0;
+  std::vector<Eigen::Triplet<double>> entries_;
+  std::vector<double> gaps_;
+  std::vector<Place> places_;  ///< where a row is, for messages made only when needed
+};
+
+}  // namespace dotyk::scene

@@ -1,0 +1,167 @@
+#include "scene/model/support_rows.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "contact/tangents.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+using mesh::Point;
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+/// Rows of one LawSupport, as they are made.
+class SupportRowMaker {
+ public:
+  SupportRowMaker(int body, const LawSupport& support, RowBuilder& builder, Model& model)
+      : body_(body), on_(model.bodies[body]), support_(support), builder_(builder), model_(model),
+        rows_(support.nodes.size()) {}
+
+  std::vector<SupportRows> operator()() {
+    if (problem::row_law(support_.normal)) normal();
+    if (support_.tangential.kind == Kind::friction)
+      friction();
+    else if (problem::row_law(support_.tangential))
+      tangential();
+    return std::move(rows_);
+  }
+
+ private:
+  std::string name(const char* direction) const {
+    return text(direction, " support of '", on_.name, "' ", support_.part.name);
+  }
+
+  void normal() {
+    const SupportLaw& law = support_.normal;
+    builder_.open_group(name("normal"), nullptr);
+    std::vector<double> shares;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const contact::NodeSide& side = support_.nodes[k];
+      rows_[k].normal = add(side, side.normal, law, law.kind == Kind::prescribed ? -law.value : 0);
+      if (rows_[k].normal >= 0) shares.push_back(support_.breaks(k) ? 0 : side.weight);
+    }
+    close_group(law, shares);
+  }
+
+  void tangential() {
+    const SupportLaw& law = support_.tangential;
+    builder_.open_group(name("tangential"), nullptr);
+    std::vector<double> shares;
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      for (const Point& t : contact::tangents(support_.nodes[k].normal, on_.dimension())) {
+        const int row = add(support_.nodes[k], t, law, law.kind == Kind::prescribed ? law.value : 0);
+        if (row < 0) continue;
+        rows_[k].add(row, t);
+        shares.push_back(support_.nodes[k].weight);
+      }
+    close_group(law, shares);
+  }
+
+  /// Points of one and of two free tangents apart: a group's points have as many rows each.
+  void friction() {
+    for (int components = 1; components < on_.dimension(); ++components) {
+      const int first = builder_.open_friction();
+      std::vector<double> bounds;
+      std::vector<int> normal;
+      for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const contact::NodeSide& side = support_.nodes[k];
+        const std::vector<Point> free = free_tangents(side);
+        if (static_cast<int>(free.size()) != components || support_.tangential.value == 0) continue;
+        for (const Point& t : free) rows_[k].add(add(side, t, support_.tangential, 0), t);
+        bounds.push_back(support_.tangential.value * side.weight);
+        normal.push_back(-1);
+      }
+      if (!bounds.empty())
+        model_.problem.friction.push_back({name("tangential"), problem::tresca(std::move(bounds)), first, components, std::move(normal)});
+    }
+  }
+
+  std::vector<Point> free_tangents(const contact::NodeSide& side) const {
+    std::vector<Point> free;
+    for (const Point& t : contact::tangents(side.normal, on_.dimension()))
+      if (moves(side, t)) free.push_back(t);
+    return free;
+  }
+
+  /// The row direction·u = gap, or -1 where nothing moves.
+  int add(const contact::NodeSide& side, const Point& direction, const SupportLaw& law, double gap) {
+    if (moves(side, direction)) return builder_.add(body_, side.own, direction, gap);
+    if (!builder_.moves(body_, side.own, direction)) builder_.add(body_, side.own, direction, gap);  // no row; gap changes
+    const double rounding = 1e-12 * on_.mesh->size();
+    if (law.kind == Kind::prescribed ? std::abs(gap) > rounding : law.kind == Kind::signorini && gap < -rounding)
+      throw InputError(text("contradictory supports on '", on_.name, "': at the node ",
+                            point_text(on_.mesh->node(side.node), on_.dimension()), " the ", problem::support_name(law.kind), " law of part '", support_.part.name,
+                            "' and the displacement that other supports hold differ by ", std::abs(gap)));
+    return -1;
+  }
+
+  bool moves(const contact::NodeSide& side, const Point& direction) const {
+    return scene::moves(on_, model_.numbering[body_], side, direction);
+  }
+
+  void close_group(const SupportLaw& law, const std::vector<double>& shares) {
+    if (shares.empty())
+      model_.problem.groups.pop_back();
+    else
+      model_.problem.groups.back().law = problem::row_law(law, 1, shares);
+  }
+
+  int body_;
+  const Body& on_;
+  const LawSupport& support_;
+  RowBuilder& builder_;
+  Model& model_;
+  std::vector<SupportRows> rows_;
+};
+
+}  // namespace
+
+void add_support_rows(int body, RowBuilder& builder, Model& model) {
+  model.support_row.emplace_back();
+  for (const LawSupport& support : model.bodies[body].laws)
+    model.support_row.back().push_back(SupportRowMaker(body, support, builder, model)());
+}
+
+Point law_load(const LawSupport& support, const contact::NodeSide& side, int dimension) {
+  Point force{0, 0, 0};
+  const Point t = contact::tangents(side.normal, dimension).front();
+  for (int i = 0; i < dimension; ++i) {
+    if (support.normal.kind == Kind::load) force[i] -= support.normal.value * side.weight * side.normal[i];
+    if (support.tangential.kind == Kind::load) force[i] += support.tangential.value * side.weight * t[i];
+  }
+  return force;
+}
+
+Point law_force(const contact::NodeSide& side, const SupportRows& rows, const algebra::Vector& lambda) {
+  Point force{0, 0, 0};
+  const auto push = [&](int row, const Point& direction) {
+    if (row >= 0)
+      for (int i = 0; i < 3; ++i) force[i] -= lambda[row] * direction[i];
+  };
+  push(rows.normal, side.normal);
+  for (int i = 0; i < rows.count; ++i) push(rows.row[i], rows.direction[i]);
+  return force;
+}
+
+void add_law_loads(Body& body) {
+  const int dim = body.dimension();
+  for (const LawSupport& support : body.laws)
+    for (const contact::NodeSide& side : support.nodes) {
+      const Point force = law_load(support, side, dim);
+      for (const contact::NodeWeight& own : side.own)
+        for (int i = 0; i < dim; ++i) body.force[static_cast<std::size_t>(own.node) * dim + i] += own.weight * force[i];
+    }
+}
+
+double broken_energy(const Body& body) {
+  double energy = 0;
+  for (const LawSupport& s : body.laws)
+    for (std::size_t k = 0; k < s.nodes.size(); ++k)
+      if (s.breaks(k) && s.normal.value > 0) energy += 0.5 * s.normal.limit * s.normal.limit / s.normal.value * s.nodes[k].weight;
+  return energy;
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "scene/result/solution.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+using mesh::Point;
+
+Point at_node(const std::vector<double>& values, int node, int dim) {
+  Point p{0, 0, 0};
+  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(node) * dim, dim, p.begin());
+  return p;
+}
+
+/// Pressures: the values of the pressure at the contact rows, λ/∫ψ a basis function.
+std::vector<double> pressures(const Contact& contact, const Model& model, int index, const algebra::Vector& lambda) {
+  std::vector<double> value(contact.rows.size(), 0);
+  for (std::size_t j = 0; j < value.size(); ++j) {
+    const int r = model.contact_row[index][j];
+    const contact::NormalRow& row = model.normal[index][j];
+    if (r < 0 || !(row.measure > 0)) continue;
+    for (const contact::Term& at : row.values) value[at.row] += at.weight * lambda[r] / row.measure;
+  }
+  return value;
+}
+
+/// Shear on the first body at the contact rows: μ g, where a node lies in several cells the mean by their share
+/// of its surroundings; and whether it slips (at least half of these cells, by share, do) or sticks.
+struct Rubbing {
+  std::vector<Point> shear;
+  std::vector<char> rubs, slips;
+};
+
+Rubbing rubbing(const Contact& contact, const Model& model, int index, const solver::Result& result) {
+  const std::size_t count = contact.rows.size();
+  Rubbing rubbing{std::vector<Point>(count, Point{0, 0, 0}), std::vector<char>(count, 0), std::vector<char>(count, 0)};
+  std::vector<double> slipping(count, 0), sticking(count, 0);
+  const bool given = contact.friction == Friction::Kind::tresca;
+  for (const FrictionRows& rows : model.friction[index]) {
+    bool slips = false;
+    for (int i = 0; i < rows.count; ++i) slips = slips || (!result.slipping.empty() && result.slipping[rows.row[i]]);
+    for (const contact::Term& node : rows.cell.nodes) {
+      const double g = given ? contact.friction_value[node.row] : INFINITY;
+      const double density = node.weight * (std::isfinite(g) ? g / rows.cell.bound : 1 / rows.cell.measure);
+      for (int i = 0; i < rows.count; ++i) {
+        const Point t = rows.at(i, contact.rows[node.row], contact.first.body->dimension());
+        for (int k = 0; k < 3; ++k) rubbing.shear[node.row][k] -= density * result.state.lambda[rows.row[i]] * t[k];
+      }
+      rubbing.rubs[node.row] = 1;
+      (slips ? slipping : sticking)[node.row] += node.weight;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) rubbing.slips[k] = slipping[k] > (1 - 1e-9) * sticking[k];
+  return rubbing;
+}
+
+/// The multipliers of these rows alone.
+algebra::Vector friction_part(const std::vector<FrictionRows>& friction, const algebra::Vector& lambda) {
+  algebra::Vector part = algebra::Vector::Zero(lambda.size());
+  for (const FrictionRows& rows : friction)
+    for (int i = 0; i < rows.count; ++i) part[rows.row[i]] = lambda[rows.row[i]];
+  return part;
+}
+
+void count(const ContactNode& node, ContactResult& result) {
+  if (node.status != problem::Status::open) result.area += node.weight;
+  switch (node.status) {
+    case problem::Status::open: ++result.open; break;
+    case problem::Status::closed: ++result.closed; break;
+    case problem::Status::stick: ++result.stick; break;
+    case problem::Status::slip: ++result.slip; break;
+  }
+}
+
+}  // namespace
+
+ContactResult as_given(const Contact& contact, ContactResult result) {
+  if (!contact.turned) return result;
+  const auto turn = [](Point& p) {
+    for (double& v : p) v = 0 - v;
+  };
+  turn(result.force), turn(result.friction_force);
+  for (ContactNode& node : result.nodes) turn(node.normal), turn(node.shear), turn(node.slip);
+  return result;
+}
+
+ContactResult Solution::contact(const Contact& asked) const {
+  const int index = scene_->index_of(asked);
+  if (index < 0)
+    throw InputError(text("this contact (", asked.name, ") is not part of the scene that was solved"));
+  const Contact& contact = *model_.contacts[index];  // as it is in this design
+  if (contact.kind == Contact::Kind::glue)
+    throw InputError(text(contact.name, " is a glue; only contacts have a pressure and a status"));
+  const int first = scene_->index_of(contact.first.body.get());
+  const int second = scene_->index_of(contact.second.body.get());
+  const int dim = scene_->dimension();
+  ContactResult result;
+  for (const FrictionRows& rows : model_.friction[index])
+    for (int i = 0; i < rows.count; ++i) result.dissipated += dissipated_[rows.row[i]];
+  const std::vector<double> pressure = pressures(contact, model_, index, result_.state.lambda);
+  const std::vector<Point> force = model_.contact_force(index, result_.state.lambda);
+  const std::vector<Point> rubbed = model_.contact_force(index, friction_part(model_.friction[index], result_.state.lambda));
+  const Rubbing rubbing = scene::rubbing(contact, model_, index, result_);
+  for (std::size_t k = 0; k < contact.rows.size(); ++k) {
+    const contact::ContactRow& row = contact.rows[k];
+    const int r = model_.contact_row[index][k];
+    ContactNode node;
+    node.node = row.node;
+    node.x = scene_->bodies[first]->mesh->point(row.node);
+    node.displacement = at_node(displacement_[first], row.node, dim);
+    node.normal = row.normal;
+    node.weight = row.weight;
+    Point own{0, 0, 0};
+    for (const contact::NodeWeight& n : row.own)
+      for (int i = 0; i < dim; ++i) own[i] += n.weight * displacement_[first][static_cast<std::size_t>(n.node) * dim + i];
+    Point other = second >= 0 ? Point{0, 0, 0} : model_.move[index];
+    for (const contact::NodeWeight& partner : row.partners)
+      for (int i = 0; i < dim; ++i)
+        other[i] += partner.weight * displacement_[second][static_cast<std::size_t>(partner.node) * dim + i];
+    Point jump;
+    double normal_jump = 0;
+    for (int i = 0; i < 3; ++i) {
+      jump[i] = own[i] - other[i];
+      normal_jump += row.normal[i] * jump[i];
+    }
+    node.gap = row.gap - normal_jump;
+    for (int i = 0; i < 3; ++i) node.slip[i] = jump[i] - normal_jump * row.normal[i];
+    node.pressure = pressure[k];
+    node.force = pressure[k] * row.weight;
+    node.shear = rubbing.shear[k];
+    if (r >= 0 ? active(r) : node.pressure > 0) node.status = problem::Status::closed;
+    if (node.status == problem::Status::closed && rubbing.rubs[k])
+      node.status = rubbing.slips[k] ? problem::Status::slip : problem::Status::stick;
+    for (int i = 0; i < 3; ++i) {
+      result.force[i] += force[k][i];
+      result.friction_force[i] += rubbed[k][i];
+    }
+    count(node, result);
+    result.max_pressure = std::max(result.max_pressure, node.pressure);
+    result.nodes.push_back(node);
+  }
+  return result;
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,110 @@
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "scene/result/solution.hpp"
+#include "scene/model/support_rows.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+using mesh::Point;
+using mesh::dot;
+using problem::Status;
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+/// Of a law at a node: `follows` while its λ follows the displacement (or is any), `bears` while λ is not 0.
+Status status_of(Kind kind, bool follows, bool bears) {
+  switch (kind) {
+    case Kind::free: return Status::open;
+    case Kind::load:
+    case Kind::prescribed:
+    case Kind::elastic: return Status::closed;
+    case Kind::signorini:
+    case Kind::one_sided_elastic:
+    case Kind::unequal_elastic:
+    case Kind::breaking: return follows ? Status::closed : Status::open;
+    case Kind::one_sided_friction: return follows ? Status::stick : bears ? Status::slip : Status::open;
+    case Kind::friction:
+    case Kind::capped_elastic: return follows ? Status::stick : Status::slip;
+  }
+  return Status::open;
+}
+
+void count(const SupportNode& node, SupportResult& result) {
+  if (node.status != Status::open) result.area += node.weight;
+  result.broken += node.broken;
+  result.tangential_stick += node.tangential == Status::stick;
+  result.tangential_slip += node.tangential == Status::slip;
+  result.max_pressure = std::max(result.max_pressure, node.pressure);
+  switch (node.status) {
+    case Status::open: ++result.open; break;
+    case Status::closed: ++result.closed; break;
+    case Status::stick: ++result.stick; break;
+    case Status::slip: ++result.slip; break;
+  }
+}
+
+}  // namespace
+
+SupportResult Solution::support(const Part& part) const {
+  const int index = scene_->index_of(part.body.get());
+  if (index < 0) throw InputError("part '" + part.name + "' is not of the scene that was solved");
+  const Body& body = this->body(index);
+  const PartMark mark = part.mark();
+  const auto found = std::find_if(body.laws.begin(), body.laws.end(), [&](const LawSupport& l) { return l.part == mark; });
+  if (found == body.laws.end()) {
+    std::string all;
+    for (const LawSupport& l : body.laws) all += (all.empty() ? "" : ", ") + l.part.name;
+    throw InputError(text("part ", part.label(), " had no support by laws when it was solved; ",
+                          all.empty() ? "none of the body's has" : "those that have: " + all));
+  }
+  const auto& rows = model_.support_row[index][static_cast<std::size_t>(found - body.laws.begin())];
+  SupportResult result;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const SupportNode node = support_node(*found, k, rows[k], index);
+    for (int i = 0; i < 3; ++i) result.force[i] += node.weight * (node.shear[i] - node.pressure * node.normal[i]);
+    count(node, result);
+    for (int i = 0; i < rows[k].count; ++i) result.dissipated += dissipated_[rows[k].row[i]];
+    result.nodes.push_back(node);
+  }
+  return result;
+}
+
+SupportNode Solution::support_node(const LawSupport& support, std::size_t k, const SupportRows& rows, int index) const {
+  const contact::NodeSide& side = support.nodes[k];
+  const Body& body = this->body(index);
+  const algebra::Vector& lambda = result_.state.lambda;
+  SupportNode node{side.node, body.mesh->point(side.node), side.normal, side.weight};
+  Point u{0, 0, 0};
+  for (const contact::NodeWeight& own : side.own)
+    for (int i = 0; i < body.dimension(); ++i)
+      u[i] += own.weight * displacement_[index][static_cast<std::size_t>(own.node) * body.dimension() + i];
+  node.away = -dot(u, side.normal);
+  const Point load = law_load(support, side, body.dimension()), force = law_force(side, rows, lambda);
+  for (int i = 0; i < 3; ++i) node.slip[i] = u[i] + node.away * side.normal[i];
+  const Point sum = mesh::plus(load, force);
+  node.pressure = -dot(sum, side.normal) / side.weight;
+  for (int i = 0; i < 3; ++i) node.shear[i] = (sum[i] + node.pressure * side.weight * side.normal[i]) / side.weight;
+  node.broken = support.breaks(k);
+  if (rows.normal >= 0 || support.normal.kind == Kind::load)
+    node.status = status_of(support.normal.kind, rows.normal >= 0 && active(rows.normal), node.pressure != 0);
+  if (rows.count == 0 && support.tangential.kind != Kind::load) return node;
+  const bool rubs = support.tangential.kind == Kind::friction;
+  const auto slips = [&](int r) { return rubs ? !result_.slipping.empty() && result_.slipping[r] : !active(r); };
+  node.tangential = status_of(support.tangential.kind, std::none_of(rows.row, rows.row + rows.count, slips), true);
+  return node;
+}
+
+std::string describe(const SupportResult& r, int dimension) {
+  std::string out = text("force ", point_text(r.force.data(), dimension), ", ");
+  if (r.stick + r.slip > 0) out += text(r.stick, " stick, ", r.slip, " slip, ");
+  if (r.closed > 0 || r.stick + r.slip == 0) out += text(r.closed, " closed, ");
+  out += text(r.open, " open, ");
+  if (r.tangential_stick + r.tangential_slip > 0) out += text("tangents ", r.tangential_stick, " stick, ", r.tangential_slip, " slip, ");
+  if (r.broken > 0) out += text(r.broken, " broken, ");
+  return out + text("greatest pressure ", r.max_pressure, r.dissipated > 0 ? text(", dissipated ", r.dissipated) : "");
+}
+
+}  // namespace dotyk::scene

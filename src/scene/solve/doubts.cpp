@@ -1,0 +1,226 @@
+#include "scene/solve/doubts.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "algebra/dense/null_space.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::scene {
+
+namespace {
+
+/// Linear elements lock where the material is nearly incompressible: constant volume in every cell leaves them too few motions.
+constexpr double kLocks = 0.45;
+
+/// Poisson's ratio of the isotropic tensor nearest to this one (by its two linear invariants, c_iijj and c_ijij): λ/2(λ + μ) in its own
+/// dimension, so that ½ is where the ratio of bulk to shear modulus is infinite; in plane stress below ⅓ always.
+double poisson_ratio(const elasticity::Hooke& hooke) {
+  const int d = hooke.dimension;
+  double bulk = 0, all = 0;  // isotropic: d²λ + 2dμ and dλ + (d² + d)μ
+  for (int i = 0; i < d; ++i)
+    for (int j = 0; j < d; ++j) bulk += hooke.c[i][i][j][j], all += hooke.c[i][j][i][j];
+  const double mu = (d * all - bulk) / (d * (d * d + d - 2)), lambda = (bulk - 2 * d * mu) / (d * d);
+  return lambda / (2 * (lambda + mu));
+}
+
+void add_locking(const Body& body, std::vector<std::string>& all) {
+  const mesh::ElementTopology& cells = body.mesh->topology();
+  if (cells.order > 1) return;
+  double nu = poisson_ratio(body.material.at(0));
+  for (int c = 1; body.material.varies() && c < body.mesh->cell_count(); ++c) nu = std::max(nu, poisson_ratio(body.material.at(c)));
+  if (nu > kLocks)
+    all.push_back(text("'", body.name, "' is nearly incompressible (nu = ", nu, "): ", cells.name, " ", cells.shapes,
+                       " lock, displacements come out too small, and error_estimate() notices too little of it; take second-order cells (",
+                       cells.nodes == cells.dimension + 1 ? "element = \"P2\"" : "element = \"Q2\" or \"P2\"", ")"));
+}
+
+/// Gaps that chords make uncertain by more than this part of the interference, or of how gaps differ, give no pressure to rely on.
+constexpr double kMostOfGap = 0.1;
+
+/// Facets of curved parts whose nodes do not match are chords of different places: gaps are uncertain by the chords' height. Pressure comes from
+/// the interference, or from what the gap differs by where bodies meet: over `rows`, those that press; none: over all.
+void see_chords(const Contact& contact, std::vector<const contact::ContactRow*> rows, std::vector<std::string>& all) {
+  if (rows.empty())
+    for (const contact::ContactRow& row : contact.rows) rows.push_back(&row);
+  if (rows.empty()) return;
+  const auto [least, most] = std::minmax_element(rows.begin(), rows.end(), [](auto a, auto b) { return a->gap < b->gap; });
+  const double chord = (*std::max_element(rows.begin(), rows.end(), [](auto a, auto b) { return a->chord < b->chord; }))->chord;
+  const bool fit = contact.interference || (*least)->gap < 0;
+  const double scale = fit ? std::max(0.0, -(*least)->gap) : (*most)->gap - (*least)->gap;
+  if (chord <= std::max(kMostOfGap * scale, 1e-12 * contact.first.body->mesh->size())) return;
+  const std::string of = fit ? "the interference" : "what gaps differ by";
+  all.push_back(text(contact.name, ": facets are chords up to ", chord, " off the curve, ",
+                     scale > chord ? text(std::round(100 * chord / scale), " % of ", of, ", ", scale) : scale > 0 ? text("no less than ", of, ", ", scale) : "which leaves nothing of " + of,
+                     ": the pressure is ", fit ? "too small or too great by as much, and uneven" : "that of the chords",
+                     "; take cells of order 2 (P2, Q2), nodes that match, or finer facets"));
+}
+
+/// A pressure that is uncertain by more than this part of the contact's greatest says nothing.
+constexpr double kMostRounding = 0.01;
+/// Beside all forces on the bodies a contact's force below this part is none.
+constexpr double kNoForce = 1e-5;
+
+/// Where cells are so thin that rounding of their stiffness is beside the pressure.
+void see_rounding(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
+  const Contact& contact = *solution.scene().contacts[index];
+  double greatest = 0, uncertain = 0;
+  std::size_t worst = 0;
+  bool bears = false;
+  const std::vector<problem::Scales> scales = problem::scales(solution.model().problem, solution.result().state);
+  for (std::size_t i = 0; i < contact.rows.size(); ++i) {
+    const int row = solution.model().contact_row[index][i];
+    if (row < 0) continue;
+    const double measure = solution.model().normal[index][i].measure;
+    greatest = std::max(greatest, solution.result().state.lambda[row] / measure);
+    bears = bears || solution.result().state.lambda[row] > kNoForce * scales[static_cast<std::size_t>(row)].force;
+    if (const double here = solution.rounding_of_forces()[row] / measure; here > uncertain) uncertain = here, worst = i;
+  }
+  if (bears && uncertain > kMostRounding * greatest)
+    all.push_back(text(contact.name, ": rounding leaves the pressure uncertain by ", uncertain, " at ",
+                       point_text(contact.first.body->mesh->point(contact.rows[worst].node).data(), contact.first.body->dimension()), ", the greatest is ", greatest,
+                       ": cells there are too thin, or bodies move too far beside how they deform; grade the mesh less"));
+}
+
+/// Where supports hold the contact across everywhere: they bear what presses, and no friction comes of it.
+void see_held(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
+  const Contact& contact = *solution.scene().contacts[index];
+  const std::vector<int>& row = solution.model().contact_row[index];
+  if (contact.friction == Friction::Kind::coulomb && std::all_of(row.begin(), row.end(), [](int r) { return r < 0; }))
+    all.push_back(contact.name + ": supports hold all of it across the contact: they bear what presses, not the contact, and there is no friction");
+}
+
+/// A contact's row of B, and the contact row where it acts.
+struct Acting {
+  int row;
+  const Contact* contact;
+  const contact::ContactRow* at;
+};
+
+/// The rows that bear forces free to change, pressures and friction that sticks, and may depend on one another: at nodes with rows of several
+/// sides or contacts; with P1-P0 multipliers all.
+std::vector<Acting> may_depend(const Solution& solution) {
+  const Scene& scene = solution.scene();
+  std::map<std::pair<const Body*, int>, int> count;
+  const auto nodes = [](const Contact& contact, const contact::ContactRow& row) {
+    std::vector<std::pair<const Body*, int>> own{{contact.first.body.get(), row.node}};
+    if (row.partners.size() == 1) own.emplace_back(contact.second.body.get(), row.partners.front().node);
+    return own;
+  };
+  for (const auto& contact : scene.contacts)
+    for (const contact::ContactRow& row : contact->rows)
+      for (const auto& node : nodes(*contact, row)) ++count[node];
+  const problem::Problem& problem = solution.model().problem;
+  const algebra::Vector x = problem.B * solution.result().state.u - problem.c;
+  const std::vector<problem::Scales> scales = problem::scales(problem, solution.result().state);
+  // A point of friction without slip may bear less, though it bears all that it can.
+  const auto rests = [&](int r) { return std::abs(x[r]) <= 1e-8 * scales[static_cast<std::size_t>(r)].length; };
+  std::vector<Acting> acting;
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    const Contact& contact = *scene.contacts[c];
+    const auto meets = [&](const contact::ContactRow& row) {
+      if (contact.discretisation.multipliers != contact::Multipliers::nodal) return true;
+      const auto own = nodes(contact, row);
+      return std::any_of(own.begin(), own.end(), [&](const auto& node) { return count[node] > 1; });
+    };
+    for (std::size_t k = 0; k < contact.rows.size(); ++k)
+      if (const int r = solution.model().contact_row[c][k]; r >= 0 && solution.active(r) && meets(contact.rows[k])) acting.push_back({r, &contact, &contact.rows[k]});
+    for (const FrictionRows& friction : solution.model().friction[c]) {
+      const contact::ContactRow& at = contact.rows[friction.cell.jumps.front().row];
+      for (int i = 0; i < friction.count; ++i)
+        if (const int r = friction.row[i]; solution.result().state.lambda[r] != 0 && rests(r) && meets(at)) acting.push_back({r, &contact, &at});
+    }
+  }
+  return acting;
+}
+
+/// To so many rows that may depend on one another their rank is looked at.
+constexpr std::size_t kMostDependent = 2000;
+
+/// Combinations of forces that do nothing to the bodies.
+void see_dependent(const Solution& solution, std::vector<std::string>& all) {
+  const std::vector<Acting> acting = may_depend(solution);
+  if (acting.empty() || acting.size() > kMostDependent) return;
+  const algebra::SparseRows& B = solution.model().problem.B;
+  algebra::SparseMatrix columns(B.cols(), static_cast<Eigen::Index>(acting.size()));
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    columns.startVec(k);
+    for (algebra::SparseRows::InnerIterator it(B, acting[static_cast<std::size_t>(k)].row); it; ++it) columns.insertBack(it.col(), k) = it.value();
+  }
+  columns.finalize();
+  const algebra::SparseMatrix lost = algebra::range_and_null(columns, 1e-10).unseen;
+  if (lost.cols() == 0) return;
+  Eigen::Index most;
+  algebra::Vector(lost.col(0)).cwiseAbs().maxCoeff(&most);
+  const Acting& one = acting[static_cast<std::size_t>(most)];
+  all.push_back(text(one.contact->name, ": forces of contact that meet ", lost.cols() > 1 ? text("in ", lost.cols(), " places, one of them ") : "",
+                     "at ", point_text(one.contact->first.body->mesh->point(one.at->node).data(), one.contact->first.body->dimension()),
+                     " balance each other in part: pressure and shear there are not unique, the method decides; displacements and the force on each node are"));
+}
+
+/// A rotation whose square, which small displacements neglect, is a thousandth.
+constexpr double kGreatRotation = 0.03;
+
+/// Where the body's mean rotation is beyond what small displacements allow. `u`: nodes × dimension.
+void see_rotation(const Body& body, const std::vector<double>& u, std::vector<std::string>& all) {
+  const int dim = body.dimension(), count = body.mesh->node_count();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), mean = centre, moment = centre;
+  const auto vector = [&](const double* values) {
+    Eigen::Vector3d v = Eigen::Vector3d::Zero();
+    for (int i = 0; i < dim; ++i) v[i] = values[i];
+    return v;
+  };
+  for (int k = 0; k < count; ++k) {
+    centre += vector(body.mesh->point(k).data()) / count;
+    mean += vector(&u[static_cast<std::size_t>(k) * dim]) / count;
+  }
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < count; ++k) {  // the rotation nearest to u: Σ x × (u − ω × x) = 0
+    const Eigen::Vector3d x = vector(body.mesh->point(k).data()) - centre;
+    moment += x.cross(vector(&u[static_cast<std::size_t>(k) * dim]) - mean);
+    inertia += x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose();
+  }
+  const double angle = dim == 2 ? std::abs(moment[2]) / inertia(2, 2) : Eigen::Vector3d(inertia.ldlt().solve(moment)).norm();
+  if (angle > kGreatRotation)
+    all.push_back(text("'", body.name, "' turns by ", angle, " (as a whole, in radians): equations of small displacements do not hold beyond about ",
+                       kGreatRotation));
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const Scene& scene) {
+  std::vector<std::string> all;
+  for (const auto& body : scene.bodies) add_locking(*body, all);
+  for (const auto& contact : scene.contacts) see_chords(*contact, {}, all);
+  return all;
+}
+
+std::vector<std::string> doubts(const Solution& solution) {
+  std::vector<std::string> all;
+  for (const auto& body : solution.scene().bodies) add_locking(*body, all);
+  for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c) {
+    const Contact& contact = *solution.scene().contacts[c];
+    std::vector<const contact::ContactRow*> rows;
+    for (std::size_t i = 0; i < contact.rows.size(); ++i) {
+      const int row = solution.model().contact_row[c][i];
+      if (row >= 0 && solution.active(row)) rows.push_back(&contact.rows[i]);
+    }
+    see_chords(contact, std::move(rows), all);
+    see_held(solution, c, all);
+    if (solution.result().converged) see_rounding(solution, c, all);
+  }
+  if (solution.result().converged) see_dependent(solution, all);
+  for (std::size_t b = 0; solution.result().converged && b < solution.scene().bodies.size(); ++b)
+    see_rotation(*solution.scene().bodies[b], solution.displacement(static_cast<int>(b)), all);
+  return all;
+}
+
+std::string describe(const std::vector<std::string>& doubts) {
+  std::string out;
+  for (const std::string& one : doubts) out += "\n  warning: " + one;
+  return out;
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,89 @@
+#include "scene/statement/body.hpp"
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "mesh/decomposition.hpp"
+
+namespace dotyk::scene {
+
+std::vector<elasticity::FacetSpring> Body::facet_springs() const {
+  std::vector<elasticity::FacetSpring> result;
+  for (const SpringPatch& patch : springs) result.push_back(patch.spring);
+  return result;
+}
+
+namespace {
+
+/// Pieces hinged at nodes, or apart, have more rigid motions than a body has.
+void require_one_piece(const mesh::Mesh& mesh, const std::string& name) {
+  const mesh::Pieces pieces = mesh::pieces_of(mesh);
+  if (pieces.count == 1) return;
+  std::string list;
+  const auto cells = pieces.cells();
+  for (std::size_t k = 0; k < cells.size() && k < 4; ++k) {
+    mesh::Point middle{0, 0, 0};
+    for (const int c : cells[k])
+      for (int i = 0; i < 3; ++i) middle[i] += mesh.cell_centre(c)[i] / static_cast<double>(cells[k].size());
+    list += text(k ? ", " : "", cells[k].size(), cells[k].size() == 1 ? " cell" : " cells", " around ",
+                 point_text(middle.data(), mesh.dimension()));
+  }
+  if (cells.size() > 4) list += text(" and ", cells.size() - 4, " more");
+  throw InputError(text("the mesh of '", name, "' is in ", cells.size(), " pieces that share no ",
+                        mesh.dimension() == 2 ? "edge" : "face", ": ", list,
+                        "; make each a body of its own (mesh:keep takes cells by their centres), in contact or glued"));
+}
+
+}  // namespace
+
+std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh,
+                                elasticity::MaterialField material,
+                                const elasticity::VectorField& force) {
+  auto body = std::make_shared<Body>();
+  mesh::check(*mesh, "body '" + name + "'");
+  if (mesh->cell_count() == 0) throw InputError("the mesh of '" + name + "' has no cells");
+  require_one_piece(*mesh, name);
+  if (material.at(0).dimension != mesh->dimension())
+    throw InputError(text("the material of '", name, "' is for ", material.at(0).dimension,
+                          "-D, its mesh is ", mesh->dimension(), "-D"));
+  body->name = std::move(name);
+  body->mesh = std::move(mesh);
+  body->material = std::move(material);
+  body->force.assign(body->mesh->coordinates.size(), 0.0);
+  if (force) load_volume(*body, force);
+  return body;
+}
+
+PartMark Part::mark() const {
+  std::size_t hash = facets.size();
+  for (const mesh::Facet f : facets) hash = hash * 1000003u + 6 * static_cast<std::size_t>(f.cell) + f.local;
+  return {name, hash};
+}
+
+std::vector<std::string> part_names(const Body& body) {
+  std::vector<std::string> names;
+  for (const auto& [name, facets] : body.mesh->parts) names.push_back(name);
+  return names;
+}
+
+Part named_part(const std::shared_ptr<Body>& body, const std::string& name) {
+  const auto found = body->mesh->parts.find(name);
+  if (found == body->mesh->parts.end()) {
+    std::string all;
+    for (const std::string& known : part_names(*body)) all += (all.empty() ? "" : ", ") + known;
+    throw InputError(text("'", body->name, "' has no part '", name, "'; it has ", all.empty() ? "none" : all));
+  }
+  if (found->second.empty()) throw InputError(text("part '", name, "' of '", body->name, "' has no facets"));
+  return {body, name, found->second};
+}
+
+Part chosen_part(const std::shared_ptr<Body>& body, const std::string& name,
+                 const std::function<bool(const mesh::Point&, const mesh::Point&)>& chosen) {
+  Part part{body, name, mesh::select(*body->mesh, chosen)};
+  if (part.facets.empty())
+    throw InputError(text("part '", name, "' of '", body->name,
+                          "' is empty: its function accepts none of the boundary's facets (it is asked "
+                          "with facet centres and outward normals)"));
+  return part;
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,225 @@
+#include <cmath>
+#include <algorithm>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+#include "scene/statement/scene.hpp"
+
+namespace dotyk::scene {
+
+namespace {
+
+/// What all designs of a body or contact have in common.
+template <class T>
+const T* root(const T* one) {
+  return one && one->origin ? one->origin.get() : one;
+}
+
+template <class T>
+int find_root(const std::vector<T>& list, const void* wanted) {
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (root(&*list[k]) == wanted) return static_cast<int>(k);
+  return -1;
+}
+
+}  // namespace
+
+int Scene::index_of(const Body* body) const { return find_root(bodies, root(body)); }
+int Scene::index_of(const Contact& contact) const { return find_root(contacts, root(&contact)); }
+
+std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies) {
+  if (bodies.empty()) throw InputError("a scene needs at least one body");
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i]->dimension() != bodies[0]->dimension())
+      throw InputError(text("'", bodies[i]->name, "' is ", bodies[i]->dimension(), "-D, '",
+                            bodies[0]->name, "' is ", bodies[0]->dimension(),
+                            "-D; the bodies of a scene must have one dimension"));
+    for (std::size_t j = 0; j < i; ++j) {
+      if (bodies[i] == bodies[j]) throw InputError(text("'", bodies[i]->name, "' is given twice"));
+      if (bodies[i]->name == bodies[j]->name)
+        throw InputError(text("two bodies are named '", bodies[i]->name,
+                              "'; give each a name of its own (body{ name = … })"));
+    }
+  }
+  auto scene = std::make_shared<Scene>();
+  scene->bodies = std::move(bodies);
+  return scene;
+}
+
+namespace {
+
+void require_member(const Scene& scene, const Part& part) {
+  const int index = scene.index_of(part.body.get());
+  if (index >= 0 && scene.bodies[index] == part.body) return;
+  if (index >= 0)
+    throw InputError(text("part '", part.name, "' belongs to another design of '", part.body->name, "' than this scene's"));
+  std::string all;
+  for (const auto& body : scene.bodies) all += (all.empty() ? "'" : ", '") + body->name + "'";
+  throw InputError(text("part '", part.name, "' belongs to '", part.body->name,
+                        "', which is not in this scene; its bodies are ", all));
+}
+
+/// The (node, partner) pairs of a contact or a glue.
+std::set<std::pair<int, int>> pairs_of(const Contact& contact, bool swapped) {
+  std::set<std::pair<int, int>> pairs;
+  const auto add = [&](int a, int b) { swapped ? pairs.emplace(b, a) : pairs.emplace(a, b); };
+  const auto add_all = [&](int node, const std::vector<contact::NodeWeight>& partners) {
+    for (const contact::NodeWeight& partner : partners) add(node, partner.node);
+  };
+  for (const contact::ContactRow& row : contact.rows) add_all(row.node, row.partners);
+  for (const contact::Tie& tie : contact.glued) add_all(tie.node, tie.partners);
+  return pairs;
+}
+
+/// Throws InputError where every pair of the new contact is already joined by another: its pressure would be
+/// shared out between the two, or it could never open.
+void refuse_repetition(const Scene& scene, const Contact& fresh) {
+  for (const auto& known : scene.contacts) {
+    const bool same = known->first.body == fresh.first.body && known->second.body == fresh.second.body;
+    const bool swapped = known->first.body == fresh.second.body && known->second.body == fresh.first.body;
+    if (!known->second.body || (!same && !swapped)) continue;
+    const auto there = pairs_of(*known, swapped && !same), here = pairs_of(fresh, false);
+    if (std::includes(there.begin(), there.end(), here.begin(), here.end()))
+      throw InputError(text("the nodes of this ", fresh.kind == Contact::Kind::glue ? "glue" : "contact",
+                            " are already joined by the ", known->name, "; say it once"));
+  }
+}
+
+/// The same of a contact with a rigid shape: the same rows as one that is there.
+void refuse_repeated_shape(const Scene& scene, const Contact& fresh) {
+  for (const auto& known : scene.contacts) {
+    if (known->second.body || known->first.body != fresh.first.body || known->rows.size() != fresh.rows.size()) continue;
+    const bool same = std::equal(known->rows.begin(), known->rows.end(), fresh.rows.begin(), [](const contact::ContactRow& a, const contact::ContactRow& b) {
+      return a.node == b.node && a.normal == b.normal && a.gap == b.gap;
+    });
+    if (same) throw InputError(text("there is the same ", known->name, " already; say it once"));
+  }
+}
+
+/// Evaluates the friction at the contact nodes.
+void set_friction(Contact& contact, const Friction& friction) {
+  if (friction.kind == Friction::Kind::none) return;
+  const bool given = friction.kind == Friction::Kind::tresca;
+  contact.friction = friction.kind;
+  for (const contact::ContactRow& row : contact.rows) {
+    const mesh::Point x = contact.first.body->mesh->point(row.node);
+    const double value = friction.value(x);
+    if (!(value >= 0) || (!given && !std::isfinite(value)))
+      throw InputError(text("the friction ", given ? "bound" : "coefficient", " is ", std::isnan(value) ? "not a number" : text(value), " at ",
+                            point_text(x.data(), contact.first.body->dimension()), "; it must be zero or positive",
+                            given ? " (math.huge: no slip at all)" : " and finite"));
+    contact.friction_value.push_back(value);
+  }
+}
+
+/// Throws InputError where the friction does not go with the multipliers.
+void set_discretisation(Contact& contact, const Discretisation& discretisation) {
+  contact.discretisation = discretisation;
+  const bool own_size = discretisation.friction_size > 0;
+  if (own_size && (discretisation.multipliers == contact::Multipliers::nodal ||
+                   contact.friction == Friction::Kind::none))
+    throw InputError("'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"; it is given "
+                     "without them");
+  if (discretisation.ends != CellEnds::own && (discretisation.multipliers == contact::Multipliers::nodal ||
+                                               contact.friction == Friction::Kind::none || contact.first.body->dimension() != 2))
+    throw InputError("'friction_ends' is about the cells of friction on a line, with multipliers = \"P1-P0\"; it is given "
+                     "without them");
+  if (discretisation.multipliers == contact::Multipliers::nodal) return;
+  for (const Part* part : {&contact.first, &contact.second})
+    if (part->body && part->body->mesh->topology().order == 2)
+      throw InputError(text("multipliers = \"P1-P0\" are for cells of order 1; '", part->body->name, "' is of ", part->body->mesh->topology().name,
+                            ", whose pressure is P1 as it is"));
+  if (contact.pairing != contact::Pairing::matching)
+    throw InputError("multipliers = \"P1-P0\" are for matching nodes; with nodes that do not match take \"nodal\"");
+  if (contact.friction == Friction::Kind::coulomb)
+    throw InputError("Coulomb friction does not go with multipliers = \"P1-P0\": their friction rows are weighted "
+                     "with the bound, which here follows from the pressure sought; take \"nodal\"");
+  const auto infinite = std::count_if(contact.friction_value.begin(), contact.friction_value.end(),
+                                      [](double g) { return std::isinf(g); });
+  if (infinite > 0 && infinite < std::ssize(contact.friction_value))
+    throw InputError("the friction bound is infinite on a part of the contact only; with multipliers = \"P1-P0\" it "
+                     "must be finite, or infinite everywhere");
+}
+
+std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
+  scene.contacts.push_back(std::make_shared<const Contact>(std::move(contact)));
+  return scene.contacts.back();
+}
+
+}  // namespace
+
+void set_weights(Contact& contact) {
+  const std::vector<double> measures = contact::measures(surface_of(contact));
+  for (std::size_t k = 0; k < measures.size(); ++k)
+    if (measures[k] > 0) contact.rows[k].weight = measures[k];
+}
+
+contact::Surface surface_of(const Contact& contact) {
+  const bool itself = contact.second.body && contact.first.body->mesh == contact.second.body->mesh;
+  return contact::surface(*contact.first.body->mesh, contact.first.facets, contact.rows,
+                          itself ? contact.second.facets : std::vector<mesh::Facet>());
+}
+
+std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
+                                           const elasticity::ScalarField& added_gap, const Friction& friction,
+                                           bool interference, const Discretisation& discretisation,
+                                           std::optional<contact::Pairing> pairing, Monitor* monitor) {
+  require_member(scene, first);
+  require_member(scene, second);
+  const Stopwatch watch;
+  Contact contact;
+  contact.name = "contact of " + first.label() + " with " + second.label();
+  contact.first = first;
+  contact.second = second;
+  contact.interference = interference;
+  contact::PairedRows paired = contact::pair_rows(first.face(), second.face(), pairing, added_gap, interference, monitor);
+  contact.pairing = paired.pairing;
+  contact.rows = std::move(paired.rows);
+  contact.turned = paired.turned;
+  if (contact.turned) std::swap(contact.first, contact.second);
+  if (contact.pairing != contact::Pairing::mortar && contact.first.body->mesh->topology().order == 1) set_weights(contact);
+  set_friction(contact, friction);
+  set_discretisation(contact, discretisation);
+  refuse_repetition(scene, contact);
+  contact.seconds = watch.seconds();
+  return keep(scene, std::move(contact));
+}
+
+std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
+                                           const elasticity::ScalarField& added_gap, bool interference,
+                                           const Friction& friction, const Discretisation& discretisation) {
+  require_member(scene, part);
+  Contact contact;
+  contact.name = text("contact of ", part.label(), " with a ", contact::name(shape));
+  contact.first = part;
+  contact.interference = interference;
+  contact.rows = contact::against(*part.body->mesh, part.facets, shape, added_gap, interference);
+  refuse_repeated_shape(scene, contact);
+  set_friction(contact, friction);
+  set_discretisation(contact, discretisation);
+  contact.shape = shape;
+  if (auto* gap = std::get_if<contact::RigidGap>(&contact.shape)) gap->gap = nullptr;
+  return keep(scene, std::move(contact));
+}
+
+std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second,
+                                        std::optional<contact::Pairing> pairing, Monitor* monitor) {
+  require_member(scene, first);
+  require_member(scene, second);
+  const Stopwatch watch;
+  Contact contact;
+  contact.kind = Contact::Kind::glue;
+  contact.name = "glue of " + first.label() + " to " + second.label();
+  contact.first = first;
+  contact.second = second;
+  contact::PairedTies paired = contact::pair_ties(first.face(), second.face(), pairing, monitor);
+  contact.pairing = paired.pairing;
+  contact.glued = std::move(paired.ties);
+  refuse_repetition(scene, contact);
+  contact.seconds = watch.seconds();
+  return keep(scene, std::move(contact));
+}
+
+}  // namespace dotyk::scene

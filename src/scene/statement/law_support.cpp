@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "contact/corner_means.hpp"
+#include "contact/tangents.hpp"
+#include "scene/statement/body.hpp"
+
+namespace dotyk::scene {
+namespace {
+
+using mesh::Point;
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+void require_tangential(const SupportLaw& law, int dimension) {
+  const bool plane = dimension == 2;
+  const char* allowed = plane ? "free, prescribed, load, elastic, friction and capped_elastic"
+                              : "free, prescribed(0), elastic and friction, which have no direction of their own";
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(text("a ", problem::support_name(law.kind), " law cannot be tangential: ", why,
+                          "; a tangential law ", plane ? "in the plane" : "in space", " is one of ", allowed));
+  };
+  if (problem::one_sided(law.kind)) refuse("slip to either side is alike, and nothing is open");
+  if (problem::directed(law.kind)) refuse("slip to either side is alike");
+  if (plane) return;
+  if (law.kind == Kind::load) refuse("it does not say along which tangent (part:load does)");
+  if (law.kind == Kind::prescribed && law.value != 0) refuse("it does not say along which tangent (part:displace does)");
+  if (law.kind == Kind::capped_elastic) refuse("a spring that slips is not among the laws of two components");
+}
+
+bool shares_facet(const LawSupport& a, const LawSupport& b) {
+  std::set<std::pair<int, int>> of_a;
+  for (const mesh::Facet& f : a.facets) of_a.insert({f.cell, f.local});
+  return std::any_of(b.facets.begin(), b.facets.end(), [&](const mesh::Facet& f) { return of_a.count({f.cell, f.local}) > 0; });
+}
+
+bool given(const SupportLaw& law) { return law.kind != Kind::free; }
+
+void require_no_other(const Body& body, const LawSupport& added) {
+  for (const LawSupport& known : body.laws) {
+    const bool normal = given(known.normal) && given(added.normal);
+    if ((!normal && !(given(known.tangential) && given(added.tangential))) || !shares_facet(known, added)) continue;
+    throw InputError(text("part '", added.part.name, "' of '", body.name, "' has a ", normal ? "normal" : "tangential", " law already, ",
+                          problem::support_name(normal ? known.normal.kind : known.tangential.kind),
+                          known.part == added.part ? "" : ", as part of '" + known.part.name + "'"));
+  }
+}
+
+/// Is a law along these directions, or one of them, of use at one node at least?
+template <class Directions>
+void require_free(const Body& body, const elasticity::Numbering& numbering, const LawSupport& on, const char* which, const SupportLaw& law,
+                  const Directions& directions) {
+  if (!given(law)) return;
+  for (const contact::NodeSide& side : on.nodes)
+    for (const Point& d : directions(side))
+      if (moves(body, numbering, side, d)) return;
+  throw InputError(text("contradictory supports on '", body.name, "': the ", which, " displacement of part '", on.part.name,
+                        "' is held at each of its nodes, and has the law ", problem::support_name(law.kind), " as well"));
+}
+
+}  // namespace
+
+std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides) {
+  for (contact::NodeSide& side : sides)
+    for (double& n : side.normal)
+      if (std::abs(n) < 1e-12) n = 0;
+  return sides;
+}
+
+bool moves(const Body& body, const elasticity::Numbering& numbering, int node, const Point& direction) {
+  for (const SlideRow& slide : body.slides) {
+    if (slide.node != node) continue;
+    if (std::abs(mesh::dot(slide.normal, direction)) > 1 - 1e-9) return false;
+  }
+  for (int i = 0; i < body.dimension(); ++i)
+    if (direction[i] != 0 && numbering.unknown[static_cast<std::size_t>(node) * body.dimension() + i] >= 0) return true;
+  return false;
+}
+
+bool moves(const Body& body, const elasticity::Numbering& numbering, const contact::NodeSide& side, const Point& direction) {
+  return std::any_of(side.own.begin(), side.own.end(), [&](const contact::NodeWeight& own) { return moves(body, numbering, own.node, direction); });
+}
+
+void require_laws_free(const Body& body, const elasticity::Numbering& numbering) {
+  for (const LawSupport& on : body.laws) {
+    require_free(body, numbering, on, "normal", on.normal, [](const contact::NodeSide& s) { return std::vector<Point>{s.normal}; });
+    require_free(body, numbering, on, "tangential", on.tangential,
+                 [&](const contact::NodeSide& s) { return contact::tangents(s.normal, body.dimension()); });
+  }
+}
+
+std::string describe(const LawSupport& support) {
+  std::string out = given(support.normal) ? "normal " + problem::describe(support.normal) : "";
+  if (given(support.tangential)) out += (out.empty() ? "" : "; ") + ("tangential " + problem::describe(support.tangential));
+  return out;
+}
+
+void support(Part& part, const SupportLaw& normal, const SupportLaw& tangential) {
+  Body& body = *part.body;
+  problem::require_valid(normal);
+  problem::require_valid(tangential);
+  require_tangential(tangential, body.dimension());
+  LawSupport added{part.mark(), part.facets, law_sides(contact::corner_sides(*part.body->mesh, part.facets)), normal, tangential};
+  require_no_other(body, added);
+  std::vector<LawSupport> before = body.laws;
+  const auto same = std::find_if(body.laws.begin(), body.laws.end(), [&](const LawSupport& l) { return l.part == added.part; });
+  if (same == body.laws.end()) {
+    body.laws.push_back(std::move(added));
+  } else {
+    if (given(normal)) same->normal = normal;
+    if (given(tangential)) same->tangential = tangential;
+  }
+  try {
+    require_laws_free(body, number(body));
+  } catch (...) {
+    body.laws = std::move(before);
+    throw;
+  }
+}
+
+}  // namespace dotyk::scene

@@ -1,0 +1,372 @@
+#include "script/bind/models/bind_thermoelastic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "script/bind/bind.hpp"
+#include "script/bind/models/bind_beam.hpp"
+#include "script/bridge/library.hpp"
+#include "script/prompt/watch.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using thermoelastic::Data;
+using thermoelastic::History;
+using thermoelastic::Loads;
+using thermoelastic::Source;
+using thermoelastic::Stepping;
+
+const std::array<const char*, 2> kEnds{"left", "right"};
+
+// Where a function is kept: "load", "ambient.above", "left.temperature", "supports[1].force".
+struct Place {
+  std::string table, name;
+  int item = -1;  // of a list
+  std::string kept() const { return (table.empty() ? "" : item < 0 ? table + "." : text(table, "[", item + 1, "].")) + name; }
+};
+
+// Every load, with where a script says it.
+template <class Use>
+void each_load(Loads& loads, Use use) {
+  use(Place{"", "load"}, loads.transverse);
+  use(Place{"", "axial_load"}, loads.axial);
+  use(Place{"", "heat"}, loads.heat);
+  use(Place{"", "heat_gradient"}, loads.heat_gradient);
+  use(Place{"ambient", "above"}, loads.ambient_above);
+  use(Place{"ambient", "below"}, loads.ambient_below);
+  for (int end = 0; end < 2; ++end) {
+    use(Place{kEnds[end], "temperature"}, loads.mean[end]);
+    use(Place{kEnds[end], "gradient"}, loads.gradient[end]);
+  }
+  for (int i = 0; i < static_cast<int>(loads.supports.size()); ++i) {
+    const bool end = i < 2;  // the left and the right one, then those of the list
+    const auto at = [&](const char* name) { return Place{end ? kEnds[i] : "supports", name, end ? -1 : i - 2}; };
+    auto& [x, deflection, rotation, displacement] = loads.supports[i];
+    use(at("deflection_at"), deflection.place);
+    use(at("force"), deflection.force);
+    use(at("rotation_at"), rotation.place);
+    use(at("moment"), rotation.force);
+    if (!end) continue;
+    use(at("displacement_at"), displacement.place);
+    use(at("axial_force"), displacement.force);
+  }
+}
+
+void set_function(Source& load, Function function) {
+  load.of = [f = std::move(function)](double x, double t) { return f.number(std::vector<double>{x, t}); };
+}
+void set_function(History& load, Function function) {
+  load.of = [f = std::move(function)](double t) { return f.number(std::vector<double>{t}); };
+}
+
+// The supports within the beam as the script gives them.
+std::vector<Arguments> given_supports(Call& call) { return call.has("supports") ? call.tables("supports") : std::vector<Arguments>{}; }
+
+// The arguments that a place is in; nothing where its table is not given.
+std::optional<Arguments> holder(Call& call, const std::vector<Arguments>& supports, const Place& at) {
+  if (at.table.empty()) return call;
+  if (at.item >= 0) return supports[at.item];
+  if (!call.has(at.table)) return std::nullopt;
+  return call.table(at.table);
+}
+
+// Constants, and the functions as long as the making of the object runs.
+Loads given_loads(Call& call, const std::vector<Arguments>& supports, Loads& constants) {
+  constants.supports.resize(2);
+  constants.supports[1].x = call.number("length");
+  for (const Arguments& s : supports) constants.supports.push_back({s.number("x"), {}, {}, {}});
+  Loads all;
+  each_load(constants, [&](const Place& at, auto& load) {
+    const auto from = holder(call, supports, at);
+    if (from && from->is(at.name, LUA_TNUMBER)) load.constant = from->number(at.name);
+  });
+  all = constants;
+  each_load(all, [&](const Place& at, auto& load) {
+    const auto from = holder(call, supports, at);
+    if (from && from->is(at.name, LUA_TFUNCTION)) set_function(load, Function(call.state(), from->slot(at.name), at.kept(), call.descriptor().short_name()));
+  });
+  return all;
+}
+
+void keep_functions(Call& call, int object, const std::vector<Arguments>& supports, Loads& constants) {
+  each_load(constants, [&](const Place& at, auto&) {
+    const auto from = holder(call, supports, at);
+    if (from && from->is(at.name, LUA_TFUNCTION)) call.keep(object, at.kept(), from->slot(at.name));
+  });
+}
+
+Source at_first(const Arguments& from, const char* name) {
+  Source out;
+  if (from.is(name, LUA_TNUMBER)) out.constant = from.number(name);
+  if (from.is(name, LUA_TFUNCTION)) out.of = [f = from.function(name)](double x, double) { return f.number(std::vector<double>{x}); };
+  return out;
+}
+
+thermoelastic::Support thermoelastic_support(const Arguments* from, std::string name, double x) {
+  thermoelastic::Support out{std::move(name), x, {}, {}, {}};
+  if (!from) return out;
+  out.deflection = law(*from, "deflection");
+  out.rotation = law(*from, "rotation");
+  stands_somewhere(*from, "deflection");
+  stands_somewhere(*from, "rotation");
+  return out;
+}
+
+void add_end(Call& call, int end, Data& data) {
+  const double x = end == 0 ? 0 : data.length;
+  if (!call.has(kEnds[end])) {
+    data.supports.push_back(thermoelastic_support(nullptr, kEnds[end], x));
+    return;
+  }
+  const Arguments from = call.table(kEnds[end]);
+  data.supports.push_back(thermoelastic_support(&from, kEnds[end], x));
+  data.supports.back().displacement = law(from, "displacement");
+  stands_somewhere(from, "displacement");
+  data.heat_ends[end] = {from.has("temperature"), from.has("gradient")};
+}
+
+// A constant, or a function of x; of a function the value in the middle is the constant.
+void take_along(Call& call, const char* name, double length, double& constant, std::function<double(double)>& of) {
+  if (call.is(name, LUA_TNUMBER)) {
+    constant = call.number(name);
+    return;
+  }
+  of = [f = call.function(name)](double x) { return f.number(std::vector<double>{x}); };
+  constant = of(length / 2);
+}
+
+Data given_data(Call& call, const std::vector<Arguments>& supports) {
+  Data data;
+  data.length = call.number("length");
+  data.height = call.number("height");
+  data.width = call.number("width");
+  take_along(call, "E", data.length, data.E, data.E_of);
+  take_along(call, "expansion", data.length, data.expansion, data.expansion_of);
+  data.conductivity = call.number("conductivity");
+  data.heat_capacity = call.number("heat_capacity");
+  data.reference = call.number("reference_temperature");
+  data.cells = static_cast<int>(call.integer("cells"));
+  if (call.has("exchange")) {
+    const Arguments exchange = call.table("exchange");
+    data.exchange_above = exchange.number("above");
+    data.exchange_below = exchange.number("below");
+  }
+  add_end(call, 0, data);
+  for (const Arguments& s : supports) data.supports.push_back(thermoelastic_support(&s, text("x = ", s.number("x")), s.number("x")));
+  add_end(call, 1, data);
+  std::stable_sort(data.supports.begin(), data.supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  return data;
+}
+
+int make_thermoelastic_beam(Call& call) {
+  const std::vector<Arguments> supports = given_supports(call);
+  const Data data = given_data(call, supports);
+  auto beam = std::make_shared<ThermoelasticBeam>();
+  const Loads loads = given_loads(call, supports, beam->constants);
+  thermoelastic::Initial initial;
+  if (call.has("initial")) initial = {at_first(call.table("initial"), "temperature"), at_first(call.table("initial"), "gradient")};
+  thermoelastic::Scheme scheme;
+  scheme.step = call.number("step");
+  scheme.order = call.integer("order") == 1 ? thermoelastic::Order::one : thermoelastic::Order::two;
+  scheme.decompose = call.boolean("decompose");
+  if (call.has("solver")) scheme.method = call.object<Solver>("solver")->method;
+  Watch watch(call.state(), "thermoelastic beam");
+  beam->stepping = std::make_unique<Stepping>(data, initial, scheme, loads, watch);
+  call.give(beam);
+  const int object = lua_gettop(call.state());
+  keep_functions(call, object, supports, beam->constants);
+  lua_settop(call.state(), object);
+  return 1;
+}
+
+// Steps the object before the colon; its own functions are refused that.
+template <class Advance>
+int stepped(Call& call, Advance advance) {
+  const auto beam = call.self<ThermoelasticBeam>();
+  const LoadsCalled called(*beam, "step it");
+  const Loads loads = kept_loads(call, *beam);
+  Watch watch(call.state(), "stepping");
+  advance(*beam->stepping, loads, watch);
+  return call.give_self();
+}
+
+int run_to_time(Call& call) {
+  return stepped(call, [&](Stepping& s, const Loads& loads, Watch& watch) { s.run(call.number("time"), loads, watch); });
+}
+
+int one_step(Call& call) {
+  return stepped(call, [](Stepping& s, const Loads& loads, Watch& watch) { s.step(loads, watch); });
+}
+
+template <double (Stepping::*value)(double) const>
+int value_now(Call& call) {
+  return call.give(((*call.self<ThermoelasticBeam>()->stepping).*value)(call.number("x")));
+}
+
+int thermoelastic_reaction(Call& call) {
+  const Stepping& s = *call.self<ThermoelasticBeam>()->stepping;
+  const thermoelastic::Reaction r = s.reaction(find_support(thermoelastic::plain(s.data()), call, "at"));
+  return call.give(Record{"reaction",
+                          {{"force", r.force}, {"moment", r.moment}, {"axial", r.axial},
+                           {"deflection", r.deflection}, {"rotation", r.rotation}, {"displacement", r.displacement}}});
+}
+
+std::vector<Record> broken(const ThermoelasticBeam& beam) {
+  std::vector<Record> out;
+  for (const auto& b : beam.stepping->broken()) out.push_back({"broken support", {{"name", b.name}, {"time", b.time}}});
+  return out;
+}
+
+Record energy(const ThermoelasticBeam& beam) {
+  const thermoelastic::Energy e = beam.stepping->energy();
+  return {"energy", {{"stored", e.stored}, {"put_in", e.put_in}, {"dissipated", e.dissipated}, {"released", e.released}, {"defect", e.defect}}};
+}
+
+std::string thermoelastic_beam_text(const ThermoelasticBeam& beam) {
+  const Stepping& s = *beam.stepping;
+  const auto decomposed = s.decomposed();
+  std::string out = text("thermoelastic_beam: time ", s.time(), " after ", s.steps(), " steps; ",
+                         s.data().exchange_above == s.data().exchange_below ? "stretching and bending apart" : "stretching and bending coupled by the heat exchange", "; ");
+  if (decomposed.empty()) out += "nothing decomposed";
+  for (std::size_t i = 0; i < decomposed.size(); ++i) out += (i == 0 ? "" : " and ") + decomposed[i];
+  if (!decomposed.empty()) out += " decomposed";
+  for (const auto& b : s.broken()) out += text("\n  ", b.name, " broke at t = ", b.time);
+  for (std::size_t i = 0; i < s.data().supports.size(); ++i) {
+    const thermoelastic::Reaction r = s.reaction(static_cast<int>(i));
+    out += text("\n  ", s.data().supports[i].name, ": force ", r.force, ", moment ", r.moment, ", axial ", r.axial, ", deflection ", r.deflection, ", rotation ", r.rotation,
+                ", displacement ", r.displacement);
+  }
+  return out;
+}
+
+const char* kHelp =
+    "A beam of rectangular section that heat bends and stretches, and whose deformation in turn cools and heats it: linear "
+    "coupled thermoelasticity, quasi-static, stepped in time. At height z over its axis it is warmer than reference_temperature "
+    "by temperature + z gradient. Every step is a contact problem like dotyk.beam's, condensed to the supports. Stretching and "
+    "bending are apart where the heat exchange above and below is equal. Where statics alone gives the reactions (simply "
+    "supported, cantilever, simply supported and guided, rigid or elastic, or forced to that by a condition of solvability) the "
+    "heat is solved without the displacement (decomposed), with the same result. Without a law an end is free; without "
+    "temperature (gradient) no heat passes there. A support whose law breaks bears nothing from then on: the step is divided there, and "
+    "the beam jumps without exchanging heat. Functions are of x and t, or of t, and called in every step.";
+
+const char* kBeam =
+    "local l = dotyk.law\n"
+    "local b = dotyk.thermoelastic_beam{ length = 1, height = 0.02, E = 2.1e11, expansion = 1.2e-5, conductivity = 50, heat_capacity = 3.8e6,\n"
+    "  exchange = { above = 200, below = 200 }, ambient = { above = function(t) return 80*(1 - math.exp(-t/60)) end },\n"
+    "  left = { deflection = l.signorini(), displacement = l.prescribed(0) }, right = { deflection = l.signorini() },\n"
+    "  load = -100, step = 1 }\n";
+
+Key varying(const char* name, const char* help) { return key::either(name, {key::number("", ""), key::function("", "")}, help); }
+
+std::vector<Key> driven_support_keys() {
+  std::vector<Key> keys = support_law_keys();
+  keys.push_back(varying("deflection_at", "where the law of the deflection stands, a settlement: it is about the deflection less this; a function is of t").unit("length").otherwise("0"));
+  keys.push_back(varying("force", "up, beside the law; a function is of t").unit("force").otherwise("0"));
+  keys.push_back(varying("rotation_at", "where the law of the rotation stands; a function is of t").unit("rad").otherwise("0"));
+  keys.push_back(varying("moment", "anticlockwise, beside the law; a function is of t").unit("force·length").otherwise("0"));
+  return keys;
+}
+
+Key end_key(const char* name, const char* help) {
+  std::vector<Key> keys = driven_support_keys();
+  keys.push_back(law_key("displacement", "a law about the displacement along the axis; one-sided ones keep the end within its place"));
+  keys.push_back(varying("displacement_at", "where that law stands; a function is of t").unit("length").otherwise("0"));
+  keys.push_back(varying("axial_force", "along x, beside the law; a function is of t").unit("force").otherwise("0"));
+  keys.push_back(varying("temperature", "prescribed, over the reference: a function is of t").unit("temperature").otherwise("no heat passes"));
+  keys.push_back(varying("gradient", "prescribed: a function is of t").unit("temperature/length").otherwise("no heat passes"));
+  return key::table(name, keys, help);
+}
+
+std::vector<Key> thermoelastic_beam_keys() {
+  Key inner = key::table("", driven_support_keys(), "");
+  inner.keys.insert(inner.keys.begin(), key::number("x", "where").unit("length").required());
+  return {key::positive("length", "from x = 0").unit("length").fallback(1.0),
+          key::positive("height", "of the section").unit("length").required(),
+          key::positive("width", "of the section").unit("length").fallback(1.0),
+          key::either("E", {key::positive("", ""), key::function("", "")}, "Young's modulus; a function is of x, taken at the middles of the cells").unit("stress").required(),
+          key::either("expansion", {key::number("", "").at_least(0), key::function("", "")}, "coefficient of thermal expansion; a function is of x, as E").unit("1/temperature").required(),
+          key::positive("conductivity", "of heat").unit("power/(length·temperature)").required(),
+          key::positive("heat_capacity", "per volume").unit("energy/(length³·temperature)").required(),
+          key::positive("reference_temperature", "absolute, at which it is free of stress").unit("temperature").fallback(293.15),
+          key::table("exchange", {key::number("above", "of the face z = height/2").at_least(0).unit("power/(length²·temperature)").fallback(0.0),
+                                  key::number("below", "of the face z = -height/2").at_least(0).unit("power/(length²·temperature)").fallback(0.0)}, "coefficients of heat exchange on the faces"),
+          key::table("ambient", {varying("above", "over the reference; a function is of t").unit("temperature").otherwise("0"),
+                                 varying("below", "over the reference; a function is of t").unit("temperature").otherwise("0")}, "temperatures around, over the reference"),
+          varying("load", "upwards: a function is of x and t").unit("force/length").otherwise("0"),
+          varying("axial_load", "along x: a function is of x and t").unit("force/length").otherwise("0"),
+          varying("heat", "supplied, the same at every height: a function is of x and t").unit("power/length³").otherwise("0"),
+          varying("heat_gradient", "its slope over the height: a function is of x and t").unit("power/length⁴").otherwise("0"),
+          end_key("left", "the end x = 0"),
+          end_key("right", "the end x = length"),
+          key::list("supports", inner, "supports within the beam, none along the axis; law.load there is a point load"),
+          key::table("initial", {varying("temperature", "over the reference: a function is of x").unit("temperature").otherwise("0"),
+                                 varying("gradient", "a function is of x").unit("temperature/length").otherwise("0")}, "at t = 0"),
+          key::integer("cells", "elements, of equal length; a support within one divides it").within(1, 1000).fallback(32.0),
+          key::positive("step", "the longest step in time").unit("time").required(),
+          key::integer("order", "in time: 1, the implicit Euler scheme, or 2, TR-BDF2: half trapezoidal rule, half backward differences").within(1, 2).fallback(2.0),
+          key::boolean("decompose", "solve the heat without the displacement where statics allows it").fallback(true),
+          key::object<Solver>("solver", "the method of the steps' contact problems").otherwise("pdas")};
+}
+
+void add_values(TypeOf<ThermoelasticBeam>& type) {
+  const auto add = [&](const char* name, const char* help, int (*run)(Call&), const char* use) {
+    type.method({.name = std::string("thermoelastic_beam:") + name, .help = help, .example = use, .arguments = x_key(), .run = run});
+  };
+  add("deflection", "The deflection now, positive upwards.", value_now<&Stepping::deflection>, "print(b:run(60):deflection(0.5))");
+  add("rotation", "The slope of the deflection now.", value_now<&Stepping::rotation>, "print(b:run(60):rotation(0))");
+  add("displacement", "The displacement along the axis now.", value_now<&Stepping::displacement>, "print(b:run(60):displacement(1))");
+  add("gradient", "The slope of the temperature over the height, now.", value_now<&Stepping::gradient>, "print(b:run(60):gradient(0.5))");
+  add("moment", "The bending moment -EJ (u'' + expansion gradient) now, by equilibrium.", value_now<&Stepping::moment>, "print(b:run(60):moment(0.5))");
+  add("shear", "The shear force now, the derivative of the moment.", value_now<&Stepping::shear>, "print(b:run(60):shear(0))");
+  add("normal", "The normal force now; a pull is positive.", value_now<&Stepping::normal>, "print(b:run(60):normal(0.5))");
+  type.method({.name = "thermoelastic_beam:temperature", .help = "The temperature now, over the reference, at x and the height z over the axis.",
+               .example = "print(b:run(60):temperature(0.5), b:temperature(0.5, 0.01))",
+               .arguments = {x_key()[0], key::number("z", "over the axis").unit("length").fallback(0.0)},
+               .run = [](Call& call) { return call.give(call.self<ThermoelasticBeam>()->stepping->temperature(call.number("x"), call.number("z"))); }});
+  type.method({.name = "thermoelastic_beam:reaction",
+               .help = "What a support does now: force (up), moment (anticlockwise) and axial force on the beam, and the deflection, rotation and displacement there.",
+               .example = "print(b:run(60):reaction(\"left\").force)",
+               .arguments = {key::either("at", {key::choice("", {"left", "right"}, ""), key::number("", "the x of a support")}, "an end, or the x of a support").required()},
+               .run = thermoelastic_reaction});
+}
+
+}  // namespace
+
+LoadsCalled::LoadsCalled(ThermoelasticBeam& beam, const char* what) : on_(beam.loads_called) {
+  if (on_) throw InputError(text("it is being stepped or drawn: a function of its loads cannot ", what));
+  on_ = true;
+}
+
+Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
+  Loads all = beam.constants;
+  each_load(all, [&](const Place& at, auto& load) {
+    for (const Function& f : call.kept_function(1, at.kept())) set_function(load, f);
+  });
+  return all;
+}
+
+void bind_thermoelastic(Library& library) {
+  library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .setup = kBeam, .example = "print(b:run(60):deflection(0.5))", .arguments = {key::table(thermoelastic_beam_keys())},
+                    .returns = Wrapped<ThermoelasticBeam>::name, .run = make_thermoelastic_beam});
+  auto type = library.type<ThermoelasticBeam>("A thermoelastic beam at a time.").setup(kBeam);
+  using B = ThermoelasticBeam;
+  type.field("time", "now", [](const B& b) { return b.stepping->time(); }, "time")
+      .field("steps", "steps done", [](const B& b) { return b.stepping->steps(); })
+      .field("decomposed", "effects, \"bending\" or \"stretching\", that were decomposed in every step since a support broke last", [](const B& b) { return b.stepping->decomposed(); })
+      .field("energy", "stored, put_in, dissipated, and released where supports broke, since t = 0, and the defect of their balance, which tends to 0 with the step to the scheme's order where prescribed temperatures agree with the first ones", energy, "energy")
+      .field("broken", "the supports that broke, in the order of time: name (\"right deflection\") and time", broken)
+      .field("method", "of the contact problems; empty where all was decomposed", [](const B& b) { return b.stepping->work().method; })
+      .field("reason", "how the last of them ended, and up to which motion it is unique", [](const B& b) { return b.stepping->work().reason; })
+      .field("problems", "contact problems solved", [](const B& b) { return b.stepping->work().problems; })
+      .field("iterations", "of the method, in all", [](const B& b) { return b.stepping->work().iterations; })
+      .text(thermoelastic_beam_text);
+  type.method({.name = "thermoelastic_beam:step", .help = "One step; gives the beam again.", .example = "print(b:step().time)", .returns = Wrapped<B>::name, .run = one_step})
+      .method({.name = "thermoelastic_beam:run", .help = "To a time by equal steps, none longer than the step; gives the beam again.", .example = "print(b:run(60).steps)",
+               .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")}, .returns = Wrapped<B>::name, .run = run_to_time});
+  add_values(type);
+}
+
+}  // namespace dotyk::script

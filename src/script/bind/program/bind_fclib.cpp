@@ -1,0 +1,128 @@
+#include "script/bind/program/bind_fclib.hpp"
+
+#include "base/stopwatch.hpp"
+#include "base/text.hpp"
+#include "fclib/read.hpp"
+#include "script/bind/bind.hpp"
+#include "script/bridge/library.hpp"
+#include "script/bind/result_records.hpp"
+#include "script/bind/setups.hpp"
+#include "script/prompt/watch.hpp"
+
+namespace dotyk::script {
+
+using fclib::ContactProblem;
+
+int solve_contact_problem(Call& call, const std::shared_ptr<ContactProblem>& problem, const Solver& solver,
+                          std::vector<Function> on_iteration) {
+  Watch watch(call.state(), "solving", std::move(on_iteration), solver.verbose);
+  auto result = std::make_shared<ContactProblemResult>();
+  result->problem = problem;
+  Stopwatch clock;
+  result->result = fclib::solve(*problem, solver.method, watch);
+  result->seconds = clock.seconds();
+  watch.judge(result->result.iteration);
+  watch.answer();
+  return call.give(result);
+}
+
+namespace {
+
+int read(Call& call) {
+  Watch watch(call.state(), "reading");
+  return call.give(std::make_shared<ContactProblem>(fclib::read(call.text("file"), watch)));
+}
+
+std::vector<std::vector<double>> rows_of_W(const ContactProblem& p) {
+  std::vector<std::vector<double>> rows;
+  for (int i = 0; i < p.rows(); ++i) rows.push_back(list(p.W.row(i)));
+  return rows;
+}
+
+std::string kind(const ContactProblem& p) { return p.kind == ContactProblem::Kind::local ? "local" : "global"; }
+
+void bind_problem(Library& library) {
+  using P = ContactProblem;
+  library.type<P>("A frictional contact problem from a file: u = Wr + q, with contact and Coulomb's law between u and r. "
+                  "Components of a contact: normal, then one or two tangential ones.")
+      .field("name", "the file's, without its folder", [](const P& p) { return p.name; })
+      .field("title", "as the file gives it, or empty", [](const P& p) { return p.title; })
+      .field("description", "as the file gives it, or empty", [](const P& p) { return p.description; })
+      .field("kind", "\"local\": the file gives W; \"global\": it gives M, H, f, w, and W = H'M^-1 H", kind)
+      .field("dimension", "of space, and components a contact: 2 or 3", [](const P& p) { return p.dimension; })
+      .field("contacts", "how many", [](const P& p) { return p.contacts(); })
+      .field("rows", "contacts times dimension", [](const P& p) { return p.rows(); })
+      .field("unknowns", "local: rows; global: velocities of the bodies", [](const P& p) { return p.unknowns(); })
+      .field("rank_W", "singular values of W above 1e-10 of the greatest; below rows, r need not be unique", fclib::rank_of_W)
+      .field("unsymmetry", "largest |A - A'| over largest |A| of the matrix stored, W or M",
+             [](const P& p) { return fclib::unsymmetry(p); })
+      .field("symmetrised", "W was made of the symmetric part of M, which is unsymmetric by its rounding",
+             [](const P& p) { return p.symmetrised; })
+      .field("mu", "friction coefficients, one a contact", [](const P& p) { return list(p.mu); })
+      .field("q", "velocities without contact forces, contact by contact", [](const P& p) { return list(p.q); })
+      .field("W", "a table of its rows, computed when read", rows_of_W)
+      .method({.name = "contact_problem:solve",
+               .help = "Solves the problem by a method that works on rows alone; solver:solve(problem) is the same.",
+               .setup = setup::contact_problem(),
+               .example = "local r = p:solve(dotyk.solver.newton{ tol = 1e-12 })\nprint(r.residual, r.stick)",
+               .arguments = {key::object<Solver>("solver", "the method").required()},
+               .returns = Wrapped<ContactProblemResult>::name,
+               .run = [](Call& call) {
+                 const auto solver = call.object<Solver>("solver");
+                 return solve_contact_problem(call, call.self<ContactProblem>(), *solver, call.kept_function(2, "on_iteration"));
+               }})
+      .text([](const P& p) {
+        return text("contact_problem ", p.name, ": ", kind(p), ", ", p.contacts(), " contacts in ", p.dimension, "-D, ",
+                    p.unknowns(), " unknowns", p.symmetrised ? ", M symmetrised" : "");
+      });
+}
+
+std::vector<Record> history(const ContactProblemResult& r) {
+  std::vector<Record> rows;
+  for (const IterationInfo& info : r.result.iteration.history) rows.push_back(iteration_record(info));
+  return rows;
+}
+
+void bind_result(Library& library) {
+  using R = ContactProblemResult;
+  library.type<R>("The result of solving a frictional contact problem.")
+      .field("residual", "|r - P(r - rho u^)| / |r|, P onto the cone |r_T| <= mu r_N, u^ = u + mu |u_T| e_N, rho = 1/max W_ii",
+             [](const R& r) { return r.result.measure.residual; })
+      .field("converged", "the method's own residual reached its tol", [](const R& r) { return r.result.iteration.converged; })
+      .field("reason", "why it ended, a sentence", [](const R& r) { return r.result.iteration.reason; })
+      .field("method", "the method", [](const R& r) { return r.result.iteration.method; })
+      .field("iterations", "how many", [](const R& r) { return r.result.iteration.iterations; })
+      .field("seconds", "time taken", [](const R& r) { return r.seconds; }, "s")
+      .field("r", "contact forces, contact by contact", [](const R& r) { return list(r.result.r); })
+      .field("u", "relative velocities Wr + q", [](const R& r) { return list(r.result.measure.u); })
+      .field("open", "contacts without force", [](const R& r) { return r.result.measure.open; })
+      .field("stick", "contacts that stick", [](const R& r) { return r.result.measure.stick; })
+      .field("slip", "contacts that slip", [](const R& r) { return r.result.measure.slip; })
+      .field("history", "one entry an iteration: active stick slip changed residual time", history)
+      .field("problem", "what was solved", [](const R& r) { return r.problem; })
+      .text([](const R& r) {
+        const auto& m = r.result.measure;
+        return text("contact_problem_result (", r.result.iteration.method, "): ",
+                    r.result.iteration.converged ? "converged" : "not converged", ", ", r.result.iteration.reason, "\n  residual ",
+                    m.residual, ", ", r.result.iteration.iterations, " iterations, ", m.open, " open, ", m.stick, " stick, ", m.slip, " slip");
+      });
+}
+
+}  // namespace
+
+void bind_fclib(Library& library) {
+  library.function(
+      {.name = "dotyk.fclib",
+       .help = "Reads a frictional contact problem: an HDF5 file of the FCLIB collection (fclib_local, fclib_global) or the "
+               "plain text that siconos prints. Global problems, M v = Hr + f with u = H'v + w, come condensed to u = Wr + q. "
+               "Rolling friction is refused.",
+       .setup = setup::contact_problem(),
+       .example = "local r = p:solve(dotyk.solver.newton{})\nprint(r.residual, r.open, r.stick, r.slip)",
+       .arguments = {key::file("file", "the file's name").required()},
+       .returns = Wrapped<ContactProblem>::name,
+       .run = read});
+  bind_problem(library);
+  bind_result(library);
+}
+
+}  // namespace dotyk::script

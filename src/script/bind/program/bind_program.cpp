@@ -1,0 +1,200 @@
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "program/active_set.hpp"
+#include "program/augmented_lagrangian.hpp"
+#include "program/bracket.hpp"
+#include "program/interior_point.hpp"
+#include "script/bind/bind.hpp"
+#include "script/bridge/library.hpp"
+#include "script/bind/program/program_input.hpp"
+#include "script/bind/result_records.hpp"
+#include "script/bind/setups.hpp"
+#include "script/prompt/watch.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using program::QuadraticProgram;
+
+const std::vector<std::string> kProgramMethods = {"active_set", "interior_point", "multiplier", "least_squares"};
+
+std::vector<Key> solve_keys() {
+  return {key::choice("method", kProgramMethods, "active_set: exact, P semidefinite allowed; interior_point; multiplier and "
+                                          "least_squares: augmented Lagrangians for equalities, named by the update")
+              .otherwise("\"active_set\""),
+          key::choice("change", {"one", "many"}, "active_set: rows that change in one step").fallback("one"),
+          key::choice("start", {"automatic", "cold", "interior_point"},
+                      "active_set: its first working set; automatic: cold up to 200 unknowns and rows")
+              .fallback("automatic"),
+          key::positive("tol", "active_set and interior_point: on residuals, in the scaled program").fallback(1e-9),
+          key::integer("max_iterations", "give up after so many").at_least(1)
+              .otherwise("20000 (active_set), 200 (others)"),
+          key::positive("M", "augmented Lagrangians: inner precision, |gradient| <= M |Dx - d|").fallback(1.0),
+          key::positive("rho", "first penalty; as M for B and c divided by their greatest entry, where that is beyond 1e6 or below 1e-6").fallback(100.0),
+          key::number("alpha", "factor on eta when |Dx - d| <= eta").within(0, 1).fallback(0.1),
+          key::number("beta", "factor on the penalty otherwise").above(1).fallback(10.0),
+          key::positive("eta", "first bound on |Dx - d|").fallback(1.0),
+          key::positive("gradient_tol", "augmented Lagrangians stop at |gradient| <= this |c|").fallback(1e-9),
+          key::positive("feasibility_tol", "and at |Dx - d| <= this").fallback(1e-9),
+          key::function("on_iteration", "called as f(k, info) after each iteration; returning false stops the solve"),
+          key::boolean("verbose", "a line on standard error for each iteration").fallback(false)};
+}
+
+program::Result run_method(const QuadraticProgram& p, const Arguments& given, const std::string& method, Monitor& watch) {
+  const int limit = given.has("max_iterations")
+                        ? static_cast<int>(std::min<long long>(given.integer("max_iterations"), 100'000'000)) : 0;
+  if (method == "active_set") {
+    program::ActiveSet s;
+    s.change = static_cast<program::ActiveSet::Change>(given.choice("change"));
+    s.start = static_cast<program::ActiveSet::Start>(given.choice("start"));
+    s.tol = given.number("tol");
+    if (limit) s.max_iterations = limit;
+    return program::solve(p, s, watch);
+  }
+  if (method == "interior_point") {
+    program::InteriorPoint s;
+    s.tol = given.number("tol");
+    if (limit) s.max_iterations = limit;
+    return program::solve(p, s, watch);
+  }
+  program::AugmentedLagrangian s;
+  s.update = method == "multiplier" ? program::AugmentedLagrangian::Update::multiplier
+                                    : program::AugmentedLagrangian::Update::least_squares;
+  s.M = given.number("M"), s.rho = given.number("rho");
+  s.alpha = given.number("alpha"), s.beta = given.number("beta"), s.eta = given.number("eta");
+  s.gradient_tol = given.number("gradient_tol"), s.feasibility_tol = given.number("feasibility_tol");
+  if (limit) s.max_iterations = limit;
+  return program::solve(p, s, watch);
+}
+
+int solve_with(Call& call, const std::shared_ptr<QuadraticProgram>& p) {
+  std::vector<Function> on_iteration;
+  if (call.has("on_iteration")) on_iteration.push_back(call.function("on_iteration"));
+  Watch watch(call.state(), "solving", on_iteration, call.boolean("verbose"));
+  auto result = std::make_shared<ProgramResult>();
+  result->program = p;
+  result->method = call.has("method") ? call.text("method") : kProgramMethods.front();
+  result->result = run_method(*p, call, result->method, watch);
+  watch.answer();
+  return call.give(result);
+}
+
+int make_program(Call& call) {
+  const auto p = [&] {
+    Watch watch(call.state(), "reading");
+    return read_program(call, watch);
+  }();
+  return call.has("method") ? solve_with(call, p) : call.give(p);
+}
+
+int bounds(const QuadraticProgram& p) {
+  int count = 0;
+  for (int r = 0; r < p.rows(); ++r) count += p.A.row(r).nonZeros() == 1;
+  return count;
+}
+
+int equalities(const QuadraticProgram& p) {
+  int count = 0;
+  for (int r = 0; r < p.rows(); ++r) count += p.equality(r);
+  return count;
+}
+
+std::vector<std::string> working(const ProgramResult& r) {
+  static const char* const names[] = {"low", "free", "high", "equal", "above", "below"};
+  std::vector<std::string> out;
+  for (const program::Side side : r.result.working) out.emplace_back(names[static_cast<int>(side) + 1]);
+  return out;
+}
+
+Record program_residual_record(const ProgramResult& result) {
+  const program::Residuals& r = result.result.residual;
+  return {"residual", {{"stationarity", r.stationarity}, {"feasibility", r.feasibility},
+                       {"complementarity", r.complementarity}, {"stationarity_scale", r.stationarity_scale},
+                       {"feasibility_scale", r.feasibility_scale}, {"complementarity_scale", r.complementarity_scale}}};
+}
+
+Record bracket_record(const ProgramResult& r) {
+  const program::Bracket b = r.result.x.size() && r.result.y.size() == r.program->rows()
+                                 ? program::bracket(*r.program, r.result.x, r.result.y)
+                                 : program::Bracket{0, -INFINITY, INFINITY, 0, 0};
+  return {"bracket", {{"primal", b.primal}, {"dual", b.dual}, {"gap", b.gap}, {"violation", b.violation}, {"slack", b.slack}}};
+}
+
+std::string program_result_text(const ProgramResult& r) {
+  const program::Result& s = r.result;
+  return text("program_result (", r.method, "): ", program::text_of(s.status), ", ", s.reason, "\n  objective ",
+              s.objective, ", ", s.iterations, " iterations, residuals: stationarity ", s.residual.stationarity,
+              ", feasibility ", s.residual.feasibility, ", complementarity ", s.residual.complementarity);
+}
+
+}  // namespace
+
+void bind_program(Library& library) {
+  std::vector<Key> keys = program_keys();
+  for (Key& key : solve_keys()) keys.push_back(std::move(key));
+  library.function(
+      {.name = "dotyk.qp",
+       .help = "A convex quadratic program: minimise 1/2 x'Bx - c'x subject to Dx = d, low <= Ax <= high and "
+               "x_low <= x <= x_high; or one from a file, dotyk.qp \"name.qps\". Returns the program, to be solved by "
+               "its method solve; with the key method, solves at once and returns the result.",
+       .example = "local r = dotyk.qp{ B = {{2, 0}, {0, 2}}, c = {2, 5}, D = {{1, 1}}, d = {1}, x_low = 0, method = "
+                  "\"active_set\" }\nprint(r)\nio.open(\"small.qps\", \"w\"):write(\n"
+                  "  \"NAME small\\nROWS\\n N cost\\n G sum\\nCOLUMNS\\n x cost 1 sum 1\\n y cost 2 sum 1\\n\",\n"
+                  "  \"RHS\\n rhs sum 1\\nQUADOBJ\\n x x 2\\n y y 2\\nENDATA\\n\"):close()\nprint(dotyk.qp \"small.qps\":solve{ change = \"many\" })",
+       .arguments = {key::table(keys)},
+       .returns = "program",
+       .run = make_program});
+  library.type<QuadraticProgram>("A quadratic program: minimise 1/2 x'Px + q'x + r, low <= Ax <= high.")
+      .setup("local program = dotyk.qp{ B = {{2, 0}, {0, 2}}, c = {2, 5}, D = {{1, 1}}, d = {1}, x_low = 0 }\n")
+      .field("name", "its name, from a file", [](const QuadraticProgram& p) { return p.name; })
+      .field("unknowns", "how many x there are", [](const QuadraticProgram& p) { return p.unknowns(); })
+      .field("rows", "of A, bounds included", [](const QuadraticProgram& p) { return p.rows(); })
+      .field("equalities", "rows with low = high", equalities)
+      .field("bounds", "rows with a single entry", bounds)
+      .method({.name = "program:solve",
+               .help = "Solves the program. A program without a solution, or not convex, gives a result whose status says so.",
+               .example = "local r = program:solve{ method = \"active_set\", change = \"many\" }\nprint(r)",
+               .arguments = {key::table(solve_keys())},
+               .returns = "program_result",
+               .run = [](Call& call) { return solve_with(call, call.self<QuadraticProgram>()); }})
+      .text([](const QuadraticProgram& p) {
+        return text("program", p.name.empty() ? "" : " " + p.name, ": ", p.unknowns(), " unknowns, ", p.rows(), " rows (",
+                    equalities(p), " equalities, ", bounds(p), " with a single entry)");
+      });
+  using R = ProgramResult;
+  library.type<R>("The result of solving a quadratic program.")
+      .field("status", "\"solved\", \"infeasible\", \"unbounded\", \"not_convex\" or \"stopped\"",
+             [](const R& r) { return program::text_of(r.result.status); })
+      .field("converged", "status is \"solved\"", [](const R& r) { return r.result.status == program::Status::solved; })
+      .field("reason", "why it ended, a sentence", [](const R& r) { return r.result.reason; })
+      .field("method", "the method", [](const R& r) { return r.method; })
+      .field("x", "the unknowns", [](const R& r) { return list(r.result.x); })
+      .field("y", "multipliers of the rows (D, A, bounds): positive at high, negative at low; Px + q + A'y = 0",
+             [](const R& r) { return list(r.result.y); })
+      .field("working", "active_set: each row's place, \"low\", \"high\", \"equal\" or \"free\"", working)
+      .field("direction", "unbounded: along it the objective falls for ever; infeasible: weights of the rows that "
+                          "contradict one another; not convex: of negative curvature",
+             [](const R& r) { return list(r.result.direction); })
+      .field("objective", "its value at x", [](const R& r) { return r.result.objective; })
+      .field("residual", "stationarity, feasibility, complementarity, relative to the scales given beside them", program_residual_record)
+      .field("bracket", "where the optimum lies, from x and y alone in extended precision: primal (the objective at x), "
+                        "dual (no feasible point falls below it), gap between them and slack (what violated rows may "
+                        "hide), both relative, violation", bracket_record)
+      .field("iterations", "KKT systems solved for a step (active_set), or outer iterations",
+             [](const R& r) { return r.result.iterations; })
+      .field("predictor_iterations", "interior-point iterations that chose the first working set",
+             [](const R& r) { return r.result.predictor_iterations; })
+      .field("added", "rows that entered the working set", [](const R& r) { return r.result.added; })
+      .field("dropped", "rows that left it", [](const R& r) { return r.result.dropped; })
+      .field("singular", "singular KKT systems met", [](const R& r) { return r.result.singular; })
+      .field("survived", "of these, the ones that still gave a step", [](const R& r) { return r.result.survived; })
+      .field("factorisations", "of sparse KKT matrices", [](const R& r) { return r.result.factorisations; })
+      .field("repeats", "times zigzagging was noticed, and the rule changed", [](const R& r) { return r.result.repeats; })
+      .field("cg", "CG iterations of an augmented Lagrangian", [](const R& r) { return r.result.cg; })
+      .field("penalty", "its last penalty", [](const R& r) { return r.result.penalty; })
+      .field("seconds", "time taken", [](const R& r) { return r.result.seconds; }, "s")
+      .field("program", "what was solved", [](const R& r) { return r.program; })
+      .text(program_result_text);
+}
+
+}  // namespace dotyk::script

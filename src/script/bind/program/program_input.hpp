@@ -1,0 +1,37 @@
+#pragma once
+// Programs as scripts give them: matrices as tables of rows or as triplets, limits, files.
+#include "program/lcp.hpp"
+#include "program/program.hpp"
+#include "script/bridge/call.hpp"
+
+namespace dotyk::script {
+
+template <>
+struct Wrapped<program::QuadraticProgram> {
+  static constexpr const char* name = "program";
+};
+
+// A result remembers the program it belongs to.
+struct ProgramResult {
+  std::shared_ptr<program::QuadraticProgram> program;
+  program::Result result;
+  std::string method;
+};
+template <>
+struct Wrapped<ProgramResult> {
+  static constexpr const char* name = "program_result";
+};
+template <>
+struct Wrapped<program::LcpResult> {
+  static constexpr const char* name = "lcp_result";
+};
+
+// A sparse matrix: rows of numbers, or { i = {…}, j = {…}, value = {…} }.
+Key matrix_key(std::string name, std::string help);
+
+// The keys of dotyk.qp that say what the program is.
+std::vector<Key> program_keys();
+// The program they describe. Throws InputError.
+std::shared_ptr<program::QuadraticProgram> read_program(const Arguments& given, Monitor& monitor);
+
+}  // namespace dotyk::script

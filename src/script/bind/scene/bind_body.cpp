@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <optional>
+
+#include "script/bind/bind.hpp"
+#include "script/bind/models/bind_beam.hpp"
+#include "script/bridge/wrapped.hpp"
+#include "script/bridge/library.hpp"
+#include "script/help/nearest.hpp"
+#include "script/bind/setups.hpp"
+#include "script/bind/scene/space.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using scene::Body;
+using scene::Part;
+
+/// The material on a mesh, cell by cell where E or nu is a function.
+elasticity::MaterialField material_field(const Call& call, const Material& material, const mesh::Mesh& mesh) {
+  if (material.stiffness) return elasticity::MaterialField(*material.stiffness);
+  const int dim = mesh.dimension();
+  const bool plane_stress = dim == 2 && material.plane == elasticity::Plane::stress;
+  if (!material.E_varies && !material.nu_varies) {
+    elasticity::check_isotropic(material.E, material.nu, plane_stress);  // in space "plane" says nothing
+    return elasticity::MaterialField(elasticity::isotropic(material.E, material.nu, dim, material.plane));
+  }
+  const auto sample = [&](bool varies, double constant, const char* name) {
+    std::vector<double> values(mesh.cell_count(), constant);
+    if (!varies) return values;
+    const Function f = call.kept_function(call.slot("material"), name).at(0);
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      const mesh::Point x = mesh.cell_centre(c);
+      values[c] = f.number({x.data(), static_cast<std::size_t>(dim)});
+    }
+    return values;
+  };
+  auto E = sample(material.E_varies, material.E, "E"), nu = sample(material.nu_varies, material.nu, "nu");
+  for (int c = 0; c < mesh.cell_count(); ++c) try {
+      elasticity::check_isotropic(E[c], nu[c], plane_stress);
+    } catch (const InputError& error) {
+      throw InputError(text("material at ", point_text(mesh.cell_centre(c).data(), dim), ": ", error.what()));
+    }
+  return {std::move(E), std::move(nu), dim, material.plane};
+}
+
+int make_body(Call& call) {
+  const auto mesh = call.object<MeshHandle>("mesh")->mesh;
+  const auto material = call.object<Material>("material");
+  elasticity::VectorField force;
+  std::optional<Field> field;
+  if (call.has("force")) {
+    field = call.field("force", mesh->dimension());
+    force = vector_field(*field, mesh->dimension());
+  }
+  return call.give(scene::make_body(call.text("name"), mesh, material_field(call, *material, *mesh), force));
+}
+
+int make_part(Call& call) {
+  const auto body = call.self<Body>();
+  const std::string name = call.text("name");
+  if (!call.has("chosen")) {
+    const auto known = scene::part_names(*body);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const std::string near = nearest(name, known);
+      if (!near.empty())
+        throw InputError(text("'", body->name, "' has no part '", name, "', did you mean '", near, "'?"));
+    }
+    return call.give(std::make_shared<Part>(scene::named_part(body, name)));
+  }
+  const Function chosen = call.function("chosen");
+  const auto dim = static_cast<std::size_t>(body->dimension());
+  return call.give(std::make_shared<Part>(
+      scene::chosen_part(body, name, [&](const mesh::Point& x, const mesh::Point& n) {
+        std::vector<double> arguments(x.begin(), x.begin() + dim);
+        arguments.insert(arguments.end(), n.begin(), n.begin() + dim);
+        return chosen.truth(arguments);
+      })));
+}
+
+/// Refuses "z" in the plane.
+void require_axis(const Part& part, int axis) {
+  if (axis >= part.body->dimension())
+    throw InputError(text("component 'z' does not exist: '", part.body->name, "' is 2-D"));
+}
+
+int fix(Call& call) {
+  auto part = call.self<Part>();
+  std::array<bool, 3> components{false, false, false};
+  bool any = false;
+  for (const char* name : {"first", "second", "third"})
+    if (call.has(name)) {
+      require_axis(*part, static_cast<int>(call.choice(name)));
+      components[call.choice(name)] = any = true;
+    }
+  if (!any) components = {true, true, true};
+  scene::fix(*part, components);
+  return call.give_self();
+}
+
+int slide(Call& call) {
+  scene::slide(*call.self<Part>());
+  return call.give_self();
+}
+
+int part_support(Call& call) {
+  const auto law = [&](const char* name) { return call.has(name) ? *call.object<problem::SupportLaw>(name) : problem::SupportLaw{}; };
+  if (!call.has("normal") && !call.has("tangential")) throw InputError("name at least one law: normal or tangential");
+  scene::support(*call.self<Part>(), law("normal"), law("tangential"));
+  return call.give_self();
+}
+
+/// The fields given under x, y, z; `kept` owns them during the call.
+std::array<elasticity::ScalarField, 3> components(const Call& call, const Part& part, std::vector<Field>& kept) {
+  std::array<elasticity::ScalarField, 3> result;
+  static const char* axis[] = {"x", "y", "z"};
+  kept.reserve(3);
+  for (int i = 0; i < 3; ++i)
+    if (call.has(axis[i])) {
+      require_axis(part, i);
+      kept.push_back(call.field(axis[i]));
+      result[i] = scalar_field(kept.back(), part.body->dimension());
+    }
+  if (kept.empty()) throw InputError("name at least one component: x, y or z");
+  return result;
+}
+
+int displace(Call& call) {
+  auto part = call.self<Part>();
+  std::vector<Field> kept;
+  scene::displace(*part, components(call, *part, kept), call.has("case") ? call.text("case") : "");
+  return call.give_self();
+}
+
+int spring(Call& call) {
+  auto part = call.self<Part>();
+  std::vector<Field> kept;
+  scene::spring(*part, components(call, *part, kept));
+  return call.give_self();
+}
+
+int load_part(Call& call) {
+  auto part = call.self<Part>();
+  const Field traction = call.field("traction", part->body->dimension());
+  scene::load(*part, vector_field(traction, part->body->dimension()), call.has("case") ? call.text("case") : "");
+  return call.give_self();
+}
+
+int pressure(Call& call) {
+  auto part = call.self<Part>();
+  const Field value = call.field("value");
+  scene::pressure(*part, scalar_field(value, part->body->dimension()), call.has("case") ? call.text("case") : "");
+  return call.give_self();
+}
+
+std::string show_body(const Body& b) {
+  return text("body '", b.name, "': ", b.mesh->topology().name, " ", b.mesh->topology().shapes, ", ",
+              b.mesh->node_count(), " nodes, ", b.supports.size() + b.laws.size() + (b.slides.empty() ? 0 : 1), " supports");
+}
+
+Key component(const char* name) { return key::choice(name, {"x", "y", "z"}, "a component"); }
+
+Key load_case() {
+  return key::string("case", "a name by which the steps of a history scale it apart from others (dotyk.solve, steps)");
+}
+
+Key components_table(const std::string& help, const std::string& unit) {
+  const auto one = [&](const char* name) { return key::field(name, help).unit(unit); };
+  return key::table({one("x"), one("y"), one("z")});
+}
+
+Key displacement_table() {
+  Key table = components_table("displacement, a number or a function of the coordinates", "length");
+  table.keys.push_back(load_case());
+  return table;
+}
+
+void bind_part(Library& library) {
+  library.type<Part>("Some boundary facets of a body, to hold, load or put in contact.")
+      .setup(setup::block() + "local top = block:part \"top\"\n")
+      .field("name", "its name", [](const Part& p) { return p.name; })
+      .field("body", "the body it is of", [](const Part& p) { return p.body; })
+      .field("facet_count", "number of facets", [](const Part& p) { return p.facets.size(); })
+      .method({.name = "part:fix",
+               .help = "Holds the displacement at zero: all components, or those named.",
+               .example = "block:part\"bottom\":fix()\nblock:part\"left\":fix \"x\"",
+               .arguments = {component("first"), component("second"), component("third")},
+               .returns = "part",
+               .run = fix})
+      .method({.name = "part:slide",
+               .help = "Bilateral contact without friction: no displacement along the normal. At an edge between two "
+                       "sides of the part it holds for both normals.",
+               .example = "block:part\"left\":slide()",
+               .returns = "part",
+               .run = slide})
+      .method({.name = "part:displace",
+               .help = "Prescribes displacement components; those not named stay free.",
+               .example = "block:part\"right\":displace{ x = 0.01 }\nblock:part\"top\":displace{ y = -0.1, case = \"press\" }",
+               .arguments = {displacement_table()},
+               .returns = "part",
+               .run = displace})
+      .method({.name = "part:load",
+               .help = "A load per length (2-D) or area (3-D), constant or a function of the coordinates that returns "
+                       "its components. Loads add up.",
+               .example = "top:load{ 0, -10 }\ntop:load(function(x, y) return 0, -x end)\ntop:load({ 4, 0 }, \"shear\")",
+               .arguments = {key::field("traction", "its components").unit("force/length (2-D), force/area (3-D)").required(), load_case()},
+               .returns = "part",
+               .run = load_part})
+      .method({.name = "part:pressure",
+               .help = "A load along the inward normal, constant or a function of the coordinates.",
+               .example = "top:pressure(10)",
+               .arguments = {key::field("value", "positive when it pushes").unit("force/length (2-D), force/area (3-D)").required(), load_case()},
+               .returns = "part",
+               .run = pressure})
+      .method({.name = "part:spring",
+               .help = "An elastic support (Newton's condition): a force against the displacement.",
+               .example = "top:spring{ x = 1e3, y = 1e3 }",
+               .arguments = {components_table("stiffness per length (2-D) or area (3-D), zero or positive", "stress/length")},
+               .returns = "part",
+               .run = spring})
+      .method({.name = "part:support",
+               .help = "A support by laws of dotyk.law along the normal and along the tangents, at each node for its share of "
+                       "the boundary: stiffnesses, bounds and loads are per length (2-D) or area (3-D), a prescribed value is a "
+                       "displacement. Normal: any law; the displacement v is positive away from the support, into "
+                       "the body, so that one-sided laws push the body off it, like a foundation without tension "
+                       "(one_sided_elastic), one with another stiffness in tension (unequal_elastic) or a rigid base "
+                       "without a gap (signorini); load is a pressure. Tangential in 2-D: "
+                       "free, prescribed, load, elastic, friction or capped_elastic, v positive along the outward normal turned by "
+                       "90 degrees anticlockwise (along x at a bottom, along -x at a top). Tangential in 3-D: free, "
+                       "prescribed(0), elastic or friction, alike in all directions. Friction is given (Tresca), whatever "
+                       "the pressure, and in a history opposes the increment of slip. breaking: the nodes that "
+                       "exceed their limit most break first, until none does; s.reason tells what became of it. Results: solution:support, "
+                       "solution:reaction.",
+               .example = "block:part\"bottom\":support{ normal = dotyk.law.one_sided_elastic(1e3), tangential = dotyk.law.friction(2) }",
+               .arguments = {key::table({key::object<problem::SupportLaw>("normal", "the law along the normal").otherwise("free"),
+                                         key::object<problem::SupportLaw>("tangential", "the law along the tangents").otherwise("free")})},
+               .returns = "part",
+               .run = part_support})
+      .text([](const Part& p) { return text("part ", p.label(), ": ", p.facets.size(), " facets"); });
+}
+
+}  // namespace
+
+void bind_body(Library& library) {
+  library.function({.name = "dotyk.body",
+                    .help = "An elastic body: a mesh with a material, perhaps a force per volume.",
+                    .setup = setup::mesh() + "local steel = dotyk.material{ E = 210e3, nu = 0.3 }\n",
+                    .example = "local block = dotyk.body{ name = \"block\", mesh = m, material = steel }",
+                    .arguments = {key::table(
+                        {key::string("name", "what messages and figures call it").fallback("body"),
+                         key::object<MeshHandle>("mesh", "its shape at rest").required(),
+                         key::object<Material>("material", "what it is made of").required(),
+                         key::field("force", "force per volume, its components").unit("force/volume").otherwise("none")})},
+                    .returns = "body",
+                    .run = make_body});
+  library.type<Body>("An elastic body with its supports and loads.")
+      .setup(setup::block())
+      .field("name", "its name", [](const Body& b) { return b.name; })
+      .field("dimension", "2 or 3", [](const Body& b) { return b.dimension(); })
+      .field("node_count", "number of nodes", [](const Body& b) { return b.mesh->node_count(); })
+      .field("cell_count", "number of cells", [](const Body& b) { return b.mesh->cell_count(); })
+      .field("parts", "names of the parts that its mesh brings", scene::part_names)
+      .method({.name = "body:part",
+               .help = "A part of the boundary: one that the mesh names, or the facets that a function of the facet's "
+                       "centre and outward normal accepts: f(x, y, nx, ny), f(x, y, z, nx, ny, nz) in space.",
+               .example = "local top = block:part \"top\"\n"
+                          "local patch = block:part(\"patch\", function(x, y, nx, ny) return ny > 0.9 and x < 0 end)",
+               .arguments = {key::string("name", "its name").required().of<Body>(scene::part_names),
+                             key::function("chosen", "accepts a facet or not")},
+               .returns = "part",
+               .run = make_part})
+      .text(show_body);
+  bind_part(library);
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,50 @@
+#include "scene/study/inf_sup.hpp"
+#include "script/bind/bind.hpp"
+#include "script/bridge/library.hpp"
+#include "script/bind/setups.hpp"
+#include "script/prompt/watch.hpp"
+#include "script/bridge/wrapped.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using scene::Contact;
+
+int inf_sup(Call& call) {
+  const scene::InfSupSettings settings{static_cast<scene::MultiplierPart>(call.choice("part")), call.choice("fixed_nodes") == 0, call.choice("norm") == 1, call.boolean("cone")};
+  Watch watch(call.state(), "inf-sup constants");
+  const scene::InfSup s = scene::inf_sup(*call.self<Contact>(), settings, watch);
+  std::vector<Entry> entries{{"constant", s.constant},
+                             {"above_kernel", s.above_kernel},
+                             {"kernel", static_cast<long long>(s.kernel)},
+                             {"multipliers", static_cast<long long>(s.multipliers)},
+                             {"h", s.h},
+                             {"H", s.H}};
+  if (s.cone) entries.push_back({"cone", *s.cone});
+  return call.give(Record{"inf-sup", entries, {"cone"}});
+}
+
+}  // namespace
+
+void bind_contact(Library& library) {
+  library.type<Contact>("A contact or a glue of a scene.")
+      .setup(setup::pressed_block())
+      .field("name", "what messages call it", [](const Contact& c) { return c.name; })
+      .field("rows", "number of contact conditions", [](const Contact& c) { return c.rows.size(); })
+      .method({.name = "contact:inf_sup",
+               .help = "The stability constant of the contact's multipliers against the displacements of its bodies "
+                       "(inf-sup, Babuška–Brezzi): constant, the least b(mu, v)/(|v|_1 |mu|_-1/2) over multipliers, greatest over "
+                       "displacements; 0 where multipliers form a kernel that no displacement notices (kernel, its dimension; "
+                       "above_kernel, the least constant but 0); multipliers, h, H. About 1 is as good as it "
+                       "gets. Supports, meshes and multipliers enter, the material does not.",
+               .example = "print(contact:inf_sup{ part = \"normal\" }.constant)",
+               .arguments = {key::table({key::choice("part", {"tangential", "normal", "both"}, "which multipliers").fallback("tangential"),
+                                         key::choice("fixed_nodes", {"shared", "kept"},
+                                                     "multipliers of nodes held on both sides, and those of friction at corners of the part: shared out among their neighbours, as in a solve, or kept").fallback("shared"),
+                                         key::choice("norm", {"shear", "multiplier"}, "of friction: of the shear g mu, or of mu itself, as TR965 (3.16) has it").fallback("shear"),
+                                         key::boolean("cone", "also .cone: the least constant found over pressures that are not negative").fallback(false)})},
+               .run = inf_sup})
+      .text([](const Contact& c) { return c.name; });
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,247 @@
+#include <cstdio>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "figure/compose/compose.hpp"
+#include "script/bind/bind.hpp"
+#include "script/bind/figure_size.hpp"
+#include "script/bridge/library.hpp"
+#include "script/bridge/wrapped.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using scene::Solution;
+
+const std::vector<std::string> kSceneFields = {"none", "displacement", "ux", "uy", "uz", "von_mises",
+                                          "xx", "yy", "zz", "yz", "xz", "xy"};
+
+figure::SceneOptions scene_options(const Call& call, int dimension) {
+  figure::SceneOptions options;
+  options.field = static_cast<figure::FieldChoice>(call.choice("field"));
+  if (call.is("deform", LUA_TNUMBER)) {
+    lua_Number factor = lua_tonumber(call.state(), call.slot("deform"));
+    if (factor < 0) throw InputError(text("deform is ", factor, "; it must be zero, positive or \"auto\""));
+    options.deform = factor;
+  } else if (!call.has("deform") && call.has("window")) {
+    options.deform = 1;  // the window is in coordinates of the deformed picture
+  }
+  options.contact = call.boolean("contact");
+  options.supports = call.boolean("supports");
+  options.loads = call.boolean("loads");
+  options.obstacle = call.has("obstacle") ? call.boolean("obstacle") : dimension == 2;
+  return options;
+}
+
+int render_scene(Call& call) {
+  const auto s = call.self<Solution>();
+  figure::ScenePicture picture = figure::compose(*s, scene_options(call, s->scene().dimension()));
+  picture.file = call.text("file");
+  read_size(call, picture.width, picture.height);
+  picture.title = call.has("title") ? call.text("title") : "";
+  picture.field_unit = call.has("unit") ? call.text("unit") : "";
+  picture.pressure_unit = picture.field_unit;
+  picture.edges = call.has("edges") ? (call.boolean("edges") ? figure::MeshEdges::on : figure::MeshEdges::off)
+                                    : figure::MeshEdges::automatic;
+  picture.pressure = static_cast<figure::PressureStyle>(call.choice("pressure"));
+  picture.shear = call.boolean("shear");
+  if (call.has("range")) {
+    const auto range = call.vector("range");
+    picture.field_range = {range[0], range[1]};
+  }
+  if (call.has("window")) {
+    const auto window = call.vector("window");
+    picture.window = {window[0], window[1], window[2], window[3]};
+  }
+  if (call.has("view")) {
+    const auto view = call.vector("view");
+    if (s->scene().dimension() == 2) throw InputError("'view' is for scenes in space; this one is 2-D (try 'window')");
+    if (view == std::vector<double>{0, 0, 0}) throw InputError("'view' is zero; it must have a direction");
+    picture.view_from = figure::Vec3{view[0], view[1], view[2]};
+  }
+  figure::draw(picture);
+  return call.give(picture.file);
+}
+
+figure::SeriesPicture series_of(const Arguments& given) {
+  figure::SeriesPicture series;
+  series.name = given.has("name") ? given.text("name") : "";
+  series.x = given.vector("x");
+  series.crossed = given.boolean("crossed");
+  if (given.has("y")) series.y = given.vector("y");
+  else if (!series.crossed) throw InputError(text("series '", series.name, "': missing key 'y'; only points that are crossed may have none"));
+  if (given.has("y") && series.x.size() != series.y.size())
+    throw InputError(text("series '", series.name, "' has ", series.x.size(), " x and ", series.y.size(), " y"));
+  if (given.has("low")) series.low = given.vector("low");
+  if (given.has("high")) series.high = given.vector("high");
+  if (given.has("x_low")) series.x_low = given.vector("x_low");
+  if (given.has("x_high")) series.x_high = given.vector("x_high");
+  series.front = given.boolean("front");
+  series.style = static_cast<figure::SeriesStyle>(given.choice("style"));
+  series.reference = given.boolean("reference");
+  series.twin = given.boolean("twin");
+  if (given.has("status")) series.status = static_cast<figure::Status>(given.choice("status"));
+  return series;
+}
+
+/// What logarithmic axes cannot show, in words: "2 of 5 points of 'error'"; empty where they show all.
+std::string not_shown(const figure::ChartPicture& picture) {
+  std::string out;
+  for (std::size_t k = 0; k < picture.series.size(); ++k) {
+    const figure::SeriesPicture& series = picture.series[k];
+    std::size_t lost = 0;
+    for (std::size_t i = 0; i < series.x.size(); ++i)
+      lost += (picture.log_x && series.x[i] <= 0) || (picture.log_y && !series.y.empty() && series.y[i] <= 0);
+    if (lost == 0) continue;
+    out += text(out.empty() ? "" : ", ", lost, " of ", series.x.size(), " points of ");
+    out += series.name.empty() ? text("series ", k + 1) : "'" + series.name + "'";
+  }
+  return out;
+}
+
+std::array<double, 2> range_of(const Arguments& given, const char* name) {
+  const std::vector<double> ends = given.vector(name);
+  if (!(ends[0] < ends[1])) throw InputError(text("'", name, "' goes from ", ends[0], " to ", ends[1], "; the first must be the lesser"));
+  const char axis = name[0];
+  if (ends[0] <= 0 && given.text("log").find(axis) != std::string::npos)
+    throw InputError(text("'", name, "' begins at ", ends[0], ", which has no place on a logarithmic axis"));
+  return {ends[0], ends[1]};
+}
+
+void read_chart(const Arguments& given, figure::ChartPicture& chart) {
+  chart.title = given.has("title") ? given.text("title") : "";
+  chart.x_label = given.has("x") ? given.text("x") : "";
+  chart.y_label = given.has("y") ? given.text("y") : "";
+  if (given.has("x_range")) chart.x_range = range_of(given, "x_range");
+  if (given.has("y_range")) chart.y_range = range_of(given, "y_range");
+  const std::string log = given.text("log");
+  chart.log_x = log.find('x') != std::string::npos;
+  chart.log_y = log.find('y') != std::string::npos;
+  for (const Arguments& series : given.tables("series")) chart.series.push_back(series_of(series));
+  if (given.has("slopes"))
+    for (const double slope : given.vector("slopes")) chart.slopes.push_back({slope, ""});
+}
+
+void tell_not_shown(const figure::ChartPicture& chart, const std::string& file) {
+  if (const std::string lost = not_shown(chart); !lost.empty())
+    std::fprintf(stderr, "dotyk: %s: zero and negative values have no place on a logarithmic axis; left out: %s\n", file.c_str(), lost.c_str());
+}
+
+// Panels one below the other; x given for all is one axis.
+int chart_column(Call& call) {
+  for (const char* name : {"series", "slopes", "y", "log"})
+    if (call.has(name)) throw InputError(text("'", name, "' beside 'panels'; give it within each panel"));
+  figure::ChartColumn column;
+  column.file = call.text("file");
+  column.title = call.has("title") ? call.text("title") : "";
+  column.shared_x = call.has("x");
+  for (const Arguments& panel : call.tables("panels")) {
+    figure::ChartPicture& chart = column.panels.emplace_back();
+    read_chart(panel, chart);
+    if (column.shared_x && panel.has("x")) throw InputError(text("panel ", column.panels.size(), " has an 'x', but there is one for all panels; give one or the other"));
+    if (column.shared_x) chart.x_label = call.text("x");
+    if (column.shared_x && chart.log_x != column.panels.front().log_x)
+      throw InputError(text("panel ", column.panels.size(), " is ", chart.log_x ? "" : "not ", "logarithmic in x, the first one is", chart.log_x ? " not" : "", ", but there is one x axis for all panels"));
+  }
+  if (call.has("columns")) column.columns = static_cast<int>(std::min<long long>(call.integer("columns"), column.panels.size() + 1));
+  const int rows = (static_cast<int>(column.panels.size()) + column.columns - 1) / column.columns;
+  column.height = 60 + 260 * rows;
+  read_size(call, column.width, column.height);
+  figure::draw(column);
+  for (const figure::ChartPicture& chart : column.panels) tell_not_shown(chart, column.file);
+  return call.give(column.file);
+}
+
+int chart(Call& call) {
+  if (call.has("panels")) return chart_column(call);
+  if (!call.has("series")) throw InputError("missing key 'series', or 'panels'");
+  if (call.has("columns")) throw InputError("'columns' without 'panels'");
+  figure::ChartPicture picture;
+  read_chart(call, picture);
+  picture.file = call.text("file");
+  read_size(call, picture.width, picture.height);
+  figure::draw(picture);
+  tell_not_shown(picture, picture.file);
+  return call.give(picture.file);
+}
+
+Key series_key() {
+  return key::list("series",
+                   key::table("", {key::string("name", "its name in the legend"),
+                                   key::vector("x", "abscissas").required(), key::vector("y", "ordinates; crossed points may have none"),
+                                   key::vector("low", "lower end of a spread"), key::vector("high", "upper end of a spread"),
+                                   key::vector("x_low", "left end of a whisker at each point"), key::vector("x_high", "right end of it"),
+                                   key::choice("style", {"line", "points", "both"}, "how it is drawn").fallback("both"),
+                                   key::boolean("reference", "a reference curve: dashed, without markers").fallback(false),
+                                   key::boolean("crossed", "markers pale and crossed out, for runs that failed; without y in a strip above "
+                                                "the plot, \"not converged\", a row for each such series").fallback(false),
+                                   key::boolean("front", "a broad pale line beneath all others, for what is best").fallback(false),
+                                   key::boolean("twin", "dashed, with the colour and marker of the series before it").fallback(false),
+                                   key::choice("status", {"open", "closed", "stick", "slip"},
+                                               "with the colour and marker that contact nodes of this status have in scenes").otherwise("none")},
+                              "one curve"),
+                   "the curves").count(1, std::numeric_limits<std::size_t>::max());
+}
+
+// Of a chart, alone or a panel.
+std::vector<Key> chart_keys(Key series) {
+  return {key::string("title", "above the chart").otherwise("none"),
+          key::string("x", "label of the x axis"), key::string("y", "label of the y axis"),
+          key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
+                      "are left out, and counted on standard error").fallback(""),
+          std::move(series),
+          key::vector("x_range", "ends of the x axis").count(2).otherwise("the data with a margin"),
+          key::vector("y_range", "ends of the y axis").count(2).otherwise("the data with a margin"),
+          key::vector("slopes", "guides of these slopes, each beside the curve of nearest slope").otherwise("none")};
+}
+
+std::vector<Key> figure_keys() {
+  std::vector<Key> keys = chart_keys(series_key());
+  keys.insert(keys.begin(), key::file("file", "where to; ends in .png, its folder must exist").written().required());
+  keys.push_back(key::list("panels", key::table("", chart_keys(series_key().required()), ""),
+                           "instead of series, y, log and slopes: charts one below the other; an x beside them is one axis for all").count(1, 12));
+  keys.push_back(key::integer("columns", "of the panels, which follow row by row").at_least(1).otherwise("1"));
+  keys.push_back(size_key("{1000, 750}; with panels {1000, 60 and 260 for each row}"));
+  return keys;
+}
+
+}  // namespace
+
+void bind_figure(Library& library) {
+  library.function({.name = "dotyk.chart",
+                    .help = "Draws curves into a PNG file, in one chart or in panels one below the other (or in columns), and returns its name.",
+                    .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
+                               "  series = { { name = \"P1\", x = { 1, 0.5 }, y = { 0.1, 0.03 } } } }",
+                    .arguments = {key::table(figure_keys())},
+                    .run = chart});
+  library.extend<Solution>().method(
+      {.name = "solution:render",
+       .help = "Draws the deformed bodies coloured by a field, with contact status and pressure, into a PNG file and "
+               "returns its name. A deformation factor magnifies the gap and the motion of "
+               "rigid obstacles as well, so that what touches is seen to touch.",
+       .example = "s:render{ file = \"a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
+       .arguments = {key::table(
+           {key::file("file", "where to; ends in .png, its folder must exist").written().required(),
+            key::choice("field", kSceneFields, "what the colours show").fallback("von_mises"),
+            key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")},
+                        "factor on the displacement; auto: such that it can be seen").otherwise("\"auto\", with a window 1"),
+            key::boolean("contact", "contact status, pressure and obstacles").fallback(true),
+            key::boolean("supports", "symbols at supported nodes").fallback(false),
+            key::boolean("loads", "arrows for loads").fallback(false),
+            key::boolean("obstacle", "rigid obstacles").otherwise("true in the plane, false in space"),
+            key::choice("pressure", {"auto", "strip", "arrows", "none"}, "how contact pressure is drawn").fallback("auto"),
+            key::boolean("shear", "arrows of the friction on the first part of each contact, where there is any: in the plane "
+                                  "beside the contact line, in space on the plan of the contact").fallback(true),
+            key::boolean("edges", "edges of the cells").otherwise("while they can be told apart"),
+            key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's"),
+            key::vector("window", "in the plane: {x0, y0, x1, y1} of the deformed picture, all that is shown; colours and "
+                                  "pressure are scaled to it").count(4).otherwise("all"),
+            key::vector("view", "direction towards the eye, in space").count(3),
+            key::string("title", "above the figure").otherwise("none"),
+            key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none"),
+            size_key("{1200, 800}")})},
+       .run = render_scene});
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,305 @@
+#include <optional>
+
+#include "algebra/direct/stop_factoring.hpp"
+#include "scene/solve/uniqueness.hpp"
+#include "script/bind/bind.hpp"
+#include "script/bridge/library.hpp"
+#include "script/bind/setups.hpp"
+#include "problem/solvability.hpp"
+#include "scene/model/model.hpp"
+#include "script/bind/scene/space.hpp"
+#include "script/prompt/watch.hpp"
+#include "script/bridge/wrapped.hpp"
+
+namespace dotyk::script {
+namespace {
+
+using scene::Contact;
+using scene::Part;
+using scene::Scene;
+
+int make_scene(Call& call) {
+  return call.give(scene::make_scene(call.items<scene::Body>()));
+}
+
+void require_rigid_dimension(const Rigid& rigid, const Scene& scene) {
+  if (rigid.dimension != scene.dimension())
+    throw InputError(text("the ", contact::name(rigid.shape), " has ", rigid.dimension,
+                          " components, the scene is ", scene.dimension(), "-D"));
+}
+
+/// The friction given; `field` owns a function of it during the call.
+scene::Friction friction(Call& call, const Scene& scene, std::optional<Field>& field) {
+  if (!call.has("friction")) return {};
+  const auto law = call.object<FrictionLaw>("friction");
+  if (!law->varies) return {law->kind, [value = law->value](const mesh::Point&) { return value; }};
+  field.emplace(call.kept_function(call.slot("friction"), "value").at(0), 1);
+  return {law->kind, scalar_field(*field, scene.dimension())};
+}
+
+/// None where nodes decide.
+std::optional<contact::Pairing> pairing(Call& call) {
+  if (!call.has("pairing")) return {};
+  return static_cast<contact::Pairing>(call.choice("pairing"));
+}
+
+scene::Discretisation discretisation(Call& call) {
+  scene::Discretisation d;
+  d.multipliers = static_cast<contact::Multipliers>(call.choice("multipliers"));
+  if (call.has("friction_size")) d.friction_size = call.number("friction_size");
+  d.ends = static_cast<scene::CellEnds>(call.choice("friction_ends"));
+  return d;
+}
+
+int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added,
+                  const scene::Friction& friction) {
+  const auto rigid = call.object<Rigid>("rigid");
+  require_rigid_dimension(*rigid, scene);
+  contact::RigidShape shape = rigid->shape;
+  std::optional<Field> gap;
+  if (auto* given = std::get_if<contact::RigidGap>(&shape)) {
+    const auto function = call.kept_function(call.slot("rigid"), "gap");
+    if (!function.empty()) {
+      gap.emplace(function.front(), 1);
+      given->gap = scalar_field(*gap, scene.dimension());
+    }
+  }
+  return call.give(scene::add_contact(scene, part, shape, added, call.boolean("interference"), friction,
+                                      discretisation(call)));
+}
+
+int add_contact(Call& call) {
+  const auto scene = call.self<Scene>();
+  const auto parts = call.items<Part>();
+  std::optional<Field> gap;
+  elasticity::ScalarField added;
+  if (call.has("gap")) {
+    gap = call.field("gap");
+    added = scalar_field(*gap, scene->dimension());
+  }
+  std::optional<Field> bound;
+  const scene::Friction law = friction(call, *scene, bound);
+  if (call.has("rigid")) {
+    if (parts.size() != 1)
+      throw InputError("give one part with 'rigid', or two parts without it");
+    if (call.has("pairing")) throw InputError("'pairing' is for two parts; it is given with 'rigid'");
+    return against_rigid(call, *scene, *parts[0], added, law);
+  }
+  if (parts.size() != 2)
+    throw InputError("give two parts, or one part and 'rigid'");
+  Watch watch(call.state(), "pairing");
+  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, law, call.boolean("interference"),
+                                      discretisation(call), pairing(call), &watch));
+}
+
+int add_glue(Call& call) {
+  const auto parts = call.items<Part>();
+  Watch watch(call.state(), "pairing");
+  return call.give(scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1], pairing(call), &watch));
+}
+
+int balance(Call& call) {
+  const auto scene = call.self<Scene>();
+  problem::Clock clock;
+  Watch watch(call.state(), "assembling");
+  const scene::Model model = scene::build(*scene, clock, watch);
+  watch.phase("rigid motions");
+  const algebra::StopFactoring stop(watch);
+  const auto rigid = problem::rigid_motions(model.problem);
+  const auto s = problem::solvability(rigid, model.problem);
+  using Verdict = problem::Solvability::Verdict;
+  const bool one = s.verdict == Verdict::unique && !problem::has_coulomb(model.problem) && problem::uniqueness(rigid, model.problem).unique;
+  const char* verdict = s.verdict == Verdict::unsolvable ? "unsolvable" : s.verdict == Verdict::up_to_motion ? "up to motion" : one ? "unique" : "unknown";
+  std::vector<Entry> entries{{"verdict", std::string(verdict)},
+                             {"limit", s.limit},
+                             {"motion", s.motion.size() ? describe(rigid.motions, s.motion) : std::string()},
+                             {"work", s.work}};
+  if (s.carried || s.verdict == Verdict::unsolvable) entries.push_back({"solvable", s.carried});
+  return call.give(Record{"balance", entries, {"solvable"}});
+}
+
+int uniqueness(Call& call) {
+  const auto scene = call.self<Scene>();
+  Watch watch(call.state(), "assembling");
+  const scene::UniquenessOfScene u = scene::uniqueness(*scene, watch);
+  std::vector<Entry> entries{{"text", u.text}, {"exists", u.exists}, {"unique", u.unique}};
+  if (u.factor) entries.push_back({"factor", *u.factor});
+  return call.give(Record{"uniqueness", entries, {"factor"}});
+}
+
+int rigid_gap(Call& call) {
+  contact::RigidGap shape{unit_vector(call.vector("normal"), "normal"), nullptr};
+  if (!call.is("gap", LUA_TFUNCTION))
+    shape.gap = [value = call.field("gap")({})[0]](const mesh::Point&) { return value; };
+  call.give(std::make_shared<Rigid>(Rigid{shape, static_cast<int>(call.vector("normal").size())}));
+  if (call.is("gap", LUA_TFUNCTION)) call.keep(lua_gettop(call.state()), {"gap"});
+  return 1;
+}
+
+int rigid_plane(Call& call) {
+  const auto normal = call.vector("normal");
+  const int dim = static_cast<int>(normal.size());
+  return call.give(std::make_shared<Rigid>(
+      Rigid{contact::RigidPlane{point_of(call.vector("point"), dim, "point"), unit_vector(normal, "normal")}, dim}));
+}
+
+int rigid_ball(Call& call) {
+  const auto center = call.vector("center");
+  return call.give(std::make_shared<Rigid>(
+      Rigid{contact::RigidBall{point_of(center), call.number("radius")}, static_cast<int>(center.size())}));
+}
+
+int make_friction(Call& call, scene::Friction::Kind kind) {
+  auto law = std::make_shared<FrictionLaw>(FrictionLaw{kind});
+  law->varies = call.is("value", LUA_TFUNCTION);
+  if (!law->varies) law->value = lua_tonumber(call.state(), call.slot("value"));
+  call.give(law);
+  if (law->varies) call.keep(lua_gettop(call.state()), {"value"});
+  return 1;
+}
+
+void bind_friction(Library& library) {
+  library.module("dotyk.friction", "Friction laws for scene:contact. A normal and a tangential force at each contact node, or, for given friction, multipliers = \"P1-P0\" of scene:contact.");
+  library.function({.name = "dotyk.friction.tresca",
+                    .help = "Given friction (Tresca): the shear is at most g, whatever the pressure. math.huge: no slip at all.",
+                    .setup = setup::two_blocks(),
+                    .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.tresca(2.5) }",
+                    .arguments = {key::either("value", {key::number("", "").at_least(0).or_infinite(), key::function("", "")},
+                                              "bound, a number or a function of the coordinates").unit("force/length (2-D), force/area (3-D)").required()},
+                    .returns = "friction",
+                    .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::tresca); }});
+  library.function({.name = "dotyk.friction.coulomb",
+                    .help = "Coulomb friction: the shear is at most mu times the pressure.",
+                    .setup = setup::two_blocks(),
+                    .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.coulomb(0.3) }",
+                    .arguments = {key::either("value", {key::number("", "").at_least(0), key::function("", "")},
+                                              "coefficient, a number or a function of the coordinates").required()},
+                    .returns = "friction",
+                    .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::coulomb); }});
+  library.type<FrictionLaw>("A friction law.").text([](const FrictionLaw& f) {
+    return text(f.kind == scene::Friction::Kind::tresca ? "given friction, bound " : "Coulomb friction, coefficient ",
+                f.varies ? std::string("a function") : text(f.value));
+  });
+}
+
+void bind_rigid(Library& library) {
+  library.module("dotyk.rigid", "Rigid obstacles: no mesh, no unknowns.");
+  library.function({.name = "dotyk.rigid.gap",
+                    .help = "An obstacle given by its gap: u·normal <= gap(x) at each contact node. A negative gap "
+                            "presses in by that much.",
+                    .example = "local punch = dotyk.rigid.gap{ normal = {0,1}, gap = function(x, y) return x^2/4 - 0.02 end }",
+                    .arguments = {key::table({key::vector("normal", "direction in which the gap is measured, out of the body").count(2, 3).required(),
+                                              key::field("gap", "a number or a function of the coordinates").unit("length").required()})},
+                    .returns = "rigid",
+                    .run = rigid_gap});
+  library.function({.name = "dotyk.rigid.plane",
+                    .help = "A rigid half-space. Its normal points out of it, towards the body.",
+                    .example = "local floor = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} }",
+                    .arguments = {key::table({key::vector("point", "a point of its surface").count(2, 3).unit("length").required(),
+                                              key::vector("normal", "out of it").count(2, 3).required()})},
+                    .returns = "rigid",
+                    .run = rigid_plane});
+  library.function({.name = "dotyk.rigid.ball",
+                    .help = "A rigid disc (2-D) or ball outside the body. On a flat part normal and gap are "
+                            "those of dotyk.rigid.gap; on a curved one the normal lies between the part's and the line to the centre, as between "
+                            "two curved parts. Gaps are measured with the body at rest.",
+                    .example = "local ball = dotyk.rigid.ball{ center = {0,1.5}, radius = 1 }",
+                    .arguments = {key::table({key::vector("center", "centre").count(2, 3).unit("length").required(),
+                                              key::positive("radius", "radius").unit("length").required()})},
+                    .returns = "rigid",
+                    .run = rigid_ball});
+  library.type<Rigid>("A rigid obstacle.").text([](const Rigid& r) {
+    return text(contact::name(r.shape), ", ", r.dimension, "-D");
+  });
+}
+
+}  // namespace
+
+namespace {
+
+Key pairing_key() {
+  return key::choice("pairing", {"matching", "node_to_segment", "mortar"},
+                     "matching: nodes across from each other, refused where one has none. mortar: displacements of the second part in the mean over "
+                     "a node's surroundings, weighted with dual multipliers; a uniform pressure is exact. node_to_segment: at the "
+                     "node's foot; a uniform pressure is not exact. Curved parts that fit, meshed by chords that do not match, have gaps of the chords' "
+                     "heights (h²/8R), which count as they are: meshes of order 2 follow the curve").otherwise("matching where nodes match, else mortar");
+}
+
+}  // namespace
+
+void bind_scene(Library& library) {
+  library.function({.name = "dotyk.scene",
+                    .help = "Bodies that are solved together. Add contacts with scene:contact and scene:glue.",
+                    .setup = setup::block(),
+                    .example = "local scene = dotyk.scene{ block }\nprint(scene)",
+                    .arguments = {key::table({}).with(key::object<scene::Body>("bodies", "the bodies"))},
+                    .returns = "scene",
+                    .run = make_scene});
+  library.type<Scene>("Bodies and what joins them.")
+      .setup(setup::two_blocks())
+      .field("bodies", "its bodies", [](const Scene& s) { return s.bodies; })
+      .field("contacts", "its contacts and glues, in order", [](const Scene& s) { return s.contacts; })
+      .field("dimension", "2 or 3", [](const Scene& s) { return s.dimension(); })
+      .method({.name = "scene:contact",
+               .help = "Unilateral contact of two parts, or of a part with a rigid obstacle, "
+                       "frictionless unless a friction law is given. At a corner of the (first) part there is one condition for each adjoining side. "
+                       "Conditions, pressures and statuses are those of the first part's nodes: where nodes do not match, let the first be the "
+                       "part that the other covers and whose nodes supports leave free (of two meshes the coarser's nodes are taken whatever the order). "
+                       "On P2 and Q2 they are those of the facets' corners, in the mean about them.",
+               .example = "local wall = dotyk.rigid.plane{ point = {1,0}, normal = {-1,0} }\n"
+                          "local w = scene:contact{ upper:part \"right\", rigid = wall }\n"
+                          "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }",
+               .arguments = {key::table({key::object<FrictionLaw>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu)").otherwise("none"),
+                                         key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
+                                         key::field("gap", "added to the geometric gap, less than 0 for an interference (a press fit, a bolt that is tightened); a number or a function of the coordinates").unit("length").otherwise("0"),
+                                         pairing_key(),
+                                         key::choice("multipliers", {"nodal", "P1-P0"},
+                                                     "nodal: a normal and a tangential force at each node. P1-P0: pressure continuous and piecewise "
+                                                     "linear; friction piecewise constant times its given bound, in the plane on the dual cells between "
+                                                     "midpoints of edges, in space on cells of several facets; not with Coulomb friction").fallback("nodal"),
+                                         key::positive("friction_size", "P1-P0: extent H of the cells of friction. In space the inf-sup constant settles at about 0.8 with H = 2h "
+                                                       "as h falls, and goes to 0 with H = h (contact:inf_sup)").unit("length").otherwise("in the plane one dual cell, in space twice the widest facet"),
+                                         key::choice("friction_ends", {"own", "joined", "bare"},
+                                                     "P1-P0 in the plane: the half cells at the ends of the contact line have friction of their own, "
+                                                     "that of the next cell, or none (TR965 (2.14)). At a corner within the line they are always the next cell's").fallback("own"),
+                                         key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest; else that is refused, "
+                                                      "where the first part's nodes see it: of two meshes name the finer one first").fallback(false)})
+                                 .with(key::object<Part>("parts", "one part, or two").count(1, 2))},
+               .returns = "contact",
+               .run = add_contact})
+      .method({.name = "scene:glue",
+               .help = "Ties two parts together: no jump of the displacement at the first part's nodes, or in their surroundings' mean. "
+                       "They must touch: where they are further apart than a tenth of a facet, and than curved facets make them, the glue is refused.",
+               .example = "scene:glue{ upper:part \"bottom\", lower:part \"top\" }",
+               .arguments = {key::table({pairing_key()}).with(key::object<Part>("parts", "the two parts").count(2))},
+               .returns = "contact",
+               .run = add_glue})
+      .method({.name = "scene:plan",
+               .help = "What will be modelled, what is free to move, whether a solution exists, which method and why.",
+               .example = "print(scene:plan())",
+               .run = [](Call& call) {
+                 Watch watch(call.state(), "plan");
+                 const algebra::StopFactoring stop(watch);
+                 return call.give(scene::plan(*call.self<Scene>()));
+               }})
+      .method({.name = "scene:balance",
+               .help = "Can supports and contacts carry the load? Looks at rigid motions only, solves nothing: verdict "
+                       "(\"unique\" where that is proved, \"up to motion\", \"unknown\" before solving, \"unsolvable\"; without Coulomb friction "
+                       "the stress is unique in all but the last), solvable (rigid bodies would be in balance: with Coulomb friction "
+                       "elastic ones may still find no pressure great enough; nil where neither was found out), limit (the least turn of the load "
+                       "makes it unsolvable), motion (what is free) and the load's work on it.",
+               .example = "print(scene:balance().verdict)",
+               .run = balance})
+      .method({.name = "scene:uniqueness",
+               .help = "Is there a solution, and only one? What is proved, in words (text) and as exists and unique. With Coulomb friction on "
+                       "bodies that are held: factor, the solution is unique for coefficients below this times the scene's (condenses "
+                       "the scene, as long as a solve; falls as the mesh is refined); nil where none is known.",
+               .example = "print(scene:uniqueness().text)",
+               .run = uniqueness})
+      .text([](const Scene& s) { return scene::describe(s); });
+  bind_contact(library);
+  bind_rigid(library);
+  bind_friction(library);
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,69 @@
+#pragma once
+// Points and fields of scripts as the numerical rooms take them.
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algebra/types.hpp"
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "elasticity/load.hpp"
+#include "script/bridge/function.hpp"
+
+namespace dotyk::script {
+
+inline algebra::Vector vector_of(const std::vector<double>& v) { return Eigen::Map<const algebra::Vector>(v.data(), static_cast<Eigen::Index>(v.size())); }
+
+inline mesh::Point point_of(const std::vector<double>& v) {
+  mesh::Point p{0, 0, 0};
+  for (std::size_t i = 0; i < v.size() && i < 3; ++i) p[i] = v[i];
+  return p;
+}
+
+// Throws InputError unless the vector has as many components as the thing it belongs to has dimensions.
+inline mesh::Point point_of(const std::vector<double>& v, int dimension, const std::string& what) {
+  if (static_cast<int>(v.size()) != dimension)
+    throw InputError(text("'", what, "' has ", v.size(), " components; it must have ", dimension, " here (",
+                          dimension, "-D)"));
+  return point_of(v);
+}
+
+inline mesh::Point unit_vector(const std::vector<double>& v, const std::string& what) {
+  mesh::Point p = point_of(v);
+  const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  if (largest > 0)
+    for (double& x : p) x /= largest;  // squares of the rest are then in range
+  if (!(mesh::length(p) > 0)) throw InputError(text("'", what, "' is zero; it must have a direction"));
+  return mesh::unit(p);
+}
+
+// The fields below refer to Lua values: they are for use during the call only.
+inline elasticity::ScalarField scalar_field(const Field& field, int dimension) {
+  return [&field, dimension](const mesh::Point& x) {
+    double value;
+    field.at({x.data(), static_cast<std::size_t>(dimension)}, {&value, 1});
+    return value;
+  };
+}
+
+inline elasticity::VectorField vector_field(const Field& field, int dimension) {
+  return [&field, dimension](const mesh::Point& x) {
+    mesh::Point value{0, 0, 0};
+    const auto n = static_cast<std::size_t>(dimension);
+    field.at({x.data(), n}, {value.data(), n});
+    return value;
+  };
+}
+
+// The field at every node: node × dimension.
+inline std::vector<double> at_nodes(const Field& field, const mesh::Mesh& mesh) {
+  const auto dimension = static_cast<std::size_t>(mesh.dimension());
+  std::vector<double> values(mesh.coordinates.size());
+  for (int n = 0; n < mesh.node_count(); ++n)
+    field.at({mesh.node(n), dimension}, {&values[static_cast<std::size_t>(n) * dimension], dimension});
+  return values;
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,84 @@
+#pragma once
+// What scripts hold of shape optimisation.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/result/locate.hpp"
+#include "script/bridge/call.hpp"
+#include "script/bind/shape/dual.hpp"
+#include "script/bridge/wrapped.hpp"
+#include "shape/design/evaluator.hpp"
+
+namespace dotyk::script {
+
+class Library;
+
+// Finds the cells of the first design.
+class Places {
+ public:
+  explicit Places(const scene::Scene& scene) : scene_(scene), locators_(scene.bodies.size()) {}
+  // Throws InputError outside the body.
+  scene::Place find(int body, const mesh::Point& x);
+
+ private:
+  const scene::Scene& scene_;
+  std::vector<std::unique_ptr<scene::Locator>> locators_;
+};
+
+// A design as a script sees it; its numbers are duals unless derivatives are not wanted.
+struct Design {
+  std::shared_ptr<const shape::DesignState> state;
+  std::shared_ptr<Places> places;
+  double exponent = 8;  // of peak_pressure
+  bool derivatives = true;
+  Dual dual(const shape::Quantity& quantity) const;
+};
+
+// What is minimised or kept below a bound: one of the quantities, or a function kept with the object under this name.
+struct QuantityChoice {
+  std::string kept;  // empty: not a function
+  std::shared_ptr<const shape::Quantity> quantity;
+  std::string name() const { return quantity ? quantity->name() : "function"; }
+};
+
+// A scene, its design variables, what is sought and how.
+struct Shape {
+  std::shared_ptr<const shape::DesignSpace> space;
+  std::shared_ptr<Places> places;
+  algebra::Vector lower, upper, start;
+  QuantityChoice objective;
+  std::vector<QuantityChoice> constraints;
+  std::vector<double> most;  // of each constraint
+  double exponent = 8, step = 0;
+  solver::Method method;
+};
+
+template <>
+struct Wrapped<Design> {
+  static constexpr const char* name = "design";
+};
+template <>
+struct Wrapped<Shape> {
+  static constexpr const char* name = "shape";
+};
+
+// The keys of dotyk.shape that move parts, and the variables they make.
+Key moves_key();
+struct Variables {
+  std::vector<shape::Velocities> velocities;
+  std::vector<double> lower, upper, start;
+};
+Variables read_moves(const Call& call, const scene::Scene& scene);
+
+// The objective and the constraints, functions taken from those kept with the shape at stack index 1, for the running call.
+struct Sought {
+  std::shared_ptr<const shape::Quantity> objective;
+  std::vector<shape::DesignConstraint> constraints;
+};
+Sought sought(const Call& call, const Shape& shape);
+
+void bind_design(Library& library);
+void bind_optimum(Library& library);
+
+}  // namespace dotyk::script

@@ -1,0 +1,277 @@
+#include "script/bridge/descriptor.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "script/help/nearest.hpp"
+
+namespace dotyk::script {
+
+std::string number_text(double value) {
+  if (std::isnan(value)) return "nan";  // printf would tell its sign
+  char text[40];
+  for (int digits : {6, 15, 17}) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value) break;
+  }
+  return text;
+}
+
+std::string plural(const std::string& noun) {
+  return noun.ends_with("dy") ? noun.substr(0, noun.size() - 1) + "ies" : noun + "s";
+}
+
+std::string with_article(const std::string& noun) {
+  const bool vowel = !noun.empty() && std::string("aeiou").find(noun[0]) != std::string::npos;
+  return (vowel ? "an " : "a ") + noun;
+}
+
+Key& Key::required() {
+  needed = true;
+  return *this;
+}
+Key& Key::unit(std::string text) {
+  units = std::move(text);
+  return *this;
+}
+Key& Key::fallback(double value) {
+  default_value = value;
+  default_text = number_text(value);
+  return *this;
+}
+Key& Key::fallback(bool value) {
+  default_value = value;
+  default_text = value ? "true" : "false";
+  return *this;
+}
+Key& Key::fallback(const char* value) {
+  default_value = std::string(value);
+  default_text = "\"" + std::string(value) + "\"";
+  return *this;
+}
+Key& Key::otherwise(std::string text) {
+  default_text = std::move(text);
+  return *this;
+}
+Key& Key::above(double value) {
+  least = value;
+  least_excluded = true;
+  return *this;
+}
+Key& Key::below(double value) {
+  greatest = value;
+  greatest_excluded = true;
+  return *this;
+}
+Key& Key::at_least(double value) {
+  least = value;
+  least_excluded = false;
+  return *this;
+}
+Key& Key::within(double least_value, double greatest_value) {
+  least = least_value;
+  greatest = greatest_value;
+  return *this;
+}
+Key& Key::or_infinite() {
+  infinite = true;
+  return *this;
+}
+Key& Key::count(std::size_t exactly) { return count(exactly, exactly); }
+Key& Key::count(std::size_t fewest_count, std::size_t most_count) {
+  fewest = fewest_count;
+  most = most_count;
+  return *this;
+}
+Key& Key::written() {
+  output = true;
+  return *this;
+}
+Key& Key::with(Key item) {
+  items = {std::move(item)};
+  return *this;
+}
+
+namespace {
+
+std::string count_text(const Key& key, const std::string& noun) {
+  const auto counted = [&](std::size_t n) { return std::to_string(n) + " " + (n == 1 ? noun : plural(noun)); };
+  const bool bounded = key.most != std::numeric_limits<std::size_t>::max();
+  if (key.fewest == key.most) return counted(key.fewest);
+  if (bounded && key.fewest + 1 == key.most) return std::to_string(key.fewest) + " or " + counted(key.most);
+  if (bounded) return std::to_string(key.fewest) + " to " + counted(key.most);
+  if (key.fewest > 0) return "at least " + counted(key.fewest);
+  return plural(noun);
+}
+
+std::string range_text(const Key& key) {
+  const bool low = std::isfinite(key.least), high = std::isfinite(key.greatest);
+  const std::string least = number_text(key.least), greatest = number_text(key.greatest);
+  if (low && high && !key.least_excluded && !key.greatest_excluded) return " from " + least + " to " + greatest;
+  const std::string above = !low ? "" : (key.least_excluded ? " above " : " of at least ") + least;
+  const std::string below = !high ? "" : (key.greatest_excluded ? " below " : " of at most ") + greatest;
+  return above + (low && high ? " and" : "") + below + (key.infinite ? " (math.huge too)" : "");
+}
+
+}  // namespace
+
+std::string Key::expected() const {
+  const bool is_positive = least == 0 && least_excluded && std::isinf(greatest);
+  switch (kind) {
+    case Kind::number:
+      return is_positive ? "a positive number" : "a number" + range_text(*this);
+    case Kind::integer:
+      return is_positive ? "a positive integer" : "an integer" + range_text(*this);
+    case Kind::boolean:
+      return "true or false";
+    case Kind::string:
+    case Kind::file:
+      return "a string";
+    case Kind::choice:
+      return join(choices, "or", "\"");
+    case Kind::vector:
+      return "a table of " + count_text(*this, "number");
+    case Kind::matrix:
+      return "a table of rows, each a table of numbers";
+    case Kind::field:
+      return "a number, a table of numbers or a function of the coordinates";
+    case Kind::function:
+      return "a function";
+    case Kind::object:
+      return with_article(type);
+    case Kind::list: {
+      const auto& item = items.front();
+      if (item.kind == Kind::object) return "a table of " + count_text(*this, item.type);
+      if (item.kind == Kind::integer) return "a table of " + count_text(*this, "integer");
+      return "a table of " + count_text(*this, "item") + ", each " + item.expected();
+    }
+    case Kind::table:
+      return "a table";
+    case Kind::either: {
+      std::vector<std::string> kinds;
+      for (const auto& one : keys) kinds.push_back(one.expected());
+      return join(kinds, "or", "");
+    }
+    case Kind::any:
+      break;
+  }
+  return "a value";
+}
+
+std::vector<Key> named_keys(const Key& key) {
+  if (key.kind == Kind::table) return key.keys;
+  std::vector<Key> all;
+  for (std::size_t i = 0; key.kind == Kind::either && i < key.keys.size(); ++i) {
+    const auto inner = named_keys(key.keys[i]);
+    all.insert(all.end(), inner.begin(), inner.end());
+  }
+  return all;
+}
+
+std::string Descriptor::short_name() const {
+  const auto at = name.find_last_of(".:");
+  return at == std::string::npos ? name : name.substr(at + 1);
+}
+
+std::string Descriptor::owner() const {
+  const auto at = name.find(':');
+  return at == std::string::npos ? "" : name.substr(0, at);
+}
+
+bool Descriptor::takes_table() const {
+  return arguments.size() == 1 && arguments[0].kind == Kind::table && arguments[0].name.empty();
+}
+
+std::string Descriptor::whole_example() const {
+  return setup.empty() || setup.back() == '\n' ? setup + example : setup + "\n" + example;
+}
+
+std::string Descriptor::signature() const {
+  std::string text;
+  const auto add = [&text](const Key& key) {
+    if (!text.empty()) text += ", ";
+    text += key.name.empty() ? "…" : key.name;
+    if (!std::holds_alternative<std::monostate>(key.default_value)) text += " = " + key.default_text;
+  };
+  if (takes_table()) {
+    for (const auto& item : arguments[0].items)
+      text += item.name.empty() ? item.type + ", …" : item.name + ", …";
+    for (const auto& key : arguments[0].keys) add(key);
+    return name + "{ " + text + " }";
+  }
+  for (const auto& argument : arguments) {
+    if (argument.needed) {
+      add(argument);
+    } else {
+      text += (text.empty() ? "[" : "[, ") + argument.name + "]";
+    }
+  }
+  return name + "(" + text + ")";
+}
+
+namespace key {
+namespace {
+Key make(std::string name, Kind kind, std::string help) {
+  Key key;
+  key.name = std::move(name);
+  key.kind = kind;
+  key.help = std::move(help);
+  return key;
+}
+}  // namespace
+
+Key number(std::string name, std::string help) {
+  return make(std::move(name), Kind::number, std::move(help));
+}
+Key positive(std::string name, std::string help) { return number(std::move(name), std::move(help)).above(0); }
+Key integer(std::string name, std::string help) {
+  return make(std::move(name), Kind::integer, std::move(help));
+}
+Key boolean(std::string name, std::string help) {
+  return make(std::move(name), Kind::boolean, std::move(help));
+}
+Key string(std::string name, std::string help) {
+  return make(std::move(name), Kind::string, std::move(help));
+}
+Key file(std::string name, std::string help) { return make(std::move(name), Kind::file, std::move(help)); }
+Key vector(std::string name, std::string help) {
+  return make(std::move(name), Kind::vector, std::move(help));
+}
+Key matrix(std::string name, std::string help) {
+  return make(std::move(name), Kind::matrix, std::move(help));
+}
+Key field(std::string name, std::string help) { return make(std::move(name), Kind::field, std::move(help)); }
+Key function(std::string name, std::string help) {
+  return make(std::move(name), Kind::function, std::move(help));
+}
+Key any(std::string name, std::string help) { return make(std::move(name), Kind::any, std::move(help)); }
+
+Key choice(std::string name, std::vector<std::string> choices, std::string help) {
+  auto key = make(std::move(name), Kind::choice, std::move(help));
+  key.choices = std::move(choices);
+  return key;
+}
+Key object(std::string name, std::string type, std::string help) {
+  auto key = make(std::move(name), Kind::object, std::move(help));
+  key.type = std::move(type);
+  return key;
+}
+Key list(std::string name, Key item, std::string help) {
+  return make(std::move(name), Kind::list, std::move(help)).with(std::move(item));
+}
+Key table(std::string name, std::vector<Key> keys, std::string help) {
+  auto key = make(std::move(name), Kind::table, std::move(help));
+  key.keys = std::move(keys);
+  return key;
+}
+Key table(std::vector<Key> keys) { return table("", std::move(keys), "").required(); }
+Key either(std::string name, std::vector<Key> kinds, std::string help) {
+  auto key = make(std::move(name), Kind::either, std::move(help));
+  key.keys = std::move(kinds);
+  return key;
+}
+}  // namespace key
+
+}  // namespace dotyk::script

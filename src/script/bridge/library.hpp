@@ -1,0 +1,158 @@
+#pragma once
+// Everything a script can call, by name: the source of help, completion and the
+// reference page.
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "script/bridge/call.hpp"
+#include "script/bridge/descriptor.hpp"
+#include "script/guard/folder.hpp"
+#include "script/bridge/object.hpp"
+
+namespace dotyk::script {
+
+// A field of an object: computed when read.
+struct TypeField {
+  std::string name, help, units;
+  std::string type;  // of the value when it is an object, for completion
+  std::function<void(lua_State*, const std::shared_ptr<void>&)> read;
+};
+
+// A class of objects as scripts see it.
+struct Type {
+  std::string name, help;
+  std::string setup;  // Lua that makes what the methods' examples start from, where they have no setup of their own
+  std::deque<TypeField> fields;
+  std::deque<Descriptor> methods;
+  std::function<std::string(const void*)> text;  // for print(); "<name>" if empty
+
+  std::vector<std::string> member_names() const;
+  const Descriptor* method(const std::string& method_name) const;
+  const TypeField* field(const std::string& field_name) const;
+};
+
+// A table of functions, "dotyk.mesh", with a line of help.
+struct Module {
+  std::string name, help;
+};
+
+class Library;
+class Manifest;
+
+// Describes the members of a class, one call each.
+template <class T>
+class TypeOf {
+ public:
+  TypeOf(Library& library, Type& type) : library_(library), type_(type) {}
+
+  // `get` takes a const T& and returns anything push() knows.
+  template <class Get>
+  TypeOf& field(std::string name, std::string help, Get get, std::string units = "");
+
+  // What the examples of the methods described from here on start from.
+  TypeOf& setup(std::string text) {
+    type_.setup = std::move(text);
+    return *this;
+  }
+
+  // The descriptor's name is "type:method".
+  TypeOf& method(Descriptor descriptor);
+
+  // What print() shows.
+  TypeOf& text(std::function<std::string(const T&)> show) {
+    type_.text = [show](const void* object) { return show(*static_cast<const T*>(object)); };
+    return *this;
+  }
+
+ private:
+  Library& library_;
+  Type& type_;
+};
+
+// Registers callables and classes in a Lua state and remembers their
+// descriptions. Lives as long as the state.
+class Library {
+ public:
+  explicit Library(lua_State* L);
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+
+  // The library of a state (or of any of its coroutines).
+  static Library& of(lua_State* L);
+
+  // A function under its dotted name: "dotyk.mesh.box" goes into the table
+  // dotyk.mesh, made on the way; a name without dots becomes a global.
+  // With run empty the Lua function on top of the stack is called instead (and
+  // taken off the stack), with its table argument copied and the fallbacks
+  // filled in.
+  void function(Descriptor descriptor);
+
+  // The text help shows for a table of functions.
+  void module(std::string name, std::string help);
+
+  // A class; Wrapped<T>::name is its name.
+  template <class T>
+  TypeOf<T> type(std::string help) {
+    return {*this, add_type(Wrapped<T>::name, std::move(help))};
+  }
+  // More members for a class described elsewhere.
+  template <class T>
+  TypeOf<T> extend() {
+    return {*this, known_type(Wrapped<T>::name)};
+  }
+  void add_method(Type& type, Descriptor descriptor);
+
+  const std::deque<Descriptor>& functions() const { return functions_; }
+  const std::deque<Type>& types() const { return types_; }
+  const std::deque<Module>& modules() const { return modules_; }
+
+  // By name; null if there is none. find() takes functions and methods, by full name ("dotyk.solve", "part:load").
+  const Type* find_type(const std::string& name) const;
+  const Descriptor* find(const std::string& name) const;
+  // Every name find() and find_type() know.
+  std::vector<std::string> names() const;
+
+  // Where the script's files must be (--safe); none: anywhere.
+  std::optional<Folder> folder;
+
+  // What is written beside every file that a call writes (--manifest), or null.
+  std::shared_ptr<const Manifest> manifest;
+
+  // The class of the object at index, null for any other value.
+  const Type* type_at(lua_State* L, int index) const;
+  // The module the table at index is, empty for any other value.
+  std::string module_at(lua_State* L, int index) const;
+
+ private:
+  Type& add_type(const char* name, std::string help);
+  Type& known_type(const std::string& name);  // throws std::logic_error
+  void open_module(const std::string& path);
+
+  lua_State* L_;
+  std::deque<Descriptor> functions_;
+  std::deque<Type> types_;
+  std::deque<Module> modules_;
+};
+
+template <class T>
+template <class Get>
+TypeOf<T>& TypeOf<T>::field(std::string name, std::string help, Get get, std::string units) {
+  TypeField field{std::move(name), std::move(help), std::move(units), "", nullptr};
+  field.read = [get](lua_State* L, const std::shared_ptr<void>& object) {
+    push(L, get(*static_cast<const T*>(object.get())));
+  };
+  type_.fields.push_back(std::move(field));
+  return *this;
+}
+
+template <class T>
+TypeOf<T>& TypeOf<T>::method(Descriptor descriptor) {
+  library_.add_method(type_, std::move(descriptor));
+  return *this;
+}
+
+}  // namespace dotyk::script

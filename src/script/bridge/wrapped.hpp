@@ -1,0 +1,98 @@
+#pragma once
+// The words that the objects of scripts go by, and what a script holds where
+// that is not a class of the numerical rooms itself.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/rigid.hpp"
+#include "elasticity/material.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/statement/scene.hpp"
+#include "scene/result/solution.hpp"
+#include "script/bridge/push.hpp"
+
+namespace dotyk::script {
+
+// Values of a material; E and nu are taken from functions kept with the object
+// where these vary in space.
+struct Material {
+  double E = 0, nu = 0;
+  bool E_varies = false, nu_varies = false;
+  elasticity::Plane plane = elasticity::Plane::strain;
+  std::optional<elasticity::Hooke> stiffness;
+  std::optional<double> density;
+};
+
+// Moving the nodes of a mesh that a body uses makes the handle's own copy.
+struct MeshHandle {
+  std::shared_ptr<mesh::Mesh> mesh;
+  std::vector<std::string> regions = {}, notes = {};  // of one from a file, see meshfile::Loaded
+};
+
+// A rigid shape; the function of a rigid gap is kept with the object.
+struct Rigid {
+  contact::RigidShape shape;
+  int dimension;
+};
+
+// A friction law; a function that it was made with is kept with the object.
+struct FrictionLaw {
+  scene::Friction::Kind kind;
+  double value = 0;
+  bool varies = false;
+};
+
+// A method with its options; on_iteration is kept with the object.
+struct Solver {
+  solver::Method method;
+  std::string own;     // name and its own options, as printed
+  double tol = 0;
+  std::string common;  // ", max_iterations = 100" and what else every method takes
+  bool verbose = false;
+  std::string text() const;
+};
+
+template <>
+struct Wrapped<Material> {
+  static constexpr const char* name = "material";
+};
+template <>
+struct Wrapped<MeshHandle> {
+  static constexpr const char* name = "mesh";
+};
+template <>
+struct Wrapped<scene::Body> {
+  static constexpr const char* name = "body";
+};
+template <>
+struct Wrapped<scene::Part> {
+  static constexpr const char* name = "part";
+};
+template <>
+struct Wrapped<scene::Scene> {
+  static constexpr const char* name = "scene";
+};
+template <>
+struct Wrapped<scene::Contact> {
+  static constexpr const char* name = "contact";
+};
+template <>
+struct Wrapped<Rigid> {
+  static constexpr const char* name = "rigid";
+};
+template <>
+struct Wrapped<FrictionLaw> {
+  static constexpr const char* name = "friction";
+};
+template <>
+struct Wrapped<Solver> {
+  static constexpr const char* name = "solver";
+};
+template <>
+struct Wrapped<scene::Solution> {
+  static constexpr const char* name = "solution";
+};
+
+}  // namespace dotyk::script

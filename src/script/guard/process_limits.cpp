@@ -1,0 +1,83 @@
+#include "script/guard/process_limits.hpp"
+
+#include <malloc.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "base/memory.hpp"
+#include "base/parallel.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::script {
+namespace {
+
+constexpr double bytes_of_a_thread = 150e6;  // OpenBLAS's buffer, and a stack
+constexpr double bytes_to_begin = 8e6;       // of a script's own, above what dotyk takes before it
+
+double page() { return static_cast<double>(sysconf(_SC_PAGESIZE)); }
+
+double taken_already() {
+  std::ifstream in("/proc/self/statm");
+  double pages = 0;
+  return in >> pages ? pages * page() : 0;
+}
+
+void time_is_up(int) {
+  constexpr char message[] = "dotyk: the limit of processors' time is reached (--seconds)\n";
+  const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
+  _exit(written > 0 ? 1 : 3);
+}
+
+void limit(int resource, double value) {
+  rlimit limits{};
+  getrlimit(resource, &limits);
+  limits.rlim_cur = std::min(static_cast<rlim_t>(value), limits.rlim_max);
+  setrlimit(resource, &limits);
+}
+
+}  // namespace
+
+void ProcessLimits::fill_in_for_safe() {
+  if (!seconds) seconds = 600;
+  if (!file) file = 1e9;
+#ifndef __SANITIZE_ADDRESS__  // which takes all of the address space
+  if (!memory) memory = std::max(2e9, 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page());
+#endif
+}
+
+void leave_threads_if_tight(const ProcessLimits& limits, char** words) {
+  rlimit own{};
+  double memory = limits.memory.value_or(INFINITY);
+  if (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY) memory = std::min(memory, static_cast<double>(own.rlim_cur));
+  if (4 * bytes_of_a_thread * cores() <= memory) return;
+  const char* name = "OPENBLAS_NUM_THREADS";
+  const char* threads = std::getenv(name);
+  if (threads && std::string(threads) == "1") return;
+  setenv(name, "1", 1);
+  execv("/proc/self/exe", words);  // where that fails, the threads stay
+}
+
+void set_limits(const ProcessLimits& limits) {
+  std::signal(SIGXFSZ, SIG_IGN);  // of ulimit -f, too
+  if (limits.file) limit(RLIMIT_FSIZE, *limits.file);
+  if (limits.memory) {
+    const double least = taken_already() + bytes_to_begin;
+    if (*limits.memory < least)
+      throw std::runtime_error(text("--memory ", *limits.memory * 1e-6, "M is less than dotyk needs to start (about ", std::ceil(least * 1e-6), "M)"));
+    limit(RLIMIT_AS, *limits.memory);
+  }
+  if (std::isfinite(address_space_left())) mallopt(M_ARENA_MAX, 1);  // each thread's arena would take 64 MB of it
+  if (!limits.seconds) return;
+  std::signal(SIGXCPU, time_is_up);
+  limit(RLIMIT_CPU, std::ceil(*limits.seconds));
+}
+
+}  // namespace dotyk::script

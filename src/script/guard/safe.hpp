@@ -1,0 +1,21 @@
+#pragma once
+// Scripts from strangers: what of Lua's own libraries they get. A script can compute, print, call dotyk
+// and use files below one folder. It cannot start programs, load machine code or compiled Lua, read the
+// environment, or reach what the interpreter keeps for itself.
+#include "script/guard/folder.hpp"
+
+struct lua_State;
+
+namespace dotyk::script {
+
+// Before the script runs, after everything is loaded. From then on, below the folder only:
+// io.open, lines, input, output; os.remove, rename; loadfile, dofile, require (Lua files alone), and all
+// of dotyk's arguments of Kind::file. load and its kin take text, no compiled chunks. debug keeps
+// traceback alone. What is refused raises at the script's line.
+void make_safe(lua_State* L, const Folder& folder);
+
+// What could undo a count of instructions: debug keeps traceback alone, and files their metatable, whose __gc would run
+// where nothing counts. `option` is the one that asks for it, named where a script tries.
+void close_debug(lua_State* L, const char* option);
+
+}  // namespace dotyk::script

@@ -1,0 +1,132 @@
+#include "script/help/help.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "script/help/help_lines.hpp"
+
+namespace dotyk::script {
+namespace {
+
+// "name = value" stays together.
+std::string wrapped_signature(std::string text) {
+  constexpr char held = '\x1f';
+  for (std::size_t at; (at = text.find(" = ")) != std::string::npos;) text[at] = text[at + 2] = held;
+  text = wrapped(text, "", "    ");
+  std::replace(text.begin(), text.end(), held, ' ');
+  return text;
+}
+
+std::string facts(const Key& key) {
+  auto text = key.expected();
+  if (!key.units.empty()) text += ", " + key.units;
+  if (key.needed) return text;
+  return text + (key.default_text.empty() ? "; optional" : "; default " + key.default_text);
+}
+
+void list_key(std::string& out, const Key& key, const std::string& indent) {
+  constexpr std::size_t column = 16;
+  const auto name = key.name.empty() ? "…" : key.name;
+  const auto pad = std::string(letters(name) < column ? column - letters(name) : 1, ' ');
+  const auto further = indent + std::string(column, ' ');
+  out += wrapped(key.help, indent + name + pad, further) + wrapped("(" + facts(key) + ")", further);
+  for (const auto& item : key.items) {
+    for (const auto& inner : named_keys(item)) list_key(out, inner, indent + "    ");
+  }
+  for (const auto& inner : named_keys(key)) list_key(out, inner, indent + "    ");
+}
+
+void list_arguments(std::string& out, const Descriptor& descriptor) {
+  if (!descriptor.takes_table()) {
+    for (const auto& argument : descriptor.arguments) list_key(out, argument, "  ");
+    return;
+  }
+  const auto& table = descriptor.arguments[0];
+  for (const auto& item : table.items) list_key(out, item, "  ");
+  for (const auto& key : table.keys) list_key(out, key, "  ");
+}
+
+std::string indented(const std::string& text, const std::string& indent) {
+  std::istringstream lines(text);
+  std::string line, all;
+  while (std::getline(lines, line)) all += indent + line + "\n";
+  return all;
+}
+
+}  // namespace
+
+std::string help_text(const Descriptor& descriptor) {
+  auto out = wrapped_signature(descriptor.signature() + (descriptor.returns.empty() ? "" : " → " + descriptor.returns));
+  out += wrapped(descriptor.help, "  ");
+  if (!descriptor.arguments.empty()) out += "\n";
+  list_arguments(out, descriptor);
+  if (!descriptor.example.empty()) out += "\n  Example:\n" + indented(descriptor.whole_example(), "    ");
+  return out;
+}
+
+std::string help_text(const Library& library, const Type& type) {
+  auto out = type.name + "\n" + wrapped(type.help, "  ");
+  if (!type.fields.empty()) out += "\n  Fields:\n";
+  for (const auto& field : type.fields) {
+    out +=
+        "  " + summary_line(field.name, field.help + (field.units.empty() ? "" : " [" + field.units + "]"));
+  }
+  if (!type.methods.empty()) out += "\n  Methods:\n";
+  for (const auto& method : type.methods) out += "  " + summary_line(method.name, method.help);
+  std::string makers;
+  for (const auto& one : library.functions()) {
+    if (one.returns == type.name) makers += (makers.empty() ? "" : ", ") + one.name;
+  }
+  return makers.empty() ? out : out + "\n  Made by " + makers + ".\n";
+}
+
+std::string help_text(const Library& library, const Module& module) {
+  auto out = module.name + "\n" + wrapped(module.help, "  ") + "\n";
+  for (const auto& one : library.functions()) {
+    const auto dot = one.name.rfind('.');
+    if (dot != std::string::npos && one.name.substr(0, dot) == module.name)
+      out += summary_line(one.name, one.help);
+  }
+  for (const auto& inner : library.modules()) {
+    if (inner.name.rfind(module.name + ".", 0) == 0) out += summary_line(inner.name, inner.help);
+  }
+  return out;
+}
+
+std::vector<std::string> missing_help(const Library& library) {
+  std::vector<std::string> missing;
+  const auto check_keys = [&](const auto& self, const std::string& owner,
+                              const std::vector<Key>& keys) -> void {
+    for (const auto& key : keys) {
+      const auto name = owner + ", '" + key.name + "'";
+      if (key.help.empty()) missing.push_back(name + ": no help");
+      self(self, name, named_keys(key));
+      for (const auto& item : key.items) self(self, name, named_keys(item));
+    }
+  };
+  const auto check = [&](const Descriptor& one) {
+    if (one.help.empty()) missing.push_back(one.name + ": no help");
+    if (one.example.empty()) missing.push_back(one.name + ": no example");
+    const auto& keys = one.takes_table() ? one.arguments[0].keys : one.arguments;
+    check_keys(check_keys, one.name, keys);
+    if (!one.takes_table()) return;
+    for (const auto& item : one.arguments[0].items) {
+      if (item.help.empty()) missing.push_back(one.name + ", items: no help");
+    }
+  };
+  for (const auto& one : library.functions()) check(one);
+  for (const auto& type : library.types()) {
+    if (type.help.empty()) missing.push_back(type.name + ": no help");
+    for (const auto& field : type.fields) {
+      if (field.help.empty()) missing.push_back(type.name + "." + field.name + ": no help");
+    }
+    for (const auto& method : type.methods) {
+      if (method.owner() != type.name)
+        missing.push_back(method.name + ": a method of " + type.name + " by another name");
+      check(method);
+    }
+  }
+  return missing;
+}
+
+}  // namespace dotyk::script

@@ -1,0 +1,118 @@
+#include "script/prompt/line_reader.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+#include <readline/readline.h>
+
+#include "script/prompt/interrupt.hpp"
+
+namespace dotyk::script {
+namespace {
+
+// readline calls plain functions, so what they need stands here while a line
+// is being read.
+struct {
+  const std::function<Completion(const std::string&)>* complete = nullptr;
+  Completion found;
+  std::string line;
+  bool done = false, ended = false;
+} editing;
+
+char* next_word(const char*, int state) {
+  static std::size_t next;
+  if (state == 0) next = 0;
+  if (next >= editing.found.words.size()) return nullptr;
+  return strdup(editing.found.words[next++].c_str());
+}
+
+void look() {
+  editing.found = (*editing.complete)(std::string(rl_line_buffer, static_cast<std::size_t>(rl_point)));
+}
+
+// Inside a string a word is all of it; elsewhere a name. readline asks for them where something stands before the cursor.
+char* word_breaks() {
+  look();
+  static char in_string[] = "\"'";
+  static char in_code[] = " \t\n\"'`@$><=;|&{}(),.:[]+-*/%#~^";
+  return editing.found.in_string ? in_string : in_code;
+}
+
+char** attempt(const char* text, int, int) {
+  if (rl_point == 0) look();
+  rl_completion_append_character = '\0';
+  if (editing.found.file_names) {
+    rl_filename_completion_desired = 1;
+    rl_variable_bind("expand-tilde", "on");  // files are opened as written, by no shell
+    return nullptr;  // readline's own file names
+  }
+  rl_attempted_completion_over = 1;
+  if (editing.found.quote) rl_completion_append_character = editing.found.quote;
+  return rl_completion_matches(text, next_word);
+}
+
+void got_line(char* line) {
+  editing.done = true;
+  editing.ended = line == nullptr;
+  if (line) editing.line = line;
+  std::free(line);
+  rl_callback_handler_remove();
+}
+
+void set_up() {
+  static bool ready = false;
+  if (ready) return;
+  ready = true;
+  rl_readline_name = "dotyk";
+  rl_catch_signals = 0;  // Ctrl-C is ours
+  rl_persistent_signal_handlers = 1;
+  rl_attempted_completion_function = attempt;
+  rl_completion_word_break_hook = word_breaks;
+  rl_variable_bind("show-all-if-ambiguous", "on");  // the first Tab lists; an inputrc may say otherwise
+  // What was typed so far selects from the history; an inputrc may say otherwise.
+  rl_bind_keyseq("\\e[A", rl_history_search_backward);
+  rl_bind_keyseq("\\e[B", rl_history_search_forward);
+  rl_bind_keyseq("\\eOA", rl_history_search_backward);
+  rl_bind_keyseq("\\eOB", rl_history_search_forward);
+}
+
+void abandon() {
+  clear_interrupt();
+  rl_free_line_state();
+  rl_callback_sigcleanup();
+  rl_point = rl_end;
+  rl_redisplay();
+  std::fputs("^C\n", stdout);
+  rl_callback_handler_remove();
+}
+
+}  // namespace
+
+Read read_edited(const char* prompt, std::string& line,
+                 const std::function<Completion(const std::string&)>& complete_line) {
+  set_up();
+  editing.complete = &complete_line;
+  editing.done = editing.ended = false;
+  rl_callback_handler_install(prompt, got_line);
+  while (!editing.done) {
+    if (interrupted()) {
+      abandon();
+      return Read::cleared;
+    }
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (poll(&input, 1, -1) > 0) rl_callback_read_char();
+    else rl_check_signals();
+  }
+  line = editing.line;
+  return editing.ended ? Read::end : Read::line;
+}
+
+Read read_plain(std::string& line) { return std::getline(std::cin, line) ? Read::line : Read::end; }
+
+}  // namespace dotyk::script

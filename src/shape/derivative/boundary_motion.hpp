@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "algebra/types.hpp"
+#include "scene/statement/body.hpp"
+
+namespace dotyk::shape {
+
+/// How B-splines move a part: control points, and the direction in which they go.
+struct ControlPoints {
+  int count[2] = {6, 6};  ///< in space along the longest and second longest extent of the part; in the plane the first alone
+  int degree = 3;
+  /// Of every control point, any length; none: along the outward normal of the first design, the mean of the adjoining
+  /// facets' by their size, of length 1.
+  std::optional<mesh::Point> direction = {};
+};
+
+/// Velocities of a part's nodes, one set a design variable i: V_i(node) = weight(node, i) direction(node).
+struct BoundaryMotion {
+  scene::Part part;
+  std::vector<int> nodes;               ///< ascending
+  algebra::DenseMatrix weight;          ///< nodes × variables
+  std::vector<mesh::Point> direction;   ///< a node each
+  int variables() const { return static_cast<int>(weight.cols()); }
+  mesh::Point velocity(std::size_t node, int variable) const;
+};
+
+/// Throws InputError for a body of P2 or Q2, whose derivatives are not there.
+void require_first_order(const scene::Body& body);
+
+/// V_i = N_i(t) × direction. In the plane t is the length along the part in shares of the whole, with the body on the left
+/// (a bottom from left to right, a top from right to left); the part must be one chain; B-splines are open on an
+/// open one, periodic on a closed one. In space t and s run along the two coordinate axes in which the part extends
+/// farthest, from least to greatest coordinate, N_i(t, s) = N_j(t) N_k(s) with i = j + count[0] k.
+///
+/// Throws InputError for more than 4096 control points, those that move no node, a part that is no chain, B-splines that do not exist (see BSplines), a direction
+/// that is zero or not finite, and normals of a node that cancel.
+BoundaryMotion bspline_motion(const scene::Part& part, const ControlPoints& points);
+
+/// Other variables β of which the first ones are α = T β: velocities Σ_i T_ij V_i. `T`: variables × new variables.
+BoundaryMotion combined(BoundaryMotion motion, const algebra::DenseMatrix& T);
+
+}  // namespace dotyk::shape

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "shape/derivative/contact_derivative.hpp"
+#include "shape/derivative/quantity.hpp"
+#include "shape/derivative/row_changes.hpp"
+
+namespace dotyk::shape {
+namespace {
+
+using algebra::Vector;
+
+/// S = Σ w (p/p̂)^q over all contacts' nodes, p̂ the peak.
+struct Sum {
+  double peak = 0, value = 0;
+  std::vector<std::vector<ContactValue>> nodes;  ///< contact → row; empty for glue
+};
+
+class PeakPressure final : public Quantity {
+ public:
+  explicit PeakPressure(double exponent) : q_(exponent) {}
+  std::string name() const override { return "peak_pressure"; }
+
+  double value(const DesignState& state) const override {
+    const double length = contact_length(state.space().first());
+    const Sum s = sum(state);
+    return s.peak * std::pow(s.value / length, 1 / q_);
+  }
+
+  Vector gradient(const DesignState& state) const override {
+    const std::vector<int>& weak = state.sensitivity().weak();
+    const Sum s = sum(state, weak);
+    if (s.peak == 0) return from_rest(state);
+    Vector gradient = Vector::Zero(state.space().variables());
+    // P = p̂ (S/|Γ|)^{1/q},  dP = P/S Σ (p/p̂)^{q−1} (dλ/p̂ + (1/q − 1) (p/p̂) dw)
+    const double factor = value(state) / s.value;
+    const scene::Solution& solution = *state.solution();
+    Vector by_lambda = Vector::Zero(solution.rows());
+    for_each(s, solution, [&](int, std::size_t, int row, double ratio) { by_lambda[row] += factor * std::pow(ratio, q_ - 1) / s.peak; });
+    if (state.sensitivity().smooth()) {
+      const Adjoint adjoint = state.adjoint(Vector::Zero(solution.unknowns()), by_lambda);
+      for (int i = 0; i < gradient.size(); ++i) gradient[i] = adjoint.along(state.change(i));
+    } else {
+      for (int i = 0; i < gradient.size(); ++i) gradient[i] = by_lambda.dot(state.derivative(i).lambda);
+    }
+    for (int i = 0; i < gradient.size(); ++i) {
+      std::vector<std::vector<double>> weights(s.nodes.size());
+      for (std::size_t c = 0; c < weights.size(); ++c)
+        if (!s.nodes[c].empty()) weights[c] = weight_changes(solution, static_cast<int>(c), state.space().variable(i));
+      for_each(s, solution, [&](int c, std::size_t k, int, double ratio) {
+        gradient[i] += factor * (1 / q_ - 1) * std::pow(ratio, q_) * weights[static_cast<std::size_t>(c)][k];
+      });
+    }
+    return gradient;
+  }
+
+ private:
+  static double contact_length(const scene::Scene& scene) {
+    double length = 0;
+    for (const auto& contact : scene.contacts) {
+      if (contact->kind != scene::Contact::Kind::contact) continue;
+      if (contact->discretisation.multipliers != contact::Multipliers::nodal)
+        throw InputError("peak_pressure is for nodal multipliers; " + contact->name + " has others");
+      for (const contact::ContactRow& row : contact->rows) length += row.weight;
+    }
+    if (!(length > 0)) throw InputError("peak_pressure needs a contact, and the scene has none");
+    return length;
+  }
+
+  /// Of forces in these rows nothing counts: they are rounding.
+  Sum sum(const DesignState& state, const std::vector<int>& without = {}) const {
+    const scene::Solution& solution = *state.solution();
+    Sum s;
+    for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c) {
+      const bool glue = solution.scene().contacts[c]->kind != scene::Contact::Kind::contact;
+      s.nodes.push_back(glue ? std::vector<ContactValue>{} : contact_values(solution, static_cast<int>(c)));
+      for (std::size_t k = 0; k < s.nodes.back().size(); ++k) {
+        ContactValue& node = s.nodes.back()[k];
+        if (std::find(without.begin(), without.end(), solution.model().contact_row[c][k]) != without.end()) node.force = 0;
+        s.peak = std::max(s.peak, node.pressure());
+      }
+    }
+    if (s.peak == 0) return s;
+    for (const auto& list : s.nodes)
+      for (const ContactValue& node : list)
+        if (node.force > 0 && node.weight > 0) s.value += node.weight * std::pow(node.pressure() / s.peak, q_);
+    return s;
+  }
+
+  /// Where nothing presses, P' along a variable is the P of the pressures' derivatives λ'/w ≥ 0 (not linear in the direction).
+  Vector from_rest(const DesignState& state) const {
+    Vector gradient = Vector::Zero(state.space().variables());
+    if (state.sensitivity().smooth()) return gradient;
+    const scene::Solution& solution = *state.solution();
+    const double length = contact_length(state.space().first());
+    for (int i = 0; i < gradient.size(); ++i) {
+      const Vector& lambda = state.derivative(i).lambda;
+      double most = 0, sum = 0;
+      const auto each = [&](auto&& visit) {
+        for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c)
+          if (solution.scene().contacts[c]->kind == scene::Contact::Kind::contact)
+            for (std::size_t k = 0; k < solution.model().contact_row[c].size(); ++k) {
+              const int row = solution.model().contact_row[c][k];
+              const double weight = solution.scene().contacts[c]->rows[k].weight;
+              if (row >= 0 && weight > 0) visit(weight, std::max(0.0, lambda[row] / weight));
+            }
+      };
+      each([&](double, double slope) { most = std::max(most, slope); });
+      if (most > 0) each([&](double weight, double slope) { sum += weight * std::pow(slope / most, q_); });
+      gradient[i] = most * std::pow(sum / length, 1 / q_);
+    }
+    return gradient;
+  }
+
+  /// visit(contact, node, row of B, p/p̂) for every node that presses; for q = 1, which is linear, for all.
+  template <class Visit>
+  void for_each(const Sum& s, const scene::Solution& solution, Visit&& visit) const {
+    for (std::size_t c = 0; c < s.nodes.size(); ++c)
+      for (std::size_t k = 0; k < s.nodes[c].size(); ++k) {
+        const ContactValue& node = s.nodes[c][k];
+        const int row = node.force > 0 || q_ == 1 ? solution.model().contact_row[c][k] : -1;
+        if (row >= 0 && node.weight > 0) visit(static_cast<int>(c), k, row, node.pressure() / s.peak);
+      }
+  }
+
+  double q_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Quantity> peak_pressure(double exponent) {
+  if (!(exponent >= 1) || !std::isfinite(exponent)) throw InputError("the exponent of peak_pressure must be 1 or greater, and finite");
+  return std::make_shared<PeakPressure>(exponent);
+}
+
+}  // namespace dotyk::shape

@@ -1,0 +1,180 @@
+#include "shape/design/extension.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "algebra/direct/cholesky.hpp"
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "elasticity/assembly.hpp"
+#include "shape/derivative/sides.hpp"
+
+namespace dotyk::shape {
+namespace {
+
+using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using mesh::Point;
+using mesh::cross;
+using mesh::dot;
+using mesh::unit;
+
+constexpr double kStraight = 1e-6;  ///< sine of the angle between normals that count as one
+
+/// Directions held at a node: orthonormal.
+struct Held {
+  int count = 0;
+  Point direction[3];
+
+  void add(const Point& normal) {
+    Point rest = normal;
+    for (int pass = 0; pass < 2; ++pass)
+      for (int k = 0; k < count; ++k) {
+        const double share = dot(rest, direction[k]);
+        for (int i = 0; i < 3; ++i) rest[i] -= share * direction[k][i];
+      }
+    if (count < 3 && mesh::length(rest) > kStraight) direction[count++] = unit(rest);
+  }
+
+  /// The directions left free, orthonormal.
+  std::vector<Point> rest() const {
+    if (count == 0) return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    if (count == 3) return {};
+    if (count == 2) return {unit(cross(direction[0], direction[1]))};
+    const Point& n = direction[0];
+    int least = 0;
+    for (int i = 1; i < 3; ++i)
+      if (std::abs(n[i]) < std::abs(n[least])) least = i;
+    Point axis{0, 0, 0};
+    axis[least] = 1;
+    const Point t = unit(cross(n, axis));
+    return {t, cross(n, t)};
+  }
+};
+
+/// Flags of the nodes of parts.
+std::vector<char> nodes_of(const mesh::Mesh& mesh, const std::vector<scene::Part>& parts) {
+  std::vector<char> out(mesh.node_count(), 0);
+  for (const scene::Part& part : parts)
+    for (const mesh::Facet f : part.facets)
+      for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) out[mesh.facet_node(f, k)] = 1;
+  return out;
+}
+
+/// What is held of each node of a body: in the plane all of its boundary, in space what would lead off its sides.
+std::vector<Held> held(const BoundaryMotion& motion) {
+  const mesh::Mesh& mesh = *motion.part.body->mesh;
+  std::vector<Held> out(mesh.node_count());
+  std::vector<char> moves(static_cast<std::size_t>(mesh.cell_count()) * mesh.topology().facets, 0);
+  const auto at = [&](mesh::Facet f) -> char& { return moves[static_cast<std::size_t>(f.cell) * mesh.topology().facets + f.local]; };
+  for (const mesh::Facet f : motion.part.facets) at(f) = 1;
+  for (const mesh::Facet f : mesh::boundary(mesh)) {
+    if (at(f)) continue;
+    for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) {
+      Held& node = out[mesh.facet_node(f, k)];
+      if (mesh.dimension() == 2) node.count = 3;
+      else node.add(unit(mesh.facet_area_vector(f)));
+    }
+  }
+  for (const int node : motion.nodes) out[node].count = 3;
+  return out;
+}
+
+/// The unknown directions of all nodes: components × unknowns, orthonormal columns, and the node of each.
+struct Directions {
+  SparseMatrix Q;
+  std::vector<int> node;
+};
+
+Directions directions(const BoundaryMotion& motion, const std::vector<char>& fixed) {
+  const mesh::Mesh& mesh = *motion.part.body->mesh;
+  const int dim = mesh.dimension();
+  const std::vector<Held> sides = held(motion);
+  std::vector<Eigen::Triplet<double>> entries;
+  Directions out;
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    if (fixed[node]) continue;
+    for (const Point& d : sides[node].rest()) {
+      if (dim == 2 && d[2] != 0) continue;
+      for (int i = 0; i < dim; ++i)
+        if (d[i] != 0) entries.emplace_back(node * dim + i, static_cast<int>(out.node.size()), d[i]);
+      out.node.push_back(node);
+    }
+  }
+  out.Q.resize(static_cast<Eigen::Index>(mesh.coordinates.size()), static_cast<Eigen::Index>(out.node.size()));
+  out.Q.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+/// 2 ε:ε − (div)² = |∇V|² + ∇V:∇Vᵀ − (div V)²: Hooke's law with λ = −μ.
+elasticity::Hooke dirichlet(int dimension) {
+  elasticity::Hooke hooke;
+  hooke.dimension = dimension;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      hooke.c[i][j][i][j] += 1;
+      hooke.c[i][j][j][i] += 1;
+      hooke.c[i][i][j][j] -= 1;
+    }
+  return hooke;
+}
+
+SparseMatrix stiffness(const mesh::Mesh& mesh) {
+  const std::vector<double> zero(mesh.coordinates.size(), 0.0);
+  const elasticity::MaterialField material(dirichlet(mesh.dimension()));
+  return elasticity::assemble(mesh, material, {}, zero, elasticity::number(mesh, std::vector<char>(zero.size(), 0), zero)).K;
+}
+
+/// All velocities (components × variables).
+DenseMatrix harmonic(const BoundaryMotion& motion, const std::vector<char>& fixed) {
+  const mesh::Mesh& mesh = *motion.part.body->mesh;
+  const int dim = mesh.dimension();
+  DenseMatrix V = DenseMatrix::Zero(static_cast<Eigen::Index>(mesh.coordinates.size()), motion.variables());
+  for (std::size_t a = 0; a < motion.nodes.size(); ++a)
+    for (int v = 0; v < motion.variables(); ++v)
+      for (int i = 0; i < dim; ++i) V(motion.nodes[a] * dim + i, v) = motion.velocity(a, v)[i];
+  if (dim == 2) move_sides(motion, fixed, V);
+  const Directions d = directions(motion, fixed);
+  if (d.node.empty()) return V;
+  const SparseMatrix K = SparseMatrix(stiffness(mesh).selfadjointView<Eigen::Lower>());
+  const SparseMatrix reduced = SparseMatrix(d.Q.transpose() * SparseMatrix(K * d.Q)).triangularView<Eigen::Lower>();
+  algebra::Cholesky factor(reduced, d.node, {});
+  if (!factor.factor(reduced)) throw InputError(text("the mesh of '", motion.part.body->name, "' is too distorted to follow ", motion.part.label()));
+  V -= d.Q * factor.solve(d.Q.transpose() * DenseMatrix(K * V));
+  return V;
+}
+
+/// Throws where a fixed part has a node with a velocity.
+void check_fixed(const BoundaryMotion& motion, const std::vector<scene::Part>& fixed, const std::vector<std::vector<double>>& V) {
+  const mesh::Mesh& mesh = *motion.part.body->mesh;
+  const int dim = mesh.dimension();
+  for (const scene::Part& part : fixed)
+    for (const mesh::Facet f : part.facets)
+      for (int k = 0; k < mesh.topology().nodes_per_facet; ++k)
+        for (std::size_t v = 0; v < V.size(); ++v)
+          for (int i = 0; i < dim; ++i) {
+            const int node = mesh.facet_node(f, k);
+            if (V[v][static_cast<std::size_t>(node) * dim + i] != 0)
+              throw InputError(text(part.label(), " is to stay, but variable ", v + 1, " of ", motion.part.label(), " moves its node ",
+                                    point_text(mesh.node(node), dim)));
+          }
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> extend(const BoundaryMotion& motion, const std::vector<scene::Part>& fixed, Extension kind) {
+  for (const scene::Part& part : fixed)
+    if (part.body != motion.part.body) throw InputError(text(part.label(), " is of another body than ", motion.part.label(), "; nothing there moves"));
+  std::vector<std::vector<double>> velocities;
+  if (kind == Extension::structured) {
+    velocities = extend_along_lines(motion);
+  } else {
+    const DenseMatrix V = harmonic(motion, nodes_of(*motion.part.body->mesh, fixed));
+    for (Eigen::Index v = 0; v < V.cols(); ++v) velocities.emplace_back(V.col(v).begin(), V.col(v).end());
+  }
+  check_fixed(motion, fixed, velocities);
+  return velocities;
+}
+
+}  // namespace dotyk::shape

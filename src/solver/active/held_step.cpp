@@ -1,0 +1,224 @@
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "problem/precise.hpp"
+#include "solver/active/held_stiffness.hpp"
+#include "solver/active/step.hpp"
+
+namespace dotyk::solver {
+namespace {
+
+using algebra::SparseRows;
+using algebra::Vector;
+using problem::Problem;
+using problem::LongVector;
+
+/// Spring of a rigid row that holds no unknown, in units of the stiffness that it sees: most of its force then comes with the first solution, while rounding
+/// of displacements, times the spring, stays small in it.
+constexpr double kHeldRowSpring = 100;
+constexpr int kMostSteps = 60, kMostRounds = 3;
+/// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
+constexpr double kOff = 1e-12, kAim = 1e-15;
+/// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at, and how often at most.
+constexpr double kUnbalanced = 1e-12;
+constexpr int kMostRefinements = 6;
+
+class HeldStep final : public Step {
+ public:
+  HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho) : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())) {
+    for (const problem::Block& block : problem.blocks) f_.segment(block.first, block.size()) = block.f;
+  }
+
+  bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
+    sort(l);
+    if (!stiffness_.factor(spring_, held_)) return false;
+    lambda_ = constant_;
+    step();
+    refine();
+    if (!u_.allFinite() || !tie()) return false;
+    finish();
+    if (!lambda_.allFinite()) return false;
+    lambda = lambda_;
+    x = problem_.B * displacement() - problem_.c;
+    return true;
+  }
+
+  Vector recover() override { return displacement(); }
+
+ private:
+  /// What each row does, and u where it is held.
+  void sort(const Linearisation& l) {
+    constant_ = spring_ = target_ = Vector::Zero(problem_.rows());
+    held_.assign(problem_.unknowns(), 0);
+    u_ = LongVector::Zero(problem_.unknowns());
+    holding_.clear(), tied_.clear();
+    for (int r = 0; r < problem_.rows(); ++r) {
+      if (!l.active[r]) {
+        constant_[r] = l.value[r];
+        continue;
+      }
+      target_[r] = problem_.c[r] + l.offset(r, rho_[r]);
+      const double compliance = l.added_compliance(r, rho_[r]);
+      if (compliance > 0) {
+        spring_[r] = 1 / compliance;
+        continue;
+      }
+      const SparseRows::InnerIterator only = sole(r);
+      if (only && !held_[only.col()]) {
+        held_[only.col()] = 1;
+        u_[only.col()] = target_[r] / only.value();
+        holding_.push_back({r, static_cast<int>(only.col()), only.value()});
+      } else {
+        tied_.push_back(r);
+        spring_[r] = kHeldRowSpring * own_[r];
+      }
+    }
+  }
+
+  /// The one entry of a row, else nothing.
+  SparseRows::InnerIterator sole(int row) const {
+    SparseRows::InnerIterator entry;
+    for (SparseRows::InnerIterator it(problem_.B, row); it; ++it) {
+      if (it.value() == 0) continue;
+      if (entry) return {};
+      entry = it;
+    }
+    return entry;
+  }
+
+  Vector displacement() const { return u_.cast<double>(); }
+
+  void step() { u_ += stiffness_.solve(residual()).cast<long double>(); }
+
+  /// Where cells are small beside the body, as with thousands of supports of a beam, one solution leaves forces that are no rounding of the loads.
+  void refine() {
+    double before = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kMostRefinements && u_.allFinite(); ++k) {
+      const Vector left = residual();
+      const double sum = left.lpNorm<1>();
+      if (!(sum > kUnbalanced * gross_) || sum > before / 2) return;
+      before = sum;
+      u_ += stiffness_.solve(left).cast<long double>();
+    }
+  }
+
+  /// f − Ku − Bᵀλ with the springs' multipliers as they are, zero where u is held.
+  Vector residual() { return without_held(forces()); }
+
+  Vector forces() {
+    LongVector all = f_.cast<long double>() - problem::precise_stiffness_times(problem_, u_);
+    gross_ = f_.lpNorm<1>();
+    for (int r = 0; r < problem_.rows(); ++r) {
+      const long double multiplier = lambda_[r] + spring_[r] * gap(r);
+      if (multiplier == 0) continue;
+      for (SparseRows::InnerIterator it(problem_.B, r); it; ++it) {
+        all[it.col()] -= it.value() * multiplier;
+        gross_ += static_cast<double>(std::abs(it.value() * multiplier));
+      }
+    }
+    for (const Holding& h : holding_) gross_ += static_cast<double>(std::abs(all[h.unknown]));
+    return all.cast<double>();
+  }
+
+  /// Bu − t of a row.
+  long double gap(int row) const {
+    long double sum = -target_[row];
+    for (SparseRows::InnerIterator it(problem_.B, row); it; ++it) sum += it.value() * u_[it.col()];
+    return sum;
+  }
+
+  Vector without_held(Vector r) const {
+    for (const Holding& h : holding_) r[h.unknown] = 0;
+    return r;
+  }
+
+  /// λ of tied rows so that Bu = t there. False where they contradict each other.
+  bool tie() {
+    for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round) {
+      approach();
+      step();
+    }
+    return off(tied_gap()) <= kOff;
+  }
+
+  /// Conjugate gradients on B(K + sBᵀB)⁻¹Bᵀ δλ = Bu − t, preconditioned by s, which makes the first step one of the method of multipliers.
+  void approach() {
+    Vector gap = tied_gap(), z = spring_.cwiseProduct(gap), p = z;
+    double energy = gap.dot(z);
+    for (int k = 0; k < kMostSteps && off(gap) > kAim; ++k) {
+      const Vector moved = stiffness_.solve(without_held(problem_.B.transpose() * p));
+      const Vector q = on_tied(problem_.B * moved);
+      const double curvature = p.dot(q);
+      if (!(curvature > 0)) return;
+      const double t = energy / curvature;
+      lambda_ += t * p, u_ -= (t * moved).cast<long double>(), gap -= t * q;
+      z = spring_.cwiseProduct(gap);
+      const double before = std::exchange(energy, gap.dot(z));
+      p = z + energy / before * p;
+    }
+  }
+
+  Vector tied_gap() const {
+    Vector out = Vector::Zero(problem_.rows());
+    for (const int r : tied_) out[r] = static_cast<double>(gap(r));
+    return out;
+  }
+
+  Vector on_tied(const Vector& all) const {
+    Vector out = Vector::Zero(problem_.rows());
+    for (const int r : tied_) out[r] = all[r];
+    return out;
+  }
+
+  /// The greatest gap of a tied row against the displacements in it.
+  double off(const Vector& gap) const {
+    if (!gap.allFinite()) return INFINITY;
+    const double size = tied_.empty() ? 0 : displacement().lpNorm<Eigen::Infinity>();
+    double worst = 0;
+    for (const int r : tied_)
+      if (gap[r] != 0) worst = std::max(worst, std::abs(gap[r]) / (length(r) * size + std::abs(target_[r])));
+    return worst;
+  }
+
+  double length(int row) const {
+    double sum = 0;
+    for (SparseRows::InnerIterator it(problem_.B, row); it; ++it) sum += std::abs(it.value());
+    return sum;
+  }
+
+  /// Multipliers of springs, of rows that hold by equilibrium.
+  void finish() {
+    for (int r = 0; r < problem_.rows(); ++r)
+      if (spring_[r] != 0) lambda_[r] += static_cast<double>(spring_[r] * gap(r));
+    spring_.setZero();
+    const Vector left = forces();
+    for (const Holding& h : holding_) lambda_[h.row] = left[h.unknown] / h.factor;
+  }
+
+  struct Holding {
+    int row, unknown;
+    double factor;
+  };
+
+  const Problem& problem_;
+  HeldStiffness& stiffness_;
+  const Vector& rho_;
+  const Vector own_;
+  Vector f_;
+  Vector constant_, spring_, target_;  ///< rows: λ of those that are not active; s and t of λ = s(Bu − t), and Bu of rigid ones
+  std::vector<char> held_;
+  std::vector<Holding> holding_;
+  std::vector<int> tied_;              ///< rigid rows that hold no unknown
+  LongVector u_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
+  Vector lambda_;
+  double gross_ = 0;                   ///< ‖f‖₁ + ‖Bᵀλ‖₁ of the last forces()
+};
+
+}  // namespace
+
+std::unique_ptr<Step> held_step(const Problem& problem, HeldStiffness& stiffness, const Vector& rho) {
+  return std::make_unique<HeldStep>(problem, stiffness, rho);
+}
+
+}  // namespace dotyk::solver

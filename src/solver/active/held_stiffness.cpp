@@ -1,0 +1,82 @@
+#include "solver/active/held_stiffness.hpp"
+
+#include <algorithm>
+
+#include "algebra/dense/generalised_inverse.hpp"
+
+namespace dotyk::solver {
+
+using algebra::SparseMatrix;
+using algebra::SparseRows;
+using algebra::Vector;
+using problem::Block;
+using problem::Problem;
+using problem::RigidMotions;
+
+namespace {
+
+std::vector<int> nodes(const Problem& problem) {
+  std::vector<int> all;
+  int first = 0;
+  for (const Block& block : problem.blocks) {
+    for (const int n : block.node) all.push_back(first + n);
+    first = all.empty() ? 0 : all.back() + 1;
+  }
+  return all;
+}
+
+}  // namespace
+
+HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering)
+    : problem_(problem), unnoticed_(problem::unnoticed_displacements(problem, rigid)) {
+  assemble();
+  place_rows();
+  for (const int unknown : algebra::fixing_unknowns(unnoticed_)) lower_.coeffRef(unknown, unknown) *= 2;  // carries nothing
+  stiffness_ = Eigen::Map<const Vector>(lower_.valuePtr(), lower_.nonZeros());
+  cholesky_.emplace(lower_, nodes(problem), std::vector<int>{}, ordering);
+}
+
+void HeldStiffness::assemble() {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Block& block : problem_.blocks)
+    for (int j = 0; j < block.size(); ++j)
+      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, it.value());
+  for (int r = 0; r < problem_.rows(); ++r)
+    for (SparseRows::InnerIterator i(problem_.B, r); i; ++i)
+      for (SparseRows::InnerIterator j(problem_.B, r); j && j.col() <= i.col(); ++j) entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.0);
+  for (int i = 0; i < problem_.unknowns(); ++i) entries.emplace_back(i, i, 0.0);
+  lower_.resize(problem_.unknowns(), problem_.unknowns());
+  lower_.setFromTriplets(entries.begin(), entries.end());
+}
+
+void HeldStiffness::place_rows() {
+  const int *column = lower_.outerIndexPtr(), *row = lower_.innerIndexPtr();
+  first_.assign(1, 0);
+  for (int r = 0; r < problem_.rows(); ++r) {
+    for (SparseRows::InnerIterator i(problem_.B, r); i; ++i)
+      for (SparseRows::InnerIterator j(problem_.B, r); j && j.col() <= i.col(); ++j) {
+        const int* at = std::lower_bound(row + column[j.col()], row + column[j.col() + 1], static_cast<int>(i.col()));
+        place_.push_back(static_cast<int>(at - row));
+        product_.push_back(i.value() * j.value());
+      }
+    first_.push_back(static_cast<std::ptrdiff_t>(place_.size()));
+  }
+}
+
+bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held) {
+  double* value = lower_.valuePtr();
+  std::copy(stiffness_.begin(), stiffness_.end(), value);
+  for (int r = 0; r < problem_.rows(); ++r)
+    if (spring[r] != 0)
+      for (std::ptrdiff_t k = first_[r]; k < first_[r + 1]; ++k) value[place_[k]] += spring[r] * product_[k];
+  for (int j = 0; j < lower_.cols(); ++j)
+    for (int k = lower_.outerIndexPtr()[j]; k < lower_.outerIndexPtr()[j + 1]; ++k) {
+      const int i = lower_.innerIndexPtr()[k];
+      if (held[i] || held[j]) value[k] = i == j ? (stiffness_[k] > 0 ? stiffness_[k] : 1) : 0;
+    }
+  return cholesky_->factor(lower_);
+}
+
+Vector HeldStiffness::solve(const Vector& b) const { return problem::least(unnoticed_, cholesky_->solve(b)); }
+
+}  // namespace dotyk::solver

@@ -1,0 +1,91 @@
+#include "solver/active/linearisation.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+using problem::Problem;
+using problem::Projection;
+using problem::RowGroup;
+
+namespace {
+
+Linearisation sized(int rows) {
+  return {Vector::Zero(rows), Vector::Zero(rows), Vector::Zero(rows), std::vector<char>(rows, 0)};
+}
+
+void set(Linearisation& l, int row, double y, Projection p) {
+  l.y[row] = y;
+  l.value[row] = p.lambda;
+  l.slope[row] = p.slope;
+  l.active[row] = p.slope > 0;
+}
+
+/// Is a row whose λ followed x at the end of that, up to rounding, or one whose λ did not at its beginning?
+/// Where one spring follows another, that end is 0.
+bool at_kink(const problem::Law& law, int row, double lambda, double x, double force, double gap, const Linearisation& previous, int r) {
+  const auto [low, high] = law.multipliers(row);
+  if (previous.active[r] && problem::kinked_at_zero(law, row)) return std::abs(lambda) <= force;
+  if (previous.active[r]) return std::min(std::abs(lambda - low), std::abs(lambda - high)) <= force;
+  const auto [from, to] = problem::following(law, row);
+  return std::abs(x - (previous.value[r] >= high ? to : from)) <= gap;
+}
+
+constexpr Projection kOpen{0, 0};
+Projection closed(double y) { return {y, 1}; }
+
+}  // namespace
+
+bool may_open(const problem::Law& law, int row) { return law.unilateral() || law.multipliers(row).low == 0; }
+
+bool Linearisation::same_piece(const Linearisation& other, int row) const {
+  return slope[row] == other.slope[row] && (slope[row] != 0 || value[row] == other.value[row]);
+}
+
+std::uint64_t Linearisation::fingerprint() const {
+  std::uint64_t h = 1469598103934665603ull;  // FNV-1a
+  const auto add = [&h](double number) { h = (h ^ std::bit_cast<std::uint64_t>(number + 0.0)) * 1099511628211ull; };  // −0 is 0
+  for (Eigen::Index r = 0; r < slope.size(); ++r) add(slope[r]), add(slope[r] == 0 ? value[r] : 0);
+  return h;
+}
+
+int Linearisation::active_count() const { return std::accumulate(active.begin(), active.end(), 0); }
+
+Linearisation linearise(const Problem& problem, const Vector& lambda, const Vector& x,
+                        const Vector& rho, const Noise& noise, const Linearisation* previous) {
+  Linearisation l = sized(problem.rows());
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r) {
+      double y = lambda[r] + rho[r] * x[r];
+      if (previous && group.law->unilateral()) {
+        const bool was_closed = previous->active[r];
+        y = was_closed ? lambda[r] : rho[r] * x[r];
+        const bool nothing = was_closed ? std::abs(lambda[r]) <= noise.force[r] : std::abs(x[r]) <= noise.gap[r];
+        if (nothing) {
+          set(l, r, y, was_closed ? closed(y) : kOpen);
+          continue;
+        }
+      }
+      if (previous && !group.law->unilateral() && at_kink(*group.law, r - group.first, lambda[r], x[r], noise.force[r], noise.gap[r], *previous, r))
+        set(l, r, y, {previous->active[r] ? previous->slope[r] * y : previous->value[r], previous->slope[r]});
+      else
+        set(l, r, y, group.law->project(r - group.first, y, rho[r]));
+    }
+  return l;
+}
+
+Linearisation from_flags(const Problem& problem, const std::vector<char>& active, const Vector& rho) {
+  Linearisation l = sized(problem.rows());
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r)
+      set(l, r, 0, may_open(*group.law, r - group.first) && !active[r] ? kOpen
+                   : group.law->unilateral()                           ? closed(0)
+                                                                       : group.law->project(r - group.first, 0, rho[r]));
+  return l;
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+
+#include "problem/rigid_motions.hpp"
+#include "solver/core/solver.hpp"
+#include "solver/active/step.hpp"
+
+namespace dotyk::solver {
+
+/// The primal-dual active set method (TR965 (1.44)–(1.47)), which is Newton's method on
+/// λ = P(λ + ρ(Bu − c)) and so takes every scalar law: in each iteration the branch of every
+/// row is read off y = λ + ρx, then a linear problem is solved; it ends when the branches repeat.
+struct Pdas : Settings {
+  /// Multiplies each row's own stiffness Σ_j B_rj² K_jj (force per displacement): with 1, forces
+  /// and gaps weigh alike. It matters only while both λ and x of a row are nonzero, that is
+  /// from the second linear solve on not at all for contact.
+  double rho = 1.0;
+  /// On the condensed problem (one sparse factorisation in all), or on the whole system
+  /// (one LU an iteration): the same iterates (TR965 remark 1.3).
+  bool reduced = true;
+  /// Where not reduced: by held_step, begun where an interior point method ends (interior_start; not counted among iterations) unless `start` says
+  /// where: for problems with many rows of few unknowns each. The iterates from one start are the same again.
+  bool held = false;
+  /// What solves the linear problem of an iteration where not reduced; empty: full_step.
+  std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>
+      step;
+  /// How the rigid motions of free bodies are treated: exactly, as constraints of the dual, or by
+  /// magnetic screws (TR965 1.2.2; reduced form only).
+  enum class Kernel { exact, screws } kernel = Kernel::exact;
+  /// Rows on which the screws are placed first; empty: chosen.
+  std::vector<int> screws;
+  /// Screws whose multiplier comes out negative are moved, at most so many times in all.
+  int max_moves = 50;
+};
+
+/// Solves. Where Newton steps repeat active sets, meet a singular problem or crawl (after fourteen steps still as many rows change), rescues follow one
+/// another: Gauss–Seidel sweeps that decrease the dual energy (for cycles), a barrier method on the condensed rows, an interior point method on the unknowns.
+/// Each has steps of its own, told in `reason` and not among `iterations`; Newton steps confirm what it found, whatever max_iterations says. Where sets repeat
+/// even so and all laws are unilateral or linear, ActiveSet solves the problem from rest.
+/// Throws InputError where a body is not held, naming its motion.
+Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
+
+}  // namespace dotyk::solver

@@ -1,0 +1,63 @@
+#include "solver/active/refine.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "algebra/dense/lu.hpp"
+#include "solver/rows/natural_map.hpp"
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+using problem::CondensedProblem;
+using problem::Problem;
+using problem::State;
+
+namespace {
+
+/// f − Ku − Bᵀλ.
+Vector out_of_balance(const Problem& problem, const State& state) {
+  Vector left = -(problem::stiffness_times(problem, state.u) + problem.B.transpose() * state.lambda);
+  for (const problem::Block& block : problem.blocks) left.segment(block.first, block.size()) += block.f;
+  return left;
+}
+
+/// Newton's step from this state; nothing where the derivative is singular.
+std::optional<State> step(const Problem& problem, const CondensedProblem& condensed, const State& from) {
+  const Vector balanced = from.u + condensed.response(out_of_balance(problem, from), Vector::Zero(condensed.kernel_size()));
+  const Vector x = problem.B * balanced - problem.c;
+  const CondensedProblem missing = condensed.missing(from.lambda, x);
+  const NaturalMap map(problem, missing, stiffness_of_rows(condensed));
+  // With d the correction to λ: λ + d = P + S(λ + d + ρ(x − Wd + Nα) − y) and y = λ + ρx. That is d = (P − λ) + S(d + ρ(x − Wd + Nα) − ρx),
+  // the map's own equation on the missing problem with P − λ for P and ρx for y.
+  NaturalMap::Value value = map.with_jump(from.lambda, x);
+  value.projected -= from.lambda;
+  value.y = map.rho().cwiseProduct(x);
+  const NaturalMap::System system = map.linearise(value);
+  Vector solved(0), lambda, alpha;
+  if (system.matrix.size() > 0) solved = algebra::Lu(system.matrix).solve(system.right_side);
+  if (!solved.allFinite()) return std::nullopt;
+  map.take(system, solved, lambda, alpha);
+  State to{balanced + condensed.response(-(problem.B.transpose() * lambda), alpha), from.lambda + lambda};
+  return to.u.allFinite() && to.lambda.allFinite() ? std::optional(std::move(to)) : std::nullopt;
+}
+
+}  // namespace
+
+bool refine(const Problem& problem, const CondensedProblem& condensed, State& state, problem::Residual& at) {
+  constexpr int kSteps = 3;
+  const auto off = [](const problem::Residual& r) { return std::max(r.laws(), r.equilibrium); };
+  bool better = false;
+  for (int k = 0; k < kSteps; ++k) {
+    std::optional<State> next = step(problem, condensed, state);
+    if (!next) break;
+    const double before = off(at);
+    const problem::Residual there = problem::residual(problem, *next);
+    if (!(off(there) < before)) break;
+    state = std::move(*next), at = there, better = true;
+    if (off(at) > 0.1 * before) break;
+  }
+  return better;
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "problem/condensed.hpp"
+#include "problem/rigid_motions.hpp"
+#include "solver/active/step.hpp"
+
+namespace dotyk::solver {
+
+/// Magnetic screws (TR965 1.2.2): unilateral rows taken as closed, and rows of given friction taken as stuck where those leave motions along
+/// the contact free ((3.32), p(v) = 0), as many as there are rigid motions that rows notice, such that they hold them all: N_S is regular
+/// (lemmas 1.10–1.12; the determinant of remark 1.6). Motions that no row notices (a planar contact's without friction, a surface of
+/// revolution's) are held by the condition that their amount is zero, the report's p(v) = 0 (1.77).
+class Screws {
+ public:
+  /// N, e: those of the motions that rows notice, Nᵀλ = e. `rows`: where they are placed, or empty for an automatic choice: the rows that
+  /// carry the load in the sparsest equilibrium of the rigid bodies (their predicted pressures are positive), completed
+  /// by rows next to them. Throws InputError where the rows given are too few or too many, repeat, or
+  /// do not hold every motion.
+  Screws(const problem::Problem& problem, algebra::DenseMatrix N, algebra::Vector e, std::vector<int> rows);
+
+  const std::vector<int>& rows() const { return rows_; }
+  /// Ratio of the least to the greatest singular value of N_S: near zero where screws hold badly.
+  double regularity() const;
+  /// |det N_S|, the modes' greatest displacement being 1 (remark 1.6).
+  double determinant() const;
+  int moves() const { return moves_; }
+
+  /// Moves the screw that pulls most, or bears most beyond its friction bound (else the next such), to the row nearest along N that presses or sticks and
+  /// keeps N_S regular, never back to a placement. False where none does (beyond `noise`) or nothing is left to try.
+  bool move(const algebra::Vector& lambda, double noise);
+  bool pulls(const algebra::Vector& lambda, double noise) const;
+
+ private:
+  bool move(int screw, const algebra::Vector& lambda, double noise);
+  void complete();
+  bool regular(const std::vector<int>& rows) const;
+  /// Adds, in this order, rows that hold a motion more, by `least` of the greatest singular value.
+  void add(const std::vector<int>& order, double least);
+  /// How much the row's force is beyond what a screw there may bear, a force: it presses, or sticks, below 0.
+  double excess(int row, const algebra::Vector& lambda) const;
+
+  const problem::Problem& problem_;
+  algebra::DenseMatrix N_;  ///< rows × noticed motions
+  algebra::Vector e_;
+  /// Of each row: may a screw be there, and whose friction it is.
+  std::vector<char> unilateral_, may_hold_;
+  std::vector<const problem::FrictionGroup*> friction_;
+  std::vector<int> rows_;
+  std::set<std::vector<int>> tried_;  ///< placements, ascending
+  int moves_ = 0;
+};
+
+/// One linear problem with the screws closed, by elimination: their multipliers follow from global
+/// equilibrium (1.79)–(1.80), N_Sᵀ λ_S = e − N_Oᵀ λ_O, the rigid motions from x_S = 0, and what is
+/// left for the other active rows is positive definite.
+std::unique_ptr<Step> screw_step(const problem::CondensedProblem& condensed, const algebra::Vector& rho,
+                                 const Screws& screws);
+
+}  // namespace dotyk::solver

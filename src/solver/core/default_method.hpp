@@ -1,0 +1,19 @@
+#pragma once
+
+#include "solver/core/method.hpp"
+
+namespace dotyk::solver {
+
+/// What solves a problem where no method is named.
+enum class DefaultMethod { linear, pdas, sparse_pdas, newton };
+
+/// Without rows one linear solve; with friction, or a law that does not tell its springs, newton; else pdas: on the condensed rows or, sparse, on
+/// all unknowns (reduced = false), where rows are more than 3000 and more than a tenth of the unknowns, as on strips and plates that touch all
+/// along. A dense factor takes the cube of their number then, sparse ones of a thin body far less.
+DefaultMethod default_method(const problem::Problem& problem);
+
+/// By the method, where one is named, else by the default one. A problem without rows takes one linear solve, whatever the
+/// method, unless it cuts bodies into subdomains.
+Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor);
+
+}  // namespace dotyk::solver

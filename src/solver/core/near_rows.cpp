@@ -1,0 +1,153 @@
+#include "solver/core/near_rows.hpp"
+
+#include <algorithm>
+
+namespace dotyk::solver {
+
+using algebra::SparseRows;
+using algebra::Vector;
+using problem::FrictionGroup;
+using problem::Problem;
+using problem::RowGroup;
+
+namespace {
+
+/// Fewer rows are condensed in no time; and so many of a hundred must be left out.
+constexpr int kFewRows = 150, kLeastLeftOut = 20;
+
+/// Points of a friction law picked from all.
+class Picked final : public problem::Friction {
+ public:
+  Picked(std::shared_ptr<const Friction> law, std::vector<int> points) : law_(std::move(law)), points_(std::move(points)) {}
+  std::string name() const override { return law_->name(); }
+  double bound(int point, double normal) const override { return law_->bound(points_[point], normal); }
+  double bound_slope(int point) const override { return law_->bound_slope(points_[point]); }
+
+ private:
+  std::shared_ptr<const Friction> law_;
+  std::vector<int> points_;
+};
+
+/// The least gap at rest of a contact.
+double least_gap(const Problem& problem) {
+  double least = 0;
+  for (const RowGroup& group : problem.groups)
+    if (group.law->unilateral() && group.count > 0) least = std::min(least, problem.c.segment(group.first, group.count).minCoeff());
+  return least;
+}
+
+bool all_held(const Problem& problem) {
+  return std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.kernel.cols() == 0; });
+}
+
+/// Coulomb's friction goes with its normal row; given friction acts on open points as well.
+void add_friction(const Problem& problem, std::vector<char>& near) {
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k)
+      if (group.normal[k] >= 0 && group.law->bound(k, 0) == 0)
+        std::fill_n(near.begin() + group.row(k), group.components, near[group.normal[k]]);
+}
+
+}  // namespace
+
+NearRows::NearRows(const Problem& problem, const std::vector<char>& start) : problem_(problem) {
+  std::vector<char> near(problem.rows(), 1);
+  if (problem.rows() >= kFewRows && all_held(problem) && least_gap(problem) < 0) {
+    for (const RowGroup& group : problem.groups)
+      for (int r = group.first; r < group.first + group.count; ++r)
+        near[r] = !group.law->unilateral() || problem.c[r] <= 0 || (!start.empty() && start[r]);
+    add_friction(problem, near);
+    const auto left_out = std::count(near.begin(), near.end(), 0);
+    if (100 * left_out < kLeastLeftOut * problem.rows()) std::fill(near.begin(), near.end(), 1);
+  }
+  take(std::move(near));
+}
+
+void NearRows::take(std::vector<char> near) {
+  near_ = std::move(near);
+  rows_.clear();
+  for (std::size_t r = 0; r < near_.size(); ++r)
+    if (near_[r]) rows_.push_back(static_cast<int>(r));
+}
+
+Problem NearRows::restricted() const {
+  Problem out;
+  out.blocks = problem_.blocks;
+  std::vector<int> place(near_.size(), -1);
+  out.B = SparseRows(count(), problem_.B.cols());
+  out.c.resize(count());
+  for (int k = 0; k < count(); ++k) {
+    place[rows_[k]] = k;
+    out.c[k] = problem_.c[rows_[k]];
+    if (!problem_.measure.empty()) out.measure.push_back(problem_.measure[rows_[k]]);
+    out.B.startVec(k);
+    for (SparseRows::InnerIterator it(problem_.B, rows_[k]); it; ++it) out.B.insertBack(k, it.col()) = it.value();
+  }
+  out.B.finalize();
+  const auto before = [&](int row) { return static_cast<int>(std::lower_bound(rows_.begin(), rows_.end(), row) - rows_.begin()); };
+  for (const RowGroup& group : problem_.groups) {
+    const int first = before(group.first), count = before(group.first + group.count) - first;
+    if (count > 0) out.groups.push_back({group.name, group.law, first, count});
+  }
+  for (const FrictionGroup& group : problem_.friction) {
+    FrictionGroup picked{group.name, group.law, before(group.first), group.components, {}};
+    std::vector<int> points;
+    for (int k = 0; k < group.points(); ++k) {
+      if (!near_[group.row(k)]) continue;
+      points.push_back(k);
+      picked.normal.push_back(group.normal[k] < 0 ? -1 : place[group.normal[k]]);
+    }
+    if (points.empty()) continue;
+    picked.law = std::make_shared<Picked>(group.law, std::move(points));
+    out.friction.push_back(std::move(picked));
+  }
+  for (const auto& chain : problem_.chains) {
+    std::vector<int> kept;
+    for (const int row : chain)
+      if (near_[row]) kept.push_back(place[row]);
+    if (kept.size() > 1) out.chains.push_back(std::move(kept));
+  }
+  if (problem_.row_name) out.row_name = [name = problem_.row_name, rows = rows_](int row) { return name(rows[row]); };
+  return out;
+}
+
+std::vector<char> NearRows::restricted(const std::vector<char>& flags) const {
+  std::vector<char> out;
+  if (!flags.empty())
+    for (const int row : rows_) out.push_back(flags[row]);
+  return out;
+}
+
+problem::State NearRows::restricted(const problem::State& state) const { return {state.u, state.lambda(rows_)}; }
+
+void NearRows::extend(Result& result) const {
+  const auto spread = [&](std::vector<char>& flags) {
+    if (flags.empty()) return;
+    std::vector<char> out(near_.size(), 0);
+    for (int k = 0; k < count(); ++k) out[rows_[k]] = flags[k];
+    flags = std::move(out);
+  };
+  Vector lambda = Vector::Zero(static_cast<Eigen::Index>(near_.size()));
+  lambda(rows_) = result.state.lambda;
+  result.state.lambda = std::move(lambda);
+  for (auto& flags : result.active_sets) spread(flags);
+  spread(result.slipping);
+}
+
+bool NearRows::join(const Vector& u) {
+  const Vector x = problem_.B * u - problem_.c;
+  double most = 0;
+  for (const RowGroup& group : problem_.groups)
+    for (int r = group.first; r < group.first + group.count; ++r)
+      if (!near_[r]) most = std::max(most, x[r]);
+  if (!(most > 0)) return false;
+  std::vector<char> near = near_;
+  for (const RowGroup& group : problem_.groups)
+    for (int r = group.first; r < group.first + group.count; ++r)
+      if (x[r] > -most) near[r] = 1;
+  add_friction(problem_, near);
+  take(std::move(near));
+  return true;
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "solver/core/solver.hpp"
+
+namespace dotyk::solver {
+
+/// Contact mostly closes on a small part of the boundary where it may: rows that stay open need not be condensed. A problem is solved
+/// on the rows that may close; the gaps of the others are looked at afterwards, and where one has closed its row joins, with those
+/// that came nearly as near.
+class NearRows {
+ public:
+  /// Bodies held by their supports alone, whose overlap at rest tells how far they may come: unilateral rows that overlap or are under
+  /// `start`, and their friction. Rows of every other law are always among them. All rows where that would save little.
+  NearRows(const problem::Problem& problem, const std::vector<char>& start);
+
+  bool all() const { return rows_.size() == near_.size(); }
+  int count() const { return static_cast<int>(rows_.size()); }
+  /// The problem on these rows.
+  problem::Problem restricted() const;
+  std::vector<char> restricted(const std::vector<char>& flags) const;
+  problem::State restricted(const problem::State& state) const;
+  /// Of all rows: what is on others is open and without force.
+  void extend(Result& result) const;
+  /// Lets rows join that have closed at this displacement; false where none has.
+  bool join(const algebra::Vector& u);
+
+ private:
+  void take(std::vector<char> near);
+
+  const problem::Problem& problem_;
+  std::vector<char> near_;  ///< by row
+  std::vector<int> rows_;   ///< those, ascending
+};
+
+}  // namespace dotyk::solver

@@ -1,0 +1,84 @@
+#include "solver/core/settle.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "algebra/dense/null_space.hpp"
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "problem/uniqueness.hpp"
+#include "program/active_set.hpp"
+#include "solver/core/verdict.hpp"
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+
+namespace {
+
+/// What is known of the stress where the displacement is not unique.
+const char* stress(const problem::Problem& problem) {
+  return problem::has_coulomb(problem) ? "; with the stress of this solution" : "; unique stress";
+}
+
+std::string end(double amount) { return std::isfinite(amount) ? text(amount) : amount < 0 ? "-infinity" : "infinity"; }
+
+/// The amounts of free motions nearest to `wanted` in the metric G = DᵀD of their displacements: within their limits, from 0 on.
+Vector nearest_amounts(const problem::FreeMotions& free, const Eigen::MatrixXd& G, const Vector& wanted) {
+  const Eigen::Index k = G.cols(), m = free.limits.rows();
+  program::QuadraticProgram nearest{"nearest", Eigen::MatrixXd(G.triangularView<Eigen::Lower>()).sparseView(), -wanted, 0, free.limits,
+                                    Vector::Constant(m, -INFINITY), free.slack};
+  program::ActiveSet settings;
+  settings.start = program::ActiveSet::Start::cold;
+  settings.point = Vector::Zero(k);
+  Monitor quiet;
+  const program::Result found = program::solve(nearest, settings, quiet);
+  return found.status == program::Status::solved ? found.x : Vector::Zero(k);
+}
+
+/// The motions, how far they go, and of all states that differ by them the one nearest to `before`.
+void take_nearest(const problem::Problem& problem, const problem::FreeMotions& free, const Vector& before, Result& result) {
+  const int count = free.count;
+  Eigen::MatrixXd D = problem::displacement(problem, free.motions);
+  if (free.unnoticed.cols() > 0) {
+    const auto unnoticed = algebra::orthonormal(problem::displacement(problem, free.unnoticed));
+    for (int k = 0; k < count; ++k) D.col(k) = problem::least(unnoticed, D.col(k));
+  }
+  const Vector amounts = nearest_amounts(free, D.transpose() * D, D.transpose() * (before - result.state.u));
+  result.state.u += D * amounts;
+  int widest = 0;
+  problem::Interval range{0, 0};  // of the motion that may go furthest, as a displacement
+  for (int k = 0; k < count; ++k) {
+    const double size = D.col(k).lpNorm<Eigen::Infinity>();
+    const problem::Interval own = free.range(k, amounts);
+    if ((own.high - own.low) * size > range.high - range.low) widest = k, range = {own.low * size, own.high * size};
+  }
+  if (range.high - range.low <= 1e-9 * result.state.u.lpNorm<Eigen::Infinity>()) return;  // they have nowhere to go
+  const std::string which = describe(problem::body_motions(problem), Vector(free.motions.col(widest)));
+  result.reason += text(stress(problem), ", displacement up to ", count == 1 ? which : text(count, " motions, one of them ", which),
+                        ", by displacements from ", end(range.low), " to ", end(range.high),
+                        " at the most: the contacts that hold leave ", count == 1 ? "it" : "them", " free until the next node closes or sticks, so that the mesh decides how "
+                        "far; this is the ", before.isZero(0) ? "least" : "nearest to the step before");
+}
+
+}  // namespace
+
+problem::FreeMotions settle(const problem::Problem& problem, const Vector& before, Result& result) {
+  problem::FreeMotions free;
+  if (!result.converged || problem.rows() == 0) return free;
+  try {
+    free = problem::free_motions(problem, result.state, kOnBound);
+  } catch (const Interrupted&) {
+    result.reason += "; interrupted before it was known which motions the contacts that hold leave free";
+    return free;
+  }
+  // Without loads the rounding of motions added up may be all the strain there is.
+  if (free.count == 1 || (free.count > 0 && free.count <= problem::kMostModes && loaded(problem)))
+    take_nearest(problem, free, before, result);
+  else if (free.count > 0)
+    result.reason += text(stress(problem), ", displacement up to ", free.count, " motions that the contacts that hold leave free",
+                          free.motions.cols() > 0 ? ", one of them " + describe(problem::body_motions(problem), Vector(free.motions.col(0))) : "");
+  return free;
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,86 @@
+#include "solver/core/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/text.hpp"
+
+namespace dotyk::solver {
+
+namespace {
+
+using problem::Problem;
+using problem::Residual;
+
+/// Of forces; stresses of which so much is rounding are no result.
+constexpr double kMostGranted = 0.1;
+
+void require_finite(const Problem& problem, const Result& result, const Residual& r) {
+  const double sum = r.energy + problem::friction_energy(problem, result.state) + r.equilibrium +
+                     r.penetration + r.complementarity + r.law;
+  if (result.state.u.allFinite() && result.state.lambda.allFinite() && std::isfinite(sum)) return;
+  throw std::runtime_error(
+      "the solution has values beyond the range of numbers: stiffness, loads or sizes are too large or too "
+      "small; choose units in which they are moderate");
+}
+
+/// The equilibrium residual less what rounding of motions as a whole makes of it, where that is what is too great: the
+/// reason then says whose stresses suffer.
+double honest_equilibrium(const Problem& problem, double raw, double allowed, Result& result) {
+  if (raw <= allowed || raw > kMostGranted) return raw;
+  const problem::MotionResidual motion = problem::motion_residual(problem, result.state);
+  const double honest = std::max(motion.beyond, motion.resultants);
+  if (motion.most >= 0 && honest <= allowed)
+    result.reason += text("; '", problem.blocks[motion.most].name, "' moves as a whole far more than it deforms: rounding "
+                          "of the displacements leaves its stresses uncertain by about ", raw);
+  return honest;
+}
+
+/// What the method said of its end it said by a test of its own, which is not the last word: told as its words, not as the case.
+void refuse(std::string reason, Result& result) {
+  result.converged = false;
+  result.reason = std::move(reason) + (result.reason.empty() ? "" : "; the method's own test was met: " + result.reason);
+}
+
+void refuse_residuals(const Problem& problem, const Residual& r, Result& result) {
+  const double asked = std::max(result.noise, result.asked), allowed = result.penalty || result.feti ? result.noise : asked;
+  const double equilibrium = honest_equilibrium(problem, r.equilibrium, allowed, result);
+  // A penalised state is off its laws by what the method says, and no more.
+  double penalty = 0;
+  if (result.penalty)
+    for (const problem::Scales& row : problem::scales(problem, result.state))
+      penalty = std::max(penalty, (1 + asked) * result.penalty->penetration / row.length);
+  const double laws = result.penalty ? r.law : r.laws();
+  if (equilibrium > allowed)
+    refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", loaded(problem) ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)",
+                ": stiffnesses, supports or sizes are too far apart ",
+                result.feti ? "for this decomposition, or tol is too great"
+                            : "(a material nearly incompressible, a spring nearly absent, cells nearly flat)"), result);
+  else if (laws > std::max(asked, penalty))
+    refuse(text("the state is off the laws of contact and supports by ", laws, ", which neither tol nor rounding explains"), result);
+}
+
+/// A motion held by a part of the body's own stiffness is known to rounding over that part, whatever the residuals say:
+/// a factor of K is no better.
+void refuse_lost_motions(double softest, Result& result) {
+  const double lost = std::numeric_limits<double>::epsilon() / softest;
+  if (lost > result.noise) refuse(text("rounding may leave ", lost, " of a motion that supports hardly hold"), result);
+}
+
+}  // namespace
+
+bool loaded(const Problem& problem) {
+  return std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& block) { return !block.f.isZero(0); });
+}
+
+Residual judge(const Problem& problem, Result& result, double softest) {
+  const Residual r = problem::residual(problem, result.state);
+  require_finite(problem, result, r);
+  if (result.converged) refuse_residuals(problem, r, result);
+  if (result.converged) refuse_lost_motions(softest, result);
+  return r;
+}
+
+}  // namespace dotyk::solver

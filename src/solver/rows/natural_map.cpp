@@ -1,0 +1,198 @@
+#include "solver/rows/natural_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "algebra/dense/dense.hpp"
+#include "solver/active/linearisation.hpp"
+
+namespace dotyk::solver {
+
+using algebra::DenseMatrix;
+using algebra::SparseRows;
+using algebra::Vector;
+using problem::FrictionGroup;
+using problem::Problem;
+using problem::RowGroup;
+
+Vector stiffness_of_rows(const problem::CondensedProblem& condensed) {
+  const Vector compliance = condensed.W().diagonal();
+  const double least = compliance.size() ? 1e-14 * compliance.maxCoeff() : 0;
+  Vector stiffness(compliance.size());
+  double greatest = 0;
+  for (Eigen::Index r = 0; r < compliance.size(); ++r)
+    if (compliance[r] > least) greatest = std::max(greatest, stiffness[r] = 1 / compliance[r]);
+  for (Eigen::Index r = 0; r < compliance.size(); ++r)
+    if (!(compliance[r] > least)) stiffness[r] = greatest > 0 ? greatest : 1;
+  return stiffness;
+}
+
+NaturalMap::NaturalMap(const Problem& problem, const problem::CondensedProblem& condensed, const Vector& rho)
+    : problem_(&problem), condensed_(&condensed), rho_(rho) {
+  for (const FrictionGroup& group : problem.friction)  // the projection onto a disc needs one ρ
+    for (int k = 0; k < group.points(); ++k)
+      rho_.segment(group.row(k), group.components).setConstant(rho[group.scale_row(k)]);
+  root_ = rho_.cwiseSqrt();
+  const DenseMatrix N = root_.asDiagonal() * condensed.N();
+  if (N.size() == 0) return;
+  auto [Q, R] = algebra::orthogonal_factors(N);
+  Q_ = std::move(Q), R_ = std::move(R);
+}
+
+Vector NaturalMap::alpha(const Vector& a) const {
+  return a.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>().solve(a)) : a;
+}
+
+Vector NaturalMap::scaled_alpha(const Vector& alpha) const {
+  return alpha.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>() * alpha) : alpha;
+}
+
+Vector NaturalMap::scaled_load(const Vector& e) const {
+  return e.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>().transpose().solve(e)) : e;
+}
+
+Vector NaturalMap::unbalanced(const Vector& lambda) const {
+  return scaled_load(condensed_->e() - condensed_->N().transpose() * lambda);
+}
+
+Vector NaturalMap::balancing(const Vector& unbalanced) const {
+  return unbalanced.size() > 0 ? Vector(root_.cwiseProduct(Q_ * unbalanced)) : Vector::Zero(root_.size());
+}
+
+double NaturalMap::greatest_compliance() const {
+  if (root_.size() == 0) return 0;
+  const double of_W = (condensed_->W().cwiseAbs() * root_).cwiseProduct(root_).maxCoeff();
+  return of_W + (condensed_->kernel_size() > 0 ? 1 : 0);
+}
+
+int NaturalMap::Value::differences(const Value& other) const {
+  int count = 0;
+  for (std::size_t r = 0; r < piece.size(); ++r) count += piece[r] != other.piece[r];
+  return count;
+}
+
+NaturalMap::Value NaturalMap::with_jump(const Vector& lambda, Vector x) const {
+  const int m = problem_->rows();
+  Value v;
+  v.projected = Vector::Zero(m);
+  v.x = std::move(x);
+  v.y = lambda + rho_.cwiseProduct(v.x);
+  v.closed.assign(m, 0);
+  v.slipping.assign(m, 0);
+  v.piece.assign(m, 0);
+  Vector slope = Vector::Zero(m);
+  for (const RowGroup& group : problem_->groups)
+    for (int r = group.first; r < group.first + group.count; ++r) {
+      const problem::Projection p = group.law->project(r - group.first, v.y[r], rho_[r]);
+      v.projected[r] = p.lambda;
+      slope[r] = p.slope;
+      if (p.slope == 0) continue;
+      v.slope.emplace_back(r, r, p.slope);
+      v.closed[r] = 1;
+      v.piece[r] = p.lambda < 0 && problem::kinked_at_zero(*group.law, r - group.first) ? 2 : 1;
+      ++v.active;
+    }
+  for (const FrictionGroup& group : problem_->friction)
+    for (int k = 0; k < group.points(); ++k) {
+      const int first = group.row(k), n = group.normal[k], d = group.components;
+      const double bound = group.bound(k, v.projected);
+      if (bound == 0) continue;  // open, or without friction here
+      const problem::DiscProjection p = problem::project_disc(v.y.segment(first, d), bound);
+      v.projected.segment(first, d) = p.value;
+      for (int i = 0; i < d; ++i) {
+        for (int j = 0; j < d; ++j)
+          if (p.slope(i, j) != 0) v.slope.emplace_back(first + i, first + j, p.slope(i, j));
+        const double by_normal = n < 0 ? 0 : p.by_bound[i] * group.law->bound_slope(k) * slope[n];
+        if (by_normal != 0) v.slope.emplace_back(first + i, n, by_normal);
+        v.piece[first + i] = p.stick ? 1 : 2;
+        v.slipping[first + i] = !p.stick;
+      }
+      ++(p.stick ? v.stick : v.slip);
+    }
+  const Vector unbalanced = condensed_->e() - condensed_->N().transpose() * lambda;
+  v.norm = std::sqrt((lambda - v.projected).squaredNorm() + unbalanced.squaredNorm());
+  v.scaled_norm = (lambda - v.projected).cwiseQuotient(root_).norm();
+  v.unbalanced = this->unbalanced(lambda);
+  return v;
+}
+
+NaturalMap::Value NaturalMap::sticking(const std::vector<char>& start) const {
+  const int m = problem_->rows();
+  Value v = at(Vector::Zero(m), Vector::Zero(condensed_->kernel_size()));
+  const double touching = 1e-12 * (m ? problem_->c.lpNorm<Eigen::Infinity>() : 0);
+  std::vector<char> closed(m, 0);
+  for (const RowGroup& group : problem_->groups)
+    for (int r = group.first; r < group.first + group.count; ++r)
+      closed[r] = !may_open(*group.law, r - group.first) || (start.empty() ? !group.law->unilateral() || problem_->c[r] <= touching : start[r]);
+  for (const FrictionGroup& group : problem_->friction)
+    for (int k = 0; k < group.points(); ++k)
+      for (int i = 0; i < group.components; ++i) closed[group.row(k) + i] = group.normal[k] < 0 || closed[group.normal[k]];
+  std::vector<char> scalar(m, 0);
+  for (const RowGroup& group : problem_->groups)
+    for (int r = group.first; r < group.first + group.count; ++r) scalar[r] = !group.law->unilateral() && closed[r];
+  std::erase_if(v.slope, [&](const auto& t) { return !scalar[t.row()]; });
+  for (int r = 0; r < m; ++r) {
+    if (scalar[r]) continue;
+    v.projected[r] = v.y[r] = 0;  // x' = 0 where closed, λ' = 0 elsewhere
+    if (closed[r]) v.slope.emplace_back(r, r, 1.0);
+  }
+  return v;
+}
+
+NaturalMap::System NaturalMap::linearise(const Value& v) const {
+  const int m = problem_->rows();
+  SparseRows S(m, m);
+  S.setFromTriplets(v.slope.begin(), v.slope.end());
+  System system;
+  std::vector<int> place(m, -1);
+  for (int r = 0; r < m; ++r)
+    if (S.outerIndexPtr()[r + 1] > S.outerIndexPtr()[r]) {
+      place[r] = static_cast<int>(system.rows.size());
+      system.rows.push_back(r);
+    }
+  system.fixed = v.projected;
+  for (int r : system.rows) system.fixed[r] = 0;
+  const Eigen::Index n = static_cast<Eigen::Index>(system.rows.size()), k = condensed_->kernel_size();
+  system.matrix = DenseMatrix::Zero(n + k, n + k);
+  system.right_side = Vector::Zero(n + k);
+  const Vector rest = condensed_->jump(system.fixed, Vector());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    fill_row(system, i, S, v, place, rest);
+    if (k > 0) system.matrix.col(i).tail(k) = Q_.row(system.rows[i]).transpose();
+  }
+  system.right_side.tail(k) = unbalanced(system.fixed);
+  return system;
+}
+
+void NaturalMap::fill_row(System& system, Eigen::Index i, const SparseRows& S, const Value& v,
+                          const std::vector<int>& place, const Vector& rest) const {
+  // λ' = projected + S (λ' + ρ x' − y) with x' = x₀ − W λ' + N α', divided by √ρ.
+  DenseMatrix& matrix = system.matrix;
+  double& right_side = system.right_side[i];
+  const Eigen::Index n = static_cast<Eigen::Index>(system.rows.size()), k = matrix.cols() - n;
+  const int r = system.rows[i];
+  matrix(i, i) += 1;
+  right_side = v.projected[r] / root_[r];
+  for (SparseRows::InnerIterator it(S, r); it; ++it) {
+    const int c = static_cast<int>(it.col());
+    const double s = it.value(), by = s * root_[c];
+    if (place[c] >= 0)
+      matrix(i, place[c]) -= s;
+    else
+      right_side += s * system.fixed[c] / root_[c];
+    right_side += by * rest[c] - s * v.y[c] / root_[c];
+    for (Eigen::Index j = 0; j < n; ++j)
+      matrix(i, j) += by * condensed_->W()(c, system.rows[j]) * root_[system.rows[j]];
+    if (k > 0) matrix.row(i).tail(k) -= s * Q_.row(c);
+  }
+}
+
+void NaturalMap::take(const System& system, const Vector& solved, Vector& lambda, Vector& alpha) const {
+  lambda = system.fixed;
+  for (std::size_t i = 0; i < system.rows.size(); ++i)
+    lambda[system.rows[i]] = solved[static_cast<Eigen::Index>(i)] * root_[system.rows[i]];
+  alpha = this->alpha(solved.tail(condensed_->kernel_size()));
+}
+
+}  // namespace dotyk::solver

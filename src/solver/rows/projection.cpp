@@ -1,0 +1,51 @@
+#include "solver/rows/projection.hpp"
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+using problem::FrictionGroup;
+using problem::Problem;
+using problem::RowGroup;
+
+namespace {
+
+int friction_points(const Problem& problem) {
+  int count = 0;
+  for (const FrictionGroup& group : problem.friction) count += group.points();
+  return count;
+}
+
+}  // namespace
+
+Vector friction_bounds(const Problem& problem, const Vector& lambda) {
+  Vector bounds(friction_points(problem));
+  Eigen::Index point = 0;
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k) bounds[point++] = group.bound(k, lambda);
+  return bounds;
+}
+
+Vector project(const Problem& problem, const Vector& y, const Vector& rho, const Vector* bounds) {
+  Vector lambda(y.size());
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r)
+      lambda[r] = group.law->project(r - group.first, y[r], rho[r]).lambda;
+  Eigen::Index point = 0;
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k, ++point) {
+      const auto own = y.segment(group.row(k), group.components);
+      const double bound = bounds ? (*bounds)[point] : group.bound(k, lambda);
+      const double length = own.norm();
+      lambda.segment(group.row(k), group.components) = length <= bound ? Vector(own) : Vector(bound / length * own);
+    }
+  return lambda;
+}
+
+bool bounds_depend_on_normal(const Problem& problem) {
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k)
+      if (group.law->bound_slope(k) != 0) return true;
+  return false;
+}
+
+}  // namespace dotyk::solver

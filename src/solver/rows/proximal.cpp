@@ -1,0 +1,215 @@
+#include "solver/rows/proximal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/dense/lu.hpp"
+#include "base/text.hpp"
+#include "solver/rows/projection.hpp"
+
+namespace dotyk::solver {
+namespace {
+
+using algebra::DenseMatrix;
+using algebra::Vector;
+using problem::CondensedProblem;
+
+constexpr int kNewtonSteps = 12;  // of one iteration
+constexpr int kInnerHalvings = 10;  // of one step
+constexpr double kEndPrecision = 0.1;  // ‖F‖ against ‖λ − λ_k‖ where an iteration ends
+constexpr double kSofter = 100, kHarder = 10;
+constexpr double kLeastSigma = 1e-10, kGreatestSigma = 1e6;  // of σ; beyond the latter nothing moves
+constexpr double kLeastConvex = 1e-8;  // where ρ = 1/σC: less, and rounding of x counts
+constexpr double kNoisyStep = 100;  // noise against what is left: beyond, springs are not made stiffer
+constexpr double kSlow = 0.5;  // fall of the residual in an iteration
+constexpr int kConvexSteps = 40;  // of one iteration, where they cannot go astray
+constexpr int kSections = 30;  // of one such step
+constexpr double kFlat = 1e-3;  // a slope against the first one
+constexpr double kSigma = 0.1, kHolding = 3e-3;  // springs that hold free bodies, against C, at this σ; proportional to σ below it
+
+struct Iterate {
+  Vector lambda, alpha;
+};
+
+/// What each row yields to its own force; all rows of a friction point the mean of theirs.
+Vector compliance_of_rows(const RowIteration& on) {
+  Vector compliance = on.map.rho().cwiseInverse();
+  for (const problem::FrictionGroup& group : on.problem.friction)
+    for (int k = 0; k < group.points(); ++k) {
+      const int n = group.normal[k];
+      double sum = n < 0 ? 0 : compliance[n];
+      for (int i = 0; i < group.components; ++i) sum += on.condensed.W()(group.row(k) + i, group.row(k) + i);
+      const double mean = sum / ((n >= 0) + group.components);
+      if (n >= 0) compliance[n] = mean;
+      compliance.segment(group.row(k), group.components).setConstant(mean);
+    }
+  for (const problem::FrictionGroup& group : on.problem.friction)  // cells of friction may share a normal row
+    for (int k = 0; k < group.points(); ++k)
+      compliance.segment(group.row(k), group.components).setConstant(compliance[group.scale_row(k)]);
+  return compliance;
+}
+
+/// Of the forces that count: the rounding of x, of which springs make the more the stiffer they are.
+double noise(const RowIteration& on, const Vector& springs) {
+  return on.rounding().cwiseQuotient(springs).cwiseQuotient(on.forces()).norm();
+}
+
+/// Newton's method on the problem with springs, from (λ_k, α_k) on.
+class Springs {
+ public:
+  /// `convex`: the bounds of friction are given.
+  Springs(const RowIteration& on, const Vector& springs, double sigma, double tol, bool convex)
+      : convex_(convex), centre_(on.lambda()), W_(on.condensed.W()), softened_(on.condensed.softened(springs, centre_)),
+        map_(on.problem, softened_, convex ? Vector(springs.cwiseInverse()) : Vector((on.map.rho().cwiseInverse() + springs).cwiseInverse())),
+        anchor_(map_.scaled_alpha(on.alpha())), holding_(sigma * std::min(kHolding, kHolding * sigma / kSigma)),
+        forces_(on.forces()), place_{on.lambda(), on.alpha()}, value_(map_.at(place_.lambda, place_.alpha)), enough_(tol),
+        noise_(noise(on, map_.rho().cwiseInverse())) {}
+
+  /// False where it did not come near a solution. One step is always made: the first error may be rounding, and λ yet to move.
+  bool solve() {
+    double before = INFINITY;
+    for (const int most = convex_ ? kConvexSteps : kNewtonSteps; steps_ < most;) {
+      if (!step()) return false;
+      ++steps_;
+      const double left = error();
+      rounded_ = left <= noise_ && left > 0.5 * before;
+      if (rounded_ || left <= std::max(kEndPrecision * moved(), enough_)) return true;
+      before = left;
+    }
+    return false;
+  }
+
+  /// Did the rounding of x end it?
+  bool rounded() const { return rounded_; }
+  Iterate& place() { return place_; }
+  int steps() const { return steps_; }
+
+ private:
+  bool step() {
+    NaturalMap::System system = map_.linearise(value_);
+    system.matrix.diagonal().tail(anchor_.size()).array() += holding_;
+    system.right_side.tail(anchor_.size()) += holding_ * anchor_;
+    Vector solved(0);
+    if (system.matrix.size() > 0) solved = algebra::Lu(system.matrix).solve(system.right_side);
+    if (!solved.allFinite()) return false;
+    Iterate to;
+    map_.take(system, solved, to.lambda, to.alpha);
+    const Iterate from = place_;
+    const Iterate way{to.lambda - from.lambda, to.alpha - from.alpha};
+    if (convex_) descend(from, way);
+    else damp(from, way);
+    return true;  // a short step that increases ‖F‖ a little may lead out of a corner
+  }
+
+  /// a − a_k.
+  Vector motion() const { return map_.scaled_alpha(place_.alpha) - anchor_; }
+
+  /// Of the problem with springs, against the forces that count: F, and of the equation Qᵀv + δ(a − a_k) = ê the forces that would make it
+  /// hold.
+  double error() const { return sum(place_.lambda - value_.projected, value_.unbalanced - holding_ * motion()); }
+  /// How far from (λ_k, α_k), against the forces that count.
+  double moved() const { return sum(place_.lambda - centre_, holding_ * motion()); }
+  double sum(const Vector& force, const Vector& unbalanced) const {
+    return std::hypot(force.cwiseQuotient(forces_).norm(), map_.balancing(unbalanced).cwiseQuotient(forces_).norm());
+  }
+
+  void move(const Iterate& from, const Iterate& way, double length) {
+    place_ = {from.lambda + length * way.lambda, from.alpha + length * way.alpha};
+    value_ = map_.at(place_.lambda, place_.alpha);
+  }
+
+  void damp(const Iterate& from, const Iterate& way) {
+    const double norm = error();
+    double length = 1;
+    for (int halving = 0; halving <= kInnerHalvings; ++halving, length /= 2) {
+      move(from, way, length);
+      if (error() <= (1 - 1e-4 * length) * norm) break;
+    }
+  }
+
+  /// The derivative of the energy along the way, at the place where we are.
+  double slope(const Iterate& way) const {
+    const double along = way.lambda.dot(W_ * (place_.lambda - value_.projected));
+    if (anchor_.size() == 0) return along;
+    return along + map_.scaled_alpha(way.alpha).dot(holding_ * motion() - map_.unbalanced(value_.projected));
+  }
+
+  /// To where the energy, convex along the way, still falls, but by less than half as steeply as at first; the whole way where it falls all along.
+  void descend(const Iterate& from, const Iterate& way) {
+    const double steepest = slope(way);
+    const double norm = error();
+    double low = 0, high = 1, at_low = steepest;
+    move(from, way, 1);
+    double at_high = slope(way);
+    if (!(steepest < 0) || at_high <= -kFlat * steepest || error() <= std::max(kFlat * norm, enough_)) return;
+    for (int k = 0; k < kSections && at_low < 0.5 * steepest; ++k) {
+      const double secant = low - at_low * (high - low) / (at_high - at_low), margin = 0.05 * (high - low);
+      const double length = std::clamp(secant, low + margin, high - margin);
+      move(from, way, length);
+      if (const double here = slope(way); here <= 0) low = length, at_low = here;
+      else high = length, at_high = here;
+    }
+    move(from, way, low > 0 ? low : high);
+  }
+
+  const bool convex_;
+  const Vector centre_;
+  const DenseMatrix& W_;
+  const CondensedProblem softened_;
+  const NaturalMap map_;
+  const Vector anchor_;
+  const double holding_;  ///< δ
+  const Vector forces_;   ///< that count, by row
+  Iterate place_;
+  NaturalMap::Value value_;
+  const double enough_;   ///< of tol
+  const double noise_;    ///< what rounding of x may make; against the forces that count, as these errors are
+  int steps_ = 0;
+  bool rounded_ = false;
+};
+
+/// One Newton step without springs, kept only if the residual falls. Springs make slow progress along a motion that almost nothing resists;
+/// once the pieces of the laws are right, this step is exact.
+void let_go(RowIteration& iteration) {
+  const Iterate from{iteration.lambda(), iteration.alpha()};
+  const double before = iteration.residual();
+  const NaturalMap::System system = iteration.map.linearise(iteration.value());
+  if (system.matrix.size() == 0) return;
+  Iterate to;
+  iteration.map.take(system, algebra::Lu(system.matrix).solve(system.right_side), to.lambda, to.alpha);
+  if (!to.lambda.allFinite() || !to.alpha.allFinite()) return;
+  iteration.move_to(std::move(to.lambda), std::move(to.alpha));
+  if (!(iteration.residual() < before)) iteration.move_to(from.lambda, from.alpha);
+}
+
+}  // namespace
+
+void Proximal::iterate(RowIteration& iteration) const {
+  const Vector compliance = compliance_of_rows(iteration);
+  const bool convex = !bounds_depend_on_normal(iteration.problem);
+  double softness = sigma, before = INFINITY;
+  int steps = 0;
+  while (iteration.next()) {
+    Springs springs(iteration, softness * compliance, softness, 0.1 * tol, convex);
+    const bool solved = springs.solve();
+    steps += springs.steps();
+    if (solved) {
+      iteration.move_to(std::move(springs.place().lambda), std::move(springs.place().alpha));
+      if (iteration.residual() > kSlow * before) let_go(iteration);
+      before = iteration.residual();
+      const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeastSigma);
+      if (springs.rounded()) softness = std::min(kSofter * softness, std::max(softness, sigma));  // of which rounding makes less
+      else if (noise(iteration, harder * compliance) <= kNoisyStep * iteration.residual()) softness = harder;
+    } else {
+      softness *= kSofter;
+    }
+    if (iteration.record()) break;
+    if (softness > kGreatestSigma) {
+      iteration.give_up("no springs are soft enough for Newton's method");
+      break;
+    }
+  }
+  iteration.remark(text(steps, " Newton steps"));
+}
+
+}  // namespace dotyk::solver

@@ -1,0 +1,216 @@
+#include "solver/rows/row_iteration.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "algebra/direct/stop_factoring.hpp"
+#include "base/text.hpp"
+#include "problem/residual.hpp"
+#include "solver/active/refine.hpp"
+#include "solver/core/require_solvable.hpp"
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+using problem::CondensedProblem;
+using problem::Problem;
+
+RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
+                           Monitor& monitor)
+    : RowIteration(on, RowScales(on, rows), rows, settings, rho, monitor) {}
+
+RowIteration::RowIteration(const Problem& on, const RowIteration& outer, const Settings& settings, double rho, Monitor& monitor)
+    : RowIteration(on, outer.scales_, outer.condensed, settings, rho, monitor) {}
+
+RowIteration::RowIteration(const Problem& on, RowScales scales, const CondensedProblem& rows, const Settings& settings, double rho,
+                           Monitor& monitor)
+    : problem(on), condensed(rows), scales_(std::move(scales)), map_(on, rows, rho * scales_.stiffness()), settings_(settings),
+      monitor_(monitor), allowed_(settings.max_iterations) {
+  move_to(Vector::Zero(rows.rows()), Vector::Zero(rows.kernel_size()));
+  recorded_ = value_;
+  first_lambda_ = lambda_, first_alpha_ = alpha_;
+}
+
+double RowIteration::residual() const {
+  const Vector off = problem::distances_from_laws(problem, value_.x, lambda_, scales_.rho(lambda_, alpha_, value_.x, settings_.tol));
+  const Vector force = forces();
+  return std::hypot(off.cwiseQuotient(force).norm(), map_.balancing(value_.unbalanced).cwiseQuotient(force).norm());
+}
+
+Vector RowIteration::forces() const {
+  return scales_.forces(lambda_).unaryExpr([](double f) { return f > 0 ? f : 1; });
+}
+
+void RowIteration::move_to(Vector lambda, Vector alpha) {
+  lambda_ = std::move(lambda);
+  alpha_ = std::move(alpha);
+  value_ = map.at(lambda_, alpha_);
+}
+
+void RowIteration::begin_at(Vector lambda, Vector alpha) {
+  move_to(std::move(lambda), std::move(alpha));
+  recorded_ = value_;
+  best_ = {lambda_, alpha_, residual()};
+  first_lambda_ = lambda_, first_alpha_ = alpha_;
+  begun_ = true;
+}
+
+bool RowIteration::next() {
+  if (result_.iterations >= allowed_ || monitor_.stop()) return false;
+  ++result_.iterations;
+  return true;
+}
+
+bool RowIteration::record(const IterationDetail& detail) {
+  IterationInfo info;
+  info.iteration = result_.iterations;
+  info.active = value_.active;
+  info.stick = value_.stick;
+  info.slip = value_.slip;
+  info.changed = value_.differences(recorded_);
+  info.residual = residual();
+  info.seconds = watch_.seconds();
+  info.singular_value = detail.singular_value;
+  info.contraction = detail.contraction;
+  result_.history.push_back(info);
+  record_active_set();
+  monitor_.iteration(info);
+  recorded_ = value_;
+  if (info.residual < best_.residual) best_ = {lambda_, alpha_, info.residual};
+  if (info.residual < 0.99 * milestone_) milestone_ = info.residual, at_milestone_ = info.iteration;
+  return result_.converged = info.residual <= settings_.tol;
+}
+
+void RowIteration::grant(int more) {
+  allowed_ = result_.iterations + more;
+  result_.reason.clear();
+  milestone_ = std::numeric_limits<double>::infinity();
+  map_ = NaturalMap(problem, condensed, scales_.stiffness());
+  if (best_.lambda.size()) {
+    move_to(std::move(best_.lambda), std::move(best_.alpha));
+    best_ = {lambda_, alpha_, residual()};
+  }
+  move_to(first_lambda_, first_alpha_);
+}
+
+bool RowIteration::stalled(int patience) {
+  // Forces of the size of what the free jump meets, or of the best state's, are the measure.
+  const double measure = best_.lambda.norm() + map.rho().cwiseProduct(condensed.x0()).norm();
+  if (!(lambda_.norm() <= 1e9 * measure)) {
+    give_up(text("the iterates diverge: the multipliers have grown to ", lambda_.norm()));
+    return true;
+  }
+  if (result_.iterations - at_milestone_ < patience) return false;
+  give_up(text("the residual has not fallen for ", patience, " iterations"));
+  return true;
+}
+
+void RowIteration::record_active_set() {
+  if (result_.active_sets.empty() || result_.active_sets.back() != value_.closed)
+    result_.active_sets.push_back(value_.closed);
+}
+
+Result RowIteration::finish() {
+  if (result_.converged)
+    result_.reason = "the residual fell below tol";
+  else if (result_.reason.empty())
+    result_.reason = monitor_.stop() ? "interrupted; this is the state so far"
+                                     : text("no convergence within ", result_.iterations, " iterations");
+  for (const std::string& remark : remarks_) result_.reason += "; " + remark;
+  if (!result_.converged && best_.lambda.size() && !(residual() <= best_.residual)) move_to(best_.lambda, best_.alpha);
+  record_active_set();
+  result_.state.lambda = lambda_;
+  result_.slipping = value_.slipping;
+  return std::move(result_);
+}
+
+namespace {
+
+constexpr double kRounded = 1e-9;  // of laws
+
+/// The amounts of rigid motion that come nearest to the state's jumps.
+Vector rigid_motion_of(const problem::State& state, const Problem& problem, const CondensedProblem& condensed) {
+  if (condensed.kernel_size() == 0) return Vector(0);
+  const Vector none = Vector::Zero(condensed.kernel_size());
+  const Vector jump = problem.B * state.u - problem.c;
+  return condensed.N().colPivHouseholderQr().solve(jump - condensed.jump(state.lambda, none));
+}
+
+/// Have bodies moved so far that the rounding error of their gaps, times the stiffness of the rows, is comparable to the forces of the first
+/// iterate? Relative to such displacements every gap is small, and residuals say nothing.
+bool astray(const RowIteration& iteration) {
+  constexpr double kMost = 1e-3;
+  const Vector& rho = iteration.map.rho();
+  if (rho.size() == 0) return false;
+  const double met = rho.cwiseProduct(iteration.condensed.x0()).norm() + iteration.condensed.e().norm();
+  return !(iteration.rounding().cwiseProduct(rho).maxCoeff() <= kMost * met);
+}
+
+/// Is the state further from its laws than the method means it to be? Then rounding of the condensed problem may be what is left.
+void improve(const Problem& problem, const CondensedProblem& condensed, Result& result) {
+  if (!result.converged || problem.blocks.empty() || problem::distance_from_laws(problem, result.state) <= kRounded) return;
+  problem::Residual r = problem::residual(problem, result.state);
+  if (refine(problem, condensed, result.state, r)) result.reason += "; refined from the displacements";
+}
+
+/// A method's own test may ask for more than rounding leaves: of forces that are small beside the loads, where bodies end up out of each
+/// other's way. What judges any method's state decides then, too.
+void accept(const Problem& problem, Result& result) {
+  constexpr double kRoundings = 100;  // of a product K u
+  if (result.converged || problem.blocks.empty()) return;
+  const problem::Residual r = problem::residual(problem, result.state);
+  const double laws = r.laws();
+  if (!(laws <= kRounded)) return;
+  if (r.equilibrium > std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, result.state))) return;
+  result.converged = true;
+  result.reason = text("the state is off its laws by no more than ", laws, "; ", result.reason);
+}
+
+}  // namespace
+
+Result solve(const Problem& problem, const CondensedProblem& condensed, const RowMethod& method, Monitor& monitor) {
+  method.require_treatable(problem);
+  Stopwatch watch;
+  RowIteration iteration = [&] {
+    const algebra::StopFactoring stop(monitor);
+    return RowIteration(problem, condensed, method, method.map_weight(), monitor);
+  }();
+  if (method.from) iteration.begin_at(method.from->lambda, rigid_motion_of(*method.from, problem, condensed));
+  if (method.from && iteration.residual() <= method.tol && iteration.next())
+    iteration.record();  // nothing is left to do: a method whose residual does not fall at every step would first go away from there
+  else
+    try {
+      const algebra::StopFactoring stop(monitor);
+      method.iterate(iteration);
+    } catch (const Interrupted&) {  // the best of its iterates is kept
+    }
+  Result result = iteration.finish();
+  const Vector alpha = iteration.alpha();
+  result.method = method.name();
+  result.clock.iterate = watch.lap();
+  result.state.u = condensed.recover(result.state.lambda, alpha);
+  improve(problem, condensed, result);
+  if (!monitor.stop() && !astray(iteration)) accept(problem, result);
+  result.clock.recover = watch.lap();
+  result.factor_bytes = condensed.factor_bytes();
+  result.ordering = condensed.ordering();
+  return result;
+}
+
+Result solve(const Problem& problem, const RowMethod& method, Monitor& monitor) {
+  method.require_treatable(problem);
+  problem::Clock clock;
+  const auto [rigid, note] = require_solvable(problem, clock, monitor);
+  problem::Condenser own;
+  const CondensedProblem& condensed =
+      (method.condenser ? *method.condenser : own).condense(problem, rigid, method.ordering, clock, monitor);
+  Result result = solve(problem, condensed, method, monitor);
+  if (!result.converged && !monitor.stop()) require_bearable(problem, condensed, monitor);
+  if (!note.empty()) result.reason += "; " + note;
+  clock.iterate += result.clock.iterate;
+  clock.recover += result.clock.recover;
+  result.clock = clock;
+  return result;
+}
+
+}  // namespace dotyk::solver
