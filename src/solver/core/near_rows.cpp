@@ -79,7 +79,8 @@ Problem NearRows::restricted() const {
   for (int k = 0; k < count(); ++k) {
     place[rows_[k]] = k;
     out.c[k] = problem_.c[rows_[k]];
-    if (!problem_.measure.empty()) out.measure.push_back(problem_.measure[rows_[k]]);
+    const auto row = static_cast<std::size_t>(rows_[k]);
+    if (!problem_.measure.empty()) out.measure.push_back(row < problem_.measure.size() ? problem_.measure[row] : 0);
     out.B.startVec(k);
     for (SparseRows::InnerIterator it(problem_.B, rows_[k]); it; ++it) out.B.insertBack(k, it.col()) = it.value();
   }
