@@ -1,9 +1,11 @@
 #include "plate/loads.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
+#include "algebra/dense/quadrature.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -32,6 +34,12 @@ std::optional<Place> Finder::find(const Vector2d& x) const {
 }
 
 namespace {
+
+/// Along lines and sides.
+const algebra::Quadrature& gauss3() {
+  static const algebra::Quadrature three = algebra::gauss(3);
+  return three;
+}
 
 void add(Vector& load, const Functional& functional, double force) {
   for (const Term& term : functional) load[term.freedom] += term.factor * force;
@@ -82,14 +90,13 @@ std::vector<double> crossings(const Space& space, const Vector2d& from, const Ve
 
 void add_line(const LineLoad& line, const Space& space, const Finder& finder, Vector& load) {
   const Vector2d from(line.from[0], line.from[1]), along = Vector2d(line.to[0], line.to[1]) - from;
-  const double root = std::sqrt(0.6) / 2, points[3] = {0.5 - root, 0.5, 0.5 + root}, weights[3] = {5. / 18, 8. / 18, 5. / 18};
   const auto at = crossings(space, from, along);
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     const double part = at[i + 1] - at[i];
     if (part < 1e-12) continue;
-    for (int g = 0; g < 3; ++g) {
-      const Place place = finder.find(from + (at[i] + points[g] * part) * along, "a line load:");
-      add(load, space.deflection_at(place.cell, place.at), line.force * weights[g] * part * along.norm());
+    for (Eigen::Index g = 0; g < gauss3().points.size(); ++g) {
+      const Place place = finder.find(from + (at[i] + gauss3().points[g] * part) * along, "a line load:");
+      add(load, space.deflection_at(place.cell, place.at), line.force * gauss3().weights[g] * part * along.norm());
     }
   }
 }
@@ -114,64 +121,54 @@ Vector loads(const Plate& plate, const Space& space) {
 
 namespace {
 
-/// Of a load on an edge, by s from −1 to 1: mean + slope s is its L² projection on the linear functions.
-struct LinearLoad {
-  double mean, slope;
-};
-
-/// By Gauss's rule of three points; nothing where the law is no load at one of these.
-std::optional<LinearLoad> projected(const LawField& law, const std::string& part, const Space& space, const Edge& edge) {
-  const double root = std::sqrt(0.6);
+/// The L² projection of the load along a side on the linear functions: its values at the two ends. Nothing where the law is no load at one of Gauss's points.
+std::optional<Vector2d> projected(const LawField& law, const std::string& part, const Space& space, const Edge& edge) {
   const Vector2d a = node_position(*space.mesh, edge.node[0]), along = node_position(*space.mesh, edge.node[1]) - a;
-  LinearLoad out{0, 0};
-  for (const auto& [s, weight] : {std::pair(-root, 5. / 18), {0., 8. / 18}, {root, 5. / 18}}) {
-    const problem::SupportLaw at = law_at(law, part, a + (1 + s) / 2 * along);  // x = 1 stays 1
+  double mean = 0, slope = 0;
+  for (Eigen::Index g = 0; g < gauss3().points.size(); ++g) {
+    const double t = gauss3().points[g];
+    const problem::SupportLaw at = law_at(law, part, a + t * along);  // x = 1 stays 1
     if (at.kind != problem::SupportLaw::Kind::load) return std::nullopt;
-    out.mean += weight * at.value;
-    out.slope += 3 * weight * s * at.value;
+    mean += gauss3().weights[g] * at.value;
+    slope += 3 * gauss3().weights[g] * (2 * t - 1) * at.value;
   }
-  return out;
+  return Vector2d(mean - slope, mean + slope);
 }
 
-/// The loads of a side at its ends: their linear course between does the load's work on every linear deflection. Where the law is no load all
-/// along, its values at those ends where it is one.
-Vector2d at_ends(const EdgeSupport& on, const Space& space, const Edge& edge) {
-  Vector2d out(0, 0);
-  bool all = true;
-  for (int end = 0; end < 2; ++end) {
-    const problem::SupportLaw at = law_at(on.deflection, on.part, node_position(*space.mesh, edge.node[end]));
-    if (at.kind == problem::SupportLaw::Kind::load) out[end] = at.value;
-    else all = false;
-  }
-  if (const auto linear = all ? projected(on.deflection, on.part, space, edge) : std::nullopt) out = {linear->mean - linear->slope, linear->mean + linear->slope};
-  return out;
-}
+/// At a vertex of a part: the law's value there, and what acts about it.
+struct VertexLoad {
+  double value, force = 0;
+};
 
 }  // namespace
 
 void add_law_loads(const Plate& plate, const Space& space, std::vector<Sample>& deflections, std::vector<Sample>& rotations, Vector& load) {
-  std::map<std::pair<int, int>, double> forces;  // by support and vertex
-  for (std::size_t s = 0; s < plate.edges.size(); ++s) {
-    const EdgeSupport& on = plate.edges[s];
-    if (!on.deflection) continue;
-    for (const mesh::Facet f : on.facets) {
+  using Kind = problem::SupportLaw::Kind;
+  std::map<std::pair<int, int>, VertexLoad> loaded;  // by support and vertex
+  for (const Sample& s : deflections)
+    if (s.law.kind == Kind::load) loaded[{s.support, s.place}] = {s.law.value};
+  for (int s = 0; s < static_cast<int>(plate.edges.size()) && !loaded.empty(); ++s)
+    for (const mesh::Facet f : plate.edges[s].facets) {
       const int index = space.edges.of_cell[f.cell][f.local];
       const Edge& edge = space.edges.edges[index];
-      const Vector2d values = at_ends(on, space, edge);
+      const std::array ends{loaded.find({s, edge.node[0]}), loaded.find({s, edge.node[1]})};
+      const bool both = ends[0] != loaded.end() && ends[1] != loaded.end();
+      const auto linear = both ? projected(plate.edges[s].deflection, plate.edges[s].part, space, edge) : std::nullopt;
       for (int end = 0; end < 2; ++end) {
-        if (values[end] == 0) continue;
-        add(load, space.mean_deflection(index, edge.node[end]), values[end]);
-        forces[{static_cast<int>(s), edge.node[end]}] += values[end] * edge.length / 2;
+        if (ends[end] == loaded.end()) continue;
+        VertexLoad& at = ends[end]->second;
+        const double value = linear ? (*linear)[end] : at.value;
+        add(load, space.mean_deflection(index, edge.node[end]), value);
+        at.force += value * edge.length / 2;
       }
     }
-  }
   for (Sample& s : deflections)
-    if (s.law.kind == problem::SupportLaw::Kind::load) s.law.value = forces[{s.support, s.place}] / s.share;
+    if (s.law.kind == Kind::load) s.law.value = loaded.at({s.support, s.place}).force / s.share;
   for (Sample& s : rotations) {
-    if (s.law.kind != problem::SupportLaw::Kind::load) continue;
+    if (s.law.kind != Kind::load) continue;
     const EdgeSupport& on = plate.edges[s.support];
     if (space.element == Element::morley)
-      if (const auto linear = projected(on.rotation, on.part, space, space.edges.edges[s.place])) s.law.value = linear->mean;
+      if (const auto linear = projected(on.rotation, on.part, space, space.edges.edges[s.place])) s.law.value = linear->mean();
     add(load, rotation(space, s), s.law.value * s.share);
   }
 }

@@ -30,8 +30,8 @@ algebra::Vector loads(const Plate& plate, const Space& space);
 
 /// Adds what laws of kind `load` do, and writes the values that act into the samples. Forces that vary along an edge act by their L² projection on the
 /// linear functions of each side, so that their resultants are theirs up to Gauss's rule of three points, and what they do else to the order h⁴; moments by
-/// their mean on a side (Morley) or Simpson's rule (HCT). A law that is a load at nodes and none between
-/// them acts by its values at nodes.
+/// their mean on a side (Morley) or Simpson's rule (HCT). On a side between whose nodes the law is no load, it
+/// acts by its values at these nodes.
 void add_law_loads(const Plate& plate, const Space& space, std::vector<Sample>& deflections, std::vector<Sample>& rotations, algebra::Vector& load);
 
 }  // namespace dotyk::plate

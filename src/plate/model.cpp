@@ -51,7 +51,8 @@ bool load_varies(const std::vector<Sample>& samples) {
   return false;
 }
 
-problem::Block block(const Plate& plate, const Model& model) {
+/// `by_quadrature`: the load is integrated approximately.
+problem::Block block(const Plate& plate, const Model& model, bool by_quadrature) {
   problem::Block block;
   block.name = "plate";
   Stiffness K = stiffness(model.D, plate.nu, model.space, model.held, model.unknown);
@@ -61,7 +62,7 @@ problem::Block block(const Plate& plate, const Model& model) {
   for (int i = 0; i < model.space.count(); ++i)
     if (model.unknown[i] >= 0) block.f[model.unknown[i]] += model.load[i];
   FreeMotions motions = free_motions(model.space, model.held, model.unknown);
-  if (plate.f_of || load_varies(model.deflections) || load_varies(model.rotations)) balance(motions.kernel, block.f);
+  if (by_quadrature) balance(motions.kernel, block.f);
   block.kernel = std::move(motions.kernel);
   block.motions = std::move(motions.motions);
   return block;
@@ -105,8 +106,9 @@ Model build(Plate plate) {
     if (!model.held.is[i]) model.unknown[i] = count++;
   if (count == 0) throw InputError("its supports hold every freedom: the mesh is too coarse; give it more cells");
   model.load = loads(plate, model.space);
+  const bool by_quadrature = plate.f_of || load_varies(model.deflections) || load_varies(model.rotations);
   add_law_loads(plate, model.space, model.deflections, model.rotations, model.load);
-  problem::add(model.problem, block(plate, model));
+  problem::add(model.problem, block(plate, model, by_quadrature));
   add_rows(plate, model);
   if (model.problem.rows() > 0) problem::require_moderate(model.problem, problem::kMostForceOnRows);
   model.problem.blocks.front().node = nodes(model);

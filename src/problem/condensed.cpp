@@ -2,6 +2,7 @@
 
 #include "algebra/dense/dense.hpp"
 #include "algebra/direct/stop_factoring.hpp"
+#include "algebra/pick_rows.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
@@ -21,17 +22,6 @@ std::vector<int> rows_present(const SparseRows& rows) {
   for (int r = 0; r < rows.rows(); ++r)
     if (SparseRows::InnerIterator(rows, r)) present.push_back(r);
   return present;
-}
-
-SparseRows pick_rows(const SparseRows& rows, const std::vector<int>& picked) {
-  SparseRows result(static_cast<int>(picked.size()), rows.cols());
-  for (std::size_t k = 0; k < picked.size(); ++k) {
-    result.startVec(static_cast<int>(k));
-    for (SparseRows::InnerIterator it(rows, picked[k]); it; ++it)
-      result.insertBack(static_cast<int>(k), it.col()) = it.value();
-  }
-  result.finalize();
-  return result;
 }
 
 }  // namespace
@@ -88,7 +78,7 @@ void CondensedProblem::add(const Problem& problem, const Block& block, algebra::
   Stopwatch watch;
   // Only the rows present on this block make columns of the half compliance.
   const std::vector<int> present = rows_present(part.rows);
-  const DenseMatrix own = algebra::gram(part.condensation.half_compliance(pick_rows(part.rows, present)));
+  const DenseMatrix own = algebra::gram(part.condensation.half_compliance(algebra::pick_rows(part.rows, present)));
   for (std::size_t j = 0; j < present.size(); ++j)
     for (std::size_t i = 0; i < present.size(); ++i) W_(present[i], present[j]) += own(i, j);
   modes_ += part.condensation.kernel_size();

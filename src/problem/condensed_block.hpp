@@ -10,6 +10,10 @@ namespace dotyk::problem {
 /// `total` is set by the caller that owns the whole.
 struct Clock {
   double assembly = 0, motions = 0, ordering = 0, factor = 0, iterate = 0, recover = 0, total = 0;
+  /// Adds what another solve took, from motions to recover.
+  void add_solve(const Clock& other) {
+    motions += other.motions, ordering += other.ordering, factor += other.factor, iterate += other.iterate, recover += other.recover;
+  }
 };
 
 /// One block condensed onto the unknowns Γ of the nodes that rows act on.

@@ -8,6 +8,7 @@
 
 #include "algebra/dense/bounded_least_squares.hpp"
 #include "algebra/dense/cone_least_squares.hpp"
+#include "algebra/pick_rows.hpp"
 #include "problem/parts.hpp"
 
 namespace dotyk::problem {
@@ -65,13 +66,7 @@ Carrying carrying(const RigidMotions& rigid, const Problem& problem, const Vecto
       if (group.law->bound_slope(k) > 0) row.push_back(group.normal[k]);
       for (int i = 0; i < group.components; ++i) row.push_back(group.row(k) + i);
     }
-  const SparseRows N = rigid.N;
-  all.rows.resize(static_cast<Eigen::Index>(row.size()), N.cols());
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    all.rows.startVec(static_cast<Eigen::Index>(k));
-    for (SparseRows::InnerIterator it(N, row[k]); it; ++it) all.rows.insertBack(static_cast<Eigen::Index>(k), it.col()) = it.value();
-  }
-  all.rows.finalize();
+  all.rows = algebra::pick_rows(rigid.N, row);
   return all;
 }
 

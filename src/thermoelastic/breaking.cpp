@@ -12,7 +12,7 @@ namespace {
 constexpr int kHalvings = 33;     // of a step, to find when a support breaks: 1e-10 of it
 constexpr double kEqual = 1e-9;  // forces whose relative difference may be rounding
 
-/// The reaction of a breaking support, its limit for unit; 0 of others.
+/// The ratio of a breaking support's reaction to its limit; 0 for other laws.
 double share_of_limit(const Held& held, double reaction) {
   const double r = held.turn * reaction * held.unit;
   return held.law.kind == problem::SupportLaw::Kind::breaking && r > 0 ? r / held.law.limit : 0;

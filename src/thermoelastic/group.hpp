@@ -24,9 +24,9 @@ struct Stepping::Group {
 
   double stored(const Fields& fields, const Forces& loads) const;
   double work_of_places(const Fields& to, const Forces& loads, bool trapezoidal) const;  ///< since `now`
-  /// The greatest reaction of a breaking support, its limit for unit.
+  /// The greatest ratio of a breaking support's reaction to its limit.
   double overload(const std::vector<algebra::Vector>& reactions) const;
-  /// The model without those that bear most of their limit now; their names.
+  /// Takes the breaking supports with this ratio out of the model; gives their names.
   std::vector<std::string> break_worst(bool decompose);
 };
 

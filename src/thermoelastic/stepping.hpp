@@ -64,7 +64,7 @@ class Stepping {
   double time() const { return time_; }
   int steps() const { return steps_; }
   const Data& data() const;
-  /// What was decomposed in every step since a support broke last (in words: "bending").
+  /// The effects, "bending" or "stretching", that were decomposed in every step since the last support broke.
   std::vector<std::string> decomposed() const;
   const Work& work() const { return work_; }
   Energy energy() const;

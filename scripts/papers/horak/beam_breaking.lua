@@ -25,20 +25,20 @@ local E <const>, J <const>, alpha <const>, c <const>, theta <const>, k <const> =
 local function strip(limit)
   return dotyk.thermoelastic_beam{ length = 1, height = 0.02, E = E, expansion = alpha, conductivity = 50, heat_capacity = c, reference_temperature = theta,
     exchange = { above = 250, below = 10 }, ambient = { above = function(t) return 150 * (1 - math.exp(-t / 60)) end },
-    left = clamped, right = { deflection = l.breaking(k, limit) }, step = 5 }
+    left = clamped, right = { deflection = l.breaking(k, limit) }, step = 1 }
 end
 local force <const>, deflection <const> = {}, {}
 local at_once <const> = 1 / k + 1 / (3 * E * J * (1 + theta * E * alpha^2 / c)) -- deflection of latch and end, by force
 print "latch bears [N]   breaks after [s]   set free [J]   g²(1/k + L³/3E*J)/2"
 for _, limit in ipairs{ 150, 300, 420, 1e6 } do
-  local b <const>, name <const> = strip(limit), limit < 1e6 and ("%g N"):format(limit) or "does not break"
+  local b <const>, name <const> = strip(limit), limit < 1e6 and ("breaks at %g N"):format(limit) or "does not break"
   local of <const> = { common.curve(name, { style = "line" }), common.curve(name, { style = "line" }) }
   local function note()
     of[1]:add(b.time / 60, b:reaction("right").force)
     of[2]:add(b.time / 60, 1e3 * b:deflection(1))
   end
   note()
-  for t = 5, 240, 5 do
+  for t = 1, 240 do
     local breaks <const> = #b.broken
     b:run(t)
     if #b.broken > breaks then -- drawn upright

@@ -135,7 +135,7 @@ for i = 0, 20 do
     off = math.max(off, math.abs(exact:deflection(x, y) + x^3 / 6 - (0.15 * x - 1 / 30)))
   end
 end
-local smooth <const> = dotyk.solve(make({ f = free.f, laws = free.laws }, 16, "hct"))
+local smooth <const> = dotyk.solve(make({ f = free.f, laws = free.laws }, finest, "hct"))
 print(("\nfree plate, cubic data: off u by %.0e; smooth data without any support: %s"):format(off, smooth.reason))
 assert(smooth.reason:find "unique up to all rigid motions")
 assert(off < 1e-10 and exact.reason:find "unique up to all rigid motions")
@@ -188,7 +188,7 @@ panels[3].series = { along("κ and -κ", friction.data, { reference = true }), a
   along("Tₙ", friction.T), reactions "friction" }
 panels[5].series = { along("0.001 k", function(...) return down * springs.data(...) end, { reference = true }), along("Tₙ", springs.T), reactions "springs" }
 dotyk.chart{ file = "images/papers_plate_edges.png", panels = panels, columns = 2, size = { 1700, 1500 } }
-solved.free:render{ file = "images/papers_plate_edges_free.png", title = "Free plate under g₂(s), g₃(s) and f" }
+smooth:render{ file = "images/papers_plate_edges_free.png", title = "Free plate under g₂(s), g₃(s) and f" }
 solved.friction:render{ file = "images/papers_plate_edges_friction.png", view = "plan", title = "Friction κ(s): the edge slips up on the left, down on the right" }
 solved.springs:render{ file = "images/papers_plate_edges_springs.png", title = "One-sided springs k(s): the edge is open on the left" }
 print "images/papers_plate_edges.png, …_free.png, …_friction.png, …_springs.png"

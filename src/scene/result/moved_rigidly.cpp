@@ -11,7 +11,7 @@ using algebra::Vector;
 
 namespace {
 
-/// On the unknowns of the body, and the greatest displacement of a node.
+/// How the motion displaces the unknowns of the body, and how far it moves the node that it moves most.
 std::pair<Vector, double> displacement(const Solution& solution, int body, const RigidMotion& motion) {
   const mesh::Mesh& mesh = *solution.body(body).mesh;
   const elasticity::Numbering& numbering = solution.model().numbering[body];

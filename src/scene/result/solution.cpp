@@ -53,14 +53,14 @@ void Solution::take_state(const problem::Problem& problem) {
     displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
 }
 
-std::shared_ptr<Solution> Solution::with(algebra::Vector u) const {
-  const auto other = std::make_shared<Solution>(scene_, model_, nullptr, result_, past_);
-  other->result_ = result_;
-  other->result_.state.u = std::move(u);
-  other->residual_ = problem::residual(model_.problem, other->result_.state);
-  other->take_state(model_.problem);
-  return other;
+Solution::Solution(const Solution& other, algebra::Vector u)
+    : scene_(other.scene_), model_(other.model_), result_(other.result_), past_(other.past_), stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
+  result_.state.u = std::move(u);
+  residual_ = problem::residual(model_.problem, result_.state);
+  take_state(model_.problem);
 }
+
+std::shared_ptr<Solution> Solution::with(algebra::Vector u) const { return std::shared_ptr<Solution>(new Solution(*this, std::move(u))); }
 
 void Solution::add_step(const problem::Problem& problem) {
   const algebra::Vector x = problem.B * result_.state.u - problem.c;

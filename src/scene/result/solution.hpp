@@ -160,6 +160,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
  private:
   ErrorEstimate make_error_estimate() const;
   SupportNode support_node(const LawSupport& support, std::size_t node, const SupportRows& rows, int body) const;
+  Solution(const Solution& other, algebra::Vector u);
   void take_state(const problem::Problem& problem);
   void add_step(const problem::Problem& problem);
   const Locator& locator(int body) const;

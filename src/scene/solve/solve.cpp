@@ -163,11 +163,7 @@ class History {
 
   /// Times are since the first step began.
   void add_times(problem::Clock& step) {
-    clock_.motions += step.motions;
-    clock_.ordering += step.ordering;
-    clock_.factor += step.factor;
-    clock_.iterate += step.iterate;
-    clock_.recover += step.recover;
+    clock_.add_solve(step);
     step = clock_;
   }
 

@@ -26,10 +26,6 @@ Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning 
   return Method(pdas).run(problem, std::move(from), monitor);
 }
 
-void add(const problem::Clock& before, problem::Clock& clock) {
-  clock.motions += before.motions, clock.ordering += before.ordering, clock.factor += before.factor, clock.iterate += before.iterate, clock.recover += before.recover;
-}
-
 /// On the rows that may close; nothing where they do not hold the bodies.
 std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) {
   problem::Clock before;
@@ -37,7 +33,7 @@ std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) 
       const problem::Problem part = near.restricted();
       Result result = run(part, default_method(part), {near.restricted(from.start), nullptr, from.from ? std::make_shared<problem::State>(near.restricted(*from.from)) : nullptr}, monitor);
       near.extend(result);
-      add(before, result.clock);
+      result.clock.add_solve(before);
       if (!result.converged || !near.join(result.state.u)) return result;
       before = result.clock;
       from = {result.active_sets.back(), nullptr, nullptr};

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
+#include "algebra/pick_rows.hpp"
+
 namespace dotyk::solver {
 
-using algebra::SparseRows;
 using algebra::Vector;
 using problem::FrictionGroup;
 using problem::Problem;
@@ -12,7 +13,7 @@ using problem::RowGroup;
 
 namespace {
 
-/// Fewer rows are condensed in no time; and so many of a hundred must be left out.
+/// Leaving rows out is worth it from so many rows on, and where it leaves out at least so many of a hundred.
 constexpr int kFewRows = 150, kLeastLeftOut = 20;
 
 /// Points of a friction law picked from all.
@@ -28,7 +29,7 @@ class Picked final : public problem::Friction {
   std::vector<int> points_;
 };
 
-/// The least gap at rest of a contact.
+/// The least gap at rest of all contacts; 0 where none overlaps.
 double least_gap(const Problem& problem) {
   double least = 0;
   for (const RowGroup& group : problem.groups)
@@ -74,17 +75,14 @@ Problem NearRows::restricted() const {
   Problem out;
   out.blocks = problem_.blocks;
   std::vector<int> place(near_.size(), -1);
-  out.B = SparseRows(count(), problem_.B.cols());
+  out.B = algebra::pick_rows(problem_.B, rows_);
   out.c.resize(count());
   for (int k = 0; k < count(); ++k) {
     place[rows_[k]] = k;
     out.c[k] = problem_.c[rows_[k]];
     const auto row = static_cast<std::size_t>(rows_[k]);
     if (!problem_.measure.empty()) out.measure.push_back(row < problem_.measure.size() ? problem_.measure[row] : 0);
-    out.B.startVec(k);
-    for (SparseRows::InnerIterator it(problem_.B, rows_[k]); it; ++it) out.B.insertBack(k, it.col()) = it.value();
   }
-  out.B.finalize();
   const auto before = [&](int row) { return static_cast<int>(std::lower_bound(rows_.begin(), rows_.end(), row) - rows_.begin()); };
   for (const RowGroup& group : problem_.groups) {
     const int first = before(group.first), count = before(group.first + group.count) - first;

@@ -15,11 +15,11 @@ class NearRows {
 
   bool all() const { return rows_.size() == near_.size(); }
   int count() const { return static_cast<int>(rows_.size()); }
-  /// The problem on these rows.
+  /// The problem with the rows that may close, and without the others.
   problem::Problem restricted() const;
   std::vector<char> restricted(const std::vector<char>& flags) const;
   problem::State restricted(const problem::State& state) const;
-  /// Of all rows: what is on others is open and without force.
+  /// Makes a result of restricted() one of the whole problem: the rows left out are open and bear no force.
   void extend(Result& result) const;
   /// Lets rows join that have closed at this displacement; false where none has.
   bool join(const algebra::Vector& u);
