@@ -7,7 +7,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "beam/solvable.hpp"
-#include "solver/active/pdas.hpp"
+#include "solver/core/default_method.hpp"
 #include "solver/core/settle.hpp"
 
 namespace dotyk::beam {
@@ -19,13 +19,6 @@ constexpr int kMostBreaking = 12;
 /// The condensed problem knows deflections between near supports as differences of those of the whole beam: beyond so many rows PDAS works on the
 /// banded stiffness, which knows them from near by.
 constexpr int kMostCondensed = 16;
-
-solver::Pdas by_size(const problem::Problem& problem) {
-  solver::Pdas pdas;
-  pdas.reduced = problem.rows() <= kMostCondensed;
-  pdas.held = !pdas.reduced;
-  return pdas;
-}
 
 /// Where the choice of broken supports is what the displacements say.
 bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std::vector<Broken>& broken, const Solution& s) {
@@ -41,8 +34,7 @@ bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std:
 }
 
 solver::Result run(const Model& model, const std::string& note, const solver::Method& method, Monitor& monitor) {
-  const solver::Method chosen = method ? method : solver::Method(by_size(model.problem));
-  solver::Result result = chosen.run(model.problem, {}, monitor);
+  solver::Result result = solver::solve(model.problem, method, {}, monitor, model.problem.rows() <= kMostCondensed);
   if (result.converged && !balanced(model.problem, result.state.lambda)) {
     result.converged = false;
     result.reason = kUnbalanced;

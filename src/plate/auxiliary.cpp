@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "plate/rows.hpp"
-#include "solver/active/pdas.hpp"
+#include "solver/core/default_method.hpp"
 
 namespace dotyk::plate {
 
@@ -76,12 +76,7 @@ Remaining without(const Problem& whole, const std::vector<char>& left_out) {
 }  // namespace
 
 solver::Result run(const Problem& problem, const solver::Method& method, Monitor& monitor) {
-  if (problem.rows() == 0) return solver::solve_linear(problem, method.ordering(), monitor);
-  if (method) return method.run(problem, {}, monitor);
-  solver::Pdas pdas;
-  pdas.reduced = condensed_pays(problem);
-  pdas.held = !pdas.reduced;
-  return solver::solve(problem, pdas, monitor);
+  return solver::solve(problem, method, {}, monitor, condensed_pays(problem));
 }
 
 std::optional<LimitCase> solve_limit_case(const Model& model, const Vector& motion, const solver::Method& method, Monitor& monitor) {

@@ -28,12 +28,14 @@ int rigidity(Kind kind) {
     case Kind::one_sided_elastic:
     case Kind::capped_elastic:
     case Kind::unequal_elastic:
+    case Kind::compliance:
+    case Kind::coulomb:
     case Kind::breaking: break;
   }
   return 0;
 }
 
-bool same(const SupportLaw& a, const SupportLaw& b) { return a.kind == b.kind && a.value == b.value && a.limit == b.limit && a.pull == b.pull; }
+bool same(const SupportLaw& a, const SupportLaw& b) { return a.kind == b.kind && a.value == b.value && a.limit == b.limit && a.pull == b.pull && a.power == b.power; }
 
 /// What laws of edges are about.
 struct About {

@@ -27,7 +27,7 @@ Kinds kinds(const Model& model) {
   Kinds out;
   const auto note = [&](const SupportLaw& law, double share) {
     out.signorini |= law.kind == Kind::signorini;
-    out.one_sided_elastic |= law.kind == Kind::one_sided_elastic || (law.kind == Kind::unequal_elastic && (law.value == 0) != (law.pull == 0));
+    out.one_sided_elastic |= law.kind == Kind::one_sided_elastic || law.kind == Kind::compliance || (law.kind == Kind::unequal_elastic && (law.value == 0) != (law.pull == 0));
     const bool yields = law.kind == Kind::capped_elastic, rubs = law.kind == Kind::friction || law.kind == Kind::one_sided_friction;
     out.friction |= yields || rubs;
     out.bound += share * (yields ? law.limit : rubs ? law.value : 0);

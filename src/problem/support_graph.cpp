@@ -22,10 +22,12 @@ double limit_of_reaction(const SupportLaw& law, double v, Side side) {
   switch (law.kind) {
     case Kind::free:
     case Kind::prescribed:
-    case Kind::signorini: return 0;
+    case Kind::signorini:
+    case Kind::coulomb: return 0;
     case Kind::load: return law.value;
     case Kind::elastic: return -k * v;
     case Kind::one_sided_elastic: return below(0) ? -k * v : 0;
+    case Kind::compliance: return below(0) ? k * std::pow(-v, law.power) : 0;
     case Kind::friction: return below(0) ? law.value : -law.value;
     case Kind::one_sided_friction: return below(0) ? law.value : 0;
     case Kind::capped_elastic: return below(-yield) ? law.limit : below(yield) ? -k * v : -law.limit;
@@ -40,6 +42,7 @@ std::vector<double> kinks(const SupportLaw& law) {
   const double yield = yield_displacement(law);
   switch (law.kind) {
     case Kind::one_sided_elastic:
+    case Kind::compliance:
     case Kind::unequal_elastic:
     case Kind::friction:
     case Kind::one_sided_friction: return {0};
@@ -49,6 +52,7 @@ std::vector<double> kinks(const SupportLaw& law) {
     case Kind::prescribed:
     case Kind::load:
     case Kind::elastic:
+    case Kind::coulomb:
     case Kind::signorini: break;
   }
   return {};
@@ -65,6 +69,7 @@ void add_reaction(SupportGraph& g, const SupportLaw& law, const GraphWindow& w) 
   const double from = std::max(w.low, g.low);
   if (law.kind == Kind::signorini) add(piece, 0, w.most);
   add(piece, from, limit_of_reaction(law, from, Side::right));
+  for (int k = 1; law.kind == Kind::compliance && k < kParabola; ++k) add(piece, from - from * k / kParabola, limit_of_reaction(law, from - from * k / kParabola, Side::right));
   for (const double v : kinks(law)) {
     if (!(v > from && v < w.high)) continue;
     const double left = limit_of_reaction(law, v, Side::left), right = limit_of_reaction(law, v, Side::right);
@@ -103,13 +108,15 @@ double yield_displacement(const SupportLaw& law) {
 double energy(const SupportLaw& law, double v) {
   const auto row = row_law(law);
   switch (law.kind) {
-    case Kind::free: return 0;
+    case Kind::free:
+    case Kind::coulomb: return 0;
     case Kind::load: return -law.value * v;
     case Kind::prescribed: return v == law.value ? 0 : kInfinite;
     case Kind::signorini: return v >= 0 ? 0 : kInfinite;
     case Kind::breaking: return row->energy(0, std::min(-v, yield_displacement(law)));
     case Kind::elastic:
     case Kind::one_sided_elastic:
+    case Kind::compliance:
     case Kind::friction:
     case Kind::one_sided_friction:
     case Kind::capped_elastic:

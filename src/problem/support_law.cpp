@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "problem/limited.hpp"
+#include "problem/power_law.hpp"
 
 namespace dotyk::problem {
 
@@ -22,6 +23,8 @@ const char* support_name(Kind kind) {
     case Kind::one_sided_friction: return "one-sided friction";
     case Kind::capped_elastic: return "capped elastic";
     case Kind::unequal_elastic: return "unequal elastic";
+    case Kind::compliance: return "compliance";
+    case Kind::coulomb: return "Coulomb friction";
     case Kind::breaking: return "breaking";
   }
   return "";
@@ -31,20 +34,43 @@ std::string describe(const SupportLaw& law) {
   std::string out = support_name(law.kind);
   if (law.kind != Kind::free && law.kind != Kind::signorini) out += text(" ", law.value);
   if (law.kind == Kind::capped_elastic || law.kind == Kind::breaking) out += text(", at most ", law.limit);
+  if (law.kind == Kind::compliance) out += text(", power ", law.power);
   if (law.kind == Kind::unequal_elastic) out += text(" pushed, ", law.pull, " pulled");
   return out;
 }
 
 bool one_sided(Kind kind) {
-  return kind == Kind::one_sided_elastic || kind == Kind::signorini || kind == Kind::one_sided_friction || kind == Kind::breaking;
+  return kind == Kind::one_sided_elastic || kind == Kind::signorini || kind == Kind::one_sided_friction ||
+         kind == Kind::compliance || kind == Kind::breaking;
 }
 
 bool directed(Kind kind) { return one_sided(kind) || kind == Kind::unequal_elastic; }
 
+bool rubs(Kind kind) { return kind == Kind::friction || kind == Kind::coulomb; }
+
+Status status_of(Kind kind, bool follows, bool bears) {
+  switch (kind) {
+    case Kind::free: return Status::open;
+    case Kind::load:
+    case Kind::prescribed:
+    case Kind::elastic: return Status::closed;
+    case Kind::signorini:
+    case Kind::one_sided_elastic:
+    case Kind::compliance:
+    case Kind::unequal_elastic:
+    case Kind::breaking: return follows ? Status::closed : Status::open;
+    case Kind::one_sided_friction: return follows ? Status::stick : bears ? Status::slip : Status::open;
+    case Kind::friction:
+    case Kind::coulomb:
+    case Kind::capped_elastic: return follows ? Status::stick : Status::slip;
+  }
+  return Status::open;
+}
+
 namespace {
 
 bool elastic(Kind kind) {
-  return kind == Kind::elastic || kind == Kind::one_sided_elastic || kind == Kind::capped_elastic || kind == Kind::unequal_elastic || kind == Kind::breaking;
+  return kind == Kind::compliance || kind == Kind::elastic || kind == Kind::one_sided_elastic || kind == Kind::capped_elastic || kind == Kind::unequal_elastic || kind == Kind::breaking;
 }
 
 /// Numbers so small have no inverse, or lose digits in a product with a length: what is made of them is 0 here and not there.
@@ -65,6 +91,8 @@ void require_valid(const SupportLaw& law) {
     throw InputError(text(support_name(law.kind), " law: the greatest force is ", law.limit, "; it must be zero or positive, and finite"));
   if (!(law.pull >= 0) || !std::isfinite(law.pull))
     throw InputError(text(support_name(law.kind), " law: the stiffness that pulls is ", law.pull, "; it must be zero or positive, and finite"));
+  if (!(law.power >= 1) || !std::isfinite(law.power))
+    throw InputError(text(support_name(law.kind), " law: the power is ", law.power, "; it must be one or more, and finite"));
   if (elastic(law.kind)) {
     require_told_from_none(law, law.value);
     require_told_from_none(law, law.pull);
@@ -82,11 +110,17 @@ std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit, const std
   };
   switch (law.kind) {
     case Kind::free:
-    case Kind::load: return nullptr;
+    case Kind::load:
+    case Kind::coulomb: return nullptr;
     case Kind::prescribed: return bilateral();
     case Kind::signorini: return unilateral();
     case Kind::breaking:
     case Kind::one_sided_elastic: return cut_off(k, 0, rigid);
+    case Kind::compliance: {
+      std::vector<double> factors;
+      for (const double share : shares) factors.push_back(law.value / std::pow(unit, law.power + 1) * share);
+      return power_law(std::move(factors), law.power);
+    }
     case Kind::friction: return cut_off(rigid, -bound, bound);
     case Kind::one_sided_friction: return cut_off(rigid, 0, bound);
     case Kind::capped_elastic: return cut_off(k, -limit, limit);
@@ -108,8 +142,10 @@ std::optional<double> sole_displacement(const SupportLaw& law, double r) {
   const auto within = [&](bool inside, double v) { return inside ? std::optional<double>(v) : std::nullopt; };
   switch (law.kind) {
     case Kind::free:
-    case Kind::load: return std::nullopt;
+    case Kind::load:
+    case Kind::coulomb: return std::nullopt;
     case Kind::prescribed: return law.value;
+    case Kind::compliance: return within(law.value > 0 && r > 0, -std::pow(r / law.value, 1 / law.power));
     case Kind::elastic: return within(law.value > 0, -r / law.value);
     case Kind::one_sided_elastic: return within(law.value > 0 && r > 0, -r / law.value);
     case Kind::signorini: return within(r > 0, 0);

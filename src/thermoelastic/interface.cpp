@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "beam/solvable.hpp"
 #include "problem/solvability.hpp"
-#include "solver/active/pdas.hpp"
+#include "solver/core/default_method.hpp"
 #include "solver/core/verdict.hpp"
 
 namespace dotyk::thermoelastic {
@@ -99,8 +99,7 @@ Vector Interface::solve(Vector g, const Vector& resultants, const SupportsDriven
     const DenseMatrix S = DenseMatrix(problem_.blocks.front().K).selfadjointView<Eigen::Lower>();
     return S.completeOrthogonalDecomposition().solve(g);
   }
-  const solver::Method chosen = method ? method : solver::Method(solver::Pdas{});
-  solver::Result result = chosen.run(problem_, {{}, condenser_}, monitor);
+  solver::Result result = solver::solve(problem_, method, {{}, condenser_}, monitor, true);
   solver::judge(problem_, result);
   if (!result.converged) {
     monitor.check();

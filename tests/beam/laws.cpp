@@ -5,6 +5,7 @@
 #include "../support/exact_beam.hpp"
 #include "base/error.hpp"
 #include "solver/rows/newton.hpp"
+#include "solver/rows/proximal.hpp"
 
 using namespace dotyk;
 using problem::SupportLaw;
@@ -34,6 +35,8 @@ EndCondition branch(const SupportLaw& law, double v, double r) {
     case Kind::breaking:
       CHECK(std::abs(r - g * std::max(-v, 0.0)) < tight);
       return v < 0 ? EndCondition{false, 0, 0, g} : EndCondition{};
+    case Kind::compliance:
+    case Kind::coulomb: FAIL("none of kLaws"); return {};
     case Kind::unequal_elastic:
       CHECK(std::abs(r + (v < 0 ? g : law.pull) * v) < tight);
       return {false, 0, 0, v < 0 ? g : law.pull};
@@ -142,4 +145,21 @@ TEST_CASE("every pair of laws at two ends: in closed form, by several methods, o
   CHECK(solved == 12079);  // as many as with an elastic law in place of the unequal one
   CHECK(refused == 7921);
   CHECK(not_unique == 307);  // the load -0.3 at one end balances 0.3 along the beam, or about the other end
+}
+
+TEST_CASE("compliance: a cantilever on asperities bends as the root of one equation") {
+  constexpr double c = 40, power = 2.5, q = -1;
+  const auto b = test::beam_between(kLength, kEJ, q, {Kind::prescribed}, {Kind::prescribed}, {Kind::compliance, c, 0, 0, power}, {Kind::free});
+  // v = (q L⁴/8 + r L³/3)/EJ, r = c (−v)^m: v by bisection.
+  double low = q * std::pow(kLength, 4) / (8 * kEJ), high = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double v = (low + high) / 2;
+    (v * kEJ < q * std::pow(kLength, 4) / 8 + c * std::pow(-v, power) * std::pow(kLength, 3) / 3 ? low : high) = v;
+  }
+  for (const solver::Method& method : {solver::Method{}, solver::Method{solver::Newton{}}, solver::Method{solver::Proximal{}}}) {
+    const auto s = test::only(b, method);
+    CHECK(s->result().converged);
+    CHECK(s->reaction(1).deflection == doctest::Approx(low).epsilon(1e-9));
+    CHECK(s->reaction(1).force == doctest::Approx(c * std::pow(-low, power)).epsilon(1e-9));
+  }
 }

@@ -23,6 +23,8 @@ inline double off_law(const SupportLaw& law, double v, double r, double displace
     case Kind::signorini: return std::max({-v / displacement, -r / force, std::min(rigid, std::abs(r) / force)});
     case Kind::friction: return std::min(std::max(rigid, (std::abs(r) - law.value) / force), force_off(v > 0 ? -law.value : law.value));
     case Kind::one_sided_friction: return std::min(std::max({rigid, (r - law.value) / force, -r / force}), force_off(v > 0 ? 0 : law.value));
+    case Kind::compliance: return force_off(law.value * std::pow(std::max(-v, 0.0), law.power));
+    case Kind::coulomb:
     case Kind::breaking: break;
   }
   return INFINITY;

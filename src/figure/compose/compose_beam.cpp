@@ -28,10 +28,12 @@ std::vector<double> points(const BeamView& view) {
 ElementKind element_kind(Kind kind) {
   switch (kind) {
     case Kind::free:
-    case Kind::load: return ElementKind::none;
+    case Kind::load:
+    case Kind::coulomb: return ElementKind::none;
     case Kind::prescribed: return ElementKind::fixed;
     case Kind::elastic: return ElementKind::spring;
-    case Kind::one_sided_elastic: return ElementKind::plate_spring;
+    case Kind::one_sided_elastic:
+    case Kind::compliance: return ElementKind::plate_spring;
     case Kind::signorini: return ElementKind::stop;
     case Kind::friction: return ElementKind::slider;
     case Kind::one_sided_friction: return ElementKind::plate_slider;
@@ -47,6 +49,7 @@ SupportState state(const SupportLaw& law, double v, double r, const Scales& scal
   const bool moved = std::abs(v) > kRounding * scale.displacement, pushes = r > kRounding * scale.force;
   switch (law.kind) {
     case Kind::one_sided_elastic:
+    case Kind::compliance:
     case Kind::signorini: return pushes ? SupportState::pushing : SupportState::open;
     case Kind::friction: return moved ? SupportState::slip : SupportState::stick;
     case Kind::one_sided_friction:
@@ -62,6 +65,7 @@ SupportState state(const SupportLaw& law, double v, double r, const Scales& scal
     case Kind::free:
     case Kind::prescribed:
     case Kind::load:
+    case Kind::coulomb:
     case Kind::elastic: break;
   }
   return SupportState::acting;

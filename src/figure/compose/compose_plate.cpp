@@ -17,12 +17,14 @@ namespace {
 PlateSupport support_of(Kind kind) {
   switch (kind) {
     case Kind::free:
-    case Kind::load: return PlateSupport::free;
+    case Kind::load:
+    case Kind::coulomb: return PlateSupport::free;
     case Kind::prescribed: return PlateSupport::held;
     case Kind::elastic:
     case Kind::unequal_elastic: return PlateSupport::elastic;
     case Kind::signorini:
     case Kind::one_sided_elastic:
+    case Kind::compliance:
     case Kind::breaking: return PlateSupport::one_sided;
     case Kind::friction:
     case Kind::one_sided_friction:
@@ -48,7 +50,8 @@ using Ends = std::pair<int, int>;  // vertices of an edge of the mesh, counter-c
 double within(const SupportLaw& law, double reaction) {
   switch (law.kind) {
     case Kind::signorini:
-    case Kind::one_sided_elastic: return std::max(0.0, reaction);
+    case Kind::one_sided_elastic:
+    case Kind::compliance: return std::max(0.0, reaction);
     case Kind::one_sided_friction: return std::clamp(reaction, 0.0, law.value);
     case Kind::friction: return std::clamp(reaction, -law.value, law.value);
     case Kind::capped_elastic: return std::clamp(reaction, -law.limit, law.limit);
@@ -57,6 +60,7 @@ double within(const SupportLaw& law, double reaction) {
     case Kind::load:
     case Kind::elastic:
     case Kind::unequal_elastic:
+    case Kind::coulomb:
     case Kind::breaking: break;
   }
   return reaction;

@@ -13,6 +13,7 @@ namespace dotyk::scene {
 
 using contact::tangents;
 using mesh::Point;
+using Kind = problem::SupportLaw::Kind;
 
 namespace {
 
@@ -28,7 +29,8 @@ class ContactRowMaker {
   }
 
   void normal() {
-    builder_.open_group(contact_.name, problem::unilateral());
+    if (problem::row_law(contact_.normal)) builder_.open_group(contact_.name, nullptr);
+    std::vector<double> shares;
     std::vector<char> moves, held;
     for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
       moves.push_back(this->moves(k, contact_.rows[k].normal));
@@ -47,15 +49,20 @@ class ContactRowMaker {
         pulls.push_back(pull(jump, contact_.rows[jump.row].normal));
         gap += jump.weight * contact_.rows[jump.row].gap;
       }
-      const int r = pulls.empty() || (held[k] && nodal(contact_)) ? -1 : builder_.add(first_, second_, pulls, gap);
+      if (contact_.normal.kind == Kind::prescribed) gap -= contact_.normal.value;
+      const bool none = pulls.empty() || (held[k] && nodal(contact_)) || !problem::row_law(contact_.normal);
+      const int r = none ? -1 : builder_.add(first_, second_, pulls, gap);
       model_.contact_row.back().push_back(r);
       std::vector<double>& measure = model_.problem.measure;
-      if (r >= 0) measure.resize(static_cast<std::size_t>(r) + 1, 0), measure.back() = row.measure;
+      if (r < 0) continue;
+      measure.resize(static_cast<std::size_t>(r) + 1, 0), measure.back() = row.measure;
+      shares.push_back(row.measure);
     }
+    if (problem::row_law(contact_.normal)) model_.problem.groups.back().law = problem::row_law(contact_.normal, 1, shares);
   }
 
-  void friction() {
-    if (contact_.friction == Friction::Kind::none) return;
+  void tangential() {
+    if (contact_.friction == Friction::Kind::none && contact_.tangential.kind == Kind::free) return;
     std::vector<Candidate> points = nodal(contact_) ? nodal_points() : cell_points();
     for (int components = 1; components < dim_; ++components)
       for (const bool slips : {true, false}) add(points, components, slips);
@@ -65,7 +72,7 @@ class ContactRowMaker {
   /// A friction point before it has rows.
   struct Candidate {
     contact::FrictionCell cell;
-    bool slips;  ///< the bound is finite
+    bool slips;  ///< friction with a finite bound; else a row of its own for each tangent: no slip, or a spring
     int normal;  ///< row of B
     std::vector<Point> tangents;  ///< along which some unknown moves
   };
@@ -82,10 +89,14 @@ class ContactRowMaker {
 
   void require_apart(const contact::ContactRow& row) {
     const std::optional<double> jump = jumps_.given(row);
-    if (!jump) return;  // a partner further away moves
+    if (!jump || (contact_.normal.kind != Kind::signorini && contact_.normal.kind != Kind::prescribed)) return;  // a partner further away moves
     const double gap = row.gap + mesh::dot(row.normal, model_.move.back()) - *jump;
     // Rounding of coordinates may leave a fixed node this far inside.
-    if (gap < -1e-9 * contact_.first.body->mesh->size())
+    const double rounding = 1e-9 * contact_.first.body->mesh->size();
+    if (contact_.normal.kind == Kind::prescribed && std::abs(gap - contact_.normal.value) > rounding)
+      throw InputError(text(contact_.name, ": the node at ", point_text(contact_.first.body->mesh->node(row.node), dim_),
+                            " is fixed in the normal direction, ", gap, " off the other side; no displacement can make that the prescribed ", contact_.normal.value));
+    if (contact_.normal.kind == Kind::signorini && gap < -rounding)
       throw InputError(text(contact_.name, ": the node at ",
                             point_text(contact_.first.body->mesh->node(row.node), dim_),
                             " is fixed in the normal direction and lies ", -gap,
@@ -102,7 +113,7 @@ class ContactRowMaker {
 
   std::vector<Candidate> nodal_points() const {
     std::vector<Candidate> points;
-    const bool given = contact_.friction == Friction::Kind::tresca;
+    const bool given = contact_.friction == Friction::Kind::tresca, springs = contact_.friction == Friction::Kind::none;
     std::vector<char> aside = contact::at_corners(contact_.rows);
     if (!given) aside.assign(aside.size(), 0);  // the bound goes with the node's own pressure: a neighbour's may be none
     const std::vector<std::vector<contact::Term>> nodes = surroundings(aside);
@@ -112,12 +123,12 @@ class ContactRowMaker {
       double bound = 0, measure = 0;
       for (const contact::Term& node : nodes[k]) {
         const double weight = node.weight * contact_.rows[node.row].weight;
-        bound += contact_.friction_value[node.row] * (given ? weight : 1);
+        bound += springs ? contact_.tangential.value * weight : contact_.friction_value[node.row] * (given ? weight : 1);
         measure += weight;
       }
       const int n = model_.contact_row.back()[k];
-      if (bound == 0 || (n < 0 && !given)) continue;  // a product below all numbers is no friction, either
-      Candidate point{{{{static_cast<int>(k), 1}}, nodes[k], bound, measure, {}}, std::isfinite(bound), n, {}};
+      if (bound == 0 || (n < 0 && !given && !springs)) continue;  // a product below all numbers is no friction, either
+      Candidate point{{{{static_cast<int>(k), 1}}, nodes[k], bound, measure, {}}, !springs && std::isfinite(bound), n, {}};
       point.tangents = scene::free_tangents(free_[k], row.normal, dim_);
       points.push_back(std::move(point));
     }
@@ -180,11 +191,11 @@ class ContactRowMaker {
   /// The points of one kind, with this many free tangents each.
   void add(const std::vector<Candidate>& points, int components, bool slips) {
     std::vector<int> normal;
-    std::vector<double> bounds;
+    std::vector<double> bounds, shares;
     int first_row = -1;
     for (const Candidate& point : points) {
       if (point.slips != slips || static_cast<int>(point.tangents.size()) != components) continue;
-      if (first_row < 0) first_row = slips ? builder_.open_friction() : open_bilateral();
+      if (first_row < 0) first_row = slips ? builder_.open_friction() : open_group();
       FrictionRows rows{point.cell, 0, {-1, -1}, {}};
       for (const Point& t : point.tangents) {
         const int i = rows.count++;
@@ -194,19 +205,22 @@ class ContactRowMaker {
           pulls.push_back(pull(jump, rows.at(i, contact_.rows[jump.row], dim_)));
         double jump = 0;
         rows.row[i] = builder_.add(first_, second_, pulls, jump);
+        shares.push_back(point.cell.measure);
       }
       model_.friction.back().push_back(std::move(rows));
       normal.push_back(point.normal);
       bounds.push_back(point.cell.bound);
     }
+    if (!slips && !normal.empty() && contact_.friction == Friction::Kind::none)
+      model_.problem.groups.back().law = problem::row_law(contact_.tangential, 1, shares);
     if (!slips || normal.empty()) return;
     auto law = contact_.friction == Friction::Kind::tresca ? problem::tresca(std::move(bounds))
                                                            : problem::coulomb(std::move(bounds));
     model_.problem.friction.push_back({contact_.name, std::move(law), first_row, components, std::move(normal)});
   }
 
-  int open_bilateral() {
-    builder_.open_group(contact_.name + " (no slip)", problem::bilateral());
+  int open_group() {
+    builder_.open_group(contact_.name + (contact_.friction == Friction::Kind::none ? " (tangential)" : " (no slip)"), problem::bilateral());
     return 0;
   }
 
@@ -267,8 +281,8 @@ void add_normal_rows(const Scene& scene, const Contact& contact, const FreeJumps
   ContactRowMaker(scene, contact, jumps, builder, model).normal();
 }
 
-void add_friction_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model) {
-  ContactRowMaker(scene, contact, jumps, builder, model).friction();
+void add_tangential_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model) {
+  ContactRowMaker(scene, contact, jumps, builder, model).tangential();
 }
 
 }  // namespace dotyk::scene

@@ -13,7 +13,7 @@ void add_normal_rows(const Scene& scene, const Contact& contact, const FreeJumps
 /// where multipliers are nodal. No rows where the bound or coefficient is 0; rows that never slip where it is
 /// infinite. The normal row of a friction point is its node's; of a cell (given friction only, whose bound does
 /// not depend on it) that of the node with most weight in it.
-void add_friction_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model);
+void add_tangential_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model);
 
 /// The nearest of a node's partners. Where nodes do not match and supports hold both, as on a plane of symmetry, there is no row
 /// (as between matching nodes), though partners further in may move: multipliers there would hold the second part alone.

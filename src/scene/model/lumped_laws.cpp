@@ -22,6 +22,7 @@ constexpr double kRigid = 1e4, kLoose = 1e-10;
 
 /// The reaction against x = −v, per length or area; 0 of laws that are not elastic.
 double reaction(const SupportLaw& law, double x) {
+  if (law.kind == Kind::compliance) return law.value * std::pow(std::max(0.0, x), law.power);
   const bool pushes_only = law.kind == Kind::one_sided_elastic || law.kind == Kind::breaking;
   const double force = spring_stiffness(law, x) * (pushes_only ? std::max(0.0, x) : x);
   return law.kind == Kind::capped_elastic ? std::clamp(force, -law.limit, law.limit) : force;

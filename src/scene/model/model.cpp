@@ -161,7 +161,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
     model.friction.emplace_back();
     if (contact->kind == Contact::Kind::contact) {
       add_normal_rows(scene, *contact, jumps, builder, model);
-      add_friction_rows(scene, *contact, jumps, builder, model);
+      add_tangential_rows(scene, *contact, jumps, builder, model);
     } else {
       add_glue_rows(scene, *contact, builder, model.glue_row.back());
     }

@@ -22,7 +22,7 @@ class SupportRowMaker {
 
   std::vector<SupportRows> operator()() {
     if (problem::row_law(support_.normal)) normal();
-    if (support_.tangential.kind == Kind::friction)
+    if (problem::rubs(support_.tangential.kind))
       friction();
     else if (problem::row_law(support_.tangential))
       tangential();
@@ -69,13 +69,16 @@ class SupportRowMaker {
       for (std::size_t k = 0; k < rows_.size(); ++k) {
         const contact::NodeSide& side = support_.nodes[k];
         const std::vector<Point> free = free_tangents(side);
-        if (static_cast<int>(free.size()) != components || support_.tangential.value == 0) continue;
+        const bool coulomb = support_.tangential.kind == Kind::coulomb;
+      const double value = support_.friction_value.empty() ? support_.tangential.value : support_.friction_value[k];
+      if (static_cast<int>(free.size()) != components || value == 0 || (coulomb && rows_[k].normal < 0)) continue;
         for (const Point& t : free) rows_[k].add(add(side, t, support_.tangential, 0), t);
-        bounds.push_back(support_.tangential.value * side.weight);
-        normal.push_back(-1);
+        bounds.push_back(coulomb ? value : value * side.weight);
+        normal.push_back(coulomb ? rows_[k].normal : -1);
       }
       if (!bounds.empty())
-        model_.problem.friction.push_back({name("tangential"), problem::tresca(std::move(bounds)), first, components, std::move(normal)});
+        model_.problem.friction.push_back({name("tangential"), support_.tangential.kind == Kind::coulomb ? problem::coulomb(std::move(bounds)) : problem::tresca(std::move(bounds)),
+                                           first, components, std::move(normal)});
     }
   }
 

@@ -39,10 +39,10 @@ Rubbing rubbing(const Contact& contact, const Model& model, int index, const sol
   const std::size_t count = contact.rows.size();
   Rubbing rubbing{std::vector<Point>(count, Point{0, 0, 0}), std::vector<char>(count, 0), std::vector<char>(count, 0)};
   std::vector<double> slipping(count, 0), sticking(count, 0);
-  const bool given = contact.friction == Friction::Kind::tresca;
+  const bool given = contact.friction == Friction::Kind::tresca, capped = contact.tangential.kind == problem::SupportLaw::Kind::capped_elastic;
   for (const FrictionRows& rows : model.friction[index]) {
     bool slips = false;
-    for (int i = 0; i < rows.count; ++i) slips = slips || (!result.slipping.empty() && result.slipping[rows.row[i]]);
+    for (int i = 0; i < rows.count; ++i) slips = slips || (capped ? !result.active_sets.empty() && !result.active_sets.back()[rows.row[i]] : !result.slipping.empty() && result.slipping[rows.row[i]]);
     for (const contact::Term& node : rows.cell.nodes) {
       const double g = given ? contact.friction_value[node.row] : INFINITY;
       const double density = node.weight * (std::isfinite(g) ? g / rows.cell.bound : 1 / rows.cell.measure);
@@ -132,8 +132,10 @@ ContactResult Solution::contact(const Contact& asked) const {
     node.pressure = pressure[k];
     node.force = pressure[k] * row.weight;
     node.shear = rubbing.shear[k];
-    if (r >= 0 ? active(r) : node.pressure > 0) node.status = problem::Status::closed;
-    if (node.status == problem::Status::closed && rubbing.rubs[k])
+    const auto kind = contact.normal.kind;
+    const bool follows = r >= 0 ? active(r) : node.pressure > 0;
+    if (kind != problem::SupportLaw::Kind::free && problem::status_of(kind, follows, node.pressure != 0) != problem::Status::open) node.status = problem::Status::closed;
+    if ((node.status == problem::Status::closed || kind == problem::SupportLaw::Kind::free) && rubbing.rubs[k])
       node.status = rubbing.slips[k] ? problem::Status::slip : problem::Status::stick;
     for (int i = 0; i < 3; ++i) {
       result.force[i] += force[k][i];

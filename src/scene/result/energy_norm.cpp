@@ -1,5 +1,7 @@
 #include "scene/result/energy_norm.hpp"
 
+#include <cmath>
+
 #include "elasticity/assembly.hpp"
 
 namespace dotyk::scene {
@@ -49,7 +51,9 @@ double spring_stiffness(const problem::SupportLaw& law, double x) {
     case Kind::load:
     case Kind::signorini:
     case Kind::friction:
-    case Kind::one_sided_friction: return 0;
+    case Kind::one_sided_friction:
+    case Kind::coulomb: return 0;
+    case Kind::compliance: return x > 0 ? law.value * law.power * std::pow(x, law.power - 1) : 0;
   }
   return 0;
 }

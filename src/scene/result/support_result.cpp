@@ -11,26 +11,7 @@ namespace {
 using mesh::Point;
 using mesh::dot;
 using problem::Status;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
-
-/// Of a law at a node: `follows` while its λ follows the displacement (or is any), `bears` while λ is not 0.
-Status status_of(Kind kind, bool follows, bool bears) {
-  switch (kind) {
-    case Kind::free: return Status::open;
-    case Kind::load:
-    case Kind::prescribed:
-    case Kind::elastic: return Status::closed;
-    case Kind::signorini:
-    case Kind::one_sided_elastic:
-    case Kind::unequal_elastic:
-    case Kind::breaking: return follows ? Status::closed : Status::open;
-    case Kind::one_sided_friction: return follows ? Status::stick : bears ? Status::slip : Status::open;
-    case Kind::friction:
-    case Kind::capped_elastic: return follows ? Status::stick : Status::slip;
-  }
-  return Status::open;
-}
+using Kind = problem::SupportLaw::Kind;
 
 void count(const SupportNode& node, SupportResult& result) {
   if (node.status != Status::open) result.area += node.weight;
@@ -89,11 +70,11 @@ SupportNode Solution::support_node(const LawSupport& support, std::size_t k, con
   for (int i = 0; i < 3; ++i) node.shear[i] = (sum[i] + node.pressure * side.weight * side.normal[i]) / side.weight;
   node.broken = support.breaks(k);
   if (rows.normal >= 0 || support.normal.kind == Kind::load)
-    node.status = status_of(support.normal.kind, rows.normal >= 0 && active(rows.normal), node.pressure != 0);
+    node.status = problem::status_of(support.normal.kind, rows.normal >= 0 && active(rows.normal), node.pressure != 0);
   if (rows.count == 0 && support.tangential.kind != Kind::load) return node;
-  const bool rubs = support.tangential.kind == Kind::friction;
+  const bool rubs = problem::rubs(support.tangential.kind);
   const auto slips = [&](int r) { return rubs ? !result_.slipping.empty() && result_.slipping[r] : !active(r); };
-  node.tangential = status_of(support.tangential.kind, std::none_of(rows.row, rows.row + rows.count, slips), true);
+  node.tangential = problem::status_of(support.tangential.kind, std::none_of(rows.row, rows.row + rows.count, slips), true);
   return node;
 }
 

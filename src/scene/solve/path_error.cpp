@@ -34,6 +34,7 @@ std::optional<double> share_of_path(const Solution& solution) {
   bool follows = false, by_others = false;
   double stuck = 0, sum = 0;
   for (std::size_t c = 0; c < solution.model().contacts.size(); ++c) {
+    if (solution.model().contacts[c]->tangential.kind != problem::SupportLaw::Kind::free) continue;  // springs have no memory
     const std::vector<char> closed = closed_on_the_way(solution, c);
     if (solution.model().friction[c].empty()) by_others = by_others || std::find(closed.begin(), closed.end(), 1) != closed.end();
     for (const FrictionRows& rows : solution.model().friction[c]) {

@@ -22,10 +22,13 @@ std::string describe_contact(const Contact& contact) {
     return text("  ", contact.name, ": ", contact.glued.size(), pairing[static_cast<int>(contact.pairing)]);
   const char* multipliers =
       contact.discretisation.multipliers == contact::Multipliers::p1_p0 ? ", multipliers P1-P0" : "";
-  return text("  ", contact.name, ": ", contact.rows.size(),
-              contact.friction == Friction::Kind::tresca    ? " rows, given friction"
-              : contact.friction == Friction::Kind::coulomb ? " rows, Coulomb friction"
-                                                            : " rows, frictionless",
+  using LawKind = problem::SupportLaw::Kind;
+  const std::string normal = contact.normal.kind == LawKind::signorini ? "" : "normal " + problem::describe(contact.normal) + ", ";
+  return text("  ", contact.name, ": ", contact.rows.size(), " rows, ", normal,
+              contact.friction == Friction::Kind::tresca    ? "given friction"
+              : contact.friction == Friction::Kind::coulomb ? "Coulomb friction"
+              : contact.tangential.kind == LawKind::free    ? "frictionless"
+                                                            : "tangential " + problem::describe(contact.tangential),
               how[static_cast<int>(contact.pairing)], multipliers);
 }
 

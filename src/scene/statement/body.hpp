@@ -95,13 +95,14 @@ struct SpringPatch {
 ///
 /// Normal: v = −u·n, n outward: positive away from the support, into the body; the reaction pushes towards v > 0.
 /// Tangential, in the plane: v = u·t, t the normal turned by 90° anticlockwise (along x at the bottom of a block), and
-/// the reaction along t. In space the vector of both tangents: elastic and rigid friction (‖r‖ ≤ g) are isotropic.
+/// the reaction along t. In space the vector of both tangents: elastic and friction (‖r‖ ≤ g, or μ times the normal law's pressure) are isotropic.
 /// Loads and prescribed displacements are of no load case.
 struct LawSupport {
   PartMark part;
   std::vector<mesh::Facet> facets;
   std::vector<contact::NodeSide> nodes;
   problem::SupportLaw normal, tangential;
+  std::vector<double> friction_value = {};  ///< by node, of friction that varies; empty: tangential.value
   std::vector<char> broken = {};  ///< of a breaking normal law: the nodes where it is; empty: none
   bool breaks(std::size_t node) const { return node < broken.size() && broken[node]; }
 };
@@ -177,11 +178,14 @@ std::vector<mesh::Point> cell_forces(const Body& body);
 void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness);
 
 /// Support laws on a part, numbers per length (2-D) or area (3-D); those of kind `free` are not given. A
-/// second call on the same part may give the law that the first left free. Throws InputError, leaving the body as it
-/// was, where a number is negative or not finite, a tangential law has no meaning (one-sided; in space also a load, a
+/// second call on the same part may give the law that the first left free. `friction`: of friction that varies, its bound or
+/// coefficient, asked at the nodes. Throws InputError, leaving the body as it
+/// was, where Coulomb friction has no normal law, a number is negative or not finite, a tangential law has no meaning (one-sided; in space also a load, a
 /// displacement other than 0 and capped elastic), a facet of the part has a law in that direction already, or
 /// other supports hold that direction at all nodes of the part.
-void support(Part& part, const problem::SupportLaw& normal, const problem::SupportLaw& tangential);
+void support(Part& part, const problem::SupportLaw& normal, const problem::SupportLaw& tangential, const elasticity::ScalarField& friction = {});
+/// Throws InputError where a law cannot be tangential: one that tells directions, and in space what is not isotropic.
+void require_tangential(const problem::SupportLaw& law, int dimension);
 /// Throws InputError where supports hold a direction, normal or tangential, that a law of the body is about, at all
 /// nodes of its part.
 void require_laws_free(const Body& body, const elasticity::Numbering& numbering);

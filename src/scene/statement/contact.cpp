@@ -98,11 +98,34 @@ void refuse_repeated_shape(const Scene& scene, const Contact& fresh) {
   }
 }
 
-/// Evaluates the friction at the contact nodes.
-void set_friction(Contact& contact, const Friction& friction) {
+/// Throws InputError where an interface of two parts, or of a part and a rigid shape, cannot have the law.
+void require_of_interface(const Contact& contact) {
+  const auto refuse = [&](const problem::SupportLaw& law, const char* direction, const std::string& why) {
+    throw InputError(text("the ", contact.name, " cannot have the ", direction, " law ", problem::support_name(law.kind), ": ", why));
+  };
+  using Kind = problem::SupportLaw::Kind;
+  problem::require_valid(contact.normal);
+  if (contact.normal.kind == Kind::load) refuse(contact.normal, "normal", "a given pressure is no law of an interface; part:pressure on each part is the same");
+  if (contact.normal.kind == Kind::breaking) refuse(contact.normal, "normal", "only supports break (part:support); its force is not monotone, and a contact's nodes have no memory of it");
+  require_tangential(contact.tangential, contact.first.body->dimension());
+  if (contact.tangential.kind == Kind::load) refuse(contact.tangential, "tangential", "a given shear is no law of an interface; part:load on each part is the same");
+  if (contact.tangential.kind == Kind::prescribed && contact.tangential.value != 0) refuse(contact.tangential, "tangential", "a given slip is not known; prescribed(0) is no slip");
+  if (contact.friction == Friction::Kind::coulomb && !problem::row_law(contact.normal))
+    refuse(contact.normal, "normal", "Coulomb's bound is mu times the normal force, and here there is none; take given friction");
+}
+
+/// Sets the laws; friction is evaluated at the contact nodes.
+void set_laws(Contact& contact, const InterfaceLaws& laws) {
+  contact.normal = laws.normal;
+  contact.tangential = laws.tangential;
+  Friction friction = laws.friction;
+  if (contact.tangential.kind == problem::SupportLaw::Kind::prescribed) friction = {Friction::Kind::tresca, [](const mesh::Point&) { return INFINITY; }};
+  if (contact.tangential.kind == problem::SupportLaw::Kind::friction) friction = {Friction::Kind::tresca, [g = contact.tangential.value](const mesh::Point&) { return g; }};
+  contact.friction = friction.kind;
+  require_of_interface(contact);
+  if (friction.kind != Friction::Kind::none) contact.tangential = {};
   if (friction.kind == Friction::Kind::none) return;
   const bool given = friction.kind == Friction::Kind::tresca;
-  contact.friction = friction.kind;
   for (const contact::ContactRow& row : contact.rows) {
     const mesh::Point x = contact.first.body->mesh->point(row.node);
     const double value = friction.value(x);
@@ -127,6 +150,9 @@ void set_discretisation(Contact& contact, const Discretisation& discretisation) 
     throw InputError("'friction_ends' is about the cells of friction on a line, with multipliers = \"P1-P0\"; it is given "
                      "without them");
   if (discretisation.multipliers == contact::Multipliers::nodal) return;
+  const bool elastic = contact.tangential.kind == problem::SupportLaw::Kind::elastic || contact.tangential.kind == problem::SupportLaw::Kind::capped_elastic;
+  if (contact.normal.kind != problem::SupportLaw::Kind::signorini || elastic)
+    throw InputError("multipliers = \"P1-P0\" are for Signorini's law with given friction: other laws tell the force at a node by what happens there; take \"nodal\"");
   for (const Part* part : {&contact.first, &contact.second})
     if (part->body && part->body->mesh->topology().order == 2)
       throw InputError(text("multipliers = \"P1-P0\" are for cells of order 1; '", part->body->name, "' is of ", part->body->mesh->topology().name,
@@ -163,7 +189,7 @@ contact::Surface surface_of(const Contact& contact) {
 }
 
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
-                                           const elasticity::ScalarField& added_gap, const Friction& friction,
+                                           const elasticity::ScalarField& added_gap, const InterfaceLaws& laws,
                                            bool interference, const Discretisation& discretisation,
                                            std::optional<contact::Pairing> pairing, Monitor* monitor) {
   require_member(scene, first);
@@ -180,7 +206,7 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
   contact.turned = paired.turned;
   if (contact.turned) std::swap(contact.first, contact.second);
   if (contact.pairing != contact::Pairing::mortar && contact.first.body->mesh->topology().order == 1) set_weights(contact);
-  set_friction(contact, friction);
+  set_laws(contact, laws);
   set_discretisation(contact, discretisation);
   refuse_repetition(scene, contact);
   contact.seconds = watch.seconds();
@@ -189,7 +215,7 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, cons
 
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
                                            const elasticity::ScalarField& added_gap, bool interference,
-                                           const Friction& friction, const Discretisation& discretisation) {
+                                           const InterfaceLaws& laws, const Discretisation& discretisation) {
   require_member(scene, part);
   Contact contact;
   contact.name = text("contact of ", part.label(), " with a ", contact::name(shape));
@@ -197,7 +223,7 @@ std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const
   contact.interference = interference;
   contact.rows = contact::against(*part.body->mesh, part.facets, shape, added_gap, interference);
   refuse_repeated_shape(scene, contact);
-  set_friction(contact, friction);
+  set_laws(contact, laws);
   set_discretisation(contact, discretisation);
   contact.shape = shape;
   if (auto* gap = std::get_if<contact::RigidGap>(&contact.shape)) gap->gap = nullptr;

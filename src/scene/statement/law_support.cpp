@@ -15,22 +15,6 @@ using mesh::Point;
 using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
 
-void require_tangential(const SupportLaw& law, int dimension) {
-  const bool plane = dimension == 2;
-  const char* allowed = plane ? "free, prescribed, load, elastic, friction and capped_elastic"
-                              : "free, prescribed(0), elastic and friction, which have no direction of their own";
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(text("a ", problem::support_name(law.kind), " law cannot be tangential: ", why,
-                          "; a tangential law ", plane ? "in the plane" : "in space", " is one of ", allowed));
-  };
-  if (problem::one_sided(law.kind)) refuse("slip to either side is alike, and nothing is open");
-  if (problem::directed(law.kind)) refuse("slip to either side is alike");
-  if (plane) return;
-  if (law.kind == Kind::load) refuse("it does not say along which tangent (part:load does)");
-  if (law.kind == Kind::prescribed && law.value != 0) refuse("it does not say along which tangent (part:displace does)");
-  if (law.kind == Kind::capped_elastic) refuse("a spring that slips is not among the laws of two components");
-}
-
 bool shares_facet(const LawSupport& a, const LawSupport& b) {
   std::set<std::pair<int, int>> of_a;
   for (const mesh::Facet& f : a.facets) of_a.insert({f.cell, f.local});
@@ -61,7 +45,47 @@ void require_free(const Body& body, const elasticity::Numbering& numbering, cons
                         "' is held at each of its nodes, and has the law ", problem::support_name(law.kind), " as well"));
 }
 
+/// Throws InputError for Coulomb friction without a normal law; under a given pressure its bound is given.
+void settle_coulomb(const Body& body, LawSupport& on) {
+  if (on.tangential.kind != Kind::coulomb) return;
+  if (!given(on.normal))
+    throw InputError(text("part '", on.part.name, "' of '", body.name, "' has Coulomb friction and no normal law: its bound is mu times the normal reaction; give 'normal', or given friction"));
+  if (on.normal.kind != Kind::load) return;
+  const double pressure = std::max(0.0, on.normal.value);
+  on.tangential = {Kind::friction, on.tangential.value * pressure};
+  for (double& mu : on.friction_value) mu *= pressure;
+}
+
+/// The bound or coefficient at each node, where it varies.
+std::vector<double> at_nodes(const Body& body, const LawSupport& on, const elasticity::ScalarField& friction) {
+  std::vector<double> values;
+  for (const contact::NodeSide& side : on.nodes) {
+    const Point x = body.mesh->point(side.node);
+    values.push_back(friction(x));
+    if (!(values.back() >= 0) || !std::isfinite(values.back()))
+      throw InputError(text("the friction is ", std::isnan(values.back()) ? "not a number" : text(values.back()), " at ", point_text(x.data(), body.dimension()), "; it must be zero or positive, and finite"));
+  }
+  return values;
+}
+
 }  // namespace
+
+void require_tangential(const SupportLaw& law, int dimension) {
+  const bool plane = dimension == 2;
+  const char* allowed = plane ? "free, prescribed, load, elastic, friction and capped_elastic"
+                              : "free, prescribed(0), elastic and friction, which have no direction of their own";
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(text("a ", problem::support_name(law.kind), " law cannot be tangential: ", why,
+                          "; a tangential law ", plane ? "in the plane" : "in space", " is one of ", allowed));
+  };
+  problem::require_valid(law);
+  if (problem::one_sided(law.kind)) refuse("slip to either side is alike, and nothing is open");
+  if (problem::directed(law.kind)) refuse("slip to either side is alike");
+  if (plane) return;
+  if (law.kind == Kind::load) refuse("it does not say along which tangent (part:load does)");
+  if (law.kind == Kind::prescribed && law.value != 0) refuse("it does not say along which tangent (part:displace does)");
+  if (law.kind == Kind::capped_elastic) refuse("a spring that slips is not among the laws of two components");
+}
 
 std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides) {
   for (contact::NodeSide& side : sides)
@@ -98,12 +122,12 @@ std::string describe(const LawSupport& support) {
   return out;
 }
 
-void support(Part& part, const SupportLaw& normal, const SupportLaw& tangential) {
+void support(Part& part, const SupportLaw& normal, const SupportLaw& tangential, const elasticity::ScalarField& friction) {
   Body& body = *part.body;
   problem::require_valid(normal);
-  problem::require_valid(tangential);
   require_tangential(tangential, body.dimension());
   LawSupport added{part.mark(), part.facets, law_sides(contact::corner_sides(*part.body->mesh, part.facets)), normal, tangential};
+  if (friction) added.friction_value = at_nodes(body, added, friction);
   require_no_other(body, added);
   std::vector<LawSupport> before = body.laws;
   const auto same = std::find_if(body.laws.begin(), body.laws.end(), [&](const LawSupport& l) { return l.part == added.part; });
@@ -111,9 +135,10 @@ void support(Part& part, const SupportLaw& normal, const SupportLaw& tangential)
     body.laws.push_back(std::move(added));
   } else {
     if (given(normal)) same->normal = normal;
-    if (given(tangential)) same->tangential = tangential;
+    if (given(tangential)) same->tangential = tangential, same->friction_value = added.friction_value;
   }
   try {
+    for (LawSupport& on : body.laws) settle_coulomb(body, on);
     require_laws_free(body, number(body));
   } catch (...) {
     body.laws = std::move(before);

@@ -20,6 +20,18 @@ struct Friction {
   elasticity::ScalarField value;  ///< evaluated at the contact nodes when the contact is made, not kept
 };
 
+/// What an interface does along its normal and its tangents. Numbers are per length or area; v along the normal is the gap as the bodies are deformed, v along the
+/// tangents the slip of the first part, and the reaction on it pushes towards v > 0. With Signorini's normal law contact opens and closes; friction is a
+/// tangential law of its own, so that only one of the two may be given.
+struct InterfaceLaws {
+  problem::SupportLaw normal{problem::SupportLaw::Kind::signorini};
+  problem::SupportLaw tangential{};
+  Friction friction{};
+  InterfaceLaws() = default;
+  InterfaceLaws(Friction given) : friction(std::move(given)) {}
+  InterfaceLaws(Friction::Kind kind, elasticity::ScalarField value) : friction{kind, std::move(value)} {}
+};
+
 /// The half cells of friction at the ends of a contact line: a cell each (m + 1 cells on m edges), joined to the next ones (m − 1), or without
 /// friction, as TR965 (2.14) is printed (m − 1).
 enum class CellEnds { own, joined, bare };
@@ -40,6 +52,8 @@ struct Contact {
   Part first;
   Part second;       ///< second.body is null against a rigid shape
   std::vector<contact::ContactRow> rows;   ///< of a contact
+  problem::SupportLaw normal{problem::SupportLaw::Kind::signorini};  ///< see InterfaceLaws
+  problem::SupportLaw tangential{};        ///< elastic, perhaps capped; free where there is friction or nothing
   Friction::Kind friction = Friction::Kind::none;
   std::vector<double> friction_value;      ///< of each row: bound per length or area, or coefficient
   Discretisation discretisation;
@@ -76,17 +90,18 @@ contact::Surface surface_of(const Contact& contact);
 
 /// Contact of two parts by the pairing asked for, else as their nodes are. Throws as contact::pair_rows, for a part whose body is not
 /// in the scene, and for a friction value that is negative or not a number (an infinite bound of
-/// given friction is allowed: the parts then do not slip at all). Multipliers p1_p0 refuse Coulomb friction
+/// given friction is allowed: the parts then do not slip at all), or for laws that an interface cannot have. Multipliers p1_p0 refuse Coulomb friction, laws
+/// other than Signorini's and friction
 /// (the bound is in the rows' weights, before the pressure is known), a bound infinite in places only, and nodes that
 /// do not match. `monitor` may be null; throws Interrupted.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& first, const Part& second,
-                                           const elasticity::ScalarField& added_gap, const Friction& friction = {},
+                                           const elasticity::ScalarField& added_gap, const InterfaceLaws& laws = {},
                                            bool interference = false, const Discretisation& discretisation = {},
                                            std::optional<contact::Pairing> pairing = {}, Monitor* monitor = nullptr);
 /// Contact of a part with a rigid shape. Throws as contact::against, and for friction as above.
 std::shared_ptr<const Contact> add_contact(Scene& scene, const Part& part, const contact::RigidShape& shape,
                                            const elasticity::ScalarField& added_gap, bool interference,
-                                           const Friction& friction = {},
+                                           const InterfaceLaws& laws = {},
                                            const Discretisation& discretisation = {});
 /// Ties two parts together: no jump of the displacement, at nodes of the first part or in the mortar mean. Throws as contact::pair_ties.
 std::shared_ptr<const Contact> add_glue(Scene& scene, const Part& first, const Part& second,

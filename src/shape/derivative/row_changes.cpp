@@ -73,6 +73,7 @@ class ContactChanges {
     require_matching();
     if (contact_.kind == Contact::Kind::glue) return;
     require_nodal();
+    require_unmeasured();
     derivatives_ = moving_.derivatives();
     const scene::FreeJumps jumps(solution_.scene(), model_.bodies, model_.numbering, contact_);
     for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
@@ -96,6 +97,13 @@ class ContactChanges {
     if (contact_.discretisation.multipliers != contact::Multipliers::nodal && !plain)
       throw InputError(contact_.name + " has multipliers = \"P1-P0\" and moves: how its rows, integrals over facets and cells, change "
                                        "is not known; take \"nodal\", or keep its nodes at rest");
+  }
+
+  void require_unmeasured() const {
+    using Kind = problem::SupportLaw::Kind;
+    if (contact_.normal.kind != Kind::signorini || contact_.tangential.kind != Kind::free)
+      throw InputError(contact_.name + " has laws per length or area and moves: how its nodes' shares change these is not known; take Signorini's law with "
+                                       "given or Coulomb friction, or keep its nodes at rest");
   }
 
   Point displacement(int body, int node) const {

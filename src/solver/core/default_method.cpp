@@ -19,10 +19,11 @@ DefaultMethod default_method(const problem::Problem& problem) {
 namespace {
 
 /// By newton or pdas; `by_default` as default_method() says.
-Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning from, Monitor& monitor) {
+Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning from, Monitor& monitor, std::optional<bool> condensed = {}) {
   if (by_default == DefaultMethod::newton) return Method(Newton{}).run(problem, std::move(from), monitor);
   Pdas pdas;
-  pdas.reduced = by_default == DefaultMethod::pdas;
+  pdas.reduced = condensed.value_or(by_default == DefaultMethod::pdas);
+  pdas.held = !pdas.reduced && condensed;
   return Method(pdas).run(problem, std::move(from), monitor);
 }
 
@@ -44,16 +45,16 @@ std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) 
 
 }  // namespace
 
-Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor) {
+Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor, std::optional<bool> condensed) {
   const DefaultMethod by_default = default_method(problem);
   if (by_default == DefaultMethod::linear && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
   if (method) return method.run(problem, std::move(from), monitor);
-  if (!from.condenser) {
+  if (!from.condenser && !condensed) {
     NearRows near(problem, from.start);
     if (!near.all())
       if (auto result = run_near(std::move(near), from, monitor)) return *std::move(result);
   }
-  return run(problem, by_default, std::move(from), monitor);
+  return run(problem, by_default, std::move(from), monitor, condensed);
 }
 
 }  // namespace dotyk::solver

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "solver/core/method.hpp"
 
 namespace dotyk::solver {
@@ -13,7 +15,8 @@ enum class DefaultMethod { linear, pdas, sparse_pdas, newton };
 DefaultMethod default_method(const problem::Problem& problem);
 
 /// By the method, where one is named, else by the default one. A problem without rows takes one linear solve, whatever the
-/// method, unless it cuts bodies into subdomains.
-Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor);
+/// method, unless it cuts bodies into subdomains. `condensed`: whether pdas condenses, by a model that knows better than the count of
+/// rows, as beams and plates, whose deflections between near supports are small differences on condensed rows.
+Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor, std::optional<bool> condensed = {});
 
 }  // namespace dotyk::solver

@@ -39,13 +39,19 @@ std::vector<Maker> makers() {
            "A spring that pushes with one stiffness and pulls with another: the reaction is -k_push v or -k_pull v. It pushes where one_sided_elastic does: "
            "up against deflections below zero, down against slopes above zero, off the support on a part.",
            {stiffness("k_push", "stiffness where it pushes, not negative"), stiffness("k_pull", "stiffness where it pulls, not negative")}, &SupportLaw::pull},
+          {"compliance", Kind::compliance,
+           "Asperities that are pressed flat: pushes with c (-v)^m against v < 0, and not at all otherwise.",
+           {key::number("c", "factor, not negative").unit("force/length^m; on a part per length or area as well").at_least(0).required(),
+            key::number("m", "power").at_least(1).fallback(2.0)},
+           &SupportLaw::power},
           {"breaking", Kind::breaking,
            "A spring that only pushes and breaks where its reaction would exceed g. Not monotone: a beam may have several solutions (s.branches), of a part one path is followed.",
            {stiffness(), bound()}}};
 }
 
 const char* example_of(const std::string& number) {
-  if (number == "k" || number == "k_push") return "100";
+  if (number == "k" || number == "k_push" || number == "c") return "100";
+  if (number == "m") return "2";
   if (number == "k_pull") return "20";
   return number == "g" ? "2" : "-1";
 }

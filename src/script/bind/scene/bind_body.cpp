@@ -2,12 +2,11 @@
 #include <optional>
 
 #include "script/bind/bind.hpp"
-#include "script/bind/models/bind_beam.hpp"
 #include "script/bridge/wrapped.hpp"
 #include "script/bridge/library.hpp"
 #include "script/help/nearest.hpp"
 #include "script/bind/setups.hpp"
-#include "script/bind/scene/space.hpp"
+#include "script/bind/scene/friction_law.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -105,7 +104,18 @@ int slide(Call& call) {
 int part_support(Call& call) {
   const auto law = [&](const char* name) { return call.has(name) ? *call.object<problem::SupportLaw>(name) : problem::SupportLaw{}; };
   if (!call.has("normal") && !call.has("tangential")) throw InputError("name at least one law: normal or tangential");
-  scene::support(*call.self<Part>(), law("normal"), law("tangential"));
+  const auto part = call.self<Part>();
+  if (!call.holds<FrictionLaw>("tangential")) {
+    scene::support(*part, law("normal"), law("tangential"));
+    return call.give_self();
+  }
+  std::optional<Field> field;
+  const scene::Friction rubbing = friction(call, "tangential", part->body->dimension(), field);
+  using Kind = problem::SupportLaw::Kind;
+  problem::SupportLaw tangential{rubbing.kind == scene::Friction::Kind::tresca ? Kind::friction : Kind::coulomb};
+  if (!field) tangential.value = rubbing.value({});
+  if (std::isinf(tangential.value)) tangential = {Kind::prescribed};
+  scene::support(*part, law("normal"), tangential, field ? rubbing.value : elasticity::ScalarField());
   return call.give_self();
 }
 
@@ -226,13 +236,13 @@ void bind_part(Library& library) {
                        "without a gap (signorini); load is a pressure. Tangential in 2-D: "
                        "free, prescribed, load, elastic, friction or capped_elastic, v positive along the outward normal turned by "
                        "90 degrees anticlockwise (along x at a bottom, along -x at a top). Tangential in 3-D: free, "
-                       "prescribed(0), elastic or friction, alike in all directions. Friction is given (Tresca), whatever "
-                       "the pressure, and in a history opposes the increment of slip. breaking: the nodes that "
+                       "prescribed(0), elastic or friction, alike in all directions. Friction is given (dotyk.law.friction, dotyk.friction.tresca), or mu times the "
+                       "normal law's pressure (dotyk.friction.coulomb), and in a history opposes the increment of slip. breaking: the nodes that "
                        "exceed their limit most break first, until none does; s.reason tells what became of it. Results: solution:support, "
                        "solution:reaction.",
                .example = "block:part\"bottom\":support{ normal = dotyk.law.one_sided_elastic(1e3), tangential = dotyk.law.friction(2) }",
                .arguments = {key::table({key::object<problem::SupportLaw>("normal", "the law along the normal").otherwise("free"),
-                                         key::object<problem::SupportLaw>("tangential", "the law along the tangents").otherwise("free")})},
+                                         tangential_key("the law along the tangents")})},
                .returns = "part",
                .run = part_support})
       .text([](const Part& p) { return text("part ", p.label(), ": ", p.facets.size(), " facets"); });

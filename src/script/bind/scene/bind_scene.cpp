@@ -7,7 +7,7 @@
 #include "script/bind/setups.hpp"
 #include "problem/solvability.hpp"
 #include "scene/model/model.hpp"
-#include "script/bind/scene/space.hpp"
+#include "script/bind/scene/friction_law.hpp"
 #include "script/prompt/watch.hpp"
 #include "script/bridge/wrapped.hpp"
 
@@ -28,13 +28,14 @@ void require_rigid_dimension(const Rigid& rigid, const Scene& scene) {
                           " components, the scene is ", scene.dimension(), "-D"));
 }
 
-/// The friction given; `field` owns a function of it during the call.
-scene::Friction friction(Call& call, const Scene& scene, std::optional<Field>& field) {
-  if (!call.has("friction")) return {};
-  const auto law = call.object<FrictionLaw>("friction");
-  if (!law->varies) return {law->kind, [value = law->value](const mesh::Point&) { return value; }};
-  field.emplace(call.kept_function(call.slot("friction"), "value").at(0), 1);
-  return {law->kind, scalar_field(*field, scene.dimension())};
+/// The laws given; `field` owns a function of friction during the call.
+scene::InterfaceLaws laws(Call& call, const Scene& scene, std::optional<Field>& field) {
+  if (call.has("friction") && call.has("tangential")) throw InputError("'friction' is a tangential law; it is given with 'tangential'");
+  scene::InterfaceLaws laws;
+  if (call.has("normal")) laws.normal = *call.object<problem::SupportLaw>("normal");
+  if (call.holds<problem::SupportLaw>("tangential")) laws.tangential = *call.object<problem::SupportLaw>("tangential");
+  laws.friction = friction(call, call.has("friction") ? "friction" : "tangential", scene.dimension(), field);
+  return laws;
 }
 
 /// None where nodes decide.
@@ -52,7 +53,7 @@ scene::Discretisation discretisation(Call& call) {
 }
 
 int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added,
-                  const scene::Friction& friction) {
+                  const scene::InterfaceLaws& laws) {
   const auto rigid = call.object<Rigid>("rigid");
   require_rigid_dimension(*rigid, scene);
   contact::RigidShape shape = rigid->shape;
@@ -64,7 +65,7 @@ int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::
       given->gap = scalar_field(*gap, scene.dimension());
     }
   }
-  return call.give(scene::add_contact(scene, part, shape, added, call.boolean("interference"), friction,
+  return call.give(scene::add_contact(scene, part, shape, added, call.boolean("interference"), laws,
                                       discretisation(call)));
 }
 
@@ -78,17 +79,17 @@ int add_contact(Call& call) {
     added = scalar_field(*gap, scene->dimension());
   }
   std::optional<Field> bound;
-  const scene::Friction law = friction(call, *scene, bound);
+  const scene::InterfaceLaws given = laws(call, *scene, bound);
   if (call.has("rigid")) {
     if (parts.size() != 1)
       throw InputError("give one part with 'rigid', or two parts without it");
     if (call.has("pairing")) throw InputError("'pairing' is for two parts; it is given with 'rigid'");
-    return against_rigid(call, *scene, *parts[0], added, law);
+    return against_rigid(call, *scene, *parts[0], added, given);
   }
   if (parts.size() != 2)
     throw InputError("give two parts, or one part and 'rigid'");
   Watch watch(call.state(), "pairing");
-  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, law, call.boolean("interference"),
+  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, given, call.boolean("interference"),
                                       discretisation(call), pairing(call), &watch));
 }
 
@@ -159,7 +160,7 @@ int make_friction(Call& call, scene::Friction::Kind kind) {
 }
 
 void bind_friction(Library& library) {
-  library.module("dotyk.friction", "Friction laws for scene:contact. A normal and a tangential force at each contact node, or, for given friction, multipliers = \"P1-P0\" of scene:contact.");
+  library.module("dotyk.friction", "Friction laws for scene:contact and part:support. A normal and a tangential force at each contact node, or, for given friction, multipliers = \"P1-P0\" of scene:contact.");
   library.function({.name = "dotyk.friction.tresca",
                     .help = "Given friction (Tresca): the shear is at most g, whatever the pressure. math.huge: no slip at all.",
                     .setup = setup::two_blocks(),
@@ -241,15 +242,18 @@ void bind_scene(Library& library) {
       .field("contacts", "its contacts and glues, in order", [](const Scene& s) { return s.contacts; })
       .field("dimension", "2 or 3", [](const Scene& s) { return s.dimension(); })
       .method({.name = "scene:contact",
-               .help = "Unilateral contact of two parts, or of a part with a rigid obstacle, "
-                       "frictionless unless a friction law is given. At a corner of the (first) part there is one condition for each adjoining side. "
+               .help = "Contact of two parts, or of a part with a rigid obstacle: unilateral and frictionless unless laws are given. These are told per length (2-D) "
+                       "or area (3-D) of the first part: along the normal of the gap as the bodies are deformed (compliance: asperities, one_sided_elastic: a "
+                       "coating, elastic: glue that yields, prescribed: bodies that slide on each other and never part, free: none), along the tangents of the slip. At a corner of the (first) part there is one condition for each adjoining side. "
                        "Conditions, pressures and statuses are those of the first part's nodes: where nodes do not match, let the first be the "
                        "part that the other covers and whose nodes supports leave free (of two meshes the coarser's nodes are taken whatever the order). "
                        "On P2 and Q2 they are those of the facets' corners, in the mean about them.",
                .example = "local wall = dotyk.rigid.plane{ point = {1,0}, normal = {-1,0} }\n"
                           "local w = scene:contact{ upper:part \"right\", rigid = wall }\n"
                           "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }",
-               .arguments = {key::table({key::object<FrictionLaw>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu)").otherwise("none"),
+               .arguments = {key::table({key::object<problem::SupportLaw>("normal", "a law of dotyk.law but load and breaking").otherwise("signorini"),
+                                         tangential_key("a law of dotyk.friction, or of dotyk.law: free, prescribed(0), elastic, friction, in 2-D capped_elastic"),
+                                         key::object<FrictionLaw>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu), short for tangential").otherwise("none"),
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
                                          key::field("gap", "added to the geometric gap, less than 0 for an interference (a press fit, a bolt that is tightened); a number or a function of the coordinates").unit("length").otherwise("0"),
                                          pairing_key(),

@@ -1,0 +1,60 @@
+#include "problem/power_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace dotyk::problem {
+namespace {
+
+class PowerLaw final : public Law {
+ public:
+  PowerLaw(std::vector<double> factors, double power) : c_(std::move(factors)), m_(power) {}
+  std::string name() const override { return "compliance"; }
+
+  Projection project(int row, double y, double rho) const override {
+    const double c = c_[row];
+    if (c == 0 || !(y > 0)) return {0, 0};
+    if (rho == 0) return {y, 1};
+    const double x = penetration(c, y, rho), slope = stiffness(c, x);
+    return {std::max(0.0, y - rho * x), slope / (slope + rho)};
+  }
+
+  double energy(int row, double x) const override { return x > 0 ? c_[row] * std::pow(x, m_ + 1) / (m_ + 1) : 0; }
+
+  double conjugate(int row, double lambda) const override {
+    return lambda > 0 && c_[row] > 0 ? m_ / (m_ + 1) * lambda * std::pow(lambda / c_[row], 1 / m_) : 0;
+  }
+
+  Interval multipliers(int row) const override { return {0, c_[row] > 0 ? kUnbounded : 0}; }
+
+ private:
+  double stiffness(double c, double x) const { return c * m_ * std::pow(x, m_ - 1); }
+
+  /// c x^m + ρx = y by Newton's method from above: the left side is convex and increasing, so that iterates fall to x.
+  double penetration(double c, double y, double rho) const {
+    double x = std::min(y / rho, std::pow(y / c, 1 / m_));
+    for (int i = 0; i < 100; ++i) {
+      const double next = x - (c * std::pow(x, m_) + rho * x - y) / (stiffness(c, x) + rho);
+      if (!(next < x)) break;
+      x = std::max(0.0, next);
+    }
+    return x;
+  }
+
+  std::vector<double> c_;
+  double m_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Law> power_law(std::vector<double> factors, double power) {
+  if (!(power >= 1) || !std::isfinite(power)) throw InputError(text("compliance law: the power is ", power, "; it must be one or more, and finite"));
+  for (const double c : factors)
+    if (!(c >= 0) || !std::isfinite(c)) throw InputError(text("compliance law: the factor is ", c, "; it must be zero or positive, and finite"));
+  return std::make_shared<PowerLaw>(std::move(factors), power);
+}
+
+}  // namespace dotyk::problem
