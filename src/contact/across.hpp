@@ -14,7 +14,7 @@ struct Across {
   double widest = 0;              ///< of the facets met, and its own
   double least = -INFINITY;       ///< of mortar: least gap where the integrals look. A dual hat is negative in places: a mean of gaps may be less
   bool folded = false;            ///< the second part lies above itself there; the sheet that is nearest counts
-  std::vector<NodeWeight> own{};  ///< of mortar and a first part of order 2: the side's own mean over what is covered, `node` first
+  std::vector<NodeWeight> own{};  ///< of mortar, where it is not the node alone: the side's own mean over what is covered, `node` first
 };
 
 /// Node to segment: the foot of each node on the second part along the node's normal, the nearest one of facets whose normal
@@ -36,7 +36,8 @@ std::vector<Across> node_to_segment(const Face& first, const Face& second, const
 /// Of a first part of order 2, φ_k in the definition of ψ are the corners' linear hats, and all its shape functions have their moments
 /// in the rows: means on both sides, see ContactRow. Curved facets are projected as if the straight ones through their corners had their nodes.
 /// Where the first part's facets are covered by the second in part, φ, ψ and D are those of the covered part (Cichosz and
-/// Bischoff 2011), and ψ stays dual. What is covered in less than kSliver of a facet counts as not covered.
+/// Bischoff 2011), and ψ stays dual. A node with less than a fifth of ∫φ covered has no multiplier; the hats χ of which ψ is made are then those of the facet's
+/// other corners with an equal part of its φ each, so that Σψ = 1, and rows are means on both sides. What is covered in less than kSliver of a facet counts as not covered.
 /// `monitor` may be null; throws Interrupted.
 std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides, Monitor* monitor = nullptr);
 

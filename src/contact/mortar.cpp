@@ -23,10 +23,17 @@ struct Met {
   bool folded = false;      ///< more than a tenth of it by several sheets of the second part
 };
 
+/// A node of which less than this part of ∫φ is covered has no multiplier: a few such nodes beyond an edge of the second part, and the ones within, would
+/// press on the same nodes of that edge, with pressures that grow without bound as the part goes to 0.
+constexpr double kLeastCovered = 0.2;
+
+/// Of a facet's corners, those without a multiplier.
+using Without = std::array<bool, 4>;
+
 /// What a corner of a first part's facet gets from it.
 struct Corner {
-  double weight = 0;               ///< ∫φ over what is covered
-  std::map<int, double> own;       ///< of order 2: ∫ψ φ_l
+  double weight = 0;               ///< ∫χ over what is covered
+  std::map<int, double> own;       ///< of order 2, and where corners are without a multiplier: ∫ψ φ_l
   std::map<int, double> partners;  ///< ∫ψ φ_j∘P
 };
 
@@ -35,8 +42,8 @@ class Mortar {
   Mortar(const Face& first, const Face& second)
       : first_(first), second_(second), all_(second), corners_(first.mesh.topology().facet_corners) {}
 
-  /// One entry a corner.
-  std::array<Corner, 4> of(mesh::Facet facet, Met& met) const {
+  /// One entry a corner. Each corner with a multiplier takes an equal part of the hats of those without; `means`: give own moments.
+  std::array<Corner, 4> of(mesh::Facet facet, const Without& without, bool means, Met& met) const {
     const View view(first_.mesh.facet_centre(facet), mesh::unit(first_.mesh.facet_area_vector(facet)), first_.mesh.dimension());
     const Shadow own(first_.mesh, facet, view);
     std::vector<Cut> cuts = cut(view, own, met.widest);
@@ -49,7 +56,7 @@ class Mortar {
       met.folded = covered - left > 0.1 * own.size();
     }
     if (covered < kSliver * own.size()) return {};
-    return integrate(facet, view, own, cuts, met.least);
+    return integrate(facet, without, means, view, own, cuts, met.least);
   }
 
  private:
@@ -98,28 +105,38 @@ class Mortar {
     return sum;
   }
 
-  std::array<Corner, 4> integrate(mesh::Facet facet, const View& view, const Shadow& own, const std::vector<Cut>& cuts, double& least) const {
-    DualHats first(corners_), second(corners_);
+  std::array<Corner, 4> integrate(mesh::Facet facet, const Without& without, bool means, const View& view, const Shadow& own, const std::vector<Cut>& cuts,
+                                  double& least) const {
+    std::vector<int> with;
+    for (int k = 0; k < corners_; ++k)
+      if (!without[k]) with.push_back(k);
+    const auto count = static_cast<int>(with.size());
+    if (count == 0) return {};
+    DualHats first(count), second(count);
     for (const Cut& c : cuts)
       for (const FlatQuadrature::At& q : rule(own, c.shadow).points(c.polygon)) {
-        const auto hats = own.hats(q.x);
+        const auto all = own.hats(q.x);
+        double given = 0;
+        for (int k = 0; k < corners_; ++k) given += without[k] ? all[k] : 0;
+        std::array<double, 4> hats{};
+        for (int k = 0; k < count; ++k) hats[k] = all[with[k]] + given / count;
         const auto other = c.shadow.shape(q.x);
         second.point(hats.data(), q.measure);
         for (int a = 0; a < c.shadow.nodes; ++a) second.value(second_.mesh.facet_node(second_.facets[c.facet], a), other[a]);
         const auto phi = own.shape(q.x);
         least = std::min(least, height(second_, second_.facets[c.facet], view, c.shadow, other) - height(first_, facet, view, own, phi));
-        if (own.nodes == own.corners) continue;
+        if (!means) continue;
         first.point(hats.data(), q.measure);
         for (int a = 0; a < own.nodes; ++a) first.value(first_.mesh.facet_node(facet, a), phi[a]);
       }
     std::array<Corner, 4> result;
     const Eigen::VectorXd weight = second.weights();
-    for (int k = 0; k < corners_; ++k) result[k].weight = weight[k];
+    for (int k = 0; k < count; ++k) result[with[k]].weight = weight[k];
     for (const auto& [node, moment] : second.moments())
-      for (int k = 0; k < corners_; ++k) result[k].partners[node] = moment[k];
-    if (own.nodes > own.corners)
+      for (int k = 0; k < count; ++k) result[with[k]].partners[node] = moment[k];
+    if (means)
       for (const auto& [node, moment] : first.moments())
-        for (int k = 0; k < corners_; ++k) result[k].own[node] = moment[k];
+        for (int k = 0; k < count; ++k) result[with[k]].own[node] = moment[k];
     return result;
   }
 
@@ -140,6 +157,33 @@ std::vector<NodeWeight> mean_over(const std::map<int, double>& shares) {
   return partners;
 }
 
+/// What facets give to their corners.
+struct Given {
+  std::array<Corner, 4> corner;
+  Met met;
+};
+
+/// Facet → its corners without a multiplier; none where all are well covered. A facet that is covered keeps one at least.
+std::vector<Without> poorly_covered(const Face& first, const std::vector<NodeSide>& sides, const std::vector<std::vector<std::pair<std::size_t, int>>>& sides_of,
+                                    const std::vector<Given>& given) {
+  std::vector<double> covered(sides.size(), 0);
+  for (std::size_t f = 0; f < given.size(); ++f)
+    for (const auto& [s, a] : sides_of[f]) covered[s] += given[f].corner[a].weight;
+  std::vector<char> poor(sides.size(), 0);
+  for (std::size_t s = 0; s < sides.size(); ++s) poor[s] = covered[s] > 0 && covered[s] < kLeastCovered * sides[s].weight;
+  if (std::count(poor.begin(), poor.end(), 1) == 0) return {};
+  for (std::size_t f = 0; f < given.size(); ++f) {
+    const auto covers = [&](const auto& at) { return given[f].corner[at.second].weight > 0; };
+    if (std::none_of(sides_of[f].begin(), sides_of[f].end(), covers)) continue;
+    if (std::all_of(sides_of[f].begin(), sides_of[f].end(), [&](const auto& at) { return poor[at.first]; }))
+      for (const auto& [s, a] : sides_of[f]) poor[s] = 0;
+  }
+  std::vector<Without> without(first.facets.size(), Without{});
+  for (std::size_t f = 0; f < given.size(); ++f)
+    for (const auto& [s, a] : sides_of[f]) without[f][a] = poor[s];
+  return without;
+}
+
 }  // namespace
 
 std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides, Monitor* monitor) {
@@ -152,10 +196,22 @@ std::vector<Across> mortar(const Face& first, const Face& second, const std::vec
   std::vector<Across> result(sides.size());
   for (Across& across : result) across.least = INFINITY;
   std::vector<std::map<int, double>> shares(sides.size()), own(sides.size());
-  for (std::size_t f = 0; f < first.facets.size(); ++f) {
-    if (monitor && f % 100 == 0) monitor->check();
-    Met met;
-    const std::array<Corner, 4> corner = facets.of(first.facets[f], met);
+  std::vector<Given> given(first.facets.size());
+  bool means = first.mesh.topology().order == 2;
+  const auto integrate = [&](const std::vector<Without>& without) {
+    for (std::size_t f = 0; f < given.size(); ++f) {
+      if (monitor && f % 100 == 0) monitor->check();
+      given[f].met = {};
+      given[f].corner = facets.of(first.facets[f], without.empty() ? Without{} : without[f], means, given[f].met);
+    }
+  };
+  integrate({});
+  if (const auto without = poorly_covered(first, sides, sides_of, given); !without.empty()) {
+    means = true;
+    integrate(without);
+  }
+  for (std::size_t f = 0; f < given.size(); ++f) {
+    const auto& [corner, met] = given[f];
     for (const auto& [s, a] : sides_of[f]) {
       result[s].weight += corner[a].weight;
       result[s].widest = std::max(result[s].widest, met.widest);

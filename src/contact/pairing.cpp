@@ -73,7 +73,7 @@ Rows paired(const Face& first, const Face& second, Pairing pairing, const elasti
     for (std::size_t k = 0; k < list.size(); ++k) {
       if (all[k].partners.empty()) continue;
       list[k].weight = all[k].weight;
-      if (means) list[k].own = std::move(all[k].own);
+      if (!all[k].own.empty()) list[k].own = std::move(all[k].own);
       rows.push_back(row_of(list[k], std::move(all[k].partners), added ? added(first.mesh.point(list[k].node)) : 0, frames));
       // Parts that nowhere overlap have no negative gap in the mean, either.
       if (all[k].least >= -touching(first, size, list[k].facets)) rows.back().gap = std::max(rows.back().gap, rows.back().added);
@@ -269,7 +269,7 @@ PairedTies pair_ties(const Face& first, const Face& second, std::optional<Pairin
   const Curvatures here(first), there(second);
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (all[k].partners.empty()) continue;
-    result.ties.push_back({list[k].node, means ? std::move(all[k].own) : list[k].own, std::move(all[k].partners)});
+    result.ties.push_back({list[k].node, all[k].own.empty() ? list[k].own : std::move(all[k].own), std::move(all[k].partners)});
     const Tie& tie = result.ties.back();
     apart.see(tie, all[k].widest, height_of_chords(here, there, tie.node, tie.partners, all[k].widest));
   }

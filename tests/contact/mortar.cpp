@@ -116,7 +116,7 @@ TEST_CASE("parts that overhang: what is covered counts, however little of a face
         double weight = 0, moment = 0, reached = 0;
         for (const auto& row : rows) {
           weight += row.weight;
-          moment += row.weight * p.high.point(row.node)[0];
+          moment += row.weight * across(p.high, row.own)[0];
           reached += row.weight * across(p.low, row.partners)[0];
           CHECK(std::abs(row.gap) < 1e-12);
         }

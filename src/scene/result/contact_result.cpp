@@ -66,6 +66,14 @@ algebra::Vector friction_part(const std::vector<FrictionRows>& friction, const a
   return part;
 }
 
+/// Where the row's force acts: at its node, but for a mean over nodes that lies elsewhere.
+Point acting_at(const mesh::Mesh& mesh, const contact::ContactRow& row) {
+  Point x{0, 0, 0};
+  for (const contact::NodeWeight& n : row.own) x = mesh::plus(x, mesh::times(n.weight, mesh.point(n.node)));
+  const Point node = mesh.point(row.node);
+  return mesh::length(mesh::minus(x, node)) > 1e-9 * mesh.size() ? x : node;
+}
+
 void count(const ContactNode& node, ContactResult& result) {
   if (node.status != problem::Status::open) result.area += node.weight;
   switch (node.status) {
@@ -114,6 +122,7 @@ ContactResult Solution::contact(const Contact& asked) const {
     node.displacement = at_node(displacement_[first], row.node, dim);
     node.normal = row.normal;
     node.weight = row.weight;
+    if (contact.pairing == contact::Pairing::mortar) node.x = acting_at(*scene_->bodies[first]->mesh, row);
     Point own{0, 0, 0};
     for (const contact::NodeWeight& n : row.own)
       for (int i = 0; i < dim; ++i) own[i] += n.weight * displacement_[first][static_cast<std::size_t>(n.node) * dim + i];
