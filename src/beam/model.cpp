@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "beam/element.hpp"
 #include "problem/range.hpp"
+#include "problem/rows.hpp"
 
 namespace dotyk::beam {
 
@@ -77,7 +78,8 @@ class Builder {
     for (const Support& support : beam_.supports) add_support(support);
     for (std::size_t i = 0; i < beam_.foundation.size(); ++i) add_foundation(static_cast<int>(i));
     problem::add(model_.problem, block(n));
-    finish_rows(n);
+    rows_.finish({});
+    model_.problem.row_name = [groups = model_.problem.groups](int row) { return groups[row].name; };
     if (model_.problem.rows() > 0) problem::require_moderate(model_.problem, problem::kMostForceOnRows);
     return std::move(model_);
   }
@@ -132,13 +134,9 @@ class Builder {
       if (law.value > 0) offset_ += 0.5 * law.limit * law.limit / law.value;  // what breaking took
       return -1;
     }
-    const auto row_law = problem::row_law(law, unit, {share});
-    if (!row_law) return -1;
-    const int row = static_cast<int>(c_.size());
-    B_.emplace_back(row, unknown, -turn);
-    c_.push_back(-unit * ((law.kind == Kind::prescribed ? law.value : 0) + turn * at));
-    model_.problem.groups.push_back({name, row_law, row, 1});
-    return row;
+    if (!problem::row_law(law)) return -1;
+    rows_.open_group(name, law, unit);
+    return rows_.add({{unknown, -turn}}, -unit * ((law.kind == Kind::prescribed ? law.value : 0) + turn * at), share);
   }
 
   /// The next support that may break.
@@ -164,22 +162,14 @@ class Builder {
     return block;
   }
 
-  void finish_rows(int n) {
-    const int rows = static_cast<int>(c_.size());
-    model_.problem.B = algebra::SparseRows(rows, n);
-    model_.problem.B.setFromTriplets(B_.begin(), B_.end());
-    model_.problem.c = Eigen::Map<const Vector>(c_.data(), rows);
-    model_.problem.row_name = [groups = model_.problem.groups](int row) { return groups[row].name; };
-  }
-
   const Beam& beam_;
   const std::vector<Broken>& broken_;
   std::size_t next_breaking_ = 0;
   Model model_;
   Four scale_;
   std::vector<Eigen::Matrix4d> stiffness_;  ///< of cells
-  std::vector<Eigen::Triplet<double>> K_, B_;
-  std::vector<double> c_;
+  std::vector<Eigen::Triplet<double>> K_;
+  problem::Rows rows_{model_.problem};
   Vector f_;
   double offset_ = 0;
 };

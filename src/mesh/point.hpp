@@ -34,4 +34,7 @@ inline Point unit(const Point& a) {
   return {a[0] / size, a[1] / size, a[2] / size};
 }
 
+/// How far d leads off the line along a unit vector.
+inline double off_line(const Point& d, const Point& along) { return length(minus(d, times(dot(d, along), along))); }
+
 }  // namespace dotyk::mesh

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "plate/loads.hpp"
+#include "problem/rows.hpp"
 
 namespace dotyk::plate {
 
@@ -35,8 +36,6 @@ int rigidity(Kind kind) {
   return 0;
 }
 
-bool same(const SupportLaw& a, const SupportLaw& b) { return a.kind == b.kind && a.value == b.value && a.limit == b.limit && a.pull == b.pull && a.power == b.power; }
-
 /// What laws of edges are about.
 struct About {
   bool rotation;
@@ -45,9 +44,9 @@ struct About {
   double unit;  ///< its rows are of v·unit
 };
 
-class Rows {
+class RowMaker {
  public:
-  Rows(const Plate& plate, Model& model) : plate_(plate), model_(model) {}
+  RowMaker(const Plate& plate, Model& model) : plate_(plate), model_(model), rows_(model.problem) {}
 
   void operator()() {
     if (plate_.obstacle) find_obstacle();
@@ -55,8 +54,7 @@ class Rows {
     add_edges(model_.rotations, {true, "rotation", rotation, model_.space.unit});
     add_points();
     if (plate_.obstacle) add_obstacle();
-    close_group();
-    finish();
+    rows_.finish([places = std::move(places_)](int row) { return places[row]; });
   }
 
  private:
@@ -153,24 +151,10 @@ class Rows {
 
   /// x = −factor·v − c. The law is about v; consecutive rows of equal laws make a group.
   int add(const SupportLaw& law, const std::string& group, const Reduced& v, double factor, double c, double unit, double share, std::string place) {
-    if (shares_.empty() || group != group_ || !same(law, law_)) {
-      close_group();
-      model_.problem.groups.push_back({group, nullptr, static_cast<int>(c_.size()), 0});
-      group_ = group, law_ = law, unit_ = unit;
-    }
-    shares_.push_back(share);
-    const int row = static_cast<int>(c_.size());
-    for (const Term& term : v.on_free) B_.emplace_back(row, model_.unknown[term.freedom], -factor * term.factor);
-    c_.push_back(c + factor * v.held);
+    if (!rows_.is_open(group, law)) rows_.open_group(group, law, unit);
+    for (const Term& term : v.on_free) rows_.entry(model_.unknown[term.freedom], -factor * term.factor);
     places_.push_back(std::move(place));
-    return row;
-  }
-
-  void close_group() {
-    if (shares_.empty()) return;
-    model_.problem.groups.back().count = static_cast<int>(shares_.size());
-    model_.problem.groups.back().law = problem::row_law(law_, unit_, shares_);
-    shares_.clear();
+    return rows_.add(c + factor * v.held, share);
   }
 
   void add_points() {
@@ -197,29 +181,17 @@ class Rows {
     }
   }
 
-  void finish() {
-    const int rows = static_cast<int>(c_.size());
-    model_.problem.B = algebra::SparseRows(rows, model_.problem.unknowns());
-    model_.problem.B.setFromTriplets(B_.begin(), B_.end());
-    model_.problem.c = Eigen::Map<const algebra::Vector>(c_.data(), rows);
-    model_.problem.row_name = [places = std::move(places_)](int row) { return places[row]; };
-  }
-
   const Plate& plate_;
   Model& model_;
   std::vector<double> height_;   ///< of the obstacle at vertices
   std::vector<char> minded_;     ///< vertices where an edge's law or what is held keeps the plate above it
-  std::vector<Eigen::Triplet<double>> B_;
-  std::vector<double> c_, shares_;
+  problem::Rows rows_;
   std::vector<std::string> places_;
-  std::string group_;
-  SupportLaw law_;
-  double unit_ = 1;
 };
 
 }  // namespace
 
-void add_rows(const Plate& plate, Model& model) { Rows(plate, model)(); }
+void add_rows(const Plate& plate, Model& model) { RowMaker(plate, model)(); }
 
 std::vector<char> touched_by_rows(const problem::Problem& problem) {
   std::vector<char> touched(problem.unknowns(), 0);

@@ -33,7 +33,7 @@ struct Springs {
 /// f (force, integrated over the node's share of the boundary); of x: of u.
 ///
 /// λ ∈ ∂φ(x) is equivalent to λ = P(λ + ρx) for every ρ > 0, with P the law's
-/// projection (the proximal map of the conjugate energy ρφ*(·/…)); a law knows no solver.
+/// projection, the proximal map of ρφ*; a law knows no solver.
 /// What it must tell is pure. What it may tell is absent unless it does: methods that need that refuse the law by name
 /// before they begin (solver/core/treatable.hpp).
 class Law {

@@ -32,6 +32,7 @@ struct SupportLaw {
   double limit = 0;  ///< force, ≥ 0; of capped_elastic and breaking
   double pull = 0;   ///< stiffness, ≥ 0; of unequal_elastic
   double power = 1;  ///< ≥ 1; of compliance
+  bool operator==(const SupportLaw&) const = default;
 };
 
 /// "one-sided elastic".

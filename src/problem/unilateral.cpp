@@ -3,6 +3,7 @@
 namespace dotyk::problem {
 namespace {
 
+/// x ≤ 0, λ ≥ 0, λx = 0 with x = Bu − c, minus the gap: see law.hpp.
 class Unilateral final : public Law {
  public:
   std::string name() const override { return "unilateral"; }

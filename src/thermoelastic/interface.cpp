@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "beam/solvable.hpp"
+#include "problem/rows.hpp"
 #include "problem/solvability.hpp"
 #include "solver/core/default_method.hpp"
 #include "solver/core/verdict.hpp"
@@ -44,8 +45,7 @@ Interface::Interface(const Model& model, std::vector<int> parts, const std::vect
   int motions = 0;
   for (const int p : parts_) motions += static_cast<int>(model.parts[p].kernel.cols());
   block.kernel = DenseMatrix::Zero(n, motions);
-  std::vector<Eigen::Triplet<double>> B;
-  int row = 0;
+  problem::Rows rows(problem_);
   int mode = 0;
   for (const int p : parts_) {
     const Part& part = model.parts[p];
@@ -59,16 +59,14 @@ Interface::Interface(const Model& model, std::vector<int> parts, const std::vect
       block.motions.insert(block.motions.end(),
                            {{Motion::Kind::translation, {0, 1}}, {Motion::Kind::rotation, {}, {model.data.length / 2, 0}}});
     for (const Held& held : part.held) {
-      B.emplace_back(row, static_cast<int>(std::find(gamma.begin(), gamma.end(), held.unknown) - gamma.begin()), -held.turn);
-      problem_.groups.push_back({held.name, problem::row_law(held.law, held.unit), row++, 1});
+      rows.open_group(held.name, held.law, held.unit);
+      rows.add({{static_cast<int>(std::find(gamma.begin(), gamma.end(), held.unknown) - gamma.begin()), -held.turn}}, 0);
     }
   }
   block.K = DenseMatrix(S.triangularView<Eigen::Lower>()).sparseView();
   for (int i = 0; i < n; ++i) block.node.push_back(i);
   problem_.blocks.push_back(std::move(block));  // its kernel is one up to what rounding left of stiff cells in S
-  problem_.B = algebra::SparseRows(row, n);
-  problem_.B.setFromTriplets(B.begin(), B.end());
-  problem_.c = Vector::Zero(row);
+  rows.finish({});
   problem_.row_name = [groups = problem_.groups](int row) { return groups[row].name; };
 }
 

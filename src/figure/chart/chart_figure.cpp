@@ -11,6 +11,7 @@
 #include "figure/canvas/canvas.hpp"
 #include "figure/chart/chart_column.hpp"
 #include "figure/chart/chart_layout.hpp"
+#include "figure/chart/slope_guide.hpp"
 #include "figure/door/figures.hpp"
 #include "figure/canvas/legend.hpp"
 #include "figure/canvas/text_fit.hpp"
@@ -20,12 +21,11 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour reference_grey{90, 90, 90};
 constexpr Colour front_yellow{255, 232, 150};
 constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
                              Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
 
-constexpr double small_text = 0.85, strip_gap = 0.45;  // in em
+constexpr double strip_gap = 0.45;  // in em
 
 class Chart {
 public:
@@ -62,7 +62,7 @@ public:
       legend.draw(canvas_, *corner, inside);
       if (inside) occupied_.add(Box{corner->x, corner->y, corner->x + legend.width(), corner->y + legend.height()});
     }
-    for (const SlopeGuide& guide : picture.slopes) draw_guide(guide);
+    for (const SlopeGuide& guide : picture.slopes) draw_guide(canvas_, picture, guide, axes(), occupied_);
   }
 
   ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top}; }
@@ -284,60 +284,6 @@ private:
   }
 
   Axes axes() const { return {room_, x_, y_, x_ticks_, y_ticks_, em_}; }
-
-  // A triangle whose slanted side has the slope, near the curve whose slope is most like it and clear of
-  // all; smaller where there is little room.
-  void draw_guide(const SlopeGuide& guide) {
-    for (const double share : {0.16, 0.11, 0.07})
-      if (draw_guide(guide, share)) return;
-  }
-
-  // The curve of nearest slope, in pixels; all where there is none.
-  Occupied like(double slope) const {
-    std::vector<std::vector<Point>> all;
-    for (const SeriesPicture& s : picture_.series)
-      if (!s.reference)
-        for (auto& curve : curves(s, x_, y_)) all.push_back(std::move(curve));
-    const std::vector<Point>* best = nearest_slope(all, slope);
-    if (!best) return occupied_;
-    Occupied out;
-    out.add(*best, room_);
-    return out;
-  }
-
-  bool draw_guide(const SlopeGuide& guide, double share) {
-    const double ratio = steepness(x_, y_, guide.slope);
-    double run = share * room_.width();
-    if (std::abs(ratio) * run > 1.6 * share * room_.height()) run = 1.6 * share * room_.height() / std::abs(ratio);
-    const double rise = ratio * run, up = std::abs(rise);
-    const bool plain = guide.label.empty();
-    const std::string label = plain ? number(guide.slope) : guide.label;
-    const double size = small_text * em_;
-    const Point extent = text_extent(label, size);
-    const double pad = 0.35 * em_;
-    // With room for the labels on the right, and on the level side: below where the line rises, else above.
-    const double width = run + extent.x + 2 * pad, height = up + 1.2 * em_ + pad;
-    const std::optional<Point> place = near_place(occupied_, like(ratio), room_, width, height, 0.5 * em_);
-    if (!place) return false;
-    const Point at = *place;
-    occupied_.add(Box{at.x, at.y, at.x + width, at.y + height});
-    const double y0 = at.y + (rise >= 0 ? 1.2 * em_ : pad);
-    const Point a{at.x, rise >= 0 ? y0 : y0 + up}, b{at.x + run, rise >= 0 ? y0 + up : y0};
-    const Point corner{b.x, a.y};
-    const std::array<Point, 3> triangle{a, corner, b};
-    canvas_.convex(triangle, {235, 235, 235});
-    canvas_.polyline(triangle, std::max(1.2, em_ / 16), reference_grey, {}, true);
-    TextStyle style;
-    style.size = size;
-    style.colour = reference_grey;
-    style.up = Align::middle;
-    canvas_.text({b.x + pad, y0 + up / 2}, label, style);
-    if (!plain) return true;
-    style.across = Align::middle;
-    style.up = rise >= 0 ? Align::high : Align::low;
-    canvas_.text({at.x + run / 2, rise >= 0 ? y0 - 0.15 * em_ : a.y + 0.1 * em_}, "1", style);
-    return true;
-  }
 
   const ChartPicture& picture_;
   Canvas& canvas_;

@@ -9,6 +9,9 @@
 
 namespace dotyk::figure {
 
+inline constexpr Colour reference_grey{90, 90, 90};
+inline constexpr double small_text = 0.85;  // in em
+
 // What lies farther off, or would rise more steeply, counts as so far.
 constexpr double most_pixels = 1e300;
 

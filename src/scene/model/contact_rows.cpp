@@ -29,8 +29,8 @@ class ContactRowMaker {
   }
 
   void normal() {
-    if (problem::row_law(contact_.normal)) builder_.open_group(contact_.name, nullptr);
-    std::vector<double> shares;
+    const bool law = problem::row_law(contact_.normal) != nullptr;
+    if (law) builder_.rows.open_group(contact_.name, contact_.normal);
     std::vector<char> moves, held;
     for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
       moves.push_back(this->moves(k, contact_.rows[k].normal));
@@ -50,15 +50,12 @@ class ContactRowMaker {
         gap += jump.weight * contact_.rows[jump.row].gap;
       }
       if (contact_.normal.kind == Kind::prescribed) gap -= contact_.normal.value;
-      const bool none = pulls.empty() || (held[k] && nodal(contact_)) || !problem::row_law(contact_.normal);
-      const int r = none ? -1 : builder_.add(first_, second_, pulls, gap);
+      const bool none = pulls.empty() || (held[k] && nodal(contact_)) || !law;
+      const int r = none ? -1 : builder_.add(first_, second_, pulls, gap, row.measure);
       model_.contact_row.back().push_back(r);
       std::vector<double>& measure = model_.problem.measure;
-      if (r < 0) continue;
-      measure.resize(static_cast<std::size_t>(r) + 1, 0), measure.back() = row.measure;
-      shares.push_back(row.measure);
+      if (r >= 0) measure.resize(static_cast<std::size_t>(r) + 1, 0), measure.back() = row.measure;
     }
-    if (problem::row_law(contact_.normal)) model_.problem.groups.back().law = problem::row_law(contact_.normal, 1, shares);
   }
 
   void tangential() {
@@ -191,11 +188,11 @@ class ContactRowMaker {
   /// The points of one kind, with this many free tangents each.
   void add(const std::vector<Candidate>& points, int components, bool slips) {
     std::vector<int> normal;
-    std::vector<double> bounds, shares;
+    std::vector<double> bounds;
     int first_row = -1;
     for (const Candidate& point : points) {
       if (point.slips != slips || static_cast<int>(point.tangents.size()) != components) continue;
-      if (first_row < 0) first_row = slips ? builder_.open_friction() : open_group();
+      if (first_row < 0) first_row = slips ? builder_.rows.open_friction() : open_group();
       FrictionRows rows{point.cell, 0, {-1, -1}, {}};
       for (const Point& t : point.tangents) {
         const int i = rows.count++;
@@ -204,15 +201,12 @@ class ContactRowMaker {
         for (const contact::Term& jump : point.cell.jumps)
           pulls.push_back(pull(jump, rows.at(i, contact_.rows[jump.row], dim_)));
         double jump = 0;
-        rows.row[i] = builder_.add(first_, second_, pulls, jump);
-        shares.push_back(point.cell.measure);
+        rows.row[i] = builder_.add(first_, second_, pulls, jump, point.cell.measure);
       }
       model_.friction.back().push_back(std::move(rows));
       normal.push_back(point.normal);
       bounds.push_back(point.cell.bound);
     }
-    if (!slips && !normal.empty() && contact_.friction == Friction::Kind::none)
-      model_.problem.groups.back().law = problem::row_law(contact_.tangential, 1, shares);
     if (!slips || normal.empty()) return;
     auto law = contact_.friction == Friction::Kind::tresca ? problem::tresca(std::move(bounds))
                                                            : problem::coulomb(std::move(bounds));
@@ -220,7 +214,8 @@ class ContactRowMaker {
   }
 
   int open_group() {
-    builder_.open_group(contact_.name + (contact_.friction == Friction::Kind::none ? " (tangential)" : " (no slip)"), problem::bilateral());
+    if (contact_.friction == Friction::Kind::none) builder_.rows.open_group(contact_.name + " (tangential)", contact_.tangential);
+    else builder_.rows.open_group(contact_.name + " (no slip)", problem::bilateral());
     return 0;
   }
 

@@ -89,7 +89,7 @@ void add_glue_rows(const Scene& scene, const Contact& contact, RowBuilder& build
                    std::vector<int>& row_of) {
   const int first = scene.index_of(contact.first.body.get());
   const int second = scene.index_of(contact.second.body.get());
-  builder.open_group(contact.name, problem::bilateral());
+  builder.rows.open_group(contact.name, problem::bilateral());
   for (const contact::Tie& tie : contact.glued)
     for (int i = 0; i < scene.dimension(); ++i) {
       Point direction{0, 0, 0};
@@ -172,7 +172,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
     add_support_rows(static_cast<int>(b), builder, model);
     const Body& body = model.bodies[b];
     if (body.slides.empty()) continue;
-    builder.open_group("slide of '" + body.name + "'", problem::bilateral());
+    builder.rows.open_group("slide of '" + body.name + "'", problem::bilateral());
     for (const SlideRow& slide : body.slides) {
       double jump = 0;
       model.slide_row.back().push_back(

@@ -9,26 +9,15 @@ namespace dotyk::scene {
 using mesh::Point;
 using mesh::dot;
 
-void RowBuilder::open_group(const std::string& name, std::shared_ptr<const problem::Law> law) {
-  scalar_ = true;
-  model_.problem.groups.push_back({name, std::move(law), count_, 0});
-}
-
-int RowBuilder::open_friction() {
-  scalar_ = false;
-  return count_;
-}
-
 int RowBuilder::add(int body, int node, const Point& direction, double& gap) {
   return add(body, std::vector<contact::NodeWeight>{{node, 1}}, direction, gap);
 }
 
-int RowBuilder::add(int body, const std::vector<contact::NodeWeight>& mean, const Point& direction, double& gap) {
-  return add(body, -1, {{mean, {}, direction}}, gap);
+int RowBuilder::add(int body, const std::vector<contact::NodeWeight>& mean, const Point& direction, double& gap, double share) {
+  return add(body, -1, {{mean, {}, direction}}, gap, share);
 }
 
-int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, double& gap) {
-  const std::size_t before = entries_.size();
+int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, double& gap, double share) {
   const Pull* main = &pulls.front();
   for (const Pull& pull : pulls) {
     for (const contact::NodeWeight& own : pull.own) collect(body, own.node, pull.direction, own.weight, gap);
@@ -38,11 +27,9 @@ int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, do
       for (int i = 0; i < 3; ++i) gap += pull.direction[i] * move_[i];
     if (dot(pull.direction, pull.direction) > dot(main->direction, main->direction)) main = &pull;
   }
-  if (entries_.size() == before) return -1;
-  gaps_.push_back(gap);
+  if (!rows.any()) return -1;
   places_.push_back({body, main->own.front().node});
-  if (scalar_) ++model_.problem.groups.back().count;
-  return count_++;
+  return rows.add(gap, share);
 }
 
 bool RowBuilder::moves(int body, int node, const Point& direction) const {
@@ -57,20 +44,17 @@ bool RowBuilder::moves(int body, const std::vector<contact::NodeWeight>& mean, c
 }
 
 void RowBuilder::finish() {
-  model_.problem.B.resize(count_, model_.problem.unknowns());
-  model_.problem.B.setFromTriplets(entries_.begin(), entries_.end());
-  model_.problem.c = Eigen::Map<const algebra::Vector>(gaps_.data(), count_);
   std::vector<std::string> names;
   std::vector<std::shared_ptr<const mesh::Mesh>> meshes;
   for (const auto& body : scene_.bodies) {
     names.push_back(body->name);
     meshes.push_back(body->mesh);
   }
-  model_.problem.row_name = [names, meshes, places = places_](int row) {
+  rows.finish([names, meshes, places = places_](int row) {
     const Place p = places[row];
     return text("node ", p.node + 1, " of '", names[p.body], "' at ",
                 point_text(meshes[p.body]->node(p.node), meshes[p.body]->dimension()));
-  };
+  });
 }
 
 void RowBuilder::collect(int body, int node, const Point& direction, double sign, double& gap) {
@@ -80,8 +64,7 @@ void RowBuilder::collect(int body, int node, const Point& direction, double sign
     if (direction[i] == 0) continue;
     const std::size_t at = static_cast<std::size_t>(node) * dim + i;
     if (numbering.unknown[at] >= 0)
-      entries_.emplace_back(count_, model_.problem.blocks[body].first + numbering.unknown[at],
-                            sign * direction[i]);
+      rows.entry(model_.problem.blocks[body].first + numbering.unknown[at], sign * direction[i]);
     else
       gap -= sign * direction[i] * numbering.prescribed[at];
   }

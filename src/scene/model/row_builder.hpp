@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "problem/rows.hpp"
 #include "scene/model/model.hpp"
 
 namespace dotyk::scene {
@@ -16,32 +17,29 @@ struct Pull {
   mesh::Point direction;
 };
 
-/// Gathers rows of B as they come. Used while a model is built.
+/// Rows of a scene's problem by nodes and directions. Used while a model is built.
 class RowBuilder {
  public:
-  RowBuilder(const Scene& scene, Model& model) : scene_(scene), model_(model) {}
+  RowBuilder(const Scene& scene, Model& model) : rows(model.problem), scene_(scene), model_(model) {}
 
   /// The rigid shape of rows added from now on is displaced by this: part of their gap.
   void set_move(const mesh::Point& move) { move_ = move; }
-  /// Rows added from now on are under this law.
-  void open_group(const std::string& name, std::shared_ptr<const problem::Law> law);
-  /// Rows added from now on are tangential, under a law set later; returns the next row.
-  int open_friction();
-
   /// direction·u at a node = jump; returns the row, or -1 where nothing is unknown.
-  /// `gap` is reduced by what prescribed components contribute and left so.
+  /// `gap` is reduced by what prescribed components contribute and left so. `share`: see problem::Rows.
   int add(int body, int node, const mesh::Point& direction, double& gap);
 
   /// The same of several pulls (at least one) of two bodies, or of one and a rigid shape (other_body -1).
-  int add(int body, int other_body, const std::vector<Pull>& pulls, double& gap);
+  int add(int body, int other_body, const std::vector<Pull>& pulls, double& gap, double share = 1);
   /// The row direction·Σ weight u.
-  int add(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction, double& gap);
+  int add(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction, double& gap, double share = 1);
   /// Has the node (one of the nodes) an unknown along the direction?
   bool moves(int body, int node, const mesh::Point& direction) const;
   bool moves(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction) const;
 
   /// Sets B, c and the rows' names.
   void finish();
+
+  problem::Rows rows;
 
  private:
   void collect(int body, int node, const mesh::Point& direction, double sign, double& gap);
@@ -52,10 +50,6 @@ class RowBuilder {
   const Scene& scene_;
   Model& model_;
   mesh::Point move_{0, 0, 0};
-  bool scalar_ = true;  ///< rows belong to the last scalar group
-  int count_ = 0;
-  std::vector<Eigen::Triplet<double>> entries_;
-  std::vector<double> gaps_;
   std::vector<Place> places_;  ///< where a row is, for messages made only when needed
 };
 

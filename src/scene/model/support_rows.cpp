@@ -36,34 +36,27 @@ class SupportRowMaker {
 
   void normal() {
     const SupportLaw& law = support_.normal;
-    builder_.open_group(name("normal"), nullptr);
-    std::vector<double> shares;
+    builder_.rows.open_group(name("normal"), law);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const contact::NodeSide& side = support_.nodes[k];
-      rows_[k].normal = add(side, side.normal, law, law.kind == Kind::prescribed ? -law.value : 0);
-      if (rows_[k].normal >= 0) shares.push_back(support_.breaks(k) ? 0 : side.weight);
+      rows_[k].normal = add(side, side.normal, law, law.kind == Kind::prescribed ? -law.value : 0, support_.breaks(k) ? 0 : side.weight);
     }
-    close_group(law, shares);
   }
 
   void tangential() {
     const SupportLaw& law = support_.tangential;
-    builder_.open_group(name("tangential"), nullptr);
-    std::vector<double> shares;
+    builder_.rows.open_group(name("tangential"), law);
     for (std::size_t k = 0; k < rows_.size(); ++k)
       for (const Point& t : contact::tangents(support_.nodes[k].normal, on_.dimension())) {
-        const int row = add(support_.nodes[k], t, law, law.kind == Kind::prescribed ? law.value : 0);
-        if (row < 0) continue;
-        rows_[k].add(row, t);
-        shares.push_back(support_.nodes[k].weight);
+        const int row = add(support_.nodes[k], t, law, law.kind == Kind::prescribed ? law.value : 0, support_.nodes[k].weight);
+        if (row >= 0) rows_[k].add(row, t);
       }
-    close_group(law, shares);
   }
 
   /// Points of one and of two free tangents apart: a group's points have as many rows each.
   void friction() {
     for (int components = 1; components < on_.dimension(); ++components) {
-      const int first = builder_.open_friction();
+      const int first = builder_.rows.open_friction();
       std::vector<double> bounds;
       std::vector<int> normal;
       for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -72,7 +65,7 @@ class SupportRowMaker {
         const bool coulomb = support_.tangential.kind == Kind::coulomb;
       const double value = support_.friction_value.empty() ? support_.tangential.value : support_.friction_value[k];
       if (static_cast<int>(free.size()) != components || value == 0 || (coulomb && rows_[k].normal < 0)) continue;
-        for (const Point& t : free) rows_[k].add(add(side, t, support_.tangential, 0), t);
+        for (const Point& t : free) rows_[k].add(add(side, t, support_.tangential, 0, side.weight), t);
         bounds.push_back(coulomb ? value : value * side.weight);
         normal.push_back(coulomb ? rows_[k].normal : -1);
       }
@@ -90,8 +83,8 @@ class SupportRowMaker {
   }
 
   /// The row direction·u = gap, or -1 where nothing moves.
-  int add(const contact::NodeSide& side, const Point& direction, const SupportLaw& law, double gap) {
-    if (moves(side, direction)) return builder_.add(body_, side.own, direction, gap);
+  int add(const contact::NodeSide& side, const Point& direction, const SupportLaw& law, double gap, double share) {
+    if (moves(side, direction)) return builder_.add(body_, side.own, direction, gap, share);
     if (!builder_.moves(body_, side.own, direction)) builder_.add(body_, side.own, direction, gap);  // no row; gap changes
     const double rounding = 1e-12 * on_.mesh->size();
     if (law.kind == Kind::prescribed ? std::abs(gap) > rounding : law.kind == Kind::signorini && gap < -rounding)
@@ -103,13 +96,6 @@ class SupportRowMaker {
 
   bool moves(const contact::NodeSide& side, const Point& direction) const {
     return scene::moves(on_, model_.numbering[body_], side, direction);
-  }
-
-  void close_group(const SupportLaw& law, const std::vector<double>& shares) {
-    if (shares.empty())
-      model_.problem.groups.pop_back();
-    else
-      model_.problem.groups.back().law = problem::row_law(law, 1, shares);
   }
 
   int body_;

@@ -10,7 +10,7 @@ namespace dotyk::solver {
 
 /// The primal-dual active set method (TR965 (1.44)–(1.47)), which is Newton's method on
 /// λ = P(λ + ρ(Bu − c)) and so takes every scalar law: in each iteration the branch of every
-/// row is read off y = λ + ρx, then a linear problem is solved; it ends when the branches repeat.
+/// row is read off y = λ + ρx, then a linear problem is solved; it ends when two in a row have the same branches.
 struct Pdas : Settings {
   /// Multiplies each row's own stiffness Σ_j B_rj² K_jj (force per displacement): with 1, forces
   /// and gaps weigh alike. It matters only while both λ and x of a row are nonzero, that is
@@ -34,10 +34,10 @@ struct Pdas : Settings {
   int max_moves = 50;
 };
 
-/// Solves. Where Newton steps repeat active sets, meet a singular problem or crawl (after fourteen steps still as many rows change), rescues follow one
+/// Solves. Where Newton steps cycle, meet a singular problem or crawl (after fourteen steps still as many rows change), rescues follow one
 /// another: Gauss–Seidel sweeps that decrease the dual energy (for cycles), a barrier method on the condensed rows, an interior point method on the unknowns.
-/// Each has steps of its own, told in `reason` and not among `iterations`; Newton steps confirm what it found, whatever max_iterations says. Where sets repeat
-/// even so and all laws are unilateral or linear, ActiveSet solves the problem from rest.
+/// Each has steps of its own, told in `reason` and not among `iterations`; Newton steps confirm what it found, whatever max_iterations says. Where they cycle
+/// even so, ActiveSet solves the problem from rest if all laws are unilateral or linear, else Proximal.
 /// Throws InputError where a body is not held, naming its motion.
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
 

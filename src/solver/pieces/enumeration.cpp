@@ -9,6 +9,7 @@
 #include "algebra/dense/polyhedron.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "solver/pieces/choices.hpp"
 #include "solver/rows/natural_map.hpp"
 #include "solver/core/require_solvable.hpp"
 
@@ -22,59 +23,9 @@ using problem::FrictionGroup;
 using problem::Problem;
 using problem::RowGroup;
 
-constexpr long kMostCombinations = 1L << 20;
 constexpr double kRelative = 1e-9;  ///< what counts as rounding in multipliers and jumps
 constexpr double kSingularPivot = 1e-11; ///< pivots below this part of the greatest are rounding
 constexpr double kNothing = 1e-13;  ///< of a family's size: rounding in its ends
-
-/// A row or two whose pieces are chosen together.
-struct Choice {
-  int row = -1;            ///< of contact
-  int tangent = -1;        ///< of friction
-  int pieces = 2;          ///< open, closed; stick, forward, backward; open, stick, forward, backward
-  double bound = 0;        ///< of given friction
-  double coefficient = 0;  ///< ∂b/∂λ_n
-};
-
-void add_friction(const FrictionGroup& group, std::vector<Choice>& choices, const std::vector<int>& choice_of) {
-  const auto refuse = [&](const char* why) {
-    throw InputError(text("enumeration cannot treat ", group.name, ": ", why,
-                          "; newton from several starts can (seed = 1, 2, …)"));
-  };
-  if (group.components != 1) refuse("in space slip has not finitely many pieces");
-  for (int k = 0; k < group.points(); ++k) {
-    const double slope = group.law->bound_slope(k), bound = group.law->bound(k, 0);
-    if (slope == 0) {
-      if (bound > 0) choices.push_back({.tangent = group.row(k), .pieces = 3, .bound = bound});
-      continue;
-    }
-    const int at = choice_of[group.normal[k]];
-    if (at < 0 || choices[at].tangent >= 0) refuse("its normal rows are not contact rows of one point each");
-    choices[at].tangent = group.row(k);
-    choices[at].coefficient = slope;
-    choices[at].pieces = 4;
-  }
-}
-
-std::vector<Choice> choices_of(const Problem& problem) {
-  std::vector<Choice> choices;
-  std::vector<int> choice_of(problem.rows(), -1);
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
-      choice_of[r] = static_cast<int>(choices.size());
-      choices.push_back({.row = r});
-    }
-  for (const RowGroup& group : problem.groups)
-    if (group.count > 0 && !group.law->unilateral() && !group.law->linear_stiffness(0))
-      throw InputError(text("enumeration cannot treat the ", group.law->name(), " law of the ", group.name, "; pdas can"));
-  for (const FrictionGroup& group : problem.friction) add_friction(group, choices, choice_of);
-  double combinations = 1;
-  for (const Choice& choice : choices) combinations *= choice.pieces;
-  if (combinations > kMostCombinations)
-    throw InputError(text("enumeration would try ", combinations, " combinations of the pieces of ", choices.size(),
-                          " contact and friction points; it takes up to ", kMostCombinations));
-  return choices;
-}
 
 class BranchSearch {
  public:

@@ -1,0 +1,188 @@
+#include "solver/active/set_iteration.hpp"
+
+#include "base/text.hpp"
+#include "problem/residual.hpp"
+
+namespace dotyk::solver {
+
+using algebra::Vector;
+using problem::Problem;
+using End = SetIteration::End;
+
+namespace {
+
+/// Do Newton steps crawl when more than half as many rows change as so many steps ago?
+constexpr std::size_t kStretch = 4;
+
+/// The linearisation at the flags, but on rows whose flag is that of `l`, which stay.
+Linearisation with_flags(const Problem& problem, const Linearisation& l, const std::vector<char>& active, const Vector& rho) {
+  Linearisation changed = from_flags(problem, active, rho);
+  for (int r = 0; r < problem.rows(); ++r)
+    if (active[r] == l.active[r]) {
+      changed.y[r] = l.y[r];
+      changed.value[r] = l.value[r];
+      changed.slope[r] = l.slope[r];
+      changed.active[r] = l.active[r];
+    }
+  return changed;
+}
+
+}  // namespace
+
+SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor& monitor)
+    : problem(problem), settings(settings), monitor(monitor), solvable(require_solvable(problem, result.clock, monitor)),
+      rho(settings.rho * problem.row_stiffness()), holder_(problem, rigid), compliance_(problem.row_compliance()), parts_(problem::parts(problem)) {
+  // A row that no unknown moves has no stiffness; any ρ will do.
+  const double largest = rho.size() && rho.maxCoeff() > 0 ? rho.maxCoeff() : 1;
+  for (int r = 0; r < rho.size(); ++r)
+    if (!(rho[r] > 0)) rho[r] = largest, compliance_[r] = settings.rho / largest;
+  lambda = Vector::Zero(problem.rows());
+  result.method = settings.reduced ? "pdas" : settings.held ? "pdas (held)" : "pdas (full)";
+  place_screws();
+  l = first();
+  step = make_step();
+}
+
+void SetIteration::place_screws() {
+  if (settings.kernel != Pdas::Kernel::screws || rigid.noticed.cols() == 0) return;
+  if (!settings.reduced) throw InputError("kernel = \"screws\" needs reduced = true");
+  screws.emplace(problem, algebra::DenseMatrix(rigid.noticed_N), rigid.noticed_e, settings.screws);
+  result.method = "pdas with screws";
+  note_screws();
+}
+
+/// Where nothing is loaded λ itself is noise.
+double SetIteration::noise_of_screws() const { return std::max(1e-9 * lambda.lpNorm<Eigen::Infinity>(), noise(lambda, x).force.maxCoeff()); }
+
+/// Screws that pull move, and the iteration goes on.
+bool SetIteration::move_screws() {
+  if (screws->moves() >= settings.max_moves || !screws->move(lambda, noise_of_screws())) return false;
+  result.screw_moves = screws->moves();
+  note_screws();
+  l = held(std::move(l), x);
+  seen_.clear();
+  return true;
+}
+
+std::unique_ptr<Step> SetIteration::make_step() {
+  if (settings.reduced) condensed();
+  else if (settings.held) stiffness();
+  return screws             ? screw_step(*condensed_, rho, *screws)
+         : settings.reduced ? reduced_step(*condensed_, rho)
+         : settings.held    ? held_step(problem, *stiffness_, rho)
+         : settings.step    ? settings.step(problem, rigid, rho)
+                            : full_step(problem, rigid, rho);
+}
+
+const problem::CondensedProblem& SetIteration::condensed() {
+  if (condensed_) return *condensed_;
+  condensed_ = &(settings.condenser ? *settings.condenser : own_).condense(problem, rigid, settings.ordering, result.clock, monitor);
+  result.factor_bytes = condensed_->factor_bytes();
+  result.ordering = condensed_->ordering();
+  return *condensed_;
+}
+
+HeldStiffness& SetIteration::stiffness() {
+  if (stiffness_) return *stiffness_;
+  Stopwatch watch;
+  monitor.phase("ordering");
+  stiffness_.emplace(problem, rigid, settings.ordering);
+  result.clock.ordering += watch.lap();
+  result.factor_bytes = stiffness_->cholesky().bytes();
+  result.ordering = stiffness_->cholesky().method();
+  return *stiffness_;
+}
+
+Linearisation SetIteration::first() const {
+  const double touching = 1e-12 * (problem.rows() ? problem.c.lpNorm<Eigen::Infinity>() : 0);
+  std::vector<char> active = settings.start;
+  if (active.empty()) {
+    active.resize(problem.rows());
+    for (const problem::RowGroup& group : problem.groups)
+      for (int r = group.first; r < group.first + group.count; ++r) active[r] = !group.law->unilateral() || problem.c[r] <= touching;
+  }
+  return held(from_flags(problem, active, rho), -problem.c);
+}
+
+Linearisation SetIteration::held(Linearisation l, const Vector& x) const {
+  std::vector<char> active = l.active;
+  if (screws)
+    for (int r : screws->rows()) active[r] = 1;
+  holder_.hold(active, x, l.value);
+  return active == l.active ? l : with_flags(problem, l, active, rho);
+}
+
+End SetIteration::iterate(int most, int patience) {
+  seen_.clear();
+  for (int k = 0; k < most && (k < patience || !crawls()); ++k) {
+    if (monitor.stop()) return End::interrupted;
+    if (const auto end = advance()) return *end;
+  }
+  return End::exhausted;
+}
+
+bool SetIteration::crawls() const {
+  const auto& h = result.history;
+  return h.size() > kStretch && 2 * h.back().changed > h[h.size() - 1 - kStretch].changed;
+}
+
+/// One linear solve and the next linearisation; nothing where it is new.
+std::optional<End> SetIteration::advance() {
+  ++result.iterations;
+  result.active_sets.push_back(l.active);
+  seen_.insert(l.fingerprint());
+  Vector next_lambda, next_x;
+  if (!step->solve(l, next_lambda, next_x)) return End::singular;  // the state stays that of the last solve
+  lambda = std::move(next_lambda);
+  x = std::move(next_x);
+  alpha.reset();
+  Linearisation next = held(linearise(problem, lambda, x, rho, noise(lambda, x), &l), x);
+  changed_.clear();
+  for (int r = 0; r < problem.rows(); ++r)
+    if (!next.same_piece(l, r)) changed_.push_back(r);
+  record(next);
+  if (changed_.empty()) {
+    if (!screws || !screws->pulls(lambda, noise_of_screws())) return End::confirmed;
+    return move_screws() ? std::nullopt : std::optional(End::misplaced);
+  }
+  l = std::move(next);
+  return seen_.count(l.fingerprint()) ? std::optional(End::cycle) : std::nullopt;
+}
+
+Noise SetIteration::noise(const Vector& lambda, const Vector& x) const {
+  if (lambda.size() == 0) return {lambda, lambda};
+  Vector jump = (x + problem.c).cwiseAbs();
+  for (Eigen::Index r = 0; r < x.size(); ++r)
+    if (!(std::abs(problem.c[r]) < 1e6 * jump[r])) jump[r] = 0;
+  const std::vector<double> force = parts_.greatest(lambda), moved = parts_.greatest(jump);
+  const Vector stiffness = compliance_.cwiseInverse();
+  Vector most(x.size());
+  for (Eigen::Index r = 0; r < x.size(); ++r) {
+    const int part = parts_.of_row[r];
+    most[r] = 1e-13 * (force[part] + stiffness[r] * std::max(std::abs(problem.c[r]), moved[part]));
+  }
+  return {most, most.cwiseQuotient(stiffness)};
+}
+
+void SetIteration::record(const Linearisation& next) {
+  IterationInfo info;
+  info.iteration = result.iterations;
+  info.active = next.active_count();
+  info.changed = static_cast<int>(changed_.size());
+  info.residual = problem::natural_residual(problem, x, lambda, rho);
+  info.seconds = watch_.seconds();
+  result.history.push_back(info);
+  monitor.iteration(info);
+}
+
+std::string SetIteration::places() const {
+  std::string out;
+  for (std::size_t k = 0; k < changed_.size() && k < 4; ++k)
+    out += (k ? ", " : "") + (problem.row_name ? problem.row_name(changed_[k]) : text("row ", changed_[k] + 1));
+  if (changed_.size() > 4) out += text(" and ", changed_.size() - 4, " more");
+  return out;
+}
+
+problem::State SetIteration::state() { return {settled ? *settled : alpha ? condensed_->recover(lambda, *alpha) : step->recover(), lambda}; }
+
+}  // namespace dotyk::solver

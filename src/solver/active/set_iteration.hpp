@@ -1,0 +1,83 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "base/stopwatch.hpp"
+#include "problem/parts.hpp"
+#include "solver/active/held_stiffness.hpp"
+#include "solver/active/hold.hpp"
+#include "solver/active/pdas.hpp"
+#include "solver/active/screws.hpp"
+#include "solver/core/require_solvable.hpp"
+
+namespace dotyk::solver {
+
+/// Newton steps on λ = P(λ + ρx) for one problem: the linearisation that they go on from, the state that they leave, and what is factored for them.
+class SetIteration {
+ public:
+  /// `confirmed`: two steps in a row have the same branches. `misplaced`: a screw pulls and has nowhere to go. `cycle`: branches that were there before.
+  enum class End { confirmed, misplaced, cycle, singular, exhausted, interrupted };
+
+  /// From the rows that the settings' start names, else those that touch at rest. Throws InputError where a body is not held, naming its motion.
+  SetIteration(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
+
+  /// At most so many steps; fewer where they crawl after more than `patience`.
+  End iterate(int most, int patience);
+  int left() const { return settings.max_iterations - result.iterations; }
+  /// Goes on from a state (λ, x).
+  void go_on_from(const algebra::Vector& lambda, const algebra::Vector& x, const Noise& noise) { l = held(linearise(problem, lambda, x, rho, noise, nullptr), x); }
+  /// What rounding leaves on rows that touch without force: a few digits of the greatest multiplier of their part, and of the displacements and the row's
+  /// own gap that cancel in x, each turned into the other by the row's stiffness. A gap that says "never" (1e30) is no measure of the others' rounding.
+  Noise noise(const algebra::Vector& lambda, const algebra::Vector& x) const;
+  /// The linearisation with rows added where a rigid motion would be free.
+  Linearisation held(Linearisation l, const algebra::Vector& x) const;
+  /// Factored on first use.
+  const problem::CondensedProblem& condensed();
+  HeldStiffness& stiffness();
+  /// "node 12 of 'b' at (0, 1), …": the rows that changed last.
+  std::string places() const;
+  /// The state as it was left: the rows' λ, and u.
+  problem::State state();
+
+  const problem::Problem& problem;
+  const Pdas& settings;
+  Monitor& monitor;
+  Result result;
+  const Solvable solvable;
+  const problem::RigidMotions& rigid = solvable.rigid;
+  algebra::Vector rho;  ///< of the rows
+  Linearisation l;
+  algebra::Vector lambda, x;
+  std::optional<algebra::Vector> alpha;    ///< of rigid motions, where λ is not the last step's
+  std::optional<algebra::Vector> settled;  ///< u of another method
+  std::optional<Screws> screws;
+  std::unique_ptr<Step> step;
+  bool is_condensed() const { return condensed_ != nullptr; }
+  bool is_analysed() const { return stiffness_.has_value(); }
+
+ private:
+  void place_screws();
+  void note_screws() { result.screws.push_back({screws->rows(), screws->regularity(), screws->determinant()}); }
+  double noise_of_screws() const;
+  bool move_screws();
+  std::unique_ptr<Step> make_step();
+  Linearisation first() const;
+  bool crawls() const;
+  std::optional<End> advance();
+  void record(const Linearisation& next);
+
+  Holder holder_;
+  algebra::Vector compliance_;  ///< of the rows
+  problem::Parts parts_;
+  problem::Condenser own_;
+  const problem::CondensedProblem* condensed_ = nullptr;
+  std::optional<HeldStiffness> stiffness_;  ///< of the held form, and of the interior point method
+  std::vector<int> changed_;
+  std::set<std::uint64_t> seen_;
+  Stopwatch watch_;
+};
+
+}  // namespace dotyk::solver
