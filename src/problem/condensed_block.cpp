@@ -11,15 +11,30 @@ using algebra::SparseRows;
 
 namespace {
 
-/// The nodes of a block that some row acts on.
-std::vector<int> nodes_of_rows(const Block& block, const SparseRows& rows) {
-  std::vector<char> touched(block.node.empty() ? 0 : block.node.back() + 1, 0);
+/// What orderings keep together, one entry an unknown, and which of it goes last.
+struct Grouping {
+  std::vector<int> of_unknown, last;
+};
+
+/// The unknowns of a node that some row acts on, and its others apart: where normals are along an axis, Γ is a third of what its nodes have. Together of a free
+/// block, so that every motion that displaces Γ is seen on it.
+Grouping apart(const Block& block, const SparseRows& rows) {
+  const auto n = static_cast<int>(block.node.size());
+  const bool together = block.kernel.cols() > 0;
+  const auto place = [&](int unknown) { return together ? block.node[unknown] : unknown; };
+  std::vector<char> touched(n ? place(n - 1) + 1 : 0, 0);
   for (int r = 0; r < rows.rows(); ++r)
-    for (SparseRows::InnerIterator it(rows, r); it; ++it) touched[block.node[it.col()]] = 1;
-  std::vector<int> nodes;
-  for (std::size_t n = 0; n < touched.size(); ++n)
-    if (touched[n]) nodes.push_back(static_cast<int>(n));
-  return nodes;
+    for (SparseRows::InnerIterator it(rows, r); it; ++it) touched[place(static_cast<int>(it.col()))] = 1;
+  Grouping out;
+  int group = -1;
+  for (int i = 0; i < n; ++i) {
+    if (i == 0 || block.node[i] != block.node[i - 1] || touched[place(i)] != touched[place(i - 1)]) {
+      ++group;
+      if (touched[place(i)]) out.last.push_back(group);
+    }
+    out.of_unknown.push_back(group);
+  }
+  return out;
 }
 
 /// Columns picked and renumbered: column boundary[k] becomes k.
@@ -42,8 +57,8 @@ CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ord
   Stopwatch watch;
   const SparseRows rows = problem.rows_of(block);
   monitor.phase(text("ordering '", block.name, "' (", block.size(), " unknowns)"));
-  CondensedBlock part{{block.K, block.node, nodes_of_rows(block, rows), block.kernel, ordering}, {}, {}, block.first,
-                      block.size()};
+  const Grouping groups = apart(block, rows);
+  CondensedBlock part{{block.K, groups.of_unknown, groups.last, block.kernel, ordering}, {}, {}, block.first, block.size()};
   clock.ordering += watch.lap();
   monitor.check();
   monitor.phase(text("factoring '", block.name, "' (", part.condensation.cholesky().method(), ", ",

@@ -16,7 +16,7 @@ struct Clock {
   }
 };
 
-/// One block condensed onto the unknowns Γ of the nodes that rows act on.
+/// One block condensed onto the unknowns Γ that rows act on.
 struct CondensedBlock {
   algebra::Condensation condensation;
   algebra::SparseRows rows;  ///< B on Γ, rows × |Γ|

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "algebra/dense/dense.hpp"
+#include "algebra/pick_rows.hpp"
 #include "solver/active/linearisation.hpp"
 
 namespace dotyk::solver {
@@ -156,36 +157,27 @@ NaturalMap::System NaturalMap::linearise(const Value& v) const {
   const Eigen::Index n = static_cast<Eigen::Index>(system.rows.size()), k = condensed_->kernel_size();
   system.matrix = DenseMatrix::Zero(n + k, n + k);
   system.right_side = Vector::Zero(n + k);
+  // λ' = projected + S (λ' + ρ x' − y) with x' = x₀ − W λ' + N α', divided by √ρ.
+  DenseMatrix& matrix = system.matrix;
+  const SparseRows own = algebra::pick_rows(S, system.rows);
+  const SparseRows scaled = own * root_.asDiagonal();  // S D^{1/2}
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const int c = system.rows[j];
+    matrix.col(j).head(n).noalias() = scaled * (root_[c] * condensed_->W().col(c));
+    matrix(j, j) += 1;
+  }
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (SparseRows::InnerIterator it(own, i); it; ++it)
+      if (place[it.col()] >= 0) matrix(i, place[it.col()]) -= it.value();
   const Vector rest = condensed_->jump(system.fixed, Vector());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    fill_row(system, i, S, v, place, rest);
-    if (k > 0) system.matrix.col(i).tail(k) = Q_.row(system.rows[i]).transpose();
+  const Vector lacking = (system.fixed - v.y).cwiseQuotient(root_) + root_.cwiseProduct(rest);
+  system.right_side.head(n) = v.projected(system.rows).cwiseQuotient(root_(system.rows)) + own * lacking;
+  if (k > 0) {
+    matrix.topRightCorner(n, k).noalias() = -(own * Q_);
+    matrix.bottomLeftCorner(k, n) = Q_(system.rows, Eigen::all).transpose();
   }
   system.right_side.tail(k) = unbalanced(system.fixed);
   return system;
-}
-
-void NaturalMap::fill_row(System& system, Eigen::Index i, const SparseRows& S, const Value& v,
-                          const std::vector<int>& place, const Vector& rest) const {
-  // λ' = projected + S (λ' + ρ x' − y) with x' = x₀ − W λ' + N α', divided by √ρ.
-  DenseMatrix& matrix = system.matrix;
-  double& right_side = system.right_side[i];
-  const Eigen::Index n = static_cast<Eigen::Index>(system.rows.size()), k = matrix.cols() - n;
-  const int r = system.rows[i];
-  matrix(i, i) += 1;
-  right_side = v.projected[r] / root_[r];
-  for (SparseRows::InnerIterator it(S, r); it; ++it) {
-    const int c = static_cast<int>(it.col());
-    const double s = it.value(), by = s * root_[c];
-    if (place[c] >= 0)
-      matrix(i, place[c]) -= s;
-    else
-      right_side += s * system.fixed[c] / root_[c];
-    right_side += by * rest[c] - s * v.y[c] / root_[c];
-    for (Eigen::Index j = 0; j < n; ++j)
-      matrix(i, j) += by * condensed_->W()(c, system.rows[j]) * root_[system.rows[j]];
-    if (k > 0) matrix.row(i).tail(k) -= s * Q_.row(c);
-  }
 }
 
 void NaturalMap::take(const System& system, const Vector& solved, Vector& lambda, Vector& alpha) const {

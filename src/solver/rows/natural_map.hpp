@@ -67,8 +67,6 @@ class NaturalMap {
   const algebra::Vector& rho() const { return rho_; }
 
  private:
-  void fill_row(System& system, Eigen::Index i, const algebra::SparseRows& S, const Value& v,
-                const std::vector<int>& place, const algebra::Vector& rest) const;
   algebra::Vector scaled_load(const algebra::Vector& e) const;  ///< R^{-T} e
 
   const problem::Problem* problem_;
