@@ -16,13 +16,9 @@ struct Toy {
 };
 struct Other {};
 template <>
-struct Wrapped<Toy> {
-  static constexpr const char* name = "toy";
-};
+struct Wrapped<Toy> : Called<"toy"> {};
 template <>
-struct Wrapped<Other> {
-  static constexpr const char* name = "other";
-};
+struct Wrapped<Other> : Called<"other"> {};
 
 // dotyk.test.* and the class toy. `last` collects what the callables were given.
 class Bench {

@@ -28,8 +28,6 @@ void bind_all(Library& library) {
   bind_thermoelastic(library);
   bind_beam_figure(library);
   bind_plate(library);
-  bind_write(library);
-  bind_plate_figure(library);
 }
 
 }  // namespace dotyk::script

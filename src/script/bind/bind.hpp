@@ -1,8 +1,15 @@
 #pragma once
-// Everything a script sees, one function per file bind_*.cpp.
-namespace dotyk::script {
+// Everything a script sees, one function per file bind_*.cpp, and what these files share.
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "script/bind/result_records.hpp"
+#include "script/bind/setups.hpp"
+#include "script/bridge/bound.hpp"
+#include "script/bridge/library.hpp"
+#include "script/bridge/wrapped.hpp"
+#include "script/prompt/watch.hpp"
 
-class Library;
+namespace dotyk::script {
 
 void bind_all(Library& library);
 
@@ -19,7 +26,6 @@ void bind_solver(Library& library);
 void bind_all_solutions(Library& library);
 void bind_solution(Library& library);
 void bind_figure(Library& library);
-void bind_write(Library& library);
 void bind_program(Library& library);
 void bind_lcp(Library& library);
 void bind_fclib(Library& library);
@@ -28,7 +34,6 @@ void bind_beam(Library& library);
 void bind_beam_figure(Library& library);
 void bind_plate(Library& library);
 void bind_plate_solution(Library& library);
-void bind_plate_figure(Library& library);
 void bind_channel(Library& library);
 void bind_thermoelastic(Library& library);
 

@@ -4,7 +4,7 @@
 #include "script/help/help.hpp"
 #include "script/help/help_lines.hpp"
 #include "script/help/nearest.hpp"
-#include "script/help/pager.hpp"
+#include "script/prompt/terminal.hpp"
 #include "script/bridge/position.hpp"
 
 namespace dotyk::script {

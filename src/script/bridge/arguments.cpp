@@ -104,6 +104,11 @@ bool Arguments::has(const std::string& name) const {
   return value_slot != 0;
 }
 
+bool Arguments::known(const std::string& name) const {
+  int value_slot = 0;
+  return find(name, value_slot).default_value.index() != 0 || value_slot != 0;
+}
+
 bool Arguments::is(const std::string& name, int type) const {
   return has(name) && lua_type(L_, slot(name)) == type;
 }

@@ -33,6 +33,7 @@ class Arguments {
   Arguments(lua_State* L, int index, const Key& table, std::string callee, const std::string& place = "");
 
   bool has(const std::string& name) const;               // given, and not nil
+  bool known(const std::string& name) const;             // given, or the key has a fallback
   bool is(const std::string& name, int lua_type) const;  // given, of this Lua type: LUA_TFUNCTION, …
 
   double number(const std::string& name) const;
@@ -40,11 +41,21 @@ class Arguments {
   bool boolean(const std::string& name) const;
   std::string text(const std::string& name) const;    // a string or a choice
   std::size_t choice(const std::string& name) const;  // which of the key's choices
+  template <class Enum>
+  Enum choice(const std::string& name) const {  // what that stands for
+    int value_slot = 0;
+    return static_cast<Enum>(find(name, value_slot).values.at(choice(name)));
+  }
   std::vector<double> vector(const std::string& name) const;
   std::vector<long long> integers(const std::string& name) const;  // a list of integers
   std::vector<std::string> texts(const std::string& name) const;   // a list of strings
   std::vector<std::vector<double>> matrix(const std::string& name) const;
   Function function(const std::string& name) const;
+  // Into a variable, by its type (see take() in bound.hpp); what is neither given nor has a fallback stays as it is.
+  template <class Value>
+  void read(const std::string& name, Value& into) const {
+    if (known(name)) take(*this, name, into);
+  }
   // With this many components; throws ArgumentError when a constant has others.
   Field field(const std::string& name, std::size_t components = 1) const;
   Arguments table(const std::string& name) const;

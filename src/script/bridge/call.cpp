@@ -102,14 +102,9 @@ int Call::give_all(const std::vector<double>& values) const {
   return static_cast<int>(values.size());
 }
 
-int Call::give_self() const {
+Self Call::give_self() const {
   lua_pushvalue(L_, 1);
-  return 1;
-}
-
-void Call::keep(int object_index, std::initializer_list<const char*> names) const {
-  for (const char* name : names)
-    if (has(name)) keep(object_index, name, slot(name));
+  return {};
 }
 
 void Call::keep(int object_index, const std::string& name, int slot) const {

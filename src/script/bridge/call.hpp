@@ -32,17 +32,18 @@ class Call : public Arguments {
   // The components of a vector as separate results.
   int give_all(const std::vector<double>& values) const;
   // The object before the colon again, for calls that can be chained.
-  int give_self() const;
+  Self give_self() const;
 
-  // Lua values that must live as long as an object (a callback of a solver):
-  // gives the object, and keeps the named arguments with it.
+  // Lua values that must live as long as an object (a callback of a solver): gives the object, and keeps with it those of
+  // the named arguments that are functions.
   template <class T>
-  int give_keeping(const std::shared_ptr<T>& object, std::initializer_list<const char*> names) const {
+  Given<T> give_keeping(const std::shared_ptr<T>& object, std::initializer_list<const char*> names) const {
     push(L_, object);
-    keep(lua_gettop(L_), names);
-    return 1;
+    const int index = lua_gettop(L_);
+    for (const char* name : names)
+      if (is(name, LUA_TFUNCTION)) keep(index, name, slot(name));
+    return {};
   }
-  void keep(int object_index, std::initializer_list<const char*> names) const;
   void keep(int object_index, const std::string& name, int slot) const;  // the value at a stack index, as name
   // The stack index of a value kept with the object at object_index, 0 if none.
   int kept(int object_index, const std::string& name) const;
@@ -61,5 +62,20 @@ class Call : public Arguments {
 
   const Descriptor& descriptor_;
 };
+
+template <class Function>
+requires std::is_invocable_v<Function, Call&>
+Runner::Runner(Function function) {
+  using Result = std::invoke_result_t<Function, Call&>;
+  if constexpr (std::is_same_v<Result, Self>) returns_ = ":";
+  if constexpr (requires { Wrapped<std::remove_const_t<typename Result::element_type>>::name; })
+    returns_ = Wrapped<std::remove_const_t<typename Result::element_type>>::name;
+  run_ = [function = std::move(function)](Call& call) -> int {
+    if constexpr (std::is_same_v<Result, int>) return function(call);
+    else if constexpr (std::is_base_of_v<OneResult, Result>) return function(call), 1;
+    else if constexpr (std::is_void_v<Result>) return function(call), 0;
+    else return call.give(function(call));
+  };
+}
 
 }  // namespace dotyk::script

@@ -1,7 +1,7 @@
-#include "script/bridge/describe.hpp"
-
+// Descriptions written in Lua, as tables.
 #include <stdexcept>
 
+#include "script/bridge/descriptor.hpp"
 #include "script/bridge/lua.hpp"
 
 namespace dotyk::script {

@@ -28,71 +28,9 @@ std::string with_article(const std::string& noun) {
   return (vowel ? "an " : "a ") + noun;
 }
 
-Key& Key::required() {
-  needed = true;
-  return *this;
-}
-Key& Key::unit(std::string text) {
-  units = std::move(text);
-  return *this;
-}
-Key& Key::fallback(double value) {
-  default_value = value;
-  default_text = number_text(value);
-  return *this;
-}
-Key& Key::fallback(bool value) {
-  default_value = value;
-  default_text = value ? "true" : "false";
-  return *this;
-}
-Key& Key::fallback(const char* value) {
-  default_value = std::string(value);
-  default_text = "\"" + std::string(value) + "\"";
-  return *this;
-}
-Key& Key::otherwise(std::string text) {
-  default_text = std::move(text);
-  return *this;
-}
-Key& Key::above(double value) {
-  least = value;
-  least_excluded = true;
-  return *this;
-}
-Key& Key::below(double value) {
-  greatest = value;
-  greatest_excluded = true;
-  return *this;
-}
-Key& Key::at_least(double value) {
-  least = value;
-  least_excluded = false;
-  return *this;
-}
-Key& Key::within(double least_value, double greatest_value) {
-  least = least_value;
-  greatest = greatest_value;
-  return *this;
-}
-Key& Key::or_infinite() {
-  infinite = true;
-  return *this;
-}
-Key& Key::count(std::size_t exactly) { return count(exactly, exactly); }
-Key& Key::count(std::size_t fewest_count, std::size_t most_count) {
-  fewest = fewest_count;
-  most = most_count;
-  return *this;
-}
-Key& Key::written() {
-  output = true;
-  return *this;
-}
-Key& Key::with(Key item) {
-  items = {std::move(item)};
-  return *this;
-}
+Key& Key::fallback(double value) { return set(default_value, value).otherwise(number_text(value)); }
+Key& Key::fallback(bool value) { return set(default_value, value).otherwise(value ? "true" : "false"); }
+Key& Key::fallback(const char* value) { return set(default_value, std::string(value)).otherwise("\"" + std::string(value) + "\""); }
 
 namespace {
 
@@ -212,63 +150,28 @@ std::string Descriptor::signature() const {
 }
 
 namespace key {
-namespace {
-Key make(std::string name, Kind kind, std::string help) {
-  Key key;
-  key.name = std::move(name);
-  key.kind = kind;
-  key.help = std::move(help);
-  return key;
-}
-}  // namespace
-
-Key number(std::string name, std::string help) {
-  return make(std::move(name), Kind::number, std::move(help));
-}
 Key positive(std::string name, std::string help) { return number(std::move(name), std::move(help)).above(0); }
-Key integer(std::string name, std::string help) {
-  return make(std::move(name), Kind::integer, std::move(help));
-}
-Key boolean(std::string name, std::string help) {
-  return make(std::move(name), Kind::boolean, std::move(help));
-}
-Key string(std::string name, std::string help) {
-  return make(std::move(name), Kind::string, std::move(help));
-}
-Key file(std::string name, std::string help) { return make(std::move(name), Kind::file, std::move(help)); }
-Key vector(std::string name, std::string help) {
-  return make(std::move(name), Kind::vector, std::move(help));
-}
-Key matrix(std::string name, std::string help) {
-  return make(std::move(name), Kind::matrix, std::move(help));
-}
-Key field(std::string name, std::string help) { return make(std::move(name), Kind::field, std::move(help)); }
-Key function(std::string name, std::string help) {
-  return make(std::move(name), Kind::function, std::move(help));
-}
-Key any(std::string name, std::string help) { return make(std::move(name), Kind::any, std::move(help)); }
-
 Key choice(std::string name, std::vector<std::string> choices, std::string help) {
-  auto key = make(std::move(name), Kind::choice, std::move(help));
+  auto key = plain<Kind::choice>(std::move(name), std::move(help));
   key.choices = std::move(choices);
   return key;
 }
 Key object(std::string name, std::string type, std::string help) {
-  auto key = make(std::move(name), Kind::object, std::move(help));
+  auto key = plain<Kind::object>(std::move(name), std::move(help));
   key.type = std::move(type);
   return key;
 }
 Key list(std::string name, Key item, std::string help) {
-  return make(std::move(name), Kind::list, std::move(help)).with(std::move(item));
+  return plain<Kind::list>(std::move(name), std::move(help)).with(std::move(item));
 }
 Key table(std::string name, std::vector<Key> keys, std::string help) {
-  auto key = make(std::move(name), Kind::table, std::move(help));
+  auto key = plain<Kind::table>(std::move(name), std::move(help));
   key.keys = std::move(keys);
   return key;
 }
 Key table(std::vector<Key> keys) { return table("", std::move(keys), "").required(); }
 Key either(std::string name, std::vector<Key> kinds, std::string help) {
-  auto key = make(std::move(name), Kind::either, std::move(help));
+  auto key = plain<Kind::either>(std::move(name), std::move(help));
   key.keys = std::move(kinds);
   return key;
 }

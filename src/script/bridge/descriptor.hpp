@@ -1,12 +1,17 @@
 #pragma once
 // One description per callable. It drives registration, the checking of
 // arguments, help(), completion, the reference page and the completeness test.
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
+
+struct lua_State;
 
 namespace dotyk::script {
 
@@ -50,26 +55,32 @@ struct Key {
   std::size_t fewest = 0;  // entries of a vector, items of a list or table
   std::size_t most = std::numeric_limits<std::size_t>::max();
   std::vector<std::string> choices;
+  std::vector<int> values;  // what the choices stand for, where that is an enumeration
   std::string type;        // of an object
   std::vector<Key> keys;   // of a table; the kinds of an either
   std::vector<Key> items;  // one entry describing each item of a list or table
   std::function<std::vector<std::string>(const void* object)> names;  // strings that mean something to a method's object; see of()
 
-  Key& required();              // absent is an error
-  Key& unit(std::string text);  // "stress", "length"
-  Key& fallback(double value);  // taken when absent, and shown by help
+  Key& required() { return set(needed, true); }                        // absent is an error
+  Key& unit(std::string text) { return set(units, std::move(text)); }  // "stress", "length"
+  Key& fallback(double value);                                         // taken when absent, and shown by help
   Key& fallback(bool value);
   Key& fallback(const char* value);
-  Key& otherwise(std::string text);  // what happens when absent, in words
-  Key& above(double value);          // value < x
-  Key& below(double value);          // x < value
-  Key& at_least(double value);       // value <= x
-  Key& within(double least_value, double greatest_value);
-  Key& or_infinite();               // math.huge as well
-  Key& count(std::size_t exactly);  // entries or items
-  Key& count(std::size_t fewest_count, std::size_t most_count);
-  Key& written();       // the call writes this file
-  Key& with(Key item);  // a table that takes items as well as keys
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  Key& fallback(Enum value) {
+    return fallback(choices.at(std::find(values.begin(), values.end(), static_cast<int>(value)) - values.begin()).c_str());
+  }
+  Key& otherwise(std::string text) { return set(default_text, std::move(text)); }               // what happens when absent, in words
+  Key& above(double value) { return set(least, value).set(least_excluded, true); }              // value < x
+  Key& below(double value) { return set(greatest, value).set(greatest_excluded, true); }        // x < value
+  Key& at_least(double value) { return set(least, value).set(least_excluded, false); }          // value <= x
+  Key& within(double low, double high) { return set(least, low).set(greatest, high); }
+  Key& or_infinite() { return set(infinite, true); }                                            // math.huge as well
+  Key& count(std::size_t exactly) { return count(exactly, exactly); }                           // entries or items
+  Key& count(std::size_t least_count, std::size_t most_count) { return set(fewest, least_count).set(most, most_count); }
+  Key& written() { return set(output, true); }                                                  // the call writes this file
+  Key& with(Key item) { return set(items, {std::move(item)}); }                                 // a table that takes items as well as keys
   // Names that the method's object, a T, brings: completion offers them.
   template <class T, class Names>
   Key& of(Names found) {
@@ -79,11 +90,42 @@ struct Key {
 
   // "a positive number", "one of "strain" or "stress"", "a body": completes "expected …".
   std::string expected() const;
+
+ private:
+  template <class T>
+  Key& set(T& member, std::type_identity_t<T> value) {
+    member = std::move(value);
+    return *this;
+  }
 };
 
 // The named keys of a table, or of the tables among the kinds of an either.
 std::vector<Key> named_keys(const Key& key);
 
+// One result that is pushed already: the object before the colon again, or an object with what it keeps.
+struct OneResult {};
+struct Self : OneResult {};
+template <class T>
+struct Given : OneResult {
+  using element_type = T;
+};
+
+// What stands behind a callable: a function of the call. It gives an int, the number of results that it has pushed, or one of
+// the above; or nothing; or a value that push() knows. Where that is an object, it tells what the callable returns.
+class Runner {
+ public:
+  Runner() = default;
+  template <class Function>
+  requires std::is_invocable_v<Function, Call&>
+  Runner(Function function);
+  explicit operator bool() const { return static_cast<bool>(run_); }
+  int operator()(Call& call) const { return run_(call); }  // returns the number of results pushed
+  const std::string& returns() const { return returns_; }  // a type, ":" for the one of the object before the colon, else empty
+
+ private:
+  std::function<int(Call&)> run_;
+  std::string returns_;
+};
 // A Lua callable: its text, its arguments and the C++ function behind it.
 struct Descriptor {
   std::string name = {};               // "dotyk.material", or "body:part" for a method
@@ -91,8 +133,8 @@ struct Descriptor {
   std::string setup = {};              // Lua that makes what the example starts from; shown with it
   std::string example = {};            // Lua that runs after the setup, in any folder that can be written to
   std::vector<Key> arguments = {};     // in order; or a single unnamed table
-  std::string returns = {};            // type of the result, for completion after a call, and for help
-  std::function<int(Call&)> run = {};  // returns the number of results pushed
+  std::string returns = {};            // type of the result, for completion after a call, and for help; mostly `run` tells
+  Runner run = {};
 
   std::string short_name() const;  // "material", "part": what errors begin with
   std::string owner() const;       // "body" for "body:part", else empty
@@ -105,29 +147,51 @@ template <class T>
 struct Wrapped;  // see object.hpp
 
 namespace key {
-Key number(std::string name, std::string help);
+template <Kind kind>
+Key plain(std::string name, std::string help);
+inline constexpr auto number = plain<Kind::number>;
+inline constexpr auto integer = plain<Kind::integer>;
+inline constexpr auto boolean = plain<Kind::boolean>;
+inline constexpr auto string = plain<Kind::string>;
+inline constexpr auto file = plain<Kind::file>;
+inline constexpr auto vector = plain<Kind::vector>;
+inline constexpr auto matrix = plain<Kind::matrix>;
+inline constexpr auto field = plain<Kind::field>;
+inline constexpr auto function = plain<Kind::function>;
+inline constexpr auto any = plain<Kind::any>;
 Key positive(std::string name, std::string help);  // a number above 0
-Key integer(std::string name, std::string help);
-Key boolean(std::string name, std::string help);
-Key string(std::string name, std::string help);
-Key file(std::string name, std::string help);
 Key choice(std::string name, std::vector<std::string> choices, std::string help);
-Key vector(std::string name, std::string help);
-Key matrix(std::string name, std::string help);
-Key field(std::string name, std::string help);
-Key function(std::string name, std::string help);
+// Names of an enumeration's values; Arguments::choice<Enum> gives the value.
+template <class Enum>
+Key choice(std::string name, const std::vector<std::pair<const char*, Enum>>& choices, std::string help) {
+  Key key = choice(std::move(name), std::vector<std::string>(), std::move(help));
+  for (const auto& [text, value] : choices) key.choices.push_back(text), key.values.push_back(static_cast<int>(value));
+  return key;
+}
 Key object(std::string name, std::string type, std::string help);
 Key list(std::string name, Key item, std::string help);
 Key table(std::string name, std::vector<Key> keys, std::string help);
 Key table(std::vector<Key> keys);  // the single table argument of a call
 Key either(std::string name, std::vector<Key> kinds, std::string help);
-Key any(std::string name, std::string help);
 
+template <Kind kind>
+Key plain(std::string name, std::string help) {
+  Key key;
+  key.name = std::move(name), key.kind = kind, key.help = std::move(help);
+  return key;
+}
 template <class T>
 Key object(std::string name, std::string help) {
   return object(std::move(name), Wrapped<T>::name, std::move(help));
 }
 }  // namespace key
+
+// One written in Lua, the table at index: { name =, help =, setup =, example =, returns =, arguments = {…} } where each
+// argument is { name =, kind =, help =, unit =, default =, required =, choices =,
+// type =, above =, at_least =, at_most =, fewest =, most =, written =, keys = {…}, item = {…} };
+// `keys` (and `item`) in place of `arguments` describe a single table argument.
+// Throws std::runtime_error on anything else.
+Descriptor read_descriptor(lua_State* L, int index);
 
 // A number as a person would write it: "0.3", "1e-10", "5".
 std::string number_text(double value);

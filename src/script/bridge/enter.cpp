@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "script/bridge/guard.hpp"
+#include "script/bridge/position.hpp"
 #include "script/bridge/library.hpp"
 #include "script/guard/manifest.hpp"
 #include "script/help/nearest.hpp"

@@ -35,7 +35,8 @@ Library& Library::of(lua_State* L) { return **static_cast<Library**>(lua_getextr
 
 void Library::function(Descriptor descriptor) {
   const auto dot = descriptor.name.rfind('.');
-  const auto& kept = functions_.emplace_back(std::move(descriptor));
+  auto& kept = functions_.emplace_back(std::move(descriptor));
+  if (kept.returns.empty()) kept.returns = kept.run.returns();
   push_function(L_, kept);
   if (dot == std::string::npos) {
     lua_pushglobaltable(L_);
@@ -101,6 +102,7 @@ Type& Library::known_type(const std::string& name) {
 void Library::add_method(Type& type, Descriptor descriptor) {
   auto& kept = type.methods.emplace_back(std::move(descriptor));
   if (kept.setup.empty()) kept.setup = type.setup;
+  if (kept.returns.empty()) kept.returns = kept.run.returns() == ":" ? type.name : kept.run.returns();
   push_function(L_, kept);
   add_method_to_metatable(L_, type.name.c_str(), kept.short_name().c_str());
 }

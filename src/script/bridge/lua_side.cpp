@@ -11,15 +11,13 @@
 #include <stdexcept>
 
 #include "base/whole_file.hpp"
-#include "script/bridge/describe.hpp"
 #include "script/bridge/enter.hpp"
-#include "script/bridge/guard.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/library.hpp"
 #include "script/guard/manifest.hpp"
 #include "script/help/nearest.hpp"
 #include "script/bridge/position.hpp"
-#include "script/prompt/progress.hpp"
+#include "script/prompt/terminal.hpp"
 
 namespace dotyk::script {
 namespace {

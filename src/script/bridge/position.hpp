@@ -1,5 +1,7 @@
 #pragma once
-// Where in the user's script are we?
+// Where in the user's script are we? And the way from Lua into C++, where an exception becomes a Lua error there.
+#include <exception>
+#include <new>
 #include <string>
 
 struct lua_State;
@@ -27,5 +29,21 @@ std::string describe_value(lua_State* L, int index);
 
 // Raises the Lua error "place: callee: message"; does not return.
 [[noreturn]] void raise(lua_State* L, const std::string& callee, const std::string& message);
+
+// Every entry from Lua into C++ goes through here. Runs body(), which returns a number of Lua results. The Lua error is raised
+// after the handler is left, so that no exception is in flight when Lua throws
+// its own. Lua's errors are no std::exception and pass through untouched.
+template <class Body>
+int guarded(lua_State* L, const std::string& callee, Body&& body) {
+  std::string message;
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    message = "out of memory";  // short enough to need no allocation
+  } catch (const std::exception& error) {
+    message = error.what();
+  }
+  raise(L, callee, message);
+}
 
 }  // namespace dotyk::script

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "script/bridge/guard.hpp"
+#include "script/bridge/position.hpp"
 #include "script/bridge/lua_side.hpp"
 #include "script/help/nearest.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 // C++ values to Lua.
+#include <algorithm>
 #include <concepts>
 #include <memory>
 #include <optional>
@@ -12,9 +13,20 @@
 
 namespace dotyk::script {
 
+// A word as an argument of a template.
+template <std::size_t size>
+struct Word {
+  char letters[size];
+  constexpr Word(const char (&word)[size]) { std::copy_n(word, size, letters); }
+};
+template <Word word>
+struct Called {
+  static constexpr const char* name = word.letters;
+};
+
 // The word a class goes by in scripts, messages and help. Specialise it beside
 // the binding:
-//   template <> struct Wrapped<mesh::Mesh> { static constexpr const char* name = "mesh"; };
+//   template <> struct Wrapped<mesh::Mesh> : Called<"mesh"> {};
 template <class T>
 struct Wrapped;
 

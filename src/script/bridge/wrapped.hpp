@@ -55,44 +55,24 @@ struct Solver {
 };
 
 template <>
-struct Wrapped<Material> {
-  static constexpr const char* name = "material";
-};
+struct Wrapped<Material> : Called<"material"> {};
 template <>
-struct Wrapped<MeshHandle> {
-  static constexpr const char* name = "mesh";
-};
+struct Wrapped<MeshHandle> : Called<"mesh"> {};
 template <>
-struct Wrapped<scene::Body> {
-  static constexpr const char* name = "body";
-};
+struct Wrapped<scene::Body> : Called<"body"> {};
 template <>
-struct Wrapped<scene::Part> {
-  static constexpr const char* name = "part";
-};
+struct Wrapped<scene::Part> : Called<"part"> {};
 template <>
-struct Wrapped<scene::Scene> {
-  static constexpr const char* name = "scene";
-};
+struct Wrapped<scene::Scene> : Called<"scene"> {};
 template <>
-struct Wrapped<scene::Contact> {
-  static constexpr const char* name = "contact";
-};
+struct Wrapped<scene::Contact> : Called<"contact"> {};
 template <>
-struct Wrapped<Rigid> {
-  static constexpr const char* name = "rigid";
-};
+struct Wrapped<Rigid> : Called<"rigid"> {};
 template <>
-struct Wrapped<FrictionLaw> {
-  static constexpr const char* name = "friction";
-};
+struct Wrapped<FrictionLaw> : Called<"friction"> {};
 template <>
-struct Wrapped<Solver> {
-  static constexpr const char* name = "solver";
-};
+struct Wrapped<Solver> : Called<"solver"> {};
 template <>
-struct Wrapped<scene::Solution> {
-  static constexpr const char* name = "solution";
-};
+struct Wrapped<scene::Solution> : Called<"solution"> {};
 
 }  // namespace dotyk::script

@@ -4,7 +4,6 @@
 
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/lua.hpp"
-#include "script/guard/lua_patterns.hpp"
 #include "script/bridge/position.hpp"
 #include "script/guard/replaced.hpp"
 

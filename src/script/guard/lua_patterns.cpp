@@ -1,4 +1,4 @@
-#include "script/guard/lua_patterns.hpp"
+#include "script/guard/lua_guards.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ struct Chunk {
   Chunk *before, *after;
 };
 
-struct Call {
+struct Matching {
   lua_State* from;             // whose strings are at `subject` and `pattern`, and further arguments from `more` to the top
   const char* function;
   int subject, pattern, more;
@@ -51,7 +51,7 @@ class Matcher {
     if (!state_) state_ = lua_newstate(allocate, this);
     if (!state_) return luaL_error(L, "not enough memory");
     lua_settop(state_, 0);
-    Call call{L, function, subject, pattern, more, held != 0 && held == held_};
+    Matching call{L, function, subject, pattern, more, held != 0 && held == held_};
     if (!call.copied) held_ = 0;
     lua_pushcfunction(state_, serve);
     lua_pushlightuserdata(state_, &call);
@@ -82,7 +82,7 @@ class Matcher {
   };
 
   static int serve(lua_State* own) {
-    const Call& call = *static_cast<const Call*>(lua_touserdata(own, 1));
+    const Matching& call = *static_cast<const Matching*>(lua_touserdata(own, 1));
     if (lua_getfield(own, LUA_REGISTRYINDEX, "string") == LUA_TNIL) {
       luaL_requiref(own, "string", luaopen_string, 0);
       lua_setfield(own, LUA_REGISTRYINDEX, "string");
@@ -208,7 +208,7 @@ int find_plain(lua_State* L) {
   return 2;
 }
 
-int guarded(lua_State* L, const char* function, int most) {
+int in_own_state(lua_State* L, const char* function, int most) {
   lua_settop(L, most);
   lua_Integer anew = 0;
   const int count = matcher()(L, function, 1, 2, 3, anew);
@@ -219,10 +219,10 @@ int guarded(lua_State* L, const char* function, int most) {
 int find(lua_State* L) {
   if (!may_take_long(L) || !integer_or_none(L, 3)) return original(L);
   const bool plain = lua_toboolean(L, 4) || text_at(L, 2).find_first_of("^$*+?.([%-") == std::string_view::npos;
-  return plain ? find_plain(L) : guarded(L, "find", 3);
+  return plain ? find_plain(L) : in_own_state(L, "find", 3);
 }
 
-int match(lua_State* L) { return may_take_long(L) && integer_or_none(L, 3) ? guarded(L, "match", 3) : original(L); }
+int match(lua_State* L) { return may_take_long(L) && integer_or_none(L, 3) ? in_own_state(L, "match", 3) : original(L); }
 
 // Matches one after the other, as gmatch and gsub take them: none is empty where the last one ended.
 struct Matches {
@@ -318,7 +318,7 @@ int concatenated(lua_State* L, int pieces) {
 
 int gsub(lua_State* L) {
   if (!may_take_long(L) || !integer_or_none(L, 4)) return original(L);
-  if (lua_isstring(L, 3)) return guarded(L, "gsub", 4);
+  if (lua_isstring(L, 3)) return in_own_state(L, "gsub", 4);
   if (!lua_istable(L, 3) && !lua_isfunction(L, 3)) return original(L);
   const bool once = text_at(L, 2).starts_with('^');
   const lua_Integer most = std::min(luaL_optinteger(L, 4, std::numeric_limits<lua_Integer>::max()), once ? lua_Integer{1} : std::numeric_limits<lua_Integer>::max());

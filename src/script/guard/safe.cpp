@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "script/bridge/guard.hpp"
+#include "script/bridge/position.hpp"
 #include "script/bridge/library.hpp"
 #include "script/bridge/lua.hpp"
 #include "script/guard/replaced.hpp"

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "script/bridge/guard.hpp"
+#include "script/bridge/position.hpp"
 #include "script/bridge/lua.hpp"
 #include "script/help/nearest.hpp"
 #include "script/bridge/push.hpp"

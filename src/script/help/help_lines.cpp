@@ -1,5 +1,7 @@
 #include "script/help/help_lines.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <sstream>
 

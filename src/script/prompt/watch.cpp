@@ -11,7 +11,7 @@
 #include "base/text.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/position.hpp"
-#include "script/prompt/progress.hpp"
+#include "script/prompt/terminal.hpp"
 
 namespace dotyk::script {
 

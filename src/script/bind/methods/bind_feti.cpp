@@ -1,11 +1,8 @@
 // Domain decomposition: dotyk.solver.feti.
 #include <algorithm>
 
-#include "base/text.hpp"
-#include "script/bridge/library.hpp"
+#include "script/bind/bind.hpp"
 #include "script/bind/methods/method_keys.hpp"
-#include "script/bind/setups.hpp"
-#include "script/bridge/wrapped.hpp"
 #include "solver/feti/feti.hpp"
 
 namespace dotyk::script {
@@ -13,9 +10,15 @@ namespace {
 
 constexpr int kMost = 1'000'000;
 
+/// A member of the augmented Lagrangian's settings.
+template <class Value>
+auto outer(Value solver::Smalbe::*member) {
+  return [member](solver::Feti& feti) -> Value& { return feti.outer.*member; };
+}
+
 problem::Decomposition read_decomposition(const Call& call) {
   problem::Decomposition cut;
-  cut.support_rows = call.choice("supports") == 0;
+  cut.support_rows = call.text("supports") == "rows";
   if (call.is("subdomains", LUA_TNUMBER)) {
     cut.count = static_cast<int>(call.integer("subdomains"));
   } else if (call.has("subdomains")) {
@@ -33,28 +36,16 @@ std::string show(const Call& call, const problem::Decomposition& cut) {
   return text(cut.boxes[0], " × ", cut.boxes[1], " × ", cut.boxes[2], " boxes a body");
 }
 
-int make_feti(Call& call) {
-  solver::Feti feti;
-  read_settings(call, feti);
-  feti.decomposition = read_decomposition(call);
-  feti.preconditioner = static_cast<solver::Feti::Preconditioner>(call.choice("preconditioner"));
-  feti.stop = static_cast<solver::Feti::Stop>(call.choice("stop"));
-  feti.outer.update = static_cast<solver::Smalbe::Update>(call.choice("update"));
-  feti.outer.M = call.number("M");
-  feti.outer.rho = call.number("rho");
-  feti.outer.eta = call.number("eta");
-  feti.face_coarse = call.choice("coarse") == 0;
-  feti.expansion = static_cast<solver::MprgpSettings::Expansion>(call.choice("expansion"));
-  feti.max_inner = static_cast<int>(std::min<long long>(call.integer("max_inner"), 100'000'000));
-  feti.spectrum = call.boolean("spectrum");
-  return give_method(call, feti, text("feti: ", show(call, feti.decomposition), ", preconditioner = ",
-                                      call.text("preconditioner"), ", M = ", feti.outer.M, ", rho = ", feti.outer.rho));
-}
-
 }  // namespace
 
 void bind_feti(Library& library) {
-  library.function(
+  using solver::Feti, solver::Smalbe;
+  using Preconditioner = Feti::Preconditioner;
+  using Stop = Feti::Stop;
+  using Update = Smalbe::Update;
+  using Expansion = solver::MprgpSettings::Expansion;
+  add_method<Feti>(
+      library,
       {.name = "dotyk.solver.feti",
        .help = "Domain decomposition for many bodies and for bodies beyond a direct method: every body is cut into "
                "subdomains, glued by multipliers, and the dual problem is solved by augmented Lagrangians with projectors to "
@@ -64,33 +55,37 @@ void bind_feti(Library& library) {
                "s.feti tells what the decomposition was like.",
        .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.feti{ subdomains = 64, tol = 1e-8 }:solve(scene)\n"
-                  "local t = dotyk.solver.feti{ subdomains = {4, 4, 4}, preconditioner = \"lumped\" }:solve(scene)",
-       .arguments = {key::table(method_keys(
-           {key::either("subdomains",
-                        {key::integer("", "how many in all, shared out by cells and cut by METIS").within(1, kMost),
-                         key::list("", key::integer("", "").within(1, 1000), "boxes along each axis of every body's bounding box; a third number counts in space only")},
-                        "into what bodies are cut: a number in all, or boxes along the axes").otherwise("a subdomain a body"),
-            key::choice("supports", {"rows", "stiffness"}, "supports and springs as rows of the dual problem (total FETI: subdomains "
-                        "of equal shape share a factor, and all have rigid motions for the coarse space), or in the subdomains' stiffness").fallback("rows"),
-            key::choice("preconditioner", {"none", "lumped", "dirichlet"}, "of the inner conjugate gradients; lumped is the paper's with "
-                        "coarse = \"whole\" alone").fallback("none"),
-            key::choice("coarse", {"face", "whole"}, "the coarse space in conjugate gradients: that of the multipliers free to "
-                        "change, or only in the projectors (as the paper)").fallback("face"),
-            key::choice("update", {"precision", "penalty", "both"}, "of the augmented Lagrangian: of the inner precision M with rho "
-                        "fixed (SMALBE-M), of rho with M fixed (the paper's algorithm 4.1), or whichever holds it up").fallback("both"),
-            key::positive("M", "an inner minimisation ends at |projected gradient| <= M |G lambda - e|; in units of |PFP|").fallback(1.0),
-            key::positive("rho", "penalty of G lambda = e, at first; in units of |PFP|").below(1e10).fallback(30.0),
-            key::choice("stop", {"Pd", "d"}, "what tol compares the projected gradient with; d, the paper's, depends on the generalised "
-                        "inverse, and then nothing is asked of what a subdomain's forces leave unbalanced but |G lambda - e|").fallback("Pd"),
-            key::positive("eta", "first bound of algorithm 4.1 on |G lambda - e|, beyond which rho grows, in units of |P d|/|PFP|; for other "
-                        "updates on the projected gradient, in units of |P d|").fallback(0.1),
-            key::choice("expansion", {"fixed_step", "projected_cg"}, "how the inner method lets multipliers reach their bounds: "
-                        "fixed projected steps (MPRGP), or projected conjugate gradient steps (proportioning with "
-                        "projections)").fallback("projected_cg"),
-            key::integer("max_inner", "give up after so many inner steps").at_least(1).fallback(100000.0),
-            key::boolean("spectrum", "estimate the condition of PFP on im P, in s.feti.condition").fallback(false)}, 1000))},
-       .returns = "solver",
-       .run = make_feti});
+                  "local t = dotyk.solver.feti{ subdomains = {4, 4, 4}, preconditioner = \"lumped\" }:solve(scene)"},
+      {key::either("subdomains",
+                   {key::integer("", "how many in all, shared out by cells and cut by METIS").within(1, kMost),
+                    key::list("", key::integer("", "").within(1, 1000), "boxes along each axis of every body's bounding box; a third number counts in space only")},
+                   "into what bodies are cut: a number in all, or boxes along the axes").otherwise("a subdomain a body"),
+       key::choice("supports", {"rows", "stiffness"}, "supports and springs as rows of the dual problem (total FETI: subdomains "
+                   "of equal shape share a factor, and all have rigid motions for the coarse space), or in the subdomains' stiffness").fallback("rows"),
+       {key::choice<Preconditioner>("preconditioner", {{"none", Preconditioner::none}, {"lumped", Preconditioner::lumped}, {"dirichlet", Preconditioner::dirichlet}},
+                                    "of the inner conjugate gradients; lumped is the paper's with coarse = \"whole\" alone"), &Feti::preconditioner},
+       key::choice("coarse", {"face", "whole"}, "the coarse space in conjugate gradients: that of the multipliers free to "
+                   "change, or only in the projectors (as the paper)").fallback("face"),
+       {key::choice<Update>("update", {{"precision", Update::precision}, {"penalty", Update::penalty}, {"both", Update::both}},
+                            "of the augmented Lagrangian: of the inner precision M with rho "
+                            "fixed (SMALBE-M), of rho with M fixed (the paper's algorithm 4.1), or whichever holds it up"), outer(&Smalbe::update)},
+       {key::positive("M", "an inner minimisation ends at |projected gradient| <= M |G lambda - e|; in units of |PFP|"), outer(&Smalbe::M)},
+       {key::positive("rho", "penalty of G lambda = e, at first; in units of |PFP|").below(1e10), outer(&Smalbe::rho)},
+       {key::choice<Stop>("stop", {{"Pd", Stop::Pd}, {"d", Stop::d}}, "what tol compares the projected gradient with; d, the paper's, depends on the generalised "
+                          "inverse, and then nothing is asked of what a subdomain's forces leave unbalanced but |G lambda - e|"), &Feti::stop},
+       {key::positive("eta", "first bound of algorithm 4.1 on |G lambda - e|, beyond which rho grows, in units of |P d|/|PFP|; for other "
+                      "updates on the projected gradient, in units of |P d|"), outer(&Smalbe::eta)},
+       {key::choice<Expansion>("expansion", {{"fixed_step", Expansion::fixed_step}, {"projected_cg", Expansion::projected_cg_step}},
+                               "how the inner method lets multipliers reach their bounds: fixed projected steps (MPRGP), or projected "
+                               "conjugate gradient steps (proportioning with projections)"), &Feti::expansion},
+       {key::integer("max_inner", "give up after so many inner steps").at_least(1), &Feti::max_inner},
+       {key::boolean("spectrum", "estimate the condition of PFP on im P, in s.feti.condition"), &Feti::spectrum}},
+      1000, [](Feti& feti, Call& call) {
+        feti.decomposition = read_decomposition(call);
+        feti.face_coarse = call.text("coarse") == "face";
+        feti.max_inner = std::min(feti.max_inner, 100'000'000);
+        return text(show(call, feti.decomposition), ", preconditioner = ", call.text("preconditioner"), ", M = ", feti.outer.M, ", rho = ", feti.outer.rho);
+      });
 }
 
 }  // namespace dotyk::script

@@ -1,69 +1,93 @@
-#include "base/text.hpp"
-#include "script/bridge/library.hpp"
+#include "script/bind/bind.hpp"
 #include "script/bind/methods/method_keys.hpp"
-#include "script/bind/methods/row_method.hpp"
-#include "script/bind/setups.hpp"
-#include "solver/rows/newton.hpp"
 #include "solver/active/pdas.hpp"
+#include "solver/programs/active_set.hpp"
+#include "solver/programs/interior_point.hpp"
+#include "solver/programs/penalty.hpp"
+#include "solver/rows/newton.hpp"
 
 namespace dotyk::script {
 namespace {
 
-int make_pdas(Call& call) {
-  auto pdas = settings_of<solver::Pdas>(call);
-  pdas.rho = call.number("rho");
-  pdas.reduced = call.boolean("reduced");
-  std::string shown = text("pdas: rho = ", pdas.rho, ", ", pdas.reduced ? "reduced" : "full");
-  if (auto screws = screws_of(call, shown)) pdas.kernel = solver::Pdas::Kernel::screws, pdas.screws = std::move(*screws);
-  return give_method(call, std::move(pdas), shown);
-}
+const char* reduced(bool is) { return is ? "reduced" : "full"; }
 
-int make_newton(Call& call) {
-  auto newton = settings_of<solver::Newton>(call);
-  newton.rho = call.number("rho");
-  newton.watch = call.boolean("watch");
-  std::string shown = text("newton: rho = ", newton.rho, newton.watch ? ", watch" : "");
-  if (call.has("seed")) {
-    newton.seed = static_cast<unsigned>(call.integer("seed"));
-    shown += text(", seed = ", *newton.seed);
-  }
-  return give_row_method(call, newton, shown);
-}
+const char* const kBoundary =
+    "on the unknowns of the contact boundary, the stiffness condensed onto it once; else on all unknowns";
 
 }  // namespace
 
 void bind_methods(Library& library) {
-  library.function(
+  using solver::ActiveSet, solver::InteriorPoint, solver::Newton, solver::Pdas, solver::Penalty;
+  add_method<Pdas>(
+      library,
       {.name = "dotyk.solver.pdas",
        .help = "The primal-dual active set method, which is Newton's method on the contact conditions: "
                "finite, exact, usually a handful of iterations.",
        .setup = setup::pressed_block(),
-       .example = "local s = dotyk.solver.pdas{ reduced = true }:solve(scene)",
-       .arguments = {key::table(method_keys(
-           with_kernel({key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
-                                 "multiplies each row's own stiffness").fallback(1.0),
-            key::boolean("reduced", "iterate on the contact boundary alone, after one factorisation; else on the "
-                                    "whole system, factored anew in each iteration").fallback(true)})))},
-       .returns = "solver",
-       .run = make_pdas});
-  library.function(
+       .example = "local s = dotyk.solver.pdas{ reduced = true }:solve(scene)"},
+      {{key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
+                              "multiplies each row's own stiffness"), &Pdas::rho},
+       {key::boolean("reduced", "iterate on the contact boundary alone, after one factorisation; else on the "
+                                "whole system, factored anew in each iteration"), &Pdas::reduced}},
+      100, [](const Pdas& m, Call&) { return text("rho = ", m.rho, ", ", reduced(m.reduced)); }, true);
+  add_method<Newton>(
+      library,
       {.name = "dotyk.solver.newton",
        .help = "The generalised Newton method on normal and tangential part together: contact with given "
                "or Coulomb friction, in the plane and in space, on the contact boundary alone.",
        .setup = setup::pressed_block(),
-       .example = "local s = dotyk.solver.newton{ tol = 1e-10 }:solve(scene)",
-       .arguments = {key::table(method_keys(with_kernel(
-           {key::positive("rho", "weight of slip and gap against force in the projections; multiplies the stiffness "
-                                 "that each row sees").fallback(1.0),
-            key::boolean("watch", "history[k].singular_value exactly; else estimated from the factors, right up to the "
-                                  "root of the number of rows").fallback(false),
-            key::integer("seed", "start at random multipliers, the same for the same seed: in a box from a tenth to a "
-                                 "hundred times the size of those with everything stuck").within(0, 4294967295.0)
-                .otherwise("start with all that touches stuck")})))},
-       .returns = "solver",
-       .run = make_newton});
+       .example = "local s = dotyk.solver.newton{ tol = 1e-10 }:solve(scene)"},
+      {{key::positive("rho", "weight of slip and gap against force in the projections; multiplies the stiffness "
+                              "that each row sees"), &Newton::rho},
+       {key::boolean("watch", "history[k].singular_value exactly; else estimated from the factors, right up to the "
+                              "root of the number of rows"), &Newton::watch},
+       {key::integer("seed", "start at random multipliers, the same for the same seed: in a box from a tenth to a "
+                             "hundred times the size of those with everything stuck").within(0, 4294967295.0)
+            .otherwise("start with all that touches stuck"), &Newton::seed}},
+      100, [](const Newton& m, Call&) {
+        return text("rho = ", m.rho, m.watch ? ", watch" : "", m.seed ? text(", seed = ", *m.seed) : "");
+      }, true);
   bind_friction_methods(library);
   bind_feti(library);
+  add_method<ActiveSet>(
+      library,
+      {.name = "dotyk.solver.active_set",
+       .help = "The active-set method for semidefinite quadratic programs (Netuka, ODAM 2001): frictionless contact of "
+               "bodies held or free. Rows enter the working set as the bodies meet them and leave where they would pull. "
+               "The solution's working_set counts rows added and dropped, singular KKT systems met and survived, "
+               "factorisations, and times that zigzagging was noticed (repeats).",
+       .setup = setup::pressed_block(),
+       .example = "local s = dotyk.solver.active_set{ change = \"many\" }:solve(scene)\nprint(s.iterations, s.working_set.singular)"},
+      {{key::choice<ActiveSet::Change>("change", {{"one", ActiveSet::Change::one}, {"many", ActiveSet::Change::many}},
+                                       "rows that enter or leave in a step"), &ActiveSet::change},
+       {key::boolean("reduced", kBoundary), &ActiveSet::reduced}},
+      20000, [](const ActiveSet& m, Call& call) {
+        return "change = " + call.text("change") + ", " + reduced(m.reduced);
+      });
+  add_method<InteriorPoint>(
+      library,
+      {.name = "dotyk.solver.interior_point",
+       .help = "Mehrotra's interior-point method on the quadratic program of frictionless contact. At its end every "
+               "force and every gap is a little positive; nodes are closed where the force is the larger one, scaled.",
+       .setup = setup::pressed_block(),
+       .example = "local s = dotyk.solver.interior_point{ tol = 1e-10 }:solve(scene)"},
+      {{key::boolean("reduced", kBoundary), &InteriorPoint::reduced}},
+      100, [](const InteriorPoint& m, Call&) { return reduced(m.reduced); });
+  add_method<Penalty>(
+      library,
+      {.name = "dotyk.solver.penalty",
+       .help = "The penalty method, never exact: springs between the bodies, factor times as stiff as the node itself. "
+               "The bodies overlap, energy and force are off by O(1/factor). The solution's penalty says by how much: "
+               "penetration (length), energy (force·length, what the energy is too low by); residual shows it as well. "
+               "converged is said of the problem with springs.",
+       .setup = setup::pressed_block(),
+       .example = "local s = dotyk.solver.penalty{ factor = 1e3 }:solve(scene)\nprint(s.penalty.penetration, s.reason)"},
+      {{key::positive("factor", "stiffness of the springs over the stiffness that a contact node sees"), &Penalty::factor},
+       {key::boolean("reduced", "forces as unknowns of their own, on the contact boundary: any factor; else the springs added to "
+                                "the stiffness matrix, factored in each iteration: digits are lost as factor grows"), &Penalty::reduced}},
+      100, [](const Penalty& m, Call&) {
+        return text("factor = ", m.factor, ", ", m.reduced ? "reduced" : "classical");
+      });
 }
 
 }  // namespace dotyk::script

@@ -1,23 +1,111 @@
 #include <algorithm>
+#include <cmath>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
+#include "scene/solve/all_solutions.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/models/bind_beam.hpp"
 #include "script/bind/models/bind_plate.hpp"
 #include "script/bind/program/bind_fclib.hpp"
-#include "script/bridge/library.hpp"
 #include "script/bind/methods/method_keys.hpp"
-#include "script/bind/scene/read_steps.hpp"
-#include "script/bind/setups.hpp"
-#include "script/prompt/watch.hpp"
-#include "script/bridge/wrapped.hpp"
+#include "script/bind/scene/space.hpp"
+#include "script/help/nearest.hpp"
 
 namespace dotyk::script {
 namespace {
 
 using scene::Scene;
 using scene::Solution;
+
+/// Calls read() for every entry of the table at index, its key at -2 and its value at -1.
+template <class Read>
+void for_each_entry(lua_State* L, int index, Read&& read) {
+  lua_pushnil(L);
+  while (lua_next(L, index)) {
+    read();
+    lua_pop(L, 1);
+  }
+}
+
+void require_case(const scene::Scene& scene, const std::string& name) {
+  const auto known = load_cases(scene);
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  const std::string near = nearest(name, known);
+  if (!near.empty()) throw InputError(text("'load': no load case '", name, "', did you mean '", near, "'?"));
+}
+
+/// load = factor, or load = { case = factor, … }.
+void read_load(const Arguments& given, const scene::Scene& scene, scene::Step& step) {
+  lua_State* L = given.state();
+  const int at = given.slot("load");
+  if (lua_type(L, at) == LUA_TNUMBER) {
+    step.all = lua_tonumber(L, at);
+    return;
+  }
+  for_each_entry(L, at, [&] {
+    if (lua_type(L, -2) != LUA_TSTRING)
+      throw InputError("'load' must be a factor, or a table of factors by the names of load cases: { shear = 0.5 }");
+    const std::string name = lua_tostring(L, -2);
+    if (lua_type(L, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(L, -1)))
+      throw InputError(text("'load': the factor of '", name, "' must be a finite number"));
+    require_case(scene, name);
+    step.factor[name] = lua_tonumber(L, -1);
+  });
+}
+
+/// move = { [contact] = { dx, dy }, … }.
+void read_move(const Arguments& given, const scene::Scene& scene, scene::Step& step) {
+  lua_State* L = given.state();
+  for_each_entry(L, given.slot("move"), [&] {
+    if (!object_at(L, -2, Wrapped<scene::Contact>::name))
+      throw InputError("'move' must be a table of displacements by contact: { [contact] = { 0.1, 0 } }");
+    std::vector<double> by;
+    const int value = lua_gettop(L);
+    bool numbers = lua_type(L, value) == LUA_TTABLE;
+    for (lua_Integer i = 1; numbers && i <= static_cast<lua_Integer>(lua_rawlen(L, value)); ++i) {
+      lua_rawgeti(L, value, i);
+      numbers = lua_type(L, -1) == LUA_TNUMBER && std::isfinite(lua_tonumber(L, -1));
+      by.push_back(lua_tonumber(L, -1));
+      lua_pop(L, 1);
+    }
+    if (!numbers || static_cast<int>(by.size()) != scene.dimension())
+      throw InputError(text("'move': the displacement of a contact's rigid shape must be a table of ",
+                            scene.dimension(), " finite numbers"));
+    step.move.emplace_back(object<scene::Contact>(L, value - 1), point_of(by));
+  });
+}
+
+Key steps_key() {
+  return key::list(
+      "steps",
+      key::table("",
+                 {key::either("load", {key::number("", ""), key::any("", "")},
+                              "a factor on every load and prescribed displacement, or factors by load case, "
+                              "{ shear = 0.5 } (part:load({ 4, 0 }, \"shear\")); those of the step before, at first 1, stay "
+                              "where none is given"),
+                  key::any("move", "displacements of rigid shapes by contact, { [contact] = { 0.1, 0 } }, from where they "
+                           "were at rest and small: normals stay; those of the step before stay where none is given")},
+                 ""),
+      "a quasi-static history: tables with load and move, one a step");
+}
+
+std::vector<scene::Step> read_steps(const Arguments& options, const scene::Scene& scene) {
+  std::vector<scene::Step> steps;
+  for (const Arguments& given : options.tables("steps")) {
+    scene::Step step;
+    try {
+      for (const char* key : {"load", "move"})
+        if (given.has(key) && !given.is(key, LUA_TTABLE) && !(key[0] == 'l' && given.is(key, LUA_TNUMBER)))
+          throw InputError(text("'", key, "' must be a table", key[0] == 'l' ? " or a number" : ""));
+      if (given.has("load")) read_load(given, scene, step);
+      if (given.has("move")) read_move(given, scene, step);
+    } catch (const InputError& error) {
+      throw InputError(text("step ", steps.size() + 1, ": ", error.what()));
+    }
+    steps.push_back(std::move(step));
+  }
+  if (steps.empty()) throw InputError("'steps' is empty; give at least one step, {} for all loads at once");
+  return steps;
+}
 
 Key start_key() {
   return key::either("start",
@@ -67,23 +155,23 @@ void require_no_options(const Call& call) {
   if (call.has("options")) throw InputError("options are for scenes; other problems take none");
 }
 
-int with_tol(Call& call) {
+Given<Solver> with_tol(Call& call) {
   const auto solver = call.self<Solver>();
   auto other = std::make_shared<Solver>(*solver);
   other->tol = call.number("tol");
   other->method = solver->method.with_tol(other->tol);
   const int kept = call.kept(1, "on_iteration");
-  call.give(other);
+  const auto given = call.give_keeping(other, {});
   if (kept) call.keep(lua_gettop(call.state()), "on_iteration", kept);
-  return 1;
+  return given;
 }
 
 int solve_with(Call& call) {
   const auto solver = call.self<Solver>();
   if (call.holds<fclib::ContactProblem>("scene")) {
     require_no_options(call);
-    return solve_contact_problem(call, call.object<fclib::ContactProblem>("scene"), *solver,
-                                 call.kept_function(1, "on_iteration"));
+    return call.give(solve_contact_problem(call, call.object<fclib::ContactProblem>("scene"), *solver,
+                                           call.kept_function(1, "on_iteration")));
   }
   if (call.holds<beam::Beam>("scene")) {
     require_no_options(call);
@@ -135,12 +223,26 @@ std::vector<Key> solve_keys(Key what) {
                      "start, steps, after, seconds")};
 }
 
+int all_solutions(Call& call) {
+  Watch watch(call.state(), "enumerating");
+  const scene::AllSolutions all = scene::all_solutions(call.object<scene::Scene>("scene"), watch);
+  watch.answer();
+  std::vector<Record> families;
+  for (const scene::AllSolutions::Family& family : all.families) {
+    std::vector<double> ends;
+    for (const int end : family.ends) ends.push_back(end + 1);
+    families.push_back({"family", {{"dimension", static_cast<long long>(family.dimension)}, {"ends", ends},
+                                   {"unbounded", family.unbounded}, {"forces_only", family.forces_only},
+                                   {"continuum", static_cast<long long>(family.continuum) + 1}}});
+  }
+  return call.give(all.solutions, all.summary, families);
+}
+
 }  // namespace
 
 void bind_solver(Library& library) {
   library.module("dotyk.solver", "Methods. Each is made with its options and then solves scenes.");
   bind_methods(library);
-  bind_program_methods(library);
   library.function({.name = "dotyk.solve",
                     .help = std::string("Solves a scene by the method its plan names, without contact by one linear solve, or a beam. ") + kSteps,
                     .setup = setup::pressed_block(),
@@ -163,10 +265,28 @@ void bind_solver(Library& library) {
                .help = "The same method with another tol; this one stays as it is.",
                .example = "local rough = solver:with{ tol = 1e-3 }:solve(scene)",
                .arguments = {key::table({key::positive("tol", "relative natural residual at which it stops").required()})},
-               .returns = "solver",
                .run = with_tol})
       .field("tol", "relative natural residual at which it stops", [](const Solver& s) { return s.tol; })
       .text([](const Solver& s) { return s.text(); });
+}
+
+void bind_all_solutions(Library& library) {
+  library.function(
+      {.name = "dotyk.all_solutions",
+       .help = "Every solution of a plane scene with few contact nodes, found by trying each combination of open, "
+               "stick and slip to either side, up to 2^20 of them (ten nodes with Coulomb friction): a list of "
+               "solutions, empty where there is none, and what was tried in words. With a great coefficient of "
+               "friction there may be several, or a continuum; a method finds at most one of them. Third, a list of families, mostly "
+               "empty: a family is all convex combinations of its ends, which follow the isolated solutions in the "
+               "list. Fields: dimension, ends (their places in the list), unbounded (there is no end in some direction), forces_only "
+               "(displacements are the same), continuum (families that meet have the same number).",
+       .setup = setup::few_nodes(),
+       .example = "local all, tried = dotyk.all_solutions(scene)\nprint(#all, tried)\n"
+                  "for k, s in ipairs(all) do print(k, s.energy, s.reason) end\n"
+                  "local _, _, families = dotyk.all_solutions(scene)\n"
+                  "for _, f in ipairs(families) do print(f.dimension, all[f.ends[1]].energy) end",
+       .arguments = {key::object<scene::Scene>("scene", "what to solve").required()},
+       .run = all_solutions});
 }
 
 }  // namespace dotyk::script

@@ -2,20 +2,21 @@
 
 #include <algorithm>
 
-#include "base/text.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bridge/wrapped.hpp"
+#include "script/bind/bind.hpp"
 
 namespace dotyk::script {
 
 std::string Solver::text() const { return own + dotyk::text(", tol = ", tol) + common; }
 
+using algebra::Ordering;
+
 std::vector<Key> method_keys(std::vector<Key> own, int max_iterations) {
   const std::vector<Key> common = {
       key::positive("tol", "relative natural residual at which iterative methods stop").fallback(1e-10),
       key::integer("max_iterations", "give up after so many").at_least(1).fallback(static_cast<double>(max_iterations)),
-      key::choice("ordering", {"automatic", "minimum_degree", "nested_dissection"},
-                  "elimination order of the sparse factorisation").fallback("automatic"),
+      key::choice<Ordering>("ordering", {{"automatic", Ordering::automatic}, {"minimum_degree", Ordering::minimum_degree},
+                                         {"nested_dissection", Ordering::nested_dissection}},
+                            "elimination order of the sparse factorisation").fallback(Ordering::automatic),
       key::function("on_iteration", "called as f(k, info) after each iteration; returning false stops the solve"),
       key::boolean("verbose", "a line on standard error for each iteration").fallback(false)};
   own.insert(own.end(), common.begin(), common.end());
@@ -25,7 +26,7 @@ std::vector<Key> method_keys(std::vector<Key> own, int max_iterations) {
 void read_settings(const Call& call, solver::Settings& settings) {
   settings.tol = call.number("tol");
   settings.max_iterations = static_cast<int>(std::min<long long>(call.integer("max_iterations"), 1'000'000));
-  settings.ordering = static_cast<algebra::Ordering>(call.choice("ordering"));
+  settings.ordering = call.choice<Ordering>("ordering");
 }
 
 std::vector<Key> with_kernel(std::vector<Key> own) {
@@ -47,9 +48,9 @@ std::optional<std::vector<int>> screws_of(const Call& call, std::string& shown) 
   return rows;
 }
 
-int give_method(Call& call, solver::Method method, std::string text) {
+Given<Solver> give_method(Call& call, solver::Method method, std::string text) {
   std::string common = dotyk::text(", max_iterations = ", call.integer("max_iterations"));
-  if (call.choice("ordering") != 0) common += ", ordering = " + call.text("ordering");
+  if (call.choice<Ordering>("ordering") != Ordering::automatic) common += ", ordering = " + call.text("ordering");
   auto made = std::make_shared<Solver>(
       Solver{std::move(method), "solver " + std::move(text), call.number("tol"), std::move(common), call.boolean("verbose")});
   return call.give_keeping(made, {"on_iteration"});

@@ -3,14 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "beam/sampled.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/result_records.hpp"
-#include "script/bind/setups.hpp"
-#include "script/prompt/watch.hpp"
 #include "solver/core/ending.hpp"
 
 namespace dotyk::script {
@@ -75,7 +69,7 @@ void take(Call& call, const char* name, const Beam& beam, double& constant, std:
   else function = beam::sampled([&](double x) { return field(std::vector<double>{x})[0]; }, beam::nodes(beam));
 }
 
-int make_beam(Call& call) {
+std::shared_ptr<Beam> make_beam(Call& call) {
   auto beam = std::make_shared<Beam>();
   beam->length = call.number("length");
   beam->cells = static_cast<int>(call.integer("cells"));
@@ -91,7 +85,7 @@ int make_beam(Call& call) {
   take(call, "load", *beam, beam->q, beam->q_of);
   take_foundation(call, *beam);
   beam::build(*beam);  // refuses at once what cannot be solved
-  return call.give(beam);
+  return beam;
 }
 
 std::string beam_text(const Beam& b) {
@@ -231,7 +225,6 @@ void bind_beam(Library& library) {
             }(),
             key::list("loads", key::table("", {key::number("x", "where").unit("length").required(), key::number("force", "upwards").unit("force").fallback(0.0),
                                                key::number("moment", "anticlockwise").unit("force·length").fallback(0.0)}, ""), "at points")})},
-       .returns = "beam",
        .run = make_beam});
   library.type<Beam>("A beam with its supports and loads.").field("length", "of the beam", [](const Beam& b) { return b.length; }, "length").text(beam_text);
   bind_beam_solution(library);

@@ -14,17 +14,11 @@ struct BeamResult {
 };
 
 template <>
-struct Wrapped<problem::SupportLaw> {
-  static constexpr const char* name = "law";
-};
+struct Wrapped<problem::SupportLaw> : Called<"law"> {};
 template <>
-struct Wrapped<beam::Beam> {
-  static constexpr const char* name = "beam";
-};
+struct Wrapped<beam::Beam> : Called<"beam"> {};
 template <>
-struct Wrapped<BeamResult> {
-  static constexpr const char* name = "beam_solution";
-};
+struct Wrapped<BeamResult> : Called<"beam_solution"> {};
 
 // A key for a law of dotyk.law; the law given, else free.
 Key law_key(const char* name, const char* help);

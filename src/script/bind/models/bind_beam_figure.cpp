@@ -1,15 +1,11 @@
 // Figures of beams and of the laws of their supports.
 #include <algorithm>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "figure/compose/compose_beam.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/models/bind_beam.hpp"
 #include "script/bind/models/bind_thermoelastic.hpp"
-#include "script/bind/figure_size.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/setups.hpp"
+#include "script/bind/figure_keys.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -19,47 +15,50 @@ using problem::SupportLaw;
 
 using figure::BeamPanel;
 
-// In the order of BeamPanel and LawSide; a plain beam has the first ones.
-const std::vector<std::string> kPanels = {"deflection", "moment", "shear", "normal", "temperature", "gradient", "displacement"};
-const std::vector<std::string> kSides = {"deflection", "rotation", "displacement"};
-std::vector<std::string> first(const std::vector<std::string>& names, int count) { return {names.begin(), names.begin() + count}; }
+template <class Enum>
+using Names = std::vector<std::pair<const char*, Enum>>;
+
+// A plain beam has the first ones.
+const Names<BeamPanel> kPanels = {{"deflection", BeamPanel::deflection}, {"moment", BeamPanel::moment}, {"shear", BeamPanel::shear},
+                                  {"normal", BeamPanel::normal}, {"temperature", BeamPanel::temperature}, {"gradient", BeamPanel::gradient},
+                                  {"displacement", BeamPanel::displacement}};
+const Names<LawSide> kSides = {{"deflection", LawSide::deflection}, {"rotation", LawSide::rotation}, {"displacement", LawSide::displacement}};
+template <class Enum>
+Names<Enum> first(const Names<Enum>& names, int count) { return {names.begin(), names.begin() + count}; }
 
 std::vector<Key> page_keys(std::vector<Key> keys, const char* size, bool heat = false) {
-  keys.insert(keys.begin(), key::file("file", "where to; ends in .png, its folder must exist").written().required());
-  keys.push_back(key::string("title", "above the figure").otherwise("none"));
-  keys.push_back(units_key(heat));
-  keys.push_back(size_key(size));
+  keys.insert(keys.begin(), picture_key());
+  keys.insert(keys.end(), {title_key(), units_key(heat), size_key(size)});
   return keys;
 }
 
-int draw(Call& call, figure::PagePicture picture) {
-  picture.file = call.text("file");
-  picture.title = call.has("title") ? call.text("title") : "";
-  read_size(call, picture.width, picture.height);
+std::string draw(Call& call, figure::PagePicture picture) {
+  read_page(call, picture);
   figure::draw(picture);
-  return call.give(picture.file);
+  return picture.file;
 }
 
 std::vector<BeamPanel> panels(const Arguments& call, std::vector<BeamPanel> otherwise) {
   if (!call.has("panels")) return otherwise;
   std::vector<BeamPanel> out;
-  for (const std::string& name : call.texts("panels")) out.push_back(static_cast<BeamPanel>(std::find(kPanels.begin(), kPanels.end(), name) - kPanels.begin()));
+  for (const std::string& name : call.texts("panels"))
+    out.push_back(std::find_if(kPanels.begin(), kPanels.end(), [&](const auto& panel) { return name == panel.first; })->second);
   return out;
 }
 
-int render_beam(Call& call) {
+std::string render_beam(Call& call) {
   const auto chosen = panels(call, {BeamPanel::deflection, BeamPanel::moment, BeamPanel::shear});
   return draw(call, figure::compose(figure::view(call.self<BeamResult>()->solution()), chosen, read_units(call)));
 }
 
-LawSide side(const Arguments& from) { return static_cast<LawSide>(from.choice("of")); }
+LawSide side(const Arguments& from) { return from.choice<LawSide>("of"); }
 
-int render_law(Call& call) {
+std::string render_law(Call& call) {
   const beam::Solution& s = call.self<BeamResult>()->solution();
   return draw(call, figure::compose(figure::view(s), find_support(s.beam(), call, "support"), side(call), read_units(call)));
 }
 
-int render_support_law(Call& call) { return draw(call, figure::compose(*call.self<SupportLaw>(), side(call), read_units(call))); }
+std::string render_support_law(Call& call) { return draw(call, figure::compose(*call.self<SupportLaw>(), side(call), read_units(call))); }
 
 // As it is now, with the load along it.
 figure::BeamView view_now(const ThermoelasticBeam& beam, const thermoelastic::Loads& loads) {
@@ -70,7 +69,7 @@ figure::BeamView view_now(const ThermoelasticBeam& beam, const thermoelastic::Lo
   return figure::view(*beam.stepping, std::move(load));
 }
 
-int render_thermoelastic(Call& call) {
+std::string render_thermoelastic(Call& call) {
   const auto beam = call.self<ThermoelasticBeam>();
   const LoadsCalled called(*beam, "draw it");
   const thermoelastic::Loads loads = kept_loads(call, *beam);
@@ -78,7 +77,7 @@ int render_thermoelastic(Call& call) {
   return draw(call, figure::compose(view_now(*beam, loads), chosen, read_units(call, true)));
 }
 
-int render_thermoelastic_law(Call& call) {
+std::string render_thermoelastic_law(Call& call) {
   const auto beam = call.self<ThermoelasticBeam>();
   const LoadsCalled called(*beam, "draw it");
   const thermoelastic::Loads loads = kept_loads(call, *beam);
@@ -89,7 +88,7 @@ int render_thermoelastic_law(Call& call) {
   return draw(call, figure::compose(view_now(*beam, loads), support, side(call), read_units(call)));
 }
 
-int gallery(Call& call) {
+std::string gallery(Call& call) {
   std::vector<figure::GalleryRow> rows;
   std::vector<std::shared_ptr<BeamResult>> kept;
   for (const Arguments& row : call.tables("rows")) {
@@ -152,11 +151,11 @@ void bind_beam_figure(Library& library) {
                             "and returns its name.",
                     .setup = setup::solved_beam(),
                     .example = "dotyk.support_gallery{ file = \"a.png\", rows = { { solution = s, support = \"right\", title = \"A stop\" } } }",
-                    .arguments = {key::table({key::file("file", "where to; ends in .png, its folder must exist").written().required(),
+                    .arguments = {key::table({picture_key(),
                                               key::list("rows", key::table("", {key::object<BeamResult>("solution", "a solved beam").required(), support_key("support").required(), of_key(),
-                                                                                key::string("title", "above the row").otherwise("none")}, ""),
+                                                                                title_key("above the row")}, ""),
                                                         "from above").count(1, 12).required(),
-                                              key::string("title", "above all").otherwise("none"),
+                                              title_key("above all"),
                                               size_key("{1600, 60 and 380 a row}")})},
                     .run = gallery});
   add_thermoelastic(library);

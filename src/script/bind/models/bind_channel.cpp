@@ -1,12 +1,21 @@
-#include "script/bind/models/bind_channel.hpp"
-
-#include "base/error.hpp"
-#include "base/text.hpp"
+// The oscillating channel.
+#include "channel/series.hpp"
+#include "channel/stepping.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/prompt/watch.hpp"
 
 namespace dotyk::script {
+
+// Without a series where the magnetic field oscillates too slowly for it; `refusal` says so.
+struct ChannelFlow {
+  channel::Data data;
+  std::optional<channel::Series> series;
+  std::string refusal;
+};
+template <>
+struct Wrapped<ChannelFlow> : Called<"channel"> {};
+template <>
+struct Wrapped<channel::Stepping> : Called<"channel_stepping"> {};
+
 namespace {
 
 using channel::Data;
@@ -58,7 +67,7 @@ Data physical_data(Call& call) {
   return channel::reduced(f);
 }
 
-int make_channel(Call& call) {
+std::shared_ptr<ChannelFlow> make_channel(Call& call) {
   bool is_reduced = false;
   for (const char* name : kReduced) is_reduced = is_reduced || call.has(name);
   auto flow = std::make_shared<ChannelFlow>();
@@ -69,7 +78,7 @@ int make_channel(Call& call) {
     if (flow->data.oscillating == Oscillating::electric) throw;
     flow->refusal = error.what();
   }
-  return call.give(flow);
+  return flow;
 }
 
 const channel::Series& series(const ChannelFlow& flow) {
@@ -113,7 +122,6 @@ Descriptor constructor() {
            key::number("u0", "speed on the axis at t = 0; 0 starts from rest").fallback(0.0).unit("m/s"),
            key::choice("oscillating", {"electric", "magnetic"}, "the field that oscillates; the other is steady").fallback("electric"),
            key::integer("terms", "most terms of the transient's series").within(64, 1 << 20).fallback(4096.0)})},
-      .returns = Wrapped<ChannelFlow>::name,
       .run = make_channel};
 }
 
@@ -170,7 +178,7 @@ void add_states(TypeOf<ChannelFlow>& type) {
                .run = [at](Call& call) { return call.give(at(call).truncation_bound(call.number("t"))); }});
 }
 
-int advance(Call& call) {
+Self advance(Call& call) {
   const auto s = call.self<Stepping>();
   Watch watch(call.state(), "stepping");
   s->advance(call.number("time"), watch);
@@ -185,7 +193,6 @@ void bind_stepping(Library& library) {
       .method({.name = "channel_stepping:step",
                .help = "Steps by one step; gives the object again.",
                .example = "s:step():step()\nprint(s.time)",
-               .returns = Wrapped<Stepping>::name,
                .run = [](Call& call) {
                  call.self<Stepping>()->step();
                  return call.give_self();
@@ -194,7 +201,6 @@ void bind_stepping(Library& library) {
                .help = "Steps to a time by equal steps, none longer than the step; gives the object again.",
                .example = "print(s:run(0.5):velocity(0))",
                .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")},
-               .returns = Wrapped<Stepping>::name,
                .run = advance})
       .method({.name = "channel_stepping:velocity",
                .help = "u(y) now.",
@@ -212,10 +218,9 @@ Descriptor stepping() {
           .arguments = {key::table({key::positive("step", "longest step").required().unit("time"),
                                     key::integer("cells", "on half the channel").within(1, 4096).fallback(16.0),
                                     key::integer("degree", "of the elements").within(1, 16).fallback(8.0)})},
-          .returns = Wrapped<Stepping>::name,
           .run = [](Call& call) {
-            return call.give(std::make_shared<Stepping>(call.self<ChannelFlow>()->data, call.number("step"),
-                                                        static_cast<int>(call.integer("cells")), static_cast<int>(call.integer("degree"))));
+            return std::make_shared<Stepping>(call.self<ChannelFlow>()->data, call.number("step"), static_cast<int>(call.integer("cells")),
+                                              static_cast<int>(call.integer("degree")));
           }};
 }
 

@@ -1,7 +1,5 @@
-#include "base/text.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/models/bind_beam.hpp"
-#include "script/bridge/library.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -71,9 +69,9 @@ void bind_law(Library& library) {
       law->kind = kind;
       if (!numbers.empty()) law->value = call.number(numbers[0].name);
       if (numbers.size() > 1) (*law).*second = call.number(numbers[1].name);
-      return call.give(law);
+      return law;
     };
-    library.function({.name = name, .help = e.help, .example = "local law = " + name + "(" + example + ")", .arguments = e.numbers, .returns = "law", .run = make});
+    library.function({.name = name, .help = e.help, .example = "local law = " + name + "(" + example + ")", .arguments = e.numbers, .run = make});
   }
   library.type<SupportLaw>("What a support does about one displacement.").text(law_text);
 }

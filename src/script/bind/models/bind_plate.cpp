@@ -2,15 +2,11 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "plate/solvable.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/models/bind_beam.hpp"
-#include "script/bridge/library.hpp"
 #include "script/help/nearest.hpp"
 #include "script/bridge/position.hpp"
-#include "script/prompt/watch.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -104,7 +100,7 @@ void take_points(Call& call, Plate& plate) {
     }
 }
 
-int make_plate(Call& call) {
+std::shared_ptr<plate::Model> make_plate(Call& call) {
   Plate plate;
   plate.mesh = std::make_shared<const mesh::Mesh>(*call.object<MeshHandle>("mesh")->mesh);
   plate.element = static_cast<plate::Element>(call.choice("element"));
@@ -117,7 +113,7 @@ int make_plate(Call& call) {
   require_valid(plate);
   take_edges(call, plate);
   take_points(call, plate);
-  return call.give(std::make_shared<plate::Model>(plate::build(std::move(plate))));
+  return std::make_shared<plate::Model>(plate::build(std::move(plate)));
 }
 
 std::string plate_text(const plate::Model& m) {
@@ -180,7 +176,6 @@ void bind_plate(Library& library) {
             key::any("edges", "laws part by part: { left = { rotation = law, deflection = law }, … }; a part that the mesh does not have is chosen by where = function(x, y, nx, ny)"),
             key::list("supports", key::table("", {point_key("x"), point_key("y"), law_key("deflection", "a law of dotyk.law but breaking")}, ""), "at points"),
             key::field("obstacle", "height of what lies under the plate: a number or a function of x, y").unit("length").otherwise("none")})},
-       .returns = "plate",
        .run = make_plate});
   library.type<plate::Model>("A plate with its supports and loads.")
       .field("unknowns", "free deflections and slopes", [](const plate::Model& m) { return m.problem.unknowns(); })

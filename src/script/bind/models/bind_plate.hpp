@@ -7,13 +7,9 @@
 namespace dotyk::script {
 
 template <>
-struct Wrapped<plate::Model> {
-  static constexpr const char* name = "plate";
-};
+struct Wrapped<plate::Model> : Called<"plate"> {};
 template <>
-struct Wrapped<plate::Solution> {
-  static constexpr const char* name = "plate_solution";
-};
+struct Wrapped<plate::Solution> : Called<"plate_solution"> {};
 
 // Solves; gives a plate_solution.
 int solve_plate(Call& call, const std::shared_ptr<const plate::Model>& plate, const solver::Method& method, std::vector<Function> on_iteration, bool verbose);

@@ -1,12 +1,11 @@
+// Solved plates and their figures.
+#include "figure/compose/compose_grid.hpp"
+#include "figure/compose/compose_plate.hpp"
 #include "plate/distance.hpp"
 #include "plate/reaction.hpp"
-#include "base/text.hpp"
 #include "script/bind/bind.hpp"
+#include "script/bind/figure_keys.hpp"
 #include "script/bind/models/bind_plate.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/result_records.hpp"
-#include "script/bind/setups.hpp"
-#include "script/prompt/watch.hpp"
 #include "solver/core/ending.hpp"
 
 namespace dotyk::script {
@@ -115,6 +114,35 @@ std::string plate_solution_text(const Solution& s) {
   return out;
 }
 
+using figure::PlateField;
+using figure::PlateView;
+
+const Bound<figure::PlateOptions>& options() {
+  static const Bound<figure::PlateOptions> all{
+      {key::choice<PlateView>("view", {{"surface", PlateView::surface}, {"plan", PlateView::plan}}, "the deflected surface, or the plan"),
+       &figure::PlateOptions::view},
+      {key::choice<PlateField>("field", {{"none", PlateField::none}, {"deflection", PlateField::deflection}, {"mxx", PlateField::xx}, {"myy", PlateField::yy},
+                                         {"mxy", PlateField::xy}, {"m1", PlateField::greatest}, {"m2", PlateField::least}, {"von_mises", PlateField::von_mises}},
+                               "what the colours show: deflection, moments per length, the principal ones m1 >= m2, von Mises' of them"),
+       &figure::PlateOptions::field}};
+  return all;
+}
+
+std::string render_plate(Call& call) {
+  figure::PlateOptions chosen = options().read(call);
+  if (call.is("deform", LUA_TNUMBER)) chosen.deform = call.number("deform");
+  chosen.units = read_units(call);
+  figure::PlatePicture picture = figure::compose(*call.self<plate::Solution>(), chosen);
+  if (picture.view == PlateView::surface) picture.height = 800;
+  read_page(call, picture);
+  picture.edges = read_edges(call, picture.edges);
+  call.read("range", picture.field_range);
+  if (call.has("eye") && picture.view == PlateView::plan) throw InputError("'eye' is for view = \"surface\"; a plan is seen from above");
+  picture.view_from = read_direction(call, "eye");
+  figure::draw(picture);
+  return picture.file;
+}
+
 }  // namespace
 
 void bind_plate_solution(Library& library) {
@@ -153,6 +181,30 @@ void bind_plate_solution(Library& library) {
       .method({.name = "plate_solution:corners",
                .help = "The forces that the supports concentrate at the corners of the edge (x, y, force, upwards): what a corner bears beyond the reaction per length of the nodes next to it.",
                .example = "for _, c in ipairs(s:corners()) do print(c.x, c.y, c.force) end", .arguments = {}, .run = corners})
+      .method(
+      {.name = "plate_solution:write",
+       .help = "Writes the solution for ParaView and returns the file's name: the plate at rest, with displacement (along z), moment and, where there "
+               "is an obstacle, obstacle_force at the nodes.",
+       .example = "s:write \"a.vtu\"",
+       .arguments = {key::file("file", "where to; ends in .vtu, its folder must exist").written().required()},
+       .run = [](Call& call) {
+         figure::write(figure::compose_grid(*call.self<Solution>(), call.text("file")));
+         return call.text("file");
+       }})
+      .method(
+      {.name = "plate_solution:render",
+       .help = "Draws the plate into a PNG file and returns its name. surface: in space, its deflection magnified, over the outline at rest; edges that have "
+               "left their support show the gap. plan: from above, with contour lines, reactions per length as areas along the edges and those at corners "
+               "and point supports as dots with their numbers. Both show the status of edges, point supports, and hatched what bears on the obstacle.",
+       .example = "s:render{ file = \"a.png\", view = \"plan\", field = \"von_mises\", units = { length = \"m\", force = \"kN\" } }",
+       .arguments = {key::table(
+           {picture_key(), options().keys()[0], options().keys()[1],
+            key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")}, "surface: factor on the deflection; auto: such that it can be seen").fallback("auto"),
+            key::boolean("edges", "edges of the triangles").otherwise("on a surface while they can be told apart, none on a plan"),
+            key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's"),
+            key::vector("eye", "surface: direction towards the eye").count(3).otherwise("{1, -1.7, 0.8}"),
+            title_key(), units_key(), size_key("{1200, 800}, a plan {1200, 900}")})},
+       .run = render_plate})
       .text(plate_solution_text);
 }
 

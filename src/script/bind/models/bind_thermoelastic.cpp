@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/models/bind_beam.hpp"
-#include "script/bridge/library.hpp"
-#include "script/prompt/watch.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -22,7 +18,7 @@ using thermoelastic::Stepping;
 const std::array<const char*, 2> kEnds{"left", "right"};
 
 // Where a function is kept: "load", "ambient.above", "left.temperature", "supports[1].force".
-struct Place {
+struct LoadPlace {
   std::string table, name;
   int item = -1;  // of a list
   std::string kept() const { return (table.empty() ? "" : item < 0 ? table + "." : text(table, "[", item + 1, "].")) + name; }
@@ -31,19 +27,19 @@ struct Place {
 // Every load, with where a script says it.
 template <class Use>
 void each_load(Loads& loads, Use use) {
-  use(Place{"", "load"}, loads.transverse);
-  use(Place{"", "axial_load"}, loads.axial);
-  use(Place{"", "heat"}, loads.heat);
-  use(Place{"", "heat_gradient"}, loads.heat_gradient);
-  use(Place{"ambient", "above"}, loads.ambient_above);
-  use(Place{"ambient", "below"}, loads.ambient_below);
+  use(LoadPlace{"", "load"}, loads.transverse);
+  use(LoadPlace{"", "axial_load"}, loads.axial);
+  use(LoadPlace{"", "heat"}, loads.heat);
+  use(LoadPlace{"", "heat_gradient"}, loads.heat_gradient);
+  use(LoadPlace{"ambient", "above"}, loads.ambient_above);
+  use(LoadPlace{"ambient", "below"}, loads.ambient_below);
   for (int end = 0; end < 2; ++end) {
-    use(Place{kEnds[end], "temperature"}, loads.mean[end]);
-    use(Place{kEnds[end], "gradient"}, loads.gradient[end]);
+    use(LoadPlace{kEnds[end], "temperature"}, loads.mean[end]);
+    use(LoadPlace{kEnds[end], "gradient"}, loads.gradient[end]);
   }
   for (int i = 0; i < static_cast<int>(loads.supports.size()); ++i) {
     const bool end = i < 2;  // the left and the right one, then those of the list
-    const auto at = [&](const char* name) { return Place{end ? kEnds[i] : "supports", name, end ? -1 : i - 2}; };
+    const auto at = [&](const char* name) { return LoadPlace{end ? kEnds[i] : "supports", name, end ? -1 : i - 2}; };
     auto& [x, deflection, rotation, displacement] = loads.supports[i];
     use(at("deflection_at"), deflection.place);
     use(at("force"), deflection.force);
@@ -66,7 +62,7 @@ void set_function(History& load, Function function) {
 std::vector<Arguments> given_supports(Call& call) { return call.has("supports") ? call.tables("supports") : std::vector<Arguments>{}; }
 
 // The arguments that a place is in; nothing where its table is not given.
-std::optional<Arguments> holder(Call& call, const std::vector<Arguments>& supports, const Place& at) {
+std::optional<Arguments> holder(Call& call, const std::vector<Arguments>& supports, const LoadPlace& at) {
   if (at.table.empty()) return call;
   if (at.item >= 0) return supports[at.item];
   if (!call.has(at.table)) return std::nullopt;
@@ -79,12 +75,12 @@ Loads given_loads(Call& call, const std::vector<Arguments>& supports, Loads& con
   constants.supports[1].x = call.number("length");
   for (const Arguments& s : supports) constants.supports.push_back({s.number("x"), {}, {}, {}});
   Loads all;
-  each_load(constants, [&](const Place& at, auto& load) {
+  each_load(constants, [&](const LoadPlace& at, auto& load) {
     const auto from = holder(call, supports, at);
     if (from && from->is(at.name, LUA_TNUMBER)) load.constant = from->number(at.name);
   });
   all = constants;
-  each_load(all, [&](const Place& at, auto& load) {
+  each_load(all, [&](const LoadPlace& at, auto& load) {
     const auto from = holder(call, supports, at);
     if (from && from->is(at.name, LUA_TFUNCTION)) set_function(load, Function(call.state(), from->slot(at.name), at.kept(), call.descriptor().short_name()));
   });
@@ -92,7 +88,7 @@ Loads given_loads(Call& call, const std::vector<Arguments>& supports, Loads& con
 }
 
 void keep_functions(Call& call, int object, const std::vector<Arguments>& supports, Loads& constants) {
-  each_load(constants, [&](const Place& at, auto&) {
+  each_load(constants, [&](const LoadPlace& at, auto&) {
     const auto from = holder(call, supports, at);
     if (from && from->is(at.name, LUA_TFUNCTION)) call.keep(object, at.kept(), from->slot(at.name));
   });
@@ -161,7 +157,7 @@ Data given_data(Call& call, const std::vector<Arguments>& supports) {
   return data;
 }
 
-int make_thermoelastic_beam(Call& call) {
+Given<ThermoelasticBeam> make_thermoelastic_beam(Call& call) {
   const std::vector<Arguments> supports = given_supports(call);
   const Data data = given_data(call, supports);
   auto beam = std::make_shared<ThermoelasticBeam>();
@@ -175,16 +171,16 @@ int make_thermoelastic_beam(Call& call) {
   if (call.has("solver")) scheme.method = call.object<Solver>("solver")->method;
   Watch watch(call.state(), "thermoelastic beam");
   beam->stepping = std::make_unique<Stepping>(data, initial, scheme, loads, watch);
-  call.give(beam);
+  const auto given = call.give_keeping(beam, {});
   const int object = lua_gettop(call.state());
   keep_functions(call, object, supports, beam->constants);
   lua_settop(call.state(), object);
-  return 1;
+  return given;
 }
 
 // Steps the object before the colon; its own functions are refused that.
 template <class Advance>
-int stepped(Call& call, Advance advance) {
+Self stepped(Call& call, Advance advance) {
   const auto beam = call.self<ThermoelasticBeam>();
   const LoadsCalled called(*beam, "step it");
   const Loads loads = kept_loads(call, *beam);
@@ -193,11 +189,11 @@ int stepped(Call& call, Advance advance) {
   return call.give_self();
 }
 
-int run_to_time(Call& call) {
+Self run_to_time(Call& call) {
   return stepped(call, [&](Stepping& s, const Loads& loads, Watch& watch) { s.run(call.number("time"), loads, watch); });
 }
 
-int one_step(Call& call) {
+Self one_step(Call& call) {
   return stepped(call, [](Stepping& s, const Loads& loads, Watch& watch) { s.step(loads, watch); });
 }
 
@@ -342,7 +338,7 @@ LoadsCalled::LoadsCalled(ThermoelasticBeam& beam, const char* what) : on_(beam.l
 
 Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
   Loads all = beam.constants;
-  each_load(all, [&](const Place& at, auto& load) {
+  each_load(all, [&](const LoadPlace& at, auto& load) {
     for (const Function& f : call.kept_function(1, at.kept())) set_function(load, f);
   });
   return all;
@@ -350,7 +346,7 @@ Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
 
 void bind_thermoelastic(Library& library) {
   library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .setup = kBeam, .example = "print(b:run(60):deflection(0.5))", .arguments = {key::table(thermoelastic_beam_keys())},
-                    .returns = Wrapped<ThermoelasticBeam>::name, .run = make_thermoelastic_beam});
+                    .run = make_thermoelastic_beam});
   auto type = library.type<ThermoelasticBeam>("A thermoelastic beam at a time.").setup(kBeam);
   using B = ThermoelasticBeam;
   type.field("time", "now", [](const B& b) { return b.stepping->time(); }, "time")
@@ -363,9 +359,9 @@ void bind_thermoelastic(Library& library) {
       .field("problems", "contact problems solved", [](const B& b) { return b.stepping->work().problems; })
       .field("iterations", "of the method, in all", [](const B& b) { return b.stepping->work().iterations; })
       .text(thermoelastic_beam_text);
-  type.method({.name = "thermoelastic_beam:step", .help = "One step; gives the beam again.", .example = "print(b:step().time)", .returns = Wrapped<B>::name, .run = one_step})
+  type.method({.name = "thermoelastic_beam:step", .help = "One step; gives the beam again.", .example = "print(b:step().time)", .run = one_step})
       .method({.name = "thermoelastic_beam:run", .help = "To a time by equal steps, none longer than the step; gives the beam again.", .example = "print(b:run(60).steps)",
-               .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")}, .returns = Wrapped<B>::name, .run = run_to_time});
+               .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")}, .run = run_to_time});
   add_values(type);
 }
 

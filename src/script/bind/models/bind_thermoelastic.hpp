@@ -12,9 +12,7 @@ struct ThermoelasticBeam {
   bool loads_called = false;  // its functions may not step it, nor draw it
 };
 template <>
-struct Wrapped<ThermoelasticBeam> {
-  static constexpr const char* name = "thermoelastic_beam";
-};
+struct Wrapped<ThermoelasticBeam> : Called<"thermoelastic_beam"> {};
 
 // While it is there the object's functions may be called, and a second one is refused with InputError, `what` they cannot do.
 class LoadsCalled {

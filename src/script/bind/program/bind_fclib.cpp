@@ -1,19 +1,14 @@
 #include "script/bind/program/bind_fclib.hpp"
 
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 #include "fclib/read.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/result_records.hpp"
-#include "script/bind/setups.hpp"
-#include "script/prompt/watch.hpp"
 
 namespace dotyk::script {
 
 using fclib::ContactProblem;
 
-int solve_contact_problem(Call& call, const std::shared_ptr<ContactProblem>& problem, const Solver& solver,
+std::shared_ptr<ContactProblemResult> solve_contact_problem(Call& call, const std::shared_ptr<ContactProblem>& problem, const Solver& solver,
                           std::vector<Function> on_iteration) {
   Watch watch(call.state(), "solving", std::move(on_iteration), solver.verbose);
   auto result = std::make_shared<ContactProblemResult>();
@@ -23,14 +18,14 @@ int solve_contact_problem(Call& call, const std::shared_ptr<ContactProblem>& pro
   result->seconds = clock.seconds();
   watch.judge(result->result.iteration);
   watch.answer();
-  return call.give(result);
+  return result;
 }
 
 namespace {
 
-int read(Call& call) {
+std::shared_ptr<ContactProblem> read_problem(Call& call) {
   Watch watch(call.state(), "reading");
-  return call.give(std::make_shared<ContactProblem>(fclib::read(call.text("file"), watch)));
+  return std::make_shared<ContactProblem>(fclib::read(call.text("file"), watch));
 }
 
 std::vector<std::vector<double>> rows_of_W(const ContactProblem& p) {
@@ -66,7 +61,6 @@ void bind_problem(Library& library) {
                .setup = setup::contact_problem(),
                .example = "local r = p:solve(dotyk.solver.newton{ tol = 1e-12 })\nprint(r.residual, r.stick)",
                .arguments = {key::object<Solver>("solver", "the method").required()},
-               .returns = Wrapped<ContactProblemResult>::name,
                .run = [](Call& call) {
                  const auto solver = call.object<Solver>("solver");
                  return solve_contact_problem(call, call.self<ContactProblem>(), *solver, call.kept_function(2, "on_iteration"));
@@ -119,8 +113,7 @@ void bind_fclib(Library& library) {
        .setup = setup::contact_problem(),
        .example = "local r = p:solve(dotyk.solver.newton{})\nprint(r.residual, r.open, r.stick, r.slip)",
        .arguments = {key::file("file", "the file's name").required()},
-       .returns = Wrapped<ContactProblem>::name,
-       .run = read});
+       .run = read_problem});
   bind_problem(library);
   bind_result(library);
 }

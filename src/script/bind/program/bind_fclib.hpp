@@ -7,9 +7,7 @@
 namespace dotyk::script {
 
 template <>
-struct Wrapped<fclib::ContactProblem> {
-  static constexpr const char* name = "contact_problem";
-};
+struct Wrapped<fclib::ContactProblem> : Called<"contact_problem"> {};
 
 // A result remembers its problem.
 struct ContactProblemResult {
@@ -18,12 +16,10 @@ struct ContactProblemResult {
   double seconds = 0;
 };
 template <>
-struct Wrapped<ContactProblemResult> {
-  static constexpr const char* name = "contact_problem_result";
-};
+struct Wrapped<ContactProblemResult> : Called<"contact_problem_result"> {};
 
 // Solves by the method, gives the result and answers Ctrl-C.
-int solve_contact_problem(Call& call, const std::shared_ptr<fclib::ContactProblem>& problem, const Solver& solver,
-                          std::vector<Function> on_iteration);
+std::shared_ptr<ContactProblemResult> solve_contact_problem(Call& call, const std::shared_ptr<fclib::ContactProblem>& problem,
+                                                            const Solver& solver, std::vector<Function> on_iteration);
 
 }  // namespace dotyk::script

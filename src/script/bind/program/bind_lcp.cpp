@@ -1,10 +1,5 @@
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
 #include "script/bind/program/program_input.hpp"
-#include "script/bind/result_records.hpp"
-#include "script/prompt/watch.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -13,7 +8,7 @@ using program::Lcp;
 using program::LcpResult;
 using program::LcpSettings;
 
-Lcp read(const Call& call) {
+Lcp given_lcp(const Call& call) {
   if (call.has("file")) {
     if (call.has("M") || call.has("q")) throw InputError("give either a file, or M and q");
     return program::read_lcp(call.text("file"));
@@ -32,8 +27,8 @@ Lcp read(const Call& call) {
   return lcp;
 }
 
-int solve_lcp(Call& call) {
-  const Lcp lcp = read(call);
+std::shared_ptr<LcpResult> solve_lcp(Call& call) {
+  const Lcp lcp = given_lcp(call);
   LcpSettings settings;
   settings.method = static_cast<LcpSettings::Method>(call.choice("method"));
   settings.unique = call.boolean("unique");
@@ -47,7 +42,7 @@ int solve_lcp(Call& call) {
   Watch watch(call.state(), "solving");
   const auto result = std::make_shared<LcpResult>(program::solve(lcp, settings, watch));
   watch.answer();
-  return call.give(result);
+  return result;
 }
 
 std::vector<std::vector<int>> cycle(const LcpResult& r) {
@@ -78,7 +73,6 @@ void bind_lcp(Library& library) {
                 .fallback("automatic"),
             key::list("start", key::integer("", ""), "unknowns that are free (w = 0) in newton_min's first set").otherwise("none"),
             key::boolean("unique", "up to 16 unknowns: look for further solutions").fallback(true)})},
-       .returns = "lcp_result",
        .run = solve_lcp});
   library.type<LcpResult>("The result of a linear complementarity problem.")
       .field("status", "\"solved\", \"several\" (more than one solution), \"none\" (there is no solution) or \"stopped\"",

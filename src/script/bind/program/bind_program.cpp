@@ -1,15 +1,9 @@
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "program/active_set.hpp"
 #include "program/augmented_lagrangian.hpp"
 #include "program/bracket.hpp"
 #include "program/interior_point.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
 #include "script/bind/program/program_input.hpp"
-#include "script/bind/result_records.hpp"
-#include "script/bind/setups.hpp"
-#include "script/prompt/watch.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -67,7 +61,7 @@ program::Result run_method(const QuadraticProgram& p, const Arguments& given, co
   return program::solve(p, s, watch);
 }
 
-int solve_with(Call& call, const std::shared_ptr<QuadraticProgram>& p) {
+std::shared_ptr<ProgramResult> solve_with(Call& call, const std::shared_ptr<QuadraticProgram>& p) {
   std::vector<Function> on_iteration;
   if (call.has("on_iteration")) on_iteration.push_back(call.function("on_iteration"));
   Watch watch(call.state(), "solving", on_iteration, call.boolean("verbose"));
@@ -76,7 +70,7 @@ int solve_with(Call& call, const std::shared_ptr<QuadraticProgram>& p) {
   result->method = call.has("method") ? call.text("method") : kProgramMethods.front();
   result->result = run_method(*p, call, result->method, watch);
   watch.answer();
-  return call.give(result);
+  return result;
 }
 
 int make_program(Call& call) {
@@ -84,7 +78,7 @@ int make_program(Call& call) {
     Watch watch(call.state(), "reading");
     return read_program(call, watch);
   }();
-  return call.has("method") ? solve_with(call, p) : call.give(p);
+  return call.has("method") ? call.give(solve_with(call, p)) : call.give(p);
 }
 
 int bounds(const QuadraticProgram& p) {
@@ -155,7 +149,6 @@ void bind_program(Library& library) {
                .help = "Solves the program. A program without a solution, or not convex, gives a result whose status says so.",
                .example = "local r = program:solve{ method = \"active_set\", change = \"many\" }\nprint(r)",
                .arguments = {key::table(solve_keys())},
-               .returns = "program_result",
                .run = [](Call& call) { return solve_with(call, call.self<QuadraticProgram>()); }})
       .text([](const QuadraticProgram& p) {
         return text("program", p.name.empty() ? "" : " " + p.name, ": ", p.unknowns(), " unknowns, ", p.rows(), " rows (",

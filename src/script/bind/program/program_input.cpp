@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "program/mat_file.hpp"
 #include "program/qps_file.hpp"
+#include "script/bind/bind.hpp"
 #include "script/bridge/position.hpp"
 #include "script/bind/scene/space.hpp"
 

@@ -7,9 +7,7 @@
 namespace dotyk::script {
 
 template <>
-struct Wrapped<program::QuadraticProgram> {
-  static constexpr const char* name = "program";
-};
+struct Wrapped<program::QuadraticProgram> : Called<"program"> {};
 
 // A result remembers the program it belongs to.
 struct ProgramResult {
@@ -18,13 +16,9 @@ struct ProgramResult {
   std::string method;
 };
 template <>
-struct Wrapped<ProgramResult> {
-  static constexpr const char* name = "program_result";
-};
+struct Wrapped<ProgramResult> : Called<"program_result"> {};
 template <>
-struct Wrapped<program::LcpResult> {
-  static constexpr const char* name = "lcp_result";
-};
+struct Wrapped<program::LcpResult> : Called<"lcp_result"> {};
 
 // A sparse matrix: rows of numbers, or { i = {…}, j = {…}, value = {…} }.
 Key matrix_key(std::string name, std::string help);

@@ -2,11 +2,8 @@
 #include <optional>
 
 #include "script/bind/bind.hpp"
-#include "script/bridge/wrapped.hpp"
-#include "script/bridge/library.hpp"
 #include "script/help/nearest.hpp"
-#include "script/bind/setups.hpp"
-#include "script/bind/scene/friction_law.hpp"
+#include "script/bind/scene/space.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -42,7 +39,7 @@ elasticity::MaterialField material_field(const Call& call, const Material& mater
   return {std::move(E), std::move(nu), dim, material.plane};
 }
 
-int make_body(Call& call) {
+std::shared_ptr<Body> make_body(Call& call) {
   const auto mesh = call.object<MeshHandle>("mesh")->mesh;
   const auto material = call.object<Material>("material");
   elasticity::VectorField force;
@@ -51,10 +48,10 @@ int make_body(Call& call) {
     field = call.field("force", mesh->dimension());
     force = vector_field(*field, mesh->dimension());
   }
-  return call.give(scene::make_body(call.text("name"), mesh, material_field(call, *material, *mesh), force));
+  return scene::make_body(call.text("name"), mesh, material_field(call, *material, *mesh), force);
 }
 
-int make_part(Call& call) {
+std::shared_ptr<Part> make_part(Call& call) {
   const auto body = call.self<Body>();
   const std::string name = call.text("name");
   if (!call.has("chosen")) {
@@ -64,16 +61,16 @@ int make_part(Call& call) {
       if (!near.empty())
         throw InputError(text("'", body->name, "' has no part '", name, "', did you mean '", near, "'?"));
     }
-    return call.give(std::make_shared<Part>(scene::named_part(body, name)));
+    return std::make_shared<Part>(scene::named_part(body, name));
   }
   const Function chosen = call.function("chosen");
   const auto dim = static_cast<std::size_t>(body->dimension());
-  return call.give(std::make_shared<Part>(
+  return std::make_shared<Part>(
       scene::chosen_part(body, name, [&](const mesh::Point& x, const mesh::Point& n) {
         std::vector<double> arguments(x.begin(), x.begin() + dim);
         arguments.insert(arguments.end(), n.begin(), n.begin() + dim);
         return chosen.truth(arguments);
-      })));
+      }));
 }
 
 /// Refuses "z" in the plane.
@@ -82,7 +79,7 @@ void require_axis(const Part& part, int axis) {
     throw InputError(text("component 'z' does not exist: '", part.body->name, "' is 2-D"));
 }
 
-int fix(Call& call) {
+Self fix(Call& call) {
   auto part = call.self<Part>();
   std::array<bool, 3> components{false, false, false};
   bool any = false;
@@ -96,12 +93,12 @@ int fix(Call& call) {
   return call.give_self();
 }
 
-int slide(Call& call) {
+Self slide(Call& call) {
   scene::slide(*call.self<Part>());
   return call.give_self();
 }
 
-int part_support(Call& call) {
+Self part_support(Call& call) {
   const auto law = [&](const char* name) { return call.has(name) ? *call.object<problem::SupportLaw>(name) : problem::SupportLaw{}; };
   if (!call.has("normal") && !call.has("tangential")) throw InputError("name at least one law: normal or tangential");
   const auto part = call.self<Part>();
@@ -134,28 +131,28 @@ std::array<elasticity::ScalarField, 3> components(const Call& call, const Part& 
   return result;
 }
 
-int displace(Call& call) {
+Self displace(Call& call) {
   auto part = call.self<Part>();
   std::vector<Field> kept;
   scene::displace(*part, components(call, *part, kept), call.has("case") ? call.text("case") : "");
   return call.give_self();
 }
 
-int spring(Call& call) {
+Self spring(Call& call) {
   auto part = call.self<Part>();
   std::vector<Field> kept;
   scene::spring(*part, components(call, *part, kept));
   return call.give_self();
 }
 
-int load_part(Call& call) {
+Self load_part(Call& call) {
   auto part = call.self<Part>();
   const Field traction = call.field("traction", part->body->dimension());
   scene::load(*part, vector_field(traction, part->body->dimension()), call.has("case") ? call.text("case") : "");
   return call.give_self();
 }
 
-int pressure(Call& call) {
+Self pressure(Call& call) {
   auto part = call.self<Part>();
   const Field value = call.field("value");
   scene::pressure(*part, scalar_field(value, part->body->dimension()), call.has("case") ? call.text("case") : "");
@@ -194,38 +191,32 @@ void bind_part(Library& library) {
                .help = "Holds the displacement at zero: all components, or those named.",
                .example = "block:part\"bottom\":fix()\nblock:part\"left\":fix \"x\"",
                .arguments = {component("first"), component("second"), component("third")},
-               .returns = "part",
                .run = fix})
       .method({.name = "part:slide",
                .help = "Bilateral contact without friction: no displacement along the normal. At an edge between two "
                        "sides of the part it holds for both normals.",
                .example = "block:part\"left\":slide()",
-               .returns = "part",
                .run = slide})
       .method({.name = "part:displace",
                .help = "Prescribes displacement components; those not named stay free.",
                .example = "block:part\"right\":displace{ x = 0.01 }\nblock:part\"top\":displace{ y = -0.1, case = \"press\" }",
                .arguments = {displacement_table()},
-               .returns = "part",
                .run = displace})
       .method({.name = "part:load",
                .help = "A load per length (2-D) or area (3-D), constant or a function of the coordinates that returns "
                        "its components. Loads add up.",
                .example = "top:load{ 0, -10 }\ntop:load(function(x, y) return 0, -x end)\ntop:load({ 4, 0 }, \"shear\")",
                .arguments = {key::field("traction", "its components").unit("force/length (2-D), force/area (3-D)").required(), load_case()},
-               .returns = "part",
                .run = load_part})
       .method({.name = "part:pressure",
                .help = "A load along the inward normal, constant or a function of the coordinates.",
                .example = "top:pressure(10)",
                .arguments = {key::field("value", "positive when it pushes").unit("force/length (2-D), force/area (3-D)").required(), load_case()},
-               .returns = "part",
                .run = pressure})
       .method({.name = "part:spring",
                .help = "An elastic support (Newton's condition): a force against the displacement.",
                .example = "top:spring{ x = 1e3, y = 1e3 }",
                .arguments = {components_table("stiffness per length (2-D) or area (3-D), zero or positive", "stress/length")},
-               .returns = "part",
                .run = spring})
       .method({.name = "part:support",
                .help = "A support by laws of dotyk.law along the normal and along the tangents, at each node for its share of "
@@ -243,7 +234,6 @@ void bind_part(Library& library) {
                .example = "block:part\"bottom\":support{ normal = dotyk.law.one_sided_elastic(1e3), tangential = dotyk.law.friction(2) }",
                .arguments = {key::table({key::object<problem::SupportLaw>("normal", "the law along the normal").otherwise("free"),
                                          tangential_key("the law along the tangents")})},
-               .returns = "part",
                .run = part_support})
       .text([](const Part& p) { return text("part ", p.label(), ": ", p.facets.size(), " facets"); });
 }
@@ -260,7 +250,6 @@ void bind_body(Library& library) {
                          key::object<MeshHandle>("mesh", "its shape at rest").required(),
                          key::object<Material>("material", "what it is made of").required(),
                          key::field("force", "force per volume, its components").unit("force/volume").otherwise("none")})},
-                    .returns = "body",
                     .run = make_body});
   library.type<Body>("An elastic body with its supports and loads.")
       .setup(setup::block())
@@ -276,7 +265,6 @@ void bind_body(Library& library) {
                           "local patch = block:part(\"patch\", function(x, y, nx, ny) return ny > 0.9 and x < 0 end)",
                .arguments = {key::string("name", "its name").required().of<Body>(scene::part_names),
                              key::function("chosen", "accepts a facet or not")},
-               .returns = "part",
                .run = make_part})
       .text(show_body);
   bind_part(library);

@@ -1,9 +1,5 @@
 #include "scene/study/inf_sup.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/setups.hpp"
-#include "script/prompt/watch.hpp"
-#include "script/bridge/wrapped.hpp"
 
 namespace dotyk::script {
 namespace {

@@ -1,25 +1,23 @@
 #include <cstdio>
 #include <limits>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "figure/compose/compose.hpp"
+#include "figure/compose/compose_grid.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bind/figure_size.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bridge/wrapped.hpp"
+#include "script/bind/figure_keys.hpp"
 
 namespace dotyk::script {
 namespace {
 
 using scene::Solution;
 
-const std::vector<std::string> kSceneFields = {"none", "displacement", "ux", "uy", "uz", "von_mises",
-                                          "xx", "yy", "zz", "yz", "xz", "xy"};
+using figure::PressureStyle;
+using figure::SeriesPicture;
+using figure::SeriesStyle;
 
 figure::SceneOptions scene_options(const Call& call, int dimension) {
   figure::SceneOptions options;
-  options.field = static_cast<figure::FieldChoice>(call.choice("field"));
+  call.read("field", options.field);
   if (call.is("deform", LUA_TNUMBER)) {
     lua_Number factor = lua_tonumber(call.state(), call.slot("deform"));
     if (factor < 0) throw InputError(text("deform is ", factor, "; it must be zero, positive or \"auto\""));
@@ -27,61 +25,55 @@ figure::SceneOptions scene_options(const Call& call, int dimension) {
   } else if (!call.has("deform") && call.has("window")) {
     options.deform = 1;  // the window is in coordinates of the deformed picture
   }
-  options.contact = call.boolean("contact");
-  options.supports = call.boolean("supports");
-  options.loads = call.boolean("loads");
-  options.obstacle = call.has("obstacle") ? call.boolean("obstacle") : dimension == 2;
+  call.read("contact", options.contact);
+  call.read("supports", options.supports);
+  call.read("loads", options.loads);
+  options.obstacle = dimension == 2;
+  call.read("obstacle", options.obstacle);
   return options;
 }
 
-int render_scene(Call& call) {
+std::string render_scene(Call& call) {
   const auto s = call.self<Solution>();
   figure::ScenePicture picture = figure::compose(*s, scene_options(call, s->scene().dimension()));
-  picture.file = call.text("file");
-  read_size(call, picture.width, picture.height);
-  picture.title = call.has("title") ? call.text("title") : "";
+  read_page(call, picture);
   picture.field_unit = call.has("unit") ? call.text("unit") : "";
   picture.pressure_unit = picture.field_unit;
-  picture.edges = call.has("edges") ? (call.boolean("edges") ? figure::MeshEdges::on : figure::MeshEdges::off)
-                                    : figure::MeshEdges::automatic;
-  picture.pressure = static_cast<figure::PressureStyle>(call.choice("pressure"));
-  picture.shear = call.boolean("shear");
-  if (call.has("range")) {
-    const auto range = call.vector("range");
-    picture.field_range = {range[0], range[1]};
-  }
-  if (call.has("window")) {
-    const auto window = call.vector("window");
-    picture.window = {window[0], window[1], window[2], window[3]};
-  }
-  if (call.has("view")) {
-    const auto view = call.vector("view");
-    if (s->scene().dimension() == 2) throw InputError("'view' is for scenes in space; this one is 2-D (try 'window')");
-    if (view == std::vector<double>{0, 0, 0}) throw InputError("'view' is zero; it must have a direction");
-    picture.view_from = figure::Vec3{view[0], view[1], view[2]};
-  }
+  picture.edges = read_edges(call, figure::MeshEdges::automatic);
+  call.read("pressure", picture.pressure);
+  call.read("shear", picture.shear);
+  call.read("range", picture.field_range);
+  call.read("window", picture.window);
+  if (call.has("view") && s->scene().dimension() == 2) throw InputError("'view' is for scenes in space; this one is 2-D (try 'window')");
+  if (call.has("view")) picture.view_from = read_direction(call, "view");
   figure::draw(picture);
-  return call.give(picture.file);
+  return picture.file;
 }
 
-figure::SeriesPicture series_of(const Arguments& given) {
-  figure::SeriesPicture series;
-  series.name = given.has("name") ? given.text("name") : "";
-  series.x = given.vector("x");
-  series.crossed = given.boolean("crossed");
-  if (given.has("y")) series.y = given.vector("y");
-  else if (!series.crossed) throw InputError(text("series '", series.name, "': missing key 'y'; only points that are crossed may have none"));
+const Bound<SeriesPicture>& series_keys() {
+  using figure::Status;
+  static const Bound<SeriesPicture> keys{
+      {key::string("name", "its name in the legend"), &SeriesPicture::name},
+      {key::vector("x", "abscissas").required(), &SeriesPicture::x}, {key::vector("y", "ordinates; crossed points may have none"), &SeriesPicture::y},
+      {key::vector("low", "lower end of a spread"), &SeriesPicture::low}, {key::vector("high", "upper end of a spread"), &SeriesPicture::high},
+      {key::vector("x_low", "left end of a whisker at each point"), &SeriesPicture::x_low}, {key::vector("x_high", "right end of it"), &SeriesPicture::x_high},
+      {key::choice<SeriesStyle>("style", {{"line", SeriesStyle::line}, {"points", SeriesStyle::points}, {"both", SeriesStyle::both}}, "how it is drawn"),
+       &SeriesPicture::style},
+      {key::boolean("reference", "a reference curve: dashed, without markers"), &SeriesPicture::reference},
+      {key::boolean("crossed", "markers pale and crossed out, for runs that failed; without y in a strip above "
+                    "the plot, \"not converged\", a row for each such series"), &SeriesPicture::crossed},
+      {key::boolean("front", "a broad pale line beneath all others, for what is best"), &SeriesPicture::front},
+      {key::boolean("twin", "dashed, with the colour and marker of the series before it"), &SeriesPicture::twin},
+      {key::choice<Status>("status", {{"open", Status::open}, {"closed", Status::closed}, {"stick", Status::stick}, {"slip", Status::slip}},
+                           "with the colour and marker that contact nodes of this status have in scenes").otherwise("none"), &SeriesPicture::status}};
+  return keys;
+}
+
+SeriesPicture series_of(const Arguments& given) {
+  const SeriesPicture series = series_keys().read(given);
+  if (!given.has("y") && !series.crossed) throw InputError(text("series '", series.name, "': missing key 'y'; only points that are crossed may have none"));
   if (given.has("y") && series.x.size() != series.y.size())
     throw InputError(text("series '", series.name, "' has ", series.x.size(), " x and ", series.y.size(), " y"));
-  if (given.has("low")) series.low = given.vector("low");
-  if (given.has("high")) series.high = given.vector("high");
-  if (given.has("x_low")) series.x_low = given.vector("x_low");
-  if (given.has("x_high")) series.x_high = given.vector("x_high");
-  series.front = given.boolean("front");
-  series.style = static_cast<figure::SeriesStyle>(given.choice("style"));
-  series.reference = given.boolean("reference");
-  series.twin = given.boolean("twin");
-  if (given.has("status")) series.status = static_cast<figure::Status>(given.choice("status"));
   return series;
 }
 
@@ -110,9 +102,9 @@ std::array<double, 2> range_of(const Arguments& given, const char* name) {
 }
 
 void read_chart(const Arguments& given, figure::ChartPicture& chart) {
-  chart.title = given.has("title") ? given.text("title") : "";
-  chart.x_label = given.has("x") ? given.text("x") : "";
-  chart.y_label = given.has("y") ? given.text("y") : "";
+  given.read("title", chart.title);
+  given.read("x", chart.x_label);
+  given.read("y", chart.y_label);
   if (given.has("x_range")) chart.x_range = range_of(given, "x_range");
   if (given.has("y_range")) chart.y_range = range_of(given, "y_range");
   const std::string log = given.text("log");
@@ -129,12 +121,10 @@ void tell_not_shown(const figure::ChartPicture& chart, const std::string& file) 
 }
 
 // Panels one below the other; x given for all is one axis.
-int chart_column(Call& call) {
+std::string chart_column(Call& call) {
   for (const char* name : {"series", "slopes", "y", "log"})
     if (call.has(name)) throw InputError(text("'", name, "' beside 'panels'; give it within each panel"));
   figure::ChartColumn column;
-  column.file = call.text("file");
-  column.title = call.has("title") ? call.text("title") : "";
   column.shared_x = call.has("x");
   for (const Arguments& panel : call.tables("panels")) {
     figure::ChartPicture& chart = column.panels.emplace_back();
@@ -147,46 +137,31 @@ int chart_column(Call& call) {
   if (call.has("columns")) column.columns = static_cast<int>(std::min<long long>(call.integer("columns"), column.panels.size() + 1));
   const int rows = (static_cast<int>(column.panels.size()) + column.columns - 1) / column.columns;
   column.height = 60 + 260 * rows;
-  read_size(call, column.width, column.height);
+  read_page(call, column);
   figure::draw(column);
   for (const figure::ChartPicture& chart : column.panels) tell_not_shown(chart, column.file);
-  return call.give(column.file);
+  return column.file;
 }
 
-int chart(Call& call) {
+std::string chart(Call& call) {
   if (call.has("panels")) return chart_column(call);
   if (!call.has("series")) throw InputError("missing key 'series', or 'panels'");
   if (call.has("columns")) throw InputError("'columns' without 'panels'");
   figure::ChartPicture picture;
   read_chart(call, picture);
-  picture.file = call.text("file");
-  read_size(call, picture.width, picture.height);
+  read_page(call, picture);
   figure::draw(picture);
   tell_not_shown(picture, picture.file);
-  return call.give(picture.file);
+  return picture.file;
 }
 
 Key series_key() {
-  return key::list("series",
-                   key::table("", {key::string("name", "its name in the legend"),
-                                   key::vector("x", "abscissas").required(), key::vector("y", "ordinates; crossed points may have none"),
-                                   key::vector("low", "lower end of a spread"), key::vector("high", "upper end of a spread"),
-                                   key::vector("x_low", "left end of a whisker at each point"), key::vector("x_high", "right end of it"),
-                                   key::choice("style", {"line", "points", "both"}, "how it is drawn").fallback("both"),
-                                   key::boolean("reference", "a reference curve: dashed, without markers").fallback(false),
-                                   key::boolean("crossed", "markers pale and crossed out, for runs that failed; without y in a strip above "
-                                                "the plot, \"not converged\", a row for each such series").fallback(false),
-                                   key::boolean("front", "a broad pale line beneath all others, for what is best").fallback(false),
-                                   key::boolean("twin", "dashed, with the colour and marker of the series before it").fallback(false),
-                                   key::choice("status", {"open", "closed", "stick", "slip"},
-                                               "with the colour and marker that contact nodes of this status have in scenes").otherwise("none")},
-                              "one curve"),
-                   "the curves").count(1, std::numeric_limits<std::size_t>::max());
+  return key::list("series", key::table("", series_keys().keys(), "one curve"), "the curves").count(1, std::numeric_limits<std::size_t>::max());
 }
 
 // Of a chart, alone or a panel.
 std::vector<Key> chart_keys(Key series) {
-  return {key::string("title", "above the chart").otherwise("none"),
+  return {title_key("above the chart"),
           key::string("x", "label of the x axis"), key::string("y", "label of the y axis"),
           key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
                       "are left out, and counted on standard error").fallback(""),
@@ -198,7 +173,7 @@ std::vector<Key> chart_keys(Key series) {
 
 std::vector<Key> figure_keys() {
   std::vector<Key> keys = chart_keys(series_key());
-  keys.insert(keys.begin(), key::file("file", "where to; ends in .png, its folder must exist").written().required());
+  keys.insert(keys.begin(), picture_key());
   keys.push_back(key::list("panels", key::table("", chart_keys(series_key().required()), ""),
                            "instead of series, y, log and slopes: charts one below the other; an x beside them is one axis for all").count(1, 12));
   keys.push_back(key::integer("columns", "of the panels, which follow row by row").at_least(1).otherwise("1"));
@@ -209,6 +184,7 @@ std::vector<Key> figure_keys() {
 }  // namespace
 
 void bind_figure(Library& library) {
+  using Field = figure::FieldChoice;
   library.function({.name = "dotyk.chart",
                     .help = "Draws curves into a PNG file, in one chart or in panels one below the other (or in columns), and returns its name.",
                     .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
@@ -222,15 +198,18 @@ void bind_figure(Library& library) {
                "rigid obstacles as well, so that what touches is seen to touch.",
        .example = "s:render{ file = \"a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
        .arguments = {key::table(
-           {key::file("file", "where to; ends in .png, its folder must exist").written().required(),
-            key::choice("field", kSceneFields, "what the colours show").fallback("von_mises"),
+           {picture_key(),
+            key::choice<Field>("field", {{"none", Field::none}, {"displacement", Field::displacement}, {"ux", Field::ux}, {"uy", Field::uy}, {"uz", Field::uz},
+                                         {"von_mises", Field::von_mises}, {"xx", Field::xx}, {"yy", Field::yy}, {"zz", Field::zz}, {"yz", Field::yz},
+                                         {"xz", Field::xz}, {"xy", Field::xy}}, "what the colours show").fallback(Field::von_mises),
             key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")},
                         "factor on the displacement; auto: such that it can be seen").otherwise("\"auto\", with a window 1"),
             key::boolean("contact", "contact status, pressure and obstacles").fallback(true),
             key::boolean("supports", "symbols at supported nodes").fallback(false),
             key::boolean("loads", "arrows for loads").fallback(false),
             key::boolean("obstacle", "rigid obstacles").otherwise("true in the plane, false in space"),
-            key::choice("pressure", {"auto", "strip", "arrows", "none"}, "how contact pressure is drawn").fallback("auto"),
+            key::choice<PressureStyle>("pressure", {{"auto", PressureStyle::automatic}, {"strip", PressureStyle::strip}, {"arrows", PressureStyle::arrows},
+                                                    {"none", PressureStyle::none}}, "how contact pressure is drawn").fallback("auto"),
             key::boolean("shear", "arrows of the friction on the first part of each contact, where there is any: in the plane "
                                   "beside the contact line, in space on the plan of the contact").fallback(true),
             key::boolean("edges", "edges of the cells").otherwise("while they can be told apart"),
@@ -238,10 +217,22 @@ void bind_figure(Library& library) {
             key::vector("window", "in the plane: {x0, y0, x1, y1} of the deformed picture, all that is shown; colours and "
                                   "pressure are scaled to it").count(4).otherwise("all"),
             key::vector("view", "direction towards the eye, in space").count(3),
-            key::string("title", "above the figure").otherwise("none"),
+            title_key(),
             key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none"),
             size_key("{1200, 800}")})},
-       .run = render_scene});
+       .run = render_scene})
+      .method(
+      {.name = "solution:write",
+       .help = "Writes the whole solution for ParaView and returns the file's name: all bodies at rest, their cells "
+               "numbered by \"body\", with displacement, stress, von_mises and, where there is contact, "
+               "contact_pressure, contact_gap and contact_status (0 open, 1 closed, 2 stick, 3 slip, -1 no contact) "
+               "at the nodes; of contacts whose nodes do not match at the first part's alone.",
+       .example = "s:write \"a.vtu\"",
+       .arguments = {key::file("file", "where to; ends in .vtu, its folder must exist").written().required()},
+       .run = [](Call& call) {
+         figure::write(figure::compose_grid(*call.self<Solution>(), call.text("file")));
+         return call.text("file");
+       }});
 }
 
 }  // namespace dotyk::script

@@ -1,10 +1,6 @@
 #include <cmath>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/wrapped.hpp"
-#include "script/bridge/library.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -20,14 +16,14 @@ algebra::DenseMatrix matrix_of(const std::vector<std::vector<double>>& rows) {
   return m;
 }
 
-int make_material(Call& call) {
+Given<Material> make_material(Call& call) {
   auto material = std::make_shared<Material>();
   if (call.has("density")) material->density = call.number("density");
   if (call.has("stiffness")) {
     if (call.has("E") || call.has("nu"))
       throw InputError("give either E and nu, or stiffness, not both");
     material->stiffness = elasticity::from_voigt(matrix_of(call.matrix("stiffness")));
-    return call.give(material);
+    return call.give_keeping(material, {});
   }
   if (!call.has("E")) throw InputError("E is missing: give E and nu, or a stiffness matrix");
   material->plane = call.choice("plane") == 0 ? elasticity::Plane::strain : elasticity::Plane::stress;
@@ -37,10 +33,7 @@ int make_material(Call& call) {
   if (!material->nu_varies) material->nu = call.has("nu") ? call.field("nu")({})[0] : 0.3;
   elasticity::check_isotropic(material->E_varies ? 1.0 : material->E, material->nu_varies ? 0.0 : material->nu,
                               material->plane == elasticity::Plane::stress);
-  call.give(material);
-  if (material->E_varies) call.keep(lua_gettop(call.state()), {"E"});
-  if (material->nu_varies) call.keep(lua_gettop(call.state()), {"nu"});
-  return 1;
+  return call.give_keeping(material, {"E", "nu"});
 }
 
 std::string material_text(const Material& m) {
@@ -66,7 +59,6 @@ void bind_material(Library& library) {
                 .fallback("strain"),
             key::matrix("stiffness", "3x3 in the plane, 6x6 in space, instead of E and nu").unit("stress"),
             key::number("density", "mass per volume, for scripts to use").unit("mass/volume").above(0)})},
-       .returns = "material",
        .run = make_material});
   library.type<Material>("An elastic material.")
       .field("E", "Young's modulus; nil where it is a function or the material is general",

@@ -5,9 +5,6 @@
 #include "mesh/generators.hpp"
 #include "mesh/submesh.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/wrapped.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/setups.hpp"
 #include "script/bind/scene/space.hpp"
 
 namespace dotyk::script {
@@ -73,29 +70,29 @@ std::array<int, 3> cells(const Call& call) {
   return result;
 }
 
-int give_mesh(const Call& call, mesh::Mesh mesh) {
-  return call.give(std::make_shared<MeshHandle>(MeshHandle{std::make_shared<mesh::Mesh>(std::move(mesh))}));
+std::shared_ptr<MeshHandle> handle_of(mesh::Mesh mesh) {
+  return std::make_shared<MeshHandle>(MeshHandle{std::make_shared<mesh::Mesh>(std::move(mesh))});
 }
 
-int rectangle(Call& call) {
+std::shared_ptr<MeshHandle> rectangle(Call& call) {
   const auto from = call.vector("from"), to = call.vector("to");
-  return give_mesh(call, mesh::rectangle(from.data(), to.data(), cells(call).data(), chosen_family(call), gradings(call).data()));
+  return handle_of(mesh::rectangle(from.data(), to.data(), cells(call).data(), chosen_family(call), gradings(call).data()));
 }
 
-int box(Call& call) {
+std::shared_ptr<MeshHandle> box(Call& call) {
   const auto from = call.vector("from"), to = call.vector("to");
-  return give_mesh(call, mesh::box(from.data(), to.data(), cells(call).data(), chosen_family(call), gradings(call).data()));
+  return handle_of(mesh::box(from.data(), to.data(), cells(call).data(), chosen_family(call), gradings(call).data()));
 }
 
-int disc(Call& call) {
+std::shared_ptr<MeshHandle> disc(Call& call) {
   const auto center = call.vector("center");
   const auto count = call.integer("cells");
   if (count < 1 || count > 10'000) throw InputError(text("cells is ", count, "; it must be from 1 to 10000"));
   require_room(3.0 * static_cast<double>(count * count), 2, chosen_family(call));
-  return give_mesh(call, mesh::disc(center.data(), call.number("radius"), static_cast<int>(count), chosen_family(call)));
+  return handle_of(mesh::disc(center.data(), call.number("radius"), static_cast<int>(count), chosen_family(call)));
 }
 
-int transform(Call& call) {
+Self transform(Call& call) {
   MeshHandle& handle = *call.self<MeshHandle>();
   const Function map = call.function("map");
   auto moved = std::make_shared<mesh::Mesh>(*handle.mesh);
@@ -112,15 +109,15 @@ int transform(Call& call) {
 int pieces(Call& call) {
   std::vector<std::shared_ptr<MeshHandle>> handles;
   for (mesh::Mesh& piece : mesh::split(*call.self<MeshHandle>()->mesh))
-    handles.push_back(std::make_shared<MeshHandle>(MeshHandle{std::make_shared<mesh::Mesh>(std::move(piece))}));
+    handles.push_back(handle_of(std::move(piece)));
   return call.give(handles);
 }
 
-int keep(Call& call) {
+std::shared_ptr<MeshHandle> keep(Call& call) {
   const auto whole = call.self<MeshHandle>()->mesh;  // this one, though the function may transform the handle's
   const Function chosen = call.function("chosen");
   const auto dimension = static_cast<std::size_t>(whole->dimension());
-  return give_mesh(call, mesh::keep(*whole, [&](const mesh::Point& x) { return chosen.truth({x.data(), dimension}); },
+  return handle_of(mesh::keep(*whole, [&](const mesh::Point& x) { return chosen.truth({x.data(), dimension}); },
                                call.text("part")));
 }
 
@@ -157,7 +154,6 @@ void bind_mesh(Library& library) {
                     .arguments = {key::table({key::vector("from", "lower left corner").count(2).unit("length").required(),
                                               key::vector("to", "upper right corner").count(2).unit("length").required(),
                                               cells_key(2), element_key(), grading_key(2)})},
-                    .returns = "mesh",
                     .run = rectangle});
   library.function({.name = "dotyk.mesh.box",
                     .help = "A box of cells; with P1 and P2 each is cut into the six tetrahedra along the edge paths from "
@@ -166,7 +162,6 @@ void bind_mesh(Library& library) {
                     .arguments = {key::table({key::vector("from", "least corner").count(3).unit("length").required(),
                                               key::vector("to", "greatest corner").count(3).unit("length").required(),
                                               cells_key(3), element_key(), grading_key(3)})},
-                    .returns = "mesh",
                     .run = box});
   library.function({.name = "dotyk.mesh.disc",
                     .help = "A disc. P1 and P2: concentric rings of triangles; Q1 and Q2: a square core and four blocks about it. "
@@ -176,7 +171,6 @@ void bind_mesh(Library& library) {
                                               key::positive("radius", "radius").unit("length").required(),
                                               key::integer("cells", "cells along the radius").required(),
                                               element_key()})},
-                    .returns = "mesh",
                     .run = disc});
   library.type<MeshHandle>("A mesh of one kind of cell, with named boundary parts.")
       .setup(setup::mesh())
@@ -192,7 +186,6 @@ void bind_mesh(Library& library) {
                        "inverts a cell is an error and changes nothing.",
                .example = "m:transform(function(x, y) return x, y + 0.1 * x^2 end)",
                .arguments = {key::function("map", "coordinates to new coordinates").required()},
-               .returns = "mesh",
                .run = transform})
       .method({.name = "mesh:keep",
                .help = "A new mesh of the cells whose centre chosen(x, y[, z]) accepts, with what is left of the parts; the "
@@ -200,7 +193,6 @@ void bind_mesh(Library& library) {
                .example = "local frame = m:keep(function(x, y) return math.max(math.abs(x), math.abs(y - 0.5)) > 0.25 end, \"hole\")",
                .arguments = {key::function("chosen", "coordinates of a cell's centre to true or false").required(),
                              key::string("part", "name of the facets laid bare").fallback("cut")},
-               .returns = "mesh",
                .run = keep})
       .method({.name = "mesh:pieces",
                .help = "The pieces that are connected through facets (edges in the plane), each a mesh of its own with "

@@ -1,9 +1,5 @@
 #include "meshfile/load.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/setups.hpp"
-#include "script/prompt/watch.hpp"
-#include "script/bridge/wrapped.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -25,27 +21,27 @@ meshfile::Choice loading_choice(const Arguments& given) {
   return result;
 }
 
-int give_loaded(const Call& call, meshfile::Loaded loaded) {
-  return call.give(std::make_shared<MeshHandle>(
-      MeshHandle{std::make_shared<mesh::Mesh>(std::move(loaded.mesh)), std::move(loaded.regions), std::move(loaded.notes)}));
+std::shared_ptr<MeshHandle> handle_of(meshfile::Loaded loaded) {
+  return std::make_shared<MeshHandle>(
+      MeshHandle{std::make_shared<mesh::Mesh>(std::move(loaded.mesh)), std::move(loaded.regions), std::move(loaded.notes)});
 }
 
-int load_mesh_file(Call& call) {
+std::shared_ptr<MeshHandle> load_mesh_file(Call& call) {
   Watch watch(call.state(), "reading");
   const auto wanted = call.has("options") ? loading_choice(call.table("options")) : meshfile::Choice();
-  return give_loaded(call, meshfile::load(call.text("file"), wanted, watch));
+  return handle_of(meshfile::load(call.text("file"), wanted, watch));
 }
 
-int gmsh(Call& call) {
+std::shared_ptr<MeshHandle> gmsh(Call& call) {
   if (Library::of(call.state()).folder) throw ArgumentError("not for scripts run with --safe: a geometry can read any file");
   if (call.has("file") && call.has("text")) throw ArgumentError("'file' and 'text' are both given; give the geometry by one of them");
   if (!call.has("file") && !call.has("text")) throw ArgumentError("one of 'file' and 'text' is needed");
   const meshfile::Meshing meshing{.dimension = call.has("dimension") ? static_cast<int>(call.integer("dimension")) : 0,
                                   .size = call.has("size") ? call.number("size") : 0};
   Watch watch(call.state(), "meshing");
-  if (call.has("file")) return give_loaded(call, meshfile::mesh_geometry(call.text("file"), meshing, loading_choice(call), watch));
+  if (call.has("file")) return handle_of(meshfile::mesh_geometry(call.text("file"), meshing, loading_choice(call), watch));
   const std::string text = call.is("text", LUA_TFUNCTION) ? call.function("text").text() : call.text("text");
-  return give_loaded(call, meshfile::mesh_text(text, meshing, loading_choice(call), watch));
+  return handle_of(meshfile::mesh_text(text, meshing, loading_choice(call), watch));
 }
 
 }  // namespace
@@ -64,7 +60,6 @@ void bind_mesh_file(Library& library) {
        .setup = setup::solved_block(),
        .example = "s:write \"block.vtu\"\nprint(dotyk.mesh.load \"block.vtu\")\nprint(dotyk.mesh.load(\"block.vtu\", { region = \"block\" }))",
        .arguments = {key::file("file", "ends in .msh, .mesh or .vtu").required(), key::table("options", {region_key(), order_key("second order, P2 or Q2")}, "what of it").otherwise("all of it, by the corners")},
-       .returns = "mesh",
        .run = load_mesh_file});
   library.function(
       {.name = "dotyk.mesh.gmsh",
@@ -84,7 +79,6 @@ void bind_mesh_file(Library& library) {
                                  key::positive("size", "greatest length of an edge").unit("length").otherwise("as the geometry says"),
                                  key::integer("dimension", "of the cells").within(2, 3).otherwise("3 where there is a volume, else 2"),
                                  order_key("second order, with curved boundaries"), region_key()})},
-       .returns = "mesh",
        .run = gmsh});
 }
 

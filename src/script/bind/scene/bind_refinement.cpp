@@ -1,28 +1,21 @@
 #include <cmath>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "scene/solve/adaptive.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/prompt/watch.hpp"
-#include "script/bridge/wrapped.hpp"
 
 namespace dotyk::script {
 
 template <>
-struct Wrapped<scene::Adaptive> {
-  static constexpr const char* name = "refinement";
-};
+struct Wrapped<scene::Adaptive> : Called<"refinement"> {};
 
 namespace {
 
 using scene::Adaptive;
 
-int make_refinement(Call& call) {
+std::shared_ptr<Adaptive> make_refinement(Call& call) {
   std::vector<std::shared_ptr<const mesh::Mesh>> meshes;
   for (const auto& handle : call.items<MeshHandle>()) meshes.push_back(handle->mesh);
-  return call.give(std::make_shared<Adaptive>(meshes));
+  return std::make_shared<Adaptive>(meshes);
 }
 
 std::vector<std::shared_ptr<MeshHandle>> meshes(const Adaptive& refinement) {
@@ -33,7 +26,7 @@ std::vector<std::shared_ptr<MeshHandle>> meshes(const Adaptive& refinement) {
   return handles;
 }
 
-int refine(Call& call) {
+Self refine(Call& call) {
   const auto refinement = call.self<Adaptive>();
   Watch watch(call.state(), "refining");
   if (!call.has("where")) {
@@ -61,7 +54,7 @@ std::vector<std::string> refinement_part_names(const Adaptive& refinement) {
   return names;
 }
 
-int project(Call& call) {
+Self project(Call& call) {
   const auto refinement = call.self<Adaptive>();
   const Function map = call.function("map");
   const auto dimension = static_cast<std::size_t>(refinement->mesh(0)->dimension());
@@ -85,7 +78,6 @@ void bind_refinement(Library& library) {
                     .example = "local m = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {4,4} }\n"
                                "local r = dotyk.refinement{ m }\nprint(r:refine().meshes[1])",
                     .arguments = {key::table({}).with(key::object<MeshHandle>("meshes", "the meshes to begin with"))},
-                    .returns = "refinement",
                     .run = make_refinement});
   library.type<Adaptive>("Meshes that are refined together by bisection.")
       .field("meshes", "the meshes as they are now, in the order they were given", meshes)
@@ -97,7 +89,6 @@ void bind_refinement(Library& library) {
                .example = "local r = dotyk.refinement{ dotyk.mesh.disc{ center = {0,0}, radius = 1, cells = 4 } }\nr:refine{ { 1, 2, 3 } }",
                .arguments = {key::either("where", {key::object<scene::Solution>("", ""), key::matrix("", "")}, "what to refine by").otherwise("everywhere"),
                              key::number("share", "of the squared error, of the cells refined; with a solution").fallback(0.5)},
-               .returns = "refinement",
                .run = refine})
       .method({.name = "refinement:project",
                .help = "Moves the nodes that the last round made on a boundary part to map(x, y[, z]): onto the curve or surface that the part "
@@ -106,7 +97,6 @@ void bind_refinement(Library& library) {
                           "r:refine():project(\"boundary\", function(x, y) local d = math.sqrt(x^2 + y^2) return x / d, y / d end)",
                .arguments = {key::string("part", "name of the part").required().of<Adaptive>(refinement_part_names),
                              key::function("map", "coordinates to new coordinates").required()},
-               .returns = "refinement",
                .run = project})
       .text([](const Adaptive& r) {
         std::string out = "refinement:";

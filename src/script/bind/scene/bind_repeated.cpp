@@ -1,19 +1,11 @@
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "scene/study/repeated.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/setups.hpp"
 #include "script/bind/scene/space.hpp"
-#include "script/prompt/watch.hpp"
-#include "script/bridge/wrapped.hpp"
 
 namespace dotyk::script {
 
 template <>
-struct Wrapped<scene::RepeatedSolution> {
-  static constexpr const char* name = "repeated_systems";
-};
+struct Wrapped<scene::RepeatedSolution> : Called<"repeated_systems"> {};
 
 namespace {
 
@@ -53,7 +45,7 @@ std::vector<std::vector<double>> velocities(const Call& call, const scene::Scene
   return all;
 }
 
-int solve_repeated_systems(Call& call) {
+std::shared_ptr<RepeatedSolution> solve_repeated_systems(Call& call) {
   const auto scene = call.object<scene::Scene>("scene");
   if (call.has("loads") == call.has("velocities"))
     throw InputError("give either loads, names of load cases, or velocities, functions by which design variables move the nodes");
@@ -65,7 +57,7 @@ int solve_repeated_systems(Call& call) {
       call.has("loads") ? scene::solve_load_cases(*scene, call.texts("loads"), chosen, watch)
                         : scene::solve_sensitivities(*scene, moves, chosen, watch));
   watch.answer();
-  return call.give(solution);
+  return solution;
 }
 
 std::vector<Record> systems(const RepeatedSolution& s) {
@@ -128,7 +120,6 @@ void bind_repeated(Library& library) {
                   "  velocities = { function(x, y, z) return 0, 0, (z - 0.5) * (1 - x/8) end } }\n"
                   "for _, s in ipairs(r.systems) do print(s.name, s.iterations, s.seconds) end",
        .arguments = {key::table(repeated_systems_keys())},
-       .returns = "repeated_systems",
        .run = solve_repeated_systems});
   library.type<RepeatedSolution>("Solutions of systems with one stiffness.")
       .field("systems", "of each system, in order: name, iterations (0 of cholesky), seconds (an equal share where several are solved "

@@ -2,14 +2,10 @@
 
 #include "algebra/direct/stop_factoring.hpp"
 #include "scene/solve/uniqueness.hpp"
-#include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/setups.hpp"
 #include "problem/solvability.hpp"
 #include "scene/model/model.hpp"
-#include "script/bind/scene/friction_law.hpp"
-#include "script/prompt/watch.hpp"
-#include "script/bridge/wrapped.hpp"
+#include "script/bind/bind.hpp"
+#include "script/bind/scene/space.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -18,8 +14,8 @@ using scene::Contact;
 using scene::Part;
 using scene::Scene;
 
-int make_scene(Call& call) {
-  return call.give(scene::make_scene(call.items<scene::Body>()));
+std::shared_ptr<Scene> make_scene(Call& call) {
+  return scene::make_scene(call.items<scene::Body>());
 }
 
 void require_rigid_dimension(const Rigid& rigid, const Scene& scene) {
@@ -52,7 +48,7 @@ scene::Discretisation discretisation(Call& call) {
   return d;
 }
 
-int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added,
+std::shared_ptr<const Contact> against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added,
                   const scene::InterfaceLaws& laws) {
   const auto rigid = call.object<Rigid>("rigid");
   require_rigid_dimension(*rigid, scene);
@@ -65,11 +61,11 @@ int against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::
       given->gap = scalar_field(*gap, scene.dimension());
     }
   }
-  return call.give(scene::add_contact(scene, part, shape, added, call.boolean("interference"), laws,
-                                      discretisation(call)));
+  return scene::add_contact(scene, part, shape, added, call.boolean("interference"), laws,
+                                      discretisation(call));
 }
 
-int add_contact(Call& call) {
+std::shared_ptr<const Contact> add_contact(Call& call) {
   const auto scene = call.self<Scene>();
   const auto parts = call.items<Part>();
   std::optional<Field> gap;
@@ -89,14 +85,14 @@ int add_contact(Call& call) {
   if (parts.size() != 2)
     throw InputError("give two parts, or one part and 'rigid'");
   Watch watch(call.state(), "pairing");
-  return call.give(scene::add_contact(*scene, *parts[0], *parts[1], added, given, call.boolean("interference"),
-                                      discretisation(call), pairing(call), &watch));
+  return scene::add_contact(*scene, *parts[0], *parts[1], added, given, call.boolean("interference"),
+                                      discretisation(call), pairing(call), &watch);
 }
 
-int add_glue(Call& call) {
+std::shared_ptr<const Contact> add_glue(Call& call) {
   const auto parts = call.items<Part>();
   Watch watch(call.state(), "pairing");
-  return call.give(scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1], pairing(call), &watch));
+  return scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1], pairing(call), &watch);
 }
 
 int balance(Call& call) {
@@ -128,35 +124,31 @@ int uniqueness(Call& call) {
   return call.give(Record{"uniqueness", entries, {"factor"}});
 }
 
-int rigid_gap(Call& call) {
+Given<Rigid> rigid_gap(Call& call) {
   contact::RigidGap shape{unit_vector(call.vector("normal"), "normal"), nullptr};
   if (!call.is("gap", LUA_TFUNCTION))
     shape.gap = [value = call.field("gap")({})[0]](const mesh::Point&) { return value; };
-  call.give(std::make_shared<Rigid>(Rigid{shape, static_cast<int>(call.vector("normal").size())}));
-  if (call.is("gap", LUA_TFUNCTION)) call.keep(lua_gettop(call.state()), {"gap"});
-  return 1;
+  return call.give_keeping(std::make_shared<Rigid>(Rigid{shape, static_cast<int>(call.vector("normal").size())}), {"gap"});
 }
 
-int rigid_plane(Call& call) {
+std::shared_ptr<Rigid> rigid_plane(Call& call) {
   const auto normal = call.vector("normal");
   const int dim = static_cast<int>(normal.size());
-  return call.give(std::make_shared<Rigid>(
-      Rigid{contact::RigidPlane{point_of(call.vector("point"), dim, "point"), unit_vector(normal, "normal")}, dim}));
+  return std::make_shared<Rigid>(
+      Rigid{contact::RigidPlane{point_of(call.vector("point"), dim, "point"), unit_vector(normal, "normal")}, dim});
 }
 
-int rigid_ball(Call& call) {
+std::shared_ptr<Rigid> rigid_ball(Call& call) {
   const auto center = call.vector("center");
-  return call.give(std::make_shared<Rigid>(
-      Rigid{contact::RigidBall{point_of(center), call.number("radius")}, static_cast<int>(center.size())}));
+  return std::make_shared<Rigid>(
+      Rigid{contact::RigidBall{point_of(center), call.number("radius")}, static_cast<int>(center.size())});
 }
 
-int make_friction(Call& call, scene::Friction::Kind kind) {
+Given<FrictionLaw> make_friction(Call& call, scene::Friction::Kind kind) {
   auto law = std::make_shared<FrictionLaw>(FrictionLaw{kind});
   law->varies = call.is("value", LUA_TFUNCTION);
   if (!law->varies) law->value = lua_tonumber(call.state(), call.slot("value"));
-  call.give(law);
-  if (law->varies) call.keep(lua_gettop(call.state()), {"value"});
-  return 1;
+  return call.give_keeping(law, {"value"});
 }
 
 void bind_friction(Library& library) {
@@ -167,7 +159,6 @@ void bind_friction(Library& library) {
                     .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.tresca(2.5) }",
                     .arguments = {key::either("value", {key::number("", "").at_least(0).or_infinite(), key::function("", "")},
                                               "bound, a number or a function of the coordinates").unit("force/length (2-D), force/area (3-D)").required()},
-                    .returns = "friction",
                     .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::tresca); }});
   library.function({.name = "dotyk.friction.coulomb",
                     .help = "Coulomb friction: the shear is at most mu times the pressure.",
@@ -175,7 +166,6 @@ void bind_friction(Library& library) {
                     .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.coulomb(0.3) }",
                     .arguments = {key::either("value", {key::number("", "").at_least(0), key::function("", "")},
                                               "coefficient, a number or a function of the coordinates").required()},
-                    .returns = "friction",
                     .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::coulomb); }});
   library.type<FrictionLaw>("A friction law.").text([](const FrictionLaw& f) {
     return text(f.kind == scene::Friction::Kind::tresca ? "given friction, bound " : "Coulomb friction, coefficient ",
@@ -191,14 +181,12 @@ void bind_rigid(Library& library) {
                     .example = "local punch = dotyk.rigid.gap{ normal = {0,1}, gap = function(x, y) return x^2/4 - 0.02 end }",
                     .arguments = {key::table({key::vector("normal", "direction in which the gap is measured, out of the body").count(2, 3).required(),
                                               key::field("gap", "a number or a function of the coordinates").unit("length").required()})},
-                    .returns = "rigid",
                     .run = rigid_gap});
   library.function({.name = "dotyk.rigid.plane",
                     .help = "A rigid half-space. Its normal points out of it, towards the body.",
                     .example = "local floor = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} }",
                     .arguments = {key::table({key::vector("point", "a point of its surface").count(2, 3).unit("length").required(),
                                               key::vector("normal", "out of it").count(2, 3).required()})},
-                    .returns = "rigid",
                     .run = rigid_plane});
   library.function({.name = "dotyk.rigid.ball",
                     .help = "A rigid disc (2-D) or ball outside the body. On a flat part normal and gap are "
@@ -207,7 +195,6 @@ void bind_rigid(Library& library) {
                     .example = "local ball = dotyk.rigid.ball{ center = {0,1.5}, radius = 1 }",
                     .arguments = {key::table({key::vector("center", "centre").count(2, 3).unit("length").required(),
                                               key::positive("radius", "radius").unit("length").required()})},
-                    .returns = "rigid",
                     .run = rigid_ball});
   library.type<Rigid>("A rigid obstacle.").text([](const Rigid& r) {
     return text(contact::name(r.shape), ", ", r.dimension, "-D");
@@ -234,7 +221,6 @@ void bind_scene(Library& library) {
                     .setup = setup::block(),
                     .example = "local scene = dotyk.scene{ block }\nprint(scene)",
                     .arguments = {key::table({}).with(key::object<scene::Body>("bodies", "the bodies"))},
-                    .returns = "scene",
                     .run = make_scene});
   library.type<Scene>("Bodies and what joins them.")
       .setup(setup::two_blocks())
@@ -269,14 +255,12 @@ void bind_scene(Library& library) {
                                          key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest; else that is refused, "
                                                       "where the first part's nodes see it: of two meshes name the finer one first").fallback(false)})
                                  .with(key::object<Part>("parts", "one part, or two").count(1, 2))},
-               .returns = "contact",
                .run = add_contact})
       .method({.name = "scene:glue",
                .help = "Ties two parts together: no jump of the displacement at the first part's nodes, or in their surroundings' mean. "
                        "They must touch: where they are further apart than a tenth of a facet, and than curved facets make them, the glue is refused.",
                .example = "scene:glue{ upper:part \"bottom\", lower:part \"top\" }",
                .arguments = {key::table({pairing_key()}).with(key::object<Part>("parts", "the two parts").count(2))},
-               .returns = "contact",
                .run = add_glue})
       .method({.name = "scene:plan",
                .help = "What will be modelled, what is free to move, whether a solution exists, which method and why.",

@@ -4,12 +4,7 @@
 #include "scene/solve/doubts.hpp"
 #include "scene/result/moved_rigidly.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/result_records.hpp"
-#include "script/bind/setups.hpp"
 #include "script/bind/scene/space.hpp"
-#include "script/prompt/watch.hpp"
-#include "script/bridge/wrapped.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -99,7 +94,7 @@ mesh::Point vector_of(const Arguments& from, const char* name, int dimension) {
   return out;
 }
 
-int moved(Call& call) {
+std::shared_ptr<Solution> moved(Call& call) {
   const auto s = call.self<Solution>();
   const int dim = s->scene().dimension();
   scene::RigidMotion motion{vector_of(call, "translation", dim), {}, vector_of(call, "about", dim)};
@@ -108,7 +103,7 @@ int moved(Call& call) {
   if (angle) motion.rotation = {0, 0, call.number("rotation")};
   else motion.rotation = vector_of(call, "rotation", 3);
   if (dim == 2 && !angle && call.has("rotation")) throw InputError("'rotation' is a vector, but in the plane it is a number");
-  return call.give(scene::moved_rigidly(*s, index_of(*s, *call.object<Body>("body")), motion));
+  return scene::moved_rigidly(*s, index_of(*s, *call.object<Body>("body")), motion);
 }
 
 int solution_displacement(Call& call) {
@@ -306,7 +301,6 @@ void bind_solution(Library& library) {
                                          key::vector("translation", "by which all of it moves").count(2, 3).unit("length").otherwise("none"),
                                          key::either("rotation", {key::number("", ""), key::vector("", "").count(3, 3)}, "small; in the plane anticlockwise, in space a vector along the axis").unit("rad").otherwise("none"),
                                          key::vector("about", "a point that the rotation leaves").count(2, 3).unit("length").otherwise("the origin")})},
-               .returns = Wrapped<Solution>::name,
                .run = moved})
       .method({.name = "solution:path_error",
                .help = "How far one load step from rest is from eight equal ones: the sum of |friction force - that after eight steps| "

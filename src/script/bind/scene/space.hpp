@@ -2,6 +2,7 @@
 // Points and fields of scripts as the numerical rooms take them.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "elasticity/load.hpp"
+#include "script/bind/models/bind_beam.hpp"
 #include "script/bridge/function.hpp"
 
 namespace dotyk::script {
@@ -55,6 +57,20 @@ inline elasticity::VectorField vector_field(const Field& field, int dimension) {
     field.at({x.data(), n}, {value.data(), n});
     return value;
   };
+}
+
+// The law of dotyk.friction given as `name`; `field` owns a function of it during the call.
+inline scene::Friction friction(Call& call, const char* name, int dimension, std::optional<Field>& field) {
+  if (!call.holds<FrictionLaw>(name)) return {};
+  const auto law = call.object<FrictionLaw>(name);
+  if (!law->varies) return {law->kind, [value = law->value](const mesh::Point&) { return value; }};
+  field.emplace(call.kept_function(call.slot(name), "value").at(0), 1);
+  return {law->kind, scalar_field(*field, dimension)};
+}
+
+// A key for a law along the tangents.
+inline Key tangential_key(const char* help) {
+  return key::either("tangential", {key::object<problem::SupportLaw>("", ""), key::object<FrictionLaw>("", "")}, help).otherwise("free");
 }
 
 // The field at every node: node × dimension.

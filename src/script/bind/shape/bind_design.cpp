@@ -1,11 +1,8 @@
 // One design: its numbers with their derivatives by the design variables.
 #include <algorithm>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
+#include "script/bind/bind.hpp"
 #include "script/bind/shape/bind_shape.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/setups.hpp"
 #include "script/bind/scene/space.hpp"
 #include "shape/derivative/contact_derivative.hpp"
 
@@ -73,7 +70,7 @@ int design_displacement(Call& call) {
   });
 }
 
-int position(Call& call) {
+int design_position(Call& call) {
   const auto d = call.self<Design>();
   const int body = body_index(*d, *call.object<scene::Body>("body"));
   return give_at_point(call, *d, body, d->state->scene().bodies[static_cast<std::size_t>(body)]->mesh->coordinates,
@@ -130,7 +127,7 @@ int design_contact(Call& call) {
   return 1;
 }
 
-int along(Call& call) {
+std::shared_ptr<Design> along(Call& call) {
   const auto d = call.self<Design>();
   const std::vector<double> beta = call.vector("direction");
   if (static_cast<int>(beta.size()) != d->state->space().variables())
@@ -139,7 +136,7 @@ int along(Call& call) {
   auto line = std::make_shared<Design>(*d);
   line->state = std::make_shared<const DesignState>(*d->state, Eigen::Map<const algebra::Vector>(beta.data(), static_cast<Eigen::Index>(beta.size())));
   line->derivatives = true;
-  return call.give(line);
+  return line;
 }
 
 std::vector<Key> design_point_keys() {
@@ -176,7 +173,7 @@ void bind_design(Library& library) {
                .help = "Where a point of the first design is in this one, at rest: dual numbers.",
                .example = "local x, y = design:position(block, 0, 0)",
                .arguments = design_point_keys(),
-               .run = position})
+               .run = design_position})
       .method({.name = "design:contact",
                .help = "The nodes of a contact, in order: x, y (z), force, gap, weight, pressure as dual numbers, and status.",
                .example = "local sum = 0\nfor _, n in ipairs(design:contact(contact)) do sum = sum + n.pressure ^ 2 * n.weight end",
@@ -187,7 +184,6 @@ void bind_design(Library& library) {
                        "the design moves that way. At a kink it is not the negative of that along the opposite direction.",
                .example = "local forward, backward = design:along{ 1, 0, 0, 0, 0 }, design:along{ -1, 0, 0, 0, 0 }\nprint(forward.peak_pressure.gradient[1])",
                .arguments = {key::vector("direction", "an entry a design variable").count(1, 4096).required()},
-               .returns = "design",
                .run = along})
       .text([](const Design& d) {
         std::string alpha;

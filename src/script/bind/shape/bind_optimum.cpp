@@ -1,14 +1,10 @@
 // shape:optimise and what it returns.
 #include <cstdio>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "base/whole_file.hpp"
+#include "script/bind/bind.hpp"
 #include "script/bind/shape/bind_shape.hpp"
 #include "script/prompt/interrupt.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/result_records.hpp"
-#include "script/prompt/watch.hpp"
 #include "shape/optimise/mma.hpp"
 #include "shape/optimise/slp.hpp"
 
@@ -23,9 +19,7 @@ struct OptimumHandle {
   std::size_t method = 0;
 };
 template <>
-struct Wrapped<OptimumHandle> {
-  static constexpr const char* name = "optimum";
-};
+struct Wrapped<OptimumHandle> : Called<"optimum"> {};
 
 namespace {
 
@@ -196,12 +190,12 @@ class Run {
   Stopping stopping_{*this};
 };
 
-int optimise(Call& call) {
+std::shared_ptr<OptimumHandle> optimise(Call& call) {
   Watch watch(call.state(), "optimising");
   Run run(call, call.self<Shape>(), watch);
   const auto handle = run.run();
   watch.answer("look at it, go on from it (start = that result), or leave it");
-  return call.give(handle);
+  return handle;
 }
 
 std::vector<Record> history(const OptimumHandle& o) {
@@ -247,7 +241,6 @@ void bind_optimum(Library& library) {
        .example = "local best = shape:optimise{ max_designs = 5, on_design = function(k, d) print(k, d.objective) end }\n"
                   "print(best.objective, best.reason)\nlocal better = shape:optimise{ start = best, max_designs = 5 }",
        .arguments = {key::table(optimise_keys())},
-       .returns = "optimum",
        .run = optimise});
   library.type<OptimumHandle>("Where an optimisation ended.")
       .field("alpha", "the best design's variables", [](const OptimumHandle& o) { return list(o.optimum.alpha); }, "length")

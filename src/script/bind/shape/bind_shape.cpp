@@ -1,14 +1,9 @@
 // dotyk.shape: design variables, what is sought, one design at a time.
 #include "script/bind/shape/bind_shape.hpp"
 
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "scene/model/moved.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bind/setups.hpp"
 #include "script/bind/scene/space.hpp"
-#include "script/prompt/watch.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -96,7 +91,7 @@ void take_constraints(Call& call, Shape& shape, const shape::DesignSpace& space)
   }
 }
 
-int make_shape(Call& call) {
+Given<Shape> make_shape(Call& call) {
   auto shape = std::make_shared<Shape>();
   // The scene and its bodies may be added to later; designs are of them as they are now.
   const auto first = std::shared_ptr<const scene::Scene>(scene::copy(*call.object<scene::Scene>("scene")));
@@ -120,7 +115,7 @@ int make_shape(Call& call) {
       if (!shape->constraints[j].quantity) call.keep(at, shape->constraints[j].kept, items[j].slot("quantity"));
   }
   lua_settop(call.state(), at);
-  return 1;
+  return {};
 }
 
 Vector alpha_of(const Call& call, const Shape& shape) {
@@ -131,7 +126,7 @@ Vector alpha_of(const Call& call, const Shape& shape) {
   return vector_of(alpha);
 }
 
-int design(Call& call) {
+std::shared_ptr<Design> design(Call& call) {
   const auto shape = call.self<Shape>();
   Watch watch(call.state(), "solving");
   auto design = std::make_shared<Design>();
@@ -140,7 +135,7 @@ int design(Call& call) {
   watch.answer();
   design->places = shape->places;
   design->exponent = shape->exponent;
-  return call.give(design);
+  return design;
 }
 
 }  // namespace
@@ -169,7 +164,6 @@ void bind_shape(Library& library) {
        .example = "local design = shape:design{ 0.01, 0, 0, 0, 0.01 }\n"
                   "print(design.peak_pressure.value, design.peak_pressure.gradient[1])",
        .arguments = {key::table(shape_keys())},
-       .returns = "shape",
        .run = make_shape});
   library.type<Shape>("A scene whose parts may move, and what is sought.")
       .setup(setup::shape())
@@ -180,7 +174,6 @@ void bind_shape(Library& library) {
                .help = "Solves one design.",
                .example = "local d = shape:design()\nprint(d.compliance)",
                .arguments = {key::vector("alpha", "the design variables, also beyond their bounds").count(1, 4096).unit("length").otherwise("the first design")},
-               .returns = "design",
                .run = design})
       .text([](const Shape& s) {
         return text("shape: ", s.space->variables(), " design variables, least ", s.objective.name(), ", ", s.constraints.size(), " constraints");

@@ -55,13 +55,9 @@ struct Shape {
 };
 
 template <>
-struct Wrapped<Design> {
-  static constexpr const char* name = "design";
-};
+struct Wrapped<Design> : Called<"design"> {};
 template <>
-struct Wrapped<Shape> {
-  static constexpr const char* name = "shape";
-};
+struct Wrapped<Shape> : Called<"shape"> {};
 
 // The keys of dotyk.shape that move parts, and the variables they make.
 Key moves_key();

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/text.hpp"
+#include "script/bind/bind.hpp"
 #include "script/bridge/descriptor.hpp"
 #include "script/bridge/lua_side.hpp"
 #include "script/bridge/position.hpp"

@@ -1,8 +1,7 @@
 // moves = { … } of dotyk.shape: the design variables.
 #include <algorithm>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
+#include "script/bind/bind.hpp"
 #include "script/bind/shape/bind_shape.hpp"
 #include "script/bind/scene/space.hpp"
 #include "shape/design/bspline.hpp"

@@ -1,9 +1,12 @@
-#include "script/bind/figure_size.hpp"
+#include "script/bind/figure_keys.hpp"
 
-#include "base/error.hpp"
-#include "base/text.hpp"
+#include "script/bind/bind.hpp"
 
 namespace dotyk::script {
+
+Key picture_key() { return key::file("file", "where to; ends in .png, its folder must exist").written().required(); }
+
+Key title_key(const char* help) { return key::string("title", help).otherwise("none"); }
 
 Key size_key(const char* otherwise) {
   return key::list("size", key::integer("", ""), "width and height").count(2).unit("pixels").otherwise(otherwise);
@@ -17,6 +20,18 @@ void read_size(const Arguments& call, int& width, int& height) {
       throw InputError(text("size has ", pixels, " pixels; a side must have from 160 to 8192"));
   width = static_cast<int>(size[0]);
   height = static_cast<int>(size[1]);
+}
+
+std::optional<figure::Vec3> read_direction(const Arguments& call, const char* name) {
+  std::optional<figure::Vec3> direction;
+  call.read(name, direction);
+  if (direction == figure::Vec3{0, 0, 0}) throw InputError(text("'", name, "' is zero; it must have a direction"));
+  return direction;
+}
+
+figure::MeshEdges read_edges(const Arguments& call, figure::MeshEdges otherwise) {
+  if (!call.has("edges")) return otherwise;
+  return call.boolean("edges") ? figure::MeshEdges::on : figure::MeshEdges::off;
 }
 
 Key units_key(bool heat) {

@@ -1,17 +1,28 @@
-#include "script/help/pager.hpp"
+#include "script/prompt/terminal.hpp"
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
 
-#include "script/prompt/terminal.hpp"
-
 namespace dotyk::script {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct {
+  bool working = false, shown = false;
+  Clock::time_point next;
+} progress_line;
+
+int columns() {
+  const int width = terminal_size(STDERR_FILENO).ws_col;
+  return width > 0 ? width : 80;
+}
 
 bool fits(const std::string& text) {
   const int rows = terminal_size(STDOUT_FILENO).ws_row;
@@ -53,6 +64,30 @@ class Ignored {
 };
 
 }  // namespace
+
+winsize terminal_size(int file) {
+  winsize size{};
+  if (!isatty(file) || ioctl(file, TIOCGWINSZ, &size) != 0) return {};
+  return size;
+}
+
+void show_progress(const std::string& text) {
+  const auto now = Clock::now();
+  if (!progress_line.working) {
+    progress_line.working = true;
+    progress_line.next = now + std::chrono::milliseconds(500);
+  }
+  if (now < progress_line.next || !isatty(STDERR_FILENO)) return;
+  progress_line.next = now + std::chrono::milliseconds(100);
+  progress_line.shown = true;
+  std::fprintf(stderr, "\r%.*s\033[K", std::max(1, columns() - 3), text.c_str());  // "^C" is echoed after it
+  std::fflush(stderr);
+}
+
+void clear_progress() {
+  if (progress_line.shown) std::fputs("\r\033[K", stderr);
+  progress_line.working = progress_line.shown = false;
+}
 
 void show_paged(const std::string& text) {
   std::fflush(stdout);
