@@ -42,8 +42,7 @@ void fill(lua_State* L, Library& library) {
   guard_lua(L);
   bind_all(library);
   lua_getglobal(L, "dotyk");
-  lua_pushliteral(L, DOTYK_VERSION);
-  lua_setfield(L, -2, "version");
+  set_field(L, "version", DOTYK_VERSION);
   lua_pop(L, 1);
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   lua_getglobal(L, "dotyk");

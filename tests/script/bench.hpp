@@ -15,10 +15,8 @@ struct Toy {
   double size = 1;
 };
 struct Other {};
-template <>
-struct Wrapped<Toy> : Called<"toy"> {};
-template <>
-struct Wrapped<Other> : Called<"other"> {};
+template <> struct Wrapped<Toy> : Called<"toy"> {};
+template <> struct Wrapped<Other> : Called<"other"> {};
 
 // dotyk.test.* and the class toy. `last` collects what the callables were given.
 class Bench {

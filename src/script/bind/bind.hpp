@@ -1,5 +1,12 @@
 #pragma once
 // Everything a script sees, one function per file bind_*.cpp, and what these files share.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "script/bind/result_records.hpp"

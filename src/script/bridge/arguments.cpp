@@ -81,32 +81,23 @@ Arguments::Arguments(lua_State* L, int index, const Key& table, std::string call
   }
 }
 
-const Key& Arguments::find(const std::string& name, int& value_slot) const {
-  for (std::size_t i = 0; keys_ && i < keys_->size(); ++i) {
-    if ((*keys_)[i].name != name) continue;
-    value_slot = slots_[i];
-    return (*keys_)[i];
-  }
+std::pair<const Key&, int> Arguments::find(const std::string& name) const {
+  for (std::size_t i = 0; keys_ && i < keys_->size(); ++i)
+    if ((*keys_)[i].name == name) return {(*keys_)[i], slots_[i]};
   throw std::logic_error("the binding asks for '" + name + "', which its descriptor lacks");
 }
 
 int Arguments::slot(const std::string& name) const {
-  int value_slot = 0;
-  find(name, value_slot);
-  if (value_slot == 0)
-    throw std::logic_error("the binding reads '" + name + "', which is absent and has no fallback");
-  return value_slot;
+  const int at = find(name).second;
+  if (at == 0) throw std::logic_error("the binding reads '" + name + "', which is absent and has no fallback");
+  return at;
 }
 
-bool Arguments::has(const std::string& name) const {
-  int value_slot = 0;
-  find(name, value_slot);
-  return value_slot != 0;
-}
+bool Arguments::has(const std::string& name) const { return find(name).second != 0; }
 
 bool Arguments::known(const std::string& name) const {
-  int value_slot = 0;
-  return find(name, value_slot).default_value.index() != 0 || value_slot != 0;
+  const auto [key, at] = find(name);
+  return key.default_value.index() != 0 || at != 0;
 }
 
 bool Arguments::is(const std::string& name, int type) const {
@@ -115,9 +106,8 @@ bool Arguments::is(const std::string& name, int type) const {
 
 template <class T>
 const T* Arguments::fallback_of(const std::string& name) const {
-  int value_slot = 0;
-  const auto& key = find(name, value_slot);
-  return value_slot == 0 ? std::get_if<T>(&key.default_value) : nullptr;
+  const auto [key, at] = find(name);
+  return at == 0 ? std::get_if<T>(&key.default_value) : nullptr;
 }
 
 double Arguments::number(const std::string& name) const {
@@ -143,30 +133,13 @@ std::string Arguments::text(const std::string& name) const {
 }
 
 std::size_t Arguments::choice(const std::string& name) const {
-  int value_slot = 0;
-  const auto& choices = find(name, value_slot).choices;
+  const auto& choices = find(name).first.choices;
   return static_cast<std::size_t>(std::find(choices.begin(), choices.end(), text(name)) - choices.begin());
-}
-
-namespace {
-
-template <class Read>
-auto read_list(lua_State* L, int index, Read&& read) {
-  std::vector<decltype(read(index))> values;
-  const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
-  for (lua_Integer i = 1; i <= count; ++i) {
-    lua_rawgeti(L, index, i);
-    values.push_back(read(lua_gettop(L)));
-    lua_pop(L, 1);
-  }
-  return values;
 }
 
 std::vector<double> read_vector(lua_State* L, int index) {
   return read_list(L, index, [L](int at) { return static_cast<double>(lua_tonumber(L, at)); });
 }
-
-}  // namespace
 
 std::vector<double> Arguments::vector(const std::string& name) const { return read_vector(L_, slot(name)); }
 
@@ -200,8 +173,7 @@ Field Arguments::field(const std::string& name, std::size_t components) const {
 }
 
 Arguments Arguments::table(const std::string& name) const {
-  int value_slot = 0;
-  const Key* key = &find(name, value_slot);
+  const Key* key = &find(name).first;
   if (key->kind == Kind::either) {
     const auto& kinds = key->keys;
     key = &*std::find_if(kinds.begin(), kinds.end(), [](const Key& one) { return one.kind == Kind::table; });
@@ -210,9 +182,9 @@ Arguments Arguments::table(const std::string& name) const {
 }
 
 std::vector<Arguments> Arguments::tables(const std::string& name) const {
-  int value_slot = 0;
-  const auto& item = find(name, value_slot).items.front();
   std::vector<Arguments> found;
+  if (!has(name)) return found;
+  const auto& item = find(name).first.items.front();
   const auto count = static_cast<lua_Integer>(lua_rawlen(L_, slot(name)));
   luaL_checkstack(L_, static_cast<int>(count) * static_cast<int>(item.keys.size() + 1) + 8, "too many items");
   for (lua_Integer i = 1; i <= count; ++i) {

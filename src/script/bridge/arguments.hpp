@@ -21,6 +21,22 @@ struct ArgumentError : std::runtime_error {
 // `what` names the value in the message: "'E'", "argument 1 'name'".
 void check_value(lua_State* L, int index, const Key& key, const std::string& what);
 
+// What read(stack index) makes of each entry of the list at index.
+template <class Read>
+auto read_list(lua_State* L, int index, Read&& read) {
+  std::vector<decltype(read(index))> values;
+  const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_rawgeti(L, index, i);
+    values.push_back(read(lua_gettop(L)));
+    lua_pop(L, 1);
+  }
+  return values;
+}
+
+// The numbers of the list at index.
+std::vector<double> read_vector(lua_State* L, int index);
+
 // Named values, checked. The accessors return what the descriptor promises: the
 // value given, else the key's fallback. Asking for a value that is neither, or
 // for a name the descriptor does not have, throws std::logic_error: it is a
@@ -43,8 +59,7 @@ class Arguments {
   std::size_t choice(const std::string& name) const;  // which of the key's choices
   template <class Enum>
   Enum choice(const std::string& name) const {  // what that stands for
-    int value_slot = 0;
-    return static_cast<Enum>(find(name, value_slot).values.at(choice(name)));
+    return static_cast<Enum>(find(name).first.values.at(choice(name)));
   }
   std::vector<double> vector(const std::string& name) const;
   std::vector<long long> integers(const std::string& name) const;  // a list of integers
@@ -59,7 +74,7 @@ class Arguments {
   // With this many components; throws ArgumentError when a constant has others.
   Field field(const std::string& name, std::size_t components = 1) const;
   Arguments table(const std::string& name) const;
-  std::vector<Arguments> tables(const std::string& name) const;  // a list of tables
+  std::vector<Arguments> tables(const std::string& name) const;  // a list of tables, none where it is not given
 
   template <class T>
   std::shared_ptr<T> object(const std::string& name) const {
@@ -88,21 +103,15 @@ class Arguments {
 
  protected:
   Arguments(lua_State* L, std::string callee) : L_(L), callee_(std::move(callee)) {}
-  const Key& find(const std::string& name, int& value_slot) const;
+  // The key, and the stack index of its value, 0 where none is given.
+  std::pair<const Key&, int> find(const std::string& name) const;
   // The key's fallback, when it has one of this type and no value is given; else null.
   template <class T>
   const T* fallback_of(const std::string& name) const;
 
   template <class T>
   std::vector<std::shared_ptr<T>> objects_at(int index) const {
-    std::vector<std::shared_ptr<T>> found;
-    const auto count = static_cast<lua_Integer>(lua_rawlen(L_, index));
-    for (lua_Integer i = 1; i <= count; ++i) {
-      lua_rawgeti(L_, index, i);
-      found.push_back(script::object<T>(L_, -1));
-      lua_pop(L_, 1);
-    }
-    return found;
+    return read_list(L_, index, [this](int at) { return script::object<T>(L_, at); });
   }
 
   lua_State* L_;

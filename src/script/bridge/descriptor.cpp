@@ -98,13 +98,21 @@ std::string Key::expected() const {
   return "a value";
 }
 
+std::vector<Key> joined(std::vector<Key> these, const std::vector<Key>& those) {
+  these.insert(these.end(), those.begin(), those.end());
+  return these;
+}
+
 std::vector<Key> named_keys(const Key& key) {
   if (key.kind == Kind::table) return key.keys;
   std::vector<Key> all;
-  for (std::size_t i = 0; key.kind == Kind::either && i < key.keys.size(); ++i) {
-    const auto inner = named_keys(key.keys[i]);
-    all.insert(all.end(), inner.begin(), inner.end());
-  }
+  for (std::size_t i = 0; key.kind == Kind::either && i < key.keys.size(); ++i) all = joined(std::move(all), named_keys(key.keys[i]));
+  return all;
+}
+
+std::vector<Key> inner_keys(const Key& key) {
+  auto all = named_keys(key);
+  for (const auto& item : key.items) all = joined(std::move(all), named_keys(item));
   return all;
 }
 

@@ -99,8 +99,13 @@ struct Key {
   }
 };
 
+// These keys, then those.
+std::vector<Key> joined(std::vector<Key> these, const std::vector<Key>& those);
+
 // The named keys of a table, or of the tables among the kinds of an either.
 std::vector<Key> named_keys(const Key& key);
+// These, and those of its items.
+std::vector<Key> inner_keys(const Key& key);
 
 // One result that is pushed already: the object before the colon again, or an object with what it keeps.
 struct OneResult {};

@@ -53,6 +53,12 @@ void Function::begin(int count) const {
   lua_pushvalue(L_, slot_);
 }
 
+void Function::call(std::span<const double> arguments, int results) const {
+  begin(static_cast<int>(arguments.size()));
+  for (const double x : arguments) lua_pushnumber(L_, x);
+  call(static_cast<int>(arguments.size()), results);
+}
+
 bool Function::finish(int count) const {
   const int base = lua_gettop(L_) - count - 1;
   call(count, LUA_MULTRET);
@@ -62,10 +68,8 @@ bool Function::finish(int count) const {
 }
 
 void Function::numbers(std::span<const double> arguments, std::span<double> values) const {
-  begin(static_cast<int>(arguments.size()));
-  const int base = lua_gettop(L_) - 1;
-  for (const double x : arguments) lua_pushnumber(L_, x);
-  call(static_cast<int>(arguments.size()), LUA_MULTRET);
+  const int base = lua_gettop(L_);
+  call(arguments, LUA_MULTRET);
 
   const auto fail = [&](const std::string& what) {
     const auto name = key_.empty() ? std::string("function") : "function '" + key_ + "'";
@@ -105,18 +109,14 @@ std::string Function::text() const {
 }
 
 bool Function::truth(std::span<const double> arguments) const {
-  begin(static_cast<int>(arguments.size()));
-  for (const double x : arguments) lua_pushnumber(L_, x);
-  call(static_cast<int>(arguments.size()), 1);
+  call(arguments, 1);
   const bool truth = lua_toboolean(L_, -1);
   lua_pop(L_, 1);
   return truth;
 }
 
 std::shared_ptr<void> Function::object(std::span<const double> arguments, const char* type) const {
-  begin(static_cast<int>(arguments.size()));
-  for (const double x : arguments) lua_pushnumber(L_, x);
-  call(static_cast<int>(arguments.size()), 1);
+  call(arguments, 1);
   if (!object_at(L_, -1, type))
     throw std::runtime_error("function '" + key_ + "' returned " + describe_value(L_, -1) + ", expected " + with_article(type) + ", at " + point_text(arguments));
   auto found = checked_object(L_, -1, type);

@@ -58,6 +58,7 @@ class Function {
   void begin(int count) const;
   bool finish(int count) const;
   void call(int count, int results) const;
+  void call(std::span<const double> arguments, int results) const;
   std::shared_ptr<void> object(std::span<const double> arguments, const char* type) const;
 
   lua_State* L_;

@@ -1,12 +1,24 @@
 #include "script/bridge/library.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 #include "script/bridge/enter.hpp"
 #include "script/help/nearest.hpp"
 
 namespace dotyk::script {
+
+namespace {
+
+// The one of that name, by name_of(one); null if there is none.
+template <class All, class NameOf>
+auto* find_named(All& all, const std::string& name, NameOf name_of) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return std::invoke(name_of, one) == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace
 
 std::vector<std::string> Type::member_names() const {
   std::vector<std::string> names;
@@ -15,19 +27,9 @@ std::vector<std::string> Type::member_names() const {
   return names;
 }
 
-const Descriptor* Type::method(const std::string& method_name) const {
-  for (const auto& one : methods) {
-    if (one.short_name() == method_name) return &one;
-  }
-  return nullptr;
-}
+const Descriptor* Type::method(const std::string& method_name) const { return find_named(methods, method_name, &Descriptor::short_name); }
 
-const TypeField* Type::field(const std::string& field_name) const {
-  for (const auto& one : fields) {
-    if (one.name == field_name) return &one;
-  }
-  return nullptr;
-}
+const TypeField* Type::field(const std::string& field_name) const { return find_named(fields, field_name, &TypeField::name); }
 
 Library::Library(lua_State* L) : L_(L) { *static_cast<Library**>(lua_getextraspace(L)) = this; }
 
@@ -71,8 +73,7 @@ void Library::open_module(const std::string& path) {
       lua_newtable(L_);
       make_strict(L_, whole);
       lua_getmetatable(L_, -1);
-      push(L_, whole);
-      lua_setfield(L_, -2, "__module");
+      set_field(L_, "__module", whole);
       lua_pop(L_, 1);
       push(L_, name);
       lua_pushvalue(L_, -2);
@@ -93,9 +94,7 @@ Type& Library::add_type(const char* name, std::string help) {
 }
 
 Type& Library::known_type(const std::string& name) {
-  for (auto& type : types_) {
-    if (type.name == name) return type;
-  }
+  if (auto* type = find_named(types_, name, &Type::name)) return *type;
   throw std::logic_error("class '" + name + "' is extended before it is described");
 }
 
@@ -107,19 +106,12 @@ void Library::add_method(Type& type, Descriptor descriptor) {
   add_method_to_metatable(L_, type.name.c_str(), kept.short_name().c_str());
 }
 
-const Type* Library::find_type(const std::string& name) const {
-  for (const auto& type : types_) {
-    if (type.name == name) return &type;
-  }
-  return nullptr;
-}
+const Type* Library::find_type(const std::string& name) const { return find_named(types_, name, &Type::name); }
 
 const Descriptor* Library::find(const std::string& name) const {
-  for (const auto& one : functions_)
-    if (one.name == name) return &one;
+  if (const auto* function = find_named(functions_, name, &Descriptor::name)) return function;
   for (const auto& type : types_)
-    for (const auto& one : type.methods)
-      if (one.name == name) return &one;
+    if (const auto* method = find_named(type.methods, name, &Descriptor::name)) return method;
   return nullptr;
 }
 

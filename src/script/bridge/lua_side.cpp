@@ -212,8 +212,7 @@ void load_lua_side(lua_State* L) {
   lua_getfield(L, -1, "getinfo");
   lua_setfield(L, -3, "getinfo");
   lua_pop(L, 1);
-  lua_pushstring(L, lua_folder());
-  lua_setfield(L, -2, "folder");
+  set_field(L, "folder", lua_folder());
   luaL_getsubtable(L, LUA_REGISTRYINDEX, inputs_of_prompt);
   lua_setfield(L, -2, "inputs");
   lua_pushvalue(L, -1);

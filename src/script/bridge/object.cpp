@@ -58,14 +58,10 @@ std::shared_ptr<void> checked_object(lua_State* L, int index, const char* type) 
 }
 
 void add_object_metamethods(lua_State* L) {
-  lua_pushcfunction(L, release);
-  lua_setfield(L, -2, "__gc");
-  lua_pushcfunction(L, release);
-  lua_setfield(L, -2, "__close");
-  lua_pushcfunction(L, equal);
-  lua_setfield(L, -2, "__eq");
-  lua_pushliteral(L, "an object of dotyk");
-  lua_setfield(L, -2, "__metatable");
+  set_field(L, "__gc", release);
+  set_field(L, "__close", release);
+  set_field(L, "__eq", equal);
+  set_field(L, "__metatable", "an object of dotyk");
 }
 
 }  // namespace dotyk::script

@@ -51,40 +51,33 @@ std::vector<std::string> string_keys(lua_State* L, int index) {
 void make_strict(lua_State* L, const std::string& name) {
   const auto registered = "dotyk.strict." + name;
   if (luaL_newmetatable(L, registered.c_str())) {
-    push(L, name);
-    lua_setfield(L, -2, "__name");
+    set_field(L, "__name", name);
     push(L, name);
     lua_pushcclosure(L, unknown_field, 1);
     lua_setfield(L, -2, "__index");
-    lua_pushcfunction(L, show_table);
-    lua_setfield(L, -2, "__tostring");
-    push(L, true);
-    lua_setfield(L, -2, "__strict");  // lua/show.lua looks inside these
+    set_field(L, "__tostring", show_table);
+    set_field(L, "__strict", true);  // lua/show.lua looks inside these
   }
   lua_setmetatable(L, -2);
+}
+
+Record& Record::add(const std::vector<Entry>& more) {
+  entries.insert(entries.end(), more.begin(), more.end());
+  return *this;
 }
 
 void push(lua_State* L, const Record& record) {
   luaL_checkstack(L, 6, nullptr);
   lua_createtable(L, 0, static_cast<int>(record.entries.size()));
-  for (const auto& entry : record.entries) {
-    std::visit([L](const auto& value) { push(L, value); }, entry.value);
-    lua_setfield(L, -2, entry.name.c_str());
-  }
+  for (const auto& entry : record.entries)
+    std::visit([&](const auto& value) { set_field(L, entry.name.c_str(), value); }, entry.value);
   if (record.name.empty()) return;
   make_strict(L, record.name);
-  if (record.absent.empty()) return;
   lua_getmetatable(L, -1);  // of all records of this name
-  if (lua_getfield(L, -1, "__absent") == LUA_TNIL) {
-    lua_pop(L, 1);
-    lua_createtable(L, 0, static_cast<int>(record.absent.size()));
-  }
-  for (const auto& name : record.absent) {
-    push(L, true);
-    lua_setfield(L, -2, name.c_str());
-  }
-  lua_setfield(L, -2, "__absent");
-  lua_pop(L, 1);
+  luaL_getsubtable(L, -1, "__absent");
+  for (const auto& entry : record.entries)
+    if (entry.value.index() == 0) set_field(L, entry.name.c_str(), true);
+  lua_pop(L, 2);
 }
 
 }  // namespace dotyk::script

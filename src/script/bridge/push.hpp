@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -37,17 +38,29 @@ struct Entry;
 struct Record {
   std::string name;
   std::vector<Entry> entries;
-  std::vector<std::string> absent = {};  // names of its kind that have no value here: nil, and no error
+  Record& add(const std::vector<Entry>& more);  // gives the record again
 };
 
+// Empty: a field that records of the kind have, but this one does not; nil, and no error.
 using Value =
-    std::variant<double, long long, bool, std::string, std::vector<double>, Record, std::vector<Record>>;
+    std::variant<std::monostate, double, long long, bool, std::string, std::vector<double>, Record, std::vector<Record>>;
 
 struct Entry {
+  template <class T>
+  Entry(std::string called, const T& given) : name(std::move(called)) {
+    if constexpr (std::is_same_v<T, bool> || !std::is_integral_v<T>) value = given;
+    else value = static_cast<long long>(given);
+  }
+  Entry(std::string called, const char* text) : name(std::move(called)), value(std::string(text)) {}
+  template <class T>
+  Entry(std::string called, const std::optional<T>& given) : name(std::move(called)) {
+    if (given) value = *given;
+  }
   std::string name;
   Value value;
 };
 
+inline void push(lua_State* L, std::monostate) { lua_pushnil(L); }
 inline void push(lua_State* L, bool value) { lua_pushboolean(L, value); }
 template <std::integral T>
 void push(lua_State* L, T value) {
@@ -56,6 +69,7 @@ void push(lua_State* L, T value) {
 inline void push(lua_State* L, double value) { lua_pushnumber(L, value); }
 inline void push(lua_State* L, const char* value) { lua_pushstring(L, value); }
 inline void push(lua_State* L, const std::string& value) { lua_pushlstring(L, value.data(), value.size()); }
+inline void push(lua_State* L, lua_CFunction function) { lua_pushcfunction(L, function); }
 void push(lua_State* L, const Record& record);
 
 // An object; see object.hpp.
@@ -78,6 +92,13 @@ void push(lua_State* L, const std::vector<T>& values) {
     push(L, values[i]);
     lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
   }
+}
+
+// As field `name` of the table on top of the stack.
+template <class T>
+void set_field(lua_State* L, const char* name, const T& value) {
+  push(L, value);
+  lua_setfield(L, -2, name);
 }
 
 // Makes the table on top of the stack answer an unknown field with an error

@@ -54,25 +54,15 @@ struct Solver {
   std::string text() const;
 };
 
-template <>
-struct Wrapped<Material> : Called<"material"> {};
-template <>
-struct Wrapped<MeshHandle> : Called<"mesh"> {};
-template <>
-struct Wrapped<scene::Body> : Called<"body"> {};
-template <>
-struct Wrapped<scene::Part> : Called<"part"> {};
-template <>
-struct Wrapped<scene::Scene> : Called<"scene"> {};
-template <>
-struct Wrapped<scene::Contact> : Called<"contact"> {};
-template <>
-struct Wrapped<Rigid> : Called<"rigid"> {};
-template <>
-struct Wrapped<FrictionLaw> : Called<"friction"> {};
-template <>
-struct Wrapped<Solver> : Called<"solver"> {};
-template <>
-struct Wrapped<scene::Solution> : Called<"solution"> {};
+template <> struct Wrapped<Material> : Called<"material"> {};
+template <> struct Wrapped<MeshHandle> : Called<"mesh"> {};
+template <> struct Wrapped<scene::Body> : Called<"body"> {};
+template <> struct Wrapped<scene::Part> : Called<"part"> {};
+template <> struct Wrapped<scene::Scene> : Called<"scene"> {};
+template <> struct Wrapped<scene::Contact> : Called<"contact"> {};
+template <> struct Wrapped<Rigid> : Called<"rigid"> {};
+template <> struct Wrapped<FrictionLaw> : Called<"friction"> {};
+template <> struct Wrapped<Solver> : Called<"solver"> {};
+template <> struct Wrapped<scene::Solution> : Called<"solution"> {};
 
 }  // namespace dotyk::script

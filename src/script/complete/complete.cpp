@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include "script/complete/complete_context.hpp"
 #include "script/complete/complete_meaning.hpp"
+#include "script/complete/lua_tokens.hpp"
 #include "script/bridge/library.hpp"
 
 namespace dotyk::script {
@@ -46,13 +48,11 @@ std::vector<std::string> members(lua_State* L, const Library& library, const Cha
 }
 
 std::vector<std::string> free_names(lua_State* L) {
-  std::vector<std::string> words = {"and", "break",    "do",     "else", "elseif", "end",   "false",
-                                    "for", "function", "if",     "in",   "local",  "nil",   "not",
-                                    "or",  "repeat",   "return", "then", "true",   "until", "while"};
-  const auto keywords = words.size();
+  std::vector<std::string> words;
   lua_pushglobaltable(L);
   add_table_members(L, words, false);
-  words.erase(std::remove_if(words.begin() + static_cast<std::ptrdiff_t>(keywords), words.end(), std::not_fn(is_name)), words.end());
+  std::erase_if(words, std::not_fn(is_name));
+  std::copy_if(lua_keywords().begin(), lua_keywords().end(), std::back_inserter(words), [](const std::string& word) { return word != "goto"; });
   return words;
 }
 

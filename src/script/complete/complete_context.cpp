@@ -1,21 +1,9 @@
 #include "script/complete/complete_context.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <iterator>
+#include "script/complete/lua_tokens.hpp"
 
 namespace dotyk::script {
 namespace {
-
-bool is_keyword(const std::string& word) {
-  static const char* const words[] = {"and",      "break",  "do",   "else", "elseif", "end",  "false", "for",
-                                      "function", "goto",   "if",   "in",   "local",  "nil",  "not",   "or",
-                                      "repeat",   "return", "then", "true", "until",  "while"};
-  return std::find(std::begin(words), std::end(words), word) != std::end(words);
-}
-
-bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
-bool continues_name(char c) { return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)); }
 
 class ContextReader {
  public:
@@ -29,34 +17,31 @@ class ContextReader {
   }
 
  private:
-  char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
-
   void step() {
-    const char c = peek();
+    const Token token = next_token(text_, at_);
+    const auto word = text_.substr(token.begin, token.after - token.begin);
+    at_ = token.after;
     last_name_ended_ = std::string::npos;
-    if (std::isspace(static_cast<unsigned char>(c))) ++at_;
-    else if (begins_name(c)) name();
-    else if (std::isdigit(static_cast<unsigned char>(c))) number();
-    else if (c == '"' || c == '\'') quoted(c);
-    else if (c == '[' && (peek(1) == '[' || peek(1) == '=')) long_bracket();
-    else if (c == '-' && peek(1) == '-') comment();
-    else if (c == '.' && peek(1) == '.') operation(2);
-    else if (c == ':' && peek(1) == ':') operation(2);
-    else if (c == '.' || c == ':') join(c);
-    else if (c == '(' || c == '{' || c == '[') open(c);
-    else if (c == ')' || c == '}' || c == ']') close(c);
-    else if (c == ',' || c == ';') separator();
-    else if (c == '=' && peek(1) != '=') equals();
-    else operation(c == '=' ? 2 : 1);
+    if (token.kind == Token::end) commented_ = token.open;
+    else if (token.kind == Token::number) operation();
+    else if (token.kind == Token::string) token.open ? in_string(token.begin + 1) : called();
+    else if (token.kind == Token::sign) sign(word);
+    else name(token, word);
   }
 
-  void name() {
-    const auto start = at_;
-    while (continues_name(peek())) ++at_;
-    const auto word = text_.substr(start, at_ - start);
+  void sign(const std::string& sign) {
+    if (sign == "." || sign == ":") join(sign[0]);
+    else if (sign == "(" || sign == "{" || sign == "[") open(sign[0]);
+    else if (sign == ")" || sign == "}" || sign == "]") close(sign[0]);
+    else if (sign == "," || sign == ";") separator();
+    else if (sign == "=") equals();
+    else operation();
+  }
+
+  void name(const Token& token, const std::string& word) {
     if (joined_) {
       chain_.push_back({joint_, word});
-    } else if (is_keyword(word)) {
+    } else if (token.kind == Token::keyword) {
       chain_.clear();
     } else {
       fresh_ = after_opening_;
@@ -65,53 +50,23 @@ class ContextReader {
     fresh_value_ = after_value_opening_;
     joined_ = false;
     after_opening_ = after_value_opening_ = false;
-    last_name_began_ = start;
+    last_name_began_ = token.begin;
     last_name_ended_ = at_;
   }
 
-  void number() {
-    while (continues_name(peek()) || peek() == '.') ++at_;
-    operation(0);
-  }
-
-  void quoted(char quote) {
-    const auto start = ++at_;
-    while (at_ < text_.size() && text_[at_] != quote && text_[at_] != '\n') at_ += text_[at_] == '\\' ? 2 : 1;
-    if (at_ >= text_.size()) {
-      context_.in_string = true;
-      context_.start = start;
-      context_.word = text_.substr(start);
-      context_.chain = chain_;
-      return;
-    }
-    ++at_;
-    called();
-  }
-
-  void long_bracket() {
-    auto end = at_ + 1;
-    while (end < text_.size() && text_[end] == '=') ++end;
-    if (end >= text_.size() || text_[end] != '[') return open('[');
-    const auto closing = "]" + std::string(end - at_ - 1, '=') + "]";
-    const auto found = text_.find(closing, end);
-    at_ = found == std::string::npos ? text_.size() : found + closing.size();
-    called();
-  }
-
-  void comment() {
-    const auto end = text_.find('\n', at_);
-    at_ = end == std::string::npos ? text_.size() : end;
-    commented_ = end == std::string::npos;
+  void in_string(std::size_t start) {
+    context_.in_string = true;
+    context_.start = start;
+    context_.word = text_.substr(start);
+    context_.chain = chain_;
   }
 
   void join(char c) {
     joined_ = true;  // to nothing that is known, where the chain is empty
     joint_ = c == '.' ? Step::field : Step::method;
-    ++at_;
   }
 
   void open(char c) {
-    ++at_;
     context_.brackets.push_back({c, chain_, key_, at_, 0});
     chain_.clear();
     key_.clear();
@@ -121,7 +76,6 @@ class ContextReader {
   }
 
   void close(char c) {
-    ++at_;
     joined_ = after_opening_ = after_value_opening_ = false;
     chain_.clear();
     if (context_.brackets.empty()) return;
@@ -148,7 +102,7 @@ class ContextReader {
   }
 
   void separator() {
-    operation(1);
+    operation();
     key_.clear();
     if (context_.brackets.empty()) return;
     auto& bracket = context_.brackets.back();
@@ -161,13 +115,12 @@ class ContextReader {
     const bool is_key =
         fresh_ && chain_.size() == 1 && !context_.brackets.empty() && context_.brackets.back().sign == '{';
     const auto key = is_key ? chain_.front().text : "";
-    operation(1);
+    operation();
     key_ = key;
     after_value_opening_ = is_key;
   }
 
-  void operation(std::size_t length) {
-    at_ += length;
+  void operation() {
     chain_.clear();
     joined_ = after_opening_ = after_value_opening_ = false;
   }
@@ -216,9 +169,5 @@ class ContextReader {
 }  // namespace
 
 Context read_context(const std::string& text) { return ContextReader(text).read(); }
-
-bool is_name(const std::string& word) {
-  return !word.empty() && begins_name(word[0]) && std::all_of(word.begin(), word.end(), continues_name) && !is_keyword(word);
-}
 
 }  // namespace dotyk::script

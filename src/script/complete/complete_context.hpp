@@ -39,7 +39,4 @@ struct Context {
 
 Context read_context(const std::string& text);
 
-// May it stand after a dot, or for a variable?
-bool is_name(const std::string& word);
-
 }  // namespace dotyk::script

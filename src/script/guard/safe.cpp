@@ -120,8 +120,7 @@ void keep_lua_searchers(lua_State* L) {
   lua_rawseti(L, -2, 2);
   // require keeps the table it was made with as its upvalue, and asks it for "searchers" anew each time.
   lua_setfield(L, -2, "searchers");
-  lua_pushliteral(L, "");
-  lua_setfield(L, -2, "cpath");
+  set_field(L, "cpath", "");
   lua_pop(L, 1);
 }
 
@@ -132,8 +131,7 @@ void close_debug(lua_State* L, const char* option) {
   for (const auto& name : string_keys(L, -1))
     if (name != "traceback") take_away(L, "debug", name.c_str(), option);
   luaL_getmetatable(L, LUA_FILEHANDLE);
-  lua_pushliteral(L, "a file");
-  lua_setfield(L, -2, "__metatable");
+  set_field(L, "__metatable", "a file");
   lua_pop(L, 2);
 }
 

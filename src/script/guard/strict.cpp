@@ -55,16 +55,14 @@ int unknown_global(lua_State* L) {
 void make_globals_strict(lua_State* L) {
   lua_pushglobaltable(L);
   lua_newtable(L);
-  lua_pushcfunction(L, unknown_global);
-  lua_setfield(L, -2, "__index");
+  set_field(L, "__index", unknown_global);
   lua_setmetatable(L, -2);
   lua_pop(L, 1);
 }
 
 void declare_global(lua_State* L, const char* name) {
   luaL_getsubtable(L, LUA_REGISTRYINDEX, declared);
-  lua_pushboolean(L, true);
-  lua_setfield(L, -2, name);
+  set_field(L, name, true);
   lua_pop(L, 1);
 }
 

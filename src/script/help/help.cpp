@@ -152,8 +152,7 @@ std::vector<std::string> missing_help(const Library& library) {
     for (const auto& key : keys) {
       const auto name = owner + ", '" + key.name + "'";
       if (key.help.empty()) missing.push_back(name + ": no help");
-      self(self, name, named_keys(key));
-      for (const auto& item : key.items) self(self, name, named_keys(item));
+      self(self, name, inner_keys(key));
     }
   };
   const auto check = [&](const Descriptor& one) {

@@ -1,11 +1,11 @@
 #include "script/prompt/kept_locals.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <vector>
 
-#include "script/bridge/lua.hpp"
+#include "script/bridge/push.hpp"
+#include "script/complete/lua_tokens.hpp"
 #include "script/guard/strict.hpp"
 
 namespace dotyk::script {
@@ -18,7 +18,11 @@ constexpr char first_name[] = "__keep_locals";
 class Declarations {
  public:
   explicit Declarations(const std::string& text) : text_(text) {
-    while (at_ < text_.size()) step();
+    for (Token token = next(); token.kind != Token::end; token = next()) {
+      const bool first = at_ == 0;
+      at_ = token.after;
+      if (word(token) == "local") names(first ? token.begin : std::string::npos);
+    }
   }
   std::string text_;
   std::vector<std::string> closing;
@@ -26,87 +30,48 @@ class Declarations {
   bool first_is_given = false, first_closes = false;  // … = value, or a function; one of them is <close>
 
  private:
-  char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+  Token next() const { return next_token(text_, at_); }
+  std::string word(const Token& token) const { return text_.substr(token.begin, token.after - token.begin); }
 
-  bool long_bracket(std::size_t from) {
-    auto end = from + 1;
-    while (end < text_.size() && text_[end] == '=') ++end;
-    if (from >= text_.size() || text_[from] != '[' || end >= text_.size() || text_[end] != '[') return false;
-    const auto closing_bracket = "]" + std::string(end - from - 1, '=') + "]";
-    const auto found = text_.find(closing_bracket, end);
-    at_ = found == std::string::npos ? text_.size() : found + closing_bracket.size();
+  bool take(const char* sign) {
+    if (word(next()) != sign) return false;
+    at_ = next().after;
     return true;
   }
 
-  void blanks() {
-    for (;;) {
-      if (std::isspace(static_cast<unsigned char>(peek()))) ++at_;
-      else if (peek() == '-' && peek(1) == '-') comment();
-      else return;
-    }
+  std::string take_name() {
+    const Token token = next();
+    if (token.kind != Token::name && token.kind != Token::keyword) return "";
+    at_ = token.after;
+    return word(token);
   }
 
-  void comment() {
-    if (long_bracket(at_ + 2)) return;
-    at_ = std::min(text_.find('\n', at_), text_.size());
-  }
-
-  void quoted(char quote) {
-    for (++at_; at_ < text_.size() && text_[at_] != quote && text_[at_] != '\n'; ++at_) at_ += text_[at_] == '\\' ? 1 : 0;
-    at_ = std::min(at_ + 1, text_.size());
-  }
-
-  std::string name() {
-    const auto from = at_;
-    while (std::isalnum(static_cast<unsigned char>(peek())) || peek() == '_') ++at_;
-    return text_.substr(from, at_ - from);
-  }
-
-  void step() {
-    const char c = peek();
-    const bool first = begins_;
-    if (c == '-' && peek(1) == '-') return comment();
-    if (std::isspace(static_cast<unsigned char>(c))) return void(++at_);
-    begins_ = false;
-    if (c == '"' || c == '\'') return quoted(c);
-    if (c == '[' && long_bracket(at_)) return;
-    const auto word = name();
-    if (word.empty()) ++at_;
-    else if (word == "local") names(first);
-  }
-
-  void names(bool first) {
-    if (first) first_local = at_ - std::strlen("local");
-    for (;;) {
-      blanks();
-      const auto variable = name();
-      blanks();
-      if (peek() == '<') attribute(variable, first);
-      blanks();
-      if (first) first_is_given = variable == "function" || (peek() == '=' && peek(1) != '=');
-      if (peek() != ',') return;
-      ++at_;
-    }
+  // `first`: where the text begins with this declaration.
+  void names(std::size_t first) {
+    const bool is_first = first != std::string::npos;
+    if (is_first) first_local = first;
+    do {
+      const auto variable = take_name();
+      attribute(variable, is_first);
+      if (is_first) first_is_given = variable == "function" || word(next()) == "=";
+    } while (take(","));
   }
 
   void attribute(const std::string& variable, bool first) {
-    const auto from = at_++;
-    blanks();
-    const auto word = name();
-    blanks();
-    if (peek() != '>') return;
-    ++at_;
-    if (word == "const") {
+    const auto from = next().begin;
+    if (!take("<")) return;
+    const auto kind = take_name();
+    if (!take(">")) return;
+    if (kind == "const") {
       for (auto k = from; k < at_; ++k)
         if (text_[k] != '\n') text_[k] = ' ';
-    } else if (word == "close") {
+    } else if (kind == "close") {
       closing.push_back(variable);
       first_closes = first_closes || first;
     }
   }
 
   std::size_t at_ = 0;
-  bool begins_ = true;
 };
 
 // The frame's variables as global ones; the table of the registry is at index.
@@ -180,13 +145,9 @@ std::string keep_locals(lua_State* L, const std::string& text, const std::string
   lua_remove(L, -2);
   lua_newtable(L);
   lua_createtable(L, 0, 1);
-  lua_pushcfunction(L, keep_at_end);
-  lua_setfield(L, -2, "__close");
+  set_field(L, "__close", keep_at_end);
   lua_setmetatable(L, -2);
-  for (const auto& name : declared.closing) {
-    lua_pushboolean(L, true);
-    lua_setfield(L, -2, name.c_str());
-  }
+  for (const auto& name : declared.closing) set_field(L, name.c_str(), true);
   lua_pushvalue(L, -2);
   lua_rawseti(L, -2, 1);
   lua_pushvalue(L, -1);

@@ -183,10 +183,8 @@ class Prompt {
     if (compiled_.find("function") == std::string::npos) return;
     luaL_getsubtable(L_, LUA_REGISTRYINDEX, inputs_of_prompt);
     lua_createtable(L_, 0, 2);
-    push(L_, input);
-    lua_setfield(L_, -2, "typed");
-    push(L_, compiled_);
-    lua_setfield(L_, -2, "compiled");
+    set_field(L_, "typed", input);
+    set_field(L_, "compiled", compiled_);
     lua_rawseti(L_, -2, static_cast<lua_Integer>(lua_rawlen(L_, -2)) + 1);
     lua_pop(L_, 1);
   }

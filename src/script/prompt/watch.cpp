@@ -23,16 +23,12 @@ void forget_judged() { judged.clear(); }
 
 Record iteration_record(const IterationInfo& info) {
   Record record{"iteration",
-          {{"active", static_cast<long long>(info.active)},
-           {"stick", static_cast<long long>(info.stick)},
-           {"slip", static_cast<long long>(info.slip)},
-           {"changed", static_cast<long long>(info.changed)},
-           {"residual", info.residual},
-           {"time", info.seconds}}};
-  if (info.inner > 0) record.entries.push_back({"inner", static_cast<long long>(info.inner)});
-  if (info.step > 0) record.entries.push_back({"step", static_cast<long long>(info.step)});
-  if (!std::isnan(info.singular_value)) record.entries.push_back({"singular_value", info.singular_value});
-  if (info.contraction > 0) record.entries.push_back({"contraction", info.contraction});
+                {{"active", info.active}, {"stick", info.stick}, {"slip", info.slip}, {"changed", info.changed},
+                 {"residual", info.residual}, {"time", info.seconds}}};
+  if (info.inner > 0) record.add({{"inner", info.inner}});
+  if (info.step > 0) record.add({{"step", info.step}});
+  if (!std::isnan(info.singular_value)) record.add({{"singular_value", info.singular_value}});
+  if (info.contraction > 0) record.add({{"contraction", info.contraction}});
   return record;
 }
 

@@ -1,6 +1,4 @@
 // Domain decomposition: dotyk.solver.feti.
-#include <algorithm>
-
 #include "script/bind/bind.hpp"
 #include "script/bind/methods/method_keys.hpp"
 #include "solver/feti/feti.hpp"
@@ -53,7 +51,6 @@ void bind_feti(Library& library) {
                "Coulomb's by an outer loop. tol: on |projected gradient| / |P d| and on |G lambda - e| / |f|, rows "
                "scaled by the stiffness of what they join, and on what a subdomain's forces leave unbalanced. An iteration is an outer step; s.history[k].inner counts the steps of the inner method so far, "
                "s.feti tells what the decomposition was like.",
-       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.feti{ subdomains = 64, tol = 1e-8 }:solve(scene)\n"
                   "local t = dotyk.solver.feti{ subdomains = {4, 4, 4}, preconditioner = \"lumped\" }:solve(scene)"},
       {key::either("subdomains",

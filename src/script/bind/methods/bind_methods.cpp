@@ -23,7 +23,6 @@ void bind_methods(Library& library) {
       {.name = "dotyk.solver.pdas",
        .help = "The primal-dual active set method, which is Newton's method on the contact conditions: "
                "finite, exact, usually a handful of iterations.",
-       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.pdas{ reduced = true }:solve(scene)"},
       {{key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
                               "multiplies each row's own stiffness"), &Pdas::rho},
@@ -35,7 +34,6 @@ void bind_methods(Library& library) {
       {.name = "dotyk.solver.newton",
        .help = "The generalised Newton method on normal and tangential part together: contact with given "
                "or Coulomb friction, in the plane and in space, on the contact boundary alone.",
-       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.newton{ tol = 1e-10 }:solve(scene)"},
       {{key::positive("rho", "weight of slip and gap against force in the projections; multiplies the stiffness "
                               "that each row sees"), &Newton::rho},
@@ -56,7 +54,6 @@ void bind_methods(Library& library) {
                "bodies held or free. Rows enter the working set as the bodies meet them and leave where they would pull. "
                "The solution's working_set counts rows added and dropped, singular KKT systems met and survived, "
                "factorisations, and times that zigzagging was noticed (repeats).",
-       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.active_set{ change = \"many\" }:solve(scene)\nprint(s.iterations, s.working_set.singular)"},
       {{key::choice<ActiveSet::Change>("change", {{"one", ActiveSet::Change::one}, {"many", ActiveSet::Change::many}},
                                        "rows that enter or leave in a step"), &ActiveSet::change},
@@ -69,7 +66,6 @@ void bind_methods(Library& library) {
       {.name = "dotyk.solver.interior_point",
        .help = "Mehrotra's interior-point method on the quadratic program of frictionless contact. At its end every "
                "force and every gap is a little positive; nodes are closed where the force is the larger one, scaled.",
-       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.interior_point{ tol = 1e-10 }:solve(scene)"},
       {{key::boolean("reduced", kBoundary), &InteriorPoint::reduced}},
       100, [](const InteriorPoint& m, Call&) { return reduced(m.reduced); });
@@ -80,7 +76,6 @@ void bind_methods(Library& library) {
                "The bodies overlap, energy and force are off by O(1/factor). The solution's penalty says by how much: "
                "penetration (length), energy (force·length, what the energy is too low by); residual shows it as well. "
                "converged is said of the problem with springs.",
-       .setup = setup::pressed_block(),
        .example = "local s = dotyk.solver.penalty{ factor = 1e3 }:solve(scene)\nprint(s.penalty.penetration, s.reason)"},
       {{key::positive("factor", "stiffness of the springs over the stiffness that a contact node sees"), &Penalty::factor},
        {key::boolean("reduced", "forces as unknowns of their own, on the contact boundary: any factor; else the springs added to "

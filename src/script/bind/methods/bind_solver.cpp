@@ -1,10 +1,6 @@
-#include <algorithm>
-#include <cmath>
-
 #include "scene/solve/all_solutions.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bind/models/bind_beam.hpp"
-#include "script/bind/models/bind_plate.hpp"
+#include "script/bind/models/models.hpp"
 #include "script/bind/program/bind_fclib.hpp"
 #include "script/bind/methods/method_keys.hpp"
 #include "script/bind/scene/space.hpp"
@@ -166,22 +162,19 @@ Given<Solver> with_tol(Call& call) {
   return given;
 }
 
+int solve_any(Call& call, const solver::Method& method, std::vector<Function> on_iteration, bool verbose) {
+  if (call.holds<Scene>("scene")) return run_solve(call, call.object<Scene>("scene"), method, std::move(on_iteration), verbose);
+  require_no_options(call);
+  if (call.holds<plate::Model>("scene")) return solve_plate(call, call.object<plate::Model>("scene"), method, std::move(on_iteration), verbose);
+  return solve_beam(call, *call.object<beam::Beam>("scene"), method, std::move(on_iteration), verbose);
+}
+
 int solve_with(Call& call) {
   const auto solver = call.self<Solver>();
-  if (call.holds<fclib::ContactProblem>("scene")) {
-    require_no_options(call);
-    return call.give(solve_contact_problem(call, call.object<fclib::ContactProblem>("scene"), *solver,
-                                           call.kept_function(1, "on_iteration")));
-  }
-  if (call.holds<beam::Beam>("scene")) {
-    require_no_options(call);
-    return solve_beam(call, *call.object<beam::Beam>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
-  }
-  if (call.holds<plate::Model>("scene")) {
-    require_no_options(call);
-    return solve_plate(call, call.object<plate::Model>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
-  }
-  return run_solve(call, call.object<Scene>("scene"), solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
+  const auto on_iteration = call.kept_function(1, "on_iteration");
+  if (!call.holds<fclib::ContactProblem>("scene")) return solve_any(call, solver->method, on_iteration, solver->verbose);
+  require_no_options(call);
+  return call.give(solve_contact_problem(call, call.object<fclib::ContactProblem>("scene"), *solver, on_iteration));
 }
 
 // The result knows the method and its options.
@@ -191,23 +184,20 @@ int solve_and_tell(Call& call) {
   return results;
 }
 
-int solve_scene(Call& call) {
-  if (call.holds<Scene>("scene")) return run_solve(call, call.object<Scene>("scene"), {}, {}, false);
-  require_no_options(call);
-  if (call.holds<plate::Model>("scene")) return solve_plate(call, call.object<plate::Model>("scene"), {}, {}, false);
-  return solve_beam(call, *call.object<beam::Beam>("scene"), {}, {}, false);
-}
+int solve_scene(Call& call) { return solve_any(call, {}, {}, false); }
 
 constexpr const char* kSteps =
     "With steps, quasi-statically one load after the other: friction opposes the slip since the last step, and all "
     "steps share one factorisation. The result is the last step; all of them are in s.steps.";
 
-Key scene_or_beam_key() {
-  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam"), key::object<plate::Model>("", "a plate")}, "what to solve: a scene, a beam or a plate").required();
+std::vector<Key> solvable() {
+  return {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam"), key::object<plate::Model>("", "a plate")};
 }
 
+Key scene_or_beam_key() { return key::either("scene", solvable(), "what to solve: a scene, a beam or a plate").required(); }
+
 Key scene_or_problem_key() {
-  return key::either("scene", {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam"), key::object<plate::Model>("", "a plate"), key::object<fclib::ContactProblem>("", "a problem from a file")},
+  return key::either("scene", joined(solvable(), {key::object<fclib::ContactProblem>("", "a problem from a file")}),
                      "what to solve: a scene, a beam, a plate, or a problem that dotyk.fclib read").required();
 }
 
@@ -231,9 +221,8 @@ int all_solutions(Call& call) {
   for (const scene::AllSolutions::Family& family : all.families) {
     std::vector<double> ends;
     for (const int end : family.ends) ends.push_back(end + 1);
-    families.push_back({"family", {{"dimension", static_cast<long long>(family.dimension)}, {"ends", ends},
-                                   {"unbounded", family.unbounded}, {"forces_only", family.forces_only},
-                                   {"continuum", static_cast<long long>(family.continuum) + 1}}});
+    families.push_back({"family", {{"dimension", family.dimension}, {"ends", ends}, {"unbounded", family.unbounded},
+                                   {"forces_only", family.forces_only}, {"continuum", family.continuum + 1}}});
   }
   return call.give(all.solutions, all.summary, families);
 }

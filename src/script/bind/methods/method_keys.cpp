@@ -1,7 +1,5 @@
 #include "script/bind/methods/method_keys.hpp"
 
-#include <algorithm>
-
 #include "script/bind/bind.hpp"
 
 namespace dotyk::script {
@@ -19,8 +17,7 @@ std::vector<Key> method_keys(std::vector<Key> own, int max_iterations) {
                             "elimination order of the sparse factorisation").fallback(Ordering::automatic),
       key::function("on_iteration", "called as f(k, info) after each iteration; returning false stops the solve"),
       key::boolean("verbose", "a line on standard error for each iteration").fallback(false)};
-  own.insert(own.end(), common.begin(), common.end());
-  return own;
+  return joined(std::move(own), common);
 }
 
 void read_settings(const Call& call, solver::Settings& settings) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "script/bind/setups.hpp"
 #include "script/bridge/bound.hpp"
 #include "script/bridge/library.hpp"
 #include "script/bridge/wrapped.hpp"
@@ -24,10 +25,11 @@ std::optional<std::vector<int>> screws_of(const Call& call, std::string& shown);
 Given<Solver> give_method(Call& call, solver::Method method, std::string text);
 
 // The maker of a method: `own` are its keys, and own options are shown as show(method, call) says, which may set more of them. With
-// `kernel`, magnetic screws may hold free bodies.
+// `kernel`, magnetic screws may hold free bodies. Examples begin with setup::pressed_block(), unless `about` says otherwise.
 template <class Method, class Show>
 void add_method(Library& library, Descriptor about, const Bound<Method>& own, int max_iterations, Show show, bool kernel = false) {
   about.arguments = {key::table(method_keys(kernel ? with_kernel(own.keys()) : own.keys(), max_iterations))};
+  if (about.setup.empty()) about.setup = setup::pressed_block();
   about.run = [name = about.short_name(), own, show, kernel](Call& call) {
     Method method;
     read_settings(call, method);

@@ -1,7 +1,4 @@
-#include "script/bind/models/bind_beam.hpp"
-
-#include <algorithm>
-#include <optional>
+#include "script/bind/models/models.hpp"
 
 #include "beam/sampled.hpp"
 #include "script/bind/bind.hpp"
@@ -36,10 +33,9 @@ beam::Support beam_support(const Arguments& from, std::string name, double x) {
 }
 
 std::vector<Key> beam_support_keys() {
-  std::vector<Key> keys = support_law_keys();
-  keys.push_back(key::number("deflection_at", "where the law of the deflection stands: it is about the deflection less this").unit("length").otherwise("0"));
-  keys.push_back(key::number("rotation_at", "the same of the rotation").unit("rad").otherwise("0"));
-  return keys;
+  return joined(support_law_keys(),
+                {key::number("deflection_at", "where the law of the deflection stands: it is about the deflection less this").unit("length").otherwise("0"),
+                 key::number("rotation_at", "the same of the rotation").unit("rad").otherwise("0")});
 }
 
 /// Laws at the nodes.
@@ -74,12 +70,10 @@ std::shared_ptr<Beam> make_beam(Call& call) {
   beam->length = call.number("length");
   beam->cells = static_cast<int>(call.integer("cells"));
   add_end(call, "left", 0, *beam);
-  if (call.has("supports"))
-    for (const Arguments& s : call.tables("supports")) beam->supports.push_back(beam_support(s, text("x = ", s.number("x")), s.number("x")));
+  for (const Arguments& s : call.tables("supports")) beam->supports.push_back(beam_support(s, text("x = ", s.number("x")), s.number("x")));
   add_end(call, "right", beam->length, *beam);
   std::stable_sort(beam->supports.begin(), beam->supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-  if (call.has("loads"))
-    for (const Arguments& load : call.tables("loads")) beam->loads.push_back({load.number("x"), load.number("force"), load.number("moment")});
+  for (const Arguments& load : call.tables("loads")) beam->loads.push_back({load.number("x"), load.number("force"), load.number("moment")});
   require_valid(*beam);
   take(call, "EJ", *beam, beam->EJ, beam->EJ_of);
   take(call, "load", *beam, beam->q, beam->q_of);
@@ -144,8 +138,8 @@ std::string show_result(const BeamResult& r) {
 }
 
 void bind_beam_solution(Library& library) {
-  library.type<BeamResult>("A solved beam: what it does, how it ended, and its other branches.").setup(setup::solved_beam())
-      .field("converged", "did the method end as it should", [](const BeamResult& r) { return r.solution().result().converged; })
+  auto type = library.type<BeamResult>("A solved beam: what it does, how it ended, and its other branches.").setup(setup::solved_beam());
+  type.field("converged", "did the method end as it should", [](const BeamResult& r) { return r.solution().result().converged; })
       .field("method", "which method", [](const BeamResult& r) { return r.solution().result().method; })
       .field("iterations", "how many", [](const BeamResult& r) { return r.solution().result().iterations; })
       .field("reason", "why it ended", [](const BeamResult& r) { return r.solution().result().reason; })
@@ -155,18 +149,14 @@ void bind_beam_solution(Library& library) {
       .field("rows", "conditions of the supports", [](const BeamResult& r) { return r.solution().model().problem.rows(); })
       .field("time", "seconds: total assembly motions ordering factor iterate recover, of this branch", [](const BeamResult& r) { return time_record(r.solution().result().clock); }, "s")
       .field("branches", "all local minima of the energy, the least first: more than one only with breaking supports", branches)
-      .field("broken", "names of the breaking supports that are broken here", broken)
-      .method({.name = "beam_solution:deflection", .help = "The deflection, positive upwards; at nodes exact where EJ is constant.", .example = "print(s:deflection(0.5))",
-               .arguments = x_key(), .run = value_at<&beam::Solution::deflection>})
-      .method({.name = "beam_solution:rotation", .help = "The slope of the deflection.", .example = "print(s:rotation(0))", .arguments = x_key(), .run = value_at<&beam::Solution::rotation>})
-      .method({.name = "beam_solution:moment", .help = "The bending moment -EJ u'', by equilibrium.", .example = "print(s:moment(0.5))", .arguments = x_key(),
-               .run = value_at<&beam::Solution::moment>})
-      .method({.name = "beam_solution:shear", .help = "The shear force, the derivative of the moment, by equilibrium; where it jumps, to the right.",
-               .example = "print(s:shear(0))", .arguments = x_key(), .run = value_at<&beam::Solution::shear>})
-      .method({.name = "beam_solution:pressure", .help = "The force per length of the foundation on the beam, positive upwards; linear between nodes, 0 without a foundation.",
-               .example = "print(dotyk.solve(dotyk.beam{ load = -1, foundation = dotyk.law.elastic(100) }):pressure(0.5))",
-               .arguments = x_key(), .run = value_at<&beam::Solution::pressure>})
-      .method({.name = "beam_solution:reaction",
+      .field("broken", "names of the breaking supports that are broken here", broken);
+  add_value(type, "deflection", "The deflection, positive upwards; at nodes exact where EJ is constant.", value_at<&beam::Solution::deflection>, "print(s:deflection(0.5))");
+  add_value(type, "rotation", "The slope of the deflection.", value_at<&beam::Solution::rotation>, "print(s:rotation(0))");
+  add_value(type, "moment", "The bending moment -EJ u'', by equilibrium.", value_at<&beam::Solution::moment>, "print(s:moment(0.5))");
+  add_value(type, "shear", "The shear force, the derivative of the moment, by equilibrium; where it jumps, to the right.", value_at<&beam::Solution::shear>, "print(s:shear(0))");
+  add_value(type, "pressure", "The force per length of the foundation on the beam, positive upwards; linear between nodes, 0 without a foundation.",
+            value_at<&beam::Solution::pressure>, "print(dotyk.solve(dotyk.beam{ load = -1, foundation = dotyk.law.elastic(100) }):pressure(0.5))");
+  type.method({.name = "beam_solution:reaction",
                .help = "What a support does to the beam: force (up) and moment (anticlockwise), and the deflection and rotation there.",
                .example = "print(s:reaction(\"left\").force, s:reaction(0.5).force)",
                .arguments = {support_key("at").required()},
@@ -218,11 +208,7 @@ void bind_beam(Library& library) {
             key::integer("cells", "elements, of equal length; a support within one divides it. Rounding grows as the fourth power: 1e-12 with 32, 1e-6 with 1000").within(1, 1000).fallback(32.0),
             key::field("load", "per length, upwards: a number or a function of x").unit("force/length").otherwise("0"),
             key::table("left", beam_support_keys(), "the support at x = 0"), key::table("right", beam_support_keys(), "the support at x = length"),
-            [] {
-              Key item = key::table("", beam_support_keys(), "");
-              item.keys.insert(item.keys.begin(), key::number("x", "where").unit("length").required());
-              return key::list("supports", item, "supports within the beam");
-            }(),
+            key::list("supports", key::table("", joined({key::number("x", "where").unit("length").required()}, beam_support_keys()), ""), "supports within the beam"),
             key::list("loads", key::table("", {key::number("x", "where").unit("length").required(), key::number("force", "upwards").unit("force").fallback(0.0),
                                                key::number("moment", "anticlockwise").unit("force·length").fallback(0.0)}, ""), "at points")})},
        .run = make_beam});

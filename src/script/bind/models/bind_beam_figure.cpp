@@ -1,10 +1,7 @@
 // Figures of beams and of the laws of their supports.
-#include <algorithm>
-
 #include "figure/compose/compose_beam.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bind/models/bind_beam.hpp"
-#include "script/bind/models/bind_thermoelastic.hpp"
+#include "script/bind/models/models.hpp"
 #include "script/bind/figure_keys.hpp"
 
 namespace dotyk::script {

@@ -11,10 +11,8 @@ struct ChannelFlow {
   std::optional<channel::Series> series;
   std::string refusal;
 };
-template <>
-struct Wrapped<ChannelFlow> : Called<"channel"> {};
-template <>
-struct Wrapped<channel::Stepping> : Called<"channel_stepping"> {};
+template <> struct Wrapped<ChannelFlow> : Called<"channel"> {};
+template <> struct Wrapped<channel::Stepping> : Called<"channel_stepping"> {};
 
 namespace {
 
@@ -25,10 +23,14 @@ using channel::Stepping;
 const std::vector<const char*> kPhysical{"density", "viscosity", "conductivity", "E0", "B0", "pressure_gradient"};
 const std::vector<const char*> kReduced{"a", "b", "c", "d", "drive"};
 
-double number_or(Call& call, const char* name, double otherwise) { return call.has(name) ? call.number(name) : otherwise; }
-
-Oscillating oscillating(Call& call) {
-  return call.choice("oscillating") == 0 ? Oscillating::electric : Oscillating::magnetic;
+/// Those of the numbers that are given, and which field oscillates.
+template <class Struct>
+void read_numbers(Call& call, std::initializer_list<std::pair<const char*, double Struct::*>> numbers, Struct& into) {
+  for (const auto& [name, member] : numbers) call.read(name, into.*member);
+  call.read("half_width", into.half_width);
+  call.read("omega", into.omega);
+  call.read("u0", into.initial_speed);
+  call.read("oscillating", into.oscillating);
 }
 
 Data reduced_data(Call& call) {
@@ -37,15 +39,7 @@ Data reduced_data(Call& call) {
   for (const char* name : {"a", "b"})
     if (!call.has(name)) throw InputError(text("'", name, "' is missing: reduced data need a and b"));
   Data data;
-  data.half_width = call.number("half_width");
-  data.a = call.number("a");
-  data.b = call.number("b");
-  data.c = number_or(call, "c", 0);
-  data.d = number_or(call, "d", 0);
-  data.drive = number_or(call, "drive", 1);
-  data.omega = call.number("omega");
-  data.initial_speed = call.number("u0");
-  data.oscillating = oscillating(call);
+  read_numbers<Data>(call, {{"a", &Data::a}, {"b", &Data::b}, {"c", &Data::c}, {"d", &Data::d}, {"drive", &Data::drive}}, data);
   channel::check(data);
   return data;
 }
@@ -53,17 +47,10 @@ Data reduced_data(Call& call) {
 Data physical_data(Call& call) {
   for (const char* name : {"density", "viscosity", "conductivity"})
     if (!call.has(name)) throw InputError(text("'", name, "' is missing: give density, viscosity and conductivity, or reduced data a, b, c, d"));
-  channel::Physical f;
-  f.half_width = call.number("half_width");
-  f.density = call.number("density");
-  f.viscosity = call.number("viscosity");
-  f.conductivity = call.number("conductivity");
-  f.E0 = number_or(call, "E0", 0);
-  f.B0 = number_or(call, "B0", 0);
-  f.pressure_gradient = number_or(call, "pressure_gradient", 0);
-  f.omega = call.number("omega");
-  f.initial_speed = call.number("u0");
-  f.oscillating = oscillating(call);
+  using channel::Physical;
+  Physical f;
+  read_numbers<Physical>(call, {{"density", &Physical::density}, {"viscosity", &Physical::viscosity}, {"conductivity", &Physical::conductivity},
+                                {"E0", &Physical::E0}, {"B0", &Physical::B0}, {"pressure_gradient", &Physical::pressure_gradient}}, f);
   return channel::reduced(f);
 }
 
@@ -120,7 +107,8 @@ Descriptor constructor() {
            key::number("drive", "the oscillating force").otherwise("1"),
            key::number("omega", "angular frequency").at_least(0).fallback(0.0).unit("1/s"),
            key::number("u0", "speed on the axis at t = 0; 0 starts from rest").fallback(0.0).unit("m/s"),
-           key::choice("oscillating", {"electric", "magnetic"}, "the field that oscillates; the other is steady").fallback("electric"),
+           key::choice<Oscillating>("oscillating", {{"electric", Oscillating::electric}, {"magnetic", Oscillating::magnetic}},
+                                    "the field that oscillates; the other is steady").fallback(Oscillating::electric),
            key::integer("terms", "most terms of the transient's series").within(64, 1 << 20).fallback(4096.0)})},
       .run = make_channel};
 }

@@ -1,5 +1,5 @@
 #include "script/bind/bind.hpp"
-#include "script/bind/models/bind_beam.hpp"
+#include "script/bind/models/models.hpp"
 
 namespace dotyk::script {
 namespace {

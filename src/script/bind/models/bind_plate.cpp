@@ -1,10 +1,7 @@
-#include "script/bind/models/bind_plate.hpp"
-
-#include <algorithm>
+#include "script/bind/models/models.hpp"
 
 #include "plate/solvable.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bind/models/bind_beam.hpp"
 #include "script/help/nearest.hpp"
 #include "script/bridge/position.hpp"
 
@@ -13,8 +10,6 @@ namespace {
 
 using plate::Plate;
 using problem::SupportLaw;
-
-const std::vector<std::string> kElements = {"morley", "hct"};  // in the order of plate::Element
 
 plate::Field scalar(const script::Field& field) {
   return [field](double x, double y) { return field(std::vector<double>{x, y})[0]; };
@@ -89,22 +84,19 @@ void take_edges(Call& call, Plate& plate) {
 }
 
 void take_points(Call& call, Plate& plate) {
-  if (call.has("supports"))
-    for (const Arguments& s : call.tables("supports")) plate.supports.push_back({s.number("x"), s.number("y"), law(s, "deflection")});
-  if (call.has("loads"))
-    for (const Arguments& load : call.tables("loads")) plate.point_loads.push_back({load.number("x"), load.number("y"), load.number("force")});
-  if (call.has("lines"))
-    for (const Arguments& line : call.tables("lines")) {
-      const auto from = line.vector("from"), to = line.vector("to");
-      plate.line_loads.push_back({{from[0], from[1]}, {to[0], to[1]}, line.number("force")});
-    }
+  for (const Arguments& s : call.tables("supports")) plate.supports.push_back({s.number("x"), s.number("y"), law(s, "deflection")});
+  for (const Arguments& load : call.tables("loads")) plate.point_loads.push_back({load.number("x"), load.number("y"), load.number("force")});
+  for (const Arguments& line : call.tables("lines")) {
+    const auto from = line.vector("from"), to = line.vector("to");
+    plate.line_loads.push_back({{from[0], from[1]}, {to[0], to[1]}, line.number("force")});
+  }
 }
 
 std::shared_ptr<plate::Model> make_plate(Call& call) {
   Plate plate;
   plate.mesh = std::make_shared<const mesh::Mesh>(*call.object<MeshHandle>("mesh")->mesh);
-  plate.element = static_cast<plate::Element>(call.choice("element"));
-  plate.nu = call.number("nu");
+  call.read("element", plate.element);
+  call.read("nu", plate.nu);
   take(call, "D", plate.D, plate.D_of);
   take(call, "load", plate.f, plate.f_of);
   double floor = 0;
@@ -165,7 +157,8 @@ void bind_plate(Library& library) {
                   "print(dotyk.solve(p):deflection(0.5, 0.5))",
        .arguments = {key::table(
            {key::object<MeshHandle>("mesh", "triangles in the plane").required(),
-            key::choice("element", kElements, "morley: the lowest order, nonconforming, for nu from -0.8 to 0.8; hct: cubic on thirds of a triangle, conforming").fallback("morley"),
+            key::choice<plate::Element>("element", {{"morley", plate::Element::morley}, {"hct", plate::Element::hct}},
+                                        "morley: the lowest order, nonconforming, for nu from -0.8 to 0.8; hct: cubic on thirds of a triangle, conforming").fallback("morley"),
             key::field("D", "bending stiffness E h³/12(1 - nu²), positive: a number or a function of x, y").unit("force·length").otherwise("1"),
             key::number("nu", "Poisson's ratio; beyond 0.8 and -0.8 with hct alone").above(-1).below(1).fallback(0.3),
             key::field("load", "per area, upwards: a number or a function of x, y").unit("force/area").otherwise("0"),

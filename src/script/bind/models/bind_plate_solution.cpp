@@ -5,7 +5,7 @@
 #include "plate/reaction.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
-#include "script/bind/models/bind_plate.hpp"
+#include "script/bind/models/models.hpp"
 #include "solver/core/ending.hpp"
 
 namespace dotyk::script {
@@ -29,8 +29,8 @@ int moment(Call& call) {
 }
 
 Record point_record(const plate::EdgePoint& p, std::size_t piece) {
-  return {"edge point", {{"x", p.x}, {"y", p.y}, {"at", p.at}, {"piece", static_cast<long long>(piece + 1)}, {"length", p.length}, {"deflection", p.deflection},
-                         {"slope", p.slope}, {"force", p.force}, {"reaction", p.per_length()}, {"moment", p.moment / p.length}, {"status", std::string(problem::status_name(p.status))},
+  return {"edge point", {{"x", p.x}, {"y", p.y}, {"at", p.at}, {"piece", piece + 1}, {"length", p.length}, {"deflection", p.deflection},
+                         {"slope", p.slope}, {"force", p.force}, {"reaction", p.per_length()}, {"moment", p.moment / p.length}, {"status", problem::status_name(p.status)},
                          {"corner", p.corner}}};
 }
 

@@ -1,10 +1,6 @@
-#include "script/bind/models/bind_thermoelastic.hpp"
-
-#include <algorithm>
-#include <cmath>
+#include "script/bind/models/models.hpp"
 
 #include "script/bind/bind.hpp"
-#include "script/bind/models/bind_beam.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -58,9 +54,6 @@ void set_function(History& load, Function function) {
   load.of = [f = std::move(function)](double t) { return f.number(std::vector<double>{t}); };
 }
 
-// The supports within the beam as the script gives them.
-std::vector<Arguments> given_supports(Call& call) { return call.has("supports") ? call.tables("supports") : std::vector<Arguments>{}; }
-
 // The arguments that a place is in; nothing where its table is not given.
 std::optional<Arguments> holder(Call& call, const std::vector<Arguments>& supports, const LoadPlace& at) {
   if (at.table.empty()) return call;
@@ -69,29 +62,30 @@ std::optional<Arguments> holder(Call& call, const std::vector<Arguments>& suppor
   return call.table(at.table);
 }
 
+// Those of the loads that are given as a value of this Lua type, each with the arguments that it is in.
+template <class Use>
+void each_given(Call& call, const std::vector<Arguments>& supports, Loads& loads, int type, Use use) {
+  each_load(loads, [&](const LoadPlace& at, auto& load) {
+    const auto from = holder(call, supports, at);
+    if (from && from->is(at.name, type)) use(at, *from, load);
+  });
+}
+
 // Constants, and the functions as long as the making of the object runs.
 Loads given_loads(Call& call, const std::vector<Arguments>& supports, Loads& constants) {
   constants.supports.resize(2);
   constants.supports[1].x = call.number("length");
   for (const Arguments& s : supports) constants.supports.push_back({s.number("x"), {}, {}, {}});
-  Loads all;
-  each_load(constants, [&](const LoadPlace& at, auto& load) {
-    const auto from = holder(call, supports, at);
-    if (from && from->is(at.name, LUA_TNUMBER)) load.constant = from->number(at.name);
-  });
-  all = constants;
-  each_load(all, [&](const LoadPlace& at, auto& load) {
-    const auto from = holder(call, supports, at);
-    if (from && from->is(at.name, LUA_TFUNCTION)) set_function(load, Function(call.state(), from->slot(at.name), at.kept(), call.descriptor().short_name()));
+  each_given(call, supports, constants, LUA_TNUMBER, [](const LoadPlace& at, const Arguments& from, auto& load) { load.constant = from.number(at.name); });
+  Loads all = constants;
+  each_given(call, supports, all, LUA_TFUNCTION, [&](const LoadPlace& at, const Arguments& from, auto& load) {
+    set_function(load, Function(call.state(), from.slot(at.name), at.kept(), call.descriptor().short_name()));
   });
   return all;
 }
 
 void keep_functions(Call& call, int object, const std::vector<Arguments>& supports, Loads& constants) {
-  each_load(constants, [&](const LoadPlace& at, auto&) {
-    const auto from = holder(call, supports, at);
-    if (from && from->is(at.name, LUA_TFUNCTION)) call.keep(object, at.kept(), from->slot(at.name));
-  });
+  each_given(call, supports, constants, LUA_TFUNCTION, [&](const LoadPlace& at, const Arguments& from, auto&) { call.keep(object, at.kept(), from.slot(at.name)); });
 }
 
 Source at_first(const Arguments& from, const char* name) {
@@ -136,15 +130,12 @@ void take_along(Call& call, const char* name, double length, double& constant, s
 
 Data given_data(Call& call, const std::vector<Arguments>& supports) {
   Data data;
-  data.length = call.number("length");
-  data.height = call.number("height");
-  data.width = call.number("width");
+  for (const auto& [name, member] : {std::pair{"length", &Data::length}, {"height", &Data::height}, {"width", &Data::width}, {"conductivity", &Data::conductivity},
+                                     {"heat_capacity", &Data::heat_capacity}, {"reference_temperature", &Data::reference}})
+    call.read(name, data.*member);
   take_along(call, "E", data.length, data.E, data.E_of);
   take_along(call, "expansion", data.length, data.expansion, data.expansion_of);
-  data.conductivity = call.number("conductivity");
-  data.heat_capacity = call.number("heat_capacity");
-  data.reference = call.number("reference_temperature");
-  data.cells = static_cast<int>(call.integer("cells"));
+  call.read("cells", data.cells);
   if (call.has("exchange")) {
     const Arguments exchange = call.table("exchange");
     data.exchange_above = exchange.number("above");
@@ -158,16 +149,16 @@ Data given_data(Call& call, const std::vector<Arguments>& supports) {
 }
 
 Given<ThermoelasticBeam> make_thermoelastic_beam(Call& call) {
-  const std::vector<Arguments> supports = given_supports(call);
+  const std::vector<Arguments> supports = call.tables("supports");
   const Data data = given_data(call, supports);
   auto beam = std::make_shared<ThermoelasticBeam>();
   const Loads loads = given_loads(call, supports, beam->constants);
   thermoelastic::Initial initial;
   if (call.has("initial")) initial = {at_first(call.table("initial"), "temperature"), at_first(call.table("initial"), "gradient")};
   thermoelastic::Scheme scheme;
-  scheme.step = call.number("step");
+  call.read("step", scheme.step);
   scheme.order = call.integer("order") == 1 ? thermoelastic::Order::one : thermoelastic::Order::two;
-  scheme.decompose = call.boolean("decompose");
+  call.read("decompose", scheme.decompose);
   if (call.has("solver")) scheme.method = call.object<Solver>("solver")->method;
   Watch watch(call.state(), "thermoelastic beam");
   beam->stepping = std::make_unique<Stepping>(data, initial, scheme, loads, watch);
@@ -277,8 +268,7 @@ Key end_key(const char* name, const char* help) {
 }
 
 std::vector<Key> thermoelastic_beam_keys() {
-  Key inner = key::table("", driven_support_keys(), "");
-  inner.keys.insert(inner.keys.begin(), key::number("x", "where").unit("length").required());
+  const Key inner = key::table("", joined({key::number("x", "where").unit("length").required()}, driven_support_keys()), "");
   return {key::positive("length", "from x = 0").unit("length").fallback(1.0),
           key::positive("height", "of the section").unit("length").required(),
           key::positive("width", "of the section").unit("length").fallback(1.0),
@@ -308,16 +298,13 @@ std::vector<Key> thermoelastic_beam_keys() {
 }
 
 void add_values(TypeOf<ThermoelasticBeam>& type) {
-  const auto add = [&](const char* name, const char* help, int (*run)(Call&), const char* use) {
-    type.method({.name = std::string("thermoelastic_beam:") + name, .help = help, .example = use, .arguments = x_key(), .run = run});
-  };
-  add("deflection", "The deflection now, positive upwards.", value_now<&Stepping::deflection>, "print(b:run(60):deflection(0.5))");
-  add("rotation", "The slope of the deflection now.", value_now<&Stepping::rotation>, "print(b:run(60):rotation(0))");
-  add("displacement", "The displacement along the axis now.", value_now<&Stepping::displacement>, "print(b:run(60):displacement(1))");
-  add("gradient", "The slope of the temperature over the height, now.", value_now<&Stepping::gradient>, "print(b:run(60):gradient(0.5))");
-  add("moment", "The bending moment -EJ (u'' + expansion gradient) now, by equilibrium.", value_now<&Stepping::moment>, "print(b:run(60):moment(0.5))");
-  add("shear", "The shear force now, the derivative of the moment.", value_now<&Stepping::shear>, "print(b:run(60):shear(0))");
-  add("normal", "The normal force now; a pull is positive.", value_now<&Stepping::normal>, "print(b:run(60):normal(0.5))");
+  add_value(type, "deflection", "The deflection now, positive upwards.", value_now<&Stepping::deflection>, "print(b:run(60):deflection(0.5))");
+  add_value(type, "rotation", "The slope of the deflection now.", value_now<&Stepping::rotation>, "print(b:run(60):rotation(0))");
+  add_value(type, "displacement", "The displacement along the axis now.", value_now<&Stepping::displacement>, "print(b:run(60):displacement(1))");
+  add_value(type, "gradient", "The slope of the temperature over the height, now.", value_now<&Stepping::gradient>, "print(b:run(60):gradient(0.5))");
+  add_value(type, "moment", "The bending moment -EJ (u'' + expansion gradient) now, by equilibrium.", value_now<&Stepping::moment>, "print(b:run(60):moment(0.5))");
+  add_value(type, "shear", "The shear force now, the derivative of the moment.", value_now<&Stepping::shear>, "print(b:run(60):shear(0))");
+  add_value(type, "normal", "The normal force now; a pull is positive.", value_now<&Stepping::normal>, "print(b:run(60):normal(0.5))");
   type.method({.name = "thermoelastic_beam:temperature", .help = "The temperature now, over the reference, at x and the height z over the axis.",
                .example = "print(b:run(60):temperature(0.5), b:temperature(0.5, 0.01))",
                .arguments = {x_key()[0], key::number("z", "over the axis").unit("length").fallback(0.0)},
@@ -325,7 +312,7 @@ void add_values(TypeOf<ThermoelasticBeam>& type) {
   type.method({.name = "thermoelastic_beam:reaction",
                .help = "What a support does now: force (up), moment (anticlockwise) and axial force on the beam, and the deflection, rotation and displacement there.",
                .example = "print(b:run(60):reaction(\"left\").force)",
-               .arguments = {key::either("at", {key::choice("", {"left", "right"}, ""), key::number("", "the x of a support")}, "an end, or the x of a support").required()},
+               .arguments = {support_key("at").required()},
                .run = thermoelastic_reaction});
 }
 

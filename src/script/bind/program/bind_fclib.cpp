@@ -71,12 +71,6 @@ void bind_problem(Library& library) {
       });
 }
 
-std::vector<Record> history(const ContactProblemResult& r) {
-  std::vector<Record> rows;
-  for (const IterationInfo& info : r.result.iteration.history) rows.push_back(iteration_record(info));
-  return rows;
-}
-
 void bind_result(Library& library) {
   using R = ContactProblemResult;
   library.type<R>("The result of solving a frictional contact problem.")
@@ -92,7 +86,7 @@ void bind_result(Library& library) {
       .field("open", "contacts without force", [](const R& r) { return r.result.measure.open; })
       .field("stick", "contacts that stick", [](const R& r) { return r.result.measure.stick; })
       .field("slip", "contacts that slip", [](const R& r) { return r.result.measure.slip; })
-      .field("history", "one entry an iteration: active stick slip changed residual time", history)
+      .field("history", "one entry an iteration: active stick slip changed residual time", [](const R& r) { return history_records(r.result.iteration); })
       .field("problem", "what was solved", [](const R& r) { return r.problem; })
       .text([](const R& r) {
         const auto& m = r.result.measure;

@@ -6,8 +6,7 @@
 
 namespace dotyk::script {
 
-template <>
-struct Wrapped<fclib::ContactProblem> : Called<"contact_problem"> {};
+template <> struct Wrapped<fclib::ContactProblem> : Called<"contact_problem"> {};
 
 // A result remembers its problem.
 struct ContactProblemResult {
@@ -15,8 +14,7 @@ struct ContactProblemResult {
   fclib::Result result;
   double seconds = 0;
 };
-template <>
-struct Wrapped<ContactProblemResult> : Called<"contact_problem_result"> {};
+template <> struct Wrapped<ContactProblemResult> : Called<"contact_problem_result"> {};
 
 // Solves by the method, gives the result and answers Ctrl-C.
 std::shared_ptr<ContactProblemResult> solve_contact_problem(Call& call, const std::shared_ptr<fclib::ContactProblem>& problem,

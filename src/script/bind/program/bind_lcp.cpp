@@ -30,8 +30,8 @@ Lcp given_lcp(const Call& call) {
 std::shared_ptr<LcpResult> solve_lcp(Call& call) {
   const Lcp lcp = given_lcp(call);
   LcpSettings settings;
-  settings.method = static_cast<LcpSettings::Method>(call.choice("method"));
-  settings.unique = call.boolean("unique");
+  call.read("method", settings.method);
+  call.read("unique", settings.unique);
   if (call.has("start")) {
     settings.start.assign(lcp.size(), 0);
     for (const long long i : call.integers("start")) {
@@ -58,6 +58,7 @@ std::vector<std::vector<int>> cycle(const LcpResult& r) {
 }  // namespace
 
 void bind_lcp(Library& library) {
+  using Method = LcpSettings::Method;
   library.function(
       {.name = "dotyk.lcp",
        .help = "Solves a linear complementarity problem w = Mz + q >= 0, z >= 0, z'w = 0, M small, dense and not "
@@ -69,8 +70,8 @@ void bind_lcp(Library& library) {
        .arguments = {key::table(
            {key::file("file", "a file in the text format of siconos, instead of M and q").otherwise("none"),
             key::matrix("M", "n x n"), key::vector("q", "n"),
-            key::choice("method", {"automatic", "newton_min", "lemke", "enumeration"}, "one method alone, or one after the other")
-                .fallback("automatic"),
+            key::choice<Method>("method", {{"automatic", Method::automatic}, {"newton_min", Method::newton_min}, {"lemke", Method::lemke},
+                                           {"enumeration", Method::enumeration}}, "one method alone, or one after the other").fallback(Method::automatic),
             key::list("start", key::integer("", ""), "unknowns that are free (w = 0) in newton_min's first set").otherwise("none"),
             key::boolean("unique", "up to 16 unknowns: look for further solutions").fallback(true)})},
        .run = solve_lcp});

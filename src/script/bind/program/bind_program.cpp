@@ -8,30 +8,40 @@
 namespace dotyk::script {
 namespace {
 
+using program::AugmentedLagrangian;
 using program::QuadraticProgram;
 
 const std::vector<std::string> kProgramMethods = {"active_set", "interior_point", "multiplier", "least_squares"};
 
+const Bound<AugmentedLagrangian>& lagrangian_keys() {
+  using L = AugmentedLagrangian;
+  static const Bound<L> keys{
+      {key::positive("M", "augmented Lagrangians: inner precision, |gradient| <= M |Dx - d|"), &L::M},
+      {key::positive("rho", "first penalty; as M for B and c divided by their greatest entry, where that is beyond 1e6 or below 1e-6"), &L::rho},
+      {key::number("alpha", "factor on eta when |Dx - d| <= eta").within(0, 1), &L::alpha},
+      {key::number("beta", "factor on the penalty otherwise").above(1), &L::beta},
+      {key::positive("eta", "first bound on |Dx - d|"), &L::eta},
+      {key::positive("gradient_tol", "augmented Lagrangians stop at |gradient| <= this |c|"), &L::gradient_tol},
+      {key::positive("feasibility_tol", "and at |Dx - d| <= this"), &L::feasibility_tol}};
+  return keys;
+}
+
 std::vector<Key> solve_keys() {
-  return {key::choice("method", kProgramMethods, "active_set: exact, P semidefinite allowed; interior_point; multiplier and "
+  using Change = program::ActiveSet::Change;
+  using Start = program::ActiveSet::Start;
+  const std::vector<Key> first{
+          key::choice("method", kProgramMethods, "active_set: exact, P semidefinite allowed; interior_point; multiplier and "
                                           "least_squares: augmented Lagrangians for equalities, named by the update")
               .otherwise("\"active_set\""),
-          key::choice("change", {"one", "many"}, "active_set: rows that change in one step").fallback("one"),
-          key::choice("start", {"automatic", "cold", "interior_point"},
-                      "active_set: its first working set; automatic: cold up to 200 unknowns and rows")
-              .fallback("automatic"),
+          key::choice<Change>("change", {{"one", Change::one}, {"many", Change::many}}, "active_set: rows that change in one step").fallback(Change::one),
+          key::choice<Start>("start", {{"automatic", Start::automatic}, {"cold", Start::cold}, {"interior_point", Start::interior_point}},
+                             "active_set: its first working set; automatic: cold up to 200 unknowns and rows").fallback(Start::automatic),
           key::positive("tol", "active_set and interior_point: on residuals, in the scaled program").fallback(1e-9),
           key::integer("max_iterations", "give up after so many").at_least(1)
-              .otherwise("20000 (active_set), 200 (others)"),
-          key::positive("M", "augmented Lagrangians: inner precision, |gradient| <= M |Dx - d|").fallback(1.0),
-          key::positive("rho", "first penalty; as M for B and c divided by their greatest entry, where that is beyond 1e6 or below 1e-6").fallback(100.0),
-          key::number("alpha", "factor on eta when |Dx - d| <= eta").within(0, 1).fallback(0.1),
-          key::number("beta", "factor on the penalty otherwise").above(1).fallback(10.0),
-          key::positive("eta", "first bound on |Dx - d|").fallback(1.0),
-          key::positive("gradient_tol", "augmented Lagrangians stop at |gradient| <= this |c|").fallback(1e-9),
-          key::positive("feasibility_tol", "and at |Dx - d| <= this").fallback(1e-9),
-          key::function("on_iteration", "called as f(k, info) after each iteration; returning false stops the solve"),
-          key::boolean("verbose", "a line on standard error for each iteration").fallback(false)};
+              .otherwise("20000 (active_set), 200 (others)")};
+  return joined(joined(first, lagrangian_keys().keys()),
+                {key::function("on_iteration", "called as f(k, info) after each iteration; returning false stops the solve"),
+                 key::boolean("verbose", "a line on standard error for each iteration").fallback(false)});
 }
 
 program::Result run_method(const QuadraticProgram& p, const Arguments& given, const std::string& method, Monitor& watch) {
@@ -39,9 +49,9 @@ program::Result run_method(const QuadraticProgram& p, const Arguments& given, co
                         ? static_cast<int>(std::min<long long>(given.integer("max_iterations"), 100'000'000)) : 0;
   if (method == "active_set") {
     program::ActiveSet s;
-    s.change = static_cast<program::ActiveSet::Change>(given.choice("change"));
-    s.start = static_cast<program::ActiveSet::Start>(given.choice("start"));
-    s.tol = given.number("tol");
+    given.read("change", s.change);
+    given.read("start", s.start);
+    given.read("tol", s.tol);
     if (limit) s.max_iterations = limit;
     return program::solve(p, s, watch);
   }
@@ -51,12 +61,8 @@ program::Result run_method(const QuadraticProgram& p, const Arguments& given, co
     if (limit) s.max_iterations = limit;
     return program::solve(p, s, watch);
   }
-  program::AugmentedLagrangian s;
-  s.update = method == "multiplier" ? program::AugmentedLagrangian::Update::multiplier
-                                    : program::AugmentedLagrangian::Update::least_squares;
-  s.M = given.number("M"), s.rho = given.number("rho");
-  s.alpha = given.number("alpha"), s.beta = given.number("beta"), s.eta = given.number("eta");
-  s.gradient_tol = given.number("gradient_tol"), s.feasibility_tol = given.number("feasibility_tol");
+  AugmentedLagrangian s = lagrangian_keys().read(given);
+  s.update = method == "multiplier" ? AugmentedLagrangian::Update::multiplier : AugmentedLagrangian::Update::least_squares;
   if (limit) s.max_iterations = limit;
   return program::solve(p, s, watch);
 }
@@ -124,8 +130,6 @@ std::string program_result_text(const ProgramResult& r) {
 }  // namespace
 
 void bind_program(Library& library) {
-  std::vector<Key> keys = program_keys();
-  for (Key& key : solve_keys()) keys.push_back(std::move(key));
   library.function(
       {.name = "dotyk.qp",
        .help = "A convex quadratic program: minimise 1/2 x'Bx - c'x subject to Dx = d, low <= Ax <= high and "
@@ -135,7 +139,7 @@ void bind_program(Library& library) {
                   "\"active_set\" }\nprint(r)\nio.open(\"small.qps\", \"w\"):write(\n"
                   "  \"NAME small\\nROWS\\n N cost\\n G sum\\nCOLUMNS\\n x cost 1 sum 1\\n y cost 2 sum 1\\n\",\n"
                   "  \"RHS\\n rhs sum 1\\nQUADOBJ\\n x x 2\\n y y 2\\nENDATA\\n\"):close()\nprint(dotyk.qp \"small.qps\":solve{ change = \"many\" })",
-       .arguments = {key::table(keys)},
+       .arguments = {key::table(joined(program_keys(), solve_keys()))},
        .returns = "program",
        .run = make_program});
   library.type<QuadraticProgram>("A quadratic program: minimise 1/2 x'Px + q'x + r, low <= Ax <= high.")

@@ -1,7 +1,5 @@
 #include "script/bind/program/program_input.hpp"
 
-#include <cmath>
-
 #include "program/mat_file.hpp"
 #include "program/qps_file.hpp"
 #include "script/bind/bind.hpp"
@@ -15,19 +13,6 @@ using program::SparseMatrix;
 using program::SparseRows;
 using program::Vector;
 using Entries = std::vector<Eigen::Triplet<double>>;
-
-std::vector<double> row_at(lua_State* L, int table, lua_Integer i) {
-  std::vector<double> row;
-  lua_rawgeti(L, table, i);
-  const auto count = static_cast<lua_Integer>(lua_rawlen(L, -1));
-  for (lua_Integer j = 1; j <= count; ++j) {
-    lua_rawgeti(L, -1, j);
-    row.push_back(lua_tonumber(L, -1));
-    lua_pop(L, 1);
-  }
-  lua_pop(L, 1);
-  return row;
-}
 
 struct Matrix {
   Entries entries;
@@ -55,9 +40,10 @@ Matrix matrix_of(const Arguments& given, const std::string& name, int columns) {
     }
     return out;
   }
-  out.rows = static_cast<int>(table.item_count());
+  const auto rows = read_list(given.state(), given.slot(name), [L = given.state()](int at) { return read_vector(L, at); });
+  out.rows = static_cast<int>(rows.size());
   for (int r = 0; r < out.rows; ++r) {
-    const auto row = row_at(given.state(), given.slot(name), r + 1);
+    const auto& row = rows[r];
     if (static_cast<int>(row.size()) != columns)
       throw InputError(text("row ", r + 1, " of '", name, "' has ", row.size(), " numbers; there are ", columns, " unknowns"));
     for (int j = 0; j < columns; ++j)

@@ -6,8 +6,7 @@
 
 namespace dotyk::script {
 
-template <>
-struct Wrapped<program::QuadraticProgram> : Called<"program"> {};
+template <> struct Wrapped<program::QuadraticProgram> : Called<"program"> {};
 
 // A result remembers the program it belongs to.
 struct ProgramResult {
@@ -15,10 +14,8 @@ struct ProgramResult {
   program::Result result;
   std::string method;
 };
-template <>
-struct Wrapped<ProgramResult> : Called<"program_result"> {};
-template <>
-struct Wrapped<program::LcpResult> : Called<"lcp_result"> {};
+template <> struct Wrapped<ProgramResult> : Called<"program_result"> {};
+template <> struct Wrapped<program::LcpResult> : Called<"lcp_result"> {};
 
 // A sparse matrix: rows of numbers, or { i = {…}, j = {…}, value = {…} }.
 Key matrix_key(std::string name, std::string help);

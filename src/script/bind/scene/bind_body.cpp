@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <optional>
-
 #include "script/bind/bind.hpp"
 #include "script/help/nearest.hpp"
 #include "script/bind/scene/space.hpp"

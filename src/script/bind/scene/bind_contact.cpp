@@ -5,19 +5,14 @@ namespace dotyk::script {
 namespace {
 
 using scene::Contact;
+using scene::MultiplierPart;
 
-int inf_sup(Call& call) {
-  const scene::InfSupSettings settings{static_cast<scene::MultiplierPart>(call.choice("part")), call.choice("fixed_nodes") == 0, call.choice("norm") == 1, call.boolean("cone")};
+Record inf_sup(Call& call) {
+  const scene::InfSupSettings settings{call.choice<MultiplierPart>("part"), call.text("fixed_nodes") == "shared", call.text("norm") == "multiplier", call.boolean("cone")};
   Watch watch(call.state(), "inf-sup constants");
   const scene::InfSup s = scene::inf_sup(*call.self<Contact>(), settings, watch);
-  std::vector<Entry> entries{{"constant", s.constant},
-                             {"above_kernel", s.above_kernel},
-                             {"kernel", static_cast<long long>(s.kernel)},
-                             {"multipliers", static_cast<long long>(s.multipliers)},
-                             {"h", s.h},
-                             {"H", s.H}};
-  if (s.cone) entries.push_back({"cone", *s.cone});
-  return call.give(Record{"inf-sup", entries, {"cone"}});
+  return {"inf-sup", {{"constant", s.constant}, {"above_kernel", s.above_kernel}, {"kernel", s.kernel}, {"multipliers", s.multipliers},
+                      {"h", s.h}, {"H", s.H}, {"cone", s.cone}}};
 }
 
 }  // namespace
@@ -34,7 +29,8 @@ void bind_contact(Library& library) {
                        "above_kernel, the least constant but 0); multipliers, h, H. About 1 is as good as it "
                        "gets. Supports, meshes and multipliers enter, the material does not.",
                .example = "print(contact:inf_sup{ part = \"normal\" }.constant)",
-               .arguments = {key::table({key::choice("part", {"tangential", "normal", "both"}, "which multipliers").fallback("tangential"),
+               .arguments = {key::table({key::choice<MultiplierPart>("part", {{"tangential", MultiplierPart::tangential}, {"normal", MultiplierPart::normal},
+                                                                                {"both", MultiplierPart::both}}, "which multipliers").fallback("tangential"),
                                          key::choice("fixed_nodes", {"shared", "kept"},
                                                      "multipliers of nodes held on both sides, and those of friction at corners of the part: shared out among their neighbours, as in a solve, or kept").fallback("shared"),
                                          key::choice("norm", {"shear", "multiplier"}, "of friction: of the shear g mu, or of mu itself, as TR965 (3.16) has it").fallback("shear"),

@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <limits>
 
 #include "figure/compose/compose.hpp"
 #include "figure/compose/compose_grid.hpp"

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "script/bind/bind.hpp"
 
 namespace dotyk::script {
@@ -26,7 +24,7 @@ Given<Material> make_material(Call& call) {
     return call.give_keeping(material, {});
   }
   if (!call.has("E")) throw InputError("E is missing: give E and nu, or a stiffness matrix");
-  material->plane = call.choice("plane") == 0 ? elasticity::Plane::strain : elasticity::Plane::stress;
+  call.read("plane", material->plane);
   material->E_varies = call.is("E", LUA_TFUNCTION);
   material->nu_varies = call.is("nu", LUA_TFUNCTION);
   if (!material->E_varies) material->E = call.field("E")({})[0];
@@ -46,6 +44,7 @@ std::string material_text(const Material& m) {
 }  // namespace
 
 void bind_material(Library& library) {
+  using elasticity::Plane;
   library.function(
       {.name = "dotyk.material",
        .help = "A linearly elastic material: isotropic with E and nu, or general with a stiffness matrix in "
@@ -55,8 +54,8 @@ void bind_material(Library& library) {
        .arguments = {key::table(
            {key::field("E", "Young's modulus").unit("stress"),
             key::field("nu", "Poisson's ratio, above -1 and below 0.5").otherwise("0.3"),
-            key::choice("plane", {"strain", "stress"}, "what a plane body assumes of the third direction")
-                .fallback("strain"),
+            key::choice<Plane>("plane", {{"strain", Plane::strain}, {"stress", Plane::stress}},
+                               "what a plane body assumes of the third direction").fallback(Plane::strain),
             key::matrix("stiffness", "3x3 in the plane, 6x6 in space, instead of E and nu").unit("stress"),
             key::number("density", "mass per volume, for scripts to use").unit("mass/volume").above(0)})},
        .run = make_material});

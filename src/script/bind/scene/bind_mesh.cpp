@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <optional>
-
 #include "base/memory.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/submesh.hpp"
@@ -11,9 +8,9 @@ namespace dotyk::script {
 namespace {
 
 Key element_key() {
-  return key::choice("element", {"P1", "Q1", "P2", "Q2"},
-                     "P1: triangles or tetrahedra; Q1: quadrilaterals or hexahedra; P2, Q2: the same of second order")
-      .fallback("P1");
+  using mesh::Family;
+  return key::choice<Family>("element", {{"P1", Family::p1}, {"Q1", Family::q1}, {"P2", Family::p2}, {"Q2", Family::q2}},
+                             "P1: triangles or tetrahedra; Q1: quadrilaterals or hexahedra; P2, Q2: the same of second order").fallback(Family::p1);
 }
 
 Key grading_key(std::size_t axes) {
@@ -29,9 +26,7 @@ Key cells_key(std::size_t axes) {
   return key::list("cells", key::integer("", ""), "number of cells along each axis").count(axes).required();
 }
 
-mesh::Family chosen_family(const Call& call) {
-  return static_cast<mesh::Family>(call.choice("element"));
-}
+mesh::Family chosen_family(const Call& call) { return call.choice<mesh::Family>("element"); }
 
 /// The gradings given; they call back into Lua while the mesh is made.
 std::array<mesh::Grading, 3> gradings(const Call& call) {

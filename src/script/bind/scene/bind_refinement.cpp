@@ -1,12 +1,9 @@
-#include <cmath>
-
 #include "scene/solve/adaptive.hpp"
 #include "script/bind/bind.hpp"
 
 namespace dotyk::script {
 
-template <>
-struct Wrapped<scene::Adaptive> : Called<"refinement"> {};
+template <> struct Wrapped<scene::Adaptive> : Called<"refinement"> {};
 
 namespace {
 

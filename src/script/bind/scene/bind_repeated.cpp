@@ -4,25 +4,34 @@
 
 namespace dotyk::script {
 
-template <>
-struct Wrapped<scene::RepeatedSolution> : Called<"repeated_systems"> {};
+template <> struct Wrapped<scene::RepeatedSolution> : Called<"repeated_systems"> {};
 
 namespace {
 
 using algebra::RepeatedSettings;
 using scene::RepeatedSolution;
 
-const std::vector<std::string> kSystemMethods = {"cholesky", "cg", "scg", "cglan", "block_cg"};
+const Bound<RepeatedSettings>& settings_keys() {
+  using S = RepeatedSettings;
+  using Method = S::Method;
+  using algebra::Preconditioning;
+  static const Bound<S> keys{
+      {key::choice<Method>("method", {{"cholesky", Method::cholesky}, {"cg", Method::cg}, {"scg", Method::scg}, {"cglan", Method::cglan}, {"block_cg", Method::block_cg}},
+                           "cholesky: direct, all at once. cg: conjugate gradients, each alone. scg: successive cg, starts from the conjugate "
+                           "directions of the first system. cglan: starts from its lowest Lanczos eigenvectors. block_cg: all right-hand "
+                           "sides at once"), &S::method},
+      {key::choice<Preconditioning>("preconditioner", {{"none", Preconditioning::none}, {"ssor", Preconditioning::ssor}, {"ic", Preconditioning::incomplete_cholesky}},
+                                    "ssor by Eisenstat's trick; ic: incomplete Cholesky on the pattern of K"), &S::preconditioning},
+      {key::number("omega", "relaxation of ssor").above(0).below(2), &S::omega},
+      {key::positive("tol", "of |b - Kx|/|b|").below(1), [](S& s) -> double& { return s.cg.tolerance; }},
+      {key::integer("max_iterations", "for one system").within(1, 1 << 30).otherwise("ten times the unknowns"), [](S& s) -> int& { return s.cg.most; }},
+      {key::boolean("extend", "scg: later systems add their directions"), &S::extend},
+      {key::boolean("deflate", "cglan: the iterations, too, stay conjugate to the eigenvectors"), &S::deflate}};
+  return keys;
+}
 
 RepeatedSettings settings(const Call& call) {
-  RepeatedSettings s;
-  s.method = static_cast<RepeatedSettings::Method>(call.choice("method"));
-  s.preconditioning = static_cast<algebra::Preconditioning>(call.choice("preconditioner"));
-  s.omega = call.number("omega");
-  s.cg.tolerance = call.number("tol");
-  s.cg.most = call.has("max_iterations") ? static_cast<int>(call.integer("max_iterations")) : 0;
-  s.extend = call.boolean("extend");
-  s.deflate = call.boolean("deflate");
+  const RepeatedSettings s = settings_keys().read(call);
   const auto only = [&](const char* key, const char* owner, bool used) {
     if (call.has(key) && !used) throw InputError(text("'", key, "' belongs to ", owner, ", not to method = \"", call.text("method"), "\""));
   };
@@ -33,16 +42,12 @@ RepeatedSettings settings(const Call& call) {
 }
 
 std::vector<std::vector<double>> velocities(const Call& call, const scene::Scene& scene) {
-  std::vector<std::vector<double>> all;
   lua_State* L = call.state();
-  const int list = call.slot("velocities");
-  for (lua_Integer k = 1; k <= static_cast<lua_Integer>(lua_rawlen(L, list)); ++k) {
-    lua_rawgeti(L, list, k);
-    const Function function(L, lua_gettop(L), text("velocities[", k, "]"), "repeated_systems");
-    all.push_back(at_nodes(Field(function, static_cast<std::size_t>(scene.dimension())), *scene.bodies.front()->mesh));
-    lua_pop(L, 1);
-  }
-  return all;
+  int k = 0;
+  return read_list(L, call.slot("velocities"), [&](int at) {
+    const Function function(L, at, text("velocities[", ++k, "]"), "repeated_systems");
+    return at_nodes(Field(function, static_cast<std::size_t>(scene.dimension())), *scene.bodies.front()->mesh);
+  });
 }
 
 std::shared_ptr<RepeatedSolution> solve_repeated_systems(Call& call) {
@@ -65,7 +70,7 @@ std::vector<Record> systems(const RepeatedSolution& s) {
   for (std::size_t k = 0; k < s.systems.size(); ++k) {
     const auto& one = s.systems[k];
     all.push_back({"system",
-                   {{"name", s.names[k]}, {"iterations", static_cast<long long>(one.iterations)}, {"seconds", one.seconds},
+                   {{"name", s.names[k]}, {"iterations", one.iterations}, {"seconds", one.seconds},
                     {"residual", one.residual}, {"converged", one.converged}, {"reason", one.reason}, {"energy", s.energies[k]}}});
   }
   return all;
@@ -86,22 +91,13 @@ int nodes(Call& call) {
 }
 
 std::vector<Key> repeated_systems_keys() {
-  return {key::object<scene::Scene>("scene", "one body that its supports hold").required(),
+  const std::vector<Key> first{
+          key::object<scene::Scene>("scene", "one body that its supports hold").required(),
           key::list("loads", key::string("", ""), "names of load cases: one system each").count(1, 4096).otherwise("velocities are given"),
           key::list("velocities", key::function("", ""),
                     "functions of the coordinates to the velocity of a node (as many numbers as the body has dimensions) when a design "
-                    "variable grows: the displacement and its derivatives").count(1, 4096).unit("length per unit of the variable").otherwise("loads are given"),
-          key::choice("method", kSystemMethods,
-                      "cholesky: direct, all at once. cg: conjugate gradients, each alone. scg: successive cg, starts from the conjugate "
-                      "directions of the first system. cglan: starts from its lowest Lanczos eigenvectors. block_cg: all right-hand "
-                      "sides at once").fallback("cholesky"),
-          key::choice("preconditioner", {"none", "ssor", "ic"}, "ssor by Eisenstat's trick; ic: incomplete Cholesky on the pattern of K")
-              .fallback("ssor"),
-          key::number("omega", "relaxation of ssor").above(0).below(2).fallback(1.0),
-          key::positive("tol", "of |b - Kx|/|b|").below(1).fallback(1e-6),
-          key::integer("max_iterations", "for one system").within(1, 1 << 30).otherwise("ten times the unknowns"),
-          key::boolean("extend", "scg: later systems add their directions").fallback(false),
-          key::boolean("deflate", "cglan: the iterations, too, stay conjugate to the eigenvectors").fallback(false)};
+                    "variable grows: the displacement and its derivatives").count(1, 4096).unit("length per unit of the variable").otherwise("loads are given")};
+  return joined(first, settings_keys().keys());
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include <optional>
-
 #include "algebra/direct/stop_factoring.hpp"
 #include "scene/solve/uniqueness.hpp"
 #include "problem/solvability.hpp"
@@ -95,7 +93,7 @@ std::shared_ptr<const Contact> add_glue(Call& call) {
   return scene::add_glue(*call.self<Scene>(), *parts[0], *parts[1], pairing(call), &watch);
 }
 
-int balance(Call& call) {
+Record balance(Call& call) {
   const auto scene = call.self<Scene>();
   problem::Clock clock;
   Watch watch(call.state(), "assembling");
@@ -107,21 +105,15 @@ int balance(Call& call) {
   using Verdict = problem::Solvability::Verdict;
   const bool one = s.verdict == Verdict::unique && !problem::has_coulomb(model.problem) && problem::uniqueness(rigid, model.problem).unique;
   const char* verdict = s.verdict == Verdict::unsolvable ? "unsolvable" : s.verdict == Verdict::up_to_motion ? "up to motion" : one ? "unique" : "unknown";
-  std::vector<Entry> entries{{"verdict", std::string(verdict)},
-                             {"limit", s.limit},
-                             {"motion", s.motion.size() ? describe(rigid.motions, s.motion) : std::string()},
-                             {"work", s.work}};
-  if (s.carried || s.verdict == Verdict::unsolvable) entries.push_back({"solvable", s.carried});
-  return call.give(Record{"balance", entries, {"solvable"}});
+  return {"balance", {{"verdict", verdict}, {"limit", s.limit}, {"motion", s.motion.size() ? describe(rigid.motions, s.motion) : std::string()},
+                      {"work", s.work}, {"solvable", s.carried || s.verdict == Verdict::unsolvable ? std::optional(s.carried) : std::nullopt}}};
 }
 
-int uniqueness(Call& call) {
+Record uniqueness(Call& call) {
   const auto scene = call.self<Scene>();
   Watch watch(call.state(), "assembling");
   const scene::UniquenessOfScene u = scene::uniqueness(*scene, watch);
-  std::vector<Entry> entries{{"text", u.text}, {"exists", u.exists}, {"unique", u.unique}};
-  if (u.factor) entries.push_back({"factor", *u.factor});
-  return call.give(Record{"uniqueness", entries, {"factor"}});
+  return {"uniqueness", {{"text", u.text}, {"exists", u.exists}, {"unique", u.unique}, {"factor", u.factor}}};
 }
 
 Given<Rigid> rigid_gap(Call& call) {

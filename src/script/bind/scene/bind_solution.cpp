@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "scene/result/distance.hpp"
 #include "scene/solve/doubts.hpp"
 #include "scene/result/moved_rigidly.hpp"
@@ -18,19 +16,15 @@ std::vector<double> components(const mesh::Point& p, int dimension) {
 }
 
 Record distance_record(const scene::Distance& d) {
-  Record r{"distance", {{"energy", d.energy}, {"displacement", d.displacement}}};
-  if (!d.pressure) r.absent = {"pressure", "peak_pressure"};
-  else r.entries.insert(r.entries.end(), {{"pressure", *d.pressure}, {"peak_pressure", *d.peak_pressure}});
-  return r;
+  return {"distance", {{"energy", d.energy}, {"displacement", d.displacement}, {"pressure", d.pressure}, {"peak_pressure", d.peak_pressure}}};
 }
 
 std::optional<Record> working_set_record(const Solution& s) {
   const auto& w = s.result().working_set;
   if (!w) return std::nullopt;
-  const auto number = [](int value) { return static_cast<long long>(value); };
-  return Record{"working set", {{"added", number(w->added)}, {"dropped", number(w->dropped)}, {"singular", number(w->singular)},
-                                {"survived", number(w->survived)}, {"factorisations", number(w->factorisations)},
-                                {"repeats", number(w->repeats)}}};
+  return Record{"working set", {{"added", w->added}, {"dropped", w->dropped}, {"singular", w->singular},
+                                {"survived", w->survived}, {"factorisations", w->factorisations},
+                                {"repeats", w->repeats}}};
 }
 
 std::optional<Record> penalty_record(const Solution& s) {
@@ -42,13 +36,10 @@ std::optional<Record> penalty_record(const Solution& s) {
 std::optional<Record> feti_record(const Solution& s) {
   const auto& f = s.result().feti;
   if (!f) return std::nullopt;
-  const auto number = [](int value) { return static_cast<long long>(value); };
-  Record r{"feti", {{"subdomains", number(f->subdomains)}, {"factors", number(f->factors)}, {"rows", number(f->rows)},
-                    {"kernel", number(f->kernel)}, {"inner", number(f->inner)}, {"products", number(f->products)},
-                    {"loops", number(f->loops)}, {"norm", f->norm}, {"rho", f->rho}}};
-  if (f->condition > 0) r.entries.push_back({"condition", f->condition});
-  else r.absent = {"condition"};
-  return r;
+  return Record{"feti", {{"subdomains", f->subdomains}, {"factors", f->factors}, {"rows", f->rows},
+                    {"kernel", f->kernel}, {"inner", f->inner}, {"products", f->products},
+                    {"loops", f->loops}, {"norm", f->norm}, {"rho", f->rho},
+                        {"condition", f->condition > 0 ? std::optional(f->condition) : std::nullopt}}};
 }
 
 std::vector<Record> screws(const Solution& s) {
@@ -112,75 +103,59 @@ int solution_displacement(Call& call) {
   return call.give_all(components(u, s->scene().dimension()));
 }
 
-int stress(Call& call) {
+Record stress(Call& call) {
   const auto s = call.self<Solution>();
   const elasticity::Stress v = s->stress(index_of(*s, *call.object<Body>("body")), point(call, *s));
   const auto principal = elasticity::principal(v);
   Record record{"stress", {{"xx", v[0]}, {"yy", v[1]}, {"xy", v[5]}, {"zz", v[2]}}};
-  if (s->scene().dimension() == 3) {
-    record.entries.push_back({"yz", v[3]});
-    record.entries.push_back({"xz", v[4]});
-  }
-  record.entries.push_back({"von_mises", elasticity::von_mises(v)});
-  record.entries.push_back({"principal", std::vector<double>(principal.begin(), principal.end())});
-  return call.give(record);
+  if (s->scene().dimension() == 3) record.add({{"yz", v[3]}, {"xz", v[4]}});
+  record.add({{"von_mises", elasticity::von_mises(v)}, {"principal", std::vector<double>(principal.begin(), principal.end())}});
+  return record;
+}
+
+Record place_record(const char* name, const mesh::Point& x, int dimension) {
+  Record r{name, {{"x", x[0]}, {"y", x[1]}}};
+  return dimension == 3 ? r.add({{"z", x[2]}}) : r;
 }
 
 Record node_record(const scene::ContactNode& n, int dimension) {
-  Record r{"contact node", {{"x", n.x[0]}, {"y", n.x[1]}}};
-  if (dimension == 3) r.entries.push_back({"z", n.x[2]});
-  r.entries.push_back({"gap", n.gap});
-  r.entries.push_back({"pressure", n.pressure});
-  r.entries.push_back({"shear", components(n.shear, dimension)});
-  r.entries.push_back({"slip", components(n.slip, dimension)});
-  r.entries.push_back({"status", std::string(problem::status_name(n.status))});
-  r.entries.push_back({"force", n.force});
-  r.entries.push_back({"weight", n.weight});
-  r.entries.push_back({"normal", components(n.normal, dimension)});
-  return r;
+  return place_record("contact node", n.x, dimension)
+      .add({{"gap", n.gap}, {"pressure", n.pressure}, {"shear", components(n.shear, dimension)}, {"slip", components(n.slip, dimension)},
+            {"status", problem::status_name(n.status)}, {"force", n.force}, {"weight", n.weight}, {"normal", components(n.normal, dimension)}});
 }
 
-int solution_contact(Call& call) {
+Record solution_contact(Call& call) {
   const auto s = call.self<Solution>();
   const auto asked = call.object<Contact>("contact");
   const auto c = scene::as_given(*asked, s->contact(*asked));
   std::vector<Record> nodes;
   for (const auto& n : c.nodes) nodes.push_back(node_record(n, s->scene().dimension()));
-  return call.give(Record{"contact result",
+  return Record{"contact result",
                           {{"force", components(c.force, s->scene().dimension())}, {"area", c.area},
                            {"friction_force", components(c.friction_force, s->scene().dimension())},
                            {"dissipated", c.dissipated},
-                           {"max_pressure", c.max_pressure}, {"open", static_cast<long long>(c.open)},
-                           {"closed", static_cast<long long>(c.closed)}, {"stick", static_cast<long long>(c.stick)},
-                           {"slip", static_cast<long long>(c.slip)}, {"nodes", nodes}}});
+                           {"max_pressure", c.max_pressure}, {"open", c.open},
+                           {"closed", c.closed}, {"stick", c.stick},
+                           {"slip", c.slip}, {"nodes", nodes}}};
 }
 
 Record node_record(const scene::SupportNode& n, int dimension) {
-  Record r{"support node", {{"x", n.x[0]}, {"y", n.x[1]}}};
-  if (dimension == 3) r.entries.push_back({"z", n.x[2]});
-  r.entries.push_back({"away", n.away});
-  r.entries.push_back({"pressure", n.pressure});
-  r.entries.push_back({"slip", components(n.slip, dimension)});
-  r.entries.push_back({"shear", components(n.shear, dimension)});
-  r.entries.push_back({"status", std::string(problem::status_name(n.status))});
-  r.entries.push_back({"tangential", std::string(problem::status_name(n.tangential))});
-  r.entries.push_back({"broken", n.broken});
-  r.entries.push_back({"weight", n.weight});
-  r.entries.push_back({"normal", components(n.normal, dimension)});
-  return r;
+  return place_record("support node", n.x, dimension)
+      .add({{"away", n.away}, {"pressure", n.pressure}, {"slip", components(n.slip, dimension)}, {"shear", components(n.shear, dimension)},
+            {"status", problem::status_name(n.status)}, {"tangential", problem::status_name(n.tangential)}, {"broken", n.broken},
+            {"weight", n.weight}, {"normal", components(n.normal, dimension)}});
 }
 
-int solution_support(Call& call) {
+Record solution_support(Call& call) {
   const auto s = call.self<Solution>();
   const auto r = s->support(*call.object<scene::Part>("part"));
-  const auto number = [](int value) { return static_cast<long long>(value); };
   std::vector<Record> nodes;
   for (const auto& n : r.nodes) nodes.push_back(node_record(n, s->scene().dimension()));
-  return call.give(Record{"support result",
+  return Record{"support result",
                           {{"force", components(r.force, s->scene().dimension())}, {"area", r.area}, {"max_pressure", r.max_pressure},
-                           {"open", number(r.open)}, {"closed", number(r.closed)}, {"stick", number(r.stick)}, {"slip", number(r.slip)},
-                           {"tangential_stick", number(r.tangential_stick)}, {"tangential_slip", number(r.tangential_slip)},
-                           {"broken", number(r.broken)}, {"dissipated", r.dissipated}, {"nodes", nodes}}});
+                           {"open", r.open}, {"closed", r.closed}, {"stick", r.stick}, {"slip", r.slip},
+                           {"tangential_stick", r.tangential_stick}, {"tangential_slip", r.tangential_slip},
+                           {"broken", r.broken}, {"dissipated", r.dissipated}, {"nodes", nodes}}};
 }
 
 int solution_reaction(Call& call) {
@@ -203,17 +178,14 @@ int error_estimate(Call& call) {
     cells.emplace_back();
     for (const auto& cell : of_body) cells.back().push_back(std::sqrt(cell.sum()));
   }
-  push(call.state(), cells);
-  lua_setfield(call.state(), -2, "cells");
+  set_field(call.state(), "cells", cells);
   return 2;
 }
 
 Record times(const Solution& s) {
-  Record record = time_record(s.clock());
   double pairing = 0;
   for (const auto& contact : s.scene().contacts) pairing += contact->seconds;
-  record.entries.push_back({"pairing", pairing});
-  return record;
+  return time_record(s.clock()).add({{"pairing", pairing}});
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "elasticity/load.hpp"
-#include "script/bind/models/bind_beam.hpp"
+#include "script/bind/models/models.hpp"
 #include "script/bridge/function.hpp"
 
 namespace dotyk::script {

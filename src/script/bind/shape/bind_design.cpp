@@ -1,6 +1,4 @@
 // One design: its numbers with their derivatives by the design variables.
-#include <algorithm>
-
 #include "script/bind/bind.hpp"
 #include "script/bind/shape/bind_shape.hpp"
 #include "script/bind/scene/space.hpp"

@@ -18,8 +18,7 @@ struct OptimumHandle {
   double seconds = 0;
   std::size_t method = 0;
 };
-template <>
-struct Wrapped<OptimumHandle> : Called<"optimum"> {};
+template <> struct Wrapped<OptimumHandle> : Called<"optimum"> {};
 
 namespace {
 
@@ -30,20 +29,11 @@ using shape::Optimum;
 const std::vector<std::string> kOptimisers = {"slp", "mma", "ccsaq", "slsqp"};
 
 Record design_record(const DesignRecord& d, const std::string& refusal) {
-  Record r{"design record",
-           {{"design", static_cast<long long>(d.design)}, {"alpha", list(d.alpha)}, {"admissible", d.admissible}, {"accepted", d.accepted},
-            {"radius", d.radius}, {"seconds", d.seconds}}};
-  if (d.admissible) {
-    r.entries.push_back({"objective", d.objective});
-    r.entries.push_back({"constraints", list(d.constraints)});
-    r.absent = {"reason"};
-  } else {
-    r.entries.push_back({"reason", refusal});
-    r.absent = {"objective", "constraints"};
-  }
-  if (d.accepted) r.entries.push_back({"gap", d.gap});
-  else r.absent.push_back("gap");
-  return r;
+  const auto where = [](bool known, const auto& value) { return known ? std::optional(value) : std::nullopt; };
+  return {"design record",
+          {{"design", d.design}, {"alpha", list(d.alpha)}, {"admissible", d.admissible}, {"accepted", d.accepted}, {"radius", d.radius}, {"seconds", d.seconds},
+           {"objective", where(d.admissible, d.objective)}, {"constraints", where(d.admissible, list(d.constraints))},
+           {"reason", where(!d.admissible, refusal)}, {"gap", where(d.accepted, d.gap)}}};
 }
 
 /// "images/shape_%03d.png" → "images/shape_012.png".
@@ -65,8 +55,7 @@ void draw(lua_State* L, const std::shared_ptr<const scene::Solution>& solution, 
   lua_getfield(L, -1, "render");
   lua_insert(L, -2);
   lua_createtable(L, 0, 1);
-  push(L, file);
-  lua_setfield(L, -2, "file");
+  set_field(L, "file", file);
   if (lua_pcall(L, 2, 0, 0) == LUA_OK) return;
   if (interrupted()) throw Interrupted();
   lua_error(L);
@@ -119,9 +108,9 @@ class Run {
   };
 
   void common(shape::Stopping& settings) const {
-    settings.tol_design = call_.number("tol_design");
-    settings.tol_gap = call_.number("tol_gap");
-    settings.max_designs = static_cast<int>(call_.integer("max_designs"));
+    call_.read("tol_design", settings.tol_design);
+    call_.read("tol_gap", settings.tol_gap);
+    call_.read("max_designs", settings.max_designs);
   }
   shape::Slp slp() const {
     shape::Slp settings;
@@ -205,13 +194,12 @@ std::vector<Record> history(const OptimumHandle& o) {
 }
 
 Record cost(const OptimumHandle& o) {
-  const auto count = [](auto value) { return static_cast<long long>(value); };
   const shape::EvaluatorCost& c = o.cost;
   return {"cost",
-          {{"designs", count(o.optimum.history.size())}, {"seconds", o.seconds},
-           {"analyses", count(c.designs.analyses)}, {"analysis_seconds", c.analysis_seconds}, {"iterations", count(c.designs.iterations)},
-           {"derivatives", count(c.designs.derivatives + c.beside.analyses)}, {"derivative_seconds", c.derivative_seconds},
-           {"derivative_iterations", count(c.beside.iterations)}}};
+          {{"designs", o.optimum.history.size()}, {"seconds", o.seconds},
+           {"analyses", c.designs.analyses}, {"analysis_seconds", c.analysis_seconds}, {"iterations", c.designs.iterations},
+           {"derivatives", c.designs.derivatives + c.beside.analyses}, {"derivative_seconds", c.derivative_seconds},
+           {"derivative_iterations", c.beside.iterations}}};
 }
 
 std::vector<Key> optimise_keys() {

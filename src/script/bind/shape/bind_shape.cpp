@@ -77,7 +77,6 @@ std::vector<Key> shape_keys() {
 
 /// The constraints, their bounds and functions: these are kept with the shape on top of the stack.
 void take_constraints(Call& call, Shape& shape, const shape::DesignSpace& space) {
-  if (!call.has("constraints")) return;
   for (const Arguments& item : call.tables("constraints")) {
     const std::string kept = text("constraint ", shape.constraints.size() + 1);
     shape.constraints.push_back(quantity_choice(item, "quantity", shape.exponent, kept));
@@ -109,11 +108,9 @@ Given<Shape> make_shape(Call& call) {
   call.give(shape);
   const int at = lua_gettop(call.state());
   if (!shape->objective.quantity) call.keep(at, "objective", call.slot("objective"));
-  if (call.has("constraints")) {
-    const auto items = call.tables("constraints");
-    for (std::size_t j = 0; j < items.size(); ++j)
-      if (!shape->constraints[j].quantity) call.keep(at, shape->constraints[j].kept, items[j].slot("quantity"));
-  }
+  const auto items = call.tables("constraints");
+  for (std::size_t j = 0; j < items.size(); ++j)
+    if (!shape->constraints[j].quantity) call.keep(at, shape->constraints[j].kept, items[j].slot("quantity"));
   lua_settop(call.state(), at);
   return {};
 }

@@ -54,10 +54,8 @@ struct Shape {
   solver::Method method;
 };
 
-template <>
-struct Wrapped<Design> : Called<"design"> {};
-template <>
-struct Wrapped<Shape> : Called<"shape"> {};
+template <> struct Wrapped<Design> : Called<"design"> {};
+template <> struct Wrapped<Shape> : Called<"shape"> {};
 
 // The keys of dotyk.shape that move parts, and the variables they make.
 Key moves_key();

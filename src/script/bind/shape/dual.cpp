@@ -1,6 +1,5 @@
 #include "script/bind/shape/dual.hpp"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "script/bind/bind.hpp"

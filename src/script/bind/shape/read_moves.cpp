@@ -1,6 +1,4 @@
 // moves = { … } of dotyk.shape: the design variables.
-#include <algorithm>
-
 #include "script/bind/bind.hpp"
 #include "script/bind/shape/bind_shape.hpp"
 #include "script/bind/scene/space.hpp"

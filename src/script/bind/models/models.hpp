@@ -1,0 +1,76 @@
+#pragma once
+// Beams, thermoelastic ones and plates for scripts, and for the calls that solve and draw them.
+#include "beam/solve.hpp"
+#include "plate/solve.hpp"
+#include "script/bridge/library.hpp"
+#include "script/bridge/wrapped.hpp"
+#include "thermoelastic/stepping.hpp"
+
+namespace dotyk::script {
+
+// What solving a beam gives: its solution of least energy, and all local minima.
+struct BeamResult {
+  std::vector<beam::Branch> branches;  // least energy first
+  std::size_t shown = 0;               // which of them this is
+  const beam::Solution& solution() const { return *branches[shown].solution; }
+};
+
+template <> struct Wrapped<problem::SupportLaw> : Called<"law"> {};
+template <> struct Wrapped<beam::Beam> : Called<"beam"> {};
+template <> struct Wrapped<BeamResult> : Called<"beam_solution"> {};
+
+// A key for a law of dotyk.law; the law given, else free.
+Key law_key(const char* name, const char* help);
+problem::SupportLaw law(const Arguments& from, const char* name);
+// Is the key for where the law `name` stands given? Throws InputError where there is no such law that could be there.
+bool stands_somewhere(const Arguments& from, const char* name);
+// The keys for the laws of a support, and for where on a beam a value is asked.
+inline std::vector<Key> support_law_keys() { return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")}; }
+inline std::vector<Key> x_key() { return {key::number("x", "from the left end").unit("length").required()}; }
+
+// A method `name` for a value at x.
+template <class T>
+void add_value(TypeOf<T>& type, const char* name, const char* help, int (*run)(Call&), const char* example) {
+  type.method({.name = std::string(Wrapped<T>::name) + ":" + name, .help = help, .example = example, .arguments = x_key(), .run = run});
+}
+
+// Solves; gives a beam_solution.
+int solve_beam(Call& call, const beam::Beam& beam, const solver::Method& method, std::vector<Function> on_iteration, bool verbose);
+
+// A support told by "left", "right" or its x, and its place in Beam::supports; throws InputError where there is none.
+Key support_key(std::string name);
+int find_support(const beam::Beam& beam, const Arguments& from, const std::string& name);
+
+// Functions of its loads are kept with the object.
+struct ThermoelasticBeam {
+  std::unique_ptr<thermoelastic::Stepping> stepping;
+  thermoelastic::Loads constants;
+  bool loads_called = false;  // its functions may not step it, nor draw it
+};
+template <> struct Wrapped<ThermoelasticBeam> : Called<"thermoelastic_beam"> {};
+
+// While it is there the object's functions may be called, and a second one is refused with InputError, `what` they cannot do.
+class LoadsCalled {
+ public:
+  LoadsCalled(ThermoelasticBeam& beam, const char* what);
+  ~LoadsCalled() { on_ = false; }
+  LoadsCalled(const LoadsCalled&) = delete;
+  LoadsCalled& operator=(const LoadsCalled&) = delete;
+
+ private:
+  bool& on_;
+};
+
+// Constants and kept functions of the object before the colon.
+thermoelastic::Loads kept_loads(Call& call, const ThermoelasticBeam& beam);
+
+template <> struct Wrapped<plate::Model> : Called<"plate"> {};
+template <> struct Wrapped<plate::Solution> : Called<"plate_solution"> {};
+
+// Solves; gives a plate_solution.
+int solve_plate(Call& call, const std::shared_ptr<const plate::Model>& plate, const solver::Method& method, std::vector<Function> on_iteration, bool verbose);
+
+// The place in Plate::edges of a part that has laws; throws InputError where there is none of that name.
+int find_edge(const plate::Plate& plate, const std::string& part);
+
+}  // namespace dotyk::script
