@@ -2,6 +2,7 @@
 // Keys that know which member of a struct takes their value: described, checked and read in one place.
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <functional>
 #include <initializer_list>
 #include <limits>

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <utility>
 
 #include "script/help/nearest.hpp"
@@ -56,46 +57,28 @@ std::string range_text(const Key& key) {
 }  // namespace
 
 std::string Key::expected() const {
-  const bool is_positive = least == 0 && least_excluded && std::isinf(greatest);
-  switch (kind) {
-    case Kind::number:
-      return is_positive ? "a positive number" : "a number" + range_text(*this);
-    case Kind::integer:
-      return is_positive ? "a positive integer" : "an integer" + range_text(*this);
-    case Kind::boolean:
-      return "true or false";
-    case Kind::string:
-    case Kind::file:
-      return "a string";
-    case Kind::choice:
-      return join(choices, "or", "\"");
-    case Kind::vector:
-      return "a table of " + count_text(*this, "number");
-    case Kind::matrix:
-      return "a table of rows, each a table of numbers";
-    case Kind::field:
-      return "a number, a table of numbers or a function of the coordinates";
-    case Kind::function:
-      return "a function";
-    case Kind::object:
-      return with_article(type);
-    case Kind::list: {
-      const auto& item = items.front();
-      if (item.kind == Kind::object) return "a table of " + count_text(*this, item.type);
-      if (item.kind == Kind::integer) return "a table of " + count_text(*this, "integer");
-      return "a table of " + count_text(*this, "item") + ", each " + item.expected();
-    }
-    case Kind::table:
-      return "a table";
-    case Kind::either: {
-      std::vector<std::string> kinds;
-      for (const auto& one : keys) kinds.push_back(one.expected());
-      return join(kinds, "or", "");
-    }
-    case Kind::any:
-      break;
+  static const std::map<Kind, std::string> plain = {
+      {Kind::boolean, "true or false"}, {Kind::string, "a string"}, {Kind::file, "a string"}, {Kind::function, "a function"}, {Kind::table, "a table"},
+      {Kind::matrix, "a table of rows, each a table of numbers"}, {Kind::any, "a value"},
+      {Kind::field, "a number, a table of numbers or a function of the coordinates"}};
+  if (const auto found = plain.find(kind); found != plain.end()) return found->second;
+  if (kind == Kind::number || kind == Kind::integer) {
+    const std::string noun = kind == Kind::number ? "number" : "integer";
+    const bool is_positive = least == 0 && least_excluded && std::isinf(greatest);
+    return is_positive ? "a positive " + noun : with_article(noun) + range_text(*this);
   }
-  return "a value";
+  if (kind == Kind::choice) return join(choices, "or", "\"");
+  if (kind == Kind::vector) return "a table of " + count_text(*this, "number");
+  if (kind == Kind::object) return with_article(type);
+  if (kind == Kind::list) {
+    const auto& item = items.front();
+    if (item.kind == Kind::object) return "a table of " + count_text(*this, item.type);
+    if (item.kind == Kind::integer) return "a table of " + count_text(*this, "integer");
+    return "a table of " + count_text(*this, "item") + ", each " + item.expected();
+  }
+  std::vector<std::string> kinds;  // of an either
+  for (const auto& one : keys) kinds.push_back(one.expected());
+  return join(kinds, "or", "");
 }
 
 std::vector<Key> joined(std::vector<Key> these, const std::vector<Key>& those) {

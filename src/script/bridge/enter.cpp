@@ -19,14 +19,9 @@ void fill_in(lua_State* L, int index, const Key& table) {
     const bool absent = lua_isnil(L, -1);
     lua_pop(L, 1);
     if (!absent || std::holds_alternative<std::monostate>(key.default_value)) continue;
-    if (const auto* number = std::get_if<double>(&key.default_value)) {
-      if (key.kind == Kind::integer) lua_pushinteger(L, static_cast<lua_Integer>(*number));
-      else lua_pushnumber(L, *number);
-    } else if (const auto* truth = std::get_if<bool>(&key.default_value)) {
-      lua_pushboolean(L, *truth);
-    } else {
-      push(L, std::get<std::string>(key.default_value));
-    }
+    const auto* number = std::get_if<double>(&key.default_value);
+    if (number && key.kind == Kind::integer) push(L, static_cast<lua_Integer>(*number));
+    else std::visit([L](const auto& value) { push(L, value); }, key.default_value);
     lua_setfield(L, index, key.name.c_str());
   }
 }

@@ -40,38 +40,10 @@ struct Module {
   std::string name, help;
 };
 
-class Library;
 class Manifest;
 
-// Describes the members of a class, one call each.
 template <class T>
-class TypeOf {
- public:
-  TypeOf(Library& library, Type& type) : library_(library), type_(type) {}
-
-  // `get` takes a const T& and returns anything push() knows.
-  template <class Get>
-  TypeOf& field(std::string name, std::string help, Get get, std::string units = "");
-
-  // What the examples of the methods described from here on start from.
-  TypeOf& setup(std::string text) {
-    type_.setup = std::move(text);
-    return *this;
-  }
-
-  // The descriptor's name is "type:method".
-  TypeOf& method(Descriptor descriptor);
-
-  // What print() shows.
-  TypeOf& text(std::function<std::string(const T&)> show) {
-    type_.text = [show](const void* object) { return show(*static_cast<const T*>(object)); };
-    return *this;
-  }
-
- private:
-  Library& library_;
-  Type& type_;
-};
+class TypeOf;
 
 // Registers callables and classes in a Lua state and remembers their
 // descriptions. Lives as long as the state.
@@ -138,21 +110,41 @@ class Library {
   std::deque<Module> modules_;
 };
 
+// Describes the members of a class, one call each.
 template <class T>
-template <class Get>
-TypeOf<T>& TypeOf<T>::field(std::string name, std::string help, Get get, std::string units) {
-  TypeField field{std::move(name), std::move(help), std::move(units), "", nullptr};
-  field.read = [get](lua_State* L, const std::shared_ptr<void>& object) {
-    push(L, get(*static_cast<const T*>(object.get())));
-  };
-  type_.fields.push_back(std::move(field));
-  return *this;
-}
+class TypeOf {
+ public:
+  TypeOf(Library& library, Type& type) : library_(library), type_(type) {}
 
-template <class T>
-TypeOf<T>& TypeOf<T>::method(Descriptor descriptor) {
-  library_.add_method(type_, std::move(descriptor));
-  return *this;
-}
+  // `get` takes a const T& and returns anything push() knows.
+  template <class Get>
+  TypeOf& field(std::string name, std::string help, Get get, std::string units = "") {
+    const auto read = [get](lua_State* L, const std::shared_ptr<void>& object) { push(L, get(*static_cast<const T*>(object.get()))); };
+    type_.fields.push_back({std::move(name), std::move(help), std::move(units), "", read});
+    return *this;
+  }
+
+  // What the examples of the methods described from here on start from.
+  TypeOf& setup(std::string text) {
+    type_.setup = std::move(text);
+    return *this;
+  }
+
+  // The descriptor's name is "type:method".
+  TypeOf& method(Descriptor descriptor) {
+    library_.add_method(type_, std::move(descriptor));
+    return *this;
+  }
+
+  // What print() shows.
+  TypeOf& text(std::function<std::string(const T&)> show) {
+    type_.text = [show](const void* object) { return show(*static_cast<const T*>(object)); };
+    return *this;
+  }
+
+ private:
+  Library& library_;
+  Type& type_;
+};
 
 }  // namespace dotyk::script

@@ -20,24 +20,13 @@ void push_member(lua_State* L, const std::string& name) {
 }
 
 Meaning of_value(lua_State* L, const Library& library) {
-  Meaning meaning;
-  meaning.value = !lua_isnil(L, -1);
-  meaning.type = library.type_at(L, -1);
-  meaning.callable = descriptor_at(L, -1);
-  return meaning;
+  return {.value = !lua_isnil(L, -1), .type = library.type_at(L, -1), .callable = descriptor_at(L, -1)};
 }
 
-Meaning of_type(const Type* type) {
-  Meaning meaning;
-  meaning.type = type;
-  return meaning;
-}
+Meaning of_type(const Type* type) { return {.type = type}; }
 
 Meaning of_method(lua_State* L, const Meaning& owner, const std::string& name) {
-  Meaning meaning;
-  meaning.callable = owner.type ? owner.type->method(name) : nullptr;
-  meaning.self = owner.value ? lua_gettop(L) : 0;
-  return meaning;
+  return {.callable = owner.type ? owner.type->method(name) : nullptr, .self = owner.value ? lua_gettop(L) : 0};
 }
 
 Meaning of_item(lua_State* L, const Library& library, const Meaning& from, const std::string& index) {

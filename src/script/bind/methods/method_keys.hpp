@@ -1,5 +1,6 @@
 #pragma once
 // What the makers of methods, dotyk.solver.*, share.
+#include <concepts>
 #include <optional>
 #include <string>
 #include <utility>

@@ -95,24 +95,18 @@ Source at_first(const Arguments& from, const char* name) {
   return out;
 }
 
-thermoelastic::Support thermoelastic_support(const Arguments* from, std::string name, double x) {
-  thermoelastic::Support out{std::move(name), x, {}, {}, {}};
-  if (!from) return out;
-  out.deflection = law(*from, "deflection");
-  out.rotation = law(*from, "rotation");
-  stands_somewhere(*from, "deflection");
-  stands_somewhere(*from, "rotation");
-  return out;
+void take_laws(const Arguments& from, thermoelastic::Support& support) {
+  support.deflection = law(from, "deflection");
+  support.rotation = law(from, "rotation");
+  stands_somewhere(from, "deflection");
+  stands_somewhere(from, "rotation");
 }
 
 void add_end(Call& call, int end, Data& data) {
-  const double x = end == 0 ? 0 : data.length;
-  if (!call.has(kEnds[end])) {
-    data.supports.push_back(thermoelastic_support(nullptr, kEnds[end], x));
-    return;
-  }
+  data.supports.push_back({kEnds[end], end == 0 ? 0 : data.length, {}, {}, {}});
+  if (!call.has(kEnds[end])) return;
   const Arguments from = call.table(kEnds[end]);
-  data.supports.push_back(thermoelastic_support(&from, kEnds[end], x));
+  take_laws(from, data.supports.back());
   data.supports.back().displacement = law(from, "displacement");
   stands_somewhere(from, "displacement");
   data.heat_ends[end] = {from.has("temperature"), from.has("gradient")};
@@ -142,7 +136,10 @@ Data given_data(Call& call, const std::vector<Arguments>& supports) {
     data.exchange_below = exchange.number("below");
   }
   add_end(call, 0, data);
-  for (const Arguments& s : supports) data.supports.push_back(thermoelastic_support(&s, text("x = ", s.number("x")), s.number("x")));
+  for (const Arguments& s : supports) {
+    data.supports.push_back({text("x = ", s.number("x")), s.number("x"), {}, {}, {}});
+    take_laws(s, data.supports.back());
+  }
   add_end(call, 1, data);
   std::stable_sort(data.supports.begin(), data.supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   return data;
@@ -249,22 +246,20 @@ const char* kBeam =
 Key varying(const char* name, const char* help) { return key::either(name, {key::number("", ""), key::function("", "")}, help); }
 
 std::vector<Key> driven_support_keys() {
-  std::vector<Key> keys = support_law_keys();
-  keys.push_back(varying("deflection_at", "where the law of the deflection stands, a settlement: it is about the deflection less this; a function is of t").unit("length").otherwise("0"));
-  keys.push_back(varying("force", "up, beside the law; a function is of t").unit("force").otherwise("0"));
-  keys.push_back(varying("rotation_at", "where the law of the rotation stands; a function is of t").unit("rad").otherwise("0"));
-  keys.push_back(varying("moment", "anticlockwise, beside the law; a function is of t").unit("force·length").otherwise("0"));
-  return keys;
+  return joined(support_law_keys(), {
+      varying("deflection_at", "where the law of the deflection stands, a settlement: it is about the deflection less this; a function is of t").unit("length").otherwise("0"),
+      varying("force", "up, beside the law; a function is of t").unit("force").otherwise("0"),
+      varying("rotation_at", "where the law of the rotation stands; a function is of t").unit("rad").otherwise("0"),
+      varying("moment", "anticlockwise, beside the law; a function is of t").unit("force·length").otherwise("0")});
 }
 
 Key end_key(const char* name, const char* help) {
-  std::vector<Key> keys = driven_support_keys();
-  keys.push_back(law_key("displacement", "a law about the displacement along the axis; one-sided ones keep the end within its place"));
-  keys.push_back(varying("displacement_at", "where that law stands; a function is of t").unit("length").otherwise("0"));
-  keys.push_back(varying("axial_force", "along x, beside the law; a function is of t").unit("force").otherwise("0"));
-  keys.push_back(varying("temperature", "prescribed, over the reference: a function is of t").unit("temperature").otherwise("no heat passes"));
-  keys.push_back(varying("gradient", "prescribed: a function is of t").unit("temperature/length").otherwise("no heat passes"));
-  return key::table(name, keys, help);
+  return key::table(name, joined(driven_support_keys(), {
+      law_key("displacement", "a law about the displacement along the axis; one-sided ones keep the end within its place"),
+      varying("displacement_at", "where that law stands; a function is of t").unit("length").otherwise("0"),
+      varying("axial_force", "along x, beside the law; a function is of t").unit("force").otherwise("0"),
+      varying("temperature", "prescribed, over the reference: a function is of t").unit("temperature").otherwise("no heat passes"),
+      varying("gradient", "prescribed: a function is of t").unit("temperature/length").otherwise("no heat passes")}), help);
 }
 
 std::vector<Key> thermoelastic_beam_keys() {
@@ -334,8 +329,8 @@ Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
 void bind_thermoelastic(Library& library) {
   library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .setup = kBeam, .example = "print(b:run(60):deflection(0.5))", .arguments = {key::table(thermoelastic_beam_keys())},
                     .run = make_thermoelastic_beam});
-  auto type = library.type<ThermoelasticBeam>("A thermoelastic beam at a time.").setup(kBeam);
   using B = ThermoelasticBeam;
+  auto type = library.type<B>("A thermoelastic beam at a time.").setup(kBeam);
   type.field("time", "now", [](const B& b) { return b.stepping->time(); }, "time")
       .field("steps", "steps done", [](const B& b) { return b.stepping->steps(); })
       .field("decomposed", "effects, \"bending\" or \"stretching\", that were decomposed in every step since a support broke last", [](const B& b) { return b.stepping->decomposed(); })

@@ -69,14 +69,10 @@ std::shared_ptr<MeshHandle> handle_of(mesh::Mesh mesh) {
   return std::make_shared<MeshHandle>(MeshHandle{std::make_shared<mesh::Mesh>(std::move(mesh))});
 }
 
-std::shared_ptr<MeshHandle> rectangle(Call& call) {
+template <auto make>
+std::shared_ptr<MeshHandle> grid(Call& call) {
   const auto from = call.vector("from"), to = call.vector("to");
-  return handle_of(mesh::rectangle(from.data(), to.data(), cells(call).data(), chosen_family(call), gradings(call).data()));
-}
-
-std::shared_ptr<MeshHandle> box(Call& call) {
-  const auto from = call.vector("from"), to = call.vector("to");
-  return handle_of(mesh::box(from.data(), to.data(), cells(call).data(), chosen_family(call), gradings(call).data()));
+  return handle_of(make(from.data(), to.data(), cells(call).data(), chosen_family(call), gradings(call).data()));
 }
 
 std::shared_ptr<MeshHandle> disc(Call& call) {
@@ -91,12 +87,7 @@ Self transform(Call& call) {
   MeshHandle& handle = *call.self<MeshHandle>();
   const Function map = call.function("map");
   auto moved = std::make_shared<mesh::Mesh>(*handle.mesh);
-  const auto dimension = static_cast<std::size_t>(moved->dimension());
-  mesh::transform(*moved, [&](const mesh::Point& x) {
-    mesh::Point y{0, 0, 0};
-    map.numbers({x.data(), dimension}, {y.data(), dimension});
-    return y;
-  });
+  mesh::transform(*moved, point_map(map, moved->dimension()));
   handle.mesh = std::move(moved);
   return call.give_self();
 }
@@ -149,7 +140,7 @@ void bind_mesh(Library& library) {
                     .arguments = {key::table({key::vector("from", "lower left corner").count(2).unit("length").required(),
                                               key::vector("to", "upper right corner").count(2).unit("length").required(),
                                               cells_key(2), element_key(), grading_key(2)})},
-                    .run = rectangle});
+                    .run = grid<mesh::rectangle>});
   library.function({.name = "dotyk.mesh.box",
                     .help = "A box of cells; with P1 and P2 each is cut into the six tetrahedra along the edge paths from "
                             "its least to its greatest corner. Parts: left right (x), front back (y), bottom top (z).",
@@ -157,7 +148,7 @@ void bind_mesh(Library& library) {
                     .arguments = {key::table({key::vector("from", "least corner").count(3).unit("length").required(),
                                               key::vector("to", "greatest corner").count(3).unit("length").required(),
                                               cells_key(3), element_key(), grading_key(3)})},
-                    .run = box});
+                    .run = grid<mesh::box>});
   library.function({.name = "dotyk.mesh.disc",
                     .help = "A disc. P1 and P2: concentric rings of triangles; Q1 and Q2: a square core and four blocks about it. "
                             "P2 and Q2: outer edges are curved. Part: boundary.",

@@ -1,5 +1,6 @@
 #include "scene/solve/adaptive.hpp"
 #include "script/bind/bind.hpp"
+#include "script/bind/scene/space.hpp"
 
 namespace dotyk::script {
 
@@ -54,12 +55,7 @@ std::vector<std::string> refinement_part_names(const Adaptive& refinement) {
 Self project(Call& call) {
   const auto refinement = call.self<Adaptive>();
   const Function map = call.function("map");
-  const auto dimension = static_cast<std::size_t>(refinement->mesh(0)->dimension());
-  refinement->project(call.text("part"), [&](const mesh::Point& x) {
-    mesh::Point y{0, 0, 0};
-    map.numbers({x.data(), dimension}, {y.data(), dimension});
-    return y;
-  });
+  refinement->project(call.text("part"), point_map(map, refinement->mesh(0)->dimension()));
   return call.give_self();
 }
 

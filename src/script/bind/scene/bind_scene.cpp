@@ -193,10 +193,6 @@ void bind_rigid(Library& library) {
   });
 }
 
-}  // namespace
-
-namespace {
-
 Key pairing_key() {
   return key::choice("pairing", {"matching", "node_to_segment", "mortar"},
                      "matching: nodes across from each other, refused where one has none. mortar: displacements of the second part in the mean over "

@@ -64,18 +64,6 @@ int index_of(const Solution& s, const Body& body) {
   return index;
 }
 
-mesh::Point point(const Call& call, const Solution& s) {
-  const bool space = s.scene().dimension() == 3;
-  if (space != call.has("z"))
-    throw InputError(space ? "z is missing: the scene is 3-D" : "z is given, but the scene is 2-D");
-  return {call.number("x"), call.number("y"), space ? call.number("z") : 0};
-}
-
-std::vector<Key> solution_point_keys() {
-  return {key::object<Body>("body", "which body").required(), key::number("x", "the point at rest").unit("length").required(),
-          key::number("y", "its second coordinate").unit("length").required(), key::number("z", "in space only").unit("length")};
-}
-
 mesh::Point vector_of(const Arguments& from, const char* name, int dimension) {
   mesh::Point out{};
   if (!from.has(name)) return out;
@@ -99,13 +87,13 @@ std::shared_ptr<Solution> moved(Call& call) {
 
 int solution_displacement(Call& call) {
   const auto s = call.self<Solution>();
-  const auto u = s->displacement(index_of(*s, *call.object<Body>("body")), point(call, *s));
+  const auto u = s->displacement(index_of(*s, *call.object<Body>("body")), point_of(call, s->scene().dimension()));
   return call.give_all(components(u, s->scene().dimension()));
 }
 
 Record stress(Call& call) {
   const auto s = call.self<Solution>();
-  const elasticity::Stress v = s->stress(index_of(*s, *call.object<Body>("body")), point(call, *s));
+  const elasticity::Stress v = s->stress(index_of(*s, *call.object<Body>("body")), point_of(call, s->scene().dimension()));
   const auto principal = elasticity::principal(v);
   Record record{"stress", {{"xx", v[0]}, {"yy", v[1]}, {"xy", v[5]}, {"zz", v[2]}}};
   if (s->scene().dimension() == 3) record.add({{"yz", v[3]}, {"xz", v[4]}});
@@ -222,12 +210,12 @@ void bind_solution(Library& library) {
   type.method({.name = "solution:displacement",
                .help = "Components of the displacement at a point of a body at rest.",
                .example = "local ux, uy = s:displacement(block, 0, 0.5)",
-               .arguments = solution_point_keys(),
+               .arguments = point_keys("the point at rest"),
                .run = solution_displacement})
       .method({.name = "solution:stress",
                .help = "Recovered stress at a point of a body at rest: xx yy xy zz (yz xz), von_mises, principal.",
                .example = "print(s:stress(block, 0, 0.5).von_mises)",
-               .arguments = solution_point_keys(),
+               .arguments = point_keys("the point at rest"),
                .run = stress})
       .method({.name = "solution:contact",
                .help = "A contact's force on its first part and the part of it by friction (friction_force), area, "

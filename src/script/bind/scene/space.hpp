@@ -41,6 +41,26 @@ inline mesh::Point unit_vector(const std::vector<double>& v, const std::string& 
   return mesh::unit(p);
 }
 
+// Keys for a body and a point of it, and the point, whose z is given in space alone; throws InputError where it is not so.
+inline std::vector<Key> point_keys(const char* x) {
+  return {key::object<scene::Body>("body", "which body").required(), key::number("x", x).unit("length").required(),
+          key::number("y", "its second coordinate").unit("length").required(), key::number("z", "in space only").unit("length")};
+}
+inline mesh::Point point_of(const Call& call, int dimension) {
+  const bool space = dimension == 3;
+  if (space != call.has("z")) throw InputError(space ? "z is missing: the scene is 3-D" : "z is given, but the scene is 2-D");
+  return {call.number("x"), call.number("y"), space ? call.number("z") : 0};
+}
+
+// A function of the coordinates to new ones, for use during the call only.
+inline auto point_map(const Function& map, int dimension) {
+  return [&map, n = static_cast<std::size_t>(dimension)](const mesh::Point& x) {
+    mesh::Point y{0, 0, 0};
+    map.numbers({x.data(), n}, {y.data(), n});
+    return y;
+  };
+}
+
 // The fields below refer to Lua values: they are for use during the call only.
 inline elasticity::ScalarField scalar_field(const Field& field, int dimension) {
   return [&field, dimension](const mesh::Point& x) {

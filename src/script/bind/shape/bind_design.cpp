@@ -32,12 +32,6 @@ int body_index(const Design& d, const scene::Body& body) {
   return index;
 }
 
-scene::Place place(const Call& call, const Design& d, int body) {
-  const bool space = d.state->scene().dimension() == 3;
-  if (space != call.has("z")) throw InputError(space ? "z is missing: the scene is 3-D" : "z is given, but the scene is 2-D");
-  return d.places->find(body, {call.number("x"), call.number("y"), space ? call.number("z") : 0});
-}
-
 /// Σ φ_a v_a, v node × dimension, empty: zero.
 double interpolated(const mesh::Mesh& mesh, const scene::Place& at, const std::vector<double>& v, int component) {
   double sum = 0;
@@ -51,7 +45,7 @@ double interpolated(const mesh::Mesh& mesh, const scene::Place& at, const std::v
 template <class Get>
 int give_at_point(Call& call, const Design& d, int body, const std::vector<double>& values, Get&& get) {
   const mesh::Mesh& mesh = *d.state->scene().bodies[static_cast<std::size_t>(body)]->mesh;
-  const scene::Place at = place(call, d, body);
+  const scene::Place at = d.places->find(body, point_of(call, d.state->scene().dimension()));
   for (int k = 0; k < mesh.dimension(); ++k) {
     Dual dual{interpolated(mesh, at, values, k), algebra::Vector::Zero(size(d))};
     for (int i = 0; i < dual.gradient.size(); ++i) dual.gradient[i] = interpolated(mesh, at, get(i), k);
@@ -137,12 +131,6 @@ std::shared_ptr<Design> along(Call& call) {
   return line;
 }
 
-std::vector<Key> design_point_keys() {
-  return {key::object<scene::Body>("body", "which body").required(),
-          key::number("x", "a point of the first design, at rest: it moves with the mesh").unit("length").required(),
-          key::number("y", "its second coordinate").unit("length").required(), key::number("z", "in space only").unit("length")};
-}
-
 std::vector<Dual> variables(const Design& d) {
   std::vector<Dual> duals;
   for (Eigen::Index i = 0; i < d.state->alpha().size(); ++i) duals.push_back({d.state->alpha()[i], d.derivatives ? d.state->alpha_gradient(i) : algebra::Vector(0)});
@@ -165,12 +153,12 @@ void bind_design(Library& library) {
       .method({.name = "design:displacement",
                .help = "The displacement, dual numbers, at a point that moves with the mesh.",
                .example = "local ux, uy = design:displacement(block, 0, 0.5)\nprint(uy.value, uy.gradient[1])",
-               .arguments = design_point_keys(),
+               .arguments = point_keys("a point of the first design, at rest: it moves with the mesh"),
                .run = design_displacement})
       .method({.name = "design:position",
                .help = "Where a point of the first design is in this one, at rest: dual numbers.",
                .example = "local x, y = design:position(block, 0, 0)",
-               .arguments = design_point_keys(),
+               .arguments = point_keys("a point of the first design, at rest: it moves with the mesh"),
                .run = design_position})
       .method({.name = "design:contact",
                .help = "The nodes of a contact, in order: x, y (z), force, gap, weight, pressure as dual numbers, and status.",
