@@ -22,7 +22,7 @@ for _, element in ipairs{ "P1", "Q1", "P2", "Q2" } do
       local under <const> = body:part"bottom"
       body:part"top":pressure(p)
       for _, side in ipairs(dimension == 2 and { "left" } or { "left", "front" }) do body:part(side):slide() end
-      local bodies <const>, law <const> = { body }, l.compliance(c, m)
+      local bodies <const>, law <const> = { body }, l.compliance{ c = c, m = m }
       if where == "part" then
         bodies[2] = box("base", dimension == 2 and { 0, -1 } or { 0, 0, -1 }, dimension == 2 and { 1, 0 } or { 1, 1, 0 }, cells, element, 0)
         bodies[2]:part"bottom":fix()
@@ -55,7 +55,7 @@ local function tractions(s, contact)
   for _, node in ipairs(s:contact(contact).nodes) do out[#out + 1], out[#out + 2], out[#out + 3] = node.pressure, node.shear[1], node.shear[2] end
   return out
 end
-local scene <const>, contact <const>, lower <const> = pressed(l.compliance(1e6, 2), dotyk.friction.coulomb(0.5))
+local scene <const>, contact <const>, lower <const> = pressed(l.compliance{ c = 1e6, m = 2 }, dotyk.friction.coulomb(0.5))
 local known <const> = dotyk.solver.newton{ tol = 1e-12 }:solve(scene)
 local result <const> = known:contact(contact)
 check.that(result.open > 0 and result.stick > 0 and result.slip > 0, ("%d open, %d stick, %d slip"):format(result.open, result.stick, result.slip))
@@ -83,7 +83,7 @@ for _, name in ipairs{ "coulomb_loop", "feti", "newton", "projected_cg", "proxim
 end
 print("agree: " .. table.concat(agreed, ", ") .. "; refuse a law that does not tell its springs: " .. table.concat(refused, ", "))
 check.that(#agreed >= 3 and #refused >= 1)
-local frictionless <const> = pressed(l.compliance(1e6, 2))
+local frictionless <const> = pressed(l.compliance{ c = 1e6, m = 2 })
 for _, name in ipairs{ "active_set", "interior_point", "pdas", "penalty", "feti" } do
   check.error(function() dotyk.solver[name]{}:solve(frictionless) end, "compliance law")
 end
@@ -107,7 +107,7 @@ end
 -- The ground is a rigid plane on which the part lies, in a history too: friction remembers.
 for dimension = 2, 3 do
   for _, laws in ipairs{ { l.signorini(), dotyk.friction.coulomb(0.3) }, { l.one_sided_elastic(5e3), dotyk.friction.coulomb(function(x) return 0.2 + 0.2 * x end) },
-                         { l.compliance(1e5, 2), dotyk.friction.coulomb(0.3) }, { l.elastic(5e3), dotyk.friction.tresca(0.4) }, { l.load(2), dotyk.friction.coulomb(0.3) } } do
+                         { l.compliance{ c = 1e5, m = 2 }, dotyk.friction.coulomb(0.3) }, { l.elastic(5e3), dotyk.friction.tresca(0.4) }, { l.load(2), dotyk.friction.coulomb(0.3) } } do
     local found <const> = {}
     for k, where in ipairs{ "rigid", "ground" } do
       local body <const> = dimension == 2 and box("block", { 0, 0 }, { 1, 0.5 }, { 8, 4 }, "Q1") or box("block", { 0, 0, 0 }, { 1, 0.5, 0.5 }, { 4, 2, 2 }, "Q1")
@@ -148,4 +148,4 @@ refuse("are for Signorini's law", { normal = l.elastic(1), multipliers = "P1-P0"
 local alone <const> = box("alone", { 0, 0 }, { 1, 1 }, { 2, 2 }, "Q1")
 check.error(function() alone:part"bottom":support{ tangential = dotyk.friction.coulomb(0.1) } end, "has Coulomb friction and no normal law")
 check.error(function() alone:part"bottom":support{ normal = l.signorini(), tangential = dotyk.friction.coulomb(function() return -1 end) } end, "the friction is -1 at (0, 0)")
-check.error(function() l.compliance(1, 0.5) end, "m")
+check.error(function() l.compliance{ c = 1, m = 0.5 } end, "m")

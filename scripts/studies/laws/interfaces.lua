@@ -6,7 +6,7 @@ local l <const> = dotyk.law
 local normals <const> = {
   { "free", l.free() }, { "prescribed", l.prescribed(0.001) }, { "load", l.load(2) }, { "elastic", l.elastic(2e3) }, { "one_sided_elastic", l.one_sided_elastic(2e3) },
   { "signorini", l.signorini() }, { "friction", l.friction(3) }, { "one_sided_friction", l.one_sided_friction(3) }, { "capped_elastic", l.capped_elastic(2e3, 3) },
-  { "unequal_elastic", l.unequal_elastic(2e3, 500) }, { "compliance", l.compliance(1e6, 2) }, { "breaking", l.breaking(2e3, 1e3) },
+  { "unequal_elastic", l.unequal_elastic(2e3, 500) }, { "compliance", l.compliance{ c = 1e6, m = 2 } }, { "breaking", l.breaking(2e3, 1e3) },
 }
 local tangentials <const> = {
   { "free", l.free() }, { "no slip", l.prescribed(0) }, { "elastic", l.elastic(1e3) }, { "capped", l.capped_elastic(1e3, 0.5) }, { "given", dotyk.friction.tresca(0.5) },

@@ -13,6 +13,7 @@ struct Maker {
   const char* help;
   std::vector<Key> numbers;
   double SupportLaw::*second = &SupportLaw::limit;  // the first is the value
+  bool by_name = false;  // in a table
 };
 
 Key stiffness(const char* name = "k", const char* help = "stiffness, not negative") {
@@ -41,7 +42,7 @@ std::vector<Maker> makers() {
            "Asperities that are pressed flat: pushes with c (-v)^m against v < 0, and not at all otherwise.",
            {key::number("c", "factor, not negative").unit("force/length^m; on a part per length or area as well").at_least(0).required(),
             key::number("m", "power").at_least(1).fallback(2.0)},
-           &SupportLaw::power},
+           &SupportLaw::power, true},
           {"breaking", Kind::breaking,
            "A spring that only pushes and breaks where its reaction would exceed g. Not monotone: a beam may have several solutions (s.branches), of a part one path is followed.",
            {stiffness(), bound()}}};
@@ -63,7 +64,8 @@ void bind_law(Library& library) {
   for (const Maker& e : makers()) {
     const std::string name = std::string("dotyk.law.") + e.name;
     std::string example;
-    for (const Key& number : e.numbers) example += (example.empty() ? "" : ", ") + std::string(example_of(number.name));
+    for (const Key& number : e.numbers) example += (example.empty() ? "" : ", ") + (e.by_name ? number.name + " = " : "") + example_of(number.name);
+    example = e.by_name ? "{ " + example + " }" : "(" + example + ")";
     const auto make = [kind = e.kind, numbers = e.numbers, second = e.second](Call& call) {
       auto law = std::make_shared<SupportLaw>();
       law->kind = kind;
@@ -71,7 +73,7 @@ void bind_law(Library& library) {
       if (numbers.size() > 1) (*law).*second = call.number(numbers[1].name);
       return law;
     };
-    library.function({.name = name, .help = e.help, .example = "local law = " + name + "(" + example + ")", .arguments = e.numbers, .run = make});
+    library.function({.name = name, .help = e.help, .example = "local law = " + name + example, .arguments = e.by_name ? std::vector<Key>{key::table(e.numbers)} : e.numbers, .run = make});
   }
   library.type<SupportLaw>("What a support does about one displacement.").text(law_text);
 }
