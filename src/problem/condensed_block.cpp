@@ -81,4 +81,18 @@ CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ord
   return part;
 }
 
+CondensingWork work_of_condensing(const Problem& problem) {
+  const double m = problem.rows();
+  CondensingWork work{m * m * m, kDenseCopies * 8 * m * m};  // W of a block, its sum, a factor of what is active
+  for (const Block& block : problem.blocks) {
+    const SparseRows rows = problem.rows_of(block);
+    const Grouping groups = apart(block, rows);
+    const algebra::Condensation condensation(block.K, groups.of_unknown, groups.last, block.kernel);
+    const double gamma = static_cast<double>(condensation.boundary().size());
+    work.flops += condensation.cholesky().flops() + m * gamma * (gamma + m);
+    work.bytes += condensation.cholesky().bytes() + 8 * gamma * (gamma + m);
+  }
+  return work;
+}
+
 }  // namespace dotyk::problem

@@ -16,6 +16,9 @@ struct Clock {
   }
 };
 
+/// Of rows × rows numbers that are held at a time: W, a block's share, its factor.
+inline constexpr double kDenseCopies = 3;
+
 /// One block condensed onto the unknowns Γ that rows act on.
 struct CondensedBlock {
   algebra::Condensation condensation;
@@ -29,5 +32,11 @@ struct CondensedBlock {
 /// is not held (its name, a node).
 CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
                         Monitor& monitor);
+
+/// What condensing takes, as the orderings predict: of the sparse factors, and of the dense matrices of the rows.
+struct CondensingWork {
+  double flops = 0, bytes = 0;
+};
+CondensingWork work_of_condensing(const Problem& problem);
 
 }  // namespace dotyk::problem

@@ -9,7 +9,7 @@
 # are quick whose scripts take up to six seconds of a processor; the test figure/images compares them, but for those of
 # rounding: they show residuals of 1e-16, which differ from processor to processor.
 # long: up to some minutes; to be compared by hand after changes of solvers or figures, or once a week.
-quick="first examples/friction examples/two_blocks examples/tower examples/corner examples/stack examples/several_solutions
+quick="first examples/friction examples/asperities examples/two_blocks examples/tower examples/corner examples/stack examples/several_solutions
   examples/ladder papers/tr965/screws examples/breaking examples/beam studies/accuracy/beam_laws examples/foundation
   examples/supports studies/accuracy/hertz examples/ball examples/gears examples/lug examples/load_cone
   papers/horak_fibinger/plate_cases examples/plate_corners examples/plate_obstacle papers/hlavacova/channel

@@ -45,3 +45,14 @@ for name, case in pairs(cases) do
   local used = dotyk.solve(scene).method
   assert(used == (names[case[1]] or case[1]), ("%s: solved by %s"):format(name, used))
 end
+
+-- Where it is worth a word: on how many rows, how much work and memory. The prediction is that of the orderings, alike on every machine but for METIS's version.
+local n <const> = 16
+local cube <const> = dotyk.body{ mesh = dotyk.mesh.box{ from = { 0, 0, 0 }, to = { 1, 1, 1 }, cells = { n, n, n } }, material = dotyk.material{ E = 210, nu = 0.3 } }
+cube:part"bottom":fix()
+local pressed <const> = dotyk.scene{ cube }
+pressed:contact{ cube:part"top", rigid = dotyk.rigid.gap{ normal = { 0, 0, 1 }, gap = function(x, y) return (x - 0.5)^2 + (y - 0.5)^2 - 0.02 end } }
+local rows <const>, gigaflop <const>, megabytes <const> = pressed:plan():match "first on the (%d+) rows that overlap, some (%d+) Gflop, %d+ s on a core, and (%d+) MB"
+assert(rows == "21" and tonumber(gigaflop) >= 2 and tonumber(gigaflop) <= 10 and tonumber(megabytes) >= 30 and tonumber(megabytes) <= 120, pressed:plan())
+local solved <const> = dotyk.solve(pressed)
+assert(solved.converged and solved.rows == (n + 1)^2)

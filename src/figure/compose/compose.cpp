@@ -175,7 +175,8 @@ double visible_deformation(const Solution& s) {
   for (std::size_t b = 0; b < s.scene().bodies.size(); ++b)
     for (double u : s.displacement(static_cast<int>(b))) largest = std::max(largest, std::abs(u));
   if (!(largest > 0)) return 1;
-  const double size = scene_size(s), wanted = std::min(0.1 * size / largest, gap_limit(s, size));
+  const double size = scene_size(s), below = 1 - 1e-9;  // round numbers of a scene give round ratios, whose rounding must not decide
+  const double wanted = below * std::min(0.1 * size / largest, gap_limit(s, size));
   if (wanted <= 1) return 1;
   const double power = std::pow(10, std::floor(std::log10(wanted)));
   return power * (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1);

@@ -6,6 +6,7 @@
 #include "scene/statement/scene.hpp"
 #include "scene/solve/uniqueness.hpp"
 #include "solver/core/default_method.hpp"
+#include "solver/core/near_rows.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -32,9 +33,24 @@ std::string describe_contact(const Contact& contact) {
               how[static_cast<int>(contact.pairing)], multipliers);
 }
 
+/// Work and memory of condensed rows where they are worth a word. Kernels reach some 20 Gflop/s a core.
+std::string expected(const problem::Problem& problem) {
+  constexpr double kLeast = 2e9, kRate = 2e10, kMuch = 0.5;
+  const solver::DefaultMethod chosen = solver::default_method(problem);
+  if (chosen != solver::DefaultMethod::pdas && chosen != solver::DefaultMethod::newton) return "";
+  const solver::NearRows near(problem, {});
+  const problem::CondensingWork work = problem::work_of_condensing(near.all() ? problem : near.restricted());
+  if (work.flops < kLeast) return "";
+  std::string out = text("; ", near.all() ? "" : text("first on the ", near.count(), " rows that overlap, "), "some ", std::ceil(work.flops * 1e-9), " Gflop, ",
+                         std::ceil(work.flops / kRate), " s on a core, and ", std::ceil(work.bytes * 1e-6), " MB");
+  const double dense = problem::kDenseCopies * 8 * near.count() * near.count();
+  if (dense > kMuch * work.bytes) out += "; warning: most of it is the dense matrices of the rows; feti forms none";
+  return out;
+}
+
 /// The method that solves it where none is named, and why.
 std::string method(const problem::Problem& problem, bool any_free) {
-  const std::string factored = text(" (", problem.unknowns(), " unknowns factored once)");
+  const std::string factored = text(" (", problem.unknowns(), " unknowns factored once", expected(problem), ")");
   switch (solver::default_method(problem)) {
     case solver::DefaultMethod::linear: return text("one linear solve of ", problem.unknowns(), " unknowns");
     case solver::DefaultMethod::newton: return "newton on the condensed rows of contact and friction" + factored;
