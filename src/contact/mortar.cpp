@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "contact/across.hpp"
 #include "contact/dual_hats.hpp"
@@ -163,20 +164,63 @@ struct Given {
   Met met;
 };
 
-/// Facet → its corners without a multiplier; none where all are well covered. A facet that is covered keeps one at least.
-std::vector<Without> poorly_covered(const Face& first, const std::vector<NodeSide>& sides, const std::vector<std::vector<std::pair<std::size_t, int>>>& sides_of,
-                                    const std::vector<Given>& given) {
+using SidesOf = std::vector<std::vector<std::pair<std::size_t, int>>>;  ///< facet → its node sides, and which corners they are
+
+/// Facets that are covered and hang together by nodes that are: patch by patch their node sides.
+std::vector<std::vector<std::size_t>> patches(const std::vector<double>& covered, const SidesOf& sides_of, const std::vector<Given>& given) {
+  std::vector<std::size_t> root(covered.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t s) {
+    while (root[s] != s) s = root[s] = root[root[s]];
+    return s;
+  };
+  for (std::size_t f = 0; f < given.size(); ++f)
+    for (const auto& [s, a] : sides_of[f])
+      if (given[f].corner[a].weight > 0) root[find(s)] = find(sides_of[f].front().first);
+  std::map<std::size_t, std::vector<std::size_t>> by_root;
+  for (std::size_t s = 0; s < covered.size(); ++s)
+    if (covered[s] > 0) by_root[find(s)].push_back(s);
+  std::vector<std::vector<std::size_t>> all;
+  for (auto& [_, patch] : by_root) all.push_back(std::move(patch));
+  return all;
+}
+
+/// Do forces at these nodes balance every force along a normal and every moment that turns it: two nodes in the plane, three off a line in space?
+bool hold(const mesh::Mesh& mesh, const std::vector<int>& nodes, double width) {
+  constexpr double kOffLine = 0.2;  // of a facet's width
+  if (nodes.size() < 2) return false;
+  mesh::Point longest{};
+  for (const int n : nodes)
+    if (const mesh::Point way = mesh::minus(mesh.point(n), mesh.point(nodes.front())); mesh::length(way) > mesh::length(longest)) longest = way;
+  if (mesh.dimension() == 2) return mesh::length(longest) > 0;
+  return std::any_of(nodes.begin(), nodes.end(), [&](int n) {
+    return mesh::off_line(mesh::minus(mesh.point(n), mesh.point(nodes.front())), mesh::unit(longest)) > kOffLine * width;
+  });
+}
+
+/// Facet → its corners without a multiplier; none where all are well covered. A facet that is covered keeps one at least, and a patch as many as hold it.
+std::vector<Without> poorly_covered(const Face& first, const std::vector<NodeSide>& sides, const SidesOf& sides_of, const std::vector<Given>& given) {
   std::vector<double> covered(sides.size(), 0);
   for (std::size_t f = 0; f < given.size(); ++f)
     for (const auto& [s, a] : sides_of[f]) covered[s] += given[f].corner[a].weight;
   std::vector<char> poor(sides.size(), 0);
   for (std::size_t s = 0; s < sides.size(); ++s) poor[s] = covered[s] > 0 && covered[s] < kLeastCovered * sides[s].weight;
   if (std::count(poor.begin(), poor.end(), 1) == 0) return {};
+  const std::vector<char> found = poor;
   for (std::size_t f = 0; f < given.size(); ++f) {
-    const auto covers = [&](const auto& at) { return given[f].corner[at.second].weight > 0; };
-    if (std::none_of(sides_of[f].begin(), sides_of[f].end(), covers)) continue;
-    if (std::all_of(sides_of[f].begin(), sides_of[f].end(), [&](const auto& at) { return poor[at.first]; }))
+    const bool is_covered = std::any_of(sides_of[f].begin(), sides_of[f].end(), [&](const auto& at) { return given[f].corner[at.second].weight > 0; });
+    if (is_covered && std::all_of(sides_of[f].begin(), sides_of[f].end(), [&](const auto& at) { return found[at.first]; }))
       for (const auto& [s, a] : sides_of[f]) poor[s] = 0;
+  }
+  for (const std::vector<std::size_t>& patch : patches(covered, sides_of, given)) {
+    std::vector<int> kept;
+    double width = 0;
+    for (const std::size_t s : patch) {
+      width = std::max(width, given[static_cast<std::size_t>(sides[s].facets.front())].met.widest);
+      if (!poor[s]) kept.push_back(sides[s].node);
+    }
+    if (!hold(first.mesh, kept, width))
+      for (const std::size_t s : patch) poor[s] = 0;
   }
   std::vector<Without> without(first.facets.size(), Without{});
   for (std::size_t f = 0; f < given.size(); ++f)
@@ -188,7 +232,7 @@ std::vector<Without> poorly_covered(const Face& first, const std::vector<NodeSid
 
 std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides, Monitor* monitor) {
   const Mortar facets(first, second);
-  std::vector<std::vector<std::pair<std::size_t, int>>> sides_of(first.facets.size());  // side, corner
+  SidesOf sides_of(first.facets.size());
   for (std::size_t s = 0; s < sides.size(); ++s)
     for (const int f : sides[s].facets)
       for (int a = 0; a < first.mesh.topology().facet_corners; ++a)

@@ -19,7 +19,8 @@ class PowerLaw final : public Law {
     if (c == 0 || !(y > 0)) return {0, 0};
     if (rho == 0) return {y, 1};
     const double x = penetration(c, y, rho), slope = stiffness(c, x);
-    return {std::max(0.0, y - rho * x), slope / (slope + rho)};
+    const double lambda = rho * x > 0.5 * y ? c * std::pow(x, m_) : y - rho * x;  // the one with more digits
+    return {std::max(0.0, lambda), slope / (slope + rho)};
   }
 
   double energy(int row, double x) const override { return x > 0 ? c_[row] * std::pow(x, m_ + 1) / (m_ + 1) : 0; }

@@ -60,10 +60,14 @@ Carrying carrying(const RigidMotions& rigid, const Problem& problem, const Vecto
       const int r = group.first + k;
       row.push_back(r), all.set.low.push_back(bounds.low / unit[r]), all.set.high.push_back(bounds.high / unit[r]);
     }
+  const std::vector<const RowGroup*> law_of = problem.group_of_rows();
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k) {
-      all.set.rounds.push_back({group.components, group.law->bound(k, 0) / unit[group.row(k)], group.law->bound_slope(k)});
-      if (group.law->bound_slope(k) > 0) row.push_back(group.normal[k]);
+      const int n = group.normal[k];
+      const double slope = group.law->bound_slope(k), most = slope > 0 ? law_of[n]->law->multipliers(n - law_of[n]->first).high : INFINITY;
+      const bool limited = slope > 0 && std::isfinite(most);  // then no force beyond the greatest bound, and none of its own along the normal
+      all.set.rounds.push_back({group.components, group.law->bound(k, limited ? most : 0) / unit[group.row(k)], limited ? 0 : slope});
+      if (slope > 0 && !limited) row.push_back(n);
       for (int i = 0; i < group.components; ++i) row.push_back(group.row(k) + i);
     }
   all.rows = algebra::pick_rows(rigid.N, row);

@@ -132,6 +132,44 @@ for dimension = 2, 3 do
   end
 end
 
+-- Where a normal law pulls, Coulomb friction bears nothing: nodes slide, on a rigid plane and on the ground.
+for _, where in ipairs{ "rigid", "ground" } do
+  local body <const> = box("block", { 0, 0 }, { 1, 0.5 }, { 4, 2 }, "Q1")
+  local set <const>, under <const> = dotyk.scene{ body }, body:part"bottom"
+  body:part"top":displace{ x = 0.01, y = function(x) return 0.02 * (x - 0.5) end }
+  local laws <const> = { under, normal = l.elastic(1e3), tangential = dotyk.friction.coulomb(0.2) }
+  local given <const> = where == "rigid" and set:contact{ under, rigid = floor(2), normal = laws.normal, tangential = laws.tangential } or nil
+  if where == "ground" then under:support{ normal = laws.normal, tangential = laws.tangential } end
+  local s <const> = dotyk.solve(set)
+  local pulled = 0
+  for _, node in ipairs((given and s:contact(given) or s:support(under)).nodes) do
+    if node.pressure < 0 then
+      pulled = pulled + 1
+      check.near(node.shear[1], 0, 1e-12)
+      check.equal(given and node.status or node.tangential, "slip")
+    end
+  end
+  check.that(pulled > 0)
+end
+
+-- A law that bears no more than its limit, with Coulomb friction on it: a load beyond is refused.
+for _, law in ipairs{ l.one_sided_friction(0.5), l.friction(0.5), l.capped_elastic(1e3, 0.5) } do
+  local body <const> = box("block", { 0, 0 }, { 1, 1 }, { 4, 4 }, "Q1")
+  body:part"top":load{ 0, -1 }
+  body:part"bottom":support{ normal = law, tangential = dotyk.friction.coulomb(0.3) }
+  check.equal(dotyk.scene{ body }:balance().verdict, "unsolvable", tostring(law))
+end
+
+-- What a law would give where supports hold the nodes is said to be left out.
+do
+  local body <const> = box("block", { 0, 0 }, { 1, 0.5 }, { 4, 2 }, "Q1")
+  body:part"bottom":displace{ x = 0, y = -0.01 }
+  body:part"top":fix()
+  local set <const> = dotyk.scene{ body }
+  set:contact{ body:part"bottom", rigid = floor(2), normal = l.elastic(100) }
+  check.that(table.concat(dotyk.solve(set).warnings, "\n"):find "supports hold 5 of its 5 nodes across the contact; what its law %(elastic%) would give there is left out")
+end
+
 -- What cannot be is refused where it is said.
 local function refuse(text, t)
   local a <const>, b <const> = box("a", { 0, 0 }, { 1, 1 }, { 2, 2 }, "Q1"), box("b", { 0, -1 }, { 1, 0 }, { 2, 2 }, "Q1")

@@ -1,5 +1,5 @@
 -- Every normal law with every tangential law, where a part meets another part, a rigid plane or the ground, in the plane and in space. Each pair is solved by
--- two methods that share no step, Newton's and the proximal one; printed is how far apart their tractions are, relative to the greatest, or the reason why the
+-- two methods that share no step, Newton's and over-relaxation row by row; printed is how far apart their tractions are, relative to the greatest, or the reason why the
 -- pair is refused.
 
 local l <const> = dotyk.law
@@ -59,7 +59,7 @@ local function apart(one, two)
   return greatest > 0 and difference / greatest or difference
 end
 
-local newton <const>, proximal <const> = dotyk.solver.newton{ tol = 1e-12 }, dotyk.solver.proximal{ tol = 1e-12, max_iterations = 20000 }
+local newton <const>, psor <const> = dotyk.solver.newton{ tol = 1e-12 }, dotyk.solver.psor{ tol = 1e-12, max_iterations = 20000 }
 local reasons <const>, number, solved, worst = {}, 0, 0, 0
 local function cell(where, dimension, normal, tangential)
   local made <const>, set <const>, tractions <const> = pcall(scene, where, dimension, normal, tangential)
@@ -71,7 +71,7 @@ local function cell(where, dimension, normal, tangential)
     end
     return ("(%d)"):format(reasons[reason])
   end
-  local one <const>, two <const> = newton:solve(set), proximal:solve(set)
+  local one <const>, two <const> = newton:solve(set), psor:solve(set)
   if not (one.converged and two.converged) then return "fails: " .. (one.converged and two.reason or one.reason) end
   local difference <const> = apart(tractions(one), tractions(two))
   solved, worst = solved + 1, math.max(worst, difference)

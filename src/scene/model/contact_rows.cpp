@@ -85,8 +85,9 @@ class ContactRowMaker {
   }
 
   void require_apart(const contact::ContactRow& row) {
+    if (contact_.normal.kind != Kind::signorini && contact_.normal.kind != Kind::prescribed) return;
     const std::optional<double> jump = jumps_.given(row);
-    if (!jump || (contact_.normal.kind != Kind::signorini && contact_.normal.kind != Kind::prescribed)) return;  // a partner further away moves
+    if (!jump) return;  // a partner further away moves
     const double gap = row.gap + mesh::dot(row.normal, model_.move.back()) - *jump;
     // Rounding of coordinates may leave a fixed node this far inside.
     const double rounding = 1e-9 * contact_.first.body->mesh->size();

@@ -9,7 +9,7 @@ namespace dotyk::scene {
 /// lie inside each other.
 void add_normal_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model);
 
-/// Adds its tangential rows: for each cell of friction with an unknown along its tangents, a node's surroundings
+/// Adds its tangential rows: springs, a row for each free tangent of a node; for each cell of friction with an unknown along its tangents, a node's surroundings
 /// where multipliers are nodal. No rows where the bound or coefficient is 0; rows that never slip where it is
 /// infinite. The normal row of a friction point is its node's; of a cell (given friction only, whose bound does
 /// not depend on it) that of the node with most weight in it.

@@ -55,6 +55,7 @@ class SupportRowMaker {
 
   /// Points of one and of two free tangents apart: a group's points have as many rows each.
   void friction() {
+    const bool coulomb = support_.tangential.kind == Kind::coulomb;
     for (int components = 1; components < on_.dimension(); ++components) {
       const int first = builder_.rows.open_friction();
       std::vector<double> bounds;
@@ -62,16 +63,15 @@ class SupportRowMaker {
       for (std::size_t k = 0; k < rows_.size(); ++k) {
         const contact::NodeSide& side = support_.nodes[k];
         const std::vector<Point> free = free_tangents(side);
-        const bool coulomb = support_.tangential.kind == Kind::coulomb;
-      const double value = support_.friction_value.empty() ? support_.tangential.value : support_.friction_value[k];
-      if (static_cast<int>(free.size()) != components || value == 0 || (coulomb && rows_[k].normal < 0)) continue;
+        const double value = support_.friction_value.empty() ? support_.tangential.value : support_.friction_value[k];
+        if (static_cast<int>(free.size()) != components || value == 0 || (coulomb && rows_[k].normal < 0)) continue;
         for (const Point& t : free) rows_[k].add(add(side, t, support_.tangential, 0, side.weight), t);
         bounds.push_back(coulomb ? value : value * side.weight);
         normal.push_back(coulomb ? rows_[k].normal : -1);
       }
-      if (!bounds.empty())
-        model_.problem.friction.push_back({name("tangential"), support_.tangential.kind == Kind::coulomb ? problem::coulomb(std::move(bounds)) : problem::tresca(std::move(bounds)),
-                                           first, components, std::move(normal)});
+      if (bounds.empty()) continue;
+      auto law = coulomb ? problem::coulomb(std::move(bounds)) : problem::tresca(std::move(bounds));
+      model_.problem.friction.push_back({name("tangential"), std::move(law), first, components, std::move(normal)});
     }
   }
 

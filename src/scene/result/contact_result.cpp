@@ -50,7 +50,7 @@ Rubbing rubbing(const Contact& contact, const Model& model, int index, const sol
         const Point t = rows.at(i, contact.rows[node.row], contact.first.body->dimension());
         for (int k = 0; k < 3; ++k) rubbing.shear[node.row][k] -= density * result.state.lambda[rows.row[i]] * t[k];
       }
-      rubbing.rubs[node.row] = 1;
+      rubbing.rubs[node.row] = contact.friction != Friction::Kind::none || capped;
       (slips ? slipping : sticking)[node.row] += node.weight;
     }
   }
@@ -142,10 +142,11 @@ ContactResult Solution::contact(const Contact& asked) const {
     node.force = pressure[k] * row.weight;
     node.shear = rubbing.shear[k];
     const auto kind = contact.normal.kind;
+    const bool pulled = contact.friction == Friction::Kind::coulomb && node.pressure < 0;  // slides freely
     const bool follows = r >= 0 ? active(r) : node.pressure > 0;
     if (kind != problem::SupportLaw::Kind::free && problem::status_of(kind, follows, node.pressure != 0) != problem::Status::open) node.status = problem::Status::closed;
     if ((node.status == problem::Status::closed || kind == problem::SupportLaw::Kind::free) && rubbing.rubs[k])
-      node.status = rubbing.slips[k] ? problem::Status::slip : problem::Status::stick;
+      node.status = rubbing.slips[k] || pulled ? problem::Status::slip : problem::Status::stick;
     for (int i = 0; i < 3; ++i) {
       result.force[i] += force[k][i];
       result.friction_force[i] += rubbed[k][i];

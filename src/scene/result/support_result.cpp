@@ -73,7 +73,8 @@ SupportNode Solution::support_node(const LawSupport& support, std::size_t k, con
     node.status = problem::status_of(support.normal.kind, rows.normal >= 0 && active(rows.normal), node.pressure != 0);
   if (rows.count == 0 && support.tangential.kind != Kind::load) return node;
   const bool rubs = problem::rubs(support.tangential.kind);
-  const auto slips = [&](int r) { return rubs ? !result_.slipping.empty() && result_.slipping[r] : !active(r); };
+  const bool pulled = support.tangential.kind == Kind::coulomb && node.pressure < 0;  // slides freely
+  const auto slips = [&](int r) { return pulled || (rubs ? !result_.slipping.empty() && result_.slipping[r] : !active(r)); };
   node.tangential = problem::status_of(support.tangential.kind, std::none_of(rows.row, rows.row + rows.count, slips), true);
   return node;
 }

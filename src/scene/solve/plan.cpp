@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
@@ -26,7 +29,7 @@ std::string describe_contact(const Contact& contact) {
   using LawKind = problem::SupportLaw::Kind;
   const std::string normal = contact.normal.kind == LawKind::signorini ? "" : "normal " + problem::describe(contact.normal) + ", ";
   return text("  ", contact.name, ": ", contact.rows.size(), " rows, ", normal,
-              contact.friction == Friction::Kind::tresca    ? "given friction"
+              contact.friction == Friction::Kind::tresca    ? std::all_of(contact.friction_value.begin(), contact.friction_value.end(), [](double g) { return std::isinf(g); }) ? "no slip" : "given friction"
               : contact.friction == Friction::Kind::coulomb ? "Coulomb friction"
               : contact.tangential.kind == LawKind::free    ? "frictionless"
                                                             : "tangential " + problem::describe(contact.tangential),

@@ -123,8 +123,8 @@ void set_laws(Contact& contact, const InterfaceLaws& laws) {
   if (contact.tangential.kind == problem::SupportLaw::Kind::friction) friction = {Friction::Kind::tresca, [g = contact.tangential.value](const mesh::Point&) { return g; }};
   contact.friction = friction.kind;
   require_of_interface(contact);
-  if (friction.kind != Friction::Kind::none) contact.tangential = {};
   if (friction.kind == Friction::Kind::none) return;
+  contact.tangential = {};
   const bool given = friction.kind == Friction::Kind::tresca;
   for (const contact::ContactRow& row : contact.rows) {
     const mesh::Point x = contact.first.body->mesh->point(row.node);

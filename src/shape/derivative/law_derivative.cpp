@@ -118,7 +118,9 @@ class Branches {
     if (slope > 0 && weak_[n])
       throw InputError(text(group.name, ": ", place(problem_, r), " touches without force, where its friction begins; the solution "
                             "has no derivative with Coulomb friction there"));
-    if (slope > 0 && unknown_[n] < 0) return;  // open: no friction
+    if (slope > 0 && (unknown_[n] < 0 || lambda_[n] < -nothing_.force[n])) return;  // open, or pulled: no friction
+    if (slope > 0 && lambda_[n] <= nothing_.force[n])
+      throw InputError(text(group.name, ": ", place(problem_, r), " bears nothing, where its friction begins; the solution has no derivative with Coulomb friction there"));
     if (lambda.norm() < bound - force) {
       for (int i = 0; i < m; ++i) add(r + i, 1, Law::kUnbounded);
       return;

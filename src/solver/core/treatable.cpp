@@ -31,7 +31,7 @@ void require_springs(const problem::Problem& problem, const std::string& method)
   const auto found = std::find_if(problem.groups.begin(), problem.groups.end(), tells_no_springs);
   if (found != problem.groups.end())
     throw InputError(text(method, " cannot treat the ", found->law->name(), " law of the ", found->name,
-                          ", which does not tell its springs; newton, proximal, uzawa and psor can"));
+                          ", which does not tell its springs; newton, proximal, uzawa, uzawa_pdas, psor and coulomb_loop can"));
 }
 
 bool unilateral_or_linear(const problem::Problem& problem) {
@@ -42,7 +42,7 @@ void require_unilateral_or_linear(const problem::Problem& problem, const std::st
   require_frictionless(problem, method);
   const auto other = std::find_if(problem.groups.begin(), problem.groups.end(), is_other);
   if (other != problem.groups.end())
-    throw InputError(text(method, " cannot treat the ", other->law->name(), " law of the ", other->name, "; pdas can"));
+    throw InputError(text(method, " cannot treat the ", other->law->name(), " law of the ", other->name, other->law->springs(0) ? "; pdas can" : "; newton can"));
 }
 
 }  // namespace dotyk::solver

@@ -200,14 +200,14 @@ class FetiRun {
   /// Takes the rows' branches into the result, and counts them. `face`: which multipliers are free.
   IterationInfo branches(const std::vector<Place>& face) {
     IterationInfo info;
-    std::vector<char> active(problem_.rows(), 0), slipping(problem_.rows(), 0);
+    std::vector<char> active(problem_.rows(), 0), slipping(problem_.rows(), 0), limited(problem_.rows(), 0);  // limited: at a bound a row may bear
     for (const RowGroup& group : problem_.groups)
       for (int r = group.first; r < group.first + group.count; ++r)
-        info.active += active[r] = face[r] == Place::free;
+        info.active += active[r] = face[r] == Place::free, limited[r] = std::isfinite(group.law->multipliers(r - group.first).high);
     Eigen::Index point = 0;
     for (const FrictionGroup& group : problem_.friction)
       for (int k = 0; k < group.points(); ++k, ++point) {
-        if ((group.normal[k] >= 0 && face[group.normal[k]] != Place::free) || bounds_.now()[point] == 0) continue;
+        if ((group.normal[k] >= 0 && face[group.normal[k]] != Place::free && !limited[group.normal[k]]) || bounds_.now()[point] == 0) continue;
         const bool slips = face[group.row(k)] != Place::free;
         for (int i = 0; i < group.components; ++i) slipping[group.row(k) + i] = slips;
         ++(slips ? info.slip : info.stick);

@@ -45,7 +45,7 @@ std::vector<Choice> choices_of(const Problem& problem) {
     }
   for (const RowGroup& group : problem.groups)
     if (group.count > 0 && !group.law->unilateral() && !group.law->linear_stiffness(0))
-      throw InputError(text("enumeration cannot treat the ", group.law->name(), " law of the ", group.name, "; pdas can"));
+      throw InputError(text("enumeration cannot treat the ", group.law->name(), " law of the ", group.name, group.law->springs(0) ? "; pdas can" : "; newton can"));
   for (const FrictionGroup& group : problem.friction) add_friction(group, choices, choice_of);
   double combinations = 1;
   for (const Choice& choice : choices) combinations *= choice.pieces;
