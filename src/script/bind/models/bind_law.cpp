@@ -60,7 +60,7 @@ std::string law_text(const SupportLaw& law) { return "law: " + problem::describe
 }  // namespace
 
 void bind_law(Library& library) {
-  library.module("dotyk.law", "What a support does about one displacement: a beam's deflection or rotation, or along the normal or tangents of a part (part:support).");
+  library.module("dotyk.law", "What a support does about one displacement: a beam's deflection or rotation, or along the normal or tangents of a part (part:support), or of two that touch (scene:contact).");
   for (const Maker& e : makers()) {
     const std::string name = std::string("dotyk.law.") + e.name;
     std::string example;
