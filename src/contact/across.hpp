@@ -36,8 +36,9 @@ std::vector<Across> node_to_segment(const Face& first, const Face& second, const
 /// Of a first part of order 2, φ_k in the definition of ψ are the corners' linear hats, and all its shape functions have their moments
 /// in the rows: means on both sides, see ContactRow. Curved facets are projected as if the straight ones through their corners had their nodes.
 /// Where the first part's facets are covered by the second in part, φ, ψ and D are those of the covered part (Cichosz and
-/// Bischoff 2011), and ψ stays dual. A node with less than a fifth of ∫φ covered has no multiplier, where enough others are left to bear every force and moment; the hats χ of which ψ is made are then those of the facet's
-/// other corners with an equal part of its φ each, so that Σψ = 1, and rows are means on both sides. What is covered in less than kSliver of a facet counts as not covered.
+/// Bischoff 2011), and ψ stays dual. A node with less than a fifth of ∫φ covered has no multiplier, where enough others
+/// are left to bear every force and moment. ψ is then made of the hats φ of the facet's other corners, each with an equal part of that node's φ
+/// added: Σψ = 1 as before, and rows are means on both sides. What is covered in less than kSliver of a facet counts as not covered.
 /// `monitor` may be null; throws Interrupted.
 std::vector<Across> mortar(const Face& first, const Face& second, const std::vector<NodeSide>& sides, Monitor* monitor = nullptr);
 

@@ -31,7 +31,7 @@ CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& r
     : noticed_(rigid.noticed), unknowns_(problem.unknowns()) {
   Stopwatch watch;
   const int m = problem.rows();
-  require_memory(kDenseCopies * 8 * m * m, text("the dense matrix of ", m, " rows"));
+  require_memory(dense_bytes(m), text("the dense matrix of ", m, " rows"));
   W_ = DenseMatrix::Zero(m, m);
   N_ = rigid.noticed_N;
   unnoticed_ = unnoticed_displacements(problem, rigid);

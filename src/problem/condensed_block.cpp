@@ -83,7 +83,7 @@ CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ord
 
 CondensingWork work_of_condensing(const Problem& problem) {
   const double m = problem.rows();
-  CondensingWork work{m * m * m, kDenseCopies * 8 * m * m};  // W of a block, its sum, a factor of what is active
+  CondensingWork work{m * m * m, dense_bytes(m)};
   for (const Block& block : problem.blocks) {
     const SparseRows rows = problem.rows_of(block);
     const Grouping groups = apart(block, rows);

@@ -16,8 +16,8 @@ struct Clock {
   }
 };
 
-/// Of rows × rows numbers that are held at a time: W, a block's share, its factor.
-inline constexpr double kDenseCopies = 3;
+/// Bytes of the dense matrices of so many rows that are held at a time: W, a block's share, its factor.
+inline double dense_bytes(double rows) { return 3 * 8 * rows * rows; }
 
 /// One block condensed onto the unknowns Γ that rows act on.
 struct CondensedBlock {
@@ -33,7 +33,7 @@ struct CondensedBlock {
 CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
                         Monitor& monitor);
 
-/// What condensing takes, as the orderings predict: of the sparse factors, and of the dense matrices of the rows.
+/// What condensing takes, as the orderings predict; `bytes` with those of dense_bytes().
 struct CondensingWork {
   double flops = 0, bytes = 0;
 };

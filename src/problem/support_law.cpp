@@ -4,8 +4,8 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "problem/limited.hpp"
-#include "problem/power_law.hpp"
+#include "problem/law/limited.hpp"
+#include "problem/law/power_law.hpp"
 
 namespace dotyk::problem {
 

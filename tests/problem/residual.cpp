@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "../support/chain.hpp"
-#include "problem/limited.hpp"
+#include "problem/law/limited.hpp"
 
 using namespace dotyk;
 using namespace dotyk::problem;

@@ -4,7 +4,7 @@
 
 #include "../support/programs.hpp"
 #include "../support/random.hpp"
-#include "problem/limited.hpp"
+#include "problem/law/limited.hpp"
 #include "solver/active/box_barrier.hpp"
 
 using namespace dotyk;

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/programs.hpp"
-#include "problem/limited.hpp"
+#include "problem/law/limited.hpp"
 #include "problem/residual.hpp"
 
 using namespace dotyk;

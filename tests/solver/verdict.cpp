@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../support/programs.hpp"
-#include "problem/limited.hpp"
+#include "problem/law/limited.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

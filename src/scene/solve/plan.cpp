@@ -46,8 +46,7 @@ std::string expected(const problem::Problem& problem) {
   if (work.flops < kLeast) return "";
   std::string out = text("; ", near.all() ? "" : text("first on the ", near.count(), " rows that overlap, "), "some ", std::ceil(work.flops * 1e-9), " Gflop, ",
                          std::ceil(work.flops / kRate), " s on a core, and ", std::ceil(work.bytes * 1e-6), " MB");
-  const double dense = problem::kDenseCopies * 8 * near.count() * near.count();
-  if (dense > kMuch * work.bytes) out += "; warning: most of it is the dense matrices of the rows; feti forms none";
+  if (problem::dense_bytes(near.count()) > kMuch * work.bytes) out += "; warning: most of it is the dense matrices of the rows; feti forms none";
   return out;
 }
 

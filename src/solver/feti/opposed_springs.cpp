@@ -1,6 +1,6 @@
 #include "solver/feti/opposed_springs.hpp"
 
-#include "problem/limited.hpp"
+#include "problem/law/limited.hpp"
 
 namespace dotyk::solver {
 

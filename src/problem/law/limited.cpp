@@ -1,4 +1,4 @@
-#include "problem/limited.hpp"
+#include "problem/law/limited.hpp"
 
 #include <algorithm>
 #include <cmath>

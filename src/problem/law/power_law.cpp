@@ -1,4 +1,4 @@
-#include "problem/power_law.hpp"
+#include "problem/law/power_law.hpp"
 
 #include <algorithm>
 #include <cmath>
