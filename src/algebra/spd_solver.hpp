@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "algebra/direct/ordering.hpp"
 #include "algebra/types.hpp"
+#include "base/monitor.hpp"
 
 namespace dotyk::algebra {
 
@@ -16,8 +19,13 @@ class SpdSolver {
   virtual bool set(const SparseMatrix& lower, const std::vector<char>& held) = 0;
   /// x with ‖b − A x‖ ≤ tolerance ‖b‖; direct solvers go as far as rounding lets them, whatever the tolerance.
   virtual Vector solve(const Vector& b, double tolerance) = 0;
-  virtual double bytes() const = 0;         ///< of what it keeps beside A
-  virtual std::string method() const = 0;   ///< "Cholesky factor (METIS)", "conjugate gradients, …"
+  virtual double bytes() const = 0;        ///< of what it keeps beside A
+  virtual std::string method() const = 0;  ///< "METIS", "conjugate gradients, …"
 };
+
+/// By a sparse Cholesky factor. `lower`, `node`, `ordering` as for Cholesky.
+std::unique_ptr<SpdSolver> factored(const SparseMatrix& lower, const std::vector<int>& node, Ordering ordering);
+/// By conjugate gradients, preconditioned by an incomplete Cholesky factor: as much memory as A, however many unknowns.
+std::unique_ptr<SpdSolver> incompletely_factored(Monitor& monitor);
 
 }  // namespace dotyk::algebra

@@ -100,3 +100,20 @@ TEST_CASE("a body that only rows hold, and one that no load or gap moves") {
   REQUIRE(still.converged);
   CHECK(still.state.u.norm() == 0);
 }
+
+TEST_CASE("an incomplete factor in place of the factor: the same sets, the same state") {
+  test::Random random(403);
+  Monitor quiet;
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto p = test::program(random.positive_definite(kUnknowns, 0.3), 3 * random.vector(kUnknowns), few_unknowns(random), 0.3 * random.vector(kRows));
+    solver::Pdas direct = held(std::vector<char>(kRows, 0)), iterative = direct;
+    iterative.linear = [&](const algebra::SparseMatrix&, const std::vector<int>&) { return algebra::incompletely_factored(quiet); };
+    const auto a = solver::solve(p, direct, quiet), b = solver::solve(p, iterative, quiet);
+    REQUIRE_MESSAGE(a.converged, a.reason);
+    REQUIRE_MESSAGE(b.converged, b.reason);
+    CHECK(b.ordering == "conjugate gradients, incomplete Cholesky factor");
+    CHECK(a.active_sets == b.active_sets);
+    CHECK((a.state.u - b.state.u).norm() <= 1e-10 * a.state.u.norm());
+    CHECK((a.state.lambda - b.state.lambda).norm() <= 1e-9 * a.state.lambda.norm());
+  }
+}

@@ -26,7 +26,7 @@ constexpr int kMostRefinements = 6;
 
 class HeldStep final : public Step {
  public:
-  HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho) : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())) {
+  HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho) : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), T_(stiffness.basis().T.cast<long double>()), f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())) {
     for (const problem::Block& block : problem.blocks) f_.segment(block.first, block.size()) = block.f;
   }
 
@@ -51,7 +51,7 @@ class HeldStep final : public Step {
   void sort(const Linearisation& l) {
     constant_ = spring_ = target_ = Vector::Zero(problem_.rows());
     held_.assign(problem_.unknowns(), 0);
-    u_ = LongVector::Zero(problem_.unknowns());
+    Vector moved = Vector::Zero(problem_.unknowns());
     holding_.clear(), tied_.clear();
     for (int r = 0; r < problem_.rows(); ++r) {
       if (!l.active[r]) {
@@ -64,32 +64,21 @@ class HeldStep final : public Step {
         spring_[r] = 1 / compliance;
         continue;
       }
-      const SparseRows::InnerIterator only = sole(r);
-      if (only && !held_[only.col()]) {
-        held_[only.col()] = 1;
-        u_[only.col()] = target_[r] / only.value();
-        holding_.push_back({r, static_cast<int>(only.col()), only.value()});
+      if (const int own = stiffness_.basis().unknown[r]; own >= 0) {
+        held_[own] = 1;
+        moved[own] = target_[r];
+        holding_.push_back({r, own});
       } else {
         tied_.push_back(r);
         spring_[r] = kHeldRowSpring * own_[r];
       }
     }
-  }
-
-  /// The one entry of a row, else nothing.
-  SparseRows::InnerIterator sole(int row) const {
-    SparseRows::InnerIterator entry;
-    for (SparseRows::InnerIterator it(problem_.B, row); it; ++it) {
-      if (it.value() == 0) continue;
-      if (entry) return {};
-      entry = it;
-    }
-    return entry;
+    u_ = T_ * moved.cast<long double>();
   }
 
   Vector displacement() const { return u_.cast<double>(); }
 
-  void step() { u_ += stiffness_.solve(residual()).cast<long double>(); }
+  void step() { u_ += stiffness_.solve_in_basis(residual()).cast<long double>(); }
 
   /// Where cells are small beside the body, as with thousands of supports of a beam, one solution leaves forces that are no rounding of the loads.
   void refine() {
@@ -99,13 +88,18 @@ class HeldStep final : public Step {
       const double sum = left.lpNorm<1>();
       if (!(sum > kUnbalanced * gross_) || sum > before / 2) return;
       before = sum;
-      u_ += stiffness_.solve(left).cast<long double>();
+      u_ += stiffness_.solve_in_basis(left).cast<long double>();
     }
   }
 
   /// f − Ku − Bᵀλ with the springs' multipliers as they are, zero where u is held.
-  Vector residual() { return without_held(forces()); }
+  Vector residual() {
+    Vector left = forces();
+    for (const Holding& h : holding_) left[h.unknown] = 0;
+    return left;
+  }
 
+  /// In the basis where rows are unknowns.
   Vector forces() {
     LongVector all = f_.cast<long double>() - problem::precise_stiffness_times(problem_, u_);
     gross_ = f_.lpNorm<1>();
@@ -117,8 +111,9 @@ class HeldStep final : public Step {
         gross_ += static_cast<double>(std::abs(it.value() * multiplier));
       }
     }
-    for (const Holding& h : holding_) gross_ += static_cast<double>(std::abs(all[h.unknown]));
-    return all.cast<double>();
+    const Vector left = (T_.transpose() * all).cast<double>();
+    for (const Holding& h : holding_) gross_ += std::abs(left[h.unknown]);
+    return left;
   }
 
   /// Bu − t of a row.
@@ -126,11 +121,6 @@ class HeldStep final : public Step {
     long double sum = -target_[row];
     for (SparseRows::InnerIterator it(problem_.B, row); it; ++it) sum += it.value() * u_[it.col()];
     return sum;
-  }
-
-  Vector without_held(Vector r) const {
-    for (const Holding& h : holding_) r[h.unknown] = 0;
-    return r;
   }
 
   /// λ of tied rows so that Bu = t there. False where they contradict each other.
@@ -147,7 +137,7 @@ class HeldStep final : public Step {
     Vector gap = tied_gap(), z = spring_.cwiseProduct(gap), p = z;
     double energy = gap.dot(z);
     for (int k = 0; k < kMostSteps && off(gap) > kAim; ++k) {
-      const Vector moved = stiffness_.solve(without_held(problem_.B.transpose() * p));
+      const Vector moved = stiffness_.solve(problem_.B.transpose() * p);
       const Vector q = on_tied(problem_.B * moved);
       const double curvature = p.dot(q);
       if (!(curvature > 0)) return;
@@ -193,18 +183,18 @@ class HeldStep final : public Step {
       if (spring_[r] != 0) lambda_[r] += static_cast<double>(spring_[r] * gap(r));
     spring_.setZero();
     const Vector left = forces();
-    for (const Holding& h : holding_) lambda_[h.row] = left[h.unknown] / h.factor;
+    for (const Holding& h : holding_) lambda_[h.row] = left[h.unknown];
   }
 
   struct Holding {
     int row, unknown;
-    double factor;
   };
 
   const Problem& problem_;
   HeldStiffness& stiffness_;
   const Vector& rho_;
   const Vector own_;
+  const Eigen::SparseMatrix<long double> T_;
   Vector f_;
   Vector constant_, spring_, target_;  ///< rows: λ of those that are not active; s and t of λ = s(Bu − t), and Bu of rigid ones
   std::vector<char> held_;

@@ -25,25 +25,42 @@ std::vector<int> nodes(const Problem& problem) {
   return all;
 }
 
+/// Of a solver that iterates; what is left of forces then is left to those who refine.
+constexpr double kTolerance = 1e-12;
+
+/// Of all blocks.
+SparseMatrix lower_triangle(const Problem& problem) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Block& block : problem.blocks)
+    for (int j = 0; j < block.size(); ++j)
+      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, it.value());
+  SparseMatrix K(problem.unknowns(), problem.unknowns());
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
 }  // namespace
 
-HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering)
-    : problem_(problem), unnoticed_(problem::unnoticed_displacements(problem, rigid)) {
+HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make)
+    : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T) {
+  rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
   assemble();
   place_rows();
   for (const int unknown : algebra::fixing_unknowns(unnoticed_)) lower_.coeffRef(unknown, unknown) *= 2;  // carries nothing
   stiffness_ = Eigen::Map<const Vector>(lower_.valuePtr(), lower_.nonZeros());
-  cholesky_.emplace(lower_, nodes(problem), std::vector<int>{}, ordering);
+  solver_ = make(lower_, nodes(problem));
 }
 
 void HeldStiffness::assemble() {
+  const SparseMatrix K = lower_triangle(problem_).selfadjointView<Eigen::Lower>();
+  const SparseMatrix half = K * basis_.T, all = basis_.T.transpose() * half;
   std::vector<Eigen::Triplet<double>> entries;
-  for (const Block& block : problem_.blocks)
-    for (int j = 0; j < block.size(); ++j)
-      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, it.value());
+  for (int j = 0; j < all.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(all, j); it; ++it)
+      if (it.row() >= j) entries.emplace_back(static_cast<int>(it.row()), j, it.value());
   for (int r = 0; r < problem_.rows(); ++r)
-    for (SparseRows::InnerIterator i(problem_.B, r); i; ++i)
-      for (SparseRows::InnerIterator j(problem_.B, r); j && j.col() <= i.col(); ++j) entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.0);
+    for (SparseRows::InnerIterator i(rows_, r); i; ++i)
+      for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.0);
   for (int i = 0; i < problem_.unknowns(); ++i) entries.emplace_back(i, i, 0.0);
   lower_.resize(problem_.unknowns(), problem_.unknowns());
   lower_.setFromTriplets(entries.begin(), entries.end());
@@ -53,8 +70,8 @@ void HeldStiffness::place_rows() {
   const int *column = lower_.outerIndexPtr(), *row = lower_.innerIndexPtr();
   first_.assign(1, 0);
   for (int r = 0; r < problem_.rows(); ++r) {
-    for (SparseRows::InnerIterator i(problem_.B, r); i; ++i)
-      for (SparseRows::InnerIterator j(problem_.B, r); j && j.col() <= i.col(); ++j) {
+    for (SparseRows::InnerIterator i(rows_, r); i; ++i)
+      for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) {
         const int* at = std::lower_bound(row + column[j.col()], row + column[j.col() + 1], static_cast<int>(i.col()));
         place_.push_back(static_cast<int>(at - row));
         product_.push_back(i.value() * j.value());
@@ -64,6 +81,7 @@ void HeldStiffness::place_rows() {
 }
 
 bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held) {
+  held_ = held;
   double* value = lower_.valuePtr();
   std::copy(stiffness_.begin(), stiffness_.end(), value);
   for (int r = 0; r < problem_.rows(); ++r)
@@ -74,9 +92,13 @@ bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held) 
       const int i = lower_.innerIndexPtr()[k];
       if (held[i] || held[j]) value[k] = i == j ? (stiffness_[k] > 0 ? stiffness_[k] : 1) : 0;
     }
-  return cholesky_->factor(lower_);
+  return solver_->set(lower_, held_);
 }
 
-Vector HeldStiffness::solve(const Vector& b) const { return problem::least(unnoticed_, cholesky_->solve(b)); }
+Vector HeldStiffness::solve_in_basis(Vector forces) const {
+  for (Eigen::Index i = 0; i < forces.size(); ++i)
+    if (held_[i]) forces[i] = 0;
+  return problem::least(unnoticed_, basis_.T * solver_->solve(forces, kTolerance));
+}
 
 }  // namespace dotyk::solver

@@ -1,38 +1,55 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <vector>
 
-#include "algebra/direct/cholesky.hpp"
+#include "algebra/spd_solver.hpp"
+#include "problem/precise.hpp"
 #include "problem/rigid_motions.hpp"
+#include "problem/row_basis.hpp"
 
 namespace dotyk::solver {
 
-/// K + Σ_r s_r B_rᵀB_r with the rows and columns of held unknowns emptied but for their diagonal: what active-set and barrier
-/// iterations solve with where rows act on few unknowns each. One ordering and analysis for all s and all that is held.
+/// What solves with a matrix (lower triangle; the node of each unknown).
+using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const algebra::SparseMatrix& lower, const std::vector<int>& node)>;
+
+inline MakeSpdSolver factored_by(algebra::Ordering ordering) {
+  return [ordering](const algebra::SparseMatrix& lower, const std::vector<int>& node) { return algebra::factored(lower, node, ordering); };
+}
+
+/// A = Tᵀ(K + Σ_r s_r B_rᵀB_r)T in the basis T where rows are unknowns, with the rows and columns of held unknowns emptied but for their diagonal:
+/// what active-set and barrier iterations solve with where rows act on few unknowns each. One pattern for all s and all that is held.
 /// Motions that no row notices are held as well, at as many unknowns, and taken off solutions.
 class HeldStiffness {
  public:
-  HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, algebra::Ordering ordering);
+  HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make);
 
-  /// `spring`: s, force per displacement, rows; `held`: one flag an unknown. False where the matrix is not positive definite.
+  const problem::RowBasis& basis() const { return basis_; }
+  /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held);
-  /// Zero in held unknowns, which b must be, too.
-  algebra::Vector solve(const algebra::Vector& b) const;
+  /// u under the forces b, zero in what is held.
+  algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.T.transpose() * b); }
+  /// The same, with Tᵀb given.
+  algebra::Vector solve_in_basis(algebra::Vector forces) const;
 
-  const algebra::Cholesky& cholesky() const { return *cholesky_; }
+  const algebra::SpdSolver& solver() const { return *solver_; }
 
  private:
   void assemble();
   void place_rows();
 
   const problem::Problem& problem_;
+  const problem::RowBasis basis_;
   const algebra::SparseMatrix unnoticed_;
-  algebra::SparseMatrix lower_;     ///< of the analysed pattern, with the numbers of the last factor()
-  algebra::Vector stiffness_;       ///< K's numbers in that pattern
+  algebra::SparseRows rows_;        ///< B T
+  algebra::SparseMatrix lower_;     ///< of the pattern, with the numbers of the last factor()
+  algebra::Vector stiffness_;       ///< TᵀKT's numbers in that pattern
   std::vector<std::ptrdiff_t> first_;  ///< of a row's products in the next
-  std::vector<int> place_;          ///< in the pattern, of each product B_ri B_rj
+  std::vector<int> place_;          ///< in the pattern, of each product (BT)_ri (BT)_rj
   std::vector<double> product_;
-  std::optional<algebra::Cholesky> cholesky_;
+  std::vector<char> held_;
+  std::unique_ptr<algebra::SpdSolver> solver_;
 };
 
 }  // namespace dotyk::solver

@@ -56,13 +56,9 @@ class Interior {
   /// Of the body as it bends where as few unknowns hold it as can: under its load, and under a force on each row that would move it by what rows are off.
   void scale(const problem::RigidMotions& rigid) {
     std::vector<char> held(problem_.unknowns(), 0);
-    for (const int unknown : algebra::fixing_unknowns(problem::displacement(problem_, rigid.noticed))) held[unknown] = 1;
+    for (const int unknown : algebra::fixing_unknowns(stiffness_.basis().coordinates(problem_, problem::displacement(problem_, rigid.noticed)))) held[unknown] = 1;
     if (rows() == 0 || !stiffness_.factor(Vector::Zero(rows()), held)) return;
-    const auto moved = [&](Vector f) {
-      for (Eigen::Index i = 0; i < f.size(); ++i)
-        if (held[i]) f[i] = 0;
-      return (problem_.B * stiffness_.solve(f)).lpNorm<Eigen::Infinity>();
-    };
+    const auto moved = [&](const Vector& f) { return (problem_.B * stiffness_.solve(f)).lpNorm<Eigen::Infinity>(); };
     const double bent = moved(f_), compliance = moved(problem_.B.transpose() * Vector::Ones(rows()));
     const double pressed = std::max(0.0, -problem_.c.minCoeff());
     length_ = std::max(bent, pressed);

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "problem/rigid_motions.hpp"
+#include "solver/active/held_stiffness.hpp"
 #include "solver/core/solver.hpp"
 #include "solver/active/step.hpp"
 
@@ -22,7 +23,9 @@ struct Pdas : Settings {
   /// Where not reduced: by held_step, begun where an interior point method ends (interior_start; not counted among iterations) unless `start` says
   /// where: for problems with many rows of few unknowns each. The iterates from one start are the same again.
   bool held = false;
-  /// What solves the linear problem of an iteration where not reduced; empty: full_step.
+  /// What solves the linear systems of the held form; empty: a sparse Cholesky factor.
+  MakeSpdSolver linear;
+  /// What solves the linear problem of an iteration where neither reduced nor held; empty: full_step.
   std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>
       step;
   /// How the rigid motions of free bodies are treated: exactly, as constraints of the dual, or by

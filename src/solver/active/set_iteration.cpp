@@ -86,10 +86,10 @@ HeldStiffness& SetIteration::stiffness() {
   if (stiffness_) return *stiffness_;
   Stopwatch watch;
   monitor.phase("ordering");
-  stiffness_.emplace(problem, rigid, settings.ordering);
+  stiffness_.emplace(problem, rigid, settings.linear ? settings.linear : factored_by(settings.ordering));
   result.clock.ordering += watch.lap();
-  result.factor_bytes = stiffness_->cholesky().bytes();
-  result.ordering = stiffness_->cholesky().method();
+  result.factor_bytes = stiffness_->solver().bytes();
+  result.ordering = stiffness_->solver().method();
   return *stiffness_;
 }
 

@@ -1,0 +1,56 @@
+#include "algebra/spd_solver.hpp"
+
+#include <optional>
+
+#include "algebra/direct/cholesky.hpp"
+#include "algebra/krylov/conjugate_gradient.hpp"
+#include "base/error.hpp"
+
+namespace dotyk::algebra {
+namespace {
+
+class Factored final : public SpdSolver {
+ public:
+  Factored(const SparseMatrix& lower, const std::vector<int>& node, Ordering ordering) : factor_(lower, node, {}, ordering) {}
+  bool set(const SparseMatrix& lower, const std::vector<char>&) override { return factor_.factor(lower); }
+  Vector solve(const Vector& b, double) override { return factor_.solve(b); }
+  double bytes() const override { return factor_.bytes(); }
+  std::string method() const override { return factor_.method(); }
+
+ private:
+  Cholesky factor_;
+};
+
+class IncompletelyFactored final : public SpdSolver {
+ public:
+  explicit IncompletelyFactored(Monitor& monitor) : monitor_(monitor) {}
+
+  bool set(const SparseMatrix& lower, const std::vector<char>&) override {
+    lower_ = lower;
+    try {
+      preconditioner_.emplace(lower_);
+    } catch (const InputError&) {
+      return false;
+    }
+    return true;
+  }
+
+  Vector solve(const Vector& b, double tolerance) override { return conjugate_gradient(*preconditioner_, b, {tolerance}, monitor_).x; }
+  double bytes() const override { return preconditioner_ ? preconditioner_->bytes() : 0; }
+  std::string method() const override { return "conjugate gradients, incomplete Cholesky factor"; }
+
+ private:
+  Monitor& monitor_;
+  SparseMatrix lower_;
+  std::optional<IncompleteCholesky> preconditioner_;
+};
+
+}  // namespace
+
+std::unique_ptr<SpdSolver> factored(const SparseMatrix& lower, const std::vector<int>& node, Ordering ordering) {
+  return std::make_unique<Factored>(lower, node, ordering);
+}
+
+std::unique_ptr<SpdSolver> incompletely_factored(Monitor& monitor) { return std::make_unique<IncompletelyFactored>(monitor); }
+
+}  // namespace dotyk::algebra
