@@ -60,4 +60,13 @@ RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering,
   return result;
 }
 
+DenseMatrix all_rigid_motions(const Mesh& mesh, const std::vector<int>& unknown, int count) {
+  const RigidFrame frame(mesh);
+  const int dim = mesh.dimension();
+  DenseMatrix motions(count, frame.count());
+  for (std::size_t k = 0; k < unknown.size(); ++k)
+    if (unknown[k] >= 0) motions.row(unknown[k]) = frame.row(mesh.node(static_cast<int>(k) / dim), static_cast<int>(k) % dim);
+  return motions;
+}
+
 }  // namespace dotyk::elasticity

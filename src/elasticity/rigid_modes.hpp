@@ -19,4 +19,7 @@ struct RigidModes {
 RigidModes rigid_modes(const mesh::Mesh& mesh, const Numbering& numbering,
                        const std::vector<FacetSpring>& springs);
 
+/// All rigid motions, 3 or 6, on the unknowns, whatever holds the body. `unknown` as in Numbering, which has so many of them.
+algebra::DenseMatrix all_rigid_motions(const mesh::Mesh& mesh, const std::vector<int>& unknown, int count);
+
 }  // namespace dotyk::elasticity

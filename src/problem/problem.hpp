@@ -23,6 +23,8 @@ struct Block {
   algebra::DenseMatrix kernel;  ///< ker K: unknowns × modes, linearly independent columns
   std::vector<Motion> motions;  ///< what the modes are; may be empty
   int first = 0;                ///< index of its first unknown among all blocks'
+  /// All rigid motions of the body on its unknowns, whatever holds it: what multigrid's coarse functions are made of. May be empty.
+  std::function<algebra::DenseMatrix()> rigid = {};
   int size() const { return static_cast<int>(f.size()); }
 };
 

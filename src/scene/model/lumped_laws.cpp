@@ -136,7 +136,8 @@ class Lumping {
 
   /// Bw.
   Vector response(const Vector& defect) const {
-    solver::HeldStiffness stiffness(problem_, problem::rigid_motions(problem_), solver::factored_by({}));
+    Monitor quiet;
+    solver::HeldStiffness stiffness(problem_, problem::rigid_motions(problem_), solver::factored_by({}), quiet);
     if (!stiffness.factor(spring_, std::vector<char>(problem_.unknowns(), 0))) return Vector::Zero(s_.rows());
     return problem_.B * stiffness.solve(problem_.B.transpose() * defect);
   }

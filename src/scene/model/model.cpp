@@ -81,6 +81,7 @@ void add_body(const Body& body, Model& model) {
   block.node = numbering.node;
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
+  block.rigid = [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
   model.nearly_free.push_back(nearly_free(body, numbering, block, model.softest));
   problem::add(model.problem, std::move(block));
 }

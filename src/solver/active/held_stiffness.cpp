@@ -41,14 +41,28 @@ SparseMatrix lower_triangle(const Problem& problem) {
 
 }  // namespace
 
-HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make)
+HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor)
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
   assemble();
   place_rows();
   for (const int unknown : algebra::fixing_unknowns(unnoticed_)) lower_.coeffRef(unknown, unknown) *= 2;  // carries nothing
   stiffness_ = Eigen::Map<const Vector>(lower_.valuePtr(), lower_.nonZeros());
-  solver_ = make(lower_, nodes(problem));
+  solver_ = make({lower_, nodes(problem), [this] { return rigid_motions(); }, monitor});
+}
+
+algebra::DenseMatrix HeldStiffness::rigid_motions() const {
+  algebra::DenseMatrix all(problem_.unknowns(), 0);
+  for (const Block& block : problem_.blocks) {
+    if (!block.rigid) return algebra::DenseMatrix(problem_.unknowns(), 0);
+    const algebra::DenseMatrix own = block.rigid();
+    if (all.cols() == 0) all.setZero(problem_.unknowns(), own.cols());
+    all.middleRows(block.first, block.size()) = own;
+  }
+  const algebra::DenseMatrix jumps = problem_.B * all;
+  for (int r = 0; r < problem_.rows(); ++r)
+    if (const int own = basis_.unknown[r]; own >= 0) all.row(own) = jumps.row(r);
+  return all;
 }
 
 void HeldStiffness::assemble() {

@@ -11,11 +11,18 @@
 
 namespace dotyk::solver {
 
-/// What solves with a matrix (lower triangle; the node of each unknown).
-using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const algebra::SparseMatrix& lower, const std::vector<int>& node)>;
+/// What a solver of linear systems may know of them before the first.
+struct SpdSystem {
+  const algebra::SparseMatrix& lower;  ///< nothing held
+  const std::vector<int>& node;        ///< of each unknown
+  /// The rigid motions of all bodies together, on the unknowns: no columns where a block does not tell its own.
+  std::function<algebra::DenseMatrix()> rigid_motions;
+  Monitor& monitor;
+};
+using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
 
 inline MakeSpdSolver factored_by(algebra::Ordering ordering) {
-  return [ordering](const algebra::SparseMatrix& lower, const std::vector<int>& node) { return algebra::factored(lower, node, ordering); };
+  return [ordering](const SpdSystem& system) { return algebra::factored(system.lower, system.node, ordering); };
 }
 
 /// A = Tᵀ(K + Σ_r s_r B_rᵀB_r)T in the basis T where rows are unknowns, with the rows and columns of held unknowns emptied but for their diagonal:
@@ -23,7 +30,7 @@ inline MakeSpdSolver factored_by(algebra::Ordering ordering) {
 /// Motions that no row notices are held as well, at as many unknowns, and taken off solutions.
 class HeldStiffness {
  public:
-  HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make);
+  HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor);
 
   const problem::RowBasis& basis() const { return basis_; }
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis. False where the matrix is not positive definite.
@@ -36,6 +43,7 @@ class HeldStiffness {
   const algebra::SpdSolver& solver() const { return *solver_; }
 
  private:
+  algebra::DenseMatrix rigid_motions() const;
   void assemble();
   void place_rows();
 

@@ -32,7 +32,7 @@ std::string begin(SetIteration& it) {
     it.l = it.held(nested.run(*it.step), -it.problem.c);
     return text(", begun with ", nested.solves(), " solves on a part of the rows");
   }
-  if (!it.is_analysed() || given) return "";
+  if (!it.is_analysed() || given || it.settings.linear) return "";
   const std::string how = by_interior_point(it, End::exhausted);
   return how.empty() ? "" : ", begun with " + how;
 }

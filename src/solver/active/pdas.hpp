@@ -23,7 +23,7 @@ struct Pdas : Settings {
   /// Where not reduced: by held_step, begun where an interior point method ends (interior_start; not counted among iterations) unless `start` says
   /// where: for problems with many rows of few unknowns each. The iterates from one start are the same again.
   bool held = false;
-  /// What solves the linear systems of the held form; empty: a sparse Cholesky factor.
+  /// What solves the linear systems of the held form; empty: a sparse Cholesky factor. Iterative ones do not begin where an interior point method ends.
   MakeSpdSolver linear;
   /// What solves the linear problem of an iteration where neither reduced nor held; empty: full_step.
   std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>

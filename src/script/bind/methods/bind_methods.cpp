@@ -11,6 +11,15 @@ namespace {
 
 const char* reduced(bool is) { return is ? "reduced" : "full"; }
 
+/// What solves the linear systems of pdas.
+enum class Linear { factor, incomplete_factor };
+
+void take_linear(Linear linear, solver::Pdas& method) {
+  method.reduced = false, method.held = true;
+  if (linear == Linear::incomplete_factor)
+    method.linear = [](const solver::SpdSystem& system) { return algebra::incompletely_factored(system.monitor); };
+}
+
 const char* const kBoundary =
     "on the unknowns of the contact boundary, the stiffness condensed onto it once; else on all unknowns";
 
@@ -27,8 +36,16 @@ void bind_methods(Library& library) {
       {{key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
                               "multiplies each row's own stiffness"), &Pdas::rho},
        {key::boolean("reduced", "iterate on the contact boundary alone, after one factorisation; else on the "
-                                "whole system, factored anew in each iteration"), &Pdas::reduced}},
-      100, [](const Pdas& m, Call&) { return text("rho = ", m.rho, ", ", reduced(m.reduced)); }, true);
+                                "whole system, factored anew in each iteration"), &Pdas::reduced},
+       key::choice<Linear>("linear", {{"factor", Linear::factor}, {"incomplete_factor", Linear::incomplete_factor}},
+                           "in place of reduced: iterate on all unknowns, active rows held, and solve by a sparse factor, anew in each iteration, or by "
+                           "conjugate gradients with an incomplete factor, which need no more memory than the matrix").otherwise("as reduced says")},
+      100, [](Pdas& m, Call& call) {
+        if (!call.has("linear")) return text("rho = ", m.rho, ", ", reduced(m.reduced));
+        if (call.has("reduced")) throw InputError("'linear' is given beside 'reduced'; give one of them");
+        take_linear(call.choice<Linear>("linear"), m);
+        return text("rho = ", m.rho, ", linear = ", call.text("linear"));
+      }, true);
   add_method<Newton>(
       library,
       {.name = "dotyk.solver.newton",
