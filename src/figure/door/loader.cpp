@@ -1,15 +1,11 @@
 // Opens the drawing library at the first picture: linked to VTK the program
 // would take ten times as long to start.
 #include <dlfcn.h>
-#include <unistd.h>
 
-#include <climits>
-#include <cstring>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
-#include "base/memory.hpp"
+#include "base/open_library.hpp"
 #include "figure/door/check.hpp"
 #include "figure/door/grid_file.hpp"
 #include "figure/page/page_picture.hpp"
@@ -32,40 +28,19 @@ struct Library {
   Draw<GridFile> grid = nullptr;
 };
 
-std::string program_folder() {
-  char path[PATH_MAX];
-  const ssize_t n = readlink("/proc/self/exe", path, sizeof path);
-  const std::string program(path, n > 0 ? static_cast<std::size_t>(n) : 0);
-  return program.substr(0, program.rfind('/') == std::string::npos ? 0 : program.rfind('/'));
-}
-
-void* open_library() {
-  const std::string name = "libdotyk_figure_vtk.so";
-  const std::string here = program_folder();
-  std::vector<std::string> places = {here + "/" + name, here + "/../lib/dotyk/" + name,
-                                     here + "/../" DOTYK_FIGURE_LIBDIR "/dotyk/" + name};
+void* open() {
+  SharedLibrary drawing{"libdotyk_figure_vtk.so", "the drawing library", 280e6, DOTYK_FIGURE_LIBDIR, ""};  // measured: 250 MB
 #ifdef DOTYK_FIGURE_BUILD_LIBRARY
-  places.push_back(DOTYK_FIGURE_BUILD_LIBRARY);
+  drawing.built = DOTYK_FIGURE_BUILD_LIBRARY;
 #endif
-  std::string tried;
-  for (const std::string& place : places) {
-    if (access(place.c_str(), R_OK) != 0) {
-      tried += "\n  not at " + place;
-      continue;
-    }
-    require_address_space(280e6, "the drawing library");  // measured: 250 MB
-    if (void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
-    const char* reason = dlerror();
-    for (const char* short_of : {"failed to map", "cannot allocate", "Cannot allocate"})
-      if (reason && std::strstr(reason, short_of)) throw std::runtime_error("out of memory: the drawing library takes more than there is left");
-    throw std::runtime_error("cannot open the drawing library " + place + ": " + (reason ? reason : "unknown reason"));
-  }
-  throw std::runtime_error("pictures and .vtu files need the drawing library " + name + ", which is missing:" + tried);
+  const LibraryPlace place = look_for(drawing);
+  if (place.found.empty()) throw std::runtime_error("pictures and .vtu files need " + drawing.what + " " + drawing.file + ", which is missing:" + place.tried);
+  return open_library(drawing, place.found);
 }
 
 const Library& library() {
   static const Library opened = [] {
-    void* handle = open_library();
+    void* handle = open();
     Library l;
     l.scene = reinterpret_cast<Draw<ScenePicture>>(dlsym(handle, "dotyk_figure_draw_scene"));
     l.chart = reinterpret_cast<Draw<ChartPicture>>(dlsym(handle, "dotyk_figure_draw_chart"));
