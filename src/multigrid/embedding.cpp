@@ -1,0 +1,80 @@
+#include "multigrid/embedding.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace dotyk::multigrid {
+
+Embedding::Embedding(const algebra::SparseMatrix& lower, const std::vector<int>& node) {
+  if (!lower.isCompressed() || static_cast<std::size_t>(lower.rows()) != node.size())
+    throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
+  number(node);
+  lay_out(lower);
+}
+
+void Embedding::number(const std::vector<int>& node) {
+  std::vector<int> first;  // unknown of each block
+  for (std::size_t i = 0; i < node.size(); ++i)
+    if (i == 0 || node[i] != node[i - 1]) first.push_back(static_cast<int>(i));
+  first.push_back(static_cast<int>(node.size()));
+  for (std::size_t b = 0; b + 1 < first.size(); ++b) block_ = std::max(block_, first[b + 1] - first[b]);
+  for (std::size_t b = 0; b + 1 < first.size(); ++b) {
+    const int begin = static_cast<int>(b) * block_, used = first[b + 1] - first[b];
+    for (int k = 0; k < used; ++k) slot_.push_back(begin + k);
+    for (int k = used; k < block_; ++k) idle_.push_back(begin + k);
+  }
+  starts_.assign(slot_.size() + idle_.size() + 1, 0);
+}
+
+// Rows get their entries left of the diagonal from the lower triangle's rows, the others from its columns. Going through the
+// columns in order, each row meets its own in order, too: those at its left all come before those of its own column.
+void Embedding::lay_out(const algebra::SparseMatrix& lower) {
+  const int* begin = lower.outerIndexPtr();
+  const int* inner = lower.innerIndexPtr();
+  const int n = static_cast<int>(lower.cols());
+  for (int j = 0; j < n; ++j)
+    for (int k = begin[j]; k < begin[j + 1]; ++k) {
+      if (inner[k] < j) throw std::runtime_error("multigrid: the matrix is not a lower triangle");
+      ++starts_[slot_[inner[k]] + 1];
+      if (inner[k] != j) ++starts_[slot_[j] + 1];
+    }
+  for (const int i : idle_) ++starts_[i + 1];
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  columns_.resize(static_cast<std::size_t>(starts_.back()));
+  values_.assign(columns_.size(), 0.0);
+  std::vector<int> next(starts_.begin(), starts_.end() - 1);
+  const auto put = [&](int row, int column) {
+    columns_[next[row]] = column;
+    return next[row]++;
+  };
+  at_.resize(static_cast<std::size_t>(lower.nonZeros()));
+  mirror_.resize(at_.size());
+  for (int j = 0; j < n; ++j)
+    for (int k = begin[j]; k < begin[j + 1]; ++k) {
+      at_[k] = put(slot_[inner[k]], slot_[j]);
+      mirror_[k] = inner[k] == j ? at_[k] : put(slot_[j], slot_[inner[k]]);
+    }
+  for (const int i : idle_) idle_at_.push_back(put(i, i));
+}
+
+bool Embedding::fill(const algebra::SparseMatrix& lower) {
+  if (!lower.isCompressed() || static_cast<std::size_t>(lower.nonZeros()) != at_.size() || static_cast<std::size_t>(lower.cols()) != slot_.size())
+    throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
+  const double* value = lower.valuePtr();
+  for (std::size_t k = 0; k < at_.size(); ++k) values_[at_[k]] = values_[mirror_[k]] = value[k];
+  double sum = 0;
+  const int* begin = lower.outerIndexPtr();
+  for (int j = 0; j < lower.cols(); ++j) {
+    const bool has = begin[j] < begin[j + 1] && lower.innerIndexPtr()[begin[j]] == j;
+    if (!has || !(value[begin[j]] > 0)) return false;
+    sum += value[begin[j]];
+  }
+  for (const int k : idle_at_) values_[k] = sum / static_cast<double>(slot_.size());
+  return true;
+}
+
+double Embedding::bytes() const {
+  return 4.0 * static_cast<double>(slot_.size() + starts_.size() + columns_.size() + at_.size() + mirror_.size()) + 8.0 * static_cast<double>(values_.size());
+}
+
+}  // namespace dotyk::multigrid

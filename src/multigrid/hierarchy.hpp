@@ -1,0 +1,34 @@
+// Matrices and interpolations of all levels.
+#pragma once
+
+#include <vector>
+
+#include "multigrid/embedding.hpp"
+#include "multigrid/multigrid.hpp"
+#include "multigrid/petsc_session.hpp"
+
+namespace dotyk::multigrid {
+
+class Hierarchy {
+ public:
+  explicit Hierarchy(const Matrix& matrix);
+
+  /// New numbers, and the coarse matrices for them. False where they are seen not to be positive definite.
+  bool set(const algebra::SparseMatrix& lower, const std::vector<char>& held);
+
+  int levels() const { return static_cast<int>(matrices_.size()); }
+  Mat matrix(int level) const { return matrices_[level]; }                ///< from 0, the finest
+  Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
+  const Embedding& embedding() const { return embedding_; }
+  double bytes() const;
+
+ private:
+  void coarsen(const algebra::DenseMatrix& near_kernel);
+  void truncate(const std::vector<char>& held);
+
+  Embedding embedding_;
+  std::vector<OwnedMat> matrices_, interpolations_;
+  std::vector<double> finest_interpolation_;  // its numbers, no unknown held
+};
+
+}  // namespace dotyk::multigrid

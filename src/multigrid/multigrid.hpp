@@ -1,0 +1,39 @@
+// Conjugate gradients preconditioned by algebraic multigrid, by PETSc. PETSc stands in a library of its own, which is opened when
+// the first solver is made.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "algebra/spd_solver.hpp"
+#include "algebra/types.hpp"
+#include "base/monitor.hpp"
+
+namespace dotyk::multigrid {
+
+/// What a hierarchy is built from. Nothing of it is kept.
+struct Matrix {
+  const algebra::SparseMatrix& lower;        ///< positive definite, lower triangle, compressed, no unknown held
+  const std::vector<int>& node;              ///< of each unknown, ascending, as in problem::Block::node
+  const algebra::DenseMatrix& near_kernel;   ///< unknowns × modes of little energy, rigid motions; may have no columns. Six for all bodies together: each mode is an unknown of every coarse node
+};
+
+/// Interpolations are chosen once, for the matrix that the solver is made from; set() computes the coarse matrices anew, with
+/// coarse functions that vanish where unknowns are held (truncated multigrid).
+///
+/// solve() returns NaN where the matrix shows itself to be indefinite, or 1000 iterations do not suffice; Interrupted is thrown
+/// where the monitor asks to stop, which each iteration asks. b must be 0 at held unknowns, and x is. Solvers may be used from
+/// several threads, but wait for one another.
+class Solver : public algebra::SpdSolver {
+ public:
+  virtual int iterations() const = 0;  ///< of all calls of solve() together
+  virtual int levels() const = 0;      ///< matrices in the hierarchy, the given one included
+};
+
+/// Throws InputError where the library was not built, which needs the package libpetsc-real-dev. The monitor must outlive the solver.
+std::unique_ptr<Solver> make_solver(const Matrix& matrix, Monitor& monitor);
+
+/// Whether the library was built. It is not opened for this answer.
+bool available();
+
+}  // namespace dotyk::multigrid

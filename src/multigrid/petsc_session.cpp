@@ -1,0 +1,97 @@
+#include "multigrid/petsc_session.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace dotyk::multigrid {
+
+namespace {
+
+std::string& last_error() {
+  static std::string words;
+  return words;
+}
+
+/// Instead of PETSc's, which print to standard error. The first call has the words, the others follow the stack upwards.
+PetscErrorCode note_error(MPI_Comm, int, const char* function, const char*, PetscErrorCode code, PetscErrorType type, const char* words, void*) {
+  if (type == PETSC_ERROR_INITIAL) last_error() = std::string(words ? words : "") + " (in " + (function ? function : "") + ")";
+  return code;
+}
+
+/// Signal handlers as they were, and no signal for the threads that are started meanwhile.
+class KeptSignals {
+ public:
+  KeptSignals() {
+    for (int s = 1; s < kEnd; ++s) known_[s] = sigaction(s, nullptr, &actions_[s]) == 0;
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &mask_);
+  }
+  ~KeptSignals() {
+    for (int s = 1; s < kEnd; ++s)
+      if (known_[s] && s != SIGKILL && s != SIGSTOP) sigaction(s, &actions_[s], nullptr);
+    pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+  }
+
+ private:
+  static constexpr int kEnd = 32;
+  struct sigaction actions_[kEnd];
+  bool known_[kEnd];
+  sigset_t mask_;
+};
+
+/// Variables of the environment while MPI starts; those that the user has set stay as they are.
+class Environment {
+ public:
+  void set(const char* name, const char* value) {
+    if (std::getenv(name)) return;
+    setenv(name, value, 0);
+    names_.push_back(name);
+  }
+  ~Environment() {
+    for (const char* name : names_) unsetenv(name);
+  }
+
+ private:
+  std::vector<const char*> names_;
+};
+
+void initialise() {
+  const KeptSignals signals;
+  Environment environment;
+  // A process of its own: no daemon beside it, no files, no network, no handlers that print stacks.
+  environment.set("OMPI_MCA_ess_singleton_isolated", "1");
+  environment.set("OMPI_MCA_orte_create_session_dirs", "0");
+  environment.set("OMPI_MCA_pml", "ob1");
+  environment.set("OMPI_MCA_btl", "self");
+  environment.set("OMPI_MCA_opal_signal", "");
+  environment.set("OMPI_MCA_memory", "^patcher");  // which rewrites munmap() and others in the running program
+  environment.set("OMPI_MCA_mpi_warn_on_fork", "0");
+  char program[] = "dotyk", no_files[] = "-skip_petscrc", no_handler[] = "-no_signal_handler";
+  char* words[] = {program, no_files, no_handler, nullptr};
+  int count = 3;
+  char** arguments = words;
+  if (PetscInitialize(&count, &arguments, nullptr, nullptr) != 0) throw std::runtime_error("PETSc could not be started");
+  check(PetscPushErrorHandler(note_error, nullptr));
+}
+
+}  // namespace
+
+void start_petsc() {
+  static const bool started = [] {
+    initialise();
+    return true;
+  }();
+  static_cast<void>(started);
+}
+
+void check(PetscErrorCode code) {
+  if (code == 0) return;
+  if (code == PETSC_ERR_MEM) throw std::runtime_error("out of memory: PETSc's algebraic multigrid takes more than there is left");
+  throw std::runtime_error("PETSc: " + (last_error().empty() ? "error " + std::to_string(code) : last_error()));
+}
+
+}  // namespace dotyk::multigrid
