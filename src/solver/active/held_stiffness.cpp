@@ -48,6 +48,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   place_rows();
   for (const int unknown : algebra::fixing_unknowns(unnoticed_)) lower_.coeffRef(unknown, unknown) *= 2;  // carries nothing
   stiffness_ = Eigen::Map<const Vector>(lower_.valuePtr(), lower_.nonZeros());
+  if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   solver_ = make({lower_, nodes(problem), [this] { return rigid_motions(); }, monitor});
 }
 
@@ -94,13 +95,18 @@ void HeldStiffness::place_rows() {
   }
 }
 
+void HeldStiffness::spring_rows(const Vector& spring) {
+  double* value = lower_.valuePtr();
+  for (int r = 0; r < problem_.rows(); ++r)
+    if (spring[r] != 0)
+      for (std::ptrdiff_t k = first_[r]; k < first_[r + 1]; ++k) value[place_[k]] += spring[r] * product_[k];
+}
+
 bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held) {
   held_ = held;
   double* value = lower_.valuePtr();
   std::copy(stiffness_.begin(), stiffness_.end(), value);
-  for (int r = 0; r < problem_.rows(); ++r)
-    if (spring[r] != 0)
-      for (std::ptrdiff_t k = first_[r]; k < first_[r + 1]; ++k) value[place_[k]] += spring[r] * product_[k];
+  spring_rows(spring);
   for (int j = 0; j < lower_.cols(); ++j)
     for (int k = lower_.outerIndexPtr()[j]; k < lower_.outerIndexPtr()[j + 1]; ++k) {
       const int i = lower_.innerIndexPtr()[k];

@@ -13,7 +13,7 @@ namespace dotyk::solver {
 
 /// What a solver of linear systems may know of them before the first.
 struct SpdSystem {
-  const algebra::SparseMatrix& lower;  ///< nothing held
+  const algebra::SparseMatrix& lower;  ///< positive definite: nothing held, but springs in the rows of bodies that nothing else holds
   const std::vector<int>& node;        ///< of each unknown
   /// The rigid motions of all bodies together, on the unknowns: no columns where a block does not tell its own.
   std::function<algebra::DenseMatrix()> rigid_motions;
@@ -46,6 +46,7 @@ class HeldStiffness {
   algebra::DenseMatrix rigid_motions() const;
   void assemble();
   void place_rows();
+  void spring_rows(const algebra::Vector& spring);
 
   const problem::Problem& problem_;
   const problem::RowBasis basis_;

@@ -1,3 +1,4 @@
+#include "multigrid/multigrid.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/methods/method_keys.hpp"
 #include "solver/active/pdas.hpp"
@@ -12,12 +13,14 @@ namespace {
 const char* reduced(bool is) { return is ? "reduced" : "full"; }
 
 /// What solves the linear systems of pdas.
-enum class Linear { factor, incomplete_factor };
+enum class Linear { factor, incomplete_factor, multigrid };
 
 void take_linear(Linear linear, solver::Pdas& method) {
   method.reduced = false, method.held = true;
   if (linear == Linear::incomplete_factor)
     method.linear = [](const solver::SpdSystem& system) { return algebra::incompletely_factored(system.monitor); };
+  if (linear == Linear::multigrid)
+    method.linear = [](const solver::SpdSystem& system) { return multigrid::make_solver({system.lower, system.node, system.rigid_motions()}, system.monitor); };
 }
 
 const char* const kBoundary =
@@ -37,9 +40,10 @@ void bind_methods(Library& library) {
                               "multiplies each row's own stiffness"), &Pdas::rho},
        {key::boolean("reduced", "iterate on the contact boundary alone, after one factorisation; else on the "
                                 "whole system, factored anew in each iteration"), &Pdas::reduced},
-       key::choice<Linear>("linear", {{"factor", Linear::factor}, {"incomplete_factor", Linear::incomplete_factor}},
+       key::choice<Linear>("linear", {{"factor", Linear::factor}, {"incomplete_factor", Linear::incomplete_factor}, {"multigrid", Linear::multigrid}},
                            "in place of reduced: iterate on all unknowns, active rows held, and solve by a sparse factor, anew in each iteration, or by "
-                           "conjugate gradients with an incomplete factor, which need no more memory than the matrix").otherwise("as reduced says")},
+                           "conjugate gradients, which need little more memory than the matrix: with an incomplete factor, or with algebraic multigrid by PETSc, "
+                           "whose iterations hardly grow with the mesh").otherwise("as reduced says")},
       100, [](Pdas& m, Call& call) {
         if (!call.has("linear")) return text("rho = ", m.rho, ", ", reduced(m.reduced));
         if (call.has("reduced")) throw InputError("'linear' is given beside 'reduced'; give one of them");
