@@ -14,6 +14,7 @@ class Factored final : public SpdSolver {
   Factored(const SparseMatrix& lower, const std::vector<int>& node, Ordering ordering) : factor_(lower, node, {}, ordering) {}
   bool set(const SparseMatrix& lower, const std::vector<char>&) override { return factor_.factor(lower); }
   Vector solve(const Vector& b, double) override { return factor_.solve(b); }
+  bool iterates() const override { return false; }
   double bytes() const override { return factor_.bytes(); }
   std::string method() const override { return factor_.method(); }
 

@@ -19,6 +19,8 @@ class SpdSolver {
   virtual bool set(const SparseMatrix& lower, const std::vector<char>& held) = 0;
   /// x with ‖b − A x‖ ≤ tolerance ‖b‖; direct solvers go as far as rounding lets them, whatever the tolerance.
   virtual Vector solve(const Vector& b, double tolerance) = 0;
+  /// Does the work grow with the digits asked for?
+  virtual bool iterates() const { return true; }
   virtual double bytes() const = 0;        ///< of what it keeps beside A
   virtual std::string method() const = 0;  ///< "METIS", "conjugate gradients, …"
 };

@@ -13,9 +13,9 @@ using algebra::SparseRows;
 namespace {
 
 /// Of the greatest factor in a row: that of an unknown which can be the row's own, and what elimination leaves of a row that depends on others.
-constexpr double kLeastFactor = 0.5, kDependent = 1e-8;
+constexpr double kLeastFactor = 0.2, kDependent = 1e-8;
 
-/// Gauss–Jordan elimination of one unknown for every row, as long as that makes no row reach much further than it did.
+/// Gauss–Jordan elimination of one unknown for every row, as long as that makes no row reach more than three times as far.
 class Elimination {
  public:
   explicit Elimination(const Problem& problem) : problem_(problem), n_(problem.unknowns()), shared_(n_, 0), solved_(n_), most_(n_, 0), in_(n_) {
@@ -49,7 +49,7 @@ class Elimination {
       greatest = std::max(greatest, std::abs(it.value()));
       ++count;
     }
-    const std::size_t most = count + count / 2 + 3;
+    const std::size_t most = 3 * count + 3;
     if (terms.size() > most) return -1;
     const int own = pick(terms, greatest);
     if (own < 0) return -1;

@@ -16,8 +16,8 @@ struct RowBasis {
   algebra::SparseMatrix coordinates(const Problem& problem, const algebra::SparseMatrix& displacements) const;
 };
 
-/// Gives each row the unknown that fewest rows share, of those whose factor is at least half of its greatest. None to a row
-/// whose elimination would make it, or another, reach half as far again.
+/// Gives each row the unknown that fewest rows share, of those whose factor is at least a fifth of its greatest. None to a row
+/// whose elimination would make it, or another, reach three times as far.
 RowBasis row_basis(const Problem& problem);
 
 }  // namespace dotyk::problem

@@ -20,9 +20,11 @@ constexpr double kHeldRowSpring = 100;
 constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
-/// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at, and how often at most.
-constexpr double kUnbalanced = 1e-12;
+/// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at, and how often at most; what is enough, where digits cost
+/// iterations, until active sets come to rest.
+constexpr double kUnbalanced = 1e-12, kRough = 1e-5;
 constexpr int kMostRefinements = 6;
+constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
 
 class HeldStep final : public Step {
  public:
@@ -34,23 +36,27 @@ class HeldStep final : public Step {
     sort(l);
     if (!stiffness_.factor(spring_, held_)) return false;
     lambda_ = constant_;
-    step();
+    unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? kRough : kUnbalanced;
+    u_ += stiffness_.solve_in_basis(residual(), unbalanced_).cast<long double>();
     refine();
-    if (!u_.allFinite() || !tie()) return false;
-    finish();
-    if (!lambda_.allFinite()) return false;
-    lambda = lambda_;
-    x = problem_.B * displacement() - problem_.c;
-    return true;
+    return u_.allFinite() && tie() && tell(lambda, x);
+  }
+
+  bool sharpen(Vector& lambda, Vector& x) override {
+    if (unbalanced_ <= kUnbalanced) return false;
+    unbalanced_ = kUnbalanced;
+    refine();
+    return u_.allFinite() && tell(lambda, x);
   }
 
   Vector recover() override { return displacement(); }
 
  private:
-  /// What each row does, and u where it is held.
+  /// What each row does, and u where it is held; elsewhere iterations go on from the last one.
   void sort(const Linearisation& l) {
     constant_ = spring_ = target_ = Vector::Zero(problem_.rows());
     held_.assign(problem_.unknowns(), 0);
+    if (!stiffness_.solver().iterates() || !u_.allFinite()) u_.setZero();
     Vector moved = Vector::Zero(problem_.unknowns());
     holding_.clear(), tied_.clear();
     for (int r = 0; r < problem_.rows(); ++r) {
@@ -66,14 +72,14 @@ class HeldStep final : public Step {
       }
       if (const int own = stiffness_.basis().unknown[r]; own >= 0) {
         held_[own] = 1;
-        moved[own] = target_[r];
+        moved[own] = -static_cast<double>(gap(r));
         holding_.push_back({r, own});
       } else {
         tied_.push_back(r);
         spring_[r] = kHeldRowSpring * own_[r];
       }
     }
-    u_ = T_ * moved.cast<long double>();
+    u_ += T_ * moved.cast<long double>();
   }
 
   Vector displacement() const { return u_.cast<double>(); }
@@ -86,9 +92,9 @@ class HeldStep final : public Step {
     for (int k = 0; k < kMostRefinements && u_.allFinite(); ++k) {
       const Vector left = residual();
       const double sum = left.lpNorm<1>();
-      if (!(sum > kUnbalanced * gross_) || sum > before / 2) return;
+      if (!(sum > unbalanced_ * gross_) || sum > before / 2) return;
       before = sum;
-      u_ += stiffness_.solve_in_basis(left).cast<long double>();
+      u_ += stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * unbalanced_ * gross_ / sum)).cast<long double>();
     }
   }
 
@@ -177,13 +183,15 @@ class HeldStep final : public Step {
     return sum;
   }
 
-  /// Multipliers of springs, of rows that hold by equilibrium.
-  void finish() {
+  /// λ and x: multipliers of springs, and of rows that hold by equilibrium.
+  bool tell(Vector& lambda, Vector& x) {
+    lambda = lambda_;
     for (int r = 0; r < problem_.rows(); ++r)
-      if (spring_[r] != 0) lambda_[r] += static_cast<double>(spring_[r] * gap(r));
-    spring_.setZero();
+      if (spring_[r] != 0) lambda[r] += static_cast<double>(spring_[r] * gap(r));
     const Vector left = forces();
-    for (const Holding& h : holding_) lambda_[h.row] = left[h.unknown];
+    for (const Holding& h : holding_) lambda[h.row] = left[h.unknown];
+    x = problem_.B * displacement() - problem_.c;
+    return lambda.allFinite();
   }
 
   struct Holding {
@@ -202,6 +210,7 @@ class HeldStep final : public Step {
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
   LongVector u_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
   Vector lambda_;
+  double unbalanced_ = kUnbalanced;    ///< of gross_, what is aimed at
   double gross_ = 0;                   ///< ‖f‖₁ + ‖Bᵀλ‖₁ of the last forces()
 };
 

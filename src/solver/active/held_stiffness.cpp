@@ -25,9 +25,6 @@ std::vector<int> nodes(const Problem& problem) {
   return all;
 }
 
-/// Of a solver that iterates; what is left of forces then is left to those who refine.
-constexpr double kTolerance = 1e-12;
-
 /// Of all blocks.
 SparseMatrix lower_triangle(const Problem& problem) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -115,10 +112,10 @@ bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held) 
   return solver_->set(lower_, held_);
 }
 
-Vector HeldStiffness::solve_in_basis(Vector forces) const {
+Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
   for (Eigen::Index i = 0; i < forces.size(); ++i)
     if (held_[i]) forces[i] = 0;
-  return problem::least(unnoticed_, basis_.T * solver_->solve(forces, kTolerance));
+  return problem::least(unnoticed_, basis_.T * solver_->solve(forces, tolerance));
 }
 
 }  // namespace dotyk::solver

@@ -30,6 +30,7 @@ inline MakeSpdSolver factored_by(algebra::Ordering ordering) {
 /// Motions that no row notices are held as well, at as many unknowns, and taken off solutions.
 class HeldStiffness {
  public:
+  static constexpr double kTolerance = 1e-12;
   HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor);
 
   const problem::RowBasis& basis() const { return basis_; }
@@ -37,8 +38,8 @@ class HeldStiffness {
   bool factor(const algebra::Vector& spring, const std::vector<char>& held);
   /// u under the forces b, zero in what is held.
   algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.T.transpose() * b); }
-  /// The same, with Tᵀb given.
-  algebra::Vector solve_in_basis(algebra::Vector forces) const;
+  /// The same, with Tᵀb given, to `tolerance` of it where it is solved by iterations.
+  algebra::Vector solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;
 
   const algebra::SpdSolver& solver() const { return *solver_; }
 

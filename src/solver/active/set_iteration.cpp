@@ -136,10 +136,8 @@ std::optional<End> SetIteration::advance() {
   lambda = std::move(next_lambda);
   x = std::move(next_x);
   alpha.reset();
-  Linearisation next = held(linearise(problem, lambda, x, rho, noise(lambda, x), &l), x);
-  changed_.clear();
-  for (int r = 0; r < problem.rows(); ++r)
-    if (!next.same_piece(l, r)) changed_.push_back(r);
+  Linearisation next = follow();
+  if ((changed_.empty() || seen_.count(next.fingerprint())) && step->sharpen(lambda, x)) next = follow();
   record(next);
   if (changed_.empty()) {
     if (!screws || !screws->pulls(lambda, noise_of_screws())) return End::confirmed;
@@ -147,6 +145,15 @@ std::optional<End> SetIteration::advance() {
   }
   l = std::move(next);
   return seen_.count(l.fingerprint()) ? std::optional(End::cycle) : std::nullopt;
+}
+
+/// What the state asks for, and which rows that changes.
+Linearisation SetIteration::follow() {
+  Linearisation next = held(linearise(problem, lambda, x, rho, noise(lambda, x), &l), x);
+  changed_.clear();
+  for (int r = 0; r < problem.rows(); ++r)
+    if (!next.same_piece(l, r)) changed_.push_back(r);
+  return next;
 }
 
 Noise SetIteration::noise(const Vector& lambda, const Vector& x) const {

@@ -67,6 +67,7 @@ class SetIteration {
   Linearisation first() const;
   bool crawls() const;
   std::optional<End> advance();
+  Linearisation follow();
   void record(const Linearisation& next);
 
   Holder holder_;

@@ -16,6 +16,8 @@ class Step {
   /// Sets λ and x = Bu − c. False where the linear problem is singular (the active rows
   /// depend on each other beyond repair, or do not hold a body).
   virtual bool solve(const Linearisation& l, algebra::Vector& lambda, algebra::Vector& x) = 0;
+  /// Makes the last solution as exact as it can be, where it was not; false where it is.
+  virtual bool sharpen(algebra::Vector& /*lambda*/, algebra::Vector& /*x*/) { return false; }
   /// The whole u that belongs to the last solve().
   virtual algebra::Vector recover() = 0;
 };

@@ -1,0 +1,67 @@
+-- pdas on all unknowns, its systems solved by a factor, by an incomplete one, by multigrid: the state of the condensed form.
+local check <const> = require "check"
+
+local S <const> = dotyk.solver
+local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
+local function box(name, from, to, cells, element, force)
+  return dotyk.body{ name = name, material = material, force = force, mesh = dotyk.mesh.box{ from = from, to = to, cells = cells, element = element } }
+end
+
+local scenes = {}
+function scenes.oblique_punch()
+  local b = box("b", {0, 0, 0}, {1, 1, 1}, {5, 5, 5})
+  b:part"bottom":fix()
+  local s = dotyk.scene{ b }
+  s:contact{ b:part"top", rigid = dotyk.rigid.ball{ center = {0.4, 0.5, 1.48}, radius = 0.5 }, interference = true }
+  return s
+end
+function scenes.two_that_do_not_match()
+  local a, b = box("a", {0, 0, 0}, {1, 1, 0.5}, {6, 6, 3}), box("b", {0.1, 0.1, 0.5}, {0.9, 0.9, 1}, {5, 5, 3}, "Q1")
+  a:part"bottom":fix()
+  b:part"top":displace{ x = 0.01, y = 0, z = -0.05 }
+  local s = dotyk.scene{ a, b }
+  s:contact{ b:part"bottom", a:part"top" }
+  return s
+end
+function scenes.free_block_on_glue_and_springs()
+  local a, b = box("a", {0, 0, 0}, {1, 1, 0.5}, {4, 4, 2}), box("b", {0, 0, 0.5}, {1, 1, 1}, {4, 4, 2}, nil, {0, 0, -3})
+  a:part"bottom":support{ normal = dotyk.law.elastic(40) }
+  a:part"left":slide()
+  a:part"front":slide()
+  b:part"left":slide()
+  b:part"front":slide()
+  local s = dotyk.scene{ a, b }
+  s:contact{ b:part"bottom", a:part"top" }
+  return s
+end
+function scenes.plane_second_order()
+  local b = dotyk.body{ name = "b", material = material, mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {16, 8}, element = "P2" } }
+  b:part"bottom":fix()
+  local s = dotyk.scene{ b }
+  s:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 - 0.02 end }, interference = true }
+  return s
+end
+
+local without = {}
+for name, make in pairs(scenes) do
+  local reference <const> = S.pdas{}:solve(make())
+  check.that(reference.converged, reference.reason)
+  for _, linear in ipairs{ "factor", "incomplete_factor", "multigrid" } do
+    local solver <const> = S.pdas{ linear = linear }
+    local there <const>, s <const> = pcall(solver.solve, solver, make())
+    if there then
+      check.that(s.converged, name .. ", " .. linear .. ": " .. s.reason)
+      check.that(math.abs(s.energy / reference.energy - 1) < 1e-9, ("%s, %s: energy %.15g, not %.15g"):format(name, linear, s.energy, reference.energy))
+      local r <const> = s.residual
+      check.that(r.equilibrium < 1e-9 and r.penetration < 1e-9, name .. ", " .. linear)
+    else
+      check.that(linear == "multigrid" and s:find("libpetsc-real-dev", 1, true), s)
+      without[1] = "PETSc is absent: multigrid was not tried"
+    end
+  end
+end
+if without[1] then print(without[1]) end
+
+-- One or the other.
+local ok <const>, message <const> = pcall(S.pdas, { linear = "factor", reduced = true })
+check.that(not ok and message:find("'linear' is given beside 'reduced'", 1, true), message)
