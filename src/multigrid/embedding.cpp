@@ -1,6 +1,7 @@
 #include "multigrid/embedding.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace dotyk::multigrid {
@@ -10,6 +11,7 @@ Embedding::Embedding(const algebra::SparseMatrix& lower, const std::vector<int>&
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
   number(node);
   lay_out(lower);
+  fill_idle(lower);
 }
 
 void Embedding::number(const std::vector<int>& node) {
@@ -54,22 +56,42 @@ void Embedding::lay_out(const algebra::SparseMatrix& lower) {
       at_[k] = put(slot_[inner[k]], slot_[j]);
       mirror_[k] = inner[k] == j ? at_[k] : put(slot_[j], slot_[inner[k]]);
     }
-  for (const int i : idle_) idle_at_.push_back(put(i, i));
+  for (const int i : idle_) put(i, i);
 }
 
-bool Embedding::fill(const algebra::SparseMatrix& lower) {
-  if (!lower.isCompressed() || static_cast<std::size_t>(lower.nonZeros()) != at_.size() || static_cast<std::size_t>(lower.cols()) != slot_.size())
-    throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
-  const double* value = lower.valuePtr();
-  for (std::size_t k = 0; k < at_.size(); ++k) values_[at_[k]] = values_[mirror_[k]] = value[k];
-  double sum = 0;
+namespace {
+
+/// Sum of the diagonal; NaN where an entry is not positive.
+double positive_trace(const algebra::SparseMatrix& lower) {
   const int* begin = lower.outerIndexPtr();
+  double sum = 0;
   for (int j = 0; j < lower.cols(); ++j) {
     const bool has = begin[j] < begin[j + 1] && lower.innerIndexPtr()[begin[j]] == j;
-    if (!has || !(value[begin[j]] > 0)) return false;
-    sum += value[begin[j]];
+    if (!has || !(lower.valuePtr()[begin[j]] > 0)) return std::nan("");
+    sum += lower.valuePtr()[begin[j]];
   }
-  for (const int k : idle_at_) values_[k] = sum / static_cast<double>(slot_.size());
+  return sum;
+}
+
+}  // namespace
+
+void Embedding::fill_idle(const algebra::SparseMatrix& lower) {
+  const double trace = positive_trace(lower);
+  for (const int i : idle_) values_[starts_[i]] = std::isfinite(trace) ? trace / static_cast<double>(slot_.size()) : 1.0;
+}
+
+bool Embedding::fill(const algebra::SparseMatrix& lower, std::vector<char>& changed) {
+  if (!lower.isCompressed() || static_cast<std::size_t>(lower.nonZeros()) != at_.size() || static_cast<std::size_t>(lower.cols()) != slot_.size())
+    throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
+  if (!std::isfinite(positive_trace(lower))) return false;
+  const int* begin = lower.outerIndexPtr();
+  const double* value = lower.valuePtr();
+  for (int j = 0; j < lower.cols(); ++j)
+    for (int k = begin[j]; k < begin[j + 1]; ++k) {
+      if (values_[at_[k]] == value[k]) continue;
+      values_[at_[k]] = values_[mirror_[k]] = value[k];
+      changed[slot_[j]] = changed[slot_[lower.innerIndexPtr()[k]]] = 1;
+    }
   return true;
 }
 

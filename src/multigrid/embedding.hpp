@@ -8,13 +8,14 @@
 namespace dotyk::multigrid {
 
 /// The full matrix, by rows, that a lower triangle stands for. A node with fewer unknowns than others has idle slots after them,
-/// which are coupled with nothing; their diagonal is the mean of the others.
+/// which are coupled with nothing; their diagonal is the mean of the first matrix's.
 class Embedding {
  public:
   Embedding(const algebra::SparseMatrix& lower, const std::vector<int>& node);
 
-  /// Takes the numbers of a matrix of the same pattern. False where an entry of the diagonal is not positive.
-  bool fill(const algebra::SparseMatrix& lower);
+  /// Takes the numbers of a matrix of the same pattern, and flags the rows in which one differs. False, and nothing is taken, where
+  /// an entry of the diagonal is not positive.
+  bool fill(const algebra::SparseMatrix& lower, std::vector<char>& changed);
 
   int block() const { return block_; }
   int rows() const { return static_cast<int>(starts_.size()) - 1; }
@@ -28,9 +29,10 @@ class Embedding {
  private:
   void number(const std::vector<int>& node);
   void lay_out(const algebra::SparseMatrix& lower);
+  void fill_idle(const algebra::SparseMatrix& lower);
 
   int block_ = 1;
-  std::vector<int> slot_, idle_, idle_at_;  // idle_at_: their diagonals in values_
+  std::vector<int> slot_, idle_;
   std::vector<int> starts_, columns_;
   std::vector<double> values_;
   std::vector<int> at_, mirror_;            // where an entry of the lower triangle, and its mirror image, stand in values_

@@ -34,44 +34,22 @@ OwnedPc aggregate(Mat finest) {
   return pc;
 }
 
-/// Numbers were changed in its arrays: what PETSc keeps of them beside these is out of date.
-void tell_changed(Mat m) {
-  PetscScalar* values = nullptr;
-  check(MatSeqAIJGetArray(m, &values));
-  check(MatSeqAIJRestoreArray(m, &values));  // counts as a change
-  check(MatAssemblyBegin(m, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(m, MAT_FINAL_ASSEMBLY));
-}
-
 /// A coarse matrix is singular where coarse functions vanish, or agree, after truncation. A diagonal greater by a tiny factor, and
-/// one where there is none, makes it definite; what the cycle does elsewhere is not changed noticeably.
-void make_definite(Mat coarse) {
+/// one where there is none, makes it definite; what the cycle does elsewhere is not changed noticeably. Of the given rows.
+void make_definite(Mat coarse, const std::vector<char>& rows) {
   constexpr double kFactor = 1e-10;
-  PetscInt n = 0;
-  const PetscInt *starts = nullptr, *columns = nullptr;
-  PetscBool done = PETSC_FALSE;
-  PetscScalar* values = nullptr;
-  check(MatGetRowIJ(coarse, 0, PETSC_FALSE, PETSC_FALSE, &n, &starts, &columns, &done));
-  check(MatSeqAIJGetArray(coarse, &values));
+  RowsView C(coarse);
+  std::vector<double*> diagonal(rows.size(), nullptr);
   double greatest = 0;
-  std::vector<double*> diagonal(static_cast<std::size_t>(n), nullptr);
-  for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt* at = std::lower_bound(columns + starts[i], columns + starts[i + 1], i);
-    if (at == columns + starts[i + 1] || *at != i) continue;
-    diagonal[i] = values + (at - columns);
+  for (int i = 0; i < C.count; ++i) {
+    const PetscInt *end = C.columns + C.starts[i + 1], *at = std::lower_bound(C.columns + C.starts[i], end, i);
+    if (at == end || *at != i) throw std::runtime_error("multigrid: a coarse matrix has no diagonal");
+    diagonal[i] = C.values + (at - C.columns);
     greatest = std::max(greatest, *diagonal[i]);
   }
   if (!(greatest > 0)) greatest = 1;
-  bool whole = true;
-  for (double* d : diagonal)
-    if (d)
-      *d = *d > kFactor * greatest ? *d * (1 + kFactor) : greatest;
-    else
-      whole = false;
-  check(MatSeqAIJRestoreArray(coarse, &values));
-  check(MatRestoreRowIJ(coarse, 0, PETSC_FALSE, PETSC_FALSE, &n, &starts, &columns, &done));
-  if (!whole) throw std::runtime_error("multigrid: a coarse matrix has no diagonal");
-  tell_changed(coarse);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i]) *diagonal[i] = *diagonal[i] > kFactor * greatest ? *diagonal[i] * (1 + kFactor) : greatest;
 }
 
 double bytes_of(Mat m) {
@@ -83,7 +61,9 @@ double bytes_of(Mat m) {
 }  // namespace
 
 Hierarchy::Hierarchy(const Matrix& matrix) : embedding_(matrix.lower, matrix.node) {
-  embedding_.fill(matrix.lower);
+  empty_.assign(static_cast<std::size_t>(embedding_.rows()), 0);
+  std::vector<char> changed(empty_);
+  if (!embedding_.fill(matrix.lower, changed)) throw std::runtime_error("multigrid: the diagonal of the matrix is not positive");
   Embedding& e = embedding_;
   matrices_.emplace_back();
   check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, e.rows(), e.rows(), e.starts().data(), e.columns().data(), e.values().data(), matrices_[0].put()));
@@ -106,47 +86,50 @@ void Hierarchy::coarsen(const algebra::DenseMatrix& near_kernel) {
   }
   check(PetscFree(interpolations));
   check(PetscFree(operators));
+  for (std::size_t l = 0; l < interpolations_.size(); ++l) {
+    check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
+    products_.emplace_back(interpolations_[l], matrices_[l + 1]);
+  }
   if (interpolations_.empty()) return;
-  MatInfo info;
-  check(MatGetInfo(interpolations_[0], MAT_LOCAL, &info));
-  const PetscScalar* values = nullptr;
-  check(MatSeqAIJGetArrayRead(interpolations_[0], &values));
-  finest_interpolation_.assign(values, values + static_cast<std::size_t>(info.nz_used));
-  check(MatSeqAIJRestoreArrayRead(interpolations_[0], &values));
+  const RowsView P(interpolations_[0]);
+  finest_interpolation_.assign(P.values, P.values + P.starts[P.count]);
 }
 
-void Hierarchy::truncate(const std::vector<char>& held) {
-  Mat P = interpolations_[0];
-  PetscInt n = 0;
-  const PetscInt *starts = nullptr, *columns = nullptr;
-  PetscBool done = PETSC_FALSE;
-  PetscScalar* values = nullptr;
-  check(MatGetRowIJ(P, 0, PETSC_FALSE, PETSC_FALSE, &n, &starts, &columns, &done));
-  check(MatSeqAIJGetArray(P, &values));
-  std::copy(finest_interpolation_.begin(), finest_interpolation_.end(), values);
-  const auto clear = [&](int slot) { std::fill(values + starts[slot], values + starts[slot + 1], 0.0); };
-  for (const int slot : embedding_.idle()) clear(slot);
+void Hierarchy::truncate(const std::vector<char>& held, std::vector<char>& changed) {
+  RowsView P(interpolations_[0]);
+  std::vector<char> empty(changed.size(), 0);
+  for (const int slot : embedding_.idle()) empty[slot] = 1;
   for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i]) clear(embedding_.slot()[i]);
-  check(MatSeqAIJRestoreArray(P, &values));
-  check(MatRestoreRowIJ(P, 0, PETSC_FALSE, PETSC_FALSE, &n, &starts, &columns, &done));
-  tell_changed(P);
+    if (held[i]) empty[embedding_.slot()[i]] = 1;
+  for (int i = 0; i < P.count; ++i) {
+    if (empty[i] == empty_[i]) continue;
+    changed[i] = 1;
+    for (int k = P.starts[i]; k < P.starts[i + 1]; ++k) P.values[k] = empty[i] ? 0.0 : finest_interpolation_[k];
+  }
+  empty_ = empty;
 }
 
 bool Hierarchy::set(const algebra::SparseMatrix& lower, const std::vector<char>& held) {
-  if (!embedding_.fill(lower)) return false;
+  std::vector<char> changed(static_cast<std::size_t>(embedding_.rows()), fresh_);
+  if (!embedding_.fill(lower, changed)) return false;
   tell_changed(matrices_[0]);
-  if (!interpolations_.empty()) truncate(held);
-  for (std::size_t l = 0; l < interpolations_.size(); ++l) {
-    check(MatPtAP(matrices_[l], interpolations_[l], MAT_REUSE_MATRIX, PETSC_DEFAULT, matrices_[l + 1].put()));
-    make_definite(matrices_[l + 1]);
+  if (!interpolations_.empty()) {
+    truncate(held, changed);
+    tell_changed(interpolations_[0]);
   }
+  fresh_ = true;  // until all levels are done
+  for (std::size_t l = 0; l < interpolations_.size(); ++l) {
+    changed = products_[l].compute(matrices_[l], interpolations_[l], matrices_[l + 1], changed);
+    make_definite(matrices_[l + 1], changed);
+    tell_changed(matrices_[l + 1]);
+  }
+  fresh_ = false;
   return true;
 }
 
 double Hierarchy::bytes() const {
   double sum = embedding_.bytes() + 8.0 * static_cast<double>(finest_interpolation_.size());
-  for (std::size_t l = 1; l < matrices_.size(); ++l) sum += bytes_of(matrices_[l]) + bytes_of(interpolations_[l - 1]);
+  for (std::size_t l = 1; l < matrices_.size(); ++l) sum += bytes_of(matrices_[l]) + bytes_of(interpolations_[l - 1]) + products_[l - 1].bytes();
   return sum;
 }
 

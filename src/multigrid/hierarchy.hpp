@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "multigrid/embedding.hpp"
+#include "multigrid/galerkin.hpp"
 #include "multigrid/multigrid.hpp"
 #include "multigrid/petsc_session.hpp"
 
@@ -24,11 +25,14 @@ class Hierarchy {
 
  private:
   void coarsen(const algebra::DenseMatrix& near_kernel);
-  void truncate(const std::vector<char>& held);
+  void truncate(const std::vector<char>& held, std::vector<char>& changed);
 
   Embedding embedding_;
   std::vector<OwnedMat> matrices_, interpolations_;
+  std::vector<Galerkin> products_;            // of each interpolation
   std::vector<double> finest_interpolation_;  // its numbers, no unknown held
+  std::vector<char> empty_;                   // its rows that are empty now
+  bool fresh_ = true;                         // no coarse matrix is ours yet
 };
 
 }  // namespace dotyk::multigrid
