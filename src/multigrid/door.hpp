@@ -23,13 +23,13 @@ struct Facts {
   char version[32] = "";  // of PETSc, "3.18"
 };
 
-/// The library's functions under the names that they are exported by.
+/// The library's functions, exported as dotyk_multigrid_make and so on.
 struct Doors {
-  Outcome (*make)(const Matrix*, const Watcher*, void** hierarchy, Message*) = nullptr;                                          // dotyk_multigrid_make
-  Outcome (*set)(void*, const algebra::SparseMatrix* lower, const std::vector<char>* held, const Watcher*, Message*) = nullptr;  // dotyk_multigrid_set
-  Outcome (*solve)(void*, const double* b, double tolerance, double* x, const Watcher*, Message*) = nullptr;                     // dotyk_multigrid_solve
-  void (*facts)(void*, Facts*) = nullptr;                                                                                        // dotyk_multigrid_facts
-  void (*drop)(void*) = nullptr;                                                                                                 // dotyk_multigrid_drop
+  Outcome (*make)(const Matrix*, const Watcher*, void** solver, Message*) = nullptr;
+  Outcome (*set)(void* solver, const algebra::SparseMatrix* lower, const std::vector<char>* held, const Watcher*, Message*) = nullptr;
+  Outcome (*solve)(void* solver, const double* b, double tolerance, double* x, const Watcher*, Message*) = nullptr;
+  void (*facts)(void* solver, Facts*) = nullptr;
+  void (*drop)(void* solver) = nullptr;
 };
 
 }  // namespace dotyk::multigrid

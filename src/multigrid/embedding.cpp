@@ -96,7 +96,8 @@ bool Embedding::fill(const algebra::SparseMatrix& lower, std::vector<char>& chan
 }
 
 double Embedding::bytes() const {
-  return 4.0 * static_cast<double>(slot_.size() + starts_.size() + columns_.size() + at_.size() + mirror_.size()) + 8.0 * static_cast<double>(values_.size());
+  const std::size_t places = slot_.size() + starts_.size() + columns_.size() + at_.size() + mirror_.size();
+  return 4.0 * static_cast<double>(places) + 8.0 * static_cast<double>(values_.size());
 }
 
 }  // namespace dotyk::multigrid

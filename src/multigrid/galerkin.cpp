@@ -59,7 +59,8 @@ void Galerkin::compute_block(int block, const RowsView& A, const RowsView& P, Ro
     in_product_[row] = 0;
   }
   for (int r = 0; r < m; ++r)
-    for (int k = C.starts[block * m + r]; k < C.starts[block * m + r + 1]; ++k) C.values[k] = sum_[static_cast<std::size_t>(C.columns[k]) * m + r];
+    for (int k = C.starts[block * m + r]; k < C.starts[block * m + r + 1]; ++k)
+      C.values[k] = sum_[static_cast<std::size_t>(C.columns[k]) * m + r];
   for (const int column : sum_rows_) {
     std::fill_n(sum_.data() + static_cast<std::size_t>(column) * m, m, 0.0);
     in_sum_[column] = 0;

@@ -1,7 +1,7 @@
 #include "multigrid/hierarchy.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <stdexcept>
 
 #include "multigrid/near_kernel.hpp"
 
@@ -16,20 +16,20 @@ void leave_out_smoothers(PC pc) {
   check(PetscOptionsSetValue(nullptr, "-dotyk_mg_levels_pc_type", "none"));
 }
 
-double knob(const char* name, double value) { return std::getenv(name) ? std::atof(std::getenv(name)) : value; }
-
+/// As GAMG chooses them by default, save the size of the coarsest. Measured on a cube of 200 000 unknowns, seconds of one construction
+/// and five times new numbers with a solution to 1e-3: 5.6; no pairs of aggregates joined 16.3, joined on two levels 6.9; prolongator
+/// not smoothed 7.0, and iterations grow with the mesh, smoothed twice 17.2; threshold 0.02 6.9; Chebyshev's smoother of two steps 7.3.
 OwnedPc aggregate(Mat finest) {
   OwnedPc pc;
   check(PCCreate(PETSC_COMM_SELF, pc.put()));
   check(PCSetOperators(pc, finest, finest));
   check(PCSetType(pc, PCGAMG));
   leave_out_smoothers(pc);
-  PetscReal threshold = knob("MG_THRESHOLD", 0.0);
+  PetscReal threshold = 0;
   check(PCGAMGSetThreshold(pc, &threshold, 1));
-  check(PCGAMGSetThresholdScale(pc, knob("MG_SCALE", 1.0)));
-  check(PCGAMGSetAggressiveLevels(pc, static_cast<int>(knob("MG_AGGRESSIVE", 1))));
-  check(PCGAMGSetNSmooths(pc, static_cast<int>(knob("MG_NSMOOTHS", 1))));
-  check(PCGAMGSetCoarseEqLim(pc, static_cast<int>(knob("MG_COARSE", 400))));
+  check(PCGAMGSetAggressiveLevels(pc, 1));
+  check(PCGAMGSetNSmooths(pc, 1));
+  check(PCGAMGSetCoarseEqLim(pc, 400));
   check(PCSetUp(pc));
   return pc;
 }

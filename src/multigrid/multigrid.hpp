@@ -15,7 +15,9 @@ namespace dotyk::multigrid {
 struct Matrix {
   const algebra::SparseMatrix& lower;        ///< positive definite, lower triangle, compressed, no unknown held
   const std::vector<int>& node;              ///< of each unknown, ascending, as in problem::Block::node
-  const algebra::DenseMatrix& near_kernel;   ///< unknowns × modes of little energy, rigid motions; may have no columns. Six for all bodies together: each mode is an unknown of every coarse node
+  /// Unknowns × modes of little energy, rigid motions; may have no columns. Six for all bodies together: each mode is an unknown of
+  /// every coarse node.
+  const algebra::DenseMatrix& near_kernel;
 };
 
 /// Interpolations are chosen once, for the matrix that the solver is made from; set() computes the coarse matrices anew, with
@@ -23,7 +25,8 @@ struct Matrix {
 ///
 /// solve() returns NaN where the matrix shows itself to be indefinite, or 1000 iterations do not suffice; Interrupted is thrown
 /// where the monitor asks to stop, which each iteration asks. b must be 0 at held unknowns, and x is. Solvers may be used from
-/// several threads, but wait for one another.
+/// several threads, but wait for one another. Tolerances are met by the residual that conjugate gradients carry along, which below some
+/// 1e-13 may be less than that of x.
 class Solver : public algebra::SpdSolver {
  public:
   virtual int iterations() const = 0;  ///< of all calls of solve() together

@@ -7,7 +7,7 @@
 #include "multigrid/petsc_solver.hpp"
 
 using namespace dotyk;
-using multigrid::Outcome, multigrid::PetscSolver;
+using multigrid::Message, multigrid::Outcome, multigrid::PetscSolver, multigrid::Watcher;
 
 namespace {
 
@@ -17,7 +17,7 @@ std::mutex& only_one() {
 }
 
 template <class Work>
-Outcome guarded(Work work, multigrid::Message* message) {
+Outcome guarded(Work work, Message* message) {
   const std::lock_guard lock(only_one());
   try {
     return work();
@@ -29,13 +29,13 @@ Outcome guarded(Work work, multigrid::Message* message) {
   return Outcome::failed;
 }
 
-bool asked_to_stop(const multigrid::Watcher& watcher) { return watcher.stop(watcher.who); }
+bool asked_to_stop(const Watcher& watcher) { return watcher.stop(watcher.who); }
 
 }  // namespace
 
 #define DOTYK_DOOR extern "C" __attribute__((visibility("default")))
 
-DOTYK_DOOR Outcome dotyk_multigrid_make(const multigrid::Matrix* matrix, const multigrid::Watcher* watcher, void** hierarchy, multigrid::Message* message) {
+DOTYK_DOOR Outcome dotyk_multigrid_make(const multigrid::Matrix* matrix, const Watcher* watcher, void** hierarchy, Message* message) {
   return guarded([&] {
     multigrid::start_petsc();
     if (asked_to_stop(*watcher)) return Outcome::stopped;
@@ -46,19 +46,20 @@ DOTYK_DOOR Outcome dotyk_multigrid_make(const multigrid::Matrix* matrix, const m
   }, message);
 }
 
-DOTYK_DOOR Outcome dotyk_multigrid_set(void* solver, const algebra::SparseMatrix* lower, const std::vector<char>* held, const multigrid::Watcher* watcher, multigrid::Message* message) {
+DOTYK_DOOR Outcome dotyk_multigrid_set(void* solver, const algebra::SparseMatrix* lower, const std::vector<char>* held,
+                                       const Watcher* watcher, Message* message) {
   return guarded([&] {
     if (asked_to_stop(*watcher)) return Outcome::stopped;
     return static_cast<PetscSolver*>(solver)->set(*lower, *held) ? Outcome::done : Outcome::not_definite;
   }, message);
 }
 
-DOTYK_DOOR Outcome dotyk_multigrid_solve(void* solver, const double* b, double tolerance, double* x, const multigrid::Watcher* watcher, multigrid::Message* message) {
+DOTYK_DOOR Outcome dotyk_multigrid_solve(void* solver, const double* b, double tolerance, double* x, const Watcher* watcher, Message* message) {
   return guarded([&] { return static_cast<PetscSolver*>(solver)->solve(b, tolerance, x, *watcher); }, message);
 }
 
 DOTYK_DOOR void dotyk_multigrid_facts(void* solver, multigrid::Facts* facts) {
-  multigrid::Message message;
+  Message message;
   guarded([&] {
     *facts = static_cast<PetscSolver*>(solver)->facts();
     return Outcome::done;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 namespace dotyk::multigrid {
 
@@ -17,10 +16,10 @@ void make_smoother(KSP ksp, Mat matrix, MatSORType type) {
   check(KSPSetOperators(ksp, matrix, matrix));
   check(KSPSetType(ksp, KSPRICHARDSON));
   check(KSPSetNormType(ksp, KSP_NORM_NONE));
-  check(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, std::getenv("MG_SWEEPS") ? std::atoi(std::getenv("MG_SWEEPS")) : 1));
+  check(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 1));
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCSOR));
-  check(PCSORSetSymmetric(pc, std::getenv("MG_SYM") ? SOR_LOCAL_SYMMETRIC_SWEEP : type));
+  check(PCSORSetSymmetric(pc, type));
 }
 
 void make_coarsest(KSP ksp, Mat matrix) {
