@@ -1,4 +1,4 @@
-// What the library does to the process that it is opened in.
+// What the library does to the process that it is opened in. doctest goes by the names of files: these cases come first.
 #include <doctest/doctest.h>
 
 #include <malloc.h>
@@ -34,7 +34,6 @@ TEST_CASE("where the library was not built, what to install is said") {
   CHECK_THROWS_WITH_AS(multigrid::make_solver({cube.lower, cube.node, cube.motions}, monitor), doctest::Contains("libpetsc-real-dev"), InputError);
 }
 
-// Alone in its test program, as ctest runs the cases in order, it would be the first to start PETSc; run after others it shows less.
 TEST_CASE("signal handlers stay the program's") {
   if (test::not_built()) return;
   const auto before = std::signal(SIGINT, on_interrupt);
