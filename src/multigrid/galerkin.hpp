@@ -7,7 +7,8 @@
 
 namespace dotyk::multigrid {
 
-/// PETSc's own product takes three to four times as long, since it does not know that unknowns come in blocks, and knows no rows that stay.
+/// PETSc's own product knows neither that unknowns come in blocks nor that rows stay. Seconds of a set() on a cube of 200 000
+/// unknowns: 1.2 by PETSc's, 0.6 here where all rows are new, 0.02 to 0.2 where a disc on the top is held or let go.
 class Galerkin {
  public:
   /// `coarse` has the pattern of PᵀAP; its blocks are the coarse nodes.

@@ -16,8 +16,8 @@ void leave_out_smoothers(PC pc) {
   check(PetscOptionsSetValue(nullptr, "-dotyk_mg_levels_pc_type", "none"));
 }
 
-/// As GAMG chooses them by default, save the size of the coarsest. Measured on a cube of 200 000 unknowns, seconds of one construction
-/// and five times new numbers with a solution to 1e-3: 5.6; no pairs of aggregates joined 16.3, joined on two levels 6.9; prolongator
+/// As GAMG chooses them by default, save the size of the coarsest. Measured on a cube of 200 000 unknowns, processor seconds of one
+/// construction and five times new numbers with a solution to 1e-3: 5.6; no pairs of aggregates joined 16.3, joined on two levels 6.9; prolongator
 /// not smoothed 7.0, and iterations grow with the mesh, smoothed twice 17.2; threshold 0.02 6.9; Chebyshev's smoother of two steps 7.3.
 OwnedPc aggregate(Mat finest) {
   OwnedPc pc;
