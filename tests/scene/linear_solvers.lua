@@ -65,3 +65,15 @@ if without[1] then print(without[1]) end
 -- One or the other.
 local ok <const>, message <const> = pcall(S.pdas, { linear = "factor", reduced = true })
 check.that(not ok and message:find("'linear' is given beside 'reduced'", 1, true), message)
+
+-- Where iterations do not suffice, that is said.
+do
+  local long <const> = dotyk.body{ name = "long", material = dotyk.material{ E = 1000, nu = 0.4999 },
+    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, 20}, cells = {6, 6, 6} } }
+  long:part"bottom":fix()
+  local scene <const> = dotyk.scene{ long }
+  scene:contact{ long:part"top", rigid = dotyk.rigid.ball{ center = {0.5, 0.5, 20.49}, radius = 0.5 }, interference = true }
+  local solver <const> = S.pdas{ linear = "multigrid" }
+  local solved <const>, said <const> = pcall(solver.solve, solver, scene)
+  check.that(solved and said.converged or tostring(said):find("no solution of a linear system", 1, true) or tostring(said):find("libpetsc-real-dev", 1, true), said)
+end

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "algebra/dense/generalised_inverse.hpp"
+#include "base/error.hpp"
+#include "base/text.hpp"
 
 namespace dotyk::solver {
 
@@ -115,7 +117,11 @@ bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held) 
 Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
   for (Eigen::Index i = 0; i < forces.size(); ++i)
     if (held_[i]) forces[i] = 0;
-  return problem::least(unnoticed_, basis_.T * solver_->solve(forces, tolerance));
+  const Vector solution = solver_->solve(forces, tolerance);
+  if (solver_->iterates() && forces.allFinite() && !solution.allFinite())
+    throw InputError(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
+                          "stretched cells or great contrasts of stiffness; linear = \"factor\" and the default method do without iterations"));
+  return problem::least(unnoticed_, basis_.T * solution);
 }
 
 }  // namespace dotyk::solver

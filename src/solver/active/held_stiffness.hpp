@@ -38,7 +38,7 @@ class HeldStiffness {
   bool factor(const algebra::Vector& spring, const std::vector<char>& held);
   /// u under the forces b, zero in what is held.
   algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.T.transpose() * b); }
-  /// The same, with Tᵀb given, to `tolerance` of it where it is solved by iterations.
+  /// The same, with Tᵀb given, to `tolerance` of it where it is solved by iterations. Throws InputError where these do not suffice.
   algebra::Vector solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;
 
   const algebra::SpdSolver& solver() const { return *solver_; }
