@@ -1,6 +1,7 @@
 #include "multigrid/hierarchy.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "multigrid/near_kernel.hpp"
@@ -58,24 +59,58 @@ double bytes_of(Mat m) {
   return 12.0 * info.nz_allocated;
 }
 
+/// The embedded matrix, in the embedding's own arrays.
+OwnedMat view(Embedding& e) {
+  OwnedMat m;
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, e.rows(), e.rows(), e.starts().data(), e.columns().data(), e.values().data(), m.put()));
+  check(MatSetBlockSize(m, e.block()));
+  check(MatSetOption(m, MAT_SPD, PETSC_TRUE));
+  return m;
+}
+
+/// S between slots, idle ones as they are.
+OwnedMat embedded(const algebra::SparseMatrix& S, const Embedding& e) {
+  const algebra::SparseRows rows = S;
+  std::vector<PetscInt> starts{0}, columns;
+  std::vector<PetscScalar> values;
+  std::vector<int> unknown(static_cast<std::size_t>(e.rows()), -1);
+  for (std::size_t i = 0; i < e.slot().size(); ++i) unknown[e.slot()[i]] = static_cast<int>(i);
+  for (int slot = 0; slot < e.rows(); ++slot) {
+    if (unknown[slot] < 0) columns.push_back(slot), values.push_back(1);
+    else
+      for (algebra::SparseRows::InnerIterator it(rows, unknown[slot]); it; ++it) columns.push_back(e.slot()[it.col()]), values.push_back(it.value());
+    starts.push_back(static_cast<PetscInt>(columns.size()));
+  }
+  OwnedMat views, m;
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, e.rows(), e.rows(), starts.data(), columns.data(), values.data(), views.put()));
+  check(MatDuplicate(views, MAT_COPY_VALUES, m.put()));
+  check(MatSetBlockSize(m, e.block()));
+  return m;
+}
+
 }  // namespace
 
 Hierarchy::Hierarchy(const Matrix& matrix) : embedding_(matrix.lower, matrix.node) {
   empty_.assign(static_cast<std::size_t>(embedding_.rows()), 0);
   std::vector<char> changed(empty_);
   if (!embedding_.fill(matrix.lower, changed)) throw std::runtime_error("multigrid: the diagonal of the matrix is not positive");
-  Embedding& e = embedding_;
-  matrices_.emplace_back();
-  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, e.rows(), e.rows(), e.starts().data(), e.columns().data(), e.values().data(), matrices_[0].put()));
-  check(MatSetBlockSize(matrices_[0], e.block()));
-  check(MatSetOption(matrices_[0], MAT_SPD, PETSC_TRUE));
-  coarsen(matrix.near_kernel);
+  matrices_.push_back(view(embedding_));
+  coarsen(matrix);
 }
 
-void Hierarchy::coarsen(const algebra::DenseMatrix& near_kernel) {
-  attach_near_kernel(matrices_[0], embedding_, near_kernel);
-  const OwnedPc pc = aggregate(matrices_[0]);
-  check(MatSetNearNullSpace(matrices_[0], nullptr));
+void Hierarchy::coarsen(const Matrix& matrix) {
+  std::optional<Embedding> own;  // of displacements, where unknowns are others
+  OwnedMat displaced;
+  if (matrix.displaced) {
+    own.emplace(*matrix.displaced, matrix.node);
+    std::vector<char> changed(static_cast<std::size_t>(own->rows()));
+    if (!own->fill(*matrix.displaced, changed)) throw std::runtime_error("multigrid: the diagonal of the stiffness is not positive");
+    displaced = view(*own);
+  }
+  const Mat finest = own ? displaced : matrices_[0];
+  attach_near_kernel(finest, embedding_, matrix.near_kernel);
+  const OwnedPc pc = aggregate(finest);
+  check(MatSetNearNullSpace(finest, nullptr));
   PetscInt count = 0, coarse = 0;
   Mat *interpolations = nullptr, *operators = nullptr;
   check(PCGetInterpolations(pc, &count, &interpolations));  // the coarsest first, each with a reference for us
@@ -86,6 +121,7 @@ void Hierarchy::coarsen(const algebra::DenseMatrix& near_kernel) {
   }
   check(PetscFree(interpolations));
   check(PetscFree(operators));
+  if (own && !interpolations_.empty()) take_unknowns(embedded(*matrix.unknowns, embedding_));
   for (std::size_t l = 0; l < interpolations_.size(); ++l) {
     check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
     products_.emplace_back(interpolations_[l], matrices_[l + 1]);
@@ -93,6 +129,17 @@ void Hierarchy::coarsen(const algebra::DenseMatrix& near_kernel) {
   if (interpolations_.empty()) return;
   const RowsView P(interpolations_[0]);
   finest_interpolation_.assign(P.values, P.values + P.starts[P.count]);
+}
+
+void Hierarchy::take_unknowns(Mat S) {
+  OwnedMat interpolation;
+  check(MatMatMult(S, interpolations_[0], MAT_INITIAL_MATRIX, PETSC_DEFAULT, interpolation.put()));
+  interpolations_[0] = std::move(interpolation);
+  for (std::size_t l = 0; l < interpolations_.size(); ++l) {  // bodies that nothing joined meet in these patterns
+    OwnedMat coarse;
+    check(MatPtAP(matrices_[l], interpolations_[l], MAT_INITIAL_MATRIX, PETSC_DEFAULT, coarse.put()));
+    matrices_[l + 1] = std::move(coarse);
+  }
 }
 
 void Hierarchy::truncate(const std::vector<char>& held, std::vector<char>& changed) {

@@ -24,7 +24,9 @@ class Hierarchy {
   double bytes() const;
 
  private:
-  void coarsen(const algebra::DenseMatrix& near_kernel);
+  void coarsen(const Matrix& matrix);
+  /// S: the unknowns, of displacements; all slots.
+  void take_unknowns(Mat S);
   void truncate(const std::vector<char>& held, std::vector<char>& changed);
 
   Embedding embedding_;

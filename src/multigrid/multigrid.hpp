@@ -18,6 +18,10 @@ struct Matrix {
   /// Unknowns × modes of little energy, rigid motions; may have no columns. Six for all bodies together: each mode is an unknown of
   /// every coarse node.
   const algebra::DenseMatrix& near_kernel;
+  /// Where the unknowns u' of `lower` are others than the displacements u that `near_kernel` is of, as jumps between bodies: the matrix for u, lower
+  /// triangle, whose aggregates the hierarchy takes, and S with u' = S u.
+  const algebra::SparseMatrix* displaced = nullptr;
+  const algebra::SparseMatrix* unknowns = nullptr;
 };
 
 /// Interpolations are chosen once, for the matrix that the solver is made from; set() computes the coarse matrices anew, with

@@ -89,6 +89,27 @@ void add(Problem& problem, Block block) {
   problem.blocks.push_back(std::move(block));
 }
 
+SparseMatrix lower_stiffness(const Problem& problem) {
+  if (problem.blocks.size() == 1) return problem.blocks.front().K;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Block& block : problem.blocks)
+    for (int j = 0; j < block.size(); ++j)
+      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, it.value());
+  SparseMatrix K(problem.unknowns(), problem.unknowns());
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
+std::vector<int> nodes(const Problem& problem) {
+  std::vector<int> all;
+  int first = 0;
+  for (const Block& block : problem.blocks) {
+    for (const int n : block.node) all.push_back(first + n);
+    first = all.empty() ? 0 : all.back() + 1;
+  }
+  return all;
+}
+
 Vector stiffness_times(const Problem& problem, const Vector& u) { return precise_stiffness_times(problem, u.cast<long double>()).cast<double>(); }
 
 LongVector precise_stiffness_times(const Problem& problem, const LongVector& u) {

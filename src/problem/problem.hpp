@@ -81,6 +81,10 @@ struct State {
   algebra::Vector lambda;  ///< rows
 };
 
+/// The lower triangle of the stiffness of all blocks.
+algebra::SparseMatrix lower_stiffness(const Problem& problem);
+/// The node of each unknown, ascending; blocks share none.
+std::vector<int> nodes(const Problem& problem);
 /// K u, block by block.
 algebra::Vector stiffness_times(const Problem& problem, const algebra::Vector& u);
 

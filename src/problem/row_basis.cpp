@@ -12,10 +12,13 @@ using algebra::SparseRows;
 
 namespace {
 
-/// Of the greatest factor in a row: that of an unknown which can be the row's own, and what elimination leaves of a row that depends on others.
-constexpr double kLeastFactor = 0.2, kDependent = 1e-8;
+/// Factors, against the greatest in their row: of an unknown that can be the row's own, and all of what elimination leaves where the row nearly
+/// depends on others, whose numbers would be magnified.
+constexpr double kLeastFactor = 0.2, kDependent = 0.01;
+/// Unknowns that one may depend on: rows along an edge, or around a rim, depend on each other one after the other.
+constexpr std::size_t kMostTerms = 200;
 
-/// Gauss–Jordan elimination of one unknown for every row, as long as that makes no row reach more than three times as far.
+/// Gauss–Jordan elimination of one unknown for every row, as long as that makes none reach too far.
 class Elimination {
  public:
   explicit Elimination(const Problem& problem) : problem_(problem), n_(problem.unknowns()), shared_(n_, 0), solved_(n_), most_(n_, 0), in_(n_) {
@@ -49,7 +52,7 @@ class Elimination {
       greatest = std::max(greatest, std::abs(it.value()));
       ++count;
     }
-    const std::size_t most = 3 * count + 3;
+    const std::size_t most = std::max(3 * count + 3, kMostTerms);
     if (terms.size() > most) return -1;
     const int own = pick(terms, greatest);
     if (own < 0) return -1;
@@ -94,8 +97,12 @@ class Elimination {
       if (index < n_) most = std::max(most, std::abs(value));
     if (!(most > kDependent * greatest)) return -1;
     int best = -1;
-    for (const auto& [index, value] : terms)
-      if (index < n_ && std::abs(value) >= kLeastFactor * most && (best < 0 || shared_[index] < shared_[best])) best = index;
+    double of_best = 0;
+    for (const auto& [index, value] : terms) {
+      if (index >= n_ || !(std::abs(value) >= kLeastFactor * most)) continue;
+      const int fewer = best < 0 ? 1 : shared_[best] - shared_[index];
+      if (fewer > 0 || (fewer == 0 && std::abs(value) > of_best)) best = index, of_best = std::abs(value);
+    }
     return best;
   }
 
@@ -111,21 +118,23 @@ class Elimination {
 
 RowBasis row_basis(const Problem& problem) { return Elimination(problem)(); }
 
-SparseMatrix RowBasis::coordinates(const Problem& problem, const SparseMatrix& u) const {
-  std::vector<int> row_of(problem.unknowns(), -1);
-  for (int r = 0; r < problem.rows(); ++r)
-    if (unknown[r] >= 0) row_of[unknown[r]] = r;
+bool RowBasis::trivial() const {
+  return T.nonZeros() == T.cols() && std::all_of(T.valuePtr(), T.valuePtr() + T.nonZeros(), [](double value) { return value == 1; });
+}
+
+SparseMatrix RowBasis::of_displacements(const Problem& problem) const {
+  std::vector<char> own(unknown.empty() ? 0 : T.cols(), 0);
   std::vector<Eigen::Triplet<double>> entries;
-  const SparseMatrix jumps = problem.B * u;
-  for (int k = 0; k < u.cols(); ++k) {
-    for (SparseMatrix::InnerIterator it(u, k); it; ++it)
-      if (row_of[it.row()] < 0) entries.emplace_back(static_cast<int>(it.row()), k, it.value());
-    for (SparseMatrix::InnerIterator it(jumps, k); it; ++it)
-      if (const int own = unknown[it.row()]; own >= 0) entries.emplace_back(own, k, it.value());
+  for (std::size_t r = 0; r < unknown.size(); ++r) {
+    if (unknown[r] < 0) continue;
+    own[unknown[r]] = 1;
+    for (SparseRows::InnerIterator it(problem.B, static_cast<int>(r)); it; ++it) entries.emplace_back(unknown[r], static_cast<int>(it.col()), it.value());
   }
-  SparseMatrix out(u.rows(), u.cols());
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+  for (int i = 0; i < T.cols(); ++i)
+    if (own.empty() || !own[i]) entries.emplace_back(i, i, 1);
+  SparseMatrix S(T.rows(), T.cols());
+  S.setFromTriplets(entries.begin(), entries.end());
+  return S;
 }
 
 }  // namespace dotyk::problem

@@ -11,13 +11,16 @@ namespace dotyk::problem {
 /// (2003), with a pivot for every row instead of a side for every contact). All other unknowns stay as they are.
 struct RowBasis {
   algebra::SparseMatrix T;   ///< unknowns × unknowns
-  std::vector<int> unknown;  ///< of every row; -1 where others leave it none: rows that depend on each other, or reach too far
-  /// Displacements in this basis, T⁻¹ of every column.
-  algebra::SparseMatrix coordinates(const Problem& problem, const algebra::SparseMatrix& displacements) const;
+  std::vector<int> unknown;  ///< of every row; -1 where others leave it none: rows that nearly depend on each other, or reach too far
+  bool trivial() const;      ///< is T the identity?
+  /// S = T⁻¹: u' = S u.
+  algebra::SparseMatrix of_displacements(const Problem& problem) const;
 };
 
-/// Gives each row the unknown that fewest rows share, of those whose factor is at least a fifth of its greatest. None to a row
-/// whose elimination would make it, or another, reach three times as far.
+/// Gives each row the unknown that fewest rows share, of those whose factor is at least a fifth of its greatest; of several the one of the greatest
+/// factor, since divisions by small ones would make the others stiff. None to a row
+/// of whose greatest factor elimination leaves less than a hundredth, or whose elimination would make an unknown depend on more than
+/// 200 others (three times as many as the row has, where these are more).
 RowBasis row_basis(const Problem& problem);
 
 }  // namespace dotyk::problem

@@ -107,7 +107,7 @@ TEST_CASE("an incomplete factor in place of the factor: the same sets, the same 
   for (int trial = 0; trial < 50; ++trial) {
     const auto p = test::program(random.positive_definite(kUnknowns, 0.3), 3 * random.vector(kUnknowns), few_unknowns(random), 0.3 * random.vector(kRows));
     solver::Pdas direct = held(std::vector<char>(kRows, 0)), iterative = direct;
-    iterative.linear = [](const solver::SpdSystem& system) { return algebra::incompletely_factored(system.monitor); };
+    iterative.linear = solver::incomplete_factor();
     const auto a = solver::solve(p, direct, quiet), b = solver::solve(p, iterative, quiet);
     REQUIRE_MESSAGE(a.converged, a.reason);
     REQUIRE_MESSAGE(b.converged, b.reason);

@@ -85,26 +85,48 @@ FreeJumps::Node FreeJumps::of_node(const Side& side, int node) const {
 }
 
 Matrix3d FreeJumps::at(const contact::ContactRow& row) const {
-  const Matrix3d V = of_facing(row);
-  if (!second_.numbering || row.partners.size() <= 1 || on_plane_of_symmetry(row, V)) return V;
-  Matrix3d sum = V;
-  for (const contact::NodeWeight& partner : row.partners)
-    if (std::abs(partner.weight) > kNoWeight) sum += of_node(second_, partner.node).free;
-  return onto_range(sum);
-}
-
-Matrix3d FreeJumps::of_facing(const contact::ContactRow& row) const {
+  if (second_.numbering && row.partners.size() > 1)
+    if (const auto plane = plane_of_symmetry(row.node, row.partners, &row.normal)) return *plane;
   Matrix3d sum = Matrix3d::Zero();
   for (const contact::NodeWeight& own : row.own) sum += of_node(first_, own.node).free;
-  if (second_.numbering && !row.partners.empty()) sum += of_node(second_, facing(contact_, row.node, row.partners)).free;
+  if (second_.numbering)
+    for (const contact::NodeWeight& partner : row.partners)
+      if (std::abs(partner.weight) > kNoWeight || row.partners.size() == 1) sum += of_node(second_, partner.node).free;
   return onto_range(sum);
 }
 
-bool FreeJumps::on_plane_of_symmetry(const contact::ContactRow& row, const Matrix3d& V) const {
-  if ((V * vector(row.normal)).norm() <= kHeld) return false;
-  const mesh::Mesh &own = *contact_.first.body->mesh, &other = *contact_.second.body->mesh;
-  const Vector3d apart = vector(own.point(row.node)) - vector(other.point(facing(contact_, row.node, row.partners)));
-  return (apart - V * apart).norm() <= kInPlane * own.size();
+std::vector<Point> FreeJumps::at(const contact::Tie& tie) const {
+  std::optional<Matrix3d> V;
+  if (tie.own.size() == 1) V = plane_of_symmetry(tie.node, tie.partners, nullptr);
+  if (!V) {
+    Matrix3d sum = of_node(second_, facing(contact_, tie.node, tie.partners)).free;
+    for (const contact::NodeWeight& own : tie.own) sum += of_node(first_, own.node).free;
+    V = onto_range(sum);
+  }
+  std::vector<Point> axes;
+  if (V->isDiagonal(0)) {  // of one partner, an axis that supports hold on both sides has a row without unknowns, which compares what they prescribe
+    for (int i = 0; i < dim_; ++i)
+      if ((*V)(i, i) > 0 || tie.partners.size() == 1) axes.push_back(point(Vector3d::Unit(i)));
+    return axes;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(*V);
+  for (int i = 0; i < 3; ++i)
+    if (eigen.eigenvalues()[i] > 0.5) axes.push_back(point(eigen.eigenvectors().col(i)));
+  return axes;
+}
+
+std::optional<Matrix3d> FreeJumps::plane_of_symmetry(int node, const std::vector<contact::NodeWeight>& partners, const Point* normal) const {
+  const mesh::Mesh &mesh = *contact_.first.body->mesh, &other = *contact_.second.body->mesh;
+  const Matrix3d own = of_node(first_, node).free;
+  if (dimension_of(own) == dim_ || mesh.topology().order == 2) return std::nullopt;
+  std::optional<Matrix3d> least;
+  for (const contact::NodeWeight& partner : partners) {
+    const Matrix3d V = onto_range(own + of_node(second_, partner.node).free);
+    if (least && dimension_of(V) >= dimension_of(*least)) continue;
+    const Vector3d apart = vector(mesh.point(node)) - vector(other.point(partner.node));
+    if (dimension_of(V) < dim_ && (!normal || (V * vector(*normal)).norm() > kHeld) && (apart - V * apart).norm() <= kInPlane * mesh.size()) least = V;
+  }
+  return least;
 }
 
 std::optional<double> FreeJumps::given(const contact::ContactRow& row) const {

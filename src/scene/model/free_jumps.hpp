@@ -11,14 +11,16 @@ namespace dotyk::scene {
 /// What supports leave free of the jump u₁ − u₂ at the rows of a contact: the sum V of the spaces in which the row's nodes, own and
 /// partners, are not held by fix, slide or displace, oblique slides included, or by laws that prescribe a displacement, whatever its value;
 /// of order 2 such laws are about means, and hold no node.
-/// On a plane of symmetry V is the plane: the row's node and the partner facing it (see facing()) lie in it and stay in it, though further
-/// partners beside it have a weight in the row.
+/// On a plane of symmetry V is the plane: the row's node and one of its partners lie in it and stay in it, though further nodes
+/// beside it have a weight in the row.
 class FreeJumps {
  public:
   /// Not kept: `bodies` as they are solved, `numbering` of each.
   FreeJumps(const Scene& scene, const std::vector<Body>& bodies, const std::vector<elasticity::Numbering>& numbering, const Contact& contact);
   /// The orthogonal projection onto V, 3 × 3.
   Eigen::Matrix3d at(const contact::ContactRow& row) const;
+  /// Of glue, where only the row's node and the partner facing it count: orthonormal directions that span V.
+  std::vector<mesh::Point> at(const contact::Tie& tie) const;
   /// The jump along the row's normal, Σ weight u_own − Σ weight u_partner, as supports say it; none where a node is free to move along it.
   std::optional<double> given(const contact::ContactRow& row) const;
 
@@ -38,9 +40,9 @@ class FreeJumps {
   };
   static Side side_of(const Body& body, const elasticity::Numbering& numbering);
   Node of_node(const Side& side, int node) const;
-  /// Of the row's node and the partner facing it alone.
-  Eigen::Matrix3d of_facing(const contact::ContactRow& row) const;
-  bool on_plane_of_symmetry(const contact::ContactRow& row, const Eigen::Matrix3d& V) const;
+  /// The plane, or line, in which the row's node and one of its partners lie and stay; none where there is none.
+  /// With a normal, of those that it does not stand on.
+  std::optional<Eigen::Matrix3d> plane_of_symmetry(int node, const std::vector<contact::NodeWeight>& partners, const mesh::Point* normal) const;
 
   const Contact& contact_;
   Side first_, second_;  ///< second: of a rigid shape without numbering

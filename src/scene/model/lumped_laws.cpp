@@ -137,7 +137,7 @@ class Lumping {
   /// Bw.
   Vector response(const Vector& defect) const {
     Monitor quiet;
-    solver::HeldStiffness stiffness(problem_, problem::rigid_motions(problem_), solver::factored_by({}), quiet);
+    solver::HeldStiffness stiffness(problem_, problem::rigid_motions(problem_), solver::factor({}), quiet);
     if (!stiffness.factor(spring_, std::vector<char>(problem_.unknowns(), 0))) return Vector::Zero(s_.rows());
     return problem_.B * stiffness.solve(problem_.B.transpose() * defect);
   }

@@ -86,24 +86,21 @@ void add_body(const Body& body, Model& model) {
   problem::add(model.problem, std::move(block));
 }
 
-void add_glue_rows(const Scene& scene, const Contact& contact, RowBuilder& builder,
-                   std::vector<int>& row_of) {
+void add_glue_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, std::vector<GlueRow>& rows) {
   const int first = scene.index_of(contact.first.body.get());
   const int second = scene.index_of(contact.second.body.get());
   builder.rows.open_group(contact.name, problem::bilateral());
-  for (const contact::Tie& tie : contact.glued)
-    for (int i = 0; i < scene.dimension(); ++i) {
-      Point direction{0, 0, 0};
-      direction[i] = 1;
+  for (std::size_t k = 0; k < contact.glued.size(); ++k) {
+    const contact::Tie& tie = contact.glued[k];
+    for (const Point& direction : jumps.at(tie)) {
       double jump = 0;
-      const bool moves = tie.partners.size() == 1 || builder.moves(first, tie.own, direction) ||
-                         builder.moves(second, facing(contact, tie.node, tie.partners), direction);
-      row_of.push_back(moves ? builder.add(first, second, {{tie.own, tie.partners, direction}}, jump) : -1);
-      if (row_of.back() < 0 && std::abs(jump) > 1e-12 * contact.first.body->mesh->size())
-        throw InputError(text(contact.name, ": at ",
-                              point_text(contact.first.body->mesh->node(tie.node), scene.dimension()),
+      const int row = builder.add(first, second, {{tie.own, tie.partners, direction}}, jump);
+      if (row >= 0) rows.push_back({static_cast<int>(k), direction, row});
+      else if (std::abs(jump) > 1e-12 * contact.first.body->mesh->size())
+        throw InputError(text(contact.name, ": at ", point_text(contact.first.body->mesh->node(tie.node), scene.dimension()),
                               " the two sides are prescribed displacements that differ by ", std::abs(jump)));
     }
+  }
 }
 
 }  // namespace
@@ -164,7 +161,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
       add_normal_rows(scene, *contact, jumps, builder, model);
       add_tangential_rows(scene, *contact, jumps, builder, model);
     } else {
-      add_glue_rows(scene, *contact, builder, model.glue_row.back());
+      add_glue_rows(scene, *contact, jumps, builder, model.glue_row.back());
     }
   }
   builder.set_move({0, 0, 0});

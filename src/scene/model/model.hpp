@@ -33,6 +33,13 @@ struct SupportRows {
   }
 };
 
+/// A tie's row of B: no jump along the direction.
+struct GlueRow {
+  int tie;
+  mesh::Point direction;
+  int row;
+};
+
 /// A scene as a problem, and the way back.
 struct Model {
   problem::Problem problem;
@@ -44,8 +51,7 @@ struct Model {
   std::vector<std::vector<int>> contact_row;
   std::vector<std::vector<contact::NormalRow>> normal;  ///< contact → its row → what that row of B measures
   std::vector<std::vector<FrictionRows>> friction;      ///< contact → its cells
-  /// Glue: contact → first row of B of each pair's component (dimension a pair), -1 likewise.
-  std::vector<std::vector<int>> glue_row;
+  std::vector<std::vector<GlueRow>> glue_row;    ///< of each glue
   std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1
   std::vector<std::vector<std::vector<SupportRows>>> support_row;  ///< body → its LawSupport → its nodes
   std::vector<mesh::Point> move;                 ///< contact → displacement of its rigid shape

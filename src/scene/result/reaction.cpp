@@ -29,12 +29,8 @@ void add_interface_force(const Scene& scene, const Model& model, const algebra::
         for (const contact::NodeWeight& partner : contact.rows[k].partners) push(partner.node, pushed[k], -partner.weight);
       }
     }
-    for (std::size_t k = 0; k < model.glue_row[c].size(); ++k) {
-      const int r = model.glue_row[c][k];
-      if (r < 0) continue;
-      const contact::Tie& tie = contact.glued[k / dim];
-      Point direction{0, 0, 0};
-      direction[k % dim] = 1;
+    for (const auto& [k, direction, r] : model.glue_row[c]) {
+      const contact::Tie& tie = contact.glued[k];
       if (first == body)
         for (const contact::NodeWeight& own : tie.own) push(own.node, direction, -own.weight * lambda[r]);
       if (second != body) continue;

@@ -11,34 +11,8 @@ namespace dotyk::solver {
 using algebra::SparseMatrix;
 using algebra::SparseRows;
 using algebra::Vector;
-using problem::Block;
 using problem::Problem;
 using problem::RigidMotions;
-
-namespace {
-
-std::vector<int> nodes(const Problem& problem) {
-  std::vector<int> all;
-  int first = 0;
-  for (const Block& block : problem.blocks) {
-    for (const int n : block.node) all.push_back(first + n);
-    first = all.empty() ? 0 : all.back() + 1;
-  }
-  return all;
-}
-
-/// Of all blocks.
-SparseMatrix lower_triangle(const Problem& problem) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const Block& block : problem.blocks)
-    for (int j = 0; j < block.size(); ++j)
-      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, it.value());
-  SparseMatrix K(problem.unknowns(), problem.unknowns());
-  K.setFromTriplets(entries.begin(), entries.end());
-  return K;
-}
-
-}  // namespace
 
 HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor)
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T) {
@@ -48,36 +22,23 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   for (const int unknown : algebra::fixing_unknowns(unnoticed_)) lower_.coeffRef(unknown, unknown) *= 2;  // carries nothing
   stiffness_ = Eigen::Map<const Vector>(lower_.valuePtr(), lower_.nonZeros());
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
-  solver_ = make({lower_, nodes(problem), [this] { return rigid_motions(); }, monitor});
-}
-
-algebra::DenseMatrix HeldStiffness::rigid_motions() const {
-  algebra::DenseMatrix all(problem_.unknowns(), 0);
-  for (const Block& block : problem_.blocks) {
-    if (!block.rigid) return algebra::DenseMatrix(problem_.unknowns(), 0);
-    const algebra::DenseMatrix own = block.rigid();
-    if (all.cols() == 0) all.setZero(problem_.unknowns(), own.cols());
-    all.middleRows(block.first, block.size()) = own;
-  }
-  const algebra::DenseMatrix jumps = problem_.B * all;
-  for (int r = 0; r < problem_.rows(); ++r)
-    if (const int own = basis_.unknown[r]; own >= 0) all.row(own) = jumps.row(r);
-  return all;
+  solver_ = make({lower_, problem, basis_, monitor});
 }
 
 void HeldStiffness::assemble() {
-  const SparseMatrix K = lower_triangle(problem_).selfadjointView<Eigen::Lower>();
-  const SparseMatrix half = K * basis_.T, all = basis_.T.transpose() * half;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int j = 0; j < all.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(all, j); it; ++it)
-      if (it.row() >= j) entries.emplace_back(static_cast<int>(it.row()), j, it.value());
+  SparseMatrix K = problem::lower_stiffness(problem_);
+  if (!basis_.trivial()) {
+    const SparseMatrix full = K.selfadjointView<Eigen::Lower>(), half = full * basis_.T;
+    K = (basis_.T.transpose() * half).triangularView<Eigen::Lower>();
+  }
+  std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
       for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.0);
   for (int i = 0; i < problem_.unknowns(); ++i) entries.emplace_back(i, i, 0.0);
-  lower_.resize(problem_.unknowns(), problem_.unknowns());
-  lower_.setFromTriplets(entries.begin(), entries.end());
+  SparseMatrix springs(K.rows(), K.cols());
+  springs.setFromTriplets(entries.begin(), entries.end());
+  lower_ = K + springs;
 }
 
 void HeldStiffness::place_rows() {

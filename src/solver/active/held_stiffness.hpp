@@ -1,29 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
-#include "algebra/spd_solver.hpp"
-#include "problem/precise.hpp"
 #include "problem/rigid_motions.hpp"
-#include "problem/row_basis.hpp"
+#include "solver/active/linear_solvers.hpp"
 
 namespace dotyk::solver {
-
-/// What a solver of linear systems may know of them before the first.
-struct SpdSystem {
-  const algebra::SparseMatrix& lower;  ///< positive definite: nothing held, but springs in the rows of bodies that nothing else holds
-  const std::vector<int>& node;        ///< of each unknown
-  /// The rigid motions of all bodies together, on the unknowns: no columns where a block does not tell its own.
-  std::function<algebra::DenseMatrix()> rigid_motions;
-  Monitor& monitor;
-};
-using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
-
-inline MakeSpdSolver factored_by(algebra::Ordering ordering) {
-  return [ordering](const SpdSystem& system) { return algebra::factored(system.lower, system.node, ordering); };
-}
 
 /// A = Tᵀ(K + Σ_r s_r B_rᵀB_r)T in the basis T where rows are unknowns, with the rows and columns of held unknowns emptied but for their diagonal:
 /// what active-set and barrier iterations solve with where rows act on few unknowns each. One pattern for all s and all that is held.
@@ -44,7 +27,6 @@ class HeldStiffness {
   const algebra::SpdSolver& solver() const { return *solver_; }
 
  private:
-  algebra::DenseMatrix rigid_motions() const;
   void assemble();
   void place_rows();
   void spring_rows(const algebra::Vector& spring);

@@ -56,7 +56,7 @@ class Interior {
   /// Of the body as it bends where as few unknowns hold it as can: under its load, and under a force on each row that would move it by what rows are off.
   void scale(const problem::RigidMotions& rigid) {
     std::vector<char> held(problem_.unknowns(), 0);
-    for (const int unknown : algebra::fixing_unknowns(stiffness_.basis().coordinates(problem_, problem::displacement(problem_, rigid.noticed)))) held[unknown] = 1;
+    for (const int unknown : algebra::fixing_unknowns(algebra::SparseMatrix(stiffness_.basis().of_displacements(problem_) * problem::displacement(problem_, rigid.noticed)))) held[unknown] = 1;
     if (rows() == 0 || !stiffness_.factor(Vector::Zero(rows()), held)) return;
     const auto moved = [&](const Vector& f) { return (problem_.B * stiffness_.solve(f)).lpNorm<Eigen::Infinity>(); };
     const double bent = moved(f_), compliance = moved(problem_.B.transpose() * Vector::Ones(rows()));

@@ -27,7 +27,7 @@ class PenaltyStep final : public Step {
   PenaltyStep(const Problem& problem, const problem::RigidMotions& rigid, Vector stiffness, algebra::Ordering ordering)
       : problem_(problem), spring_(std::move(stiffness)), own_(own_stiffness(problem)), k_(spring_),
         unnoticed_(problem::unnoticed_displacements(problem, rigid)), f_(problem.unknowns()),
-        cholesky_(matrix(std::vector<char>(problem.rows(), 1)), nodes(problem), {}, ordering) {
+        cholesky_(matrix(std::vector<char>(problem.rows(), 1)), problem::nodes(problem), {}, ordering) {
     for (const problem::RowGroup& group : problem.groups)
       for (int r = group.first; r < group.first + group.count; ++r)
         if (!std::isfinite(spring_[r])) k_[r] = *group.law->linear_stiffness(r - group.first);
@@ -63,30 +63,17 @@ class PenaltyStep final : public Step {
   }
 
  private:
-  static std::vector<int> nodes(const Problem& problem) {
-    std::vector<int> all;
-    int first = 0;
-    for (const Block& block : problem.blocks) {
-      for (int n : block.node) all.push_back(first + n);
-      first = all.empty() ? 0 : all.back() + 1;
-    }
-    return all;
-  }
-
   SparseMatrix matrix(const std::vector<char>& active) const {
     std::vector<Eigen::Triplet<double>> entries;
-    for (const Block& block : problem_.blocks)
-      for (int j = 0; j < block.size(); ++j)
-        for (SparseMatrix::InnerIterator it(block.K, j); it; ++it)
-          entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, it.value());
     for (int r = 0; r < problem_.rows(); ++r)
       for (SparseRows::InnerIterator i(problem_.B, r); i; ++i)
         for (SparseRows::InnerIterator j(problem_.B, r); j; ++j)
           if (i.col() >= j.col())
             entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()),
                                  active[r] ? k_[r] * i.value() * j.value() : 0.0);
-    SparseMatrix lower(problem_.unknowns(), problem_.unknowns());
-    lower.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix springs(problem_.unknowns(), problem_.unknowns());
+    springs.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix lower = problem::lower_stiffness(problem_) + springs;
     // Motions that no row notices are held at as many unknowns: that carries nothing.
     for (int unknown : algebra::fixing_unknowns(unnoticed_)) lower.coeffRef(unknown, unknown) *= 2;
     return lower;

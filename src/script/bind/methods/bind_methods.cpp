@@ -1,4 +1,3 @@
-#include "multigrid/multigrid.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/methods/method_keys.hpp"
 #include "solver/active/pdas.hpp"
@@ -17,10 +16,8 @@ enum class Linear { factor, incomplete_factor, multigrid };
 
 void take_linear(Linear linear, solver::Pdas& method) {
   method.reduced = false, method.held = true;
-  if (linear == Linear::incomplete_factor)
-    method.linear = [](const solver::SpdSystem& system) { return algebra::incompletely_factored(system.monitor); };
-  if (linear == Linear::multigrid)
-    method.linear = [](const solver::SpdSystem& system) { return multigrid::make_solver({system.lower, system.node, system.rigid_motions()}, system.monitor); };
+  if (linear == Linear::incomplete_factor) method.linear = solver::incomplete_factor();
+  if (linear == Linear::multigrid) method.linear = solver::algebraic_multigrid();
 }
 
 const char* const kBoundary =

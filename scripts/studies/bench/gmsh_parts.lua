@@ -1,0 +1,172 @@
+-- What contact costs on parts with free meshes: four of them from Gmsh, against one linear solve of the same bodies glued.
+--
+--   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/bench/gmsh_parts.lua [NODES…]
+--
+-- A lug on a pin, a ball in a socket, a pipe's flange on its gasket and a wheel on a rail, P1, quarters or sectors of them, meshes that do not match;
+-- frictionless, with Coulomb's coefficient 0.2, and glued; all by the default method. For each: rows, seconds of the solve, times the glued bodies', and
+-- the most memory that the process had while it solved. NODES, 10000 unless given, are met to a few of a hundred.
+
+local sizes = {}
+for _, n in ipairs(arg) do sizes[#sizes + 1] = tonumber(n) end
+if #sizes == 0 then sizes = { 10000 } end
+local steel <const> = dotyk.material{ E = 210e3, nu = 0.3 }
+
+-- 1. Bodies: geometry in Gmsh's language, with the greatest edge h where they touch.
+local function body(name, geometry, h, material)
+  local text <const> = ("SetFactory(\"OpenCASCADE\"); Mesh.MeshSizeExtendFromBoundary = 0; h = %.9g;\n%s"):format(h, geometry)
+  return dotyk.body{ name = name, mesh = dotyk.mesh.gmsh{ text = text }, material = material or steel }
+end
+
+-- Edges grow from h at a point with the distance from it.
+local function graded(x, y, z, near, far, times)
+  return ([[
+    Field[1] = Ball; Field[1].XCenter = %g; Field[1].YCenter = %g; Field[1].ZCenter = %g;
+    Field[1].Radius = %g; Field[1].Thickness = %g; Field[1].VIn = h; Field[1].VOut = %g * h;
+    Background Field = 1;
+  ]]):format(x, y, z, near, far, times)
+end
+local function even(times) return ("Mesh.MeshSizeMax = %g * h; Mesh.MeshSizeMin = %g * h;\n"):format(times, times) end
+
+-- Facets at a coordinate; facets at a distance from a point or from an axis along z.
+local function at(axis, value) return function(...) return math.abs((select(axis, ...)) - value) < 1e-6 end end
+local function round(radius, cx, cz)
+  return function(x, y, z, nx, ny, nz)
+    local dx <const>, dz <const> = x - cx, cz and z - cz or 0
+    local r <const> = math.sqrt(dx^2 + y^2 + dz^2)
+    return math.abs(r / radius - 1) < 0.02 and math.abs(dx * nx + y * ny + dz * nz) > 0.9 * r
+  end
+end
+
+-- 2. The parts: bodies, and what touches.
+local parts <const> = {}
+
+-- Half of a lug, half of its thickness, is pulled along x against half of a pin that is held at its end.
+function parts.lug(h)
+  local lug = body("lug", [[
+    Cylinder(1) = {0, 0, 0, 0, 0, 5, 20, Pi};  Box(2) = {0, 0, 0, 45, 20, 5};  Cylinder(3) = {0, 0, 0, 0, 0, 5, 10, Pi};
+    BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+    BooleanDifference(5) = { Volume{4}; Delete; }{ Volume{3}; Delete; };]] .. graded(0, 0, 0, 11, 20, 3), h)
+  local pin = body("pin", "Cylinder(1) = {-0.02, 0, 0, 0, 0, 8, 9.98, Pi};" .. even(1.2), h)
+  for _, b in ipairs{ lug, pin } do
+    b:part("middle", at(3, 0)):slide()
+    b:part("axis", at(2, 0)):slide()
+  end
+  pin:part("end", at(3, 8)):fix()
+  lug:part("pull", at(1, 45)):load{ 100, 0, 0 }
+  return { lug, pin }, { lug:part("hole", round(10, 0)), pin:part("shank", round(9.98, -0.02)) }
+end
+
+-- A quarter of a ball is pressed into a quarter of its socket.
+function parts.ball(h)
+  local socket = body("socket", [[
+    Box(1) = {0, 0, -18, 18, 18, 18};  Sphere(2) = {0, 0, 0, 10};
+    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. graded(0, 0, 0, 11, 10, 3), h)
+  local ball = body("ball", [[
+    Sphere(1) = {0, 0, -0.05, 9.95};  Box(2) = {0, 0, -12, 12, 12, 12};
+    BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. even(1.2), h)
+  for _, b in ipairs{ socket, ball } do
+    b:part("x", at(1, 0)):slide()
+    b:part("y", at(2, 0)):slide()
+  end
+  socket:part("base", at(3, -18)):fix()
+  ball:part("top", at(3, 0)):load{ 0, 0, -150 }
+  return { ball, socket }, { ball:part("sphere", round(9.95, 0, -0.05)), socket:part("bowl", round(10, 0, 0)) }
+end
+
+-- A sector of 45° between bolts and half of the gasket, which is soft; the bolt presses round its hole, the fluid pushes off and out.
+function parts.flange(h)
+  local flange = body("flange", [[
+    Cylinder(1) = {0, 0, 0, 0, 0, 12, 60, Pi / 4};  Cylinder(2) = {0, 0, 0, 0, 0, 45, 36, Pi / 4};  Cylinder(3) = {0, 0, 0, 0, 0, 45, 30, Pi / 4};
+    Cylinder(4) = {48 * Cos(Pi / 8), 48 * Sin(Pi / 8), 0, 0, 0, 12, 4.5};
+    BooleanUnion(5) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+    BooleanDifference(6) = { Volume{5}; Delete; }{ Volume{3, 4}; Delete; };]] .. even(1.5), h)
+  local gasket = body("gasket", [[
+    Cylinder(1) = {0, 0, -1, 0, 0, 1, 42, Pi / 4};  Cylinder(2) = {0, 0, -1, 0, 0, 1, 31, Pi / 4};
+    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. even(1), h, dotyk.material{ E = 2e3, nu = 0.4 })
+  for _, b in ipairs{ flange, gasket } do
+    b:part("first", at(2, 0)):slide()
+    b:part("last", function(x, y) return math.abs(x - y) < 1e-6 end):slide()
+  end
+  gasket:part("middle", at(3, -1)):slide()
+  flange:part("washer", function(x, y, z) return at(3, 12)(x, y, z) and math.sqrt((x - 48 * math.cos(math.pi / 8))^2 + (y - 48 * math.sin(math.pi / 8))^2) < 8 end):load{ 0, 0, -40 }
+  flange:part("bore", round(30, 0)):pressure(4)
+  flange:part("pipe", at(3, 45)):load{ 0, 0, 5 }
+  return { flange, gasket }, { gasket:part("upper", at(3, 0)), flange:part("face", at(3, 0)) }
+end
+
+-- A quarter of a wheel's rim comes down on a quarter of a rail's head.
+function parts.wheel(h)
+  local wheel = body("wheel", [[
+    Cylinder(1) = {0, 0, 460, 0, 20, 0, 460};  Box(2) = {0, 0, 0, 40, 20, 40};
+    BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. graded(0, 0, 0, 2.5, 25, 12), h)
+  local rail = body("rail", [[
+    Cylinder(1) = {0, 0, -300, 40, 0, 0, 300};  Box(2) = {0, 0, -40, 40, 20, 40};
+    BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. graded(0, 0, 0, 2.5, 25, 12), h)
+  for _, b in ipairs{ wheel, rail } do
+    b:part("x", at(1, 0)):slide()
+    b:part("y", at(2, 0)):slide()
+  end
+  rail:part("foot", at(3, -40)):fix()
+  wheel:part("rim", at(3, 40)):displace{ x = 0, y = 0, z = -0.012 }
+  local function near(x, y, z) return x^2 + y^2 < 2.5^2 and math.abs(z) < 1 end
+  return { wheel, rail }, { wheel:part("tread", near), rail:part("head", near) }
+end
+
+-- 3. The greatest edge for so many nodes.
+local function with_nodes(part, count)
+  local h = 3
+  for _ = 1, 6 do
+    local bodies <const> = parts[part](h)
+    local n = 0
+    for _, b in ipairs(bodies) do n = n + b.node_count end
+    if math.abs(n / count - 1) < 0.03 then break end
+    h = h * (n / count)^0.4
+  end
+  return h
+end
+
+-- 4. One solve, its seconds, and the greatest memory of the process meanwhile.
+local function peak(reset)
+  if reset then
+    local file <const> = io.open("/proc/self/clear_refs", "w")
+    if file then file:write "5"; file:close() end
+  end
+  for line in io.lines "/proc/self/status" do
+    local kilobytes <const> = line:match "VmHWM:%s*(%d+)"
+    if kilobytes then return kilobytes / 1e6 end
+  end
+end
+
+local function solved(part, h, join)
+  local bodies <const>, pair <const> = parts[part](h)
+  local scene <const> = dotyk.scene(bodies)
+  join(scene, pair)
+  collectgarbage()
+  peak(true)
+  local s <const> = dotyk.solve(scene)
+  if not s.converged then print(("  %s: %s"):format(part, s.reason)) end
+  return s, peak()
+end
+
+local joins <const> = {
+  { "glued", function(scene, pair) scene:glue(pair) end },
+  { "contact", function(scene, pair) scene:contact{ pair[1], pair[2], interference = true } end },
+  { "Coulomb", function(scene, pair) scene:contact{ pair[1], pair[2], interference = true, friction = dotyk.friction.coulomb(0.2) } end },
+}
+
+print "part       nodes   rows     glued                  contact                       Coulomb 0.2"
+for _, count in ipairs(sizes) do
+  for _, part in ipairs{ "lug", "ball", "flange", "wheel" } do
+    local h <const> = with_nodes(part, count)
+    local line, glued
+    for _, join in ipairs(joins) do
+      local s <const>, gigabytes <const> = solved(part, h, join[2])
+      local seconds <const> = s.time.total
+      if not glued then
+        glued, line = seconds, ("%-8s %7d"):format(part, s.unknowns // 3)
+      end
+      line = line .. ("  %8.2f s %5.2f GB ×%.2f %3d it"):format(seconds, gigabytes, seconds / glued, s.iterations)
+    end
+    print(line)
+  end
+end

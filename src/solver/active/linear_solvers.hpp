@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "algebra/spd_solver.hpp"
+#include "problem/row_basis.hpp"
+
+namespace dotyk::solver {
+
+/// The linear systems of a problem in the basis where rows are unknowns, as a solver of them may know them before the first.
+struct SpdSystem {
+  const algebra::SparseMatrix& lower;  ///< positive definite: nothing held, but springs in the rows of bodies that nothing else holds
+  const problem::Problem& problem;
+  const problem::RowBasis& basis;
+  Monitor& monitor;  ///< outlives the solver
+};
+using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
+
+/// A sparse Cholesky factor.
+MakeSpdSolver factor(algebra::Ordering ordering);
+/// Conjugate gradients with an incomplete Cholesky factor.
+MakeSpdSolver incomplete_factor();
+/// Conjugate gradients with algebraic multigrid. Making the solver throws InputError where its library was not built.
+MakeSpdSolver algebraic_multigrid();
+
+}  // namespace dotyk::solver
