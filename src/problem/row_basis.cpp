@@ -15,8 +15,10 @@ namespace {
 /// Factors, against the greatest in their row: of an unknown that can be the row's own, and all of what elimination leaves where the row nearly
 /// depends on others, whose numbers would be magnified.
 constexpr double kLeastFactor = 0.2, kDependent = 0.01;
-/// Unknowns that one may depend on: rows along an edge, or around a rim, depend on each other one after the other.
-constexpr std::size_t kMostTerms = 200;
+/// Unknowns that one may depend on: rows along an edge, or around a rim, depend on each other one after the other, with factors that decay; those below
+/// rounding are left out.
+constexpr std::size_t kMostTerms = 1000;
+constexpr double kNothing = 1e-16;
 
 /// Gauss–Jordan elimination of one unknown for every row, as long as that makes none reach too far.
 class Elimination {
@@ -60,6 +62,7 @@ class Elimination {
     terms.erase(own);
     for (auto& [index, value] : terms) value /= -factor;
     terms[n_ + row] = 1 / factor;
+    drop_nothing(terms);
     return solve_for(own, std::move(terms), most) ? own : -1;
   }
 
@@ -71,6 +74,7 @@ class Elimination {
       const double factor = now[own];
       now.erase(own);
       for (const auto& [index, value] : terms) now[index] += factor * value;
+      drop_nothing(now);
       if (now.size() > most_[other]) return false;
       changed.emplace_back(other, std::move(now));
     }
@@ -83,6 +87,10 @@ class Elimination {
     }
     in_[own].clear();
     return true;
+  }
+
+  static void drop_nothing(Terms& terms) {
+    std::erase_if(terms, [](const auto& term) { return std::abs(term.second) < kNothing; });
   }
 
   /// Adds the unknown's multiple, by what it was solved for, where it was.

@@ -20,7 +20,7 @@ struct RowBasis {
 /// Gives each row the unknown that fewest rows share, of those whose factor is at least a fifth of its greatest; of several the one of the greatest
 /// factor, since divisions by small ones would make the others stiff. None to a row
 /// of whose greatest factor elimination leaves less than a hundredth, or whose elimination would make an unknown depend on more than
-/// 200 others (three times as many as the row has, where these are more).
+/// 1000 others (three times as many as the row has, where these are more).
 RowBasis row_basis(const Problem& problem);
 
 }  // namespace dotyk::problem

@@ -59,6 +59,11 @@ std::string method(const problem::Problem& problem, bool any_free) {
     case solver::DefaultMethod::sparse_pdas:
       return text("pdas on all ", problem.unknowns(), " unknowns, one sparse factorisation an iteration (reduced = false): ", problem.rows(),
                   " rows are too many to condense");
+    case solver::DefaultMethod::multigrid: {
+      const solver::Expected seconds = solver::expected(problem);
+      return text("pdas on all ", problem.unknowns(), " unknowns, linear systems by conjugate gradients with multigrid (linear = \"multigrid\"): some ",
+                  std::ceil(seconds.multigrid), " s on a core, where factors and condensed rows would take some ", std::ceil(seconds.condensed), " s");
+    }
     case solver::DefaultMethod::pdas: break;
   }
   return text("pdas on ", problem.rows(), " condensed rows", factored, ": finite and exact for frictionless contact",

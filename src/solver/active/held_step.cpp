@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -21,10 +22,12 @@ constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
 /// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at, and how often at most; what is enough, where digits cost
-/// iterations, until active sets come to rest.
-constexpr double kUnbalanced = 1e-12, kRough = 1e-5;
+/// iterations, until active sets come to rest; and with friction, where steps converge as Newton's, of what the last state was off its laws.
+constexpr double kUnbalanced = 1e-12, kRough = 1e-3, kOfOff = 0.01;
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
+constexpr int kMostDirections = 60;
+constexpr double kShareOfDirection = 0.03;
 
 class HeldStep final : public Step {
  public:
@@ -34,10 +37,10 @@ class HeldStep final : public Step {
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
     sort(l);
-    if (!stiffness_.factor(spring_, held_)) return false;
+    if (!place(l.slips) || !stiffness_.factor(spring_, held_, across_)) return false;
     lambda_ = constant_;
-    unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? kRough : kUnbalanced;
-    u_ += stiffness_.solve_in_basis(residual(), unbalanced_).cast<long double>();
+    unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(kOfOff * l.off, kUnbalanced, kRough) : kUnbalanced;
+    if (slips_.empty()) u_ += stiffness_.solve_in_basis(residual(), unbalanced_).cast<long double>();
     refine();
     return u_.allFinite() && tie() && tell(lambda, x);
   }
@@ -82,12 +85,46 @@ class HeldStep final : public Step {
     u_ += T_ * moved.cast<long double>();
   }
 
+  /// Stiffness across the direction of slip. False where a point has no unknowns of its own.
+  bool place(const std::vector<Linearisation::Slip>& slips) {
+    slips_ = slips;
+    across_.clear();
+    for (const Linearisation::Slip& s : slips_) {
+      for (int i = 0; i < s.components; ++i) {
+        const int own = stiffness_.basis().unknown[s.row + i];
+        if (own < 0) return false;
+        target_[s.row + i] = problem_.c[s.row + i];
+        for (int j = 0; j <= i && s.components > 1; ++j) {
+          const int other = stiffness_.basis().unknown[s.row + j];
+          across_.emplace_back(std::max(own, other), std::min(own, other), s.across * ((i == j) - s.along[i] * s.along[j]));
+        }
+      }
+    }
+    return true;
+  }
+
+  /// What the force of a slipping point has beyond P(y), the forces `left` given as without it.
+  Vector beyond(const Linearisation::Slip& s, const Vector& left) const {
+    Vector slip(s.components);
+    for (int i = 0; i < s.components; ++i) slip[i] = static_cast<double>(gap(s.row + i));
+    Vector force = s.components > 1 ? Vector(s.across * (slip - s.along * s.along.dot(slip))) : Vector::Zero(1);
+    if (s.by_normal > 0) force += s.along * s.by_normal * (multiplier(s.normal, left) - s.pressed);
+    return force;
+  }
+
+  /// Of a scalar row.
+  double multiplier(int row, const Vector& left) const {
+    const int own = stiffness_.basis().unknown[row];
+    return own >= 0 && held_[own] ? left[own] : static_cast<double>(lambda_[row] + spring_[row] * gap(row));
+  }
+
   Vector displacement() const { return u_.cast<double>(); }
 
   void step() { u_ += stiffness_.solve_in_basis(residual()).cast<long double>(); }
 
   /// Where cells are small beside the body, as with thousands of supports of a beam, one solution leaves forces that are no rounding of the loads.
   void refine() {
+    if (!slips_.empty()) return refine_slipping();
     double before = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kMostRefinements && u_.allFinite(); ++k) {
       const Vector left = residual();
@@ -95,6 +132,32 @@ class HeldStep final : public Step {
       if (!(sum > unbalanced_ * gross_) || sum > before / 2) return;
       before = sum;
       u_ += stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * unbalanced_ * gross_ / sum)).cast<long double>();
+    }
+  }
+
+  /// Where bounds follow the pressure the equations are not symmetric: generalised conjugate residuals, preconditioned by the symmetric part (Eisenstat,
+  /// Elman and Schultz, SIAM J. Numer. Anal. 20 (1983)).
+  void refine_slipping() {
+    struct Direction {
+      LongVector u;
+      Vector change;  ///< of the residual
+    };
+    std::vector<Direction> directions;
+    Vector left = residual();
+    for (int k = 0; k < kMostDirections && u_.allFinite() && left.lpNorm<1>() > unbalanced_ * gross_; ++k) {
+      const LongVector start = u_;
+      Direction d{stiffness_.solve_in_basis(left, kShareOfDirection).cast<long double>(), {}};
+      u_ += d.u;
+      d.change = left - residual();
+      for (const Direction& old : directions) {
+        const double share = d.change.dot(old.change) / old.change.squaredNorm();
+        d.u -= share * old.u, d.change -= share * old.change;
+      }
+      const double size = d.change.squaredNorm();
+      if (!(size > 0)) return;
+      u_ = start + static_cast<long double>(left.dot(d.change) / size) * d.u;
+      left = residual();
+      directions.push_back(std::move(d));
     }
   }
 
@@ -117,7 +180,12 @@ class HeldStep final : public Step {
         gross_ += static_cast<double>(std::abs(it.value() * multiplier));
       }
     }
-    const Vector left = (T_.transpose() * all).cast<double>();
+    Vector left = (T_.transpose() * all).cast<double>();
+    const Vector without = slips_.empty() ? Vector() : left;
+    for (const Linearisation::Slip& s : slips_) {
+      const Vector force = beyond(s, without);
+      for (int i = 0; i < s.components; ++i) left[stiffness_.basis().unknown[s.row + i]] -= force[i];
+    }
     for (const Holding& h : holding_) gross_ += std::abs(left[h.unknown]);
     return left;
   }
@@ -190,6 +258,7 @@ class HeldStep final : public Step {
       if (spring_[r] != 0) lambda[r] += static_cast<double>(spring_[r] * gap(r));
     const Vector left = forces();
     for (const Holding& h : holding_) lambda[h.row] = left[h.unknown];
+    for (const Linearisation::Slip& s : slips_) lambda.segment(s.row, s.components) += beyond(s, left);
     x = problem_.B * displacement() - problem_.c;
     return lambda.allFinite();
   }
@@ -207,6 +276,8 @@ class HeldStep final : public Step {
   Vector constant_, spring_, target_;  ///< rows: λ of those that are not active; s and t of λ = s(Bu − t), and Bu of rigid ones
   std::vector<char> held_;
   std::vector<Holding> holding_;
+  std::vector<Linearisation::Slip> slips_;
+  std::vector<Eigen::Triplet<double>> across_;
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
   LongVector u_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
   Vector lambda_;

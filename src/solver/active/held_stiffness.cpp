@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "algebra/dense/generalised_inverse.hpp"
-#include "base/error.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::solver {
@@ -35,6 +34,11 @@ void HeldStiffness::assemble() {
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
       for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.0);
+  for (const problem::FrictionGroup& group : problem_.friction)
+    for (int k = 0; k < group.points(); ++k) {
+      const int a = basis_.unknown[group.row(k)], b = basis_.unknown[group.row(k) + group.components - 1];
+      if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
+    }
   for (int i = 0; i < problem_.unknowns(); ++i) entries.emplace_back(i, i, 0.0);
   SparseMatrix springs(K.rows(), K.cols());
   springs.setFromTriplets(entries.begin(), entries.end());
@@ -62,11 +66,12 @@ void HeldStiffness::spring_rows(const Vector& spring) {
       for (std::ptrdiff_t k = first_[r]; k < first_[r + 1]; ++k) value[place_[k]] += spring[r] * product_[k];
 }
 
-bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held) {
+bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added) {
   held_ = held;
   double* value = lower_.valuePtr();
   std::copy(stiffness_.begin(), stiffness_.end(), value);
   spring_rows(spring);
+  for (const auto& entry : added) lower_.coeffRef(entry.row(), entry.col()) += entry.value();
   for (int j = 0; j < lower_.cols(); ++j)
     for (int k = lower_.outerIndexPtr()[j]; k < lower_.outerIndexPtr()[j + 1]; ++k) {
       const int i = lower_.innerIndexPtr()[k];
@@ -80,7 +85,7 @@ Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
     if (held_[i]) forces[i] = 0;
   const Vector solution = solver_->solve(forces, tolerance);
   if (solver_->iterates() && forces.allFinite() && !solution.allFinite())
-    throw InputError(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
+    throw NotSolved(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
                           "stretched cells or great contrasts of stiffness; linear = \"factor\" and the default method do without iterations"));
   return problem::least(unnoticed_, basis_.T * solution);
 }

@@ -17,11 +17,12 @@ class HeldStiffness {
   HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor);
 
   const problem::RowBasis& basis() const { return basis_; }
-  /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis. False where the matrix is not positive definite.
-  bool factor(const algebra::Vector& spring, const std::vector<char>& held);
+  /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
+  /// rows of one point. False where the matrix is not positive definite.
+  bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
   /// u under the forces b, zero in what is held.
   algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.T.transpose() * b); }
-  /// The same, with Tᵀb given, to `tolerance` of it where it is solved by iterations. Throws InputError where these do not suffice.
+  /// The same, with Tᵀb given, to `tolerance` of it where it is solved by iterations. Throws NotSolved where these do not suffice.
   algebra::Vector solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;
 
   const algebra::SpdSolver& solver() const { return *solver_; }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "algebra/spd_solver.hpp"
+#include "base/error.hpp"
 #include "problem/row_basis.hpp"
 
 namespace dotyk::solver {
@@ -16,6 +17,11 @@ struct SpdSystem {
   Monitor& monitor;  ///< outlives the solver
 };
 using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
+
+/// Iterations did not solve a linear system.
+struct NotSolved : InputError {
+  using InputError::InputError;
+};
 
 /// A sparse Cholesky factor.
 MakeSpdSolver factor(algebra::Ordering ordering);

@@ -14,10 +14,6 @@ using problem::RowGroup;
 
 namespace {
 
-Linearisation sized(int rows) {
-  return {Vector::Zero(rows), Vector::Zero(rows), Vector::Zero(rows), std::vector<char>(rows, 0)};
-}
-
 void set(Linearisation& l, int row, double y, Projection p) {
   l.y[row] = y;
   l.value[row] = p.lambda;
@@ -40,9 +36,28 @@ Projection closed(double y) { return {y, 1}; }
 
 }  // namespace
 
+namespace {
+
+void take_friction(const problem::FrictionGroup& group, int point, const Vector& lambda, const Vector& x, const Vector& rho, Linearisation& l) {
+  const double bound = group.bound(point, l.value);
+  if (bound == 0) return;
+  const int first = group.row(point), d = group.components, n = group.normal[point];
+  const double own = rho[group.scale_row(point)];
+  const Vector y = lambda.segment(first, d) + own * x.segment(first, d);
+  const problem::DiscProjection p = problem::project_disc(y, bound);
+  for (int i = 0; i < d; ++i) set(l, first + i, y[i], p.stick ? closed(y[i]) : Projection{p.value[i], 0});
+  if (p.stick) return;
+  std::fill_n(l.slipping.begin() + first, d, char(1));
+  const double by_normal = n < 0 || l.slope[n] == 0 ? 0 : group.law->bound_slope(point);
+  l.slips.push_back({first, d, n, p.by_bound, by_normal, n < 0 ? 0 : l.value[n], own * bound / (y.norm() - bound)});
+}
+
+}  // namespace
+
 bool may_open(const problem::Law& law, int row) { return law.unilateral() || law.multipliers(row).low == 0; }
 
 bool Linearisation::same_piece(const Linearisation& other, int row) const {
+  if (slipping[row] || other.slipping[row]) return slipping[row] == other.slipping[row];
   return slope[row] == other.slope[row] && (slope[row] != 0 || value[row] == other.value[row]);
 }
 
@@ -57,7 +72,7 @@ int Linearisation::active_count() const { return std::accumulate(active.begin(),
 
 Linearisation linearise(const Problem& problem, const Vector& lambda, const Vector& x,
                         const Vector& rho, const Noise& noise, const Linearisation* previous) {
-  Linearisation l = sized(problem.rows());
+  Linearisation l(problem.rows());
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r) {
       double y = lambda[r] + rho[r] * x[r];
@@ -75,16 +90,20 @@ Linearisation linearise(const Problem& problem, const Vector& lambda, const Vect
       else
         set(l, r, y, group.law->project(r - group.first, y, rho[r]));
     }
+  for (const problem::FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k) take_friction(group, k, lambda, x, rho, l);
   return l;
 }
 
 Linearisation from_flags(const Problem& problem, const std::vector<char>& active, const Vector& rho) {
-  Linearisation l = sized(problem.rows());
+  Linearisation l(problem.rows());
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
       set(l, r, 0, may_open(*group.law, r - group.first) && !active[r] ? kOpen
                    : group.law->unilateral()                           ? closed(0)
                                                                        : group.law->project(r - group.first, 0, rho[r]));
+  for (const problem::FrictionGroup& group : problem.friction)
+    for (int r = group.first; r < group.row(group.points()); ++r) set(l, r, 0, active[r] ? closed(0) : kOpen);
   return l;
 }
 

@@ -11,8 +11,23 @@ namespace dotyk::solver {
 ///   λ = P(y) + D (λ' + ρ x' − y)   for the new λ', x'.
 /// Rows with D = 0 have λ' = P(y); rows with D = 1 have x' = (y − P(y))/ρ.
 struct Linearisation {
+  /// A friction point that slips along e = y/‖y‖ under the bound b:
+  ///   λ = P(y) + e b' (λ_n' − λ_n) + k (x' − e eᵀx'),   k = ρb/(‖y‖ − b),
+  /// since its derivative acts across e alone.
+  struct Slip {
+    int row, components, normal;  ///< normal: -1 where the bound is given
+    Eigen::VectorXd along;        ///< e
+    double by_normal, pressed;    ///< b', and the λ_n of P(y)
+    double across;                ///< k
+  };
+  explicit Linearisation(int rows = 0)
+      : y(algebra::Vector::Zero(rows)), value(y), slope(y), active(rows, 0), slipping(rows, 0) {}
+
   algebra::Vector y, value, slope;
-  std::vector<char> active;  ///< D > 0
+  std::vector<char> active;  ///< D > 0; of friction points: do they stick?
+  std::vector<char> slipping;
+  std::vector<Slip> slips;
+  double off = 1;  ///< how far (λ, x) is off its laws, of its forces; 1 where that says nothing
 
   /// (1 − D)/(Dρ), the compliance that an active row's law adds; 0 for D = 1.
   double added_compliance(int row, double rho) const {

@@ -58,13 +58,8 @@ void NestedStart::keep(int stride) {
   }
 }
 
-Linearisation NestedStart::unset() const {
-  const int rows = problem_.rows();
-  return {Vector::Zero(rows), Vector::Zero(rows), Vector::Zero(rows), std::vector<char>(rows, 0)};
-}
-
 Linearisation NestedStart::begin() const {
-  Linearisation l = unset();
+  Linearisation l(problem_.rows());
   for (int r = 0; r < problem_.rows(); ++r) set(l, r, pieces_[r]);
   return l;
 }
@@ -92,7 +87,7 @@ void NestedStart::set(Linearisation& l, int row, Piece piece) const {
 }
 
 Linearisation NestedStart::linearise(const Vector& lambda, const Vector& x) const {
-  Linearisation l = unset();
+  Linearisation l(problem_.rows());
   for (int r = 0; r < problem_.rows(); ++r) set(l, r, lambda[r] + rho_[r] * x[r]);
   return l;
 }

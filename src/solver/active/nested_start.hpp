@@ -20,7 +20,6 @@ class NestedStart {
  private:
   enum class Piece : char { least, between, greatest };
   void keep(int stride);
-  Linearisation unset() const;
   Linearisation begin() const;
   Linearisation linearise(const algebra::Vector& lambda, const algebra::Vector& x) const;
   void set(Linearisation& l, int row, double y) const;

@@ -32,7 +32,7 @@ std::string begin(SetIteration& it) {
     it.l = it.held(nested.run(*it.step), -it.problem.c);
     return text(", begun with ", nested.solves(), " solves on a part of the rows");
   }
-  if (!it.is_analysed() || given || it.settings.linear) return "";
+  if (!it.is_analysed() || given || it.settings.linear || !it.problem.friction.empty()) return "";
   const std::string how = by_interior_point(it, End::exhausted);
   return how.empty() ? "" : ", begun with " + how;
 }
@@ -49,6 +49,7 @@ std::string cause(const SetIteration& it, End end) {
 /// Newton steps; where they do not come to rest, from where the rescues end, one after the other. A rescue begins while steps are left,
 /// and has steps of its own to be confirmed.
 End iterate_and_rescue(SetIteration& it, bool& inside, std::string& rescued) {
+  if (!it.problem.friction.empty()) return it.iterate(it.left(), it.left());
   End end = it.iterate(it.left(), kPatience);
   for (const Rescue rescue : kRescues) {
     if (it.left() <= 0 || !comes_to_no_rest(end)) break;
@@ -111,7 +112,7 @@ void come_to_rest(SetIteration& it) {
 }  // namespace
 
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor) {
-  require_frictionless(problem, "pdas");
+  if (!settings.held) require_frictionless(problem, "pdas");
   require_springs(problem, "pdas");
   SetIteration it(problem, settings, monitor);
   Stopwatch iterating;
@@ -120,13 +121,14 @@ Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& mon
   std::string rescued;
   const End end = iterate_and_rescue(it, inside, rescued);
   conclude(it, end, inside, rescued);
-  if (end == End::confirmed && !it.screws) come_to_rest(it);
+  const bool pieces = problem.friction.empty() && !it.screws;  // that tell the state
+  if (end == End::confirmed && pieces) come_to_rest(it);
   it.result.reason += begun;
   if (!it.solvable.note.empty()) it.result.reason += "; " + it.solvable.note;
   it.result.clock.iterate += iterating.lap();
   monitor.phase("recovering the displacement");
   it.result.state = it.state();
-  if (it.result.converged && !it.screws) confirm_laws(it);
+  if (it.result.converged && pieces) confirm_laws(it);
   it.result.clock.recover += iterating.lap();
   return std::move(it.result);
 }

@@ -23,7 +23,10 @@ Linearisation with_flags(const Problem& problem, const Linearisation& l, const s
       changed.value[r] = l.value[r];
       changed.slope[r] = l.slope[r];
       changed.active[r] = l.active[r];
+      changed.slipping[r] = l.slipping[r];
     }
+  for (const Linearisation::Slip& s : l.slips)
+    if (changed.slipping[s.row]) changed.slips.push_back(s);
   return changed;
 }
 
@@ -101,6 +104,8 @@ Linearisation SetIteration::first() const {
     for (const problem::RowGroup& group : problem.groups)
       for (int r = group.first; r < group.first + group.count; ++r) active[r] = !group.law->unilateral() || problem.c[r] <= touching;
   }
+  for (const problem::FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k) std::fill_n(active.begin() + group.row(k), group.components, group.normal[k] < 0 ? char(1) : active[group.normal[k]]);
   return held(from_flags(problem, active, rho), -problem.c);
 }
 
@@ -130,6 +135,7 @@ bool SetIteration::crawls() const {
 std::optional<End> SetIteration::advance() {
   ++result.iterations;
   result.active_sets.push_back(l.active);
+  result.slipping = l.slipping;
   seen_.insert(l.fingerprint());
   Vector next_lambda, next_x;
   if (!step->solve(l, next_lambda, next_x)) return End::singular;  // the state stays that of the last solve
@@ -137,19 +143,28 @@ std::optional<End> SetIteration::advance() {
   x = std::move(next_x);
   alpha.reset();
   Linearisation next = follow();
-  if ((changed_.empty() || seen_.count(next.fingerprint())) && step->sharpen(lambda, x)) next = follow();
+  if ((at_rest(next) || repeats(next)) && step->sharpen(lambda, x)) next = follow();
   record(next);
-  if (changed_.empty()) {
+  if (at_rest(next)) {
     if (!screws || !screws->pulls(lambda, noise_of_screws())) return End::confirmed;
     return move_screws() ? std::nullopt : std::optional(End::misplaced);
   }
   l = std::move(next);
-  return seen_.count(l.fingerprint()) ? std::optional(End::cycle) : std::nullopt;
+  return repeats(l) ? std::optional(End::cycle) : std::nullopt;
+}
+
+/// Points that slip have a direction and a bound, which go on where pieces stay.
+bool SetIteration::repeats(const Linearisation& next) const { return problem.friction.empty() && seen_.count(next.fingerprint()); }
+
+/// With friction, whose steps converge but do not end.
+bool SetIteration::at_rest(const Linearisation& next) const {
+  return problem.friction.empty() ? changed_.empty() : next.off <= settings.tol;
 }
 
 /// What the state asks for, and which rows that changes.
 Linearisation SetIteration::follow() {
   Linearisation next = held(linearise(problem, lambda, x, rho, noise(lambda, x), &l), x);
+  if (!problem.friction.empty()) next.off = problem::natural_residual(problem, x, lambda, rho);
   changed_.clear();
   for (int r = 0; r < problem.rows(); ++r)
     if (!next.same_piece(l, r)) changed_.push_back(r);
@@ -175,6 +190,9 @@ void SetIteration::record(const Linearisation& next) {
   IterationInfo info;
   info.iteration = result.iterations;
   info.active = next.active_count();
+  for (const problem::FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k) info.stick += next.active[group.row(k)] != 0, info.active -= group.components * next.active[group.row(k)];
+  info.slip = static_cast<int>(next.slips.size());
   info.changed = static_cast<int>(changed_.size());
   info.residual = problem::natural_residual(problem, x, lambda, rho);
   info.seconds = watch_.seconds();

@@ -68,6 +68,8 @@ class SetIteration {
   bool crawls() const;
   std::optional<End> advance();
   Linearisation follow();
+  bool repeats(const Linearisation& next) const;
+  bool at_rest(const Linearisation& next) const;
   void record(const Linearisation& next);
 
   Holder holder_;

@@ -3,14 +3,44 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
+#include "multigrid/multigrid.hpp"
 #include "solver/core/near_rows.hpp"
 #include "solver/rows/newton.hpp"
 #include "solver/active/pdas.hpp"
 
 namespace dotyk::solver {
 
+namespace {
+
+/// Below so many unknowns nothing takes long enough to be worth an estimate.
+constexpr int kLarge = 50000;
+
+bool solid_in_space(const problem::Problem& problem) {
+  constexpr int kRigidMotions = 6;
+  return std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.rigid && b.rigid().cols() == kRigidMotions; });
+}
+
+bool multigrid_is_faster(const problem::Problem& problem) {
+  constexpr double kClearly = 1.5;
+  if (problem.unknowns() < kLarge || !problem.subdomains.empty() || !multigrid::available() || !tells_springs(problem) || !solid_in_space(problem)) return false;
+  const Expected seconds = expected(problem);
+  return seconds.condensed > kClearly * seconds.multigrid;
+}
+
+}  // namespace
+
+Expected expected(const problem::Problem& problem) {
+  // Measured on cubes, and on the parts of scripts/studies/bench/gmsh_parts.lua: a factor by nested dissection takes the square of the unknowns, dense
+  // matrices of all three components beside so many rows three times their cube.
+  constexpr double kFlops = 1.2e10, kFactor = 7.5, kRows = 81, kOneBody = 1e-4;
+  const double n = problem.unknowns(), m = NearRows(problem, {}).count();
+  return {(kFactor * n * n + kRows * m * m * m) / kFlops, kOneBody * n * (problem.blocks.size() > 1 ? 2 : 1)};
+}
+
 DefaultMethod default_method(const problem::Problem& problem) {
   if (problem.rows() == 0) return DefaultMethod::linear;
+  if (multigrid_is_faster(problem)) return DefaultMethod::multigrid;
   if (!problem.friction.empty() || !tells_springs(problem)) return DefaultMethod::newton;
   constexpr int kMany = 3000, kShare = 10;
   return problem.rows() > kMany && kShare * problem.rows() > problem.unknowns() ? DefaultMethod::sparse_pdas : DefaultMethod::pdas;
@@ -20,11 +50,24 @@ namespace {
 
 /// By newton or pdas; `by_default` as default_method() says.
 Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning from, Monitor& monitor, std::optional<bool> condensed = {}) {
+  if (by_default == DefaultMethod::multigrid) by_default = problem.friction.empty() ? DefaultMethod::pdas : DefaultMethod::newton;
   if (by_default == DefaultMethod::newton) return Method(Newton{}).run(problem, std::move(from), monitor);
   Pdas pdas;
   pdas.reduced = condensed.value_or(by_default == DefaultMethod::pdas);
   pdas.held = !pdas.reduced && condensed;
   return Method(pdas).run(problem, std::move(from), monitor);
+}
+
+/// Nothing where iterations come to no rest, or linear systems are not solved by them.
+std::optional<Result> run_multigrid(const problem::Problem& problem, Beginning from, Monitor& monitor) {
+  Pdas pdas;
+  pdas.reduced = false, pdas.held = true, pdas.linear = algebraic_multigrid();
+  try {
+    Result result = Method(pdas).run(problem, {std::move(from.start)}, monitor);
+    if (result.converged || monitor.stop()) return result;
+  } catch (const NotSolved&) {
+  }
+  return std::nullopt;
 }
 
 /// On the rows that may close; nothing where they do not hold the bodies.
@@ -49,7 +92,9 @@ Result solve(const problem::Problem& problem, const Method& method, Beginning fr
   const DefaultMethod by_default = default_method(problem);
   if (by_default == DefaultMethod::linear && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
   if (method) return method.run(problem, std::move(from), monitor);
-  if (!from.condenser && !condensed) {
+  if (by_default == DefaultMethod::multigrid && !condensed) {
+    if (auto result = run_multigrid(problem, from, monitor)) return *std::move(result);
+  } else if (!from.condenser && !condensed) {
     NearRows near(problem, from.start);
     if (!near.all())
       if (auto result = run_near(std::move(near), from, monitor)) return *std::move(result);

@@ -7,12 +7,19 @@
 namespace dotyk::solver {
 
 /// What solves a problem where no method is named.
-enum class DefaultMethod { linear, pdas, sparse_pdas, newton };
+enum class DefaultMethod { linear, pdas, sparse_pdas, newton, multigrid };
 
-/// Without rows one linear solve; with friction, or a law that does not tell its springs, newton; else pdas: on the condensed rows or, sparse, on
-/// all unknowns (reduced = false), where rows are more than 3000 and more than a tenth of the unknowns, as on strips and plates that touch all
-/// along. A dense factor takes the cube of their number then, sparse ones of a thin body far less.
+/// Without rows one linear solve; in space multigrid, where it is installed and promises to be faster; with friction, or a law that does not tell its
+/// springs, newton; else pdas: on the condensed rows or, sparse, on all unknowns (reduced = false), where rows are more than 3000 and more than a
+/// tenth of the unknowns, as on strips and plates that touch all along. A dense factor takes the cube of their number then, sparse ones of a thin
+/// body far less.
 DefaultMethod default_method(const problem::Problem& problem);
+
+/// Seconds on one core that solid bodies in space are expected to take, to a factor of two.
+struct Expected {
+  double condensed, multigrid;
+};
+Expected expected(const problem::Problem& problem);
 
 /// By the method, where one is named, else by the default one. A problem without rows takes one linear solve, whatever the
 /// method, unless it cuts bodies into subdomains. `condensed`: whether pdas condenses, by a model that knows better than the count of
