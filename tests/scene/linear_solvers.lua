@@ -1,4 +1,4 @@
--- pdas on all unknowns, its systems solved by a factor, by an incomplete one, by multigrid: the state of the condensed form.
+-- pdas on all unknowns, its systems solved by a factor, by an incomplete one, by multigrid: the state of the condensed form, with friction that of newton.
 local check <const> = require "check"
 
 local S <const> = dotyk.solver
@@ -42,9 +42,29 @@ function scenes.plane_second_order()
   return s
 end
 
+local function with_friction(friction, element)
+  local a, b = box("a", {0, 0, 0}, {1, 1, 0.5}, {4, 4, 2}, element), box("b", {0.1, 0, 0.5}, {0.9, 1, 1}, {3, 4, 2}, element)
+  a:part"bottom":fix()
+  b:part"front":slide()
+  b:part"top":displace{ x = 0.02, z = -0.05 }
+  local s = dotyk.scene{ a, b }
+  s:contact{ b:part"bottom", a:part"top", friction = friction }
+  return s
+end
+function scenes.coulomb() return with_friction(dotyk.friction.coulomb(0.3)) end
+function scenes.given_friction() return with_friction(dotyk.friction.tresca(4)) end
+function scenes.coulomb_on_bricks() return with_friction(dotyk.friction.coulomb(0.5), "Q1") end
+function scenes.coulomb_in_the_plane()
+  local b = dotyk.body{ name = "b", material = material, mesh = dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {12, 6} } }
+  b:part"bottom":displace{ x = 0.03, y = 0.02 }
+  local s = dotyk.scene{ b }
+  s:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 end }, interference = true, friction = dotyk.friction.coulomb(0.4) }
+  return s
+end
+
 local without = {}
 for name, make in pairs(scenes) do
-  local reference <const> = S.pdas{}:solve(make())
+  local reference <const> = dotyk.solve(make())
   check.that(reference.converged, reference.reason)
   for _, linear in ipairs{ "factor", "incomplete_factor", "multigrid" } do
     local solver <const> = S.pdas{ linear = linear }

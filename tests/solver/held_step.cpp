@@ -3,6 +3,7 @@
 #include "../support/programs.hpp"
 #include "problem/law/limited.hpp"
 #include "problem/residual.hpp"
+#include "solver/rows/newton.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -116,4 +117,42 @@ TEST_CASE("an incomplete factor in place of the factor: the same sets, the same 
     CHECK((a.state.u - b.state.u).norm() <= 1e-10 * a.state.u.norm());
     CHECK((a.state.lambda - b.state.lambda).norm() <= 1e-9 * a.state.lambda.norm());
   }
+}
+
+TEST_CASE("friction on all unknowns: the state of newton on the condensed rows, pressures that bounds follow and given bounds") {
+  test::Random random(404);
+  Monitor quiet;
+  constexpr int kPoints = 5;  // rows: normal ones, then two tangential ones a point
+  int slipping = 0, sticking = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    DenseMatrix B = DenseMatrix::Zero(3 * kPoints, kUnknowns);
+    for (int r = 0; r < 3 * kPoints; ++r) B(r, r) = 1, B(r, (r + 7) % kUnknowns) += random.between(-0.4, 0.4);
+    Vector f = random.vector(kUnknowns), c = Vector::Zero(3 * kPoints);
+    f.head(kPoints) = Vector::Constant(kPoints, 2) + random.vector(kPoints);  // onto the obstacle
+    c.head(kPoints) = 0.3 * random.vector(kPoints);
+    auto p = test::program(random.positive_definite(kUnknowns, 0.3), f, B, c);
+    p.groups = {test::group(problem::unilateral(), 0, kPoints)};
+    const bool given = trial % 2;
+    const std::vector<double> value(kPoints, given ? random.between(0.1, 1) : random.between(0.1, 0.5));
+    std::vector<int> normal(kPoints, -1);
+    for (int k = 0; k < kPoints && !given; ++k) normal[k] = k;
+    p.friction = {{"friction", given ? problem::tresca(value) : problem::coulomb(value), kPoints, 2, normal}};
+    const auto reference = solver::solve(p, solver::Newton{}, quiet);
+    REQUIRE_MESSAGE(reference.converged, reference.reason);
+    for (const bool iterative : {false, true}) {
+      solver::Pdas settings = held();
+      if (iterative) settings.linear = solver::incomplete_factor();
+      const auto r = solver::solve(p, settings, quiet);
+      if (!r.converged) for (auto& h : r.history) fprintf(stderr, "%d %d: it %d act %d st %d sl %d ch %d res %g\n", trial, iterative, h.iteration, h.active, h.stick, h.slip, h.changed, h.residual);
+      REQUIRE_MESSAGE(r.converged, r.reason);
+      // Both are solved to 1e-10 of their forces.
+      CHECK((r.state.u - reference.state.u).norm() <= 1e-8 * reference.state.u.norm());
+      CHECK((r.state.lambda - reference.state.lambda).norm() <= 1e-8 * reference.state.lambda.norm());
+      CHECK(r.slipping == reference.slipping);
+      CHECK(problem::residual(p, r.state).equilibrium < 1e-11);
+      slipping += r.history.back().slip, sticking += r.history.back().stick;
+    }
+  }
+  CHECK(slipping > 40);
+  CHECK(sticking > 40);
 }

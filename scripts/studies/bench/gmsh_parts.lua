@@ -37,32 +37,34 @@ local function round(radius, cx, cz)
   end
 end
 
--- 2. The parts: bodies, and what touches.
+-- 2. The parts: bodies, and what touches. Glued they have no clearance, and a smaller patch of the wheel: only parts that touch are glued.
 local parts <const> = {}
 
 -- Half of a lug, half of its thickness, is pulled along x against half of a pin that is held at its end.
-function parts.lug(h)
+function parts.lug(h, glued)
+  local gap <const> = glued and 0 or 0.02
   local lug = body("lug", [[
     Cylinder(1) = {0, 0, 0, 0, 0, 5, 20, Pi};  Box(2) = {0, 0, 0, 45, 20, 5};  Cylinder(3) = {0, 0, 0, 0, 0, 5, 10, Pi};
     BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
     BooleanDifference(5) = { Volume{4}; Delete; }{ Volume{3}; Delete; };]] .. graded(0, 0, 0, 11, 20, 3), h)
-  local pin = body("pin", "Cylinder(1) = {-0.02, 0, 0, 0, 0, 8, 9.98, Pi};" .. even(1.2), h)
+  local pin = body("pin", ("Cylinder(1) = {%g, 0, 0, 0, 0, 8, %g, Pi};"):format(-gap, 10 - gap) .. even(1.2), h)
   for _, b in ipairs{ lug, pin } do
     b:part("middle", at(3, 0)):slide()
     b:part("axis", at(2, 0)):slide()
   end
   pin:part("end", at(3, 8)):fix()
   lug:part("pull", at(1, 45)):load{ 100, 0, 0 }
-  return { lug, pin }, { lug:part("hole", round(10, 0)), pin:part("shank", round(9.98, -0.02)) }
+  return { lug, pin }, { lug:part("hole", round(10, 0)), pin:part("shank", round(10 - gap, -gap)) }
 end
 
 -- A quarter of a ball is pressed into a quarter of its socket.
-function parts.ball(h)
+function parts.ball(h, glued)
+  local gap <const> = glued and 0 or 0.05
   local socket = body("socket", [[
     Box(1) = {0, 0, -18, 18, 18, 18};  Sphere(2) = {0, 0, 0, 10};
     BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. graded(0, 0, 0, 11, 10, 3), h)
-  local ball = body("ball", [[
-    Sphere(1) = {0, 0, -0.05, 9.95};  Box(2) = {0, 0, -12, 12, 12, 12};
+  local ball = body("ball", ("Sphere(1) = {0, 0, %g, %g};"):format(-gap, 10 - gap) .. [[
+    Box(2) = {0, 0, -12, 12, 12, 12};
     BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. even(1.2), h)
   for _, b in ipairs{ socket, ball } do
     b:part("x", at(1, 0)):slide()
@@ -70,7 +72,7 @@ function parts.ball(h)
   end
   socket:part("base", at(3, -18)):fix()
   ball:part("top", at(3, 0)):load{ 0, 0, -150 }
-  return { ball, socket }, { ball:part("sphere", round(9.95, 0, -0.05)), socket:part("bowl", round(10, 0, 0)) }
+  return { ball, socket }, { ball:part("sphere", round(10 - gap, 0, -gap)), socket:part("bowl", round(10, 0, 0)) }
 end
 
 -- A sector of 45° between bolts and half of the gasket, which is soft; the bolt presses round its hole, the fluid pushes off and out.
@@ -95,7 +97,7 @@ function parts.flange(h)
 end
 
 -- A quarter of a wheel's rim comes down on a quarter of a rail's head.
-function parts.wheel(h)
+function parts.wheel(h, glued)
   local wheel = body("wheel", [[
     Cylinder(1) = {0, 0, 460, 0, 20, 0, 460};  Box(2) = {0, 0, 0, 40, 20, 40};
     BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. graded(0, 0, 0, 2.5, 25, 12), h)
@@ -108,7 +110,7 @@ function parts.wheel(h)
   end
   rail:part("foot", at(3, -40)):fix()
   wheel:part("rim", at(3, 40)):displace{ x = 0, y = 0, z = -0.012 }
-  local function near(x, y, z) return x^2 + y^2 < 2.5^2 and math.abs(z) < 1 end
+  local function near(x, y, z) return x^2 + y^2 < (glued and 1 or 2.5)^2 and math.abs(z) < 1 end
   return { wheel, rail }, { wheel:part("tread", near), rail:part("head", near) }
 end
 
@@ -138,9 +140,9 @@ local function peak(reset)
 end
 
 local function solved(part, h, join)
-  local bodies <const>, pair <const> = parts[part](h)
+  local bodies <const>, pair <const> = parts[part](h, join.name == "glued")
   local scene <const> = dotyk.scene(bodies)
-  join(scene, pair)
+  join.make(scene, pair)
   collectgarbage()
   peak(true)
   local s <const> = dotyk.solve(scene)
@@ -149,9 +151,9 @@ local function solved(part, h, join)
 end
 
 local joins <const> = {
-  { "glued", function(scene, pair) scene:glue(pair) end },
-  { "contact", function(scene, pair) scene:contact{ pair[1], pair[2], interference = true } end },
-  { "Coulomb", function(scene, pair) scene:contact{ pair[1], pair[2], interference = true, friction = dotyk.friction.coulomb(0.2) } end },
+  { name = "glued", make = function(scene, pair) scene:glue(pair) end },
+  { name = "contact", make = function(scene, pair) scene:contact{ pair[1], pair[2], interference = true } end },
+  { name = "Coulomb", make = function(scene, pair) scene:contact{ pair[1], pair[2], interference = true, friction = dotyk.friction.coulomb(0.2) } end },
 }
 
 print "part       nodes   rows     glued                  contact                       Coulomb 0.2"
@@ -160,7 +162,7 @@ for _, count in ipairs(sizes) do
     local h <const> = with_nodes(part, count)
     local line, glued
     for _, join in ipairs(joins) do
-      local s <const>, gigabytes <const> = solved(part, h, join[2])
+      local s <const>, gigabytes <const> = solved(part, h, join)
       local seconds <const> = s.time.total
       if not glued then
         glued, line = seconds, ("%-8s %7d"):format(part, s.unknowns // 3)

@@ -59,6 +59,8 @@ std::string method(const problem::Problem& problem, bool any_free) {
     case solver::DefaultMethod::sparse_pdas:
       return text("pdas on all ", problem.unknowns(), " unknowns, one sparse factorisation an iteration (reduced = false): ", problem.rows(),
                   " rows are too many to condense");
+    case solver::DefaultMethod::held:
+      return text("pdas on all ", problem.unknowns(), " unknowns, the ", problem.rows(), " rows held: they have one branch each, so that it is one linear solve");
     case solver::DefaultMethod::multigrid: {
       const solver::Expected seconds = solver::expected(problem);
       return text("pdas on all ", problem.unknowns(), " unknowns, linear systems by conjugate gradients with multigrid (linear = \"multigrid\"): some ",

@@ -13,6 +13,8 @@ namespace {
 
 /// Do Newton steps crawl when more than half as many rows change as so many steps ago?
 constexpr std::size_t kStretch = 4;
+/// With friction: steps that may lead away, and how often later ones are halved.
+constexpr int kUnguided = 4, kHalvings = 6;
 
 /// The linearisation at the flags, but on rows whose flag is that of `l`, which stay.
 Linearisation with_flags(const Problem& problem, const Linearisation& l, const std::vector<char>& active, const Vector& rho) {
@@ -139,11 +141,13 @@ std::optional<End> SetIteration::advance() {
   seen_.insert(l.fingerprint());
   Vector next_lambda, next_x;
   if (!step->solve(l, next_lambda, next_x)) return End::singular;  // the state stays that of the last solve
-  lambda = std::move(next_lambda);
-  x = std::move(next_x);
+  std::swap(lambda, next_lambda);
+  std::swap(x, next_x);
   alpha.reset();
+  const bool whole = problem.friction.empty() || result.iterations <= kUnguided || !shorten(next_lambda, next_x);
   Linearisation next = follow();
-  if ((at_rest(next) || repeats(next)) && step->sharpen(lambda, x)) next = follow();
+  if (!whole) next.off = std::max(next.off, 2 * settings.tol);  // u is the whole step's
+  else if ((at_rest(next) || repeats(next)) && step->sharpen(lambda, x)) next = follow();
   record(next);
   if (at_rest(next)) {
     if (!screws || !screws->pulls(lambda, noise_of_screws())) return End::confirmed;
@@ -151,6 +155,19 @@ std::optional<End> SetIteration::advance() {
   }
   l = std::move(next);
   return repeats(l) ? std::optional(End::cycle) : std::nullopt;
+}
+
+/// Goes back towards (λ, x) until the state is nearer to its laws than that one; false where it is, or no such step is found.
+bool SetIteration::shorten(const Vector& from_lambda, const Vector& from_x) {
+  const auto off = [&] { return problem::distances_from_laws(problem, x, lambda, rho).norm(); };
+  const Vector whole_lambda = lambda, whole_x = x, none = problem::distances_from_laws(problem, from_x, from_lambda, rho);
+  double length = 1;
+  for (int k = 0; k <= kHalvings; ++k, length /= 2) {
+    lambda = from_lambda + length * (whole_lambda - from_lambda), x = from_x + length * (whole_x - from_x);
+    if (off() <= (1 - 1e-4 * length) * none.norm()) return length < 1;
+  }
+  lambda = whole_lambda, x = whole_x;
+  return false;
 }
 
 /// Points that slip have a direction and a bound, which go on where pieces stay.

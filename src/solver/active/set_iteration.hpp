@@ -68,6 +68,7 @@ class SetIteration {
   bool crawls() const;
   std::optional<End> advance();
   Linearisation follow();
+  bool shorten(const algebra::Vector& from_lambda, const algebra::Vector& from_x);
   bool repeats(const Linearisation& next) const;
   bool at_rest(const Linearisation& next) const;
   void record(const Linearisation& next);

@@ -28,13 +28,24 @@ bool multigrid_is_faster(const problem::Problem& problem) {
   return seconds.condensed > kClearly * seconds.multigrid;
 }
 
+/// Is there no more than one branch to each row?
+bool linear(const problem::Problem& problem) {
+  return problem.friction.empty() && std::all_of(problem.groups.begin(), problem.groups.end(), [](const problem::RowGroup& group) {
+    for (int k = 0; k < group.count; ++k)
+      if (!group.law->linear_stiffness(k)) return false;
+    return true;
+  });
+}
+
 }  // namespace
 
 Expected expected(const problem::Problem& problem) {
   // Measured on cubes, and on the parts of scripts/studies/bench/gmsh_parts.lua: a factor by nested dissection takes the square of the unknowns, dense
-  // matrices of all three components beside so many rows three times their cube.
+  // matrices of all three components at so many points of contact three times their cube.
   constexpr double kFlops = 1.2e10, kFactor = 7.5, kRows = 81, kOneBody = 1e-4;
-  const double n = problem.unknowns(), m = NearRows(problem, {}).count();
+  double tangential = 0;
+  for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
+  const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1));
   return {(kFactor * n * n + kRows * m * m * m) / kFlops, kOneBody * n * (problem.blocks.size() > 1 ? 2 : 1)};
 }
 
@@ -42,7 +53,8 @@ DefaultMethod default_method(const problem::Problem& problem) {
   if (problem.rows() == 0) return DefaultMethod::linear;
   if (multigrid_is_faster(problem)) return DefaultMethod::multigrid;
   if (!problem.friction.empty() || !tells_springs(problem)) return DefaultMethod::newton;
-  constexpr int kMany = 3000, kShare = 10;
+  constexpr int kMany = 3000, kShare = 10, kFew = 150;
+  if (problem.rows() >= kFew && linear(problem)) return DefaultMethod::held;
   return problem.rows() > kMany && kShare * problem.rows() > problem.unknowns() ? DefaultMethod::sparse_pdas : DefaultMethod::pdas;
 }
 
@@ -50,6 +62,7 @@ namespace {
 
 /// By newton or pdas; `by_default` as default_method() says.
 Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning from, Monitor& monitor, std::optional<bool> condensed = {}) {
+  if (by_default == DefaultMethod::held) by_default = DefaultMethod::pdas;
   if (by_default == DefaultMethod::multigrid) by_default = problem.friction.empty() ? DefaultMethod::pdas : DefaultMethod::newton;
   if (by_default == DefaultMethod::newton) return Method(Newton{}).run(problem, std::move(from), monitor);
   Pdas pdas;
@@ -59,9 +72,9 @@ Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning 
 }
 
 /// Nothing where iterations come to no rest, or linear systems are not solved by them.
-std::optional<Result> run_multigrid(const problem::Problem& problem, Beginning from, Monitor& monitor) {
+std::optional<Result> run_held(const problem::Problem& problem, MakeSpdSolver linear, Beginning from, Monitor& monitor) {
   Pdas pdas;
-  pdas.reduced = false, pdas.held = true, pdas.linear = algebraic_multigrid();
+  pdas.reduced = false, pdas.held = true, pdas.linear = std::move(linear);
   try {
     Result result = Method(pdas).run(problem, {std::move(from.start)}, monitor);
     if (result.converged || monitor.stop()) return result;
@@ -92,8 +105,9 @@ Result solve(const problem::Problem& problem, const Method& method, Beginning fr
   const DefaultMethod by_default = default_method(problem);
   if (by_default == DefaultMethod::linear && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
   if (method) return method.run(problem, std::move(from), monitor);
-  if (by_default == DefaultMethod::multigrid && !condensed) {
-    if (auto result = run_multigrid(problem, from, monitor)) return *std::move(result);
+  const bool held = by_default == DefaultMethod::held, multigrid = by_default == DefaultMethod::multigrid;
+  if ((held || multigrid) && !condensed) {
+    if (auto result = run_held(problem, multigrid ? algebraic_multigrid() : factor({}), from, monitor)) return *std::move(result);
   } else if (!from.condenser && !condensed) {
     NearRows near(problem, from.start);
     if (!near.all())

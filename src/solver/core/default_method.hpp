@@ -7,10 +7,11 @@
 namespace dotyk::solver {
 
 /// What solves a problem where no method is named.
-enum class DefaultMethod { linear, pdas, sparse_pdas, newton, multigrid };
+enum class DefaultMethod { linear, pdas, held, sparse_pdas, newton, multigrid };
 
 /// Without rows one linear solve; in space multigrid, where it is installed and promises to be faster; with friction, or a law that does not tell its
-/// springs, newton; else pdas: on the condensed rows or, sparse, on all unknowns (reduced = false), where rows are more than 3000 and more than a
+/// springs, newton; else pdas: where all of at least 150 rows are glue, or linear otherwise, on all unknowns with these rows held, one factorisation in
+/// all; on the condensed rows or, sparse, on all unknowns (reduced = false), where rows are more than 3000 and more than a
 /// tenth of the unknowns, as on strips and plates that touch all along. A dense factor takes the cube of their number then, sparse ones of a thin
 /// body far less.
 DefaultMethod default_method(const problem::Problem& problem);
