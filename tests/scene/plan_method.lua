@@ -56,3 +56,35 @@ local rows <const>, gigaflop <const>, megabytes <const> = pressed:plan():match "
 assert(rows == "21" and tonumber(gigaflop) >= 2 and tonumber(gigaflop) <= 10 and tonumber(megabytes) >= 30 and tonumber(megabytes) <= 120, pressed:plan())
 local solved <const> = dotyk.solve(pressed)
 assert(solved.converged and solved.rows == (n + 1)^2)
+
+-- Glue has one branch: one linear solve with its rows held.
+local function brick(name, low, cells)
+  return dotyk.body{ name = name, material = dotyk.material{ E = 210, nu = 0.3 },
+    mesh = dotyk.mesh.box{ from = { 0, 0, low }, to = { 1, 1, low + 1 }, cells = { cells, cells, 2 } } }
+end
+local lower <const>, upper <const> = brick("lower", 0, 7), brick("upper", 1, 8)
+lower:part"bottom":fix()
+upper:part"top":load{ 0, 0.1, -1 }
+local glued <const> = dotyk.scene{ lower, upper }
+glued:glue{ upper:part"bottom", lower:part"top" }
+assert(glued:plan():find("rows held: they have one branch each", 1, true), glued:plan())
+local one_solve <const> = dotyk.solve(glued)
+assert(one_solve.converged and one_solve.method == "pdas (held)" and one_solve.iterations == 1)
+
+-- A large solid of which many rows close: multigrid, where it is installed; both estimates are said.
+local slab <const> = dotyk.body{ mesh = dotyk.mesh.box{ from = { 0, 0, 0 }, to = { 3, 3, 1 }, cells = { 38, 38, 12 } }, material = dotyk.material{ E = 210, nu = 0.3 } }
+slab:part"bottom":fix()
+slab:part"top":load{ 0, 0, 3 }
+local under <const> = dotyk.scene{ slab }
+local stop <const> = under:contact{ slab:part"top", rigid = dotyk.rigid.gap{ normal = { 0, 0, 1 }, gap = function() return 0.005 end } }
+local said <const> = under:plan()
+if said:find("linear = \"multigrid\"", 1, true) then
+  assert(said:find("some %d+ s on a core, where factors and condensed rows would take some %d+ s"), said)
+  local s <const> = dotyk.solve(under)
+  assert(s.converged and s.method == "pdas (held)" and s.ordering:find("algebraic multigrid", 1, true), s.ordering)
+  -- What the stop bears and what the bottom bears carry the load of 27.
+  local _, _, bottom <const> = s:reaction(slab:part"bottom")
+  assert(s.residual.equilibrium < 1e-8 and math.abs(s:contact(stop).force[3] + bottom + 27) < 1e-7 * 27 and s:contact(stop).force[3] < -1)
+else
+  print "PETSc is absent: multigrid was not tried"
+end

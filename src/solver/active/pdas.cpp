@@ -1,5 +1,6 @@
 #include "solver/active/pdas.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <utility>
@@ -128,6 +129,7 @@ Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& mon
   it.result.clock.iterate += iterating.lap();
   monitor.phase("recovering the displacement");
   it.result.state = it.state();
+  if (it.is_analysed()) it.result.factor_bytes = std::max(it.result.factor_bytes, it.stiffness().solver().bytes());
   if (it.result.converged && pieces) confirm_laws(it);
   it.result.clock.recover += iterating.lap();
   return std::move(it.result);

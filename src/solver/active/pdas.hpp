@@ -11,7 +11,9 @@ namespace dotyk::solver {
 
 /// The primal-dual active set method (TR965 (1.44)–(1.47)), which is Newton's method on
 /// λ = P(λ + ρ(Bu − c)) and so takes every scalar law: in each iteration the branch of every
-/// row is read off y = λ + ρx, then a linear problem is solved; it ends when two in a row have the same branches.
+/// row is read off y = λ + ρx, then a linear problem is solved; it ends when two in a row have the same branches. The held form takes friction
+/// as well (Alart and Curnier 1991; active sets of points: Hüeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30 (2008)): steps then converge as
+/// Newton's, are shortened where they lead away, and end when the state is off its laws by `tol`.
 struct Pdas : Settings {
   /// Multiplies each row's own stiffness Σ_j B_rj² K_jj (force per displacement): with 1, forces
   /// and gaps weigh alike. It matters only while both λ and x of a row are nonzero, that is

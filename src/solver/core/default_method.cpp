@@ -1,6 +1,7 @@
 #include "solver/core/default_method.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -28,6 +29,16 @@ bool multigrid_is_faster(const problem::Problem& problem) {
   return seconds.condensed > kClearly * seconds.multigrid;
 }
 
+/// Of the mean stiffness of unknowns, the greatest of all blocks against the least.
+double contrast(const problem::Problem& problem) {
+  double least = INFINITY, greatest = 0;
+  for (const problem::Block& block : problem.blocks) {
+    const double mean = block.size() > 0 ? block.K.diagonal().mean() : 0;
+    if (mean > 0) least = std::min(least, mean), greatest = std::max(greatest, mean);
+  }
+  return greatest > least ? greatest / least : 1;
+}
+
 /// Is there no more than one branch to each row?
 bool linear(const problem::Problem& problem) {
   return problem.friction.empty() && std::all_of(problem.groups.begin(), problem.groups.end(), [](const problem::RowGroup& group) {
@@ -46,7 +57,9 @@ Expected expected(const problem::Problem& problem) {
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
   const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1));
-  return {(kFactor * n * n + kRows * m * m * m) / kFlops, kOneBody * n * (problem.blocks.size() > 1 ? 2 : 1)};
+  // Where parts of unlike stiffness touch, iterations grow about with the root of the contrast: 18 to 80 on the gasket, a hundred times softer.
+  const double iterations = problem.blocks.size() > 1 ? 2 * std::max(1.0, std::sqrt(contrast(problem)) / 2) : 1;
+  return {(kFactor * n * n + kRows * m * m * m) / kFlops, kOneBody * n * iterations};
 }
 
 DefaultMethod default_method(const problem::Problem& problem) {

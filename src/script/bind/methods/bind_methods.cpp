@@ -40,7 +40,7 @@ void bind_methods(Library& library) {
        key::choice<Linear>("linear", {{"factor", Linear::factor}, {"incomplete_factor", Linear::incomplete_factor}, {"multigrid", Linear::multigrid}},
                            "in place of reduced: iterate on all unknowns, active rows held, and solve by a sparse factor, anew in each iteration, or by "
                            "conjugate gradients, which need little more memory than the matrix: with an incomplete factor, or with algebraic multigrid by PETSc, "
-                           "whose iterations hardly grow with the mesh").otherwise("as reduced says")},
+                           "whose iterations hardly grow with the mesh; with friction as well").otherwise("as reduced says")},
       100, [](Pdas& m, Call& call) {
         if (!call.has("linear")) return text("rho = ", m.rho, ", ", reduced(m.reduced));
         if (call.has("reduced")) throw InputError("'linear' is given beside 'reduced'; give one of them");
