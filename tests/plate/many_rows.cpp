@@ -12,7 +12,7 @@ using test::kFree;
 using test::kHeld;
 using test::SupportLaw;
 
-// Over an obstacle every vertex has a row. PDAS on the unknowns, begun by an interior point method, against PDAS with a sparse LU of the whole system.
+// Over an obstacle every vertex has a row. PDAS on the unknowns, begun by an interior point method, against PDAS begun at rest.
 
 namespace {
 
@@ -51,7 +51,7 @@ Plate plate_over(const Case& c, plate::Element element, int cells, double length
 solver::Pdas held() {
   solver::Pdas settings;
   settings.reduced = false;
-  settings.held = true;
+  settings.interior = true;
   return settings;
 }
 

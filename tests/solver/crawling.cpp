@@ -36,9 +36,9 @@ void check_solution(const problem::Problem& p, const solver::Result& r, double l
   }
 }
 
-solver::Pdas form(bool reduced, bool held) {
+solver::Pdas form(bool reduced, bool interior) {
   solver::Pdas settings = test::pdas(reduced);
-  settings.held = held;
+  settings.interior = interior;
   return settings;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 solver::Pdas held(std::vector<char> start = {}) {
   solver::Pdas settings = test::pdas(false, std::move(start));
-  settings.held = true;
+  settings.interior = true;
   return settings;
 }
 

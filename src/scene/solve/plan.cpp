@@ -56,11 +56,9 @@ std::string method(const problem::Problem& problem, bool any_free) {
   switch (solver::default_method(problem)) {
     case solver::DefaultMethod::linear: return text("one linear solve of ", problem.unknowns(), " unknowns");
     case solver::DefaultMethod::newton: return "newton on the condensed rows of contact and friction" + factored;
-    case solver::DefaultMethod::sparse_pdas:
-      return text("pdas on all ", problem.unknowns(), " unknowns, one sparse factorisation an iteration (reduced = false): ", problem.rows(),
-                  " rows are too many to condense");
     case solver::DefaultMethod::held:
-      return text("pdas on all ", problem.unknowns(), " unknowns, the ", problem.rows(), " rows held: they have one branch each, so that it is one linear solve");
+      return text("pdas on all ", problem.unknowns(), " unknowns, one sparse factorisation an iteration (reduced = false): its ", problem.rows(),
+                  " rows need not be condensed, or are too many");
     case solver::DefaultMethod::multigrid: {
       const solver::Expected seconds = solver::expected(problem);
       return text("pdas on all ", problem.unknowns(), " unknowns, linear systems by conjugate gradients with multigrid (linear = \"multigrid\"): some ",

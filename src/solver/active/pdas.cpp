@@ -33,7 +33,7 @@ std::string begin(SetIteration& it) {
     it.l = it.held(nested.run(*it.step), -it.problem.c);
     return text(", begun with ", nested.solves(), " solves on a part of the rows");
   }
-  if (!it.is_analysed() || given || it.settings.linear || !it.problem.friction.empty()) return "";
+  if (!it.settings.interior || given || !it.problem.friction.empty()) return "";
   const std::string how = by_interior_point(it, End::exhausted);
   return how.empty() ? "" : ", begun with " + how;
 }
@@ -113,12 +113,12 @@ void come_to_rest(SetIteration& it) {
 }  // namespace
 
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor) {
-  if (!settings.held) require_frictionless(problem, "pdas");
+  if (settings.reduced || settings.step) require_frictionless(problem, "pdas");
   require_springs(problem, "pdas");
   SetIteration it(problem, settings, monitor);
   Stopwatch iterating;
   const std::string begun = begin(it);
-  bool inside = it.is_analysed() && settings.start.empty();  // an interior point method has been tried
+  bool inside = settings.interior && settings.start.empty();  // an interior point method has been tried
   std::string rescued;
   const End end = iterate_and_rescue(it, inside, rescued);
   conclude(it, end, inside, rescued);

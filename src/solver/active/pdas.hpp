@@ -11,7 +11,7 @@ namespace dotyk::solver {
 
 /// The primal-dual active set method (TR965 (1.44)–(1.47)), which is Newton's method on
 /// λ = P(λ + ρ(Bu − c)) and so takes every scalar law: in each iteration the branch of every
-/// row is read off y = λ + ρx, then a linear problem is solved; it ends when two in a row have the same branches. The held form takes friction
+/// row is read off y = λ + ρx, then a linear problem is solved; it ends when two in a row have the same branches. On all unknowns it takes friction
 /// as well (Alart and Curnier 1991; active sets of points: Hüeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30 (2008)): steps then converge as
 /// Newton's, are shortened where they lead away, and end when the state is off its laws by `tol`.
 struct Pdas : Settings {
@@ -19,15 +19,15 @@ struct Pdas : Settings {
   /// and gaps weigh alike. It matters only while both λ and x of a row are nonzero, that is
   /// from the second linear solve on not at all for contact.
   double rho = 1.0;
-  /// On the condensed problem (one sparse factorisation in all), or on the whole system
-  /// (one LU an iteration): the same iterates (TR965 remark 1.3).
+  /// On the condensed problem (one sparse factorisation in all), or on all unknowns (held_step; one factorisation an iteration): the same iterates
+  /// (TR965 remark 1.3).
   bool reduced = true;
-  /// Where not reduced: by held_step, begun where an interior point method ends (interior_start; not counted among iterations) unless `start` says
-  /// where: for problems with many rows of few unknowns each. The iterates from one start are the same again.
-  bool held = false;
-  /// What solves the linear systems of the held form; empty: a sparse Cholesky factor. Iterative ones do not begin where an interior point method ends.
+  /// Where not reduced, without friction: begun where an interior point method ends (interior_start; not counted among iterations) unless `start`
+  /// says where: for problems with many rows of few unknowns each. The iterates from one start are the same again.
+  bool interior = false;
+  /// What solves the linear systems of all unknowns; empty: a sparse Cholesky factor.
   MakeSpdSolver linear;
-  /// What solves the linear problem of an iteration where neither reduced nor held; empty: full_step.
+  /// What solves the linear problem of an iteration in its place, without friction; empty: held_step.
   std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>
       step;
   /// How the rigid motions of free bodies are treated: exactly, as constraints of the dual, or by

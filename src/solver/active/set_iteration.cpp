@@ -42,7 +42,7 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
   for (int r = 0; r < rho.size(); ++r)
     if (!(rho[r] > 0)) rho[r] = largest, compliance_[r] = settings.rho / largest;
   lambda = Vector::Zero(problem.rows());
-  result.method = settings.reduced ? "pdas" : settings.held ? "pdas (held)" : "pdas (full)";
+  result.method = settings.reduced ? "pdas" : "pdas (held)";
   place_screws();
   l = first();
   step = make_step();
@@ -71,12 +71,10 @@ bool SetIteration::move_screws() {
 
 std::unique_ptr<Step> SetIteration::make_step() {
   if (settings.reduced) condensed();
-  else if (settings.held) stiffness();
   return screws             ? screw_step(*condensed_, rho, *screws)
          : settings.reduced ? reduced_step(*condensed_, rho)
-         : settings.held    ? held_step(problem, *stiffness_, rho)
          : settings.step    ? settings.step(problem, rigid, rho)
-                            : full_step(problem, rigid, rho);
+                            : held_step(problem, stiffness(), rho);
 }
 
 const problem::CondensedProblem& SetIteration::condensed() {

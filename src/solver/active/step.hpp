@@ -26,11 +26,6 @@ class Step {
 std::unique_ptr<Step> reduced_step(const problem::CondensedProblem& condensed,
                                    const algebra::Vector& rho);
 
-/// On the whole system [K Bᵀ; …], sparse LU anew in each iteration (TR965 (1.45)–(1.46)).
-/// Motions that no row notices are taken out by a border: their part of u is zero.
-std::unique_ptr<Step> full_step(const problem::Problem& problem, const problem::RigidMotions& rigid,
-                                const algebra::Vector& rho);
-
 /// On the unknowns alone (see HeldStiffness), where rows act on few unknowns each. An active rigid row of one unknown holds it, and its λ is what
 /// equilibrium leaves there; a row with compliance is a spring. Rigid rows of several unknowns, and those whose unknown is held already, are springs to which conjugate gradients
 /// add the forces that keep them closed. One sparse Cholesky factorisation in each iteration. Dependent rows get some multipliers, not refused.

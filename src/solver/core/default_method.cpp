@@ -68,7 +68,7 @@ DefaultMethod default_method(const problem::Problem& problem) {
   if (!problem.friction.empty() || !tells_springs(problem)) return DefaultMethod::newton;
   constexpr int kMany = 3000, kShare = 10, kFew = 150;
   if (problem.rows() >= kFew && linear(problem)) return DefaultMethod::held;
-  return problem.rows() > kMany && kShare * problem.rows() > problem.unknowns() ? DefaultMethod::sparse_pdas : DefaultMethod::pdas;
+  return problem.rows() > kMany && kShare * problem.rows() > problem.unknowns() ? DefaultMethod::held : DefaultMethod::pdas;
 }
 
 namespace {
@@ -80,14 +80,14 @@ Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning 
   if (by_default == DefaultMethod::newton) return Method(Newton{}).run(problem, std::move(from), monitor);
   Pdas pdas;
   pdas.reduced = condensed.value_or(by_default == DefaultMethod::pdas);
-  pdas.held = !pdas.reduced && condensed;
+  pdas.interior = !pdas.reduced && condensed;
   return Method(pdas).run(problem, std::move(from), monitor);
 }
 
 /// Nothing where iterations come to no rest, or linear systems are not solved by them.
 std::optional<Result> run_held(const problem::Problem& problem, MakeSpdSolver linear, Beginning from, Monitor& monitor) {
   Pdas pdas;
-  pdas.reduced = false, pdas.held = true, pdas.linear = std::move(linear);
+  pdas.reduced = false, pdas.linear = std::move(linear);
   try {
     Result result = Method(pdas).run(problem, {std::move(from.start)}, monitor);
     if (result.converged || monitor.stop()) return result;
@@ -115,12 +115,12 @@ std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) 
 }  // namespace
 
 Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor, std::optional<bool> condensed) {
-  const DefaultMethod by_default = default_method(problem);
-  if (by_default == DefaultMethod::linear && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
+  if (problem.rows() == 0 && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
   if (method) return method.run(problem, std::move(from), monitor);
-  const bool held = by_default == DefaultMethod::held, multigrid = by_default == DefaultMethod::multigrid;
-  if ((held || multigrid) && !condensed) {
-    if (auto result = run_held(problem, multigrid ? algebraic_multigrid() : factor({}), from, monitor)) return *std::move(result);
+  const DefaultMethod by_default = default_method(problem);
+  if (!condensed && (by_default == DefaultMethod::held || by_default == DefaultMethod::multigrid)) {
+    const MakeSpdSolver linear = by_default == DefaultMethod::multigrid ? algebraic_multigrid() : MakeSpdSolver();
+    if (auto result = run_held(problem, linear, from, monitor)) return *std::move(result);
   } else if (!from.condenser && !condensed) {
     NearRows near(problem, from.start);
     if (!near.all())

@@ -15,7 +15,7 @@ const char* reduced(bool is) { return is ? "reduced" : "full"; }
 enum class Linear { factor, incomplete_factor, multigrid };
 
 void take_linear(Linear linear, solver::Pdas& method) {
-  method.reduced = false, method.held = true;
+  method.reduced = false;
   if (linear == Linear::incomplete_factor) method.linear = solver::incomplete_factor();
   if (linear == Linear::multigrid) method.linear = solver::algebraic_multigrid();
 }
