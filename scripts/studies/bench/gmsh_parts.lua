@@ -9,6 +9,7 @@
 local sizes = {}
 for _, n in ipairs(arg) do sizes[#sizes + 1] = tonumber(n) end
 if #sizes == 0 then sizes = { 10000 } end
+local peak_memory <const> = include "../../lib/peak_memory.lua"
 local steel <const> = dotyk.material{ E = 210e3, nu = 0.3 }
 
 -- 1. Bodies: geometry in Gmsh's language, with the greatest edge h where they touch.
@@ -127,14 +128,7 @@ local function with_nodes(part, count)
   return h
 end
 
--- 4. One solve, and the greatest memory of the process so far.
-local function gigabytes()
-  for line in io.lines "/proc/self/status" do
-    local kilobytes <const> = line:match "VmHWM:%s*(%d+)"
-    if kilobytes then return kilobytes / 1e6 end
-  end
-end
-
+-- 4. One solve.
 local function solved(part, h, join)
   local bodies <const>, pair <const> = parts[part](h, join.name == "glued")
   local scene <const> = dotyk.scene(bodies)
@@ -160,6 +154,6 @@ for _, count in ipairs(sizes) do
       glued = glued or s.time.total
       line = (line or ("%-8s %8d"):format(part, s.unknowns // 3)) .. ("  %8.2f s  x%.2f %3d it"):format(s.time.total, s.time.total / glued, s.iterations)
     end
-    print(line .. ("  %6.2f GB"):format(gigabytes()))
+    print(line .. ("  %6.2f GB"):format(peak_memory()))
   end
 end
