@@ -134,6 +134,7 @@ void Hierarchy::coarsen(const Matrix& matrix) {
 void Hierarchy::take_unknowns(Mat S) {
   OwnedMat interpolation;
   check(MatMatMult(S, interpolations_[0], MAT_INITIAL_MATRIX, PETSC_DEFAULT, interpolation.put()));
+  check(MatProductClear(interpolation));
   interpolations_[0] = std::move(interpolation);
   for (std::size_t l = 0; l < interpolations_.size(); ++l) {  // bodies that nothing joined meet in these patterns
     OwnedMat coarse;

@@ -19,6 +19,8 @@ constexpr double kLeastFactor = 0.2, kDependent = 0.01;
 /// rounding are left out.
 constexpr std::size_t kMostTerms = 1000;
 constexpr double kNothing = 1e-16;
+/// Terms an unknown of the basis, beyond which rows reach three times as far only.
+constexpr std::size_t kMostFill = 4;
 
 /// Gauss–Jordan elimination of one unknown for every row, as long as that makes none reach too far.
 class Elimination {
@@ -54,7 +56,7 @@ class Elimination {
       greatest = std::max(greatest, std::abs(it.value()));
       ++count;
     }
-    const std::size_t most = std::max(3 * count + 3, kMostTerms);
+    const std::size_t most = terms_ < kMostFill * static_cast<std::size_t>(n_) ? std::max(3 * count + 3, kMostTerms) : 3 * count + 3;
     if (terms.size() > most) return -1;
     const int own = pick(terms, greatest);
     if (own < 0) return -1;
@@ -83,6 +85,7 @@ class Elimination {
     for (auto& [other, now] : changed) {
       for (const auto& [index, value] : now)
         if (index < n_ && std::find(in_[index].begin(), in_[index].end(), other) == in_[index].end()) in_[index].push_back(other);
+      terms_ += now.size() - std::min(now.size(), solved_[other].size());
       solved_[other] = std::move(now);
     }
     in_[own].clear();
@@ -119,6 +122,7 @@ class Elimination {
   std::vector<int> shared_;           ///< rows that an unknown is in
   std::vector<Terms> solved_;         ///< by unknown; empty: free
   std::vector<std::size_t> most_;     ///< terms that it may have
+  std::size_t terms_ = 0;             ///< of all together
   std::vector<std::vector<int>> in_;  ///< by free unknown: those in whose terms it stands
 };
 

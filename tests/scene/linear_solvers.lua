@@ -62,7 +62,24 @@ function scenes.coulomb_in_the_plane()
   return s
 end
 
-local without = {}
+-- Free to move: near the limit all points slip in some iterate, and nothing but their bounds holds the body.
+function scenes.free_body_held_by_friction()
+  local b = box("b", {0, 0, 0}, {1, 1, 1}, {3, 3, 3}, nil, { 0.45, 0, -1 })
+  local s = dotyk.scene{ b }
+  s:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0, 0}, normal = {0, 0, 1} }, friction = dotyk.friction.coulomb(0.5) }
+  return s
+end
+-- Moved by its own size, strained by 1e-5 of it: what rounding leaves of gaps is no error. Of the energy, 7e-8, products of 1e3 with displacements of 1
+-- leave some 1e-13.
+function scenes.moved_far()
+  local b = box("b", {0, 0, 0}, {1, 1, 1}, {3, 3, 3})
+  b:part"top":displace{ x = 1, y = 0, z = -1e-5 }
+  local s = dotyk.scene{ b }
+  s:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0, 0}, normal = {0, 0, 1} }, friction = dotyk.friction.coulomb(0.3) }
+  return s
+end
+
+local without, energies <const> = {}, { moved_far = 1e-5 }
 for name, make in pairs(scenes) do
   local reference <const> = dotyk.solve(make())
   check.that(reference.converged, reference.reason)
@@ -71,7 +88,7 @@ for name, make in pairs(scenes) do
     local there <const>, s <const> = pcall(solver.solve, solver, make())
     if there then
       check.that(s.converged, name .. ", " .. linear .. ": " .. s.reason)
-      check.that(math.abs(s.energy / reference.energy - 1) < 1e-9, ("%s, %s: energy %.15g, not %.15g"):format(name, linear, s.energy, reference.energy))
+      check.that(math.abs(s.energy / reference.energy - 1) < (energies[name] or 1e-9), ("%s, %s: energy %.15g, not %.15g"):format(name, linear, s.energy, reference.energy))
       local r <const> = s.residual
       check.that(r.equilibrium < 1e-9 and r.penetration < 1e-9, name .. ", " .. linear)
     else
@@ -81,6 +98,20 @@ for name, make in pairs(scenes) do
   end
 end
 if without[1] then print(without[1]) end
+
+-- A corner whose unknowns other rows have taken.
+do
+  local b <const> = dotyk.body{ name = "b", material = material, mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {2, 1}, cells = {4, 3} } }
+  b:part"left":fix()
+  b:part"top":load{ 0, -1 }
+  b:part"right":support{ tangential = dotyk.friction.tresca(0.5) }
+  local scene <const> = dotyk.scene{ b }
+  scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, -1}, normal = {0, 1} } }
+  check.that(dotyk.solve(scene).converged, "newton")
+  local solver <const> = S.pdas{ linear = "factor" }
+  local solved <const>, said <const> = pcall(solver.solve, solver, scene)
+  check.that(not solved and said:find("other rows have taken the unknowns there", 1, true), said)
+end
 
 -- One or the other.
 local ok <const>, message <const> = pcall(S.pdas, { linear = "factor", reduced = true })

@@ -28,6 +28,25 @@ local function energy(turn, dimension)
   return solution.energy
 end
 
+-- What supports of both sides prescribe must agree, in whatever direction.
+for _, turn in ipairs{ 0, 0.3 } do
+  local c <const>, s <const> = math.cos(turn), math.sin(turn)
+  local function body(name, low, cells)
+    local mesh <const> = dotyk.mesh.rectangle{ from = {0, low}, to = {1, low + 0.5}, cells = { cells, 2 } }
+    return dotyk.body{ name = name, material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = mesh:transform(function(x, y) return c * x - s * y, s * x + c * y end) }
+  end
+  for _, cells in ipairs{ 4, 5 } do
+    local lower <const>, upper <const> = body("lower", 0, 4), body("upper", 0.5, cells)
+    lower:part"bottom":slide()
+    lower:part"left":slide()
+    upper:part"left":support{ normal = dotyk.law.prescribed(0.1) }
+    local scene <const> = dotyk.scene{ lower, upper }
+    scene:glue{ upper:part"bottom", lower:part"top" }
+    local solved <const>, said <const> = pcall(dotyk.solve, scene)
+    check.that(not solved and said:find("prescribed displacements that differ by 0.1", 1, true), said)
+  end
+end
+
 for _, dimension in ipairs{ 2, 3 } do
   local straight <const> = energy(0, dimension)
   for _, turn in ipairs{ 0.3, math.pi / 4, 2 } do

@@ -143,7 +143,6 @@ TEST_CASE("friction on all unknowns: the state of newton on the condensed rows, 
       solver::Pdas settings = held();
       if (iterative) settings.linear = solver::incomplete_factor();
       const auto r = solver::solve(p, settings, quiet);
-      if (!r.converged) for (auto& h : r.history) fprintf(stderr, "%d %d: it %d act %d st %d sl %d ch %d res %g\n", trial, iterative, h.iteration, h.active, h.stick, h.slip, h.changed, h.residual);
       REQUIRE_MESSAGE(r.converged, r.reason);
       // Both are solved to 1e-10 of their forces.
       CHECK((r.state.u - reference.state.u).norm() <= 1e-8 * reference.state.u.norm());

@@ -115,6 +115,23 @@ std::vector<Point> FreeJumps::at(const contact::Tie& tie) const {
   return axes;
 }
 
+double FreeJumps::torn(const contact::Tie& tie) const {
+  const Node own = of_node(first_, tie.node);
+  double nearest = INFINITY;
+  std::vector<Vector3d> given;  // of partners held in the same directions
+  for (const contact::NodeWeight& partner : tie.partners) {
+    const Node other = of_node(second_, partner.node);
+    const Matrix3d across = Matrix3d::Identity() - onto_range(own.free + other.free);
+    if (std::lround(across.trace()) == 3 - dim_) continue;
+    given.push_back(across * other.given);
+    nearest = std::min(nearest, (across * own.given - given.back()).norm());
+  }
+  double spread = 0;  // values may vary along the parts
+  for (const Vector3d& a : given)
+    for (const Vector3d& b : given) spread = std::max(spread, (a - b).norm());
+  return given.empty() || nearest <= spread ? 0 : nearest;
+}
+
 std::optional<Matrix3d> FreeJumps::plane_of_symmetry(int node, const std::vector<contact::NodeWeight>& partners, const Point* normal) const {
   const mesh::Mesh &mesh = *contact_.first.body->mesh, &other = *contact_.second.body->mesh;
   const Matrix3d own = of_node(first_, node).free;

@@ -19,8 +19,10 @@ class FreeJumps {
   FreeJumps(const Scene& scene, const std::vector<Body>& bodies, const std::vector<elasticity::Numbering>& numbering, const Contact& contact);
   /// The orthogonal projection onto V, 3 × 3.
   Eigen::Matrix3d at(const contact::ContactRow& row) const;
-  /// Of glue, where only the row's node and the partner facing it count: orthonormal directions that span V.
+  /// Of glue: orthonormal directions that span V; a single partner has axes beyond it, whose rows without unknowns compare what both sides prescribe.
   std::vector<mesh::Point> at(const contact::Tie& tie) const;
+  /// By how much the two sides of a tie are prescribed to part, across V.
+  double torn(const contact::Tie& tie) const;
   /// The jump along the row's normal, Σ weight u_own − Σ weight u_partner, as supports say it; none where a node is free to move along it.
   std::optional<double> given(const contact::ContactRow& row) const;
 

@@ -92,13 +92,17 @@ void add_glue_rows(const Scene& scene, const Contact& contact, const FreeJumps& 
   builder.rows.open_group(contact.name, problem::bilateral());
   for (std::size_t k = 0; k < contact.glued.size(); ++k) {
     const contact::Tie& tie = contact.glued[k];
+    const auto require_together = [&](double apart) {
+      if (!(apart > 1e-12 * contact.first.body->mesh->size())) return;
+      throw InputError(text(contact.name, ": at ", point_text(contact.first.body->mesh->node(tie.node), scene.dimension()),
+                            " the two sides are prescribed displacements that differ by ", apart));
+    };
+    require_together(jumps.torn(tie));
     for (const Point& direction : jumps.at(tie)) {
       double jump = 0;
       const int row = builder.add(first, second, {{tie.own, tie.partners, direction}}, jump);
       if (row >= 0) rows.push_back({static_cast<int>(k), direction, row});
-      else if (std::abs(jump) > 1e-12 * contact.first.body->mesh->size())
-        throw InputError(text(contact.name, ": at ", point_text(contact.first.body->mesh->node(tie.node), scene.dimension()),
-                              " the two sides are prescribed displacements that differ by ", std::abs(jump)));
+      else require_together(std::abs(jump));
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/text.hpp"
 #include "problem/precise.hpp"
 #include "solver/active/held_stiffness.hpp"
 #include "solver/active/step.hpp"
@@ -21,23 +22,33 @@ constexpr double kHeldRowSpring = 100;
 constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
-/// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at, and how often at most; what is enough, where digits cost
-/// iterations, until active sets come to rest; and with friction, where steps converge as Newton's, of what the last state was off its laws.
+/// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at; what is enough where digits cost iterations, until
+/// active sets come to rest; with friction, where steps converge as Newton's, this share of what the last state was off its laws. How often at most.
 constexpr double kUnbalanced = 1e-12, kRough = 1e-3, kOfOff = 0.01;
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
-constexpr int kMostDirections = 60;
-constexpr double kShareOfDirection = 0.03;
+/// Generalised conjugate residuals: how many directions, how many are kept, how exactly each is solved for, and what of a residual's change is rounding.
+constexpr int kMostDirections = 60, kKeptDirections = 20;
+constexpr double kShareOfDirection = 0.03, kCancelled = 1e-24;
 
 class HeldStep final : public Step {
  public:
-  HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho) : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), T_(stiffness.basis().T.cast<long double>()), f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())) {
+  HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho)
+      : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), T_(stiffness.basis().T.cast<long double>()),
+        f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
     for (const problem::Block& block : problem.blocks) f_.segment(block.first, block.size()) = block.f;
+    for (const problem::FrictionGroup& group : problem.friction)
+      for (int r = group.first; r < group.row(group.points()); ++r)
+        if (stiffness.basis().unknown[r] < 0)
+          throw NotSolved(text("pdas on all unknowns cannot treat the ", group.law->name(), " of the ", group.name, " at ",
+                               problem.row_name ? problem.row_name(r) : text("row ", r + 1), ": other rows have taken the unknowns there, as at corners; newton can"));
   }
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
+    before_ = u_;
     sort(l);
-    if (!place(l.slips) || !stiffness_.factor(spring_, held_, across_)) return false;
+    place(l.slips);
+    if (!stiffness_.factor(spring_, held_, across_)) return false;
     lambda_ = constant_;
     unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(kOfOff * l.off, kUnbalanced, kRough) : kUnbalanced;
     if (slips_.empty()) u_ += stiffness_.solve_in_basis(residual(), unbalanced_).cast<long double>();
@@ -51,6 +62,8 @@ class HeldStep final : public Step {
     refine();
     return u_.allFinite() && tell(lambda, x);
   }
+
+  void go_back(double part) override { u_ = before_ + static_cast<long double>(part) * (u_ - before_); }
 
   Vector recover() override { return displacement(); }
 
@@ -85,14 +98,13 @@ class HeldStep final : public Step {
     u_ += T_ * moved.cast<long double>();
   }
 
-  /// Stiffness across the direction of slip. False where a point has no unknowns of its own.
-  bool place(const std::vector<Linearisation::Slip>& slips) {
+  /// Stiffness across the direction of slip.
+  void place(const std::vector<Linearisation::Slip>& slips) {
     slips_ = slips;
     across_.clear();
     for (const Linearisation::Slip& s : slips_) {
       for (int i = 0; i < s.components; ++i) {
         const int own = stiffness_.basis().unknown[s.row + i];
-        if (own < 0) return false;
         target_[s.row + i] = problem_.c[s.row + i];
         for (int j = 0; j <= i && s.components > 1; ++j) {
           const int other = stiffness_.basis().unknown[s.row + j];
@@ -100,7 +112,6 @@ class HeldStep final : public Step {
         }
       }
     }
-    return true;
   }
 
   /// What the force of a slipping point has beyond P(y), the forces `left` given as without it.
@@ -135,27 +146,29 @@ class HeldStep final : public Step {
     }
   }
 
-  /// Where bounds follow the pressure the equations are not symmetric: generalised conjugate residuals, preconditioned by the symmetric part (Eisenstat,
-  /// Elman and Schultz, SIAM J. Numer. Anal. 20 (1983)).
+  /// Where bounds follow the pressure the equations are not symmetric: generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer.
+  /// Anal. 20 (1983)), preconditioned by the matrix with bounds as they are, begun anew after some.
   void refine_slipping() {
     struct Direction {
-      LongVector u;
-      Vector change;  ///< of the residual
+      Vector u, change;  ///< change: of the residual
     };
     std::vector<Direction> directions;
     Vector left = residual();
     for (int k = 0; k < kMostDirections && u_.allFinite() && left.lpNorm<1>() > unbalanced_ * gross_; ++k) {
+      if (k % kKeptDirections == 0) directions.clear();
       const LongVector start = u_;
-      Direction d{stiffness_.solve_in_basis(left, kShareOfDirection).cast<long double>(), {}};
-      u_ += d.u;
+      Direction d{stiffness_.solve_in_basis(left, kShareOfDirection), {}};
+      u_ += d.u.cast<long double>();
       d.change = left - residual();
+      const double whole = d.change.squaredNorm();
       for (const Direction& old : directions) {
         const double share = d.change.dot(old.change) / old.change.squaredNorm();
         d.u -= share * old.u, d.change -= share * old.change;
       }
       const double size = d.change.squaredNorm();
-      if (!(size > 0)) return;
-      u_ = start + static_cast<long double>(left.dot(d.change) / size) * d.u;
+      u_ = start;
+      if (!(size > kCancelled * whole)) return;
+      u_ += (left.dot(d.change) / size * d.u).cast<long double>();
       left = residual();
       directions.push_back(std::move(d));
     }
@@ -259,7 +272,8 @@ class HeldStep final : public Step {
     const Vector left = forces();
     for (const Holding& h : holding_) lambda[h.row] = left[h.unknown];
     for (const Linearisation::Slip& s : slips_) lambda.segment(s.row, s.components) += beyond(s, left);
-    x = problem_.B * displacement() - problem_.c;
+    x.resize(problem_.rows());
+    for (int r = 0; r < problem_.rows(); ++r) x[r] = static_cast<double>(gap(r) + target_[r] - static_cast<long double>(problem_.c[r]));
     return lambda.allFinite();
   }
 
@@ -279,7 +293,7 @@ class HeldStep final : public Step {
   std::vector<Linearisation::Slip> slips_;
   std::vector<Eigen::Triplet<double>> across_;
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
-  LongVector u_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
+  LongVector u_, before_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
   Vector lambda_;
   double unbalanced_ = kUnbalanced;    ///< of gross_, what is aimed at
   double gross_ = 0;                   ///< ‖f‖₁ + ‖Bᵀλ‖₁ of the last forces()

@@ -67,7 +67,7 @@ void conclude(SetIteration& it, End end, bool inside, const std::string& rescued
   Result& result = it.result;
   result.converged = end == End::confirmed;
   switch (end) {
-    case End::confirmed: result.reason = "active set confirmed" + rescued; break;
+    case End::confirmed: result.reason = (it.problem.friction.empty() ? "active set confirmed" : "the residual fell below tol") + rescued; break;
     case End::misplaced: result.reason = text("a screw still pulls after ", it.screws->moves(), " moves"); break;
     case End::interrupted: result.reason = "interrupted; this is the state so far"; break;
     case End::singular:
@@ -81,7 +81,9 @@ void conclude(SetIteration& it, End end, bool inside, const std::string& rescued
       break;
     }
     case End::exhausted:
-      result.reason = text("no confirmed active set within ", it.settings.max_iterations, " iterations; rows that still change: ", it.places());
+      result.reason = it.problem.friction.empty()
+                          ? text("no confirmed active set within ", it.settings.max_iterations, " iterations; rows that still change: ", it.places())
+                          : text("after ", result.iterations, " iterations forces are off their laws by ", it.l.off, " of their size, and no longer come nearer");
   }
 }
 

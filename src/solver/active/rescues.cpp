@@ -38,7 +38,7 @@ bool dense(const SetIteration& it) { return it.is_condensed() && it.problem.rows
 
 std::string by_sweeps(SetIteration& it, End end) {
   const Problem& problem = it.problem;
-  if (end != End::cycle || (!it.is_condensed() && problem.rows() > kMostDense)) return "";
+  if (end != End::cycle || it.settings.linear || (!it.is_condensed() && problem.rows() > kMostDense)) return "";
   DualDescent descent(problem, it.condensed(), it.lambda);
   const auto newton = reduced_step(it.condensed(), it.rho);
   for (int round = 0; round < kSweepRounds && !it.monitor.stop(); ++round) {

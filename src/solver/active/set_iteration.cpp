@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kStretch = 4;
 /// With friction: steps that may lead away, and how often later ones are halved.
 constexpr int kUnguided = 4, kHalvings = 6;
+/// And how many in a row may come no nearer.
+constexpr int kFrictionPatience = 15;
 
 /// The linearisation at the flags, but on rows whose flag is that of `l`, which stay.
 Linearisation with_flags(const Problem& problem, const Linearisation& l, const std::vector<char>& active, const Vector& rho) {
@@ -113,15 +115,22 @@ Linearisation SetIteration::held(Linearisation l, const Vector& x) const {
   std::vector<char> active = l.active;
   if (screws)
     for (int r : screws->rows()) active[r] = 1;
+  for (Eigen::Index r = 0; r < x.size(); ++r) active[r] |= l.slipping[r];  // bounds hold as well, or the load could not be borne
   holder_.hold(active, x, l.value);
+  for (Eigen::Index r = 0; r < x.size(); ++r) active[r] &= !l.slipping[r];
   return active == l.active ? l : with_flags(problem, l, active, rho);
 }
 
 End SetIteration::iterate(int most, int patience) {
   seen_.clear();
+  double nearest = INFINITY;
+  int since = 0;
   for (int k = 0; k < most && (k < patience || !crawls()); ++k) {
     if (monitor.stop()) return End::interrupted;
     if (const auto end = advance()) return *end;
+    if (problem.friction.empty()) continue;
+    since = l.off < nearest ? 0 : since + 1, nearest = std::min(nearest, l.off);
+    if (since >= kFrictionPatience) break;
   }
   return End::exhausted;
 }
@@ -135,24 +144,44 @@ bool SetIteration::crawls() const {
 std::optional<End> SetIteration::advance() {
   ++result.iterations;
   result.active_sets.push_back(l.active);
-  result.slipping = l.slipping;
+  if (!problem.friction.empty()) result.slipping = l.slipping;
   seen_.insert(l.fingerprint());
   Vector next_lambda, next_x;
-  if (!step->solve(l, next_lambda, next_x)) return End::singular;  // the state stays that of the last solve
+  try {
+    if (!step->solve(l, next_lambda, next_x)) return stay(End::singular);
+  } catch (const Interrupted&) {
+    return stay(End::interrupted);
+  }
   std::swap(lambda, next_lambda);
   std::swap(x, next_x);
   alpha.reset();
   const bool whole = problem.friction.empty() || result.iterations <= kUnguided || !shorten(next_lambda, next_x);
   Linearisation next = follow();
-  if (!whole) next.off = std::max(next.off, 2 * settings.tol);  // u is the whole step's
-  else if ((at_rest(next) || repeats(next)) && step->sharpen(lambda, x)) next = follow();
+  if (whole && (at_rest(next) || repeats(next)) && step->sharpen(lambda, x)) {
+    next = follow();
+    seen_.clear();  // rough states may have had other branches
+  }
   record(next);
-  if (at_rest(next)) {
+  if (whole && at_rest(next)) {
+    if (!problem.friction.empty()) result.active_sets.push_back(next.active), result.slipping = next.slipping;
     if (!screws || !screws->pulls(lambda, noise_of_screws())) return End::confirmed;
     return move_screws() ? std::nullopt : std::optional(End::misplaced);
   }
   l = std::move(next);
   return repeats(l) ? std::optional(End::cycle) : std::nullopt;
+}
+
+/// ‖λ − P(λ + ρx)‖ beyond rounding, of ‖λ‖.
+double SetIteration::off() const {
+  const double force = lambda.norm();
+  const Vector beyond = problem::distances_from_laws(problem, x, lambda, rho).cwiseAbs() - noise(lambda, x).force;
+  return beyond.cwiseMax(0).norm() / (force > 0 ? force : 1);
+}
+
+/// The state stays that of the last solve.
+End SetIteration::stay(End end) {
+  step->go_back(0);
+  return end;
 }
 
 /// Goes back towards (λ, x) until the state is nearer to its laws than that one; false where it is, or no such step is found.
@@ -162,7 +191,9 @@ bool SetIteration::shorten(const Vector& from_lambda, const Vector& from_x) {
   double length = 1;
   for (int k = 0; k <= kHalvings; ++k, length /= 2) {
     lambda = from_lambda + length * (whole_lambda - from_lambda), x = from_x + length * (whole_x - from_x);
-    if (off() <= (1 - 1e-4 * length) * none.norm()) return length < 1;
+    if (off() > (1 - 1e-4 * length) * none.norm()) continue;
+    if (length < 1) step->go_back(length);
+    return length < 1;
   }
   lambda = whole_lambda, x = whole_x;
   return false;
@@ -179,7 +210,7 @@ bool SetIteration::at_rest(const Linearisation& next) const {
 /// What the state asks for, and which rows that changes.
 Linearisation SetIteration::follow() {
   Linearisation next = held(linearise(problem, lambda, x, rho, noise(lambda, x), &l), x);
-  if (!problem.friction.empty()) next.off = problem::natural_residual(problem, x, lambda, rho);
+  if (!problem.friction.empty()) next.off = off();
   changed_.clear();
   for (int r = 0; r < problem.rows(); ++r)
     if (!next.same_piece(l, r)) changed_.push_back(r);

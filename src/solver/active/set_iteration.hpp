@@ -19,6 +19,7 @@ namespace dotyk::solver {
 class SetIteration {
  public:
   /// `confirmed`: two steps in a row have the same branches. `misplaced`: a screw pulls and has nowhere to go. `cycle`: branches that were there before.
+  /// With friction `confirmed` means that the state is off its laws by tol at most.
   enum class End { confirmed, misplaced, cycle, singular, exhausted, interrupted };
 
   /// From the rows that the settings' start names, else those that touch at rest. Throws InputError where a body is not held, naming its motion.
@@ -68,6 +69,8 @@ class SetIteration {
   bool crawls() const;
   std::optional<End> advance();
   Linearisation follow();
+  double off() const;
+  End stay(End end);
   bool shorten(const algebra::Vector& from_lambda, const algebra::Vector& from_x);
   bool repeats(const Linearisation& next) const;
   bool at_rest(const Linearisation& next) const;

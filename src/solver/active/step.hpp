@@ -18,6 +18,8 @@ class Step {
   virtual bool solve(const Linearisation& l, algebra::Vector& lambda, algebra::Vector& x) = 0;
   /// Makes the last solution as exact as it can be, where it was not; false where it is.
   virtual bool sharpen(algebra::Vector& /*lambda*/, algebra::Vector& /*x*/) { return false; }
+  /// Takes u back towards that of the solve before the last: this part of the way is left. For steps that take friction.
+  virtual void go_back(double /*part*/) {}
   /// The whole u that belongs to the last solve().
   virtual algebra::Vector recover() = 0;
 };
@@ -26,9 +28,10 @@ class Step {
 std::unique_ptr<Step> reduced_step(const problem::CondensedProblem& condensed,
                                    const algebra::Vector& rho);
 
-/// On the unknowns alone (see HeldStiffness), where rows act on few unknowns each. An active rigid row of one unknown holds it, and its λ is what
-/// equilibrium leaves there; a row with compliance is a spring. Rigid rows of several unknowns, and those whose unknown is held already, are springs to which conjugate gradients
-/// add the forces that keep them closed. One sparse Cholesky factorisation in each iteration. Dependent rows get some multipliers, not refused.
+/// On all unknowns, in the basis where rows are unknowns (see HeldStiffness). An active rigid row holds its unknown, and its λ is what equilibrium
+/// leaves there; a row with compliance is a spring. Rigid rows without an unknown of their own are springs to which conjugate gradients add the
+/// forces that keep them closed. A point that slips has the force that its bound allows, which may follow the pressure. Dependent rows get some
+/// multipliers, not refused. Throws NotSolved where a friction row has no unknown of its own.
 std::unique_ptr<Step> held_step(const problem::Problem& problem, HeldStiffness& stiffness, const algebra::Vector& rho);
 
 }  // namespace dotyk::solver

@@ -48,6 +48,24 @@ bool linear(const problem::Problem& problem) {
   });
 }
 
+/// Has nearly every row an unknown that no other row has, as those of mortar glue of order 1 do? Else the basis of rows fills up.
+bool rows_stand_apart(const problem::Problem& problem) {
+  constexpr double kNearly = 0.9;
+  std::vector<int> rows_with(problem.unknowns(), 0);
+  const auto for_each = [&](int r, auto&& work) {
+    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it)
+      if (it.value() != 0) work(rows_with[it.col()]);
+  };
+  for (int r = 0; r < problem.rows(); ++r) for_each(r, [](int& count) { ++count; });
+  int apart = 0;
+  for (int r = 0; r < problem.rows(); ++r) {
+    bool own = false;
+    for_each(r, [&](int& count) { own = own || count == 1; });
+    apart += own;
+  }
+  return apart >= kNearly * problem.rows();
+}
+
 }  // namespace
 
 Expected expected(const problem::Problem& problem) {
@@ -56,7 +74,7 @@ Expected expected(const problem::Problem& problem) {
   constexpr double kFlops = 1.2e10, kFactor = 7.5, kRows = 81, kOneBody = 1e-4;
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
-  const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1));
+  const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !linear(problem);
   // Where parts of unlike stiffness touch, iterations grow about with the root of the contrast: 18 to 80 on the gasket, a hundred times softer.
   const double iterations = problem.blocks.size() > 1 ? 2 * std::max(1.0, std::sqrt(contrast(problem)) / 2) : 1;
   return {(kFactor * n * n + kRows * m * m * m) / kFlops, kOneBody * n * iterations};
@@ -67,7 +85,7 @@ DefaultMethod default_method(const problem::Problem& problem) {
   if (multigrid_is_faster(problem)) return DefaultMethod::multigrid;
   if (!problem.friction.empty() || !tells_springs(problem)) return DefaultMethod::newton;
   constexpr int kMany = 3000, kShare = 10, kFew = 150;
-  if (problem.rows() >= kFew && linear(problem)) return DefaultMethod::held;
+  if (problem.rows() >= kFew && linear(problem) && rows_stand_apart(problem)) return DefaultMethod::held;
   return problem.rows() > kMany && kShare * problem.rows() > problem.unknowns() ? DefaultMethod::held : DefaultMethod::pdas;
 }
 
@@ -84,16 +102,19 @@ Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning 
   return Method(pdas).run(problem, std::move(from), monitor);
 }
 
-/// Nothing where iterations come to no rest, or linear systems are not solved by them.
-std::optional<Result> run_held(const problem::Problem& problem, MakeSpdSolver linear, Beginning from, Monitor& monitor) {
+/// Not converged, with the reason, where iterations come to no rest, linear systems are not solved by them, or the library cannot be used.
+Result run_held(const problem::Problem& problem, MakeSpdSolver linear, Beginning from, Monitor& monitor) {
   Pdas pdas;
   pdas.reduced = false, pdas.linear = std::move(linear);
+  Result failed;
   try {
-    Result result = Method(pdas).run(problem, {std::move(from.start)}, monitor);
-    if (result.converged || monitor.stop()) return result;
-  } catch (const NotSolved&) {
+    return Method(pdas).run(problem, {std::move(from.start)}, monitor);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    failed.reason = error.what();
   }
-  return std::nullopt;
+  return failed;
 }
 
 /// On the rows that may close; nothing where they do not hold the bodies.
@@ -118,15 +139,23 @@ Result solve(const problem::Problem& problem, const Method& method, Beginning fr
   if (problem.rows() == 0 && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
   if (method) return method.run(problem, std::move(from), monitor);
   const DefaultMethod by_default = default_method(problem);
-  if (!condensed && (by_default == DefaultMethod::held || by_default == DefaultMethod::multigrid)) {
-    const MakeSpdSolver linear = by_default == DefaultMethod::multigrid ? algebraic_multigrid() : MakeSpdSolver();
-    if (auto result = run_held(problem, linear, from, monitor)) return *std::move(result);
-  } else if (!from.condenser && !condensed) {
+  Result before;
+  if (!condensed && (by_default == DefaultMethod::multigrid || (by_default == DefaultMethod::held && !from.condenser))) {
+    before = run_held(problem, by_default == DefaultMethod::multigrid ? algebraic_multigrid() : MakeSpdSolver(), from, monitor);
+    if (before.converged || monitor.stop()) return before;
+  }
+  const auto after = [&](Result result) {
+    if (before.reason.empty()) return result;
+    result.reason += "; before, on all unknowns: " + before.reason;
+    result.clock.add_solve(before.clock);
+    return result;
+  };
+  if (!from.condenser && !condensed) {
     NearRows near(problem, from.start);
     if (!near.all())
-      if (auto result = run_near(std::move(near), from, monitor)) return *std::move(result);
+      if (auto result = run_near(std::move(near), from, monitor)) return after(*std::move(result));
   }
-  return run(problem, by_default, std::move(from), monitor, condensed);
+  return after(run(problem, by_default, std::move(from), monitor, condensed));
 }
 
 }  // namespace dotyk::solver

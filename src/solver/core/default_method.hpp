@@ -15,7 +15,7 @@ enum class DefaultMethod { linear, pdas, held, newton, multigrid };
 /// all along: a dense factor takes the cube of their number then, sparse ones of a thin body far less.
 DefaultMethod default_method(const problem::Problem& problem);
 
-/// Seconds on one core that solid bodies in space are expected to take, to a factor of two.
+/// Seconds on one core that solid bodies in space are expected to take, to a factor of a few.
 struct Expected {
   double condensed, multigrid;
 };
