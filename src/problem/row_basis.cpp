@@ -12,14 +12,16 @@ using algebra::SparseRows;
 
 namespace {
 
-/// Factors, against the greatest in their row: of an unknown that can be the row's own, and all of what elimination leaves where the row nearly
-/// depends on others, whose numbers would be magnified.
-constexpr double kLeastFactor = 0.2, kDependent = 0.01;
-/// Unknowns that one may depend on: rows along an edge, or around a rim, depend on each other one after the other, with factors that decay; those below
-/// rounding are left out.
+/// An unknown can be a row's own if its factor is at least this part of the row's greatest.
+constexpr double kLeastFactor = 0.2;
+/// A row nearly depends on others if elimination leaves no more than this part of its greatest factor. To solve for an unknown of it would magnify
+/// the factors of the others.
+constexpr double kDependent = 0.01;
+/// So many unknowns may one depend on. Along an edge or a rim each row is coupled to the next, with factors that decay; factors below kNothing are
+/// dropped.
 constexpr std::size_t kMostTerms = 1000;
 constexpr double kNothing = 1e-16;
-/// Terms an unknown of the basis, beyond which rows reach three times as far only.
+/// Once the basis has so many terms an unknown on average, no row may come to act on more than three times as many unknowns as it does.
 constexpr std::size_t kMostFill = 4;
 
 /// Gauss–Jordan elimination of one unknown for every row, as long as that makes none reach too far.
@@ -135,7 +137,7 @@ bool RowBasis::trivial() const {
 }
 
 SparseMatrix RowBasis::of_displacements(const Problem& problem) const {
-  std::vector<char> own(unknown.empty() ? 0 : T.cols(), 0);
+  std::vector<char> own(T.cols(), 0);
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t r = 0; r < unknown.size(); ++r) {
     if (unknown[r] < 0) continue;
@@ -143,7 +145,7 @@ SparseMatrix RowBasis::of_displacements(const Problem& problem) const {
     for (SparseRows::InnerIterator it(problem.B, static_cast<int>(r)); it; ++it) entries.emplace_back(unknown[r], static_cast<int>(it.col()), it.value());
   }
   for (int i = 0; i < T.cols(); ++i)
-    if (own.empty() || !own[i]) entries.emplace_back(i, i, 1);
+    if (!own[i]) entries.emplace_back(i, i, 1);
   SparseMatrix S(T.rows(), T.cols());
   S.setFromTriplets(entries.begin(), entries.end());
   return S;

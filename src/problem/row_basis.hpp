@@ -17,10 +17,10 @@ struct RowBasis {
   algebra::SparseMatrix of_displacements(const Problem& problem) const;
 };
 
-/// Gives each row the unknown that fewest rows share, of those whose factor is at least a fifth of its greatest; of several the one of the greatest
-/// factor, since divisions by small ones would make the others stiff. None to a row
-/// of whose greatest factor elimination leaves less than a hundredth, or whose elimination would make an unknown depend on more than
-/// 1000 others (three times as many as the row has, where these are more).
+/// Gives each row an unknown of its own. The candidates are those with a factor of at least a fifth of the row's greatest. Among them it takes the one
+/// that is in fewest rows, and among several the one with the greatest factor: a small divisor would make other unknowns stiff.
+/// A row gets none if elimination leaves less than a hundredth of its greatest factor, or if some unknown would depend on more than 1000 others (or
+/// three times as many as the row has, where that is more).
 RowBasis row_basis(const Problem& problem);
 
 }  // namespace dotyk::problem

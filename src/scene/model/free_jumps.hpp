@@ -11,17 +11,18 @@ namespace dotyk::scene {
 /// What supports leave free of the jump u₁ − u₂ at the rows of a contact: the sum V of the spaces in which the row's nodes, own and
 /// partners, are not held by fix, slide or displace, oblique slides included, or by laws that prescribe a displacement, whatever its value;
 /// of order 2 such laws are about means, and hold no node.
-/// On a plane of symmetry V is the plane: the row's node and one of its partners lie in it and stay in it, though further nodes
-/// beside it have a weight in the row.
+/// On a plane of symmetry V is that plane, if the row's node and one of its partners lie in the plane and stay in it. Other nodes of the row may lie
+/// off the plane.
 class FreeJumps {
  public:
   /// Not kept: `bodies` as they are solved, `numbering` of each.
   FreeJumps(const Scene& scene, const std::vector<Body>& bodies, const std::vector<elasticity::Numbering>& numbering, const Contact& contact);
   /// The orthogonal projection onto V, 3 × 3.
   Eigen::Matrix3d at(const contact::ContactRow& row) const;
-  /// Of glue: orthonormal directions that span V; a single partner has axes beyond it, whose rows without unknowns compare what both sides prescribe.
+  /// The directions in which a tie needs rows: orthonormal, spanning V. With a single partner and V along the axes, all axes: a row without unknowns
+  /// then compares what both sides prescribe.
   std::vector<mesh::Point> at(const contact::Tie& tie) const;
-  /// By how much the two sides of a tie are prescribed to part, across V.
+  /// How far apart supports move the two sides of a tie, perpendicular to V; 0 where they agree, or where no partner is held there.
   double torn(const contact::Tie& tie) const;
   /// The jump along the row's normal, Σ weight u_own − Σ weight u_partner, as supports say it; none where a node is free to move along it.
   std::optional<double> given(const contact::ContactRow& row) const;
@@ -42,8 +43,8 @@ class FreeJumps {
   };
   static Side side_of(const Body& body, const elasticity::Numbering& numbering);
   Node of_node(const Side& side, int node) const;
-  /// The plane, or line, in which the row's node and one of its partners lie and stay; none where there is none.
-  /// With a normal, of those that it does not stand on.
+  /// The plane or line in which the node and one of its partners lie, and which supports do not let them leave. With a normal, planes perpendicular to
+  /// it are not considered.
   std::optional<Eigen::Matrix3d> plane_of_symmetry(int node, const std::vector<contact::NodeWeight>& partners, const mesh::Point* normal) const;
 
   const Contact& contact_;

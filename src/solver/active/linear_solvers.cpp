@@ -11,7 +11,7 @@ using problem::Problem;
 
 namespace {
 
-/// The rigid motions of all bodies together; no columns where a block does not tell its own.
+/// The rigid motions of all bodies moving as one. No columns if a block has no function `rigid`.
 DenseMatrix all_rigid_motions(const Problem& problem) {
   DenseMatrix all(problem.unknowns(), 0);
   for (const Block& block : problem.blocks) {

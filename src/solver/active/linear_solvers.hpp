@@ -9,7 +9,7 @@
 
 namespace dotyk::solver {
 
-/// The linear systems of a problem in the basis where rows are unknowns, as a solver of them may know them before the first.
+/// What a linear solver is made from: the first matrix, in the basis where rows are unknowns, and the problem that it belongs to.
 struct SpdSystem {
   const algebra::SparseMatrix& lower;  ///< positive definite: nothing held, but springs in the rows of bodies that nothing else holds
   const problem::Problem& problem;

@@ -34,10 +34,7 @@ bool at_kink(const problem::Law& law, int row, double lambda, double x, double f
 constexpr Projection kOpen{0, 0};
 Projection closed(double y) { return {y, 1}; }
 
-}  // namespace
-
-namespace {
-
+/// The friction of one point, where the normal rows have their values already.
 void take_friction(const problem::FrictionGroup& group, int point, const Vector& lambda, const Vector& x, const Vector& rho, Linearisation& l) {
   const double bound = group.bound(point, l.value);
   if (bound == 0) return;

@@ -13,9 +13,9 @@ namespace {
 
 /// Do Newton steps crawl when more than half as many rows change as so many steps ago?
 constexpr std::size_t kStretch = 4;
-/// With friction: steps that may lead away, and how often later ones are halved.
+/// With friction the first steps are not shortened; later ones are halved so many times at most.
 constexpr int kUnguided = 4, kHalvings = 6;
-/// And how many in a row may come no nearer.
+/// With friction the iteration ends after so many steps in a row that come no nearer to the laws.
 constexpr int kFrictionPatience = 15;
 
 /// The linearisation at the flags, but on rows whose flag is that of `l`, which stay.
@@ -184,7 +184,8 @@ End SetIteration::stay(End end) {
   return end;
 }
 
-/// Goes back towards (λ, x) until the state is nearer to its laws than that one; false where it is, or no such step is found.
+/// Halves the step from (λ, x) until the new state is nearer to its laws than (λ, x). False if the whole step is kept: because it is nearer, or
+/// because no shorter one is.
 bool SetIteration::shorten(const Vector& from_lambda, const Vector& from_x) {
   const auto off = [&] { return problem::distances_from_laws(problem, x, lambda, rho).norm(); };
   const Vector whole_lambda = lambda, whole_x = x, none = problem::distances_from_laws(problem, from_x, from_lambda, rho);

@@ -28,8 +28,8 @@ class Step {
 std::unique_ptr<Step> reduced_step(const problem::CondensedProblem& condensed,
                                    const algebra::Vector& rho);
 
-/// On all unknowns, in the basis where rows are unknowns (see HeldStiffness). An active rigid row holds its unknown, and its λ is what equilibrium
-/// leaves there; a row with compliance is a spring. Rigid rows without an unknown of their own are springs to which conjugate gradients add the
+/// Solves on all unknowns, in the basis where rows are unknowns (see HeldStiffness). An active rigid row holds its unknown, and its λ is the force
+/// that equilibrium needs there. A row with compliance is a spring. Rigid rows without an unknown of their own are springs to which conjugate gradients add the
 /// forces that keep them closed. A point that slips has the force that its bound allows, which may follow the pressure. Dependent rows get some
 /// multipliers, not refused. Throws NotSolved where a friction row has no unknown of its own.
 std::unique_ptr<Step> held_step(const problem::Problem& problem, HeldStiffness& stiffness, const algebra::Vector& rho);

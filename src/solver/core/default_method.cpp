@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "multigrid/multigrid.hpp"
 #include "solver/core/near_rows.hpp"
 #include "solver/rows/newton.hpp"
@@ -39,15 +38,6 @@ double contrast(const problem::Problem& problem) {
   return greatest > least ? greatest / least : 1;
 }
 
-/// Is there no more than one branch to each row?
-bool linear(const problem::Problem& problem) {
-  return problem.friction.empty() && std::all_of(problem.groups.begin(), problem.groups.end(), [](const problem::RowGroup& group) {
-    for (int k = 0; k < group.count; ++k)
-      if (!group.law->linear_stiffness(k)) return false;
-    return true;
-  });
-}
-
 /// Has nearly every row an unknown that no other row has, as those of mortar glue of order 1 do? Else the basis of rows fills up.
 bool rows_stand_apart(const problem::Problem& problem) {
   constexpr double kNearly = 0.9;
@@ -69,12 +59,12 @@ bool rows_stand_apart(const problem::Problem& problem) {
 }  // namespace
 
 Expected expected(const problem::Problem& problem) {
-  // Measured on cubes, and on the parts of scripts/studies/bench/gmsh_parts.lua: a factor by nested dissection takes the square of the unknowns, dense
-  // matrices of all three components at so many points of contact three times their cube.
+  // Measured on cubes, and on the parts of scripts/studies/bench/gmsh_parts.lua. With n unknowns, m points of contact: 7.5 n² operations for a factor by
+  // nested dissection, and 3 (3m)³ for the dense matrices, which have three components a point.
   constexpr double kFlops = 1.2e10, kFactor = 7.5, kRows = 81, kOneBody = 1e-4;
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
-  const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !linear(problem);
+  const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !all_linear(problem);
   // Where parts of unlike stiffness touch, iterations grow about with the root of the contrast: 18 to 80 on the gasket, a hundred times softer.
   const double iterations = problem.blocks.size() > 1 ? 2 * std::max(1.0, std::sqrt(contrast(problem)) / 2) : 1;
   return {(kFactor * n * n + kRows * m * m * m) / kFlops, kOneBody * n * iterations};
@@ -85,7 +75,7 @@ DefaultMethod default_method(const problem::Problem& problem) {
   if (multigrid_is_faster(problem)) return DefaultMethod::multigrid;
   if (!problem.friction.empty() || !tells_springs(problem)) return DefaultMethod::newton;
   constexpr int kMany = 3000, kShare = 10, kFew = 150;
-  if (problem.rows() >= kFew && linear(problem) && rows_stand_apart(problem)) return DefaultMethod::held;
+  if (problem.rows() >= kFew && all_linear(problem) && rows_stand_apart(problem)) return DefaultMethod::held;
   return problem.rows() > kMany && kShare * problem.rows() > problem.unknowns() ? DefaultMethod::held : DefaultMethod::pdas;
 }
 

@@ -34,6 +34,14 @@ void require_springs(const problem::Problem& problem, const std::string& method)
                           ", which does not tell its springs; newton, proximal, uzawa, uzawa_pdas, psor and coulomb_loop can"));
 }
 
+bool all_linear(const problem::Problem& problem) {
+  return problem.friction.empty() && std::all_of(problem.groups.begin(), problem.groups.end(), [](const problem::RowGroup& group) {
+    for (int k = 0; k < group.count; ++k)
+      if (!group.law->linear_stiffness(k)) return false;
+    return true;
+  });
+}
+
 bool unilateral_or_linear(const problem::Problem& problem) {
   return problem.friction.empty() && std::none_of(problem.groups.begin(), problem.groups.end(), is_other);
 }

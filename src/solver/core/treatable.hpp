@@ -20,6 +20,8 @@ bool tells_springs(const problem::Problem& problem);
 /// Throws InputError where one does not, naming it: `method` needs them.
 void require_springs(const problem::Problem& problem, const std::string& method);
 
+/// No friction, and all laws linear: one branch to each row?
+bool all_linear(const problem::Problem& problem);
 /// Neither friction nor a law that is neither unilateral nor linear?
 bool unilateral_or_linear(const problem::Problem& problem);
 
