@@ -1,7 +1,9 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <map>
+
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::contact {
 
@@ -26,10 +28,10 @@ class DualHats {
   /// ∫ψ_k f, a function each. Scaled: a narrow strip along an edge has small hats.
   std::map<int, Eigen::VectorXd> moments() const {
     const Eigen::VectorXd weight = weights(), scale = gram_.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::LDLT<Eigen::MatrixXd> factor(scale.asDiagonal() * gram_ * scale.asDiagonal());
+    const algebra::Ldlt factor(scale.asDiagonal() * gram_ * scale.asDiagonal());
     std::map<int, Eigen::VectorXd> dual;
     for (const auto& [function, moment] : moments_)
-      dual[function] = weight.asDiagonal() * (scale.asDiagonal() * factor.solve(scale.asDiagonal() * moment));
+      dual[function] = weight.asDiagonal() * (scale.asDiagonal() * factor.solve(Eigen::VectorXd(scale.asDiagonal() * moment)));
     return dual;
   }
 

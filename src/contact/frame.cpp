@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "algebra/dense/decompositions.hpp"
 #include "contact/tangents.hpp"
 
 namespace dotyk::contact {
@@ -29,8 +30,8 @@ Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2> basis(const Point& normal, int
 /// f of a symmetric matrix' eigenvalues.
 template <class Function>
 Small of_eigenvalues(const Small& symmetric, const Function& f) {
-  const Eigen::SelfAdjointEigenSolver<Small> eigen(symmetric);
-  return eigen.eigenvectors() * eigen.eigenvalues().unaryExpr(f).asDiagonal() * eigen.eigenvectors().transpose();
+  const auto [values, V] = algebra::eigenpairs(symmetric);
+  return V * values.unaryExpr(f).asDiagonal() * V.transpose();
 }
 
 /// Where a part has been looked at, and its normal there.

@@ -1,5 +1,6 @@
 #include "elasticity/error_estimate.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>

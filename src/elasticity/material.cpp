@@ -1,8 +1,8 @@
 #include "elasticity/material.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -51,7 +51,7 @@ Hooke from_voigt(const algebra::DenseMatrix& v) {
   if (!v.allFinite()) throw InputError("stiffness has an entry that is not finite");
   if ((v - v.transpose()).norm() > 1e-9 * v.norm())
     throw InputError("stiffness must be symmetric");
-  const algebra::Vector values = Eigen::SelfAdjointEigenSolver<algebra::DenseMatrix>(v).eigenvalues();
+  const algebra::Vector values = algebra::eigenvalues(v);
   const double least = values[0], greatest = values[values.size() - 1];
   // Below that the eigenvalue is rounding: a strain that costs no energy, though no rigid motion.
   if (!(least > 1e-15 * greatest))

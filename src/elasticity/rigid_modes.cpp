@@ -1,8 +1,6 @@
 #include "elasticity/rigid_modes.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
+#include "algebra/dense/decompositions.hpp"
 #include "elasticity/load.hpp"
 #include "algebra/dense/dense.hpp"
 #include "elasticity/rigid_frame.hpp"
@@ -17,13 +15,13 @@ using mesh::Mesh;
 DenseMatrix null_space(const DenseMatrix& rows, int count) {
   DenseMatrix V = DenseMatrix::Identity(count, count);
   if (rows.rows() > 0) {
-    const DenseMatrix square = Eigen::HouseholderQR<DenseMatrix>(rows.rows() < count ? DenseMatrix(
-        (DenseMatrix(count, count) << rows, DenseMatrix::Zero(count - rows.rows(), count)).finished()) : rows)
-        .matrixQR().topRows(count).triangularView<Eigen::Upper>();
-    const Eigen::JacobiSVD<DenseMatrix> svd(square, Eigen::ComputeFullV);
+    DenseMatrix square = rows;
+    if (rows.rows() < count) square.conservativeResizeLike(DenseMatrix::Zero(count, count));
+    else square = algebra::orthogonal_factors(rows).R;
+    const algebra::SingularFactors svd = algebra::singular_factors(square);
     int rank = 0;
-    while (rank < count && svd.singularValues()[rank] > 1e-9 * svd.singularValues()[0]) ++rank;
-    V = svd.matrixV().rightCols(count - rank);
+    while (rank < count && svd.values[rank] > 1e-9 * svd.values[0]) ++rank;
+    V = svd.V.rightCols(count - rank);
   }
   return algebra::pure(V);
 }

@@ -1,8 +1,10 @@
 #include "elasticity/strain.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::elasticity {
 
@@ -42,7 +44,7 @@ double von_mises(const Stress& s) {
 std::array<double, 3> principal(const Stress& s) {
   Eigen::Matrix3d m;
   m << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
-  const Eigen::Vector3d e = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d e = algebra::eigenvalues3(m);
   return {e[2], e[1], e[0]};
 }
 

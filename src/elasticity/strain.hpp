@@ -2,7 +2,7 @@
 
 // Stresses inside a cell. Used inside this room only.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "elasticity/kernel.hpp"
 #include "elasticity/stress.hpp"

@@ -1,10 +1,9 @@
 #include "elasticity/weak_motions.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <array>
 #include <cmath>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 #include "elasticity/kernel.hpp"
 #include "algebra/dense/dense.hpp"
@@ -16,7 +15,6 @@ namespace {
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::Vector;
-using Eigen::SelfAdjointEigenSolver;
 
 /// Below it a motion is named: see the header.
 constexpr double kNearlyFree = 1e-6;
@@ -70,26 +68,25 @@ struct Motions {
       dilatation[unknown] = (x[i] - frame.centre[i]) / frame.size;
     }
     const DenseMatrix rest = without(kernel, F);
-    const SelfAdjointEigenSolver<DenseMatrix> gram(rest.transpose() * w.asDiagonal() * rest);
+    const algebra::Eigenpairs gram = algebra::eigenpairs(rest.transpose() * w.asDiagonal() * rest);
     Eigen::Index none = 0;  // combinations that are in the kernel, or nothing on these unknowns
-    while (none < gram.eigenvalues().size() && gram.eigenvalues()[none] < 1e-12) ++none;
-    const Eigen::Index count = gram.eigenvalues().size() - none;
-    Q = rest * gram.eigenvectors().rightCols(count) *
-        gram.eigenvalues().tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
+    while (none < gram.values.size() && gram.values[none] < 1e-12) ++none;
+    const Eigen::Index count = gram.values.size() - none;
+    Q = rest * gram.vectors.rightCols(count) *
+        gram.values.tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
   }
 
   /// u less its M-orthogonal projection onto the kernel.
   DenseMatrix without(const DenseMatrix& kernel, const DenseMatrix& u) const {
     if (kernel.cols() == 0) return u;
     const DenseMatrix weighted = w.asDiagonal() * kernel;
-    return u - kernel * (weighted.transpose() * kernel).ldlt().solve(weighted.transpose() * u);
+    return u - kernel * algebra::Ldlt(weighted.transpose() * kernel).solve(DenseMatrix(weighted.transpose() * u));
   }
 
   /// The coefficients of rigid motions given on the unknowns.
   DenseMatrix coefficients(const DenseMatrix& motion) const {
-    return (w.cwiseSqrt().asDiagonal() * F)
-        .completeOrthogonalDecomposition()
-        .solve(w.cwiseSqrt().asDiagonal() * motion);
+    const Vector root = w.cwiseSqrt();
+    return algebra::MinimumNorm(root.asDiagonal() * F).solve(DenseMatrix(root.asDiagonal() * motion));
   }
 
   std::vector<Motion> named(const DenseMatrix& motion) const {
@@ -104,14 +101,14 @@ struct Motions {
 double least_quotient(const Motions& motions, const SparseMatrix& lower, DenseMatrix V) {
   const Vector norm = (V.cwiseAbs2().transpose() * motions.w).cwiseSqrt();
   for (Eigen::Index k = 0; k < V.cols(); ++k) V.col(k) *= norm[k] > 0 ? 1 / norm[k] : 0;
-  const SelfAdjointEigenSolver<DenseMatrix> gram(V.transpose() * motions.w.asDiagonal() * V);
+  const algebra::Eigenpairs gram = algebra::eigenpairs(V.transpose() * motions.w.asDiagonal() * V);
   Eigen::Index none = 0;
-  while (none < V.cols() && gram.eigenvalues()[none] < 1e-8) ++none;
+  while (none < V.cols() && gram.values[none] < 1e-8) ++none;
   if (none == V.cols()) return INFINITY;
-  const DenseMatrix Q = V * gram.eigenvectors().rightCols(V.cols() - none) *
-                        gram.eigenvalues().tail(V.cols() - none).cwiseSqrt().cwiseInverse().asDiagonal();
+  const DenseMatrix Q = V * gram.vectors.rightCols(V.cols() - none) *
+                        gram.values.tail(V.cols() - none).cwiseSqrt().cwiseInverse().asDiagonal();
   const DenseMatrix KQ = lower.selfadjointView<Eigen::Lower>() * Q;
-  return SelfAdjointEigenSolver<DenseMatrix>(Q.transpose() * KQ).eigenvalues()[0];
+  return algebra::eigenvalues(Q.transpose() * KQ)[0];
 }
 
 WeakMotions by_response(const Motions& motions, const Numbering& numbering, const SparseMatrix& lower,
@@ -126,16 +123,16 @@ WeakMotions by_response(const Motions& motions, const Numbering& numbering, cons
     return DenseMatrix(u - motions.Q * (motions.Q.transpose() * motions.w.asDiagonal() * u));
   };
   const DenseMatrix U = response(motions.Q), compliance = motions.Q.transpose() * motions.w.asDiagonal() * U;
-  const SelfAdjointEigenSolver<DenseMatrix> soft((compliance + compliance.transpose()) / 2);
+  const algebra::Eigenpairs soft = algebra::eigenpairs((compliance + compliance.transpose()) / 2);
   DenseMatrix D(U.rows(), U.cols() + 1);
   D << deformation(U / U.lpNorm<Eigen::Infinity>()), deformation(motions.without(kernel, motions.dilatation));
   const double own = least_quotient(motions, lower, deformation(response(D)));
   std::vector<Eigen::Index> weak;
   for (Eigen::Index k = 0; k < U.cols(); ++k)
-    if (1 / soft.eigenvalues()[k] < kNearlyFree * own) weak.push_back(k);
+    if (1 / soft.values[k] < kNearlyFree * own) weak.push_back(k);
   if (weak.empty()) return result;
-  result.stiffness = 1 / (soft.eigenvalues()[weak.back()] * own);
-  result.motions = motions.named(motions.Q * soft.eigenvectors()(Eigen::all, weak));
+  result.stiffness = 1 / (soft.values[weak.back()] * own);
+  result.motions = motions.named(motions.Q * soft.vectors(Eigen::all, weak));
   return result;
 }
 
@@ -167,11 +164,11 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, con
   if (motions.Q.cols() == 0) return {};
   const auto K = lower.selfadjointView<Eigen::Lower>();
   const DenseMatrix KQ = K * motions.Q;
-  const SelfAdjointEigenSolver<DenseMatrix> trial(motions.Q.transpose() * KQ);
+  const algebra::Eigenpairs trial = algebra::eigenpairs(motions.Q.transpose() * KQ);
   const Vector Kd = K * motions.dilatation;
   const double own = motions.dilatation.dot(Kd) / motions.dilatation.cwiseAbs2().dot(motions.w);
-  if (!std::isfinite(own) || !(trial.eigenvalues()[0] < kSuspicious * own)) return {};
-  const DenseMatrix lost = lost_in_rounding(motions, mesh, numbering, lower, motions.Q * trial.eigenvectors());
+  if (!std::isfinite(own) || !(trial.values[0] < kSuspicious * own)) return {};
+  const DenseMatrix lost = lost_in_rounding(motions, mesh, numbering, lower, motions.Q * trial.vectors);
   if (lost.cols() > 0) return {0, motions.named(lost)};
   return by_response(motions, numbering, lower, kernel);
 }

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 
 namespace dotyk::plate {
@@ -34,10 +33,10 @@ FreeMotions free_motions(const Space& space, const Held& held, const std::vector
     else ++unknowns;
   }
   // A motion that moves no held freedom by more than 1e-6 of what it moves others by.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(stopped);
+  const algebra::Eigenpairs3 eigen = algebra::eigenpairs3(stopped);
   int free = 0;
-  while (free < 3 && eigen.eigenvalues()[free] <= 1e-12 * std::max(count, 1)) ++free;
-  const DenseMatrix coefficients = free == 3 ? DenseMatrix(DenseMatrix::Identity(3, 3)) : free > 0 ? algebra::pure(eigen.eigenvectors().leftCols(free)) : DenseMatrix(3, 0);
+  while (free < 3 && eigen.values[free] <= 1e-12 * std::max(count, 1)) ++free;
+  const DenseMatrix coefficients = free == 3 ? DenseMatrix(DenseMatrix::Identity(3, 3)) : free > 0 ? algebra::pure(eigen.vectors.leftCols(free)) : DenseMatrix(3, 0);
   FreeMotions out;
   out.kernel.resize(unknowns, free);
   for (int i = 0; i < R.rows(); ++i)

@@ -1,7 +1,6 @@
 #include "plate/model.hpp"
 
-#include <Eigen/Cholesky>
-
+#include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -38,7 +37,7 @@ void balance(const DenseMatrix& R, Vector& f) {
   if (R.cols() == 0) return;
   const Vector resultant = R.transpose() * f;
   if (resultant.lpNorm<Eigen::Infinity>() > 1e-6 * f.lpNorm<1>()) return;
-  f -= R * (R.transpose() * R).ldlt().solve(resultant);
+  f -= R * algebra::Ldlt(R.transpose() * R).solve(resultant);
 }
 
 /// Is a load along an edge a function?

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/QR>
-
+#include "algebra/dense/decompositions.hpp"
 #include "plate/chains.hpp"
 #include "plate/element/stiffness.hpp"
 
@@ -115,7 +114,7 @@ class ReactionCollector {
     const int first = model_.space.of_vertex(sample.place) + 1;
     const Vector2d a = model_.space.frame[sample.place], b(-a[1], a[0]);
     const Vector2d moment = (holding_[first] * a + holding_[first + 1] * b) * model_.space.unit;
-    return slope_direction(model_.space, sample).dot(held_directions_.at(sample.place).completeOrthogonalDecomposition().solve(moment));
+    return slope_direction(model_.space, sample).dot(algebra::MinimumNorm(held_directions_.at(sample.place)).solve(algebra::Vector(moment)));
   }
 
   const Solution& s_;

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/LU>
-
+#include "algebra/dense/lu.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "plate/auxiliary.hpp"
@@ -27,7 +26,7 @@ void normalise(const Model& model, Vector& unknowns) {
     with.f_of = [&, i](double x, double y) { return i == 0 ? 1 : (i == 1 ? x - centre[0] : y - centre[1]) / model.space.unit; };
     moments.col(i) = loads(with, model.space);
   }
-  unknowns -= R * (moments.transpose() * R).inverse() * (moments.transpose() * unknowns);
+  unknowns -= R * algebra::Lu(moments.transpose() * R).solve(moments.transpose() * unknowns);
 }
 
 /// Edges apart from one another may bear the most that they can, one up and one down, and leave the plate free to move. All solutions then,

@@ -1,10 +1,11 @@
 #include "problem/contradiction.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <map>
 #include <set>
 #include <vector>
+
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::problem {
 
@@ -53,7 +54,7 @@ std::optional<double> held(const Problem& problem, int r, const std::set<int>& a
   Vector jumps(others.cols());
   Eigen::Index j = 0;
   for (const int k : among) others.col(j) = dense(k), jumps[j++] = problem.c[k];
-  const Vector own = dense(r), parts = others.colPivHouseholderQr().solve(own);
+  const Vector own = dense(r), parts = algebra::least_squares(others, own);
   if (!((own - others * parts).norm() <= kMadeUp * own.norm())) return std::nullopt;
   return parts.dot(jumps);
 }

@@ -1,9 +1,9 @@
 #include "problem/free_motions.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/null_space.hpp"
 #include "problem/parts.hpp"
 #include "problem/rigid_motions.hpp"
@@ -157,7 +157,7 @@ FreeMotions free_motions(const Problem& problem, const State& state, double tole
   const int holds = algebra::rank(held, kNotAtAll);
   if (holds == modes) {
     if (modes > kMostModes) return free;
-    free.weakest = Eigen::JacobiSVD<DenseMatrix>(DenseMatrix(held), Eigen::ComputeThinV).matrixV().col(modes - 1);
+    free.weakest = algebra::singular_factors(DenseMatrix(held)).V.col(modes - 1);
     free.weakest /= free.weakest.lpNorm<Eigen::Infinity>();
     free.grip = (held * free.weakest).lpNorm<Eigen::Infinity>();
     return free;

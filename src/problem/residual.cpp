@@ -1,12 +1,11 @@
 #include "problem/residual.hpp"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
 
+#include "algebra/dense/decompositions.hpp"
 #include "base/text.hpp"
 #include "problem/parts.hpp"
 #include "problem/sizes.hpp"
@@ -94,7 +93,7 @@ double friction_violation(const Problem& problem, const State& state, const Part
 /// ‖|K||w|‖, w the part of u in the block's kernel.
 double moved_forces(const Block& block, const Vector& u) {
   const algebra::DenseMatrix& R = block.kernel;
-  return gross_forces(block, R * R.colPivHouseholderQr().solve(u)).stableNorm();
+  return gross_forces(block, R * algebra::least_squares(R, u)).stableNorm();
 }
 
 /// Greatest resultant of the forces on the block that is not balanced, relative to all of them (`gross`) at the longest lever.

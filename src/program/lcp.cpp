@@ -1,9 +1,9 @@
 #include "program/lcp.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -31,7 +31,7 @@ Lcp scaled(const Lcp& lcp, Vector& scale) {
 
 bool semidefinite(const DenseMatrix& M) {
   const DenseMatrix symmetric = 0.5 * (M + M.transpose());
-  const Vector values = Eigen::SelfAdjointEigenSolver<DenseMatrix>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector values = algebra::eigenvalues(symmetric);
   return values.minCoeff() >= -1e-12 * std::max(1.0, values.cwiseAbs().maxCoeff());
 }
 

@@ -1,4 +1,4 @@
-#include <Eigen/LU>
+#include "algebra/dense/decompositions.hpp"
 #include <algorithm>
 
 #include "program/lcp.hpp"
@@ -21,8 +21,8 @@ Vector on_set(const Lcp& lcp, const FreeSet& free) {
     b[i] = -lcp.q[index[i]];
     for (Eigen::Index j = 0; j < k; ++j) m(i, j) = lcp.M(index[i], index[j]);
   }
-  const Eigen::FullPivLU<DenseMatrix> lu(m);
-  if (!lu.isInvertible()) return {};
+  const algebra::PivotedLu lu(m);
+  if (!lu.regular()) return {};
   const Vector x = lu.solve(b);
   if (!x.allFinite()) return {};
   for (Eigen::Index i = 0; i < k; ++i) z[index[i]] = x[i];

@@ -1,9 +1,9 @@
 #include "program/refine.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <vector>
 
+#include "algebra/dense/decompositions.hpp"
 #include "program/program.hpp"
 
 namespace dotyk::program {
@@ -33,7 +33,7 @@ Vector cycle(const Apply& K, const Apply& regularised, const Vector& residual, d
     Vector b = Vector::Zero(k + 2);
     b[0] = size;
     const DenseMatrix H = h.topLeftCorner(k + 2, k + 1);
-    best = H.colPivHouseholderQr().solve(b);
+    best = algebra::least_squares(H, b);
     if ((H * best - b).norm() <= target || h(k + 1, k) <= 1e-14 * size) break;
     v.push_back(w / h(k + 1, k));
   }

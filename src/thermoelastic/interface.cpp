@@ -1,9 +1,8 @@
 #include "thermoelastic/interface.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 
+#include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "beam/solvable.hpp"
@@ -87,7 +86,7 @@ Vector Interface::solve(Vector g, const Vector& resultants, const SupportsDriven
                         const solver::Method& method, std::vector<Vector>& reactions, Work& work, Monitor& monitor) {
   // Heat moves nothing rigidly: the resultants are the load's, and not what rounding makes of them.
   const DenseMatrix& R = problem_.blocks.front().kernel;
-  g -= R * (R.transpose() * R).ldlt().solve(R.transpose() * g - resultants);
+  g -= R * algebra::Ldlt(R.transpose() * R).solve(Vector(R.transpose() * g - resultants));
   problem_.blocks.front().f = g;
   int row = 0;
   for (const int p : parts_)
@@ -95,7 +94,7 @@ Vector Interface::solve(Vector g, const Vector& resultants, const SupportsDriven
   require_solvable(t);
   if (problem_.rows() == 0) {  // no support at all: the load is balanced, and the least solution as good as any
     const DenseMatrix S = DenseMatrix(problem_.blocks.front().K).selfadjointView<Eigen::Lower>();
-    return S.completeOrthogonalDecomposition().solve(g);
+    return algebra::MinimumNorm(S).solve(g);
   }
   solver::Result result = solver::solve(problem_, method, {{}, condenser_}, monitor, true);
   solver::judge(problem_, result);

@@ -1,8 +1,7 @@
 #include "thermoelastic/statics.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include "algebra/dense/decompositions.hpp"
+#include "algebra/dense/dense.hpp"
 
 namespace dotyk::thermoelastic {
 
@@ -28,7 +27,7 @@ bool determinate(const Part& part) {
   const DenseMatrix N = on_laws(part);
   if (N.rows() == 0) return true;
   if (N.rows() > N.cols()) return false;
-  const Eigen::VectorXd values = Eigen::JacobiSVD<DenseMatrix>(N).singularValues();
+  const Vector values = algebra::singular_values(N);
   return values[values.size() - 1] > kNoSay * values[0];
 }
 
@@ -37,7 +36,7 @@ std::optional<Static> by_statics(const Part& part, const Forces& forces) {
   const DenseMatrix N = on_laws(part);
   const Vector e = part.kernel.transpose() * f;
   Static out{Vector::Zero(N.rows()), Vector::Zero(N.rows()), {}};
-  if (N.rows() > 0) out.reactions = -N.transpose().colPivHouseholderQr().solve(e);
+  if (N.rows() > 0) out.reactions = -algebra::least_squares(DenseMatrix(N.transpose()), e);
   const Vector scale = part.kernel.cwiseAbs().transpose() * f.cwiseAbs();
   const Vector left = e + N.transpose() * out.reactions;
   if ((left.array().abs() > kNoSay * scale.array()).any()) return std::nullopt;
@@ -60,7 +59,7 @@ Vector displacement(const Part& part, const OnCells& strain, const Vector& w) {
   if (N.rows() > 0) {
     Vector missing = w;
     for (std::size_t i = 0; i < part.held.size(); ++i) missing[static_cast<int>(i)] -= u[part.held[i].unknown - part.first];
-    u += part.kernel * N.completeOrthogonalDecomposition().solve(missing);
+    u += part.kernel * algebra::MinimumNorm(N).solve(missing);
   }
   remove_unnoticed(part, u);
   return u;
@@ -70,11 +69,11 @@ void remove_unnoticed(const Part& part, Eigen::Ref<Vector> u) {
   const DenseMatrix N = on_laws(part);
   DenseMatrix motions = part.kernel;
   if (N.rows() > 0) {
-    const Eigen::FullPivLU<DenseMatrix> lu(N);
-    if (lu.dimensionOfKernel() == 0) return;
+    const algebra::PivotedLu lu(N);
+    if (lu.rank() == N.cols()) return;
     motions = part.kernel * lu.kernel();
   }
-  u -= motions * motions.colPivHouseholderQr().solve(u);
+  u -= motions * algebra::least_squares(motions, Vector(u));
 }
 
 }  // namespace dotyk::thermoelastic

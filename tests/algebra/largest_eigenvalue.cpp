@@ -2,10 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "../support/random.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/krylov/lanczos.hpp"
 #include "algebra/direct/stop_factoring.hpp"
 
@@ -14,7 +14,7 @@ using algebra::DenseMatrix;
 using algebra::Vector;
 
 namespace {
-double exact(const DenseMatrix& A) { return Eigen::SelfAdjointEigenSolver<DenseMatrix>(A).eigenvalues().maxCoeff(); }
+double exact(const DenseMatrix& A) { return eigenvalues(A).maxCoeff(); }
 }  // namespace
 
 TEST_CASE("the greatest eigenvalue is bounded from above, closely, with and without scaling") {

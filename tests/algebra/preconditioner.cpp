@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
+
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/krylov/conjugate_gradient.hpp"
 #include "base/error.hpp"
 #include "spd_matrices.hpp"
@@ -20,7 +22,7 @@ DenseMatrix dense(const algebra::Preconditioner& C) { return C.lift(DenseMatrix:
 
 /// K x = b after `steps` steps of conjugate gradients preconditioned by M⁻¹ as it stands in every textbook.
 Vector textbook(const DenseMatrix& K, const DenseMatrix& M, const Vector& b, int steps) {
-  const Eigen::LLT<DenseMatrix> factor(M);
+  const algebra::Ldlt factor(M);
   Vector x = Vector::Zero(b.size()), r = b, z = factor.solve(r), p = z;
   for (int k = 0; k < steps; ++k) {
     const double alpha = r.dot(z) / p.dot(K * p), before = r.dot(z);
@@ -93,7 +95,7 @@ TEST_CASE("incomplete Cholesky reproduces K on its pattern, and is exact where n
 TEST_CASE("where the incomplete factorisation breaks down the matrix is shifted, and it converges all the same") {
   // Kershaw's matrix: positive definite, with a negative pivot without fill-in.
   const DenseMatrix K{{3, -2, 0, 2}, {-2, 3, -2, 0}, {0, -2, 3, -2}, {2, 0, -2, 3}};
-  REQUIRE(Eigen::SelfAdjointEigenSolver<DenseMatrix>(K).eigenvalues()[0] > 0);
+  REQUIRE(eigenvalues(K)[0] > 0);
   const SparseMatrix lower = test::lower(K);
   const algebra::IncompleteCholesky ic(lower);
   CHECK(ic.shift() > 0);

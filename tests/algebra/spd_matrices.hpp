@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "../support/random.hpp"
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::test {
 
@@ -13,7 +14,7 @@ inline algebra::DenseMatrix schur(const algebra::DenseMatrix& A, const std::vect
   for (int k = 0; k < A.rows(); ++k)
     if (std::find(c.begin(), c.end(), k) == c.end()) i.push_back(k);
   if (i.empty()) return A(c, c);
-  return A(c, c) - A(c, i) * algebra::DenseMatrix(A(i, i)).ldlt().solve(algebra::DenseMatrix(A(i, c)));
+  return A(c, c) - A(c, i) * algebra::Ldlt(algebra::DenseMatrix(A(i, i))).solve(algebra::DenseMatrix(A(i, c)));
 }
 
 /// The 7-point Laplacian on a grid of nx × ny × nz inner nodes, zero around it; `stretch` weighs the coupling along x.

@@ -2,9 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
 
 #include "../support/meshes.hpp"
+#include "algebra/dense/decompositions.hpp"
+#include "algebra/dense/dense.hpp"
 #include "contact/partition.hpp"
 #include "contact/rigid.hpp"
 
@@ -74,9 +75,9 @@ int kernel(const std::vector<Row>& rows, const std::vector<char>& moves) {
   for (const Row& row : rows)
     if (!row.jumps.empty()) present.push_back(row);
   const Eigen::MatrixXd B = matrix(present, moves);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(B);
+  const algebra::Vector svd = algebra::singular_values(B);
   int rank = 0;
-  for (int k = 0; k < svd.singularValues().size(); ++k) rank += svd.singularValues()[k] > 1e-9 * svd.singularValues()[0];
+  for (int k = 0; k < svd.size(); ++k) rank += svd[k] > 1e-9 * svd[0];
   return static_cast<int>(B.rows()) - rank;
 }
 

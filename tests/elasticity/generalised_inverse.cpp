@@ -2,7 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include "../support/elastic.hpp"
+#include "algebra/dense/decompositions.hpp"
+#include "algebra/dense/dense.hpp"
 #include "base/error.hpp"
 
 using namespace dotyk;
@@ -61,10 +66,10 @@ GeneralisedInverse factored(const Body& b) {
 
 /// Moore–Penrose inverse by eigenvalues; `modes` of them are zero.
 DenseMatrix pseudo_inverse(const Body& b) {
-  const Eigen::SelfAdjointEigenSolver<DenseMatrix> e(b.K);
+  const algebra::Eigenpairs e = algebra::eigenpairs(b.K);
   const auto n = b.K.rows() - b.R.cols();
-  return e.eigenvectors().rightCols(n) * e.eigenvalues().tail(n).cwiseInverse().asDiagonal() *
-         e.eigenvectors().rightCols(n).transpose();
+  return e.vectors.rightCols(n) * e.values.tail(n).cwiseInverse().asDiagonal() *
+         e.vectors.rightCols(n).transpose();
 }
 
 /// Condition number of what is left of K when the unknowns are fixed.
@@ -72,13 +77,13 @@ double condition(const Body& b, const std::vector<int>& fixed) {
   std::vector<int> rest;
   for (int k = 0; k < b.K.rows(); ++k)
     if (std::find(fixed.begin(), fixed.end(), k) == fixed.end()) rest.push_back(k);
-  const algebra::Vector e = Eigen::SelfAdjointEigenSolver<DenseMatrix>(DenseMatrix(b.K(rest, rest))).eigenvalues();
+  const algebra::Vector e = algebra::eigenvalues(b.K(rest, rest));
   return e.maxCoeff() / std::abs(e.minCoeff());
 }
 
 double least_singular(const Body& b, const std::vector<int>& fixed) {
-  const DenseMatrix Q = Eigen::HouseholderQR<DenseMatrix>(b.R).householderQ() * DenseMatrix::Identity(b.R.rows(), b.R.cols());
-  return Eigen::JacobiSVD<DenseMatrix>(DenseMatrix(Q(fixed, Eigen::all))).singularValues().minCoeff();
+  const DenseMatrix Q = algebra::orthonormal(b.R);
+  return algebra::smallest_singular_value(Q(fixed, Eigen::all));
 }
 
 }  // namespace
@@ -99,7 +104,7 @@ TEST_CASE("a generalised inverse by fixed unknowns: K K⁺ K = K, K⁺ K K⁺ = 
     for (int unknown : inverse.fixed()) CHECK(X.row(unknown).norm() == 0);
     CHECK(test::relative(inverse.project(inverse.project(X).transpose()), pseudo_inverse(b)) < 1e-10);
     // The bound on the norm by the regularity of the choice.
-    const auto norm = [](const DenseMatrix& a) { return Eigen::JacobiSVD<DenseMatrix>(a).singularValues()[0]; };
+    const auto norm = [](const DenseMatrix& a) { return algebra::singular_values(a)[0]; };
     CHECK(norm(X) <= (1 + 1e-9) * norm(pseudo_inverse(b)) / std::pow(inverse.regularity(), 2));
   }
   CHECK(kernels == std::vector<int>{3, 1, 1, 0, 6, 3, 1, 5, 3, 1, 1, 0, 6, 3, 1, 5});

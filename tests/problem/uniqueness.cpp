@@ -2,10 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "../support/random.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/stop_factoring.hpp"
 
 using namespace dotyk;
@@ -33,7 +34,7 @@ problem::CondensedProblem condensed(int components) {
   return {W, Vector::Zero(rows)};
 }
 
-double greatest(const DenseMatrix& A) { return Eigen::SelfAdjointEigenSolver<DenseMatrix>(A).eigenvalues().maxCoeff(); }
+double greatest(const DenseMatrix& A) { return algebra::eigenvalues(A).maxCoeff(); }
 
 /// Stops at the last of so many questions.
 struct StopAt final : Monitor {

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "program/certificate.hpp"
 #include "programs.hpp"
@@ -21,7 +22,7 @@ program::QuadraticProgram make(Random& random, Kind kind, int n, int m, int rank
   DenseMatrix A = random.matrix(m, n);
   Vector q = random.vector(n);
   if (kind == Kind::unbounded) {
-    const Vector d = rank ? Vector(Eigen::FullPivLU<DenseMatrix>(P).kernel().col(0)) : Vector(Vector::Unit(n, 0));
+    const Vector d = rank ? Vector(algebra::PivotedLu(P).kernel().col(0)) : Vector(Vector::Unit(n, 0));
     if (q.dot(d) > 0) q = -q;
     for (int r = 0; r < m; ++r)
       if (A.row(r).dot(d) < 0) A.row(r) *= -1;

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "algebra/dense/decompositions.hpp"
 #include "programs.hpp"
 
 using namespace dotyk;
@@ -203,7 +204,7 @@ TEST_CASE("a program without rows, and one whose rows never matter") {
   Monitor quiet;
   const DenseMatrix P = random.positive_definite(5, 1);
   const Vector q = random.vector(5);
-  const Vector exact = -P.llt().solve(q);
+  const Vector exact = -algebra::Ldlt(P).solve(q);
   const auto bare = test::quadratic(P, q, DenseMatrix(0, 5), Vector(0), Vector(0));
   const auto loose = test::quadratic(P, q, DenseMatrix::Identity(5, 5), Vector::Constant(5, -INFINITY), Vector::Constant(5, 1e6));
   for (const auto& p : {bare, loose}) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <optional>
 
 #include "../support/random.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "program/active_set.hpp"
 #include "program/augmented_lagrangian.hpp"
 #include "program/interior_point.hpp"
@@ -72,8 +72,8 @@ inline std::optional<double> by_enumeration(const QuadraticProgram& p) {
         K.block(n + i, 0, 1, n) = A.row(rows[i]), K.block(0, n + i, n, 1) = A.row(rows[i]).transpose();
         b[n + i] = place[rows[i]] == 1 ? p.low[rows[i]] : p.high[rows[i]];
       }
-      const Eigen::FullPivLU<DenseMatrix> lu(K);
-      if (lu.isInvertible()) {
+      const algebra::PivotedLu lu(K);
+      if (lu.regular()) {
         const Vector x = lu.solve(b).head(n), a = A * x;
         if (((a - p.high).array() <= 1e-9).all() && ((p.low - a).array() <= 1e-9).all()) {
           const double value = program::objective(p, x);

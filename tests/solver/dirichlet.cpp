@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/dual.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "solver/feti/feti.hpp"
 #include "solver/feti/lumped.hpp"
 
@@ -22,8 +23,9 @@ DenseMatrix schur(const solver::Piece& piece) {
   DenseMatrix S = DenseMatrix::Zero(piece.size(), piece.size());
   S(piece.touched, piece.touched) = K(piece.touched, piece.touched);
   if (inside.empty()) return S;
-  const Eigen::CompleteOrthogonalDecomposition<DenseMatrix> ii(DenseMatrix(K(inside, inside)));
-  S(piece.touched, piece.touched) -= K(piece.touched, inside) * ii.solve(DenseMatrix(K(inside, piece.touched)));
+  const algebra::MinimumNorm ii(K(inside, inside));
+  const DenseMatrix across = K(inside, piece.touched);
+  S(piece.touched, piece.touched) -= DenseMatrix(across.transpose() * ii.solve(across));
   return S;
 }
 
@@ -47,10 +49,10 @@ struct ExtremeEigenvalues {
 
 /// Of the eigenvalues of M F on im P that are not zero; M symmetric positive semidefinite.
 ExtremeEigenvalues ends(const DenseMatrix& P, const DenseMatrix& M, const DenseMatrix& F) {
-  const Eigen::SelfAdjointEigenSolver<DenseMatrix> m(P * M * P);
+  const algebra::Eigenpairs m = algebra::eigenpairs(P * M * P);
   const DenseMatrix root =
-      m.eigenvectors() * m.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * m.eigenvectors().transpose();
-  const Vector e = Eigen::SelfAdjointEigenSolver<DenseMatrix>(root * P * F * P * root).eigenvalues();
+      m.vectors * m.values.cwiseMax(0).cwiseSqrt().asDiagonal() * m.vectors.transpose();
+  const Vector e = algebra::eigenvalues(root * P * F * P * root);
   ExtremeEigenvalues result{e.maxCoeff(), e.maxCoeff()};
   int count = 0;
   for (double x : e)

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/dual.hpp"
+#include "algebra/dense/decompositions.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -18,7 +19,7 @@ TEST_CASE("the spectrum of PFP on the balanced multipliers: a bound from above, 
     const int n = dual.rows();
     const DenseMatrix P = test::projector(coarse, n);
     const DenseMatrix F = test::as_matrix(n, [&](const Vector& v) { return dual.apply(v); });
-    const Vector exact = Eigen::SelfAdjointEigenSolver<DenseMatrix>(P * F * P).eigenvalues();
+    const Vector exact = algebra::eigenvalues(P * F * P);
     const double greatest = exact[n - 1], least = exact[coarse.modes() - static_cast<int>(coarse.held().size())];
     REQUIRE(least > 1e-8 * greatest);
     const auto one = solver::dual_spectrum(dual, coarse, Ends::greatest, quiet);

@@ -1,9 +1,10 @@
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include "../support/friction_rows.hpp"
 #include "../support/random.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "solver/rows/newton.hpp"
 
@@ -25,7 +26,7 @@ struct Case {
     Vector root(rho.size());
     for (int r = 0; r < rho.size(); ++r) root[r] = map.lambda(Vector::Unit(rho.size(), r))[r];
     W = root.asDiagonal() * compliance * root.asDiagonal();
-    const Vector eigenvalues = Eigen::SelfAdjointEigenSolver<DenseMatrix>(W, Eigen::EigenvaluesOnly).eigenvalues();
+    const Vector eigenvalues = algebra::eigenvalues(W);
     least = eigenvalues.minCoeff();
     greatest = eigenvalues.maxCoeff();
   }
@@ -122,7 +123,7 @@ TEST_CASE("the whole derivative of TR965 (2.27) is singular with the condensed o
   test::Random random(404);
   for (int trial = 0; trial < 200; ++trial) {
     const int points = 3, components = 1 + trial % 2, m = points * (1 + components), n = m + 3;
-    const DenseMatrix K = random.positive_definite(n, 0.5), B = random.matrix(m, n), W = B * K.llt().solve(B.transpose());
+    const DenseMatrix K = random.positive_definite(n, 0.5), B = random.matrix(m, n), W = B * algebra::Ldlt(K).solve(DenseMatrix(B.transpose()));
     Vector rho(m);
     for (double& r : rho) r = std::pow(10, random.between(-1, 1));
     const Case c(test::friction_rows(points, components, false, 0.7), W, random.vector(m), rho);
@@ -134,7 +135,10 @@ TEST_CASE("the whole derivative of TR965 (2.27) is singular with the condensed o
     G << K, B.transpose(), -S * R * R * B, I - S;
     CHECK(G.determinant() == doctest::Approx(K.determinant() * J.determinant()).epsilon(1e-8));
     // In the norm of the energy and with scaled multipliers:
-    const DenseMatrix L = K.llt().matrixL(), scaled = R * L.triangularView<Eigen::Lower>().solve(B.transpose()).transpose();
+    DenseMatrix L = K, scaled = B.transpose();
+    CHECK(algebra::cholesky(L));
+    algebra::solve_lower(L, scaled);
+    scaled = DenseMatrix(R * scaled.transpose());
     G << DenseMatrix::Identity(n, n), scaled.transpose(), -S * scaled, I - S;
     const double whole = algebra::smallest_singular_value(G), condensed = algebra::smallest_singular_value(J);
     CHECK(whole <= condensed * (1 + 1e-10));

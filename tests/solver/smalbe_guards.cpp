@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "../support/known_equality.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "solver/bounded/smalbe.hpp"
 
 using namespace dotyk;
@@ -175,7 +176,7 @@ TEST_CASE("a preconditioner is told the penalty that it is for") {
   for (const double rho : {1.0, 100.0}) {
     for (const Shape shape : {Shape::none, Shape::low}) {
       const Known known(9, 120, 10, shape, 1e-3, true);
-      const DenseMatrix inverse = known.H.completeOrthogonalDecomposition().pseudoInverse();
+      const DenseMatrix inverse = algebra::MinimumNorm(known.H).solve(DenseMatrix(DenseMatrix::Identity(known.H.rows(), known.H.rows())));
       const Vector zero = Vector::Zero(120);
       Smalbe plain, better;
       plain.rho = better.rho = rho;

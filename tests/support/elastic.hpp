@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/cholesky.hpp"
 #include "elasticity/assembly.hpp"
 #include "elasticity/load.hpp"
@@ -94,7 +95,7 @@ inline std::vector<double> nodal(const Mesh& m, const VectorField& u) {
 inline std::vector<double> solve(const elasticity::System& s, const Numbering& numbering) {
   std::vector<double> u = numbering.prescribed;
   if (numbering.count() == 0) return u;
-  const algebra::Vector x = full(s.K).ldlt().solve(s.f);
+  const algebra::Vector x = algebra::Ldlt(full(s.K)).solve(s.f);
   for (std::size_t k = 0; k < u.size(); ++k)
     if (numbering.unknown[k] >= 0) u[k] = x[numbering.unknown[k]];
   return u;

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <optional>
 
+#include "algebra/dense/decompositions.hpp"
 #include "chain.hpp"
 #include "solver/active/pdas.hpp"
 
@@ -54,8 +55,8 @@ inline std::optional<problem::State> by_enumeration(const problem::Problem& p,
         A(n + r, n + r) = 1;
       }
     }
-    const Eigen::FullPivLU<algebra::DenseMatrix> lu(A);
-    if (!lu.isInvertible()) continue;
+    const algebra::PivotedLu lu(A);
+    if (!lu.regular()) continue;
     const algebra::Vector y = lu.solve(b), x = B * y.head(n) - p.c, lambda = y.tail(m);
     const double force = 1e-9 * (f.norm() + lambda.norm());
     const double length = 1e-9 * (y.head(n).norm() + p.c.norm() + f.norm() / K.norm());

@@ -1,11 +1,11 @@
 #include "algebra/dense/generalised_inverse.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
+#include "algebra/dense/lu.hpp"
 #include "algebra/dense/null_space.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -19,7 +19,7 @@ void exchange(const DenseMatrix& kernel, std::vector<int>& unknowns) {
   for (int round = 0; round < 100; ++round) {
     const DenseMatrix held = kernel(unknowns, Eigen::all);
     // (R R_F⁻¹)_ik: by what |det R_F| is multiplied when unknown i takes the place of F's k-th.
-    const DenseMatrix gain = held.transpose().partialPivLu().solve(kernel.transpose());
+    const DenseMatrix gain = Lu(held).solve_transposed(DenseMatrix(kernel.transpose()));
     Eigen::Index k, i;
     if (!(gain.cwiseAbs().maxCoeff(&k, &i) > 1.1)) return;
     unknowns[k] = static_cast<int>(i);
@@ -36,8 +36,8 @@ double least_singular_value(const DenseMatrix& square) {
 std::vector<int> fixing_unknowns(const DenseMatrix& kernel) {
   std::vector<int> unknowns;
   if (kernel.size() == 0) return unknowns;
-  const Eigen::ColPivHouseholderQR<DenseMatrix> qr(orthonormal(kernel).transpose());
-  for (Eigen::Index k = 0; k < kernel.cols(); ++k) unknowns.push_back(qr.colsPermutation().indices()[k]);
+  unknowns = pivoted_factors(orthonormal(kernel).transpose()).order;
+  unknowns.resize(kernel.cols());
   exchange(kernel, unknowns);
   return unknowns;
 }

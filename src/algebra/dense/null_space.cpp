@@ -1,6 +1,5 @@
 #include "algebra/dense/null_space.hpp"
 
-#include <Eigen/SVD>
 #include <SuiteSparseQR.hpp>
 #include <algorithm>
 #include <new>
@@ -8,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/blas_threads.hpp"
 #include "algebra/dense/dense.hpp"
 #include "algebra/direct/stop_factoring.hpp"
@@ -43,12 +43,12 @@ Split by_singular_values(const DenseMatrix& own, double scale, double tolerance)
   const Eigen::Index count = own.cols();
   DenseMatrix square = DenseMatrix::Zero(std::max(own.rows(), count), count);
   square.topRows(own.rows()) = own;
-  const Eigen::JacobiSVD<DenseMatrix> svd(square, Eigen::ComputeFullV);
-  const double least = tolerance * std::max(scale, svd.singularValues()[0]);
+  const SingularFactors svd = singular_factors(square);
+  const double least = tolerance * std::max(scale, svd.values[0]);
   Eigen::Index rank = 0;
-  while (rank < count && svd.singularValues()[rank] > least) ++rank;
+  while (rank < count && svd.values[rank] > least) ++rank;
   if (rank == count) return {rank, identity(count), DenseMatrix(count, 0)};
-  return {rank, svd.matrixV().leftCols(rank).sparseView(0, 0), svd.matrixV().rightCols(count - rank)};
+  return {rank, svd.V.leftCols(rank).sparseView(0, 0), svd.V.rightCols(count - rank)};
 }
 
 /// What SuiteSparseQR works with, and what it gives.

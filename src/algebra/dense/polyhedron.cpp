@@ -1,10 +1,11 @@
 #include "algebra/dense/polyhedron.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
+
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::algebra {
 namespace {
@@ -94,8 +95,8 @@ int Polyhedron::dimension(double tolerance) const {
   directions << vertices.rightCols(vertices.cols() - 1).colwise() - vertices.col(0), rays, lines;
   if (directions.size() == 0) return 0;
   int rank = 0;
-  const DenseMatrix R = Eigen::ColPivHouseholderQR<DenseMatrix>(directions).matrixR();
-  while (rank < std::min(R.rows(), R.cols()) && std::abs(R(rank, rank)) > tolerance) ++rank;
+  const Vector pivots = pivoted_factors(directions).diagonal;
+  while (rank < pivots.size() && std::abs(pivots[rank]) > tolerance) ++rank;
   return rank;
 }
 

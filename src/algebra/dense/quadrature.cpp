@@ -1,7 +1,8 @@
 #include "algebra/dense/quadrature.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "algebra/dense/tridiagonal.hpp"
 
 namespace dotyk::algebra {
 
@@ -12,10 +13,9 @@ Quadrature gauss(int count, double power) {
     diagonal(n) = n == 0 ? power / (power + 2) : power * power / (m * (m + 2));
     if (n > 0) off(n - 1) = 2.0 * n * (n + power) / (m * std::sqrt(m * m - 1));
   }
-  Eigen::SelfAdjointEigenSolver<DenseMatrix> jacobi;
-  jacobi.computeFromTridiagonal(diagonal, off);
-  return {(jacobi.eigenvalues().array() + 1) / 2,
-          jacobi.eigenvectors().row(0).transpose().array().square() / (power + 1)};
+  const Eigenpairs jacobi = all_eigenpairs(diagonal, off);
+  return {(jacobi.values.array() + 1) / 2,
+          jacobi.vectors.row(0).transpose().array().square() / (power + 1)};
 }
 
 }  // namespace dotyk::algebra

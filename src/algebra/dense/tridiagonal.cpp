@@ -1,5 +1,6 @@
 #include "algebra/dense/tridiagonal.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
@@ -10,6 +11,12 @@ extern "C" void dstevr_(const char* jobz, const char* range, const int* n, doubl
                         const int* liwork, int* info);
 
 namespace dotyk::algebra {
+
+Eigenpairs all_eigenpairs(const Vector& diagonal, const Vector& off_diagonal) {
+  Eigen::SelfAdjointEigenSolver<DenseMatrix> e;
+  e.computeFromTridiagonal(diagonal, off_diagonal);
+  return {e.eigenvalues(), e.eigenvectors()};
+}
 
 Eigenpairs lowest_eigenpairs(Vector diagonal, Vector off_diagonal, int count) {
   const int n = static_cast<int>(diagonal.size());

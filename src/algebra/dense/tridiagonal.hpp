@@ -1,13 +1,11 @@
 #pragma once
 
-#include "algebra/types.hpp"
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::algebra {
 
-struct Eigenpairs {
-  Vector values;        ///< ascending
-  DenseMatrix vectors;  ///< orthonormal columns
-};
+/// All eigenvalues of the symmetric tridiagonal matrix and their vectors, by QR steps.
+Eigenpairs all_eigenpairs(const Vector& diagonal, const Vector& off_diagonal);
 
 /// The `count` least eigenvalues of the symmetric tridiagonal matrix and their vectors, by LAPACK's dstevr (multiple
 /// relatively robust representations); all of them where there are fewer.

@@ -1,8 +1,8 @@
 #include "algebra/direct/condensation.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 
@@ -26,12 +26,12 @@ Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
   if (modes == 0) return;
   DenseMatrix square = DenseMatrix::Zero(std::max(n, modes), modes);
   square.topRows(n) = kernel_;
-  const Eigen::JacobiSVD<DenseMatrix> svd(square, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  const SingularFactors svd = singular_factors(square);
   const double largest = kernel.lpNorm<Eigen::Infinity>();
   Eigen::Index rank = 0;
-  while (rank < modes && svd.singularValues()[rank] > 1e-9 * largest) ++rank;
-  basis_ = svd.matrixU().topRows(n).leftCols(rank);
-  pinned_ = fixing_unknowns(kernel * svd.matrixV().rightCols(modes - rank));
+  while (rank < modes && svd.values[rank] > 1e-9 * largest) ++rank;
+  basis_ = svd.U.topRows(n).leftCols(rank);
+  pinned_ = fixing_unknowns(kernel * svd.V.rightCols(modes - rank));
 }
 
 bool Condensation::factor(const SparseMatrix& K) {

@@ -1,11 +1,11 @@
 #include "algebra/krylov/block_cg.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "algebra/dense/decompositions.hpp"
+#include "algebra/dense/dense.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -18,9 +18,7 @@ constexpr double kDependent = 1e-10;
 /// An orthonormal basis of the span of the columns, dependent ones left out; none for zero columns.
 DenseMatrix orth(const DenseMatrix& columns) {
   if (columns.size() == 0 || !(columns.cwiseAbs().maxCoeff() > 0)) return DenseMatrix(columns.rows(), 0);
-  Eigen::ColPivHouseholderQR<DenseMatrix> qr(columns);
-  qr.setThreshold(kDependent);
-  return qr.householderQ() * DenseMatrix::Identity(columns.rows(), qr.rank());
+  return span(columns, kDependent);
 }
 
 class BlockRun {
@@ -45,15 +43,20 @@ class BlockRun {
  private:
   void step(DenseMatrix& p, DenseMatrix& y, DenseMatrix& r) {
     const DenseMatrix w = C_.apply(p);
-    const Eigen::LLT<DenseMatrix> curvature(p.transpose() * w);
-    if (curvature.info() != Eigen::Success) throw InputError("block conjugate gradients: the matrix is not positive definite");
-    const DenseMatrix alpha = curvature.solve(p.transpose() * r);
+    DenseMatrix curvature = p.transpose() * w;
+    if (!cholesky(curvature)) throw InputError("block conjugate gradients: the matrix is not positive definite");
+    const auto by_curvature = [&](DenseMatrix b) {
+      solve_lower(curvature, b);
+      solve_lower_transposed(curvature, b);
+      return b;
+    };
+    const DenseMatrix alpha = by_curvature(p.transpose() * r);
     y += p * alpha;
     r -= w * alpha;
     ++result_.iterations;
     result_.products += p.cols();
     result_.least_rank = result_.iterations == 1 ? static_cast<int>(p.cols()) : std::min(result_.least_rank, static_cast<int>(p.cols()));
-    p = orth(r - p * curvature.solve(w.transpose() * r));
+    p = orth(r - p * by_curvature(w.transpose() * r));
   }
 
   /// Notes which columns have met the goal, or are as near as rounding lets a run come; false where all are.

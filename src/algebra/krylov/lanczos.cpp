@@ -1,8 +1,9 @@
 #include "algebra/krylov/lanczos.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "algebra/dense/tridiagonal.hpp"
 
 namespace dotyk::algebra {
 namespace {
@@ -12,10 +13,9 @@ constexpr double kSettled = 1e-3;
 constexpr double kExhausted = 1e-14;
 
 SpectrumEnds ends_of(const Vector& diagonal, const Vector& below, Eigen::Index steps) {
-  Eigen::SelfAdjointEigenSolver<DenseMatrix> ritz;
-  ritz.computeFromTridiagonal(diagonal.head(steps), below.head(steps - 1));
-  const auto last = ritz.eigenvectors().row(steps - 1);
-  return {ritz.eigenvalues()[0], ritz.eigenvalues()[steps - 1], below[steps - 1] * std::abs(last[0]),
+  const Eigenpairs ritz = all_eigenpairs(diagonal.head(steps), below.head(steps - 1));
+  const auto last = ritz.vectors.row(steps - 1);
+  return {ritz.values[0], ritz.values[steps - 1], below[steps - 1] * std::abs(last[0]),
           below[steps - 1] * std::abs(last[steps - 1]), static_cast<int>(steps)};
 }
 

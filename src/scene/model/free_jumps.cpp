@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/dense/decompositions.hpp"
 #include "contact/row_derivative.hpp"
 #include "contact/tangents.hpp"
 #include "scene/model/contact_rows.hpp"
@@ -25,9 +26,9 @@ Matrix3d cleaned(Matrix3d P) {
 /// Onto the range of a sum of projections.
 Matrix3d onto_range(const Matrix3d& sum) {
   if (sum.isDiagonal(0)) return Matrix3d(sum.diagonal().unaryExpr([](double v) { return v > kHeld ? 1.0 : 0.0; }).asDiagonal());
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(sum);
-  const Vector3d in = eigen.eigenvalues().unaryExpr([](double v) { return v > kHeld ? 1.0 : 0.0; });
-  return cleaned(eigen.eigenvectors() * in.asDiagonal() * eigen.eigenvectors().transpose());
+  const algebra::Eigenpairs3 eigen = algebra::eigenpairs3(sum);
+  const Vector3d in = eigen.values.unaryExpr([](double v) { return v > kHeld ? 1.0 : 0.0; });
+  return cleaned(eigen.vectors * in.asDiagonal() * eigen.vectors.transpose());
 }
 
 /// The weight, relative to the row's own, below which a partner is there by rounding.
@@ -109,9 +110,9 @@ std::vector<Point> FreeJumps::at(const contact::Tie& tie) const {
       if ((*V)(i, i) > 0 || tie.partners.size() == 1) axes.push_back(point(Vector3d::Unit(i)));
     return axes;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(*V);
+  const algebra::Eigenpairs3 eigen = algebra::eigenpairs3(*V);
   for (int i = 0; i < 3; ++i)
-    if (eigen.eigenvalues()[i] > 0.5) axes.push_back(point(eigen.eigenvectors().col(i)));
+    if (eigen.values[i] > 0.5) axes.push_back(point(eigen.vectors.col(i)));
   return axes;
 }
 
@@ -172,8 +173,8 @@ std::vector<Point> free_tangents(const Matrix3d& V, const Point& normal, int dim
   if (n.norm() < kHeld) return all;  // the normal is held: V is the plane of the tangents
   std::erase_if(all, [&](const Point& t) { return (V * vector(t) - vector(t)).norm() > kHeld || std::abs(vector(t).dot(n)) > kHeld; });
   if (all.size() == 1) return all;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(V);  // the first vector is across V
-  const Vector3d t = n.cross(eigen.eigenvectors().col(0).eval());
+  const algebra::Eigenpairs3 eigen = algebra::eigenpairs3(V);  // the first vector is across V
+  const Vector3d t = n.cross(eigen.vectors.col(0).eval());
   if (t.norm() < kHeld) return {};
   return {point(t.normalized())};
 }

@@ -1,7 +1,6 @@
 #include "scene/result/moved_rigidly.hpp"
 
-#include <Eigen/QR>
-
+#include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -39,7 +38,7 @@ std::shared_ptr<Solution> moved_rigidly(const Solution& solution, int body, cons
   if (block.K.rows() == 0) throw InputError("a step that is not the last of its history has no other members; solve up to it");
   const auto [w, most] = displacement(solution, body, motion);
   constexpr double kRounding = 1e-9;
-  const Vector amounts = block.kernel.cols() > 0 ? Vector(block.kernel.colPivHouseholderQr().solve(w)) : Vector();
+  const Vector amounts = block.kernel.cols() > 0 ? algebra::least_squares(block.kernel, w) : Vector();
   const double held = block.kernel.cols() > 0 ? (block.kernel * amounts - w).lpNorm<Eigen::Infinity>() : w.lpNorm<Eigen::Infinity>();
   if (held > kRounding * most) throw InputError(text("supports hold '", block.name, "' elastically against this motion"));
   problem::State state = solution.result().state;

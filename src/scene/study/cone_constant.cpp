@@ -1,9 +1,10 @@
 #include "scene/study/cone_constant.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::scene {
 
@@ -15,7 +16,7 @@ namespace {
 constexpr int kSteps = 300, kRandomStarts = 10;
 
 /// Goes down from here; the quotient at the end.
-double descend(const DenseMatrix& W, const DenseMatrix& N, const Eigen::LLT<DenseMatrix>& factor, Eigen::Index unilateral, Vector mu) {
+double descend(const DenseMatrix& W, const DenseMatrix& N, const algebra::Ldlt& factor, Eigen::Index unilateral, Vector mu) {
   const auto quotient = [&](const Vector& v) {
     const double size = v.dot(N * v);
     return size > 0 ? v.dot(W * v) / size : INFINITY;
@@ -23,7 +24,7 @@ double descend(const DenseMatrix& W, const DenseMatrix& N, const Eigen::LLT<Dens
   double least = quotient(mu), step = 1;
   for (int k = 0; k < kSteps && step > 1e-10; ++k) {
     mu /= std::sqrt(mu.dot(N * mu));
-    const Vector down = factor.solve(W * mu - least * (N * mu)) / std::max(least, 1e-300);
+    const Vector down = factor.solve(Vector(W * mu - least * (N * mu))) / std::max(least, 1e-300);
     for (step *= 4; step > 1e-10; step /= 2) {
       Vector next = mu - step * down;
       next.head(unilateral) = next.head(unilateral).cwiseMax(0);
@@ -39,7 +40,7 @@ double descend(const DenseMatrix& W, const DenseMatrix& N, const Eigen::LLT<Dens
 }  // namespace
 
 double cone_constant(const DenseMatrix& W, const DenseMatrix& N, Eigen::Index unilateral, Monitor& monitor) {
-  const Eigen::LLT<DenseMatrix> factor(N);
+  const algebra::Ldlt factor(N);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> entry(0, 1);
   double least = INFINITY;

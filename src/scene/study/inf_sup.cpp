@@ -1,9 +1,9 @@
 #include "scene/study/inf_sup.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "algebra/dense/decompositions.hpp"
+#include "algebra/dense/dense.hpp"
 #include "base/error.hpp"
 #include "contact/trace_norm.hpp"
 #include "elasticity/h1_norm.hpp"
@@ -125,7 +125,7 @@ DenseMatrix compliance(Model& model, const std::vector<int>& picked, double leng
   DenseMatrix W = condensed.W()(picked, picked);
   if (held.empty()) return W;
   const DenseMatrix cross = condensed.W()(held, picked), own = condensed.W()(held, held);
-  return W - cross.transpose() * own.ldlt().solve(cross);
+  return W - cross.transpose() * algebra::Ldlt(own).solve(cross);
 }
 
 /// The diagonal of the box around the contact's nodes.
@@ -140,15 +140,13 @@ double diagonal(const Contact& contact) {
 
 /// Square roots of the eigenvalues of W μ = β² N μ, ascending.
 algebra::Vector constants(const DenseMatrix& W, const DenseMatrix& N) {
-  const Eigen::LLT<DenseMatrix> factor(N);
-  if (factor.info() != Eigen::Success)
-    throw InputError("the multipliers of this contact are linearly dependent as functions on it");
-  const DenseMatrix half = factor.matrixL().solve(W);
-  const DenseMatrix scaled = factor.matrixL().solve(half.transpose());
-  return Eigen::SelfAdjointEigenSolver<DenseMatrix>(0.5 * (scaled + scaled.transpose()), Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .cwiseMax(0)
-      .cwiseSqrt();
+  DenseMatrix factor = N, scaled = W;
+  if (!algebra::cholesky(factor)) throw InputError("the multipliers of this contact are linearly dependent as functions on it");
+  for (int side = 0; side < 2; ++side) {
+    algebra::solve_lower(factor, scaled);
+    scaled.transposeInPlace();
+  }
+  return algebra::eigenvalues(0.5 * (scaled + scaled.transpose())).cwiseMax(0).cwiseSqrt();
 }
 
 Basis join(Basis a, const Basis& b) {

@@ -63,15 +63,13 @@ BorderedFactor::BorderedFactor(const Bordered& bordered) : scale_(scaling(border
   if (A_.rows() == 0) return;
   lu_ = algebra::Lu(A_);
   if (lu_.rcond() >= kSingular) return;
-  dependent_.emplace();
-  dependent_->setThreshold(kDependent);
-  dependent_->compute(A_);
+  dependent_.emplace(A_, kDependent);
 }
 
 Vector BorderedFactor::solve(const Vector& b) const {
   if (A_.rows() == 0) return b;
   const Vector scaled = scale_.cwiseProduct(b);
-  const Vector y = dependent_ ? Vector(dependent_->solve(scaled)) : lu_.solve(scaled);
+  const Vector y = dependent_ ? dependent_->solve(scaled) : lu_.solve(scaled);
   require_agreement(A_ * y, scaled);
   return scale_.cwiseProduct(y);
 }
@@ -79,7 +77,7 @@ Vector BorderedFactor::solve(const Vector& b) const {
 Vector BorderedFactor::solve_transposed(const Vector& b) const {
   if (A_.rows() == 0) return b;
   const Vector scaled = scale_.cwiseProduct(b);
-  const Vector y = dependent_ ? Vector(dependent_->transpose().solve(scaled)) : lu_.solve_transposed(scaled);
+  const Vector y = dependent_ ? dependent_->solve_transposed(scaled) : lu_.solve_transposed(scaled);
   require_agreement(A_.transpose() * y, scaled);
   return scale_.cwiseProduct(y);
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/QR>
 #include <optional>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/lu.hpp"
 #include "problem/condensed.hpp"
 #include "shape/derivative/law_derivative.hpp"
@@ -38,7 +38,7 @@ class BorderedFactor {
   algebra::DenseMatrix A_;  ///< scaled
   algebra::Vector scale_;
   algebra::Lu lu_;
-  std::optional<Eigen::CompleteOrthogonalDecomposition<algebra::DenseMatrix>> dependent_;
+  std::optional<algebra::MinimumNorm> dependent_;
 };
 
 }  // namespace dotyk::shape

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 
 namespace dotyk::solver {
@@ -175,7 +174,7 @@ class Barrier {
     Y_ = N_;
     if (Y_.cols() == 0) return true;
     algebra::solve_lower(M_, Y_);
-    schur_.compute(algebra::gram(Y_));
+    schur_.emplace(algebra::gram(Y_));
     return true;
   }
 
@@ -196,7 +195,7 @@ class Barrier {
     algebra::solve_lower(M_, r);
     d.alpha = Vector::Zero(N_.cols());
     if (N_.cols() > 0) {
-      d.alpha = schur_.solve(e_ - N_.transpose() * x_ - Y_.transpose() * r);
+      d.alpha = schur_->solve(Vector(e_ - N_.transpose() * x_ - Y_.transpose() * r));
       r += Y_ * d.alpha;
     }
     algebra::solve_lower_transposed(M_, r);
@@ -246,7 +245,7 @@ class Barrier {
   Vector g_, low_, high_, e_;
   Vector x_, z_low_, z_high_, alpha_;
   Direction before_;  ///< where the last step began
-  Eigen::CompleteOrthogonalDecomposition<DenseMatrix> schur_;
+  std::optional<algebra::MinimumNorm> schur_;
 };
 
 }  // namespace

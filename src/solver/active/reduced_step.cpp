@@ -1,5 +1,5 @@
-#include <Eigen/QR>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "solver/active/step.hpp"
 
@@ -64,9 +64,9 @@ class ReducedStep final : public Step {
       DenseMatrix Y = N;
       algebra::solve_lower(L, Y);
       const DenseMatrix S = algebra::gram(Y);
-      const Eigen::LDLT<DenseMatrix> ldlt(S);
+      const algebra::Ldlt ldlt(S);
       if (!(ldlt.rcond() >= 1e-14)) return false;
-      alpha_ = ldlt.solve(e - Y.transpose() * z);
+      alpha_ = ldlt.solve(Vector(e - Y.transpose() * z));
       z += Y * alpha_;
     }
     algebra::solve_lower_transposed(L, z);
@@ -88,9 +88,7 @@ class ReducedStep final : public Step {
     A.bottomLeftCorner(k, n) = s * N.transpose();
     Vector b(n + k);
     b << g, s * e;
-    Eigen::CompleteOrthogonalDecomposition<DenseMatrix> cod(A);
-    cod.setThreshold(1e-11);
-    const Vector y = cod.solve(b);
+    const Vector y = algebra::MinimumNorm(A, 1e-11).solve(b);
     if (!y.allFinite() || (A * y - b).norm() > 1e-8 * b.norm()) return false;
     lambda = y.head(n);
     alpha_ = s * y.tail(k);

@@ -1,10 +1,10 @@
 #include "solver/active/screws.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "algebra/dense/bounded_least_squares.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/lu.hpp"
 #include "base/error.hpp"
@@ -198,8 +198,8 @@ class ScrewStep final : public Step {
       H(j, j) += l.added_compliance(other[j], rho_[other[j]]);
       g[j] -= l.offset(other[j], rho_[other[j]]);
     }
-    const Eigen::LDLT<DenseMatrix> ldlt(H);
-    if (ldlt.info() != Eigen::Success || ldlt.rcond() < 1e-15) return false;
+    const algebra::Ldlt ldlt(H);
+    if (!ldlt.factored() || ldlt.rcond() < 1e-15) return false;
     lambda += Z * ldlt.solve(g);
     return true;
   }

@@ -1,12 +1,12 @@
 #include "solver/core/friction_bound.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "algebra/dense/decompositions.hpp"
 #include "program/interior_point.hpp"
 #include "solver/rows/natural_map.hpp"
 
@@ -102,9 +102,8 @@ class FrictionPrograms {
   /// balance have qᵀNᵀλ = qᵀe = 0, so it holds if SᵀNq is a combination of the columns of NQ, Q a basis of these motions.
   bool parallel() const {
     if (e_.size() < 2) return true;
-    const DenseMatrix Q = Eigen::HouseholderQR<DenseMatrix>(e_).householderQ();
-    const DenseMatrix zero = N_ * Q.rightCols(e_.size() - 1), wanted = slipping_.transpose() * zero;
-    const DenseMatrix left = wanted - zero * Eigen::ColPivHouseholderQR<DenseMatrix>(zero).solve(wanted);
+    const DenseMatrix zero = N_ * algebra::complement(e_), wanted = slipping_.transpose() * zero;
+    const DenseMatrix left = wanted - zero * algebra::least_squares(zero, wanted);
     return left.norm() <= kParallel * slipping_.norm() * N_.norm();
   }
 

@@ -1,9 +1,10 @@
 #include "solver/feti/coarse_space.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::solver {
 
@@ -63,11 +64,10 @@ DenseMatrix least_jumps(const HeldFactor& factor, const SparseMatrix& C, const s
 /// Those of the modes that are left when as many as jump independently of each other are taken away.
 std::vector<int> unnoticed(const DenseMatrix& jumps, const std::vector<int>& modes) {
   if (jumps.size() == 0) return modes;
-  const Eigen::ColPivHouseholderQR<DenseMatrix> qr(jumps);
-  const Vector diagonal = qr.matrixQR().diagonal().cwiseAbs();
-  const auto rank = (diagonal.array() > kUnnoticed).count();
+  const auto [pivots, order] = algebra::pivoted_factors(jumps);
+  const auto rank = (pivots.array().abs() > kUnnoticed).count();
   std::vector<int> left;
-  for (Eigen::Index k = rank; k < jumps.cols(); ++k) left.push_back(modes[qr.colsPermutation().indices()[k]]);
+  for (Eigen::Index k = rank; k < jumps.cols(); ++k) left.push_back(modes[order[k]]);
   return left;
 }
 

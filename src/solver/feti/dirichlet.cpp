@@ -1,7 +1,6 @@
 #include "solver/feti/dirichlet.hpp"
 
-#include <Eigen/Eigenvalues>
-
+#include "algebra/dense/decompositions.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
 #include "solver/feti/equal_pieces.hpp"
@@ -32,9 +31,9 @@ std::vector<int> others(const Piece& piece) {
 DenseMatrix kernel_inside(const DenseMatrix& basis, const std::vector<int>& touched, const std::vector<int>& inside) {
   if (basis.cols() == 0) return DenseMatrix(inside.size(), 0);
   const DenseMatrix on_touched = basis(touched, Eigen::all);
-  const Eigen::SelfAdjointEigenSolver<DenseMatrix> e(DenseMatrix(on_touched.transpose() * on_touched));
-  const auto count = (e.eigenvalues().array() <= kVanishes * kVanishes).count();
-  return basis(inside, Eigen::all) * e.eigenvectors().leftCols(count);
+  const algebra::Eigenpairs e = algebra::eigenpairs(on_touched.transpose() * on_touched);
+  const auto count = (e.values.array() <= kVanishes * kVanishes).count();
+  return basis(inside, Eigen::all) * e.vectors.leftCols(count);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 #include "solver/pieces/enumeration.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/polyhedron.hpp"
 #include "base/error.hpp"
@@ -89,10 +88,9 @@ class BranchSearch {
     const NaturalMap::System system = map_.linearise(value(digit));
     Vector solved(0);
     if (system.matrix.size() > 0) {
-      Eigen::FullPivLU<DenseMatrix> lu(system.matrix);
-      lu.setThreshold(kSingularPivot);
+      const algebra::PivotedLu lu(system.matrix, kSingularPivot);
       solved = lu.solve(system.right_side);
-      if (!lu.isInvertible()) {
+      if (!lu.regular()) {
         ++out_.singular;
         const double size = system.right_side.norm() + system.matrix.norm() * solved.norm() + scale_;
         if ((system.matrix * solved - system.right_side).norm() <= kRelative * size) add_family(system, solved, lu.kernel());
@@ -192,7 +190,7 @@ class BranchSearch {
     }
 
     bool contains(const Vector& point) const {
-      const Vector t = directions.colPivHouseholderQr().solve(point - origin) / size;
+      const Vector t = algebra::least_squares(directions, Vector(point - origin)) / size;
       const double near = 1e3 * kRelative * (1 + t.norm());
       return (at(t) - point).norm() <= near * size && (A.rows() == 0 || (A * t - b).maxCoeff() <= near);
     }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/QR>
-
 #include "problem/condensed.hpp"
 
 namespace dotyk::solver {

@@ -1,6 +1,6 @@
 #include "solver/rows/relaxation.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::solver {
 
@@ -28,9 +28,7 @@ Relaxation::Relaxation(const Problem& problem, const DenseMatrix& W) : W_(W) {
 
 double Relaxation::compliance(int row, int count) const {
   if (count == 1) return W_(row, row);
-  return Eigen::SelfAdjointEigenSolver<DenseMatrix>(W_.block(row, row, count, count), Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  return algebra::eigenvalues(W_.block(row, row, count, count)).maxCoeff();
 }
 
 void Relaxation::sweep(double omega, Vector& lambda, Vector& x) const {

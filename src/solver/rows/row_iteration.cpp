@@ -1,8 +1,8 @@
 #include "solver/rows/row_iteration.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/stop_factoring.hpp"
 #include "base/text.hpp"
 #include "problem/residual.hpp"
@@ -133,7 +133,7 @@ Vector rigid_motion_of(const problem::State& state, const Problem& problem, cons
   if (condensed.kernel_size() == 0) return Vector(0);
   const Vector none = Vector::Zero(condensed.kernel_size());
   const Vector jump = problem.B * state.u - problem.c;
-  return condensed.N().colPivHouseholderQr().solve(jump - condensed.jump(state.lambda, none));
+  return algebra::least_squares(condensed.N(), Vector(jump - condensed.jump(state.lambda, none)));
 }
 
 /// Have bodies moved so far that the rounding error of their gaps, times the stiffness of the rows, is comparable to the forces of the first

@@ -1,10 +1,10 @@
 #include "solver/rows/uzawa_pdas.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <deque>
 #include <optional>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/lu.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -111,8 +111,7 @@ class Alternation {
     if (system.matrix.size() > 0) {
       const algebra::Lu lu(system.matrix);
       // Rows that depend on each other: their multipliers of least norm.
-      solved = lu.rcond() > 1e-15 ? lu.solve(system.right_side)
-                                  : Vector(system.matrix.completeOrthogonalDecomposition().solve(system.right_side));
+      solved = lu.rcond() > 1e-15 ? lu.solve(system.right_side) : algebra::MinimumNorm(system.matrix).solve(system.right_side);
     }
     map_->take(system, solved, lambda, alpha);
     return lambda;

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "algebra/types.hpp"
+
+// Eigen's dense decompositions, compiled once: each file that instantiates one takes seconds longer to compile.
+
+namespace dotyk::algebra {
+
+/// A = V diag(values) Vᵀ of a symmetric A, whose lower triangle is read: eigenvalues ascending, eigenvectors as columns.
+struct Eigenpairs {
+  Vector values;
+  DenseMatrix vectors;
+};
+Eigenpairs eigenpairs(const DenseMatrix& A);
+Vector eigenvalues(const DenseMatrix& A);
+
+/// The same of a 3×3 matrix.
+struct Eigenpairs3 {
+  Eigen::Vector3d values;
+  Eigen::Matrix3d vectors;
+};
+Eigenpairs3 eigenpairs3(const Eigen::Matrix3d& A);
+Eigen::Vector3d eigenvalues3(const Eigen::Matrix3d& A);
+
+/// A = U diag(values) Vᵀ by Jacobi's rotations, values descending: U of A's size, V square. A has no fewer rows than columns.
+struct SingularFactors {
+  DenseMatrix U;
+  Vector values;
+  DenseMatrix V;
+};
+SingularFactors singular_factors(const DenseMatrix& A);
+
+/// A P = Q R by reflections, the column with the greatest remainder first: R's diagonal, and the columns of A in the
+/// order in which they were taken.
+struct PivotedFactors {
+  Vector diagonal;  ///< descending in magnitude
+  std::vector<int> order;
+};
+PivotedFactors pivoted_factors(const DenseMatrix& A);
+
+/// An orthonormal basis of the span of A's columns: those whose remainder is below `threshold` of the greatest are left out.
+DenseMatrix span(const DenseMatrix& A, double threshold);
+
+/// An orthonormal basis of the vectors at right angles to e ≠ 0.
+DenseMatrix complement(const Vector& e);
+
+/// X of least ‖A X − B‖ in each column, by reflections with pivoting; of dependent columns of A some are given 0.
+DenseMatrix least_squares(const DenseMatrix& A, const DenseMatrix& B);
+Vector least_squares(const DenseMatrix& A, const Vector& b);
+
+/// The shortest x of least ‖A x − b‖, by a complete orthogonal decomposition.
+class MinimumNorm {
+ public:
+  /// Pivots below `threshold` of the greatest are taken for zero; without one, those that rounding makes.
+  explicit MinimumNorm(const DenseMatrix& A, std::optional<double> threshold = {});
+  Vector solve(const Vector& b) const;
+  DenseMatrix solve(const DenseMatrix& B) const;
+  Vector solve_transposed(const Vector& b) const;
+
+ private:
+  struct Factor;
+  std::shared_ptr<const Factor> factor_;
+};
+
+/// A = Pᵀ L D Lᵀ P of a symmetric semidefinite A, whose lower triangle is read.
+class Ldlt {
+ public:
+  explicit Ldlt(const DenseMatrix& A);
+  /// Could A be factored?
+  bool factored() const;
+  /// An estimate of 1/(‖A‖₁‖A⁻¹‖₁).
+  double rcond() const;
+  Vector solve(const Vector& b) const;
+  DenseMatrix solve(const DenseMatrix& B) const;
+
+ private:
+  struct Factor;
+  std::shared_ptr<const Factor> factor_;
+};
+
+/// P A Q = L U with rows and columns exchanged for the greatest pivot, which tells the rank.
+class PivotedLu {
+ public:
+  /// `threshold` as above.
+  explicit PivotedLu(const DenseMatrix& A, std::optional<double> threshold = {});
+  bool regular() const { return rank() == size_; }
+  int rank() const;
+  /// A solution, if A x = b has one.
+  Vector solve(const Vector& b) const;
+  /// A basis of the null space, as columns; one column of zeros if there is none.
+  DenseMatrix kernel() const;
+
+ private:
+  struct Factor;
+  std::shared_ptr<const Factor> factor_;
+  int size_;
+};
+
+}  // namespace dotyk::algebra
