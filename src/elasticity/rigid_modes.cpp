@@ -15,13 +15,8 @@ using mesh::Mesh;
 DenseMatrix null_space(const DenseMatrix& rows, int count) {
   DenseMatrix V = DenseMatrix::Identity(count, count);
   if (rows.rows() > 0) {
-    DenseMatrix square = rows;
-    if (rows.rows() < count) square.conservativeResizeLike(DenseMatrix::Zero(count, count));
-    else square = algebra::orthogonal_factors(rows).R;
-    const algebra::SingularFactors svd = algebra::singular_factors(square);
-    int rank = 0;
-    while (rank < count && svd.values[rank] > 1e-9 * svd.values[0]) ++rank;
-    V = svd.V.rightCols(count - rank);
+    const algebra::SingularFactors svd = algebra::singular_factors(rows.rows() < count ? rows : algebra::orthogonal_factors(rows).R);
+    V = svd.V.rightCols(count - svd.rank(1e-9 * svd.values[0]));
   }
   return algebra::pure(V);
 }

@@ -49,6 +49,13 @@ Vector lumped_volumes(const mesh::Mesh& mesh, const Numbering& numbering) {
   return w;
 }
 
+/// A basis of V's span, orthonormal in M = diag(w), without combinations that M gives less than `least`.
+DenseMatrix orthonormal_in(const Vector& w, const DenseMatrix& V, double least) {
+  const algebra::Eigenpairs gram = algebra::eigenpairs(V.transpose() * w.asDiagonal() * V);
+  const Eigen::Index count = V.cols() - (gram.values.array() < least).count();
+  return V * gram.vectors.rightCols(count) * gram.values.tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
 /// What the measure is made of, on the unknowns.
 struct Motions {
   RigidFrame frame;
@@ -67,13 +74,7 @@ struct Motions {
       F.row(unknown) = frame.row(x, i);
       dilatation[unknown] = (x[i] - frame.centre[i]) / frame.size;
     }
-    const DenseMatrix rest = without(kernel, F);
-    const algebra::Eigenpairs gram = algebra::eigenpairs(rest.transpose() * w.asDiagonal() * rest);
-    Eigen::Index none = 0;  // combinations that are in the kernel, or nothing on these unknowns
-    while (none < gram.values.size() && gram.values[none] < 1e-12) ++none;
-    const Eigen::Index count = gram.values.size() - none;
-    Q = rest * gram.vectors.rightCols(count) *
-        gram.values.tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
+    Q = orthonormal_in(w, without(kernel, F), 1e-12);  // less what is in the kernel, or nothing on these unknowns
   }
 
   /// u less its M-orthogonal projection onto the kernel.
@@ -101,12 +102,8 @@ struct Motions {
 double least_quotient(const Motions& motions, const SparseMatrix& lower, DenseMatrix V) {
   const Vector norm = (V.cwiseAbs2().transpose() * motions.w).cwiseSqrt();
   for (Eigen::Index k = 0; k < V.cols(); ++k) V.col(k) *= norm[k] > 0 ? 1 / norm[k] : 0;
-  const algebra::Eigenpairs gram = algebra::eigenpairs(V.transpose() * motions.w.asDiagonal() * V);
-  Eigen::Index none = 0;
-  while (none < V.cols() && gram.values[none] < 1e-8) ++none;
-  if (none == V.cols()) return INFINITY;
-  const DenseMatrix Q = V * gram.vectors.rightCols(V.cols() - none) *
-                        gram.values.tail(V.cols() - none).cwiseSqrt().cwiseInverse().asDiagonal();
+  const DenseMatrix Q = orthonormal_in(motions.w, V, 1e-8);
+  if (Q.cols() == 0) return INFINITY;
   const DenseMatrix KQ = lower.selfadjointView<Eigen::Lower>() * Q;
   return algebra::eigenvalues(Q.transpose() * KQ)[0];
 }

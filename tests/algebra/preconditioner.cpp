@@ -4,7 +4,6 @@
 
 #include <Eigen/LU>
 
-
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/krylov/conjugate_gradient.hpp"
 #include "base/error.hpp"

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-
 #include "../support/meshes.hpp"
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"

@@ -1,6 +1,5 @@
 #include <doctest/doctest.h>
 
-
 #include "../support/plates.hpp"
 #include "../support/random.hpp"
 #include "algebra/dense/decompositions.hpp"

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-
 #include "../support/random.hpp"
 #include "../support/subdomains.hpp"
 #include "algebra/dense/decompositions.hpp"

@@ -3,6 +3,18 @@
 #include <Eigen/Dense>
 
 namespace dotyk::algebra {
+namespace {
+
+/// A decomposition of A that takes pivots below `threshold` of the greatest for zero.
+template <class Decomposition>
+Decomposition pivoted(const DenseMatrix& A, std::optional<double> threshold) {
+  Decomposition d;
+  if (threshold) d.setThreshold(*threshold);
+  d.compute(A);
+  return d;
+}
+
+}  // namespace
 
 Eigenpairs eigenpairs(const DenseMatrix& A) {
   const Eigen::SelfAdjointEigenSolver<DenseMatrix> e(A);
@@ -21,8 +33,10 @@ Eigen::Vector3d eigenvalues3(const Eigen::Matrix3d& A) {
 }
 
 SingularFactors singular_factors(const DenseMatrix& A) {
-  const Eigen::JacobiSVD<DenseMatrix> svd(A, Eigen::ComputeThinU | Eigen::ComputeFullV);
-  return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
+  DenseMatrix tall = A;
+  if (A.rows() < A.cols()) tall.conservativeResizeLike(DenseMatrix::Zero(A.cols(), A.cols()));
+  const Eigen::JacobiSVD<DenseMatrix> svd(tall, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  return {svd.matrixU().topRows(A.rows()), svd.singularValues(), svd.matrixV()};
 }
 
 PivotedFactors pivoted_factors(const DenseMatrix& A) {
@@ -32,8 +46,7 @@ PivotedFactors pivoted_factors(const DenseMatrix& A) {
 }
 
 DenseMatrix span(const DenseMatrix& A, double threshold) {
-  Eigen::ColPivHouseholderQR<DenseMatrix> qr(A);
-  qr.setThreshold(threshold);
+  const auto qr = pivoted<Eigen::ColPivHouseholderQR<DenseMatrix>>(A, threshold);
   return qr.householderQ() * DenseMatrix::Identity(A.rows(), qr.rank());
 }
 
@@ -49,12 +62,8 @@ Vector least_squares(const DenseMatrix& A, const Vector& b) { return Eigen::ColP
 struct MinimumNorm::Factor {
   Eigen::CompleteOrthogonalDecomposition<DenseMatrix> cod;
 };
-MinimumNorm::MinimumNorm(const DenseMatrix& A, std::optional<double> threshold) {
-  auto factor = std::make_shared<Factor>();
-  if (threshold) factor->cod.setThreshold(*threshold);
-  factor->cod.compute(A);
-  factor_ = std::move(factor);
-}
+MinimumNorm::MinimumNorm(const DenseMatrix& A, std::optional<double> threshold)
+    : factor_(std::make_shared<Factor>(Factor{pivoted<decltype(Factor::cod)>(A, threshold)})) {}
 Vector MinimumNorm::solve(const Vector& b) const { return factor_->cod.solve(b); }
 DenseMatrix MinimumNorm::solve(const DenseMatrix& B) const { return factor_->cod.solve(B); }
 Vector MinimumNorm::solve_transposed(const Vector& b) const { return factor_->cod.transpose().solve(b); }
@@ -71,12 +80,8 @@ DenseMatrix Ldlt::solve(const DenseMatrix& B) const { return factor_->ldlt.solve
 struct PivotedLu::Factor {
   Eigen::FullPivLU<DenseMatrix> lu;
 };
-PivotedLu::PivotedLu(const DenseMatrix& A, std::optional<double> threshold) : size_(static_cast<int>(A.cols())) {
-  auto factor = std::make_shared<Factor>();
-  if (threshold) factor->lu.setThreshold(*threshold);
-  factor->lu.compute(A);
-  factor_ = std::move(factor);
-}
+PivotedLu::PivotedLu(const DenseMatrix& A, std::optional<double> threshold)
+    : factor_(std::make_shared<Factor>(Factor{pivoted<decltype(Factor::lu)>(A, threshold)})), size_(static_cast<int>(A.cols())) {}
 int PivotedLu::rank() const { return static_cast<int>(factor_->lu.rank()); }
 Vector PivotedLu::solve(const Vector& b) const { return factor_->lu.solve(b); }
 DenseMatrix PivotedLu::kernel() const { return factor_->lu.kernel(); }

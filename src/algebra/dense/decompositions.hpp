@@ -26,11 +26,13 @@ struct Eigenpairs3 {
 Eigenpairs3 eigenpairs3(const Eigen::Matrix3d& A);
 Eigen::Vector3d eigenvalues3(const Eigen::Matrix3d& A);
 
-/// A = U diag(values) Vᵀ by Jacobi's rotations, values descending: U of A's size, V square. A has no fewer rows than columns.
+/// A = U diag(values) Vᵀ by Jacobi's rotations: U of A's size, V square. As many values as A has columns, descending.
 struct SingularFactors {
   DenseMatrix U;
   Vector values;
   DenseMatrix V;
+  /// How many values exceed `least`.
+  Eigen::Index rank(double least) const { return (values.array() > least).count(); }
 };
 SingularFactors singular_factors(const DenseMatrix& A);
 
@@ -42,13 +44,15 @@ struct PivotedFactors {
 };
 PivotedFactors pivoted_factors(const DenseMatrix& A);
 
-/// An orthonormal basis of the span of A's columns: those whose remainder is below `threshold` of the greatest are left out.
+/// An orthonormal basis of the span of A's columns. Columns are taken by pivoting as above, until what is left of the others is below `threshold`
+/// times the first.
 DenseMatrix span(const DenseMatrix& A, double threshold);
 
 /// An orthonormal basis of the vectors at right angles to e ≠ 0.
 DenseMatrix complement(const Vector& e);
 
-/// X of least ‖A X − B‖ in each column, by reflections with pivoting; of dependent columns of A some are given 0.
+/// The X that makes each column of A X − B as short as possible, by reflections with pivoting. If columns of A depend on each other, rows of X
+/// that are not needed are zero.
 DenseMatrix least_squares(const DenseMatrix& A, const DenseMatrix& B);
 Vector least_squares(const DenseMatrix& A, const Vector& b);
 
@@ -85,7 +89,7 @@ class Ldlt {
 /// P A Q = L U with rows and columns exchanged for the greatest pivot, which tells the rank.
 class PivotedLu {
  public:
-  /// `threshold` as above.
+  /// Pivots below `threshold` of the greatest are taken for zero; without one, those that rounding makes.
   explicit PivotedLu(const DenseMatrix& A, std::optional<double> threshold = {});
   bool regular() const { return rank() == size_; }
   int rank() const;

@@ -41,12 +41,8 @@ SparseMatrix identity(Eigen::Index n) {
 
 Split by_singular_values(const DenseMatrix& own, double scale, double tolerance) {
   const Eigen::Index count = own.cols();
-  DenseMatrix square = DenseMatrix::Zero(std::max(own.rows(), count), count);
-  square.topRows(own.rows()) = own;
-  const SingularFactors svd = singular_factors(square);
-  const double least = tolerance * std::max(scale, svd.values[0]);
-  Eigen::Index rank = 0;
-  while (rank < count && svd.values[rank] > least) ++rank;
+  const SingularFactors svd = singular_factors(own);
+  const Eigen::Index rank = svd.rank(tolerance * std::max(scale, svd.values[0]));
   if (rank == count) return {rank, identity(count), DenseMatrix(count, 0)};
   return {rank, svd.V.leftCols(rank).sparseView(0, 0), svd.V.rightCols(count - rank)};
 }

@@ -4,7 +4,7 @@
 
 namespace dotyk::algebra {
 
-/// All eigenvalues of the symmetric tridiagonal matrix and their vectors, by QR steps.
+/// All eigenvalues of the symmetric tridiagonal matrix and their vectors, by QR steps; off_diagonal is shorter by one.
 Eigenpairs all_eigenpairs(const Vector& diagonal, const Vector& off_diagonal);
 
 /// The `count` least eigenvalues of the symmetric tridiagonal matrix and their vectors, by LAPACK's dstevr (multiple

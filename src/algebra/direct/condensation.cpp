@@ -24,13 +24,9 @@ Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
   kernel_.resize(n, modes);
   for (Eigen::Index k = 0; k < n; ++k) kernel_.row(k) = kernel.row(boundary()[k]);
   if (modes == 0) return;
-  DenseMatrix square = DenseMatrix::Zero(std::max(n, modes), modes);
-  square.topRows(n) = kernel_;
-  const SingularFactors svd = singular_factors(square);
-  const double largest = kernel.lpNorm<Eigen::Infinity>();
-  Eigen::Index rank = 0;
-  while (rank < modes && svd.values[rank] > 1e-9 * largest) ++rank;
-  basis_ = svd.U.topRows(n).leftCols(rank);
+  const SingularFactors svd = singular_factors(kernel_);
+  const Eigen::Index rank = svd.rank(1e-9 * kernel.lpNorm<Eigen::Infinity>());
+  basis_ = svd.U.leftCols(rank);
   pinned_ = fixing_unknowns(kernel * svd.V.rightCols(modes - rank));
 }
 

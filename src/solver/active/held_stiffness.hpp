@@ -22,8 +22,8 @@ class HeldStiffness {
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
   /// u under the forces b, zero in what is held.
   algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.T.transpose() * b); }
-  /// The same for forces given as Tᵀb. An iterative solver stops at a residual of `tolerance` times their norm. Throws NotSolved if it does not get
-  /// there.
+  /// The same for forces given as Tᵀb. An iterative solver stops at a residual of `tolerance` times their norm, and throws NotSolved if it cannot
+  /// reach that.
   algebra::Vector solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;
 
   const algebra::SpdSolver& solver() const { return *solver_; }

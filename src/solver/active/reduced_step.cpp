@@ -1,4 +1,3 @@
-
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "solver/active/step.hpp"
