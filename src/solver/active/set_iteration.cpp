@@ -1,5 +1,7 @@
 #include "solver/active/set_iteration.hpp"
 
+#include <utility>
+
 #include "base/text.hpp"
 #include "problem/residual.hpp"
 
@@ -123,6 +125,7 @@ Linearisation SetIteration::held(Linearisation l, const Vector& x) const {
 
 End SetIteration::iterate(int most, int patience) {
   seen_.clear();
+  sharp_ = false;
   double nearest = INFINITY;
   int since = 0;
   for (int k = 0; k < most && (k < patience || !crawls()); ++k) {
@@ -157,9 +160,9 @@ std::optional<End> SetIteration::advance() {
   alpha.reset();
   const bool whole = problem.friction.empty() || result.iterations <= kUnguided || !shorten(next_lambda, next_x);
   Linearisation next = follow();
-  if (whole && (at_rest(next) || repeats(next)) && step->sharpen(lambda, x)) {
+  if (whole && (sharp_ || at_rest(next) || repeats(next)) && step->sharpen(lambda, x)) {
     next = follow();
-    seen_.clear();  // rough states may have had other branches
+    if (!std::exchange(sharp_, true)) seen_.clear();  // rough states may have had other branches
   }
   record(next);
   if (whole && at_rest(next)) {
@@ -184,8 +187,8 @@ End SetIteration::stay(End end) {
   return end;
 }
 
-/// Halves the step from (λ, x) until the new state is nearer to its laws than (λ, x). False if the whole step is kept: because it is nearer, or
-/// because no shorter one is.
+/// Halves the step from (λ, x) until the new state is nearer to its laws than (λ, x). False if the whole step is kept, because it
+/// leads nearer, or because no shorter step does either.
 bool SetIteration::shorten(const Vector& from_lambda, const Vector& from_x) {
   const auto off = [&] { return problem::distances_from_laws(problem, x, lambda, rho).norm(); };
   const Vector whole_lambda = lambda, whole_x = x, none = problem::distances_from_laws(problem, from_x, from_lambda, rho);
