@@ -107,7 +107,7 @@ Result run_held(const problem::Problem& problem, MakeSpdSolver linear, Beginning
   return failed;
 }
 
-/// On the rows that may close; nothing where they do not hold the bodies.
+/// On the rows that may close; nothing where they do not hold the bodies, or come to no end.
 std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) {
   problem::Clock before;
   for (;;) try {
@@ -115,6 +115,7 @@ std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) 
       Result result = run(part, default_method(part), {near.restricted(from.start), nullptr, from.from ? std::make_shared<problem::State>(near.restricted(*from.from)) : nullptr}, monitor);
       near.extend(result);
       result.clock.add_solve(before);
+      if (!result.converged && !monitor.stop()) return std::nullopt;
       if (!result.converged || !near.join(result.state.u)) return result;
       before = result.clock;
       from = {result.active_sets.back(), nullptr, nullptr};

@@ -1,8 +1,10 @@
 #include "solver/core/near_rows.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "algebra/pick_rows.hpp"
+#include "solver/core/settled_overlap.hpp"
 
 namespace dotyk::solver {
 
@@ -29,16 +31,13 @@ class Picked final : public problem::Friction {
   std::vector<int> points_;
 };
 
-/// The least gap at rest of all contacts; 0 where none overlaps.
-double least_gap(const Problem& problem) {
-  double least = 0;
-  for (const RowGroup& group : problem.groups)
-    if (group.law->unilateral() && group.count > 0) least = std::min(least, problem.c.segment(group.first, group.count).minCoeff());
-  return least;
-}
-
-bool all_held(const Problem& problem) {
-  return std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.kernel.cols() == 0; });
+/// How far rows overlap at rest or, where bodies are free, after they have settled; nothing where no row does.
+std::optional<Vector> overlap(const Problem& problem) {
+  const bool held = std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.kernel.cols() == 0; });
+  std::optional<Vector> all = held ? std::optional<Vector>(-problem.c) : settled_overlap(problem);
+  const auto some = [&](const RowGroup& g) { return g.law->unilateral() && (all->segment(g.first, g.count).array() > 0).any(); };
+  if (all && std::none_of(problem.groups.begin(), problem.groups.end(), some)) all.reset();
+  return all;
 }
 
 /// Coulomb's friction goes with its normal row; given friction acts on open points as well.
@@ -53,10 +52,10 @@ void add_friction(const Problem& problem, std::vector<char>& near) {
 
 NearRows::NearRows(const Problem& problem, const std::vector<char>& start) : problem_(problem) {
   std::vector<char> near(problem.rows(), 1);
-  if (problem.rows() >= kFewRows && all_held(problem) && least_gap(problem) < 0) {
+  if (const auto over = problem.rows() >= kFewRows ? overlap(problem) : std::nullopt) {
     for (const RowGroup& group : problem.groups)
       for (int r = group.first; r < group.first + group.count; ++r)
-        near[r] = !group.law->unilateral() || problem.c[r] <= 0 || (!start.empty() && start[r]);
+        near[r] = !group.law->unilateral() || (*over)[r] >= 0 || (!start.empty() && start[r]);
     add_friction(problem, near);
     const auto left_out = std::count(near.begin(), near.end(), 0);
     if (100 * left_out < kLeastLeftOut * problem.rows()) std::fill(near.begin(), near.end(), 1);

@@ -9,8 +9,8 @@ namespace dotyk::solver {
 /// that came nearly as near.
 class NearRows {
  public:
-  /// Bodies held by their supports alone, whose overlap at rest tells how far they may come: unilateral rows that overlap or are under
-  /// `start`, and their friction. Rows of every other law are always among them. All rows where that would save little.
+  /// Unilateral rows that overlap, at rest or after free bodies have settled as if rigid (settled_overlap()), or are under `start`, and their friction.
+  /// Rows of every other law are always among them. All rows where none overlaps, or where that would save little.
   NearRows(const problem::Problem& problem, const std::vector<char>& start);
 
   bool all() const { return rows_.size() == near_.size(); }
