@@ -1,102 +1,67 @@
 #include "script/prompt/prompt_input.hpp"
 
+#include <algorithm>
 #include <cctype>
+#include <sstream>
+#include <vector>
+
+#include "script/complete/lua_tokens.hpp"
 
 namespace dotyk::script {
 
 namespace {
 
-/// Reads a line from left to right. (std::regex goes as deep into the stack as its input is long.)
-class InputReader {
- public:
-  explicit InputReader(const std::string& text) : text_(text) {}
+std::vector<std::string> tokens_of(const std::string& text) {
+  std::vector<std::string> all;
+  for (Token token = next_token(text, 0); token.kind != Token::end; token = next_token(text, token.after))
+    all.push_back(text.substr(token.begin, token.after - token.begin));
+  return all;
+}
 
-  InputReader& spaces() {
-    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
-    return *this;
-  }
-  bool take(const std::string& what) {
-    if (text_.compare(at_, what.size(), what) != 0) return false;
-    at_ += what.size();
-    return true;
-  }
-  /// A name; empty: there is none.
-  std::string name() {
-    const std::size_t from = at_;
-    const auto letter = [](unsigned char c) { return std::isalpha(c) || c == '_'; };
-    while (at_ < text_.size() && (letter(text_[at_]) || (at_ > from && std::isdigit(static_cast<unsigned char>(text_[at_]))))) ++at_;
-    return text_.substr(from, at_ - from);
-  }
-  /// ".field:method" after a name.
-  std::string fields() {
-    std::string all;
-    for (std::size_t before = at_; at_ < text_.size() && (text_[at_] == '.' || text_[at_] == ':'); before = at_) {
-      const char mark = text_[at_++];
-      const std::string field = name();
-      if (field.empty()) {
-        at_ = before;
-        break;
-      }
-      all += mark + field;
-    }
-    return all;
-  }
-  bool ended() { return spaces().at_ == text_.size(); }
-  char next(std::size_t k = 0) const { return at_ + k < text_.size() ? text_[at_ + k] : '\0'; }
-
- private:
-  const std::string& text_;
-  std::size_t at_ = 0;
-};
+// A name or a keyword.
+bool is_word(const std::string& token) { return std::isalpha(static_cast<unsigned char>(token[0])) || token[0] == '_'; }
 
 }  // namespace
 
 bool wants_out(const std::string& input) {
-  InputReader line(input);
-  const std::string word = line.spaces().name();
-  if (word != "exit" && word != "quit") return false;
-  if (line.spaces().take("(") && !line.spaces().take(")")) return false;
-  line.spaces().take(";");
-  return line.ended();
+  auto tokens = tokens_of(input);
+  if (!tokens.empty() && tokens.back() == ";") tokens.pop_back();
+  if (tokens.size() == 3 && tokens[1] == "(" && tokens[2] == ")") tokens.resize(1);
+  return tokens.size() == 1 && (tokens[0] == "exit" || tokens[0] == "quit");
 }
 
 std::string question(const std::string& input, const std::function<bool(const std::string&)>& is_variable) {
-  InputReader line(input);
-  std::string first, rest;
-  bool source = false, asked = line.spaces().take("?");
-  if (!asked) first = line.name();
-  if (first == "help" && std::isspace(static_cast<unsigned char>(line.next()))) asked = true;
-  if (asked) first = line.spaces().name();
-  rest = line.fields();
-  if (first.empty()) return "";
-  if (!asked) {
-    if (!line.spaces().take("?")) return "";
-    source = line.take("?");
-  }
-  if (!line.ended()) return "";
+  const auto tokens = tokens_of(input);
+  auto at = tokens.begin();
+  const auto take = [&](const char* token) { return at != tokens.end() && *at == token && (++at, true); };
+  const bool help = tokens.size() > 1 && is_word(tokens[1]) && take("help");
+  const bool asked = help || take("?");
+  if (at == tokens.end() || !is_word(*at)) return "";
+  const std::string first = *at++;
+  std::string rest;  // ".field:method"
+  for (; tokens.end() - at >= 2 && (*at == "." || *at == ":") && is_word(at[1]); at += 2) rest += at[0] + at[1];
+  if (!asked && !take("?")) return "";
+  const bool source = !asked && take("?");
+  if (at != tokens.end()) return "";
   if (!is_variable(first)) return "help \"" + first + rest + "\"";
-  for (char& c : rest) c = c == ':' ? '.' : c;
+  std::replace(rest.begin(), rest.end(), ':', '.');
   return (source ? "source(" : "help(") + first + rest + ")";
 }
 
 std::deque<std::string> lines_of(const std::string& text) {
   std::deque<std::string> lines;
-  std::size_t from = 0;
-  for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', from)) {
-    lines.push_back(text.substr(from, end - from));
-    from = end + 1;
-  }
-  if (from < text.size() || lines.empty()) lines.push_back(text.substr(from));
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  if (lines.empty()) lines.emplace_back();
   return lines;
 }
 
-bool goes_on_with(const std::string& text) {
-  InputReader line(text);
-  const char c = line.spaces().next();
-  if (c == ':') return line.next(1) != '\0' && line.next(1) != ':';
-  if (c != '\0' && std::string(".+*/%^,=<>~)}]").find(c) != std::string::npos) return true;
-  const std::string word = line.name();
-  return word == "and" || word == "or";
+bool goes_on_with(const std::string& line) {
+  const auto tokens = tokens_of(line);
+  if (tokens.empty()) return false;
+  const std::string& first = tokens[0];
+  if (first == ":") return tokens.size() > 1;
+  return first == "and" || first == "or" || std::string(".+*/%^,=<>~)}]").find(first[0]) != std::string::npos;
 }
 
 }  // namespace dotyk::script
