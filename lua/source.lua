@@ -40,17 +40,16 @@ local function typed(f)
 end
 
 -- Of a callable of dotyk's.
-local function own(signature)
-  local name <const> = signature:match "^[%w_.:]+"
-  local at <const> = core.written_in_lua[name]
-  if not at then return ("%s is written in C++; help(%s) describes it"):format(name, name:find ":" and ('"%s"'):format(name) or name) end
-  return text_of(core.load(at.file)[at.name], ("%s/%s.lua"):format(core.folder, at.file), core.read_own(at.file))
+local function own(f)
+  local name <const>, file <const>, at <const> = core.written(f)
+  if not name then return nil end
+  if not file then return ("%s is written in C++; help(%s) describes it"):format(name, name:find ":" and ('"%s"'):format(name) or name) end
+  return text_of(core.load(file)[at], ("%s/%s.lua"):format(core.folder, file), core.read_own(file))
 end
 
 function source.run(x)
   if type(x) ~= "function" then core.fail("source: expected a function, got " .. core.type_name(x)) end
-  local signature <const> = core.signature(x)
-  local text = signature and own(signature)
+  local text = own(x)
   if not text and core.getinfo(x, "S").what == "C" then text = "this function is Lua's own, written in C" end
   print(text or text_of(x) or typed(x) or "this function was given as a text, which is not kept")
 end

@@ -150,17 +150,15 @@ TEST_CASE("help on a word finds all that has it, names before texts") {
 TEST_CASE("callables written in Lua are checked like the others") {
   Bench bench;
   lua_State* L = bench.interpreter.state();
-  lua_getfield(L, LUA_REGISTRYINDEX, "dotyk.load");
-  lua_pushliteral(L, "init");
-  lua_call(L, 1, 1);
-  lua_setglobal(L, "core");
-  CHECK(bench.error(
-            "core.describe{ name = 'dotyk.test.add', help = 'Adds.', example = 'dotyk.test.add{ a = 1 }',\n"
-            "  keys = { { name = 'a', kind = 'number', help = 'one', required = true },\n"
-            "           { name = 'b', kind = 'integer', help = 'other', default = 2 } },\n"
-            "  run = function(t) return t.a + t.b end }\n"
-            "local given = { a = 3 }\n"
-            "assert(dotyk.test.add(given) == 5 and given.b == nil)") == "");
+  lua_getfield(L, LUA_REGISTRYINDEX, "dotyk.loaded");
+  REQUIRE(luaL_dostring(L, "return { add = function(t) return t.a + t.b end }") == LUA_OK);
+  lua_setfield(L, -2, "test");  // as if it were a file of lua/
+  bench.interpreter.library().function({.name = "dotyk.test.add",
+                                        .help = "Adds.",
+                                        .example = "dotyk.test.add{ a = 1 }",
+                                        .arguments = {key::table({key::number("a", "one").required(), key::integer("b", "other").fallback(2.0)})},
+                                        .in_lua = {"test", "add"}});
+  CHECK(bench.error("local given = { a = 3 }\nassert(dotyk.test.add(given) == 5 and given.b == nil)") == "");
   CHECK(bench.error("dotyk.test.add{ a = 3, c = 3 }") ==
         "t.lua:1: add: unknown key 'c', expected 'a' or 'b'");
   CHECK(bench.interpreter.library().find("dotyk.test.add"));

@@ -10,7 +10,9 @@ using namespace dotyk::script;
 TEST_CASE("values are shown readably") {
   Bench bench;
   lua_State* L = bench.interpreter.state();
-  push_own_module(L, "show");
+  lua_newtable(L);
+  push_own_function(L, "show", "text");
+  lua_setfield(L, -2, "text");
   lua_setglobal(L, "shown");
   const auto shows = [&](const std::string& value, const std::string& text) {
     CHECK(bench.error("local text = shown.text(" + value + ")\nif text ~= " + text +

@@ -43,5 +43,6 @@ void bind_plate(Library& library);
 void bind_plate_solution(Library& library);
 void bind_channel(Library& library);
 void bind_thermoelastic(Library& library);
+void bind_lua(Library& library);
 
 }  // namespace dotyk::script

@@ -113,6 +113,8 @@ bool Descriptor::takes_table() const {
   return arguments.size() == 1 && arguments[0].kind == Kind::table && arguments[0].name.empty();
 }
 
+std::vector<Key> Descriptor::keys() const { return takes_table() ? joined(arguments[0].items, arguments[0].keys) : arguments; }
+
 std::string Descriptor::whole_example() const {
   return setup.empty() || setup.back() == '\n' ? setup + example : setup + "\n" + example;
 }

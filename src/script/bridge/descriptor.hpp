@@ -11,8 +11,6 @@
 #include <variant>
 #include <vector>
 
-struct lua_State;
-
 namespace dotyk::script {
 
 class Call;
@@ -79,6 +77,7 @@ struct Key {
   Key& or_infinite() { return set(infinite, true); }                                            // math.huge as well
   Key& count(std::size_t exactly) { return count(exactly, exactly); }                           // entries or items
   Key& count(std::size_t least_count, std::size_t most_count) { return set(fewest, least_count).set(most, most_count); }
+  Key& some() { return count(1, std::numeric_limits<std::size_t>::max()); }                     // at least one
   Key& written() { return set(output, true); }                                                  // the call writes this file
   Key& with(Key item) { return set(items, {std::move(item)}); }                                 // a table that takes items as well as keys
   // Names that the method's object, a T, brings: completion offers them.
@@ -131,7 +130,13 @@ class Runner {
   std::function<int(Call&)> run_;
   std::string returns_;
 };
-// A Lua callable: its text, its arguments and the C++ function behind it.
+
+// A function in a file of lua/.
+struct LuaFunction {
+  std::string file, name;
+};
+
+// A Lua callable: its text, its arguments and the function behind it.
 struct Descriptor {
   std::string name = {};               // "dotyk.material", or "body:part" for a method
   std::string help = {};               // a paragraph
@@ -140,10 +145,12 @@ struct Descriptor {
   std::vector<Key> arguments = {};     // in order; or a single unnamed table
   std::string returns = {};            // type of the result, for completion after a call, and for help; mostly `run` tells
   Runner run = {};
+  LuaFunction in_lua = {};             // in place of run: it gets the arguments checked, a table copied and with its fallbacks filled in
 
   std::string short_name() const;  // "material", "part": what errors begin with
   std::string owner() const;       // "body" for "body:part", else empty
   bool takes_table() const;        // called with one table of keys
+  std::vector<Key> keys() const;   // the arguments; of a table its items and its keys
   std::string signature() const;   // "dotyk.material{ E, nu = 0.3 }"
   std::string whole_example() const;  // setup and example: a script
 };
@@ -190,13 +197,6 @@ Key object(std::string name, std::string help) {
   return object(std::move(name), Wrapped<T>::name, std::move(help));
 }
 }  // namespace key
-
-// One written in Lua, the table at index: { name =, help =, setup =, example =, returns =, arguments = {…} } where each
-// argument is { name =, kind =, help =, unit =, default =, required =, choices =,
-// type =, above =, at_least =, at_most =, fewest =, most =, written =, keys = {…}, item = {…} };
-// `keys` (and `item`) in place of `arguments` describe a single table argument.
-// Throws std::runtime_error on anything else.
-Descriptor read_descriptor(lua_State* L, int index);
 
 // A number as a person would write it: "0.3", "1e-10", "5".
 std::string number_text(double value);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "script/bridge/lua_side.hpp"
 #include "script/bridge/position.hpp"
 #include "script/bridge/library.hpp"
 #include "script/guard/manifest.hpp"
@@ -26,7 +27,7 @@ void fill_in(lua_State* L, int index, const Key& table) {
   }
 }
 
-// A callable written in Lua: upvalue 2, called with the checked arguments.
+// A callable written in Lua, called with the checked arguments.
 int run_lua(lua_State* L, const Descriptor& descriptor) {
   const int given = lua_gettop(L);
   { const Call call(L, descriptor); }
@@ -42,7 +43,7 @@ int run_lua(lua_State* L, const Descriptor& descriptor) {
     fill_in(L, lua_gettop(L), descriptor.arguments[0]);
     lua_replace(L, first);
   }
-  lua_pushvalue(L, lua_upvalueindex(2));
+  push_own_function(L, descriptor.in_lua.file.c_str(), descriptor.in_lua.name.c_str());
   lua_insert(L, 1);
   lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
   return lua_gettop(L);
@@ -51,8 +52,7 @@ int run_lua(lua_State* L, const Descriptor& descriptor) {
 // The files that the call is to write, as far as they are named.
 std::vector<std::string> output_files(const Call& call) {
   std::vector<std::string> out;
-  const auto& descriptor = call.descriptor();
-  for (const auto& key : descriptor.takes_table() ? descriptor.arguments[0].keys : descriptor.arguments)
+  for (const auto& key : call.descriptor().keys())
     if (key.output && call.has(key.name) && !call.text(key.name).empty()) out.push_back(call.text(key.name));
   return out;
 }
@@ -128,8 +128,7 @@ void set_closure(lua_State* L, const Type& type, const char* event, lua_CFunctio
 
 void push_function(lua_State* L, const Descriptor& descriptor) {
   lua_pushlightuserdata(L, const_cast<Descriptor*>(&descriptor));
-  if (!descriptor.run) lua_insert(L, -2);
-  lua_pushcclosure(L, enter, descriptor.run ? 1 : 2);
+  lua_pushcclosure(L, enter, 1);
 }
 
 const Descriptor* descriptor_at(lua_State* L, int index) {

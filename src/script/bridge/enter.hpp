@@ -8,8 +8,7 @@ namespace dotyk::script {
 struct Descriptor;
 struct Type;
 
-// Pushes the callable. With an empty run, the Lua function on top of the stack
-// is taken off it and called in place of run.
+// Pushes the callable.
 void push_function(lua_State* L, const Descriptor& descriptor);
 
 // The descriptor behind the function at index, or null.

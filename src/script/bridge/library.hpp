@@ -58,9 +58,6 @@ class Library {
 
   // A function under its dotted name: "dotyk.mesh.box" goes into the table
   // dotyk.mesh, made on the way; a name without dots becomes a global.
-  // With run empty the Lua function on top of the stack is called instead (and
-  // taken off the stack), with its table argument copied and the fallbacks
-  // filled in.
   void function(Descriptor descriptor);
 
   // The text help shows for a table of functions.

@@ -15,7 +15,6 @@
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/library.hpp"
 #include "script/guard/manifest.hpp"
-#include "script/help/nearest.hpp"
 #include "script/bridge/position.hpp"
 #include "script/prompt/terminal.hpp"
 
@@ -25,22 +24,6 @@ namespace {
 int fail(lua_State* L) {
   const std::string message = luaL_checkstring(L, 1);
   raise(L, "", message);
-}
-
-int nearest_entry(lua_State* L) {
-  return guarded(L, "nearest", [L] {
-    const std::string name = luaL_checkstring(L, 1);
-    luaL_checktype(L, 2, LUA_TTABLE);
-    std::vector<std::string> candidates;
-    for (lua_Integer i = 1; lua_rawgeti(L, 2, i) == LUA_TSTRING; ++i) {
-      candidates.emplace_back(lua_tostring(L, -1));
-      lua_pop(L, 1);
-    }
-    const auto near = nearest(name, candidates);
-    if (near.empty()) lua_pushnil(L);
-    else push(L, near);
-    return 1;
-  });
 }
 
 int terminal(lua_State* L) {
@@ -113,13 +96,16 @@ int signature(lua_State* L) {
   });
 }
 
-int describe(lua_State* L) {
-  return guarded(L, "describe", [L] {
-    luaL_checktype(L, 1, LUA_TTABLE);
-    auto descriptor = read_descriptor(L, 1);
-    lua_getfield(L, 1, "run");
-    Library::of(L).function(std::move(descriptor));
-    return 0;
+// Of a callable of dotyk's its name, and, where it is written in Lua, file and function.
+int written(lua_State* L) {
+  return guarded(L, "written", [L] {
+    const auto* descriptor = descriptor_at(L, 1);
+    if (!descriptor) return 0;
+    push(L, descriptor->name);
+    if (descriptor->in_lua.file.empty()) return 1;
+    push(L, descriptor->in_lua.file);
+    push(L, descriptor->in_lua.name);
+    return 3;
   });
 }
 
@@ -191,10 +177,12 @@ const char* lua_folder() {
   return folder.c_str();
 }
 
-void push_own_module(lua_State* L, const char* name) {
+void push_own_function(lua_State* L, const char* file, const char* name) {
   lua_getfield(L, LUA_REGISTRYINDEX, "dotyk.load");
-  lua_pushstring(L, name);
+  lua_pushstring(L, file);
   lua_call(L, 1, 1);
+  lua_getfield(L, -1, name);
+  lua_remove(L, -2);
 }
 
 void load_lua_side(lua_State* L) {
@@ -203,10 +191,9 @@ void load_lua_side(lua_State* L) {
   keep_own_globals(L);
   lua_newtable(L);
   static const luaL_Reg functions[] = {
-      {"fail", fail},         {"nearest", nearest_entry}, {"terminal", terminal},
-      {"progress", progress}, {"clock", clock},       {"write", write},               {"type_name", type_name},
-      {"describe", describe}, {"signature", signature},   {"read_own", read_own},
-      {"unless_interrupted", unless_interrupted},         {nullptr, nullptr}};
+      {"fail", fail},         {"terminal", terminal},   {"progress", progress}, {"clock", clock},
+      {"write", write},       {"type_name", type_name}, {"written", written},   {"signature", signature},
+      {"read_own", read_own}, {"unless_interrupted", unless_interrupted},       {nullptr, nullptr}};
   luaL_setfuncs(L, functions, 0);
   lua_getglobal(L, "debug");
   lua_getfield(L, -1, "getinfo");

@@ -28,8 +28,7 @@ int unknown_field(lua_State* L) {
 
 int show_table(lua_State* L) {
   luaL_checktype(L, 1, LUA_TTABLE);
-  push_own_module(L, "show");
-  lua_getfield(L, -1, "text");
+  push_own_function(L, "show", "text");
   lua_pushvalue(L, 1);
   lua_call(L, 1, 1);
   return 1;

@@ -30,20 +30,7 @@ void list_key(std::string& out, const Key& key, const std::string& indent) {
   const auto pad = std::string(letters(name) < column ? column - letters(name) : 1, ' ');
   const auto further = indent + std::string(column, ' ');
   out += wrapped(key.help, indent + name + pad, further) + wrapped("(" + facts(key) + ")", further);
-  for (const auto& item : key.items) {
-    for (const auto& inner : named_keys(item)) list_key(out, inner, indent + "    ");
-  }
-  for (const auto& inner : named_keys(key)) list_key(out, inner, indent + "    ");
-}
-
-void list_arguments(std::string& out, const Descriptor& descriptor) {
-  if (!descriptor.takes_table()) {
-    for (const auto& argument : descriptor.arguments) list_key(out, argument, "  ");
-    return;
-  }
-  const auto& table = descriptor.arguments[0];
-  for (const auto& item : table.items) list_key(out, item, "  ");
-  for (const auto& key : table.keys) list_key(out, key, "  ");
+  for (const auto& inner : inner_keys(key)) list_key(out, inner, indent + "    ");
 }
 
 std::string indented(const std::string& text, const std::string& indent) {
@@ -75,12 +62,7 @@ void add_rows(std::string& out, const std::vector<Key>& keys, const std::string&
 std::string entry(const Descriptor& one) {
   auto out = "### `" + one.signature() + "`\n\n" + one.help +
              (one.returns.empty() ? "" : " Returns: " + one.returns + ".") + "\n\n";
-  auto keys = one.arguments;
-  if (one.takes_table()) {
-    keys = one.arguments[0].items;
-    keys.insert(keys.end(), one.arguments[0].keys.begin(), one.arguments[0].keys.end());
-  }
-  if (!keys.empty()) {
+  if (const auto keys = one.keys(); !keys.empty()) {
     out += "| name | kind | unit | default | |\n|---|---|---|---|---|\n";
     add_rows(out, keys, "");
     out += "\n";
@@ -94,7 +76,7 @@ std::string help_text(const Descriptor& descriptor) {
   auto out = wrapped_signature(descriptor.signature() + (descriptor.returns.empty() ? "" : " → " + descriptor.returns));
   out += wrapped(descriptor.help, "  ");
   if (!descriptor.arguments.empty()) out += "\n";
-  list_arguments(out, descriptor);
+  for (const auto& key : descriptor.keys()) list_key(out, key, "  ");
   if (!descriptor.example.empty()) out += "\n  Example:\n" + indented(descriptor.whole_example(), "    ");
   return out;
 }
@@ -158,12 +140,7 @@ std::vector<std::string> missing_help(const Library& library) {
   const auto check = [&](const Descriptor& one) {
     if (one.help.empty()) missing.push_back(one.name + ": no help");
     if (one.example.empty()) missing.push_back(one.name + ": no example");
-    const auto& keys = one.takes_table() ? one.arguments[0].keys : one.arguments;
-    check_keys(check_keys, one.name, keys);
-    if (!one.takes_table()) return;
-    for (const auto& item : one.arguments[0].items) {
-      if (item.help.empty()) missing.push_back(one.name + ", items: no help");
-    }
+    check_keys(check_keys, one.name, one.keys());
   };
   for (const auto& one : library.functions()) check(one);
   for (const auto& type : library.types()) {

@@ -206,9 +206,7 @@ class Prompt {
 
   // Prints the values on top of the stack with the show function of lua/show.lua.
   std::optional<std::string> show_values(int count) {
-    push_own_module(L_, "show");
-    lua_getfield(L_, -1, "print");
-    lua_remove(L_, -2);
+    push_own_function(L_, "show", "print");
     lua_insert(L_, -count - 1);
     return interpreter_.call(count, 0);
   }

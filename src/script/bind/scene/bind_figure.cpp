@@ -155,7 +155,7 @@ std::string chart(Call& call) {
 }
 
 Key series_key() {
-  return key::list("series", key::table("", series_keys().keys(), "one curve"), "the curves").count(1, std::numeric_limits<std::size_t>::max());
+  return key::list("series", key::table("", series_keys().keys(), "one curve"), "the curves").some();
 }
 
 // Of a chart, alone or a panel.

@@ -12,9 +12,7 @@ namespace dotyk::script {
 
 void push(lua_State* L, const Dual& dual) {
   luaL_checkstack(L, 8, nullptr);
-  push_own_module(L, "dual");
-  lua_getfield(L, -1, "make");
-  lua_remove(L, -2);
+  push_own_function(L, "dual", "make");
   push(L, dual.value);
   push(L, std::vector<double>(dual.gradient.begin(), dual.gradient.end()));
   lua_call(L, 2, 1);
