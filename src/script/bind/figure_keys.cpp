@@ -35,16 +35,12 @@ figure::MeshEdges read_edges(const Arguments& call, figure::MeshEdges otherwise)
 }
 
 Key units_key(bool heat) {
-  std::vector<Key> keys = {key::string("length", "\"m\"").otherwise("none"), key::string("force", "\"kN\"").otherwise("none")};
-  if (heat) keys.push_back(key::string("temperature", "\"K\"").otherwise("none"));
+  using figure::Units;
+  std::vector<Key> keys = {key::string("length", "\"m\"").otherwise("none").into(&Units::length), key::string("force", "\"kN\"").otherwise("none").into(&Units::force)};
+  if (heat) keys.push_back(key::string("temperature", "\"K\"").otherwise("none").into(&Units::temperature));
   return key::table("units", std::move(keys), "names of the units, written beside the axes");
 }
 
-figure::Units read_units(const Arguments& call, bool heat) {
-  if (!call.has("units")) return {};
-  const Arguments given = call.table("units");
-  const auto name = [&](const char* unit) { return given.has(unit) ? given.text(unit) : ""; };
-  return {name("length"), name("force"), heat ? name("temperature") : ""};
-}
+figure::Units read_units(const Arguments& call) { return call.has("units") ? call.table("units").filled<figure::Units>() : figure::Units{}; }
 
 }  // namespace dotyk::script

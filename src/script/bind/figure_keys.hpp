@@ -30,6 +30,6 @@ figure::MeshEdges read_edges(const Arguments& call, figure::MeshEdges otherwise)
 
 // Names of the units of length and force, of temperature too where there is `heat`.
 Key units_key(bool heat = false);
-figure::Units read_units(const Arguments& call, bool heat = false);
+figure::Units read_units(const Arguments& call);
 
 }  // namespace dotyk::script

@@ -58,6 +58,7 @@ class Arguments {
   bool boolean(const std::string& name) const;
   std::string text(const std::string& name) const;    // a string or a choice
   std::size_t choice(const std::string& name) const;  // which of the key's choices
+  bool is_choice(const std::string& name) const { return find(name).first.kind == Kind::choice; }
   template <class Enum>
   Enum choice(const std::string& name) const {  // what that stands for
     return static_cast<Enum>(find(name).first.values.at(choice(name)));
@@ -67,6 +68,19 @@ class Arguments {
   std::vector<std::string> texts(const std::string& name) const;   // a list of strings
   std::vector<std::vector<double>> matrix(const std::string& name) const;
   Function function(const std::string& name) const;
+  // Sets what keys are bound to in the struct (Key::into); what is neither given nor has a fallback stays as it is.
+  template <class Struct>
+  void fill(Struct& into) const {
+    for (const Key& key : *keys_)
+      for (const Key::Target& target : key.targets)
+        if (*target.type == typeid(Struct)) target.set(*this, &into);
+  }
+  template <class Struct>
+  Struct filled() const {
+    Struct into{};
+    fill(into);
+    return into;
+  }
   // Into a variable, by its type (see take() in bound.hpp); what is neither given nor has a fallback stays as it is.
   template <class Value>
   void read(const std::string& name, Value& into) const {

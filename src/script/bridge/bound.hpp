@@ -1,15 +1,13 @@
 #pragma once
-// Keys that know which member of a struct takes their value: described, checked and read in one place.
+// What a key gives to the member of a struct that takes its value (Key::into), by the type of the member.
 #include <algorithm>
 #include <array>
 #include <concepts>
 #include <functional>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "script/bridge/arguments.hpp"
@@ -17,7 +15,7 @@
 namespace dotyk::script {
 
 inline void take(const Arguments& from, const std::string& name, double& into) { into = from.number(name); }
-inline void take(const Arguments& from, const std::string& name, bool& into) { into = from.boolean(name); }
+inline void take(const Arguments& from, const std::string& name, bool& into) { into = from.is_choice(name) ? from.choice<bool>(name) : from.boolean(name); }
 inline void take(const Arguments& from, const std::string& name, std::string& into) { into = from.text(name); }
 inline void take(const Arguments& from, const std::string& name, std::vector<double>& into) { into = from.vector(name); }
 template <std::size_t size>
@@ -38,49 +36,19 @@ void take(const Arguments& from, const std::string& name, std::optional<Value>& 
   take(from, name, into.emplace());
 }
 
-template <class Struct>
-class Bound {
- public:
-  struct Entry {
-    // `member` is a member of the struct, or a function of it that gives a reference. What no value is given for stays as the
-    // struct has it: that is the default which help shows, unless the key is required or says otherwise.
-    template <class Member>
-    Entry(Key described, Member member) : key(std::move(described)) {
-      Struct standard{};
-      const bool own = !key.needed && key.default_text.empty();
-      using Value = std::remove_reference_t<decltype(std::invoke(member, standard))>;
-      if constexpr (std::is_same_v<Value, int>) {
-        if (own) key.fallback(static_cast<double>(std::invoke(member, standard)));
-      } else if constexpr (requires { key.fallback(std::invoke(member, standard)); }) {
-        if (own) key.fallback(std::invoke(member, standard));
-      }
-      read = [name = key.name, member](const Arguments& from, Struct& into) {
-        from.read(name, std::invoke(member, into));
-      };
-    }
-    Entry(Key described) : key(std::move(described)) {}  // read elsewhere
-    Key key;
-    std::function<void(const Arguments&, Struct&)> read;
-  };
-  Bound(std::initializer_list<Entry> entries) : entries_(entries) {}
-
-  std::vector<Key> keys() const {
-    std::vector<Key> all;
-    for (const Entry& entry : entries_) all.push_back(entry.key);
-    return all;
+template <class Struct, class Member>
+Key& Key::into(Member member) {
+  Struct standard{};
+  const auto own = member(standard);  // the default
+  if (!needed && default_text.empty()) {
+    using Value = std::remove_const_t<decltype(own)>;
+    if constexpr (std::is_same_v<Value, bool>) kind == Kind::choice ? choice_fallback(own) : fallback(own);
+    else if constexpr (std::is_arithmetic_v<Value>) in_range(own) ? fallback(static_cast<double>(own)) : *this;
+    else if constexpr (requires { fallback(own); }) fallback(own);
   }
-  void read(const Arguments& from, Struct& into) const {
-    for (const Entry& entry : entries_)
-      if (entry.read) entry.read(from, into);
-  }
-  Struct read(const Arguments& from) const {
-    Struct into{};
-    read(from, into);
-    return into;
-  }
-
- private:
-  std::vector<Entry> entries_;
-};
+  const auto set = [key = name, member](const Arguments& from, void* all) { from.read(key, member(*static_cast<Struct*>(all))); };
+  targets.push_back({&typeid(Struct), set});
+  return *this;
+}
 
 }  // namespace dotyk::script

@@ -33,9 +33,7 @@ void check_number(lua_State* L, int index, const Key& key, const std::string& wh
   if (std::isnan(value)) throw ArgumentError(what + " must be a finite number, got nan (not a number)");
   if (std::isinf(value) && !key.infinite)
     throw ArgumentError(what + " must be a finite number, got " + number_text(value));
-  const bool low = key.least_excluded ? !(value > key.least) : value < key.least;
-  const bool high = key.greatest_excluded ? !(value < key.greatest) : value > key.greatest;
-  if (low || high) wrong(L, index, key, what);
+  if (!key.in_range(value)) wrong(L, index, key, what);
   if (key.kind == Kind::integer) {
     int exact = 0;
     lua_tointegerx(L, index, &exact);

@@ -1,5 +1,6 @@
 #include "script/bridge/descriptor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -32,6 +33,7 @@ std::string with_article(const std::string& noun) {
 Key& Key::fallback(double value) { return set(default_value, value).otherwise(number_text(value)); }
 Key& Key::fallback(bool value) { return set(default_value, value).otherwise(value ? "true" : "false"); }
 Key& Key::fallback(const char* value) { return set(default_value, std::string(value)).otherwise("\"" + std::string(value) + "\""); }
+Key& Key::choice_fallback(int value) { return fallback(choices.at(std::find(values.begin(), values.end(), value) - values.begin()).c_str()); }
 
 namespace {
 

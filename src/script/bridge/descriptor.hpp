@@ -7,12 +7,14 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace dotyk::script {
 
+class Arguments;
 class Call;
 
 // What a value given by a script may be.
@@ -36,8 +38,14 @@ enum class Kind {
 
 // One argument, or one key of a table argument. Built by the functions of
 // namespace key below and completed by chained calls:
-//   key::number("nu", "Poisson's ratio").within(-1, 0.5).fallback(0.3)
+//   key::number("nu", "Poisson's ratio").within(-1, 0.5).into(&Plate::nu)
 struct Key {
+  // Sets a member of a struct of this type.
+  struct Target {
+    const std::type_info* type;
+    std::function<void(const Arguments& from, void* into)> set;
+  };
+
   std::string name;
   Kind kind = Kind::any;
   std::string help;
@@ -53,10 +61,11 @@ struct Key {
   std::size_t fewest = 0;  // entries of a vector, items of a list or table
   std::size_t most = std::numeric_limits<std::size_t>::max();
   std::vector<std::string> choices;
-  std::vector<int> values;  // what the choices stand for, where that is an enumeration
+  std::vector<int> values;  // what the choices stand for, where that is an enumeration or a bool
   std::string type;        // of an object
   std::vector<Key> keys;   // of a table; the kinds of an either
   std::vector<Key> items;  // one entry describing each item of a list or table
+  std::vector<Target> targets;  // what takes the value, see into()
   std::function<std::vector<std::string>(const void* object)> names;  // strings that mean something to a method's object; see of()
 
   Key& required() { return set(needed, true); }                        // absent is an error
@@ -67,7 +76,7 @@ struct Key {
   template <class Enum>
   requires std::is_enum_v<Enum>
   Key& fallback(Enum value) {
-    return fallback(choices.at(std::find(values.begin(), values.end(), static_cast<int>(value)) - values.begin()).c_str());
+    return choice_fallback(static_cast<int>(value));
   }
   Key& otherwise(std::string text) { return set(default_text, std::move(text)); }               // what happens when absent, in words
   Key& above(double value) { return set(least, value).set(least_excluded, true); }              // value < x
@@ -80,6 +89,15 @@ struct Key {
   Key& some() { return count(1, std::numeric_limits<std::size_t>::max()); }                     // at least one
   Key& written() { return set(output, true); }                                                  // the call writes this file
   Key& with(Key item) { return set(items, {std::move(item)}); }                                 // a table that takes items as well as keys
+  // A member of a struct that takes the value (Arguments::fill), or a function of the struct that gives a reference. What no
+  // value is given for stays as the struct has it, which is the default that help shows, unless the key is required, says
+  // otherwise before, or would refuse it. Defined in bound.hpp.
+  template <class Struct, class Value>
+  Key& into(Value Struct::* member) {
+    return into<Struct>([member](Struct& all) -> Value& { return all.*member; });
+  }
+  template <class Struct, class Member>
+  Key& into(Member member);
   // Names that the method's object, a T, brings: completion offers them.
   template <class T, class Names>
   Key& of(Names found) {
@@ -87,10 +105,16 @@ struct Key {
     return *this;
   }
 
+  // Is it within [least, greatest]?
+  bool in_range(double value) const {
+    return (least_excluded ? value > least : value >= least) && (greatest_excluded ? value < greatest : value <= greatest);
+  }
+
   // "a positive number", "one of "strain" or "stress"", "a body": completes "expected …".
   std::string expected() const;
 
  private:
+  Key& choice_fallback(int value);
   template <class T>
   Key& set(T& member, std::type_identity_t<T> value) {
     member = std::move(value);
@@ -173,7 +197,7 @@ inline constexpr auto function = plain<Kind::function>;
 inline constexpr auto any = plain<Kind::any>;
 Key positive(std::string name, std::string help);  // a number above 0
 Key choice(std::string name, std::vector<std::string> choices, std::string help);
-// Names of an enumeration's values; Arguments::choice<Enum> gives the value.
+// Names of the values of an enumeration, or of true and false; Arguments::choice<Enum> gives the value.
 template <class Enum>
 Key choice(std::string name, const std::vector<std::pair<const char*, Enum>>& choices, std::string help) {
   Key key = choice(std::move(name), std::vector<std::string>(), std::move(help));

@@ -18,7 +18,6 @@ namespace dotyk::script {
 // A field of an object: computed when read.
 struct TypeField {
   std::string name, help, units;
-  std::string type;  // of the value when it is an object, for completion
   std::function<void(lua_State*, const std::shared_ptr<void>&)> read;
 };
 
@@ -117,7 +116,7 @@ class TypeOf {
   template <class Get>
   TypeOf& field(std::string name, std::string help, Get get, std::string units = "") {
     const auto read = [get](lua_State* L, const std::shared_ptr<void>& object) { push(L, get(*static_cast<const T*>(object.get()))); };
-    type_.fields.push_back({std::move(name), std::move(help), std::move(units), "", read});
+    type_.fields.push_back({std::move(name), std::move(help), std::move(units), read});
     return *this;
   }
 

@@ -43,7 +43,7 @@ Meaning advance(lua_State* L, const Library& library, const Meaning& from, const
   if (from.type) {
     const auto* field = from.type->field(step.text);
     if (!field) return of_method(L, from, step.text);
-    if (!from.value) return of_type(library.find_type(field->type));
+    if (!from.value) return {};
     field->read(L, checked_object(L, -1, from.type->name.c_str()));
     return of_value(L, library);
   }

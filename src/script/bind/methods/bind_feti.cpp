@@ -14,9 +14,7 @@ auto outer(Value solver::Smalbe::*member) {
   return [member](solver::Feti& feti) -> Value& { return feti.outer.*member; };
 }
 
-problem::Decomposition read_decomposition(const Call& call) {
-  problem::Decomposition cut;
-  cut.support_rows = call.text("supports") == "rows";
+void read_subdomains(const Call& call, problem::Decomposition& cut) {
   if (call.is("subdomains", LUA_TNUMBER)) {
     cut.count = static_cast<int>(call.integer("subdomains"));
   } else if (call.has("subdomains")) {
@@ -25,7 +23,6 @@ problem::Decomposition read_decomposition(const Call& call) {
       throw InputError(text("subdomains has ", boxes.size(), boxes.size() == 1 ? " entry" : " entries", "; give a number, or two (in space three) numbers of boxes"));
     for (std::size_t k = 0; k < boxes.size(); ++k) cut.boxes[k] = static_cast<int>(boxes[k]);
   }
-  return cut;
 }
 
 std::string show(const Call& call, const problem::Decomposition& cut) {
@@ -57,29 +54,29 @@ void bind_feti(Library& library) {
                    {key::integer("", "how many in all, shared out by cells and cut by METIS").within(1, kMost),
                     key::list("", key::integer("", "").within(1, 1000), "boxes along each axis of every body's bounding box; a third number counts in space only")},
                    "into what bodies are cut: a number in all, or boxes along the axes").otherwise("a subdomain a body"),
-       key::choice("supports", {"rows", "stiffness"}, "supports and springs as rows of the dual problem (total FETI: subdomains "
-                   "of equal shape share a factor, and all have rigid motions for the coarse space), or in the subdomains' stiffness").fallback("rows"),
-       {key::choice<Preconditioner>("preconditioner", {{"none", Preconditioner::none}, {"lumped", Preconditioner::lumped}, {"dirichlet", Preconditioner::dirichlet}},
-                                    "of the inner conjugate gradients; lumped is the paper's with coarse = \"whole\" alone"), &Feti::preconditioner},
-       key::choice("coarse", {"face", "whole"}, "the coarse space in conjugate gradients: that of the multipliers free to "
-                   "change, or only in the projectors (as the paper)").fallback("face"),
-       {key::choice<Update>("update", {{"precision", Update::precision}, {"penalty", Update::penalty}, {"both", Update::both}},
+       key::choice<bool>("supports", {{"rows", true}, {"stiffness", false}}, "supports and springs as rows of the dual problem (total FETI: subdomains "
+                   "of equal shape share a factor, and all have rigid motions for the coarse space), or in the subdomains' stiffness")
+           .into<Feti>([](Feti& feti) -> bool& { return feti.decomposition.support_rows; }),
+       key::choice<Preconditioner>("preconditioner", {{"none", Preconditioner::none}, {"lumped", Preconditioner::lumped}, {"dirichlet", Preconditioner::dirichlet}},
+                                    "of the inner conjugate gradients; lumped is the paper's with coarse = \"whole\" alone").into(&Feti::preconditioner),
+       key::choice<bool>("coarse", {{"face", true}, {"whole", false}}, "the coarse space in conjugate gradients: that of the multipliers free to "
+                   "change, or only in the projectors (as the paper)").into(&Feti::face_coarse),
+       key::choice<Update>("update", {{"precision", Update::precision}, {"penalty", Update::penalty}, {"both", Update::both}},
                             "of the augmented Lagrangian: of the inner precision M with rho "
-                            "fixed (SMALBE-M), of rho with M fixed (the paper's algorithm 4.1), or whichever holds it up"), outer(&Smalbe::update)},
-       {key::positive("M", "an inner minimisation ends at |projected gradient| <= M |G lambda - e|; in units of |PFP|"), outer(&Smalbe::M)},
-       {key::positive("rho", "penalty of G lambda = e, at first; in units of |PFP|").below(1e10), outer(&Smalbe::rho)},
-       {key::choice<Stop>("stop", {{"Pd", Stop::Pd}, {"d", Stop::d}}, "what tol compares the projected gradient with; d, the paper's, depends on the generalised "
-                          "inverse, and then nothing is asked of what a subdomain's forces leave unbalanced but |G lambda - e|"), &Feti::stop},
-       {key::positive("eta", "first bound of algorithm 4.1 on |G lambda - e|, beyond which rho grows, in units of |P d|/|PFP|; for other "
-                      "updates on the projected gradient, in units of |P d|"), outer(&Smalbe::eta)},
-       {key::choice<Expansion>("expansion", {{"fixed_step", Expansion::fixed_step}, {"projected_cg", Expansion::projected_cg_step}},
+                            "fixed (SMALBE-M), of rho with M fixed (the paper's algorithm 4.1), or whichever holds it up").into<Feti>(outer(&Smalbe::update)),
+       key::positive("M", "an inner minimisation ends at |projected gradient| <= M |G lambda - e|; in units of |PFP|").into<Feti>(outer(&Smalbe::M)),
+       key::positive("rho", "penalty of G lambda = e, at first; in units of |PFP|").below(1e10).into<Feti>(outer(&Smalbe::rho)),
+       key::choice<Stop>("stop", {{"Pd", Stop::Pd}, {"d", Stop::d}}, "what tol compares the projected gradient with; d, the paper's, depends on the generalised "
+                          "inverse, and then nothing is asked of what a subdomain's forces leave unbalanced but |G lambda - e|").into(&Feti::stop),
+       key::positive("eta", "first bound of algorithm 4.1 on |G lambda - e|, beyond which rho grows, in units of |P d|/|PFP|; for other "
+                      "updates on the projected gradient, in units of |P d|").into<Feti>(outer(&Smalbe::eta)),
+       key::choice<Expansion>("expansion", {{"fixed_step", Expansion::fixed_step}, {"projected_cg", Expansion::projected_cg_step}},
                                "how the inner method lets multipliers reach their bounds: fixed projected steps (MPRGP), or projected "
-                               "conjugate gradient steps (proportioning with projections)"), &Feti::expansion},
-       {key::integer("max_inner", "give up after so many inner steps").at_least(1), &Feti::max_inner},
-       {key::boolean("spectrum", "estimate the condition of PFP on im P, in s.feti.condition"), &Feti::spectrum}},
+                               "conjugate gradient steps (proportioning with projections)").into(&Feti::expansion),
+       key::integer("max_inner", "give up after so many inner steps").at_least(1).into(&Feti::max_inner),
+       key::boolean("spectrum", "estimate the condition of PFP on im P, in s.feti.condition").into(&Feti::spectrum)},
       1000, [](Feti& feti, Call& call) {
-        feti.decomposition = read_decomposition(call);
-        feti.face_coarse = call.text("coarse") == "face";
+        read_subdomains(call, feti.decomposition);
         feti.max_inner = std::min(feti.max_inner, 100'000'000);
         return text(show(call, feti.decomposition), ", preconditioner = ", call.text("preconditioner"), ", M = ", feti.outer.M, ", rho = ", feti.outer.rho);
       });

@@ -38,7 +38,7 @@ void bind_friction_methods(Library& library) {
                "step is measured by the bound 2/λ_max, which is estimated (from above) and told in s.reason.",
        .setup = setup::pressed_block(", friction = dotyk.friction.tresca(2)"),
        .example = "local s = dotyk.solver.uzawa{ rho = 0.9 }:solve(scene)"},
-      {{key::positive("rho", "length of the steps as a part of the bound 2/λ_max; from 1 on convergence is not certain"), &Uzawa::rho}},
+      {key::positive("rho", "length of the steps as a part of the bound 2/λ_max; from 1 on convergence is not certain").into(&Uzawa::rho)},
       kMany, [](const Uzawa& m, Call&) { return text("rho = ", m.rho); });
   add_method<UzawaPdas>(
       library,
@@ -49,11 +49,11 @@ void bind_friction_methods(Library& library) {
                "is that of the normal forces at hand.",
        .setup = setup::pressed_block(", friction = dotyk.friction.tresca(2)"),
        .example = "local s = dotyk.solver.uzawa_pdas{ rho = 1 }:solve(scene)"},
-      {{key::positive("rho", "length of the projected steps, and weight of the jumps where sets are chosen"), &UzawaPdas::rho},
-       {key::choice<Unit>("unit", {{"bound", Unit::bound}, {"force/displacement", Unit::stiffness}, {"report", Unit::report}},
+      {key::positive("rho", "length of the projected steps, and weight of the jumps where sets are chosen").into(&UzawaPdas::rho),
+       key::choice<Unit>("unit", {{"bound", Unit::bound}, {"force/displacement", Unit::stiffness}, {"report", Unit::report}},
                           "of rho: Uzawa's bound 2/λ_max, as for uzawa; force per "
                           "displacement, the same on every row; or the report's, in which pressures and parts of the bound are the "
-                          "multipliers: given friction"), &UzawaPdas::unit}},
+                          "multipliers: given friction").into(&UzawaPdas::unit)},
       1000, [](const UzawaPdas& m, Call&) {
         return text("rho = ", m.rho, m.unit == Unit::bound ? "" : m.unit == Unit::stiffness ? " force per displacement" : " in the report's units");
       }, true);
@@ -63,7 +63,7 @@ void bind_friction_methods(Library& library) {
        .help = "Projected over-relaxation, node by node: the normal force, then its friction, given or Coulomb.",
        .setup = setup::pressed_block(", friction = dotyk.friction.tresca(2)"),
        .example = "local s = dotyk.solver.psor{ omega = 1.2 }:solve(scene)"},
-      {{key::number("omega", "relaxation, 1 for Gauss-Seidel").above(0).below(2), &Psor::omega}},
+      {key::number("omega", "relaxation, 1 for Gauss-Seidel").above(0).below(2).into(&Psor::omega)},
       kMany, [](const Psor& m, Call&) { return text("omega = ", m.omega); });
   add_method<solver::ProjectedCg>(
       library,
@@ -83,7 +83,7 @@ void bind_friction_methods(Library& library) {
                "several Newton steps; s.reason tells how many in all.",
        .setup = setup::contact_problem(),
        .example = "local r = dotyk.solver.proximal{ tol = 1e-12 }:solve(p)\nprint(r)"},
-      {{key::positive("sigma", "compliance of the springs at the start, as a part of that of the rows themselves"), &Proximal::sigma}},
+      {key::positive("sigma", "compliance of the springs at the start, as a part of that of the rows themselves").into(&Proximal::sigma)},
       100, [](const Proximal& m, Call&) { return text("sigma = ", m.sigma); });
   add_method<solver::CoulombLoop>(
       library,

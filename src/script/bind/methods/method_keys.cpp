@@ -10,20 +10,14 @@ using algebra::Ordering;
 
 std::vector<Key> method_keys(std::vector<Key> own, int max_iterations) {
   const std::vector<Key> common = {
-      key::positive("tol", "relative natural residual at which iterative methods stop").fallback(1e-10),
-      key::integer("max_iterations", "give up after so many").at_least(1).fallback(static_cast<double>(max_iterations)),
+      key::positive("tol", "relative natural residual at which iterative methods stop").into(&solver::Settings::tol),
+      key::integer("max_iterations", "give up after so many").at_least(1).fallback(static_cast<double>(max_iterations)).into(&solver::Settings::max_iterations),
       key::choice<Ordering>("ordering", {{"automatic", Ordering::automatic}, {"minimum_degree", Ordering::minimum_degree},
                                          {"nested_dissection", Ordering::nested_dissection}},
-                            "elimination order of the sparse factorisation").fallback(Ordering::automatic),
+                            "elimination order of the sparse factorisation").into(&solver::Settings::ordering),
       key::function("on_iteration", "called as f(k, info) after each iteration; returning false stops the solve"),
       key::boolean("verbose", "a line on standard error for each iteration").fallback(false)};
   return joined(std::move(own), common);
-}
-
-void read_settings(const Call& call, solver::Settings& settings) {
-  settings.tol = call.number("tol");
-  settings.max_iterations = static_cast<int>(std::min<long long>(call.integer("max_iterations"), 1'000'000));
-  settings.ordering = call.choice<Ordering>("ordering");
 }
 
 std::vector<Key> with_kernel(std::vector<Key> own) {

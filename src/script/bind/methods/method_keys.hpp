@@ -17,7 +17,6 @@ namespace dotyk::script {
 
 // Keys that every method takes: tol, max_iterations, ordering, on_iteration, verbose; `own` come first.
 std::vector<Key> method_keys(std::vector<Key> own, int max_iterations);
-void read_settings(const Call& call, solver::Settings& settings);
 // `own`, and the keys kernel and screws: how rigid motions of free bodies are treated.
 std::vector<Key> with_kernel(std::vector<Key> own);
 // The rows where screws are placed first, from 0, empty where they are chosen; nothing where the kernel is exact. Added to `shown`.
@@ -25,16 +24,17 @@ std::optional<std::vector<int>> screws_of(const Call& call, std::string& shown);
 // The solver object: `text` is its name and options as printed.
 Given<Solver> give_method(Call& call, solver::Method method, std::string text);
 
-// The maker of a method: `own` are its keys, and own options are shown as show(method, call) says, which may set more of them. With
+// The maker of a method: `own` are its keys, into its members, and own options are shown as show(method, call) says, which may set more of them. With
 // `kernel`, magnetic screws may hold free bodies. Examples begin with setup::pressed_block(), unless `about` says otherwise.
 template <class Method, class Show>
-void add_method(Library& library, Descriptor about, const Bound<Method>& own, int max_iterations, Show show, bool kernel = false) {
-  about.arguments = {key::table(method_keys(kernel ? with_kernel(own.keys()) : own.keys(), max_iterations))};
+void add_method(Library& library, Descriptor about, std::vector<Key> own, int max_iterations, Show show, bool kernel = false) {
+  about.arguments = {key::table(method_keys(kernel ? with_kernel(std::move(own)) : std::move(own), max_iterations))};
   if (about.setup.empty()) about.setup = setup::pressed_block();
-  about.run = [name = about.short_name(), own, show, kernel](Call& call) {
+  about.run = [name = about.short_name(), show, kernel](Call& call) {
     Method method;
-    read_settings(call, method);
-    own.read(call, method);
+    call.fill<solver::Settings>(method);
+    call.fill(method);
+    method.max_iterations = std::min(method.max_iterations, 1'000'000);
     const std::string options = show(method, call);
     std::string shown = name + (options.empty() ? "" : ": " + options);
     auto screws = kernel ? screws_of(call, shown) : std::nullopt;

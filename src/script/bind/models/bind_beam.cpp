@@ -24,6 +24,7 @@ namespace {
 
 using beam::Beam;
 using beam::Broken;
+using beam::PointLoad;
 
 beam::Support beam_support(const Arguments& from, std::string name, double x) {
   beam::Support out{std::move(name), x, law(from, "deflection"), law(from, "rotation")};
@@ -66,14 +67,12 @@ void take(Call& call, const char* name, const Beam& beam, double& constant, std:
 }
 
 std::shared_ptr<Beam> make_beam(Call& call) {
-  auto beam = std::make_shared<Beam>();
-  beam->length = call.number("length");
-  beam->cells = static_cast<int>(call.integer("cells"));
+  const auto beam = std::make_shared<Beam>(call.filled<Beam>());
   add_end(call, "left", 0, *beam);
   for (const Arguments& s : call.tables("supports")) beam->supports.push_back(beam_support(s, text("x = ", s.number("x")), s.number("x")));
   add_end(call, "right", beam->length, *beam);
   std::stable_sort(beam->supports.begin(), beam->supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-  for (const Arguments& load : call.tables("loads")) beam->loads.push_back({load.number("x"), load.number("force"), load.number("moment")});
+  for (const Arguments& load : call.tables("loads")) beam->loads.push_back(load.filled<PointLoad>());
   require_valid(*beam);
   take(call, "EJ", *beam, beam->EJ, beam->EJ_of);
   take(call, "load", *beam, beam->q, beam->q_of);
@@ -203,14 +202,14 @@ void bind_beam(Library& library) {
            {key::either("foundation", {key::object<SupportLaw>("", ""), key::function("", "")},
                         "a law per length about the deflection, or a function of x that gives one; taken at the nodes, each for half of the cells about it").otherwise("none"),
             key::field("foundation_at", "where it stands: the law is about the deflection less this; a number or a function of x").unit("length").otherwise("0"),
-            key::positive("length", "of the beam, from x = 0").unit("length").fallback(1.0),
+            key::positive("length", "of the beam, from x = 0").unit("length").into(&Beam::length),
             key::field("EJ", "bending stiffness, positive").unit("force·length²").otherwise("1"),
-            key::integer("cells", "elements, of equal length; a support within one divides it. Rounding grows as the fourth power: 1e-12 with 32, 1e-6 with 1000").within(1, 1000).fallback(32.0),
+            key::integer("cells", "elements, of equal length; a support within one divides it. Rounding grows as the fourth power: 1e-12 with 32, 1e-6 with 1000").within(1, 1000).into(&Beam::cells),
             key::field("load", "per length, upwards: a number or a function of x").unit("force/length").otherwise("0"),
             key::table("left", beam_support_keys(), "the support at x = 0"), key::table("right", beam_support_keys(), "the support at x = length"),
             key::list("supports", key::table("", joined({key::number("x", "where").unit("length").required()}, beam_support_keys()), ""), "supports within the beam"),
-            key::list("loads", key::table("", {key::number("x", "where").unit("length").required(), key::number("force", "upwards").unit("force").fallback(0.0),
-                                               key::number("moment", "anticlockwise").unit("force·length").fallback(0.0)}, ""), "at points")})},
+            key::list("loads", key::table("", {key::number("x", "where").unit("length").required().into(&PointLoad::x), key::number("force", "upwards").unit("force").into(&PointLoad::force),
+                                               key::number("moment", "anticlockwise").unit("force·length").into(&PointLoad::moment)}, ""), "at points")})},
        .run = make_beam});
   library.type<Beam>("A beam with its supports and loads.").field("length", "of the beam", [](const Beam& b) { return b.length; }, "length").text(beam_text);
   bind_beam_solution(library);

@@ -71,7 +71,7 @@ std::string render_thermoelastic(Call& call) {
   const LoadsCalled called(*beam, "draw it");
   const thermoelastic::Loads loads = kept_loads(call, *beam);
   const auto chosen = panels(call, {BeamPanel::deflection, BeamPanel::moment, BeamPanel::temperature, BeamPanel::gradient});
-  return draw(call, figure::compose(view_now(*beam, loads), chosen, read_units(call, true)));
+  return draw(call, figure::compose(view_now(*beam, loads), chosen, read_units(call)));
 }
 
 std::string render_thermoelastic_law(Call& call) {

@@ -20,26 +20,45 @@ using channel::Data;
 using channel::Oscillating;
 using channel::Stepping;
 
-const std::vector<const char*> kPhysical{"density", "viscosity", "conductivity", "E0", "B0", "pressure_gradient"};
-const std::vector<const char*> kReduced{"a", "b", "c", "d", "drive"};
+using channel::Physical;
 
-/// Those of the numbers that are given, and which field oscillates.
-template <class Struct>
-void read_numbers(Call& call, std::initializer_list<std::pair<const char*, double Struct::*>> numbers, Struct& into) {
-  for (const auto& [name, member] : numbers) call.read(name, into.*member);
-  call.read("half_width", into.half_width);
-  call.read("omega", into.omega);
-  call.read("u0", into.initial_speed);
-  call.read("oscillating", into.oscillating);
+std::vector<Key> physical_keys() {
+  return {key::positive("density", "of the liquid").unit("kg/m^3").into(&Physical::density), key::positive("viscosity", "dynamic").unit("Pa s").into(&Physical::viscosity),
+          key::positive("conductivity", "electric").unit("S/m").into(&Physical::conductivity),
+          key::number("E0", "amplitude of the electric field").at_least(0).unit("V/m").otherwise("0").into(&Physical::E0),
+          key::number("B0", "amplitude of the magnetic field").at_least(0).unit("T").otherwise("0").into(&Physical::B0),
+          key::number("pressure_gradient", "dp/dx; negative drives the flow along x").unit("Pa/m").otherwise("0").into(&Physical::pressure_gradient)};
+}
+
+std::vector<Key> reduced_keys() {
+  return {key::positive("a", "before u_t; reduced data, any consistent units").into(&Data::a), key::positive("b", "before -u_yy").into(&Data::b),
+          key::number("c", "before u").at_least(0).otherwise("0").into(&Data::c), key::number("d", "the steady force").otherwise("0").into(&Data::d),
+          key::number("drive", "the oscillating force").otherwise("1").into(&Data::drive)};
+}
+
+/// Keys that physical and reduced data have in common.
+Key half_width_key() {
+  return key::positive("half_width", "half the distance of the walls").required().unit("m").into(&Data::half_width).into(&Physical::half_width);
+}
+std::vector<Key> common_keys() {
+  return {key::number("omega", "angular frequency").at_least(0).unit("1/s").into(&Data::omega).into(&Physical::omega),
+          key::number("u0", "speed on the axis at t = 0; 0 starts from rest").unit("m/s").into(&Data::initial_speed).into(&Physical::initial_speed),
+          key::choice<Oscillating>("oscillating", {{"electric", Oscillating::electric}, {"magnetic", Oscillating::magnetic}},
+                                   "the field that oscillates; the other is steady").into(&Data::oscillating).into(&Physical::oscillating)};
+}
+
+/// The name of the first of the keys that is given; empty: none.
+std::string first_given(const std::vector<Key>& keys, const Call& call) {
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return call.has(key.name); });
+  return found == keys.end() ? "" : found->name;
 }
 
 Data reduced_data(Call& call) {
-  for (const char* name : kPhysical)
-    if (call.has(name)) throw InputError(text("'", name, "' is given beside reduced data; give density, viscosity, … or a, b, c, d, not both"));
+  if (const auto name = first_given(physical_keys(), call); !name.empty())
+    throw InputError(text("'", name, "' is given beside reduced data; give density, viscosity, … or a, b, c, d, not both"));
   for (const char* name : {"a", "b"})
     if (!call.has(name)) throw InputError(text("'", name, "' is missing: reduced data need a and b"));
-  Data data;
-  read_numbers<Data>(call, {{"a", &Data::a}, {"b", &Data::b}, {"c", &Data::c}, {"d", &Data::d}, {"drive", &Data::drive}}, data);
+  const auto data = call.filled<Data>();
   channel::check(data);
   return data;
 }
@@ -47,18 +66,12 @@ Data reduced_data(Call& call) {
 Data physical_data(Call& call) {
   for (const char* name : {"density", "viscosity", "conductivity"})
     if (!call.has(name)) throw InputError(text("'", name, "' is missing: give density, viscosity and conductivity, or reduced data a, b, c, d"));
-  using channel::Physical;
-  Physical f;
-  read_numbers<Physical>(call, {{"density", &Physical::density}, {"viscosity", &Physical::viscosity}, {"conductivity", &Physical::conductivity},
-                                {"E0", &Physical::E0}, {"B0", &Physical::B0}, {"pressure_gradient", &Physical::pressure_gradient}}, f);
-  return channel::reduced(f);
+  return channel::reduced(call.filled<Physical>());
 }
 
 std::shared_ptr<ChannelFlow> make_channel(Call& call) {
-  bool is_reduced = false;
-  for (const char* name : kReduced) is_reduced = is_reduced || call.has(name);
   auto flow = std::make_shared<ChannelFlow>();
-  flow->data = is_reduced ? reduced_data(call) : physical_data(call);
+  flow->data = !first_given(reduced_keys(), call).empty() ? reduced_data(call) : physical_data(call);
   try {
     flow->series.emplace(flow->data, static_cast<int>(call.integer("terms")));
   } catch (const InputError& error) {
@@ -82,6 +95,8 @@ Key y_key_or_axis() { return key::number("y", "distance from the axis, |y| <= ha
 Key t_key() { return key::number("t", "time, not negative").required().unit("time"); }
 
 Descriptor constructor() {
+  auto keys = joined(joined({half_width_key()}, physical_keys()), joined(reduced_keys(), common_keys()));
+  keys.push_back(key::integer("terms", "most terms of the transient's series").within(64, 1 << 20).fallback(4096.0));
   return {
       .name = "dotyk.channel",
       .help =
@@ -95,21 +110,7 @@ Descriptor constructor() {
           "Re = sqrt(2) half_width u0 a/b.",
       .setup = kFlow,
       .example = "print(c:velocity(0, 0.5), c:stationary(0), c:amplitude())",
-      .arguments = {key::table(
-          {key::positive("half_width", "half the distance of the walls").required().unit("m"),
-           key::positive("density", "of the liquid").unit("kg/m^3"), key::positive("viscosity", "dynamic").unit("Pa s"),
-           key::positive("conductivity", "electric").unit("S/m"),
-           key::number("E0", "amplitude of the electric field").at_least(0).unit("V/m").otherwise("0"),
-           key::number("B0", "amplitude of the magnetic field").at_least(0).unit("T").otherwise("0"),
-           key::number("pressure_gradient", "dp/dx; negative drives the flow along x").unit("Pa/m").otherwise("0"),
-           key::positive("a", "before u_t; reduced data, any consistent units"), key::positive("b", "before -u_yy"),
-           key::number("c", "before u").at_least(0).otherwise("0"), key::number("d", "the steady force").otherwise("0"),
-           key::number("drive", "the oscillating force").otherwise("1"),
-           key::number("omega", "angular frequency").at_least(0).fallback(0.0).unit("1/s"),
-           key::number("u0", "speed on the axis at t = 0; 0 starts from rest").fallback(0.0).unit("m/s"),
-           key::choice<Oscillating>("oscillating", {{"electric", Oscillating::electric}, {"magnetic", Oscillating::magnetic}},
-                                    "the field that oscillates; the other is steady").fallback(Oscillating::electric),
-           key::integer("terms", "most terms of the transient's series").within(64, 1 << 20).fallback(4096.0)})},
+      .arguments = {key::table(std::move(keys))},
       .run = make_channel};
 }
 

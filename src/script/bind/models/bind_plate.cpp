@@ -85,7 +85,7 @@ void take_edges(Call& call, Plate& plate) {
 
 void take_points(Call& call, Plate& plate) {
   for (const Arguments& s : call.tables("supports")) plate.supports.push_back({s.number("x"), s.number("y"), law(s, "deflection")});
-  for (const Arguments& load : call.tables("loads")) plate.point_loads.push_back({load.number("x"), load.number("y"), load.number("force")});
+  for (const Arguments& load : call.tables("loads")) plate.point_loads.push_back(load.filled<plate::PointLoad>());
   for (const Arguments& line : call.tables("lines")) {
     const auto from = line.vector("from"), to = line.vector("to");
     plate.line_loads.push_back({{from[0], from[1]}, {to[0], to[1]}, line.number("force")});
@@ -95,8 +95,7 @@ void take_points(Call& call, Plate& plate) {
 std::shared_ptr<plate::Model> make_plate(Call& call) {
   Plate plate;
   plate.mesh = std::make_shared<const mesh::Mesh>(*call.object<MeshHandle>("mesh")->mesh);
-  call.read("element", plate.element);
-  call.read("nu", plate.nu);
+  call.fill(plate);
   take(call, "D", plate.D, plate.D_of);
   take(call, "load", plate.f, plate.f_of);
   double floor = 0;
@@ -158,11 +157,11 @@ void bind_plate(Library& library) {
        .arguments = {key::table(
            {key::object<MeshHandle>("mesh", "triangles in the plane").required(),
             key::choice<plate::Element>("element", {{"morley", plate::Element::morley}, {"hct", plate::Element::hct}},
-                                        "morley: the lowest order, nonconforming, for nu from -0.8 to 0.8; hct: cubic on thirds of a triangle, conforming").fallback("morley"),
+                                        "morley: the lowest order, nonconforming, for nu from -0.8 to 0.8; hct: cubic on thirds of a triangle, conforming").into(&Plate::element),
             key::field("D", "bending stiffness E h³/12(1 - nu²), positive: a number or a function of x, y").unit("force·length").otherwise("1"),
-            key::number("nu", "Poisson's ratio; beyond 0.8 and -0.8 with hct alone").above(-1).below(1).fallback(0.3),
+            key::number("nu", "Poisson's ratio; beyond 0.8 and -0.8 with hct alone").above(-1).below(1).into(&Plate::nu),
             key::field("load", "per area, upwards: a number or a function of x, y").unit("force/area").otherwise("0"),
-            key::list("loads", key::table("", {point_key("x"), point_key("y"), key::number("force", "upwards").unit("force").required()}, ""), "at points"),
+            key::list("loads", key::table("", {point_key("x").into(&plate::PointLoad::x), point_key("y").into(&plate::PointLoad::y), key::number("force", "upwards").unit("force").required().into(&plate::PointLoad::force)}, ""), "at points"),
             key::list("lines", key::table("", {key::vector("from", "one end").unit("length").count(2).required(), key::vector("to", "the other").unit("length").count(2).required(),
                                                key::number("force", "per length, upwards").unit("force/length").required()}, ""), "along lines"),
             key::table("edge", edge_keys(), "laws of the whole edge"),

@@ -117,26 +117,15 @@ std::string plate_solution_text(const Solution& s) {
 using figure::PlateField;
 using figure::PlateView;
 
-const Bound<figure::PlateOptions>& options() {
-  static const Bound<figure::PlateOptions> all{
-      {key::choice<PlateView>("view", {{"surface", PlateView::surface}, {"plan", PlateView::plan}}, "the deflected surface, or the plan"),
-       &figure::PlateOptions::view},
-      {key::choice<PlateField>("field", {{"none", PlateField::none}, {"deflection", PlateField::deflection}, {"mxx", PlateField::xx}, {"myy", PlateField::yy},
-                                         {"mxy", PlateField::xy}, {"m1", PlateField::greatest}, {"m2", PlateField::least}, {"von_mises", PlateField::von_mises}},
-                               "what the colours show: deflection, moments per length, the principal ones m1 >= m2, von Mises' of them"),
-       &figure::PlateOptions::field}};
-  return all;
-}
-
 std::string render_plate(Call& call) {
-  figure::PlateOptions chosen = options().read(call);
+  auto chosen = call.filled<figure::PlateOptions>();
   if (call.is("deform", LUA_TNUMBER)) chosen.deform = call.number("deform");
   chosen.units = read_units(call);
   figure::PlatePicture picture = figure::compose(*call.self<plate::Solution>(), chosen);
   if (picture.view == PlateView::surface) picture.height = 800;
   read_page(call, picture);
   picture.edges = read_edges(call, picture.edges);
-  call.read("range", picture.field_range);
+  call.fill(picture);
   if (call.has("eye") && picture.view == PlateView::plan) throw InputError("'eye' is for view = \"surface\"; a plan is seen from above");
   picture.view_from = read_direction(call, "eye");
   figure::draw(picture);
@@ -198,10 +187,14 @@ void bind_plate_solution(Library& library) {
                "and point supports as dots with their numbers. Both show the status of edges, point supports, and hatched what bears on the obstacle.",
        .example = "s:render{ file = \"a.png\", view = \"plan\", field = \"von_mises\", units = { length = \"m\", force = \"kN\" } }",
        .arguments = {key::table(
-           {picture_key(), options().keys()[0], options().keys()[1],
+           {picture_key(),
+            key::choice<PlateView>("view", {{"surface", PlateView::surface}, {"plan", PlateView::plan}}, "the deflected surface, or the plan").into(&figure::PlateOptions::view),
+            key::choice<PlateField>("field", {{"none", PlateField::none}, {"deflection", PlateField::deflection}, {"mxx", PlateField::xx}, {"myy", PlateField::yy},
+                                              {"mxy", PlateField::xy}, {"m1", PlateField::greatest}, {"m2", PlateField::least}, {"von_mises", PlateField::von_mises}},
+                                    "what the colours show: deflection, moments per length, the principal ones m1 >= m2, von Mises' of them").into(&figure::PlateOptions::field),
             key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")}, "surface: factor on the deflection; auto: such that it can be seen").fallback("auto"),
             key::boolean("edges", "edges of the triangles").otherwise("on a surface while they can be told apart, none on a plan"),
-            key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's"),
+            key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's").into(&figure::PlatePicture::field_range),
             key::vector("eye", "surface: direction towards the eye").count(3).otherwise("{1, -1.7, 0.8}"),
             title_key(), units_key(), size_key("{1200, 800}, a plan {1200, 900}")})},
        .run = render_plate})

@@ -8,6 +8,7 @@ namespace {
 using thermoelastic::Data;
 using thermoelastic::History;
 using thermoelastic::Loads;
+using thermoelastic::Scheme;
 using thermoelastic::Source;
 using thermoelastic::Stepping;
 
@@ -62,30 +63,25 @@ std::optional<Arguments> holder(Call& call, const std::vector<Arguments>& suppor
   return call.table(at.table);
 }
 
-// Those of the loads that are given as a value of this Lua type, each with the arguments that it is in.
-template <class Use>
-void each_given(Call& call, const std::vector<Arguments>& supports, Loads& loads, int type, Use use) {
-  each_load(loads, [&](const LoadPlace& at, auto& load) {
-    const auto from = holder(call, supports, at);
-    if (from && from->is(at.name, type)) use(at, *from, load);
-  });
-}
-
-// Constants, and the functions as long as the making of the object runs.
-Loads given_loads(Call& call, const std::vector<Arguments>& supports, Loads& constants) {
+// Sets constants, and keeps functions with the beam at this stack index.
+void take_loads(Call& call, const std::vector<Arguments>& supports, int beam, Loads& constants) {
   constants.supports.resize(2);
   constants.supports[1].x = call.number("length");
   for (const Arguments& s : supports) constants.supports.push_back({s.number("x"), {}, {}, {}});
-  each_given(call, supports, constants, LUA_TNUMBER, [](const LoadPlace& at, const Arguments& from, auto& load) { load.constant = from.number(at.name); });
-  Loads all = constants;
-  each_given(call, supports, all, LUA_TFUNCTION, [&](const LoadPlace& at, const Arguments& from, auto& load) {
-    set_function(load, Function(call.state(), from.slot(at.name), at.kept(), call.descriptor().short_name()));
+  each_load(constants, [&](const LoadPlace& at, auto& load) {
+    const auto from = holder(call, supports, at);
+    if (!from || !from->has(at.name)) return;
+    if (from->is(at.name, LUA_TNUMBER)) load.constant = from->number(at.name);
+    else call.keep(beam, at.kept(), from->slot(at.name));
   });
-  return all;
 }
 
-void keep_functions(Call& call, int object, const std::vector<Arguments>& supports, Loads& constants) {
-  each_given(call, supports, constants, LUA_TFUNCTION, [&](const LoadPlace& at, const Arguments& from, auto&) { call.keep(object, at.kept(), from.slot(at.name)); });
+// With the functions that are kept with the beam at this stack index.
+Loads with_functions(const Call& call, int beam, Loads all) {
+  each_load(all, [&](const LoadPlace& at, auto& load) {
+    for (const Function& f : call.kept_function(beam, at.kept())) set_function(load, f);
+  });
+  return all;
 }
 
 Source at_first(const Arguments& from, const char* name) {
@@ -123,18 +119,10 @@ void take_along(Call& call, const char* name, double length, double& constant, s
 }
 
 Data given_data(Call& call, const std::vector<Arguments>& supports) {
-  Data data;
-  for (const auto& [name, member] : {std::pair{"length", &Data::length}, {"height", &Data::height}, {"width", &Data::width}, {"conductivity", &Data::conductivity},
-                                     {"heat_capacity", &Data::heat_capacity}, {"reference_temperature", &Data::reference}})
-    call.read(name, data.*member);
+  auto data = call.filled<Data>();
   take_along(call, "E", data.length, data.E, data.E_of);
   take_along(call, "expansion", data.length, data.expansion, data.expansion_of);
-  call.read("cells", data.cells);
-  if (call.has("exchange")) {
-    const Arguments exchange = call.table("exchange");
-    data.exchange_above = exchange.number("above");
-    data.exchange_below = exchange.number("below");
-  }
+  if (call.has("exchange")) call.table("exchange").fill(data);
   add_end(call, 0, data);
   for (const Arguments& s : supports) {
     data.supports.push_back({text("x = ", s.number("x")), s.number("x"), {}, {}, {}});
@@ -149,19 +137,16 @@ Given<ThermoelasticBeam> make_thermoelastic_beam(Call& call) {
   const std::vector<Arguments> supports = call.tables("supports");
   const Data data = given_data(call, supports);
   auto beam = std::make_shared<ThermoelasticBeam>();
-  const Loads loads = given_loads(call, supports, beam->constants);
-  thermoelastic::Initial initial;
-  if (call.has("initial")) initial = {at_first(call.table("initial"), "temperature"), at_first(call.table("initial"), "gradient")};
-  thermoelastic::Scheme scheme;
-  call.read("step", scheme.step);
-  scheme.order = call.integer("order") == 1 ? thermoelastic::Order::one : thermoelastic::Order::two;
-  call.read("decompose", scheme.decompose);
-  if (call.has("solver")) scheme.method = call.object<Solver>("solver")->method;
-  Watch watch(call.state(), "thermoelastic beam");
-  beam->stepping = std::make_unique<Stepping>(data, initial, scheme, loads, watch);
   const auto given = call.give_keeping(beam, {});
   const int object = lua_gettop(call.state());
-  keep_functions(call, object, supports, beam->constants);
+  take_loads(call, supports, object, beam->constants);
+  thermoelastic::Initial initial;
+  if (call.has("initial")) initial = {at_first(call.table("initial"), "temperature"), at_first(call.table("initial"), "gradient")};
+  auto scheme = call.filled<Scheme>();
+  scheme.order = call.integer("order") == 1 ? thermoelastic::Order::one : thermoelastic::Order::two;
+  if (call.has("solver")) scheme.method = call.object<Solver>("solver")->method;
+  Watch watch(call.state(), "thermoelastic beam");
+  beam->stepping = std::make_unique<Stepping>(data, initial, scheme, with_functions(call, object, beam->constants), watch);
   lua_settop(call.state(), object);
   return given;
 }
@@ -264,16 +249,16 @@ Key end_key(const char* name, const char* help) {
 
 std::vector<Key> thermoelastic_beam_keys() {
   const Key inner = key::table("", joined({key::number("x", "where").unit("length").required()}, driven_support_keys()), "");
-  return {key::positive("length", "from x = 0").unit("length").fallback(1.0),
-          key::positive("height", "of the section").unit("length").required(),
-          key::positive("width", "of the section").unit("length").fallback(1.0),
+  return {key::positive("length", "from x = 0").unit("length").into(&Data::length),
+          key::positive("height", "of the section").unit("length").required().into(&Data::height),
+          key::positive("width", "of the section").unit("length").into(&Data::width),
           key::either("E", {key::positive("", ""), key::function("", "")}, "Young's modulus; a function is of x, taken at the middles of the cells").unit("stress").required(),
           key::either("expansion", {key::number("", "").at_least(0), key::function("", "")}, "coefficient of thermal expansion; a function is of x, as E").unit("1/temperature").required(),
-          key::positive("conductivity", "of heat").unit("power/(length·temperature)").required(),
-          key::positive("heat_capacity", "per volume").unit("energy/(length³·temperature)").required(),
-          key::positive("reference_temperature", "absolute, at which it is free of stress").unit("temperature").fallback(293.15),
-          key::table("exchange", {key::number("above", "of the face z = height/2").at_least(0).unit("power/(length²·temperature)").fallback(0.0),
-                                  key::number("below", "of the face z = -height/2").at_least(0).unit("power/(length²·temperature)").fallback(0.0)}, "coefficients of heat exchange on the faces"),
+          key::positive("conductivity", "of heat").unit("power/(length·temperature)").required().into(&Data::conductivity),
+          key::positive("heat_capacity", "per volume").unit("energy/(length³·temperature)").required().into(&Data::heat_capacity),
+          key::positive("reference_temperature", "absolute, at which it is free of stress").unit("temperature").into(&Data::reference),
+          key::table("exchange", {key::number("above", "of the face z = height/2").at_least(0).unit("power/(length²·temperature)").into(&Data::exchange_above),
+                                  key::number("below", "of the face z = -height/2").at_least(0).unit("power/(length²·temperature)").into(&Data::exchange_below)}, "coefficients of heat exchange on the faces"),
           key::table("ambient", {varying("above", "over the reference; a function is of t").unit("temperature").otherwise("0"),
                                  varying("below", "over the reference; a function is of t").unit("temperature").otherwise("0")}, "temperatures around, over the reference"),
           varying("load", "upwards: a function is of x and t").unit("force/length").otherwise("0"),
@@ -285,10 +270,10 @@ std::vector<Key> thermoelastic_beam_keys() {
           key::list("supports", inner, "supports within the beam, none along the axis; law.load there is a point load"),
           key::table("initial", {varying("temperature", "over the reference: a function is of x").unit("temperature").otherwise("0"),
                                  varying("gradient", "a function is of x").unit("temperature/length").otherwise("0")}, "at t = 0"),
-          key::integer("cells", "elements, of equal length; a support within one divides it").within(1, 1000).fallback(32.0),
-          key::positive("step", "the longest step in time").unit("time").required(),
+          key::integer("cells", "elements, of equal length; a support within one divides it").within(1, 1000).into(&Data::cells),
+          key::positive("step", "the longest step in time").unit("time").required().into(&Scheme::step),
           key::integer("order", "in time: 1, the implicit Euler scheme, or 2, TR-BDF2: half trapezoidal rule, half backward differences").within(1, 2).fallback(2.0),
-          key::boolean("decompose", "solve the heat without the displacement where statics allows it").fallback(true),
+          key::boolean("decompose", "solve the heat without the displacement where statics allows it").into(&Scheme::decompose),
           key::object<Solver>("solver", "the method of the steps' contact problems").otherwise("pdas")};
 }
 
@@ -318,13 +303,7 @@ LoadsCalled::LoadsCalled(ThermoelasticBeam& beam, const char* what) : on_(beam.l
   on_ = true;
 }
 
-Loads kept_loads(Call& call, const ThermoelasticBeam& beam) {
-  Loads all = beam.constants;
-  each_load(all, [&](const LoadPlace& at, auto& load) {
-    for (const Function& f : call.kept_function(1, at.kept())) set_function(load, f);
-  });
-  return all;
-}
+Loads kept_loads(Call& call, const ThermoelasticBeam& beam) { return with_functions(call, 1, beam.constants); }
 
 void bind_thermoelastic(Library& library) {
   library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .setup = kBeam, .example = "print(b:run(60):deflection(0.5))", .arguments = {key::table(thermoelastic_beam_keys())},

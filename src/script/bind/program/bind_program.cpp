@@ -13,58 +13,44 @@ using program::QuadraticProgram;
 
 const std::vector<std::string> kProgramMethods = {"active_set", "interior_point", "multiplier", "least_squares"};
 
-const Bound<AugmentedLagrangian>& lagrangian_keys() {
-  using L = AugmentedLagrangian;
-  static const Bound<L> keys{
-      {key::positive("M", "augmented Lagrangians: inner precision, |gradient| <= M |Dx - d|"), &L::M},
-      {key::positive("rho", "first penalty; as M for B and c divided by their greatest entry, where that is beyond 1e6 or below 1e-6"), &L::rho},
-      {key::number("alpha", "factor on eta when |Dx - d| <= eta").within(0, 1), &L::alpha},
-      {key::number("beta", "factor on the penalty otherwise").above(1), &L::beta},
-      {key::positive("eta", "first bound on |Dx - d|"), &L::eta},
-      {key::positive("gradient_tol", "augmented Lagrangians stop at |gradient| <= this |c|"), &L::gradient_tol},
-      {key::positive("feasibility_tol", "and at |Dx - d| <= this"), &L::feasibility_tol}};
-  return keys;
-}
-
 std::vector<Key> solve_keys() {
-  using Change = program::ActiveSet::Change;
-  using Start = program::ActiveSet::Start;
-  const std::vector<Key> first{
-          key::choice("method", kProgramMethods, "active_set: exact, P semidefinite allowed; interior_point; multiplier and "
+  using L = AugmentedLagrangian;
+  using program::ActiveSet, program::InteriorPoint;
+  using Change = ActiveSet::Change;
+  using Start = ActiveSet::Start;
+  return {key::choice("method", kProgramMethods, "active_set: exact, P semidefinite allowed; interior_point; multiplier and "
                                           "least_squares: augmented Lagrangians for equalities, named by the update")
               .otherwise("\"active_set\""),
-          key::choice<Change>("change", {{"one", Change::one}, {"many", Change::many}}, "active_set: rows that change in one step").fallback(Change::one),
+          key::choice<Change>("change", {{"one", Change::one}, {"many", Change::many}}, "active_set: rows that change in one step").into(&ActiveSet::change),
           key::choice<Start>("start", {{"automatic", Start::automatic}, {"cold", Start::cold}, {"interior_point", Start::interior_point}},
-                             "active_set: its first working set; automatic: cold up to 200 unknowns and rows").fallback(Start::automatic),
-          key::positive("tol", "active_set and interior_point: on residuals, in the scaled program").fallback(1e-9),
+                             "active_set: its first working set; automatic: cold up to 200 unknowns and rows").into(&ActiveSet::start),
+          key::positive("tol", "active_set and interior_point: on residuals, in the scaled program").into(&ActiveSet::tol).into(&InteriorPoint::tol),
           key::integer("max_iterations", "give up after so many").at_least(1)
-              .otherwise("20000 (active_set), 200 (others)")};
-  return joined(joined(first, lagrangian_keys().keys()),
-                {key::function("on_iteration", "called as f(k, info) after each iteration; returning false stops the solve"),
-                 key::boolean("verbose", "a line on standard error for each iteration").fallback(false)});
+              .otherwise("20000 (active_set), 200 (others)").into(&ActiveSet::max_iterations).into(&InteriorPoint::max_iterations).into(&L::max_iterations),
+          key::positive("M", "augmented Lagrangians: inner precision, |gradient| <= M |Dx - d|").into(&L::M),
+          key::positive("rho", "first penalty; as M for B and c divided by their greatest entry, where that is beyond 1e6 or below 1e-6").into(&L::rho),
+          key::number("alpha", "factor on eta when |Dx - d| <= eta").within(0, 1).into(&L::alpha),
+          key::number("beta", "factor on the penalty otherwise").above(1).into(&L::beta),
+          key::positive("eta", "first bound on |Dx - d|").into(&L::eta),
+          key::positive("gradient_tol", "augmented Lagrangians stop at |gradient| <= this |c|").into(&L::gradient_tol),
+          key::positive("feasibility_tol", "and at |Dx - d| <= this").into(&L::feasibility_tol),
+          key::function("on_iteration", "called as f(k, info) after each iteration; returning false stops the solve"),
+          key::boolean("verbose", "a line on standard error for each iteration").fallback(false)};
+}
+
+/// With settings of this type, as they are given.
+template <class Settings>
+program::Result run_with(const QuadraticProgram& p, const Arguments& given, Monitor& watch, Settings settings = {}) {
+  given.fill(settings);
+  settings.max_iterations = std::min(settings.max_iterations, 100'000'000);
+  return program::solve(p, settings, watch);
 }
 
 program::Result run_method(const QuadraticProgram& p, const Arguments& given, const std::string& method, Monitor& watch) {
-  const int limit = given.has("max_iterations")
-                        ? static_cast<int>(std::min<long long>(given.integer("max_iterations"), 100'000'000)) : 0;
-  if (method == "active_set") {
-    program::ActiveSet s;
-    given.read("change", s.change);
-    given.read("start", s.start);
-    given.read("tol", s.tol);
-    if (limit) s.max_iterations = limit;
-    return program::solve(p, s, watch);
-  }
-  if (method == "interior_point") {
-    program::InteriorPoint s;
-    s.tol = given.number("tol");
-    if (limit) s.max_iterations = limit;
-    return program::solve(p, s, watch);
-  }
-  AugmentedLagrangian s = lagrangian_keys().read(given);
-  s.update = method == "multiplier" ? AugmentedLagrangian::Update::multiplier : AugmentedLagrangian::Update::least_squares;
-  if (limit) s.max_iterations = limit;
-  return program::solve(p, s, watch);
+  using Update = AugmentedLagrangian::Update;
+  if (method == "active_set") return run_with<program::ActiveSet>(p, given, watch);
+  if (method == "interior_point") return run_with<program::InteriorPoint>(p, given, watch);
+  return run_with<AugmentedLagrangian>(p, given, watch, {.update = method == "multiplier" ? Update::multiplier : Update::least_squares});
 }
 
 std::shared_ptr<ProgramResult> solve_with(Call& call, const std::shared_ptr<QuadraticProgram>& p) {
@@ -152,9 +138,7 @@ Lcp given_lcp(const Call& call) {
 
 std::shared_ptr<LcpResult> solve_lcp(Call& call) {
   const Lcp lcp = given_lcp(call);
-  LcpSettings settings;
-  call.read("method", settings.method);
-  call.read("unique", settings.unique);
+  auto settings = call.filled<LcpSettings>();
   if (call.has("start")) {
     settings.start.assign(lcp.size(), 0);
     for (const long long i : call.integers("start")) {
@@ -259,9 +243,9 @@ void bind_lcp(Library& library) {
            {key::file("file", "a file in the text format of siconos, instead of M and q").otherwise("none"),
             key::matrix("M", "n x n"), key::vector("q", "n"),
             key::choice<Method>("method", {{"automatic", Method::automatic}, {"newton_min", Method::newton_min}, {"lemke", Method::lemke},
-                                           {"enumeration", Method::enumeration}}, "one method alone, or one after the other").fallback(Method::automatic),
+                                           {"enumeration", Method::enumeration}}, "one method alone, or one after the other").into(&LcpSettings::method),
             key::list("start", key::integer("", ""), "unknowns that are free (w = 0) in newton_min's first set").otherwise("none"),
-            key::boolean("unique", "up to 16 unknowns: look for further solutions").fallback(true)})},
+            key::boolean("unique", "up to 16 unknowns: look for further solutions").into(&LcpSettings::unique)})},
        .run = solve_lcp});
   library.type<LcpResult>("The result of a linear complementarity problem.")
       .field("status", "\"solved\", \"several\" (more than one solution), \"none\" (there is no solution) or \"stopped\"",

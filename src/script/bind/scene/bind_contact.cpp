@@ -6,9 +6,10 @@ namespace {
 
 using scene::Contact;
 using scene::MultiplierPart;
+using scene::InfSupSettings;
 
 Record inf_sup(Call& call) {
-  const scene::InfSupSettings settings{call.choice<MultiplierPart>("part"), call.text("fixed_nodes") == "shared", call.text("norm") == "multiplier", call.boolean("cone")};
+  const auto settings = call.filled<InfSupSettings>();
   Watch watch(call.state(), "inf-sup constants");
   const scene::InfSup s = scene::inf_sup(*call.self<Contact>(), settings, watch);
   return {"inf-sup", {{"constant", s.constant}, {"above_kernel", s.above_kernel}, {"kernel", s.kernel}, {"multipliers", s.multipliers},
@@ -30,11 +31,11 @@ void bind_contact(Library& library) {
                        "gets. Supports, meshes and multipliers enter, the material does not.",
                .example = "print(contact:inf_sup{ part = \"normal\" }.constant)",
                .arguments = {key::table({key::choice<MultiplierPart>("part", {{"tangential", MultiplierPart::tangential}, {"normal", MultiplierPart::normal},
-                                                                                {"both", MultiplierPart::both}}, "which multipliers").fallback("tangential"),
-                                         key::choice("fixed_nodes", {"shared", "kept"},
-                                                     "multipliers of nodes held on both sides, and those of friction at corners of the part: shared out among their neighbours, as in a solve, or kept").fallback("shared"),
-                                         key::choice("norm", {"shear", "multiplier"}, "of friction: of the shear g mu, or of mu itself, as TR965 (3.16) has it").fallback("shear"),
-                                         key::boolean("cone", "also .cone: the least constant found over pressures that are not negative").fallback(false)})},
+                                                                                {"both", MultiplierPart::both}}, "which multipliers").into(&InfSupSettings::part),
+                                         key::choice<bool>("fixed_nodes", {{"shared", true}, {"kept", false}},
+                                                     "multipliers of nodes held on both sides, and those of friction at corners of the part: shared out among their neighbours, as in a solve, or kept").into(&InfSupSettings::share_fixed),
+                                         key::choice<bool>("norm", {{"shear", false}, {"multiplier", true}}, "of friction: of the shear g mu, or of mu itself, as TR965 (3.16) has it").into(&InfSupSettings::own_norm),
+                                         key::boolean("cone", "also .cone: the least constant found over pressures that are not negative").into(&InfSupSettings::cone)})},
                .run = inf_sup})
       .text([](const Contact& c) { return c.name; });
 }

@@ -16,7 +16,8 @@ using figure::SeriesStyle;
 
 figure::SceneOptions scene_options(const Call& call, int dimension) {
   figure::SceneOptions options;
-  call.read("field", options.field);
+  options.obstacle = dimension == 2;
+  call.fill(options);
   if (call.is("deform", LUA_TNUMBER)) {
     lua_Number factor = lua_tonumber(call.state(), call.slot("deform"));
     if (factor < 0) throw InputError(text("deform is ", factor, "; it must be zero, positive or \"auto\""));
@@ -24,11 +25,6 @@ figure::SceneOptions scene_options(const Call& call, int dimension) {
   } else if (!call.has("deform") && call.has("window")) {
     options.deform = 1;  // the window is in coordinates of the deformed picture
   }
-  call.read("contact", options.contact);
-  call.read("supports", options.supports);
-  call.read("loads", options.loads);
-  options.obstacle = dimension == 2;
-  call.read("obstacle", options.obstacle);
   return options;
 }
 
@@ -36,40 +32,35 @@ std::string render_scene(Call& call) {
   const auto s = call.self<Solution>();
   figure::ScenePicture picture = figure::compose(*s, scene_options(call, s->scene().dimension()));
   read_page(call, picture);
-  picture.field_unit = call.has("unit") ? call.text("unit") : "";
+  call.fill(picture);
   picture.pressure_unit = picture.field_unit;
   picture.edges = read_edges(call, figure::MeshEdges::automatic);
-  call.read("pressure", picture.pressure);
-  call.read("shear", picture.shear);
-  call.read("range", picture.field_range);
-  call.read("window", picture.window);
   if (call.has("view") && s->scene().dimension() == 2) throw InputError("'view' is for scenes in space; this one is 2-D (try 'window')");
   if (call.has("view")) picture.view_from = read_direction(call, "view");
   figure::draw(picture);
   return picture.file;
 }
 
-const Bound<SeriesPicture>& series_keys() {
+std::vector<Key> series_keys() {
   using figure::Status;
-  static const Bound<SeriesPicture> keys{
-      {key::string("name", "its name in the legend"), &SeriesPicture::name},
-      {key::vector("x", "abscissas").required(), &SeriesPicture::x}, {key::vector("y", "ordinates; crossed points may have none"), &SeriesPicture::y},
-      {key::vector("low", "lower end of a spread"), &SeriesPicture::low}, {key::vector("high", "upper end of a spread"), &SeriesPicture::high},
-      {key::vector("x_low", "left end of a whisker at each point"), &SeriesPicture::x_low}, {key::vector("x_high", "right end of it"), &SeriesPicture::x_high},
-      {key::choice<SeriesStyle>("style", {{"line", SeriesStyle::line}, {"points", SeriesStyle::points}, {"both", SeriesStyle::both}}, "how it is drawn"),
-       &SeriesPicture::style},
-      {key::boolean("reference", "a reference curve: dashed, without markers"), &SeriesPicture::reference},
-      {key::boolean("crossed", "markers pale and crossed out, for runs that failed; without y in a strip above "
-                    "the plot, \"not converged\", a row for each such series"), &SeriesPicture::crossed},
-      {key::boolean("front", "a broad pale line beneath all others, for what is best"), &SeriesPicture::front},
-      {key::boolean("twin", "dashed, with the colour and marker of the series before it"), &SeriesPicture::twin},
-      {key::choice<Status>("status", {{"open", Status::open}, {"closed", Status::closed}, {"stick", Status::stick}, {"slip", Status::slip}},
-                           "with the colour and marker that contact nodes of this status have in scenes").otherwise("none"), &SeriesPicture::status}};
-  return keys;
+  using S = SeriesPicture;
+  return {
+      key::string("name", "its name in the legend").into(&S::name),
+      key::vector("x", "abscissas").required().into(&S::x), key::vector("y", "ordinates; crossed points may have none").into(&S::y),
+      key::vector("low", "lower end of a spread").into(&S::low), key::vector("high", "upper end of a spread").into(&S::high),
+      key::vector("x_low", "left end of a whisker at each point").into(&S::x_low), key::vector("x_high", "right end of it").into(&S::x_high),
+      key::choice<SeriesStyle>("style", {{"line", SeriesStyle::line}, {"points", SeriesStyle::points}, {"both", SeriesStyle::both}}, "how it is drawn").into(&S::style),
+      key::boolean("reference", "a reference curve: dashed, without markers").into(&S::reference),
+      key::boolean("crossed", "markers pale and crossed out, for runs that failed; without y in a strip above "
+                    "the plot, \"not converged\", a row for each such series").into(&S::crossed),
+      key::boolean("front", "a broad pale line beneath all others, for what is best").into(&S::front),
+      key::boolean("twin", "dashed, with the colour and marker of the series before it").into(&S::twin),
+      key::choice<Status>("status", {{"open", Status::open}, {"closed", Status::closed}, {"stick", Status::stick}, {"slip", Status::slip}},
+                           "with the colour and marker that contact nodes of this status have in scenes").otherwise("none").into(&S::status)};
 }
 
 SeriesPicture series_of(const Arguments& given) {
-  const SeriesPicture series = series_keys().read(given);
+  const SeriesPicture series = given.filled<SeriesPicture>();
   if (!given.has("y") && !series.crossed) throw InputError(text("series '", series.name, "': missing key 'y'; only points that are crossed may have none"));
   if (given.has("y") && series.x.size() != series.y.size())
     throw InputError(text("series '", series.name, "' has ", series.x.size(), " x and ", series.y.size(), " y"));
@@ -101,9 +92,7 @@ std::array<double, 2> range_of(const Arguments& given, const char* name) {
 }
 
 void read_chart(const Arguments& given, figure::ChartPicture& chart) {
-  given.read("title", chart.title);
-  given.read("x", chart.x_label);
-  given.read("y", chart.y_label);
+  given.fill(chart);
   if (given.has("x_range")) chart.x_range = range_of(given, "x_range");
   if (given.has("y_range")) chart.y_range = range_of(given, "y_range");
   const std::string log = given.text("log");
@@ -155,13 +144,14 @@ std::string chart(Call& call) {
 }
 
 Key series_key() {
-  return key::list("series", key::table("", series_keys().keys(), "one curve"), "the curves").some();
+  return key::list("series", key::table("", series_keys(), "one curve"), "the curves").some();
 }
 
 // Of a chart, alone or a panel.
 std::vector<Key> chart_keys(Key series) {
-  return {title_key("above the chart"),
-          key::string("x", "label of the x axis"), key::string("y", "label of the y axis"),
+  using figure::ChartPicture;
+  return {title_key("above the chart").into(&ChartPicture::title),
+          key::string("x", "label of the x axis").into(&ChartPicture::x_label), key::string("y", "label of the y axis").into(&ChartPicture::y_label),
           key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
                       "are left out, and counted on standard error").fallback(""),
           std::move(series),
@@ -184,6 +174,8 @@ std::vector<Key> figure_keys() {
 
 void bind_figure(Library& library) {
   using Field = figure::FieldChoice;
+  using Options = figure::SceneOptions;
+  using Picture = figure::ScenePicture;
   library.function({.name = "dotyk.chart",
                     .help = "Draws curves into a PNG file, in one chart or in panels one below the other (or in columns), and returns its name.",
                     .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
@@ -200,24 +192,24 @@ void bind_figure(Library& library) {
            {picture_key(),
             key::choice<Field>("field", {{"none", Field::none}, {"displacement", Field::displacement}, {"ux", Field::ux}, {"uy", Field::uy}, {"uz", Field::uz},
                                          {"von_mises", Field::von_mises}, {"xx", Field::xx}, {"yy", Field::yy}, {"zz", Field::zz}, {"yz", Field::yz},
-                                         {"xz", Field::xz}, {"xy", Field::xy}}, "what the colours show").fallback(Field::von_mises),
+                                         {"xz", Field::xz}, {"xy", Field::xy}}, "what the colours show").into(&Options::field),
             key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")},
                         "factor on the displacement; auto: such that it can be seen").otherwise("\"auto\", with a window 1"),
-            key::boolean("contact", "contact status, pressure and obstacles").fallback(true),
-            key::boolean("supports", "symbols at supported nodes").fallback(false),
-            key::boolean("loads", "arrows for loads").fallback(false),
-            key::boolean("obstacle", "rigid obstacles").otherwise("true in the plane, false in space"),
+            key::boolean("contact", "contact status, pressure and obstacles").into(&Options::contact),
+            key::boolean("supports", "symbols at supported nodes").into(&Options::supports),
+            key::boolean("loads", "arrows for loads").into(&Options::loads),
+            key::boolean("obstacle", "rigid obstacles").otherwise("true in the plane, false in space").into(&Options::obstacle),
             key::choice<PressureStyle>("pressure", {{"auto", PressureStyle::automatic}, {"strip", PressureStyle::strip}, {"arrows", PressureStyle::arrows},
-                                                    {"none", PressureStyle::none}}, "how contact pressure is drawn").fallback("auto"),
+                                                    {"none", PressureStyle::none}}, "how contact pressure is drawn").into(&Picture::pressure),
             key::boolean("shear", "arrows of the friction on the first part of each contact, where there is any: in the plane "
-                                  "beside the contact line, in space on the plan of the contact").fallback(true),
+                                  "beside the contact line, in space on the plan of the contact").into(&Picture::shear),
             key::boolean("edges", "edges of the cells").otherwise("while they can be told apart"),
-            key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's"),
+            key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's").into(&Picture::field_range),
             key::vector("window", "in the plane: {x0, y0, x1, y1} of the deformed picture, all that is shown; colours and "
-                                  "pressure are scaled to it").count(4).otherwise("all"),
+                                  "pressure are scaled to it").count(4).otherwise("all").into(&Picture::window),
             key::vector("view", "direction towards the eye, in space").count(3),
             title_key(),
-            key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none"),
+            key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none").into(&Picture::field_unit),
             size_key("{1200, 800}")})},
        .run = render_scene})
       .method(

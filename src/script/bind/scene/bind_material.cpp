@@ -15,8 +15,7 @@ algebra::DenseMatrix matrix_of(const std::vector<std::vector<double>>& rows) {
 }
 
 Given<Material> make_material(Call& call) {
-  auto material = std::make_shared<Material>();
-  if (call.has("density")) material->density = call.number("density");
+  auto material = std::make_shared<Material>(call.filled<Material>());
   if (call.has("stiffness")) {
     if (call.has("E") || call.has("nu"))
       throw InputError("give either E and nu, or stiffness, not both");
@@ -24,7 +23,6 @@ Given<Material> make_material(Call& call) {
     return call.give_keeping(material, {});
   }
   if (!call.has("E")) throw InputError("E is missing: give E and nu, or a stiffness matrix");
-  call.read("plane", material->plane);
   material->E_varies = call.is("E", LUA_TFUNCTION);
   material->nu_varies = call.is("nu", LUA_TFUNCTION);
   if (!material->E_varies) material->E = call.field("E")({})[0];
@@ -55,9 +53,9 @@ void bind_material(Library& library) {
            {key::field("E", "Young's modulus").unit("stress"),
             key::field("nu", "Poisson's ratio, above -1 and below 0.5").otherwise("0.3"),
             key::choice<Plane>("plane", {{"strain", Plane::strain}, {"stress", Plane::stress}},
-                               "what a plane body assumes of the third direction").fallback(Plane::strain),
+                               "what a plane body assumes of the third direction").into(&Material::plane),
             key::matrix("stiffness", "3x3 in the plane, 6x6 in space, instead of E and nu").unit("stress"),
-            key::number("density", "mass per volume, for scripts to use").unit("mass/volume").above(0)})},
+            key::number("density", "mass per volume, for scripts to use").unit("mass/volume").above(0).into(&Material::density)})},
        .run = make_material});
   library.type<Material>("An elastic material.")
       .field("E", "Young's modulus; nil where it is a function or the material is general",

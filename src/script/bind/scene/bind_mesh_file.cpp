@@ -11,13 +11,12 @@ Key region_key() {
 }
 
 Key order_key(const char* second) {
-  return key::integer("order", std::string("of the cells: 1, with straight sides between their corners, or 2: ") + second).within(1, 2).otherwise("1");
+  return key::integer("order", std::string("of the cells: 1, with straight sides between their corners, or 2: ") + second).within(1, 2).otherwise("1").into(&meshfile::Choice::order);
 }
 
 meshfile::Choice loading_choice(const Arguments& given) {
-  meshfile::Choice result;
+  auto result = given.filled<meshfile::Choice>();
   if (given.has("region")) result.regions = given.is("region", LUA_TTABLE) ? given.texts("region") : std::vector<std::string>{given.text("region")};
-  if (given.has("order")) result.order = static_cast<int>(given.integer("order"));
   return result;
 }
 
@@ -36,8 +35,7 @@ std::shared_ptr<MeshHandle> gmsh(Call& call) {
   if (Library::of(call.state()).folder) throw ArgumentError("not for scripts run with --safe: a geometry can read any file");
   if (call.has("file") && call.has("text")) throw ArgumentError("'file' and 'text' are both given; give the geometry by one of them");
   if (!call.has("file") && !call.has("text")) throw ArgumentError("one of 'file' and 'text' is needed");
-  const meshfile::Meshing meshing{.dimension = call.has("dimension") ? static_cast<int>(call.integer("dimension")) : 0,
-                                  .size = call.has("size") ? call.number("size") : 0};
+  const auto meshing = call.filled<meshfile::Meshing>();
   Watch watch(call.state(), "meshing");
   if (call.has("file")) return handle_of(meshfile::mesh_geometry(call.text("file"), meshing, loading_choice(call), watch));
   const std::string text = call.is("text", LUA_TFUNCTION) ? call.function("text").text() : call.text("text");
@@ -76,8 +74,8 @@ void bind_mesh_file(Library& library) {
                   "  Physical Surface(\"plate\") = {3}; Physical Curve(\"hole\") = {5};\n"
                   "]] }",
        .arguments = {key::table({key::file("file", "the geometry; or text"), key::either("text", {key::string("", ""), key::function("", "")}, "the geometry, in Gmsh's language, or a function that returns it; or file"),
-                                 key::positive("size", "greatest length of an edge").unit("length").otherwise("as the geometry says"),
-                                 key::integer("dimension", "of the cells").within(2, 3).otherwise("3 where there is a volume, else 2"),
+                                 key::positive("size", "greatest length of an edge").unit("length").otherwise("as the geometry says").into(&meshfile::Meshing::size),
+                                 key::integer("dimension", "of the cells").within(2, 3).otherwise("3 where there is a volume, else 2").into(&meshfile::Meshing::dimension),
                                  order_key("second order, with curved boundaries"), region_key()})},
        .run = gmsh});
 }

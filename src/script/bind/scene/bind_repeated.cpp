@@ -11,27 +11,8 @@ namespace {
 using algebra::RepeatedSettings;
 using scene::RepeatedSolution;
 
-const Bound<RepeatedSettings>& settings_keys() {
-  using S = RepeatedSettings;
-  using Method = S::Method;
-  using algebra::Preconditioning;
-  static const Bound<S> keys{
-      {key::choice<Method>("method", {{"cholesky", Method::cholesky}, {"cg", Method::cg}, {"scg", Method::scg}, {"cglan", Method::cglan}, {"block_cg", Method::block_cg}},
-                           "cholesky: direct, all at once. cg: conjugate gradients, each alone. scg: successive cg, starts from the conjugate "
-                           "directions of the first system. cglan: starts from its lowest Lanczos eigenvectors. block_cg: all right-hand "
-                           "sides at once"), &S::method},
-      {key::choice<Preconditioning>("preconditioner", {{"none", Preconditioning::none}, {"ssor", Preconditioning::ssor}, {"ic", Preconditioning::incomplete_cholesky}},
-                                    "ssor by Eisenstat's trick; ic: incomplete Cholesky on the pattern of K"), &S::preconditioning},
-      {key::number("omega", "relaxation of ssor").above(0).below(2), &S::omega},
-      {key::positive("tol", "of |b - Kx|/|b|").below(1), [](S& s) -> double& { return s.cg.tolerance; }},
-      {key::integer("max_iterations", "for one system").within(1, 1 << 30).otherwise("ten times the unknowns"), [](S& s) -> int& { return s.cg.most; }},
-      {key::boolean("extend", "scg: later systems add their directions"), &S::extend},
-      {key::boolean("deflate", "cglan: the iterations, too, stay conjugate to the eigenvectors"), &S::deflate}};
-  return keys;
-}
-
 RepeatedSettings settings(const Call& call) {
-  const RepeatedSettings s = settings_keys().read(call);
+  const auto s = call.filled<RepeatedSettings>();
   const auto only = [&](const char* key, const char* owner, bool used) {
     if (call.has(key) && !used) throw InputError(text("'", key, "' belongs to ", owner, ", not to method = \"", call.text("method"), "\""));
   };
@@ -91,13 +72,25 @@ int nodes(Call& call) {
 }
 
 std::vector<Key> repeated_systems_keys() {
-  const std::vector<Key> first{
-          key::object<scene::Scene>("scene", "one body that its supports hold").required(),
+  using S = RepeatedSettings;
+  using Method = S::Method;
+  using algebra::Preconditioning;
+  return {key::object<scene::Scene>("scene", "one body that its supports hold").required(),
           key::list("loads", key::string("", ""), "names of load cases: one system each").count(1, 4096).otherwise("velocities are given"),
           key::list("velocities", key::function("", ""),
                     "functions of the coordinates to the velocity of a node (as many numbers as the body has dimensions) when a design "
-                    "variable grows: the displacement and its derivatives").count(1, 4096).unit("length per unit of the variable").otherwise("loads are given")};
-  return joined(first, settings_keys().keys());
+                    "variable grows: the displacement and its derivatives").count(1, 4096).unit("length per unit of the variable").otherwise("loads are given"),
+          key::choice<Method>("method", {{"cholesky", Method::cholesky}, {"cg", Method::cg}, {"scg", Method::scg}, {"cglan", Method::cglan}, {"block_cg", Method::block_cg}},
+                               "cholesky: direct, all at once. cg: conjugate gradients, each alone. scg: successive cg, starts from the conjugate "
+                               "directions of the first system. cglan: starts from its lowest Lanczos eigenvectors. block_cg: all right-hand "
+                               "sides at once").into(&S::method),
+          key::choice<Preconditioning>("preconditioner", {{"none", Preconditioning::none}, {"ssor", Preconditioning::ssor}, {"ic", Preconditioning::incomplete_cholesky}},
+                                        "ssor by Eisenstat's trick; ic: incomplete Cholesky on the pattern of K").into(&S::preconditioning),
+          key::number("omega", "relaxation of ssor").above(0).below(2).into(&S::omega),
+          key::positive("tol", "of |b - Kx|/|b|").below(1).into<S>([](S& s) -> double& { return s.cg.tolerance; }),
+          key::integer("max_iterations", "for one system").within(1, 1 << 30).otherwise("ten times the unknowns").into<S>([](S& s) -> int& { return s.cg.most; }),
+          key::boolean("extend", "scg: later systems add their directions").into(&S::extend),
+          key::boolean("deflate", "cglan: the iterations, too, stay conjugate to the eigenvectors").into(&S::deflate)};
 }
 
 }  // namespace

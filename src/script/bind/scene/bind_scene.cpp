@@ -8,9 +8,12 @@
 namespace dotyk::script {
 namespace {
 
+using scene::CellEnds;
 using scene::Contact;
+using scene::Discretisation;
 using scene::Part;
 using scene::Scene;
+using contact::Multipliers;
 
 std::shared_ptr<Scene> make_scene(Call& call) {
   return scene::make_scene(call.items<scene::Body>());
@@ -34,16 +37,9 @@ scene::InterfaceLaws laws(Call& call, const Scene& scene, std::optional<Field>& 
 
 /// None where nodes decide.
 std::optional<contact::Pairing> pairing(Call& call) {
-  if (!call.has("pairing")) return {};
-  return static_cast<contact::Pairing>(call.choice("pairing"));
-}
-
-scene::Discretisation discretisation(Call& call) {
-  scene::Discretisation d;
-  d.multipliers = static_cast<contact::Multipliers>(call.choice("multipliers"));
-  if (call.has("friction_size")) d.friction_size = call.number("friction_size");
-  d.ends = static_cast<scene::CellEnds>(call.choice("friction_ends"));
-  return d;
+  std::optional<contact::Pairing> given;
+  call.read("pairing", given);
+  return given;
 }
 
 std::shared_ptr<const Contact> against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added,
@@ -60,7 +56,7 @@ std::shared_ptr<const Contact> against_rigid(Call& call, Scene& scene, const Par
     }
   }
   return scene::add_contact(scene, part, shape, added, call.boolean("interference"), laws,
-                                      discretisation(call));
+                                      call.filled<Discretisation>());
 }
 
 std::shared_ptr<const Contact> add_contact(Call& call) {
@@ -84,7 +80,7 @@ std::shared_ptr<const Contact> add_contact(Call& call) {
     throw InputError("give two parts, or one part and 'rigid'");
   Watch watch(call.state(), "pairing");
   return scene::add_contact(*scene, *parts[0], *parts[1], added, given, call.boolean("interference"),
-                                      discretisation(call), pairing(call), &watch);
+                                      call.filled<Discretisation>(), pairing(call), &watch);
 }
 
 std::shared_ptr<const Contact> add_glue(Call& call) {
@@ -194,7 +190,8 @@ void bind_rigid(Library& library) {
 }
 
 Key pairing_key() {
-  return key::choice("pairing", {"matching", "node_to_segment", "mortar"},
+  using contact::Pairing;
+  return key::choice<Pairing>("pairing", {{"matching", Pairing::matching}, {"node_to_segment", Pairing::node_to_segment}, {"mortar", Pairing::mortar}},
                      "matching: nodes across from each other, refused where one has none. mortar: displacements of the second part in the mean over "
                      "a node's surroundings, weighted with dual multipliers; a uniform pressure is exact. node_to_segment: at the "
                      "node's foot; a uniform pressure is not exact. Curved parts that fit, meshed by chords that do not match, have gaps of the chords' "
@@ -231,15 +228,15 @@ void bind_scene(Library& library) {
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
                                          key::field("gap", "added to the geometric gap, less than 0 for an interference (a press fit, a bolt that is tightened); a number or a function of the coordinates").unit("length").otherwise("0"),
                                          pairing_key(),
-                                         key::choice("multipliers", {"nodal", "P1-P0"},
+                                         key::choice<Multipliers>("multipliers", {{"nodal", Multipliers::nodal}, {"P1-P0", Multipliers::p1_p0}},
                                                      "nodal: a normal and a tangential force at each node. P1-P0: pressure continuous and piecewise "
                                                      "linear; friction piecewise constant times its given bound, in the plane on the dual cells between "
-                                                     "midpoints of edges, in space on cells of several facets; not with Coulomb friction").fallback("nodal"),
+                                                     "midpoints of edges, in space on cells of several facets; not with Coulomb friction").into(&Discretisation::multipliers),
                                          key::positive("friction_size", "P1-P0: extent H of the cells of friction. In space the inf-sup constant settles at about 0.8 with H = 2h "
-                                                       "as h falls, and goes to 0 with H = h (contact:inf_sup)").unit("length").otherwise("in the plane one dual cell, in space twice the widest facet"),
-                                         key::choice("friction_ends", {"own", "joined", "bare"},
+                                                       "as h falls, and goes to 0 with H = h (contact:inf_sup)").unit("length").otherwise("in the plane one dual cell, in space twice the widest facet").into(&Discretisation::friction_size),
+                                         key::choice<CellEnds>("friction_ends", {{"own", CellEnds::own}, {"joined", CellEnds::joined}, {"bare", CellEnds::bare}},
                                                      "P1-P0 in the plane: the half cells at the ends of the contact line have friction of their own, "
-                                                     "that of the next cell, or none (TR965 (2.14)). At a corner within the line they are always the next cell's").fallback("own"),
+                                                     "that of the next cell, or none (TR965 (2.14)). At a corner within the line they are always the next cell's").into(&Discretisation::ends),
                                          key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest; else that is refused, "
                                                       "where the first part's nodes see it: of two meshes name the finer one first").fallback(false)})
                                  .with(key::object<Part>("parts", "one part, or two").count(1, 2))},

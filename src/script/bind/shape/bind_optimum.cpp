@@ -107,20 +107,15 @@ class Run {
     Run& run_;
   };
 
-  void common(shape::Stopping& settings) const {
-    call_.read("tol_design", settings.tol_design);
-    call_.read("tol_gap", settings.tol_gap);
-    call_.read("max_designs", settings.max_designs);
-  }
   shape::Slp slp() const {
     shape::Slp settings;
-    common(settings);
+    call_.fill<shape::Stopping>(settings);
     settings.radius = radius_;
     return settings;
   }
   shape::Mma mma() const {
     shape::Mma settings;
-    common(settings);
+    call_.fill<shape::Stopping>(settings);
     settings.method = static_cast<shape::Mma::Method>(method_ - 1);
     return settings;
   }
@@ -203,6 +198,7 @@ Record cost(const OptimumHandle& o) {
 }
 
 std::vector<Key> optimise_keys() {
+  using shape::Stopping;
   return {key::choice("method", kOptimisers,
                       "slp: sequential linear programming with a trust region (simplex method of GLPK), quadratically convergent where bounds and "
                       "constraints settle the design. mma: moving asymptotes, ccsaq: the same with quadratic models, slsqp: sequential quadratic "
@@ -210,9 +206,9 @@ std::vector<Key> optimise_keys() {
           key::either("start", {key::vector("", "").count(1, 4096), key::object<OptimumHandle>("", "")},
                       "the first design, or where an earlier run ended: slp goes on with its radius").unit("length").otherwise("as given to dotyk.shape"),
           key::number("radius", "of slp's first trust region, a share of the variables' ranges; of an optimum as start its own").above(0).within(0, 1).fallback(0.1),
-          key::number("tol_design", "ends where a step changes every variable by less, a share of its range").above(0).fallback(1e-4),
-          key::number("tol_gap", "ends where the linearised problem promises less over the whole box, relative to what it did at first").at_least(0).fallback(1e-6),
-          key::integer("max_designs", "evaluated at most").within(1, 100000).fallback(100.0),
+          key::number("tol_design", "ends where a step changes every variable by less, a share of its range").above(0).into(&Stopping::tol_design),
+          key::number("tol_gap", "ends where the linearised problem promises less over the whole box, relative to what it did at first").at_least(0).into(&Stopping::tol_gap),
+          key::integer("max_designs", "evaluated at most").within(1, 100000).into(&Stopping::max_designs),
           key::function("on_design", "f(k, record, design), design only of admissible ones; false stops with the best so far"),
           key::file("figures", "a file for a figure of each design, with a place for its number: images/shape_%03d.png"),
           key::file("file", "written after each better design: shape:optimise(dofile(file)) goes on from there").written()};

@@ -70,9 +70,9 @@ std::vector<Key> shape_keys() {
           quantity_key("objective", "what is to be least: compliance is minus the least energy (friction's included); peak_pressure is smoothed, see exponent; a function "
                                     "gets a design and computes with its dual numbers").fallback("compliance"),
           key::list("constraints", key::table("", constraint_keys(), ""), "quantities that are to stay below a bound").otherwise("none but the variables' bounds"),
-          key::number("exponent", "q of peak_pressure, (mean of p^q over the contacts)^(1/q)").at_least(1).fallback(8.0),
+          key::number("exponent", "q of peak_pressure, (mean of p^q over the contacts)^(1/q)").at_least(1).into(&Shape::exponent),
           key::object<Solver>("method", "how each design is solved").otherwise("as dotyk.solve"),
-          key::number("differences", "h: forward differences instead of exact derivatives, to compare").above(0).unit("length").otherwise("exact derivatives")};
+          key::number("differences", "h: forward differences instead of exact derivatives, to compare").above(0).unit("length").otherwise("exact derivatives").into(&Shape::step)};
 }
 
 /// The constraints, their bounds and functions: these are kept with the shape on top of the stack.
@@ -91,7 +91,7 @@ void take_constraints(Call& call, Shape& shape, const shape::DesignSpace& space)
 }
 
 Given<Shape> make_shape(Call& call) {
-  auto shape = std::make_shared<Shape>();
+  auto shape = std::make_shared<Shape>(call.filled<Shape>());
   // The scene and its bodies may be added to later; designs are of them as they are now.
   const auto first = std::shared_ptr<const scene::Scene>(scene::copy(*call.object<scene::Scene>("scene")));
   Variables variables = read_moves(call, *first);
@@ -100,8 +100,6 @@ Given<Shape> make_shape(Call& call) {
   shape->start = vector_of(variables.start);
   shape->space = std::make_shared<const shape::DesignSpace>(first, std::move(variables.velocities));
   shape->places = std::make_shared<Places>(shape->space->first());
-  shape->exponent = call.number("exponent");
-  shape->step = call.has("differences") ? call.number("differences") : 0;
   if (call.has("method")) shape->method = call.object<Solver>("method")->method;
   shape->objective = quantity_choice(call, "objective", shape->exponent, "objective");
   take_constraints(call, *shape, *shape->space);

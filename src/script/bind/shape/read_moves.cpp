@@ -15,7 +15,7 @@ std::vector<Key> move_keys() {
   return {key::object<scene::Part>("part", "a part that moves, by a B-spline").otherwise("body and velocity"),
           key::either("control_points", {key::integer("", "").at_least(2), key::list("", key::integer("", "").at_least(2), "").count(2)},
                       "of the B-spline, a design variable each; in space also two numbers, along the longest and the second longest extent of the part").fallback(6.0),
-          key::integer("degree", "of the B-spline").within(1, 3).fallback(3.0),
+          key::integer("degree", "of the B-spline").within(1, 3).into(&shape::ControlPoints::degree),
           key::vector("direction", "in which control points go; its length scales the variables").otherwise("along the outward normal"),
           key::boolean("symmetric", "control points mirrored at the middle of the part are one variable").fallback(false),
           key::choice("extension", {"harmonic", "structured"},
@@ -44,7 +44,7 @@ int counted(long long points) { return static_cast<int>(std::min(points, 1000000
 
 std::vector<std::vector<double>> by_spline(const Arguments& move, const scene::Scene& scene) {
   const auto part = move.object<scene::Part>("part");
-  shape::ControlPoints points;
+  auto points = move.filled<shape::ControlPoints>();
   if (move.has("control_points") && !move.is("control_points", LUA_TNUMBER)) {
     if (scene.dimension() == 2) throw InputError("'control_points' are two numbers, for parts in space; in the plane give one");
     const auto counts = move.integers("control_points");
@@ -52,7 +52,6 @@ std::vector<std::vector<double>> by_spline(const Arguments& move, const scene::S
   } else if (move.has("control_points")) {
     points.count[0] = points.count[1] = counted(move.integer("control_points"));
   }
-  points.degree = static_cast<int>(move.integer("degree"));
   if (move.has("direction")) points.direction = point_of(move.vector("direction"), scene.dimension(), "direction");
   shape::BoundaryMotion motion = bspline_motion(*part, points);
   if (move.boolean("symmetric")) {
