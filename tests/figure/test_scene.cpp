@@ -62,7 +62,7 @@ BodyPicture brick(double depth) {
   body.shape = CellShape::hexahedron;
   body.nodes_per_facet = 4;
   body.points = {0, 0, 0, 1, 0, 0, 1, depth, 0, 0, depth, 0, 0, 0, 1, 1, 0, 1, 1, depth, 1, 0, depth, 1};
-  body.cells = {0, 1, 2, 3, 4, 5, 6, 7};
+  body.facets = {0, 3, 2, 1, 0, 1, 5, 4, 3, 0, 4, 7, 1, 2, 6, 5, 2, 3, 7, 6, 4, 5, 6, 7};
   return body;
 }
 

@@ -14,9 +14,9 @@ double hair(double em) { return std::max(1.0, em / 24); }
 void draw_grid(Canvas& canvas, const Axes& a) {
   canvas.box(a.room, {255, 255, 255});
   for (const Tick& t : a.x_ticks.ticks)
-    if (!t.label.empty()) canvas.line({a.x.pixel(t.value), a.room.bottom}, {a.x.pixel(t.value), a.room.top}, hair(a.em), axes_grid);
+    if (const double x = a.x.pixel(t.value); !t.label.empty()) canvas.line({x, a.room.bottom}, {x, a.room.top}, hair(a.em), axes_grid);
   for (const Tick& t : a.y_ticks.ticks)
-    if (!t.label.empty()) canvas.line({a.room.left, a.y.pixel(t.value)}, {a.room.right, a.y.pixel(t.value)}, hair(a.em), axes_grid);
+    if (const double y = a.y.pixel(t.value); !t.label.empty()) canvas.line({a.room.left, y}, {a.room.right, y}, hair(a.em), axes_grid);
 }
 
 void draw_ticks(Canvas& canvas, const Axes& a, bool x_labels) {
@@ -24,35 +24,32 @@ void draw_ticks(Canvas& canvas, const Axes& a, bool x_labels) {
   for (const bool vertical : {false, true}) {
     double busy_until = -1e9;
     for (const Tick& t : (vertical ? a.y_ticks : a.x_ticks).ticks) {
-      const double p = (vertical ? a.y : a.x).pixel(t.value), length = t.label.empty() ? 0.55 * tick : tick;
-      if (vertical)
-        canvas.line({a.room.left, p}, {a.room.left + length, p}, 1.3 * hair(a.em), axes_ink);
-      else
-        canvas.line({p, a.room.bottom}, {p, a.room.bottom + length}, 1.3 * hair(a.em), axes_ink);
+      const double p = (vertical ? a.y : a.x).pixel(t.value), inwards = t.label.empty() ? 0.55 * tick : tick;
+      const Point foot = vertical ? Point{a.room.left, p} : Point{p, a.room.bottom};
+      canvas.line(foot, foot + inwards * (vertical ? Point{1, 0} : Point{0, 1}), 1.3 * hair(a.em), axes_ink);
       if (t.label.empty() || (!vertical && !x_labels)) continue;
       const double half = (vertical ? 0.9 * a.em : text_extent(t.label, a.em).x + 0.5 * a.em) / 2;
       if (p - half < busy_until) continue;
       busy_until = p + half;
-      TextStyle style;
-      style.size = a.em;
-      style.across = vertical ? Align::high : Align::middle;
-      style.up = vertical ? Align::middle : Align::high;
-      canvas.text(vertical ? Point{a.room.left - 0.4 * a.em, p} : Point{p, a.room.bottom - 0.35 * a.em}, t.label, style);
+      if (vertical)
+        canvas.text({a.room.left - 0.4 * a.em, p}, t.label, {.size = a.em, .across = Align::high, .up = Align::middle});
+      else
+        canvas.text({p, a.room.bottom - 0.35 * a.em}, t.label, {.size = a.em, .across = Align::middle, .up = Align::high});
     }
   }
 }
 
-void draw_frame(Canvas& canvas, const Axes& a) {
-  const std::array<Point, 4> frame{{{a.room.left, a.room.bottom}, {a.room.right, a.room.bottom}, {a.room.right, a.room.top}, {a.room.left, a.room.top}}};
-  canvas.polyline(frame, std::max(1.2, a.em / 18), axes_ink, {}, true);
+void draw_frame(Canvas& canvas, const Axes& a) { canvas.outline(a.room, std::max(1.2, a.em / 18), axes_ink); }
+
+namespace {
+int labels(const Ticks& ticks) {
+  return static_cast<int>(std::count_if(ticks.ticks.begin(), ticks.ticks.end(), [](const Tick& t) { return !t.label.empty(); }));
 }
+}  // namespace
 
 Ticks few_ticks(double low, double high, double wanted) {
   Ticks out;
-  for (int n = std::clamp(static_cast<int>(wanted), 2, 8); n <= 10; ++n) {
-    out = linear_ticks(low, high, n);
-    if (std::count_if(out.ticks.begin(), out.ticks.end(), [](const Tick& t) { return !t.label.empty(); }) >= 2) break;
-  }
+  for (int n = std::clamp(static_cast<int>(wanted), 2, 8); n <= 10 && labels(out) < 2; ++n) out = linear_ticks(low, high, n);
   return out;
 }
 

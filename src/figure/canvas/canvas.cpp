@@ -7,7 +7,6 @@
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
-#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLPolyDataMapper2D.h>
@@ -17,7 +16,6 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
-#include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "figure/canvas/osmesa_window.hpp"
@@ -25,21 +23,6 @@
 namespace dotyk::figure {
 
 namespace {
-
-// The part of a convex polygon where sign (coordinate - bound) <= 0.
-std::vector<Point> cut(const std::vector<Point>& in, double Point::*coordinate, double bound, double sign) {
-  std::vector<Point> out;
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    const Point p = in[i], q = in[(i + 1) % in.size()];
-    const double a = sign * (p.*coordinate - bound), b = sign * (q.*coordinate - bound);
-    if (a <= 0) out.push_back(p);
-    if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
-      const double t = a / (a - b);
-      out.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
-    }
-  }
-  return out;
-}
 
 double turn(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
@@ -61,27 +44,6 @@ vtkStandardNewMacro(PaintingMapper);
 
 }  // namespace
 
-// Liang and Barsky.
-bool crop(Point& p, Point& q, const Box& box) {
-  double t0 = 0, t1 = 1;
-  const double d[4] = {p.x - q.x, q.x - p.x, p.y - q.y, q.y - p.y};
-  const double r[4] = {p.x - box.left, box.right - p.x, p.y - box.bottom, box.top - p.y};
-  for (int k = 0; k < 4; ++k) {
-    if (d[k] == 0) {
-      if (r[k] < 0) return false;
-    } else if (d[k] < 0) {
-      t0 = std::max(t0, r[k] / d[k]);
-    } else {
-      t1 = std::min(t1, r[k] / d[k]);
-    }
-  }
-  if (!(t0 <= t1)) return false;
-  const Point from = p;
-  p = {from.x + t0 * (q.x - from.x), from.y + t0 * (q.y - from.y)};
-  q = {from.x + t1 * (q.x - from.x), from.y + t1 * (q.y - from.y)};
-  return true;
-}
-
 void Canvas::emit(Point p, Colour c, double opacity) {
   const auto alpha = static_cast<unsigned char>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
   vertices_.push_back({static_cast<float>((origin_.x + p.x) * factor_), static_cast<float>((origin_.y + p.y) * factor_), {c.r, c.g, c.b, alpha}});
@@ -100,11 +62,7 @@ void Canvas::convex(std::span<const Point> corners, Colour colour, double opacit
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) return;
   const bool inside = !clipped_ || std::all_of(corners.begin(), corners.end(), [&](Point p) { return clip_.holds(p); });
   if (inside) return fan(corners, colour, opacity);
-  std::vector<Point> rest(corners.begin(), corners.end());
-  rest = cut(rest, &Point::x, clip_.left, -1);
-  rest = cut(rest, &Point::x, clip_.right, 1);
-  rest = cut(rest, &Point::y, clip_.bottom, -1);
-  rest = cut(rest, &Point::y, clip_.top, 1);
+  const auto rest = cropped(std::vector<Point>(corners.begin(), corners.end()), clip_);
   if (rest.size() > 2) fan(rest, colour, opacity);
 }
 
@@ -134,23 +92,22 @@ void Canvas::polygon(std::span<const Point> corners, Colour colour, double opaci
   convex(rest, colour, opacity);
 }
 
-void Canvas::box(const Box& b, Colour colour, double opacity) {
-  convex(std::array<Point, 4>{{{b.left, b.bottom}, {b.right, b.bottom}, {b.right, b.top}, {b.left, b.top}}}, colour, opacity);
-}
+void Canvas::box(const Box& b, Colour colour, double opacity) { convex(b.corners(), colour, opacity); }
+
+void Canvas::outline(const Box& b, double width, Colour colour) { polyline(b.corners(), width, colour, {}, true); }
 
 void Canvas::line(Point p, Point q, double width, Colour colour, double opacity) {
-  const double length = std::hypot(q.x - p.x, q.y - p.y);
-  if (!(length > 0)) return;
-  const double nx = -(q.y - p.y) / length * width / 2, ny = (q.x - p.x) / length * width / 2;
-  convex(std::array<Point, 4>{{{p.x + nx, p.y + ny}, {p.x - nx, p.y - ny}, {q.x - nx, q.y - ny}, {q.x + nx, q.y + ny}}},
-         colour, opacity);
+  const double size = length(q - p);
+  if (!(size > 0)) return;
+  const Point n{-(q.y - p.y) / size * width / 2, (q.x - p.x) / size * width / 2};
+  convex(std::array{p + n, p - n, q - n, q + n}, colour, opacity);
 }
 
 void Canvas::polyline(std::span<const Point> points, double width, Colour colour, std::span<const double> dash, bool closed) {
   // Points closer than a quarter of a pixel do not show.
   std::vector<Point> path;
   for (const Point& p : points)
-    if (path.empty() || std::hypot(p.x - path.back().x, p.y - path.back().y) > 0.25) path.push_back(p);
+    if (path.empty() || length(p - path.back()) > 0.25) path.push_back(p);
   if (!points.empty() && path.size() > 1) path.back() = points.back();
   if (closed && path.size() > 2) path.push_back(path.front());
 
@@ -159,18 +116,18 @@ void Canvas::polyline(std::span<const Point> points, double width, Colour colour
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     Point p = path[i], q = path[i + 1];
     // What lies outside is neither drawn nor dashed: it may be very long.
-    if (clipped_ && !crop(p, q, {clip_.left - width, clip_.bottom - width, clip_.right + width, clip_.top + width})) continue;
+    if (clipped_ && !crop(p, q, clip_.grown(width))) continue;
     if (dash.empty()) {
       line(p, q, width, colour);
       if (width > 1.2 && (i > 0 || closed)) disc(p, width / 2, colour);
       continue;
     }
-    double length = std::hypot(q.x - p.x, q.y - p.y);
-    while (length > 0) {
-      const double step = std::min(left, length), t = step / length;
-      const Point end{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+    double rest = length(q - p);
+    while (rest > 0) {
+      const double step = std::min(left, rest);
+      const Point end = part_way(p, q, step / rest);
       if (turn_of % 2 == 0) line(p, end, width, colour);
-      p = end, length -= step, left -= step;
+      p = end, rest -= step, left -= step;
       if (left <= 0) left = dash[++turn_of % dash.size()];
     }
   }
@@ -240,22 +197,18 @@ void Canvas::crossed_marker(Marker kind, Point c, double size, Colour colour) {
 }
 
 void Canvas::arrow(Point tail, Point head, double width, double head_length, Colour colour, double rim) {
-  const double length = std::hypot(head.x - tail.x, head.y - tail.y);
-  if (!(length > 0)) return;
-  const double tip = std::min(head_length, 0.7 * length);
-  const Point d{(head.x - tail.x) / length, (head.y - tail.y) / length};
-  const Point neck{head.x - tip * d.x, head.y - tip * d.y};
-  const double half = 0.38 * tip;
+  const double size = length(head - tail);
+  if (!(size > 0)) return;
+  const double tip = std::min(head_length, 0.7 * size), half = 0.38 * tip;
+  const Point d{(head.x - tail.x) / size, (head.y - tail.y) / size}, across{-d.y, d.x}, neck = head - tip * d;
   if (rim > 0) {
     const Colour white{255, 255, 255};
-    const double grow = (half + rim) / half;
-    line({tail.x - rim * d.x, tail.y - rim * d.y}, neck, width + 2 * rim, white);
-    convex(std::array<Point, 3>{{{neck.x - rim * d.x - grow * half * d.y, neck.y - rim * d.y + grow * half * d.x},
-                                 {neck.x - rim * d.x + grow * half * d.y, neck.y - rim * d.y - grow * half * d.x},
-                                 {head.x + 2 * rim * d.x, head.y + 2 * rim * d.y}}}, white);
+    const double grown = (half + rim) / half * half;
+    line(tail - rim * d, neck, width + 2 * rim, white);
+    convex(std::array{neck - rim * d + grown * across, neck - rim * d - grown * across, head + 2 * rim * d}, white);
   }
-  line(tail, {head.x - 0.9 * tip * d.x, head.y - 0.9 * tip * d.y}, width, colour);
-  convex(std::array<Point, 3>{{{neck.x - half * d.y, neck.y + half * d.x}, {neck.x + half * d.y, neck.y - half * d.x}, head}}, colour);
+  line(tail, head - 0.9 * tip * d, width, colour);
+  convex(std::array{neck + half * across, neck - half * across, head}, colour);
 }
 
 void Canvas::text(Point at, const std::string& text, const TextStyle& style) {
@@ -264,27 +217,15 @@ void Canvas::text(Point at, const std::string& text, const TextStyle& style) {
 
 void Canvas::add_to(vtkRenderer* renderer) const {
   if (vertices_.empty()) return;
-  const auto n = static_cast<vtkIdType>(vertices_.size());
-  vtkNew<vtkFloatArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(n);
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(4);
-  colours->SetNumberOfTuples(n);
-  vtkNew<vtkTypeInt64Array> nodes;
-  nodes->SetNumberOfValues(n);
-  for (vtkIdType i = 0; i < n; ++i) {
-    const Vertex& v = vertices_[i];
-    coordinates->SetTypedComponent(i, 0, v.x);
-    coordinates->SetTypedComponent(i, 1, v.y);
-    coordinates->SetTypedComponent(i, 2, 0);
-    colours->SetTypedTuple(i, v.rgba);
-    nodes->SetValue(i, i);
-  }
   vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
+  vtkNew<vtkUnsignedCharArray> colours;
   vtkNew<vtkCellArray> triangles;
-  triangles->SetData(3, nodes);
+  colours->SetNumberOfComponents(4);
+  for (const Vertex& v : vertices_) {
+    const vtkIdType i = points->InsertNextPoint(v.x, v.y, 0);
+    colours->InsertNextTypedTuple(v.rgba);
+    if (i % 3 == 2) triangles->InsertNextCell({i - 2, i - 1, i});
+  }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetPolys(triangles);

@@ -8,29 +8,14 @@
 #include <vector>
 
 #include "figure/canvas/image.hpp"
+#include "figure/canvas/plane.hpp"
 #include "figure/door/picture.hpp"
 
 class vtkRenderer;
 
 namespace dotyk::figure {
 
-struct Point {
-  double x = 0, y = 0;
-};
-
-struct Box {
-  double left = 0, bottom = 0, right = 0, top = 0;
-  double width() const { return right - left; }
-  double height() const { return top - bottom; }
-  bool holds(Point p, double margin = 0) const {
-    return p.x >= left - margin && p.x <= right + margin && p.y >= bottom - margin && p.y <= top + margin;
-  }
-};
-
 constexpr Colour load_colour{0, 70, 110};  // of arrows of loads
-
-// Cuts the segment p q down to its part in the box; false: there is none.
-bool crop(Point& p, Point& q, const Box& box);
 
 enum class Align { low, middle, high };  // which end of the text stands at its point
 
@@ -66,6 +51,7 @@ public:
   void convex(std::span<const Point> corners, Colour colour, double opacity = 1);
   void polygon(std::span<const Point> corners, Colour colour, double opacity = 1);
   void box(const Box& box, Colour colour, double opacity = 1);
+  void outline(const Box& box, double width, Colour colour);
   void line(Point from, Point to, double width, Colour colour, double opacity = 1);
   // dash: lengths of stroke and gap by turns; empty: solid.
   void polyline(std::span<const Point> points, double width, Colour colour,

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
-#include "figure/canvas/ticks.hpp"
+#include "figure/canvas/text_fit.hpp"
 
 namespace dotyk::figure {
 
@@ -21,8 +22,8 @@ constexpr Anchors blue_red{{{5, 48, 97}, {33, 102, 172}, {67, 147, 195}, {146, 1
 
 Colour mix(const Anchors& anchors, double t) {
   const double s = 10 * std::clamp(t, 0.0, 1.0);
-  const auto i = std::min<std::size_t>(9, static_cast<std::size_t>(s));
-  const double f = s - static_cast<double>(i);
+  const int i = std::min(9, static_cast<int>(s));
+  const double f = s - i;
   const auto blend = [f](unsigned char a, unsigned char b) { return static_cast<unsigned char>(std::lround(a + f * (b - a))); };
   const Colour a = anchors[i], b = anchors[i + 1];
   return {blend(a.r, b.r), blend(a.g, b.g), blend(a.b, b.b)};
@@ -53,19 +54,14 @@ Colour ColourScale::at(double value) const {
 
 ColourScale colour_scale(const ScenePicture& p, const std::optional<Window>& window) {
   ColourScale scale;
-  double least = 1e300, greatest = -1e300;
-  if (window) {
-    const Seen part = seen(p, *window);
-    least = part.least, greatest = part.greatest;
-  } else {
+  Seen part;
+  if (window) part = seen(p, *window);
+  else
     for (const BodyPicture& body : p.bodies)
-      for (const double v : body.values)
-        if (std::isfinite(v)) least = std::min(least, v), greatest = std::max(greatest, v);
-  }
-  const bool any = least <= greatest;
-  scale.shown = any;
-  if (!any) return scale;
-  scale.least = scale.low = least, scale.greatest = scale.high = greatest;
+      for (const double v : body.values) part.add(v);
+  scale.shown = part.least <= part.greatest;
+  if (!scale.shown) return scale;
+  scale.least = scale.low = part.least, scale.greatest = scale.high = part.greatest;
   if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
   // A field that dips below zero by rounding only has one sign.
   const double lesser = std::min(-scale.low, scale.high), greater = std::max(-scale.low, scale.high);
@@ -94,64 +90,42 @@ vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale) {
 double colour_bar_width(const ColourScale& scale, const ScenePicture& p, double em) {
   if (!scale.shown || p.field_label.empty()) return 0;
   const Ticks ticks = bar_ticks(scale);
-  double widest = 0;
-  for (const Tick& t : ticks.ticks) widest = std::max(widest, text_extent(t.label, em).x);
-  const double beside = (bar + tick + pad) * em + widest + 0.4 * em + 1.3 * em;
-  const double above = std::max(text_extent(extreme("max", scale.greatest, ticks), small_label * em).x, text_extent(extreme("min", scale.least, ticks), small_label * em).x);
-  return std::max(beside, above);
+  const double beside = (bar + tick + pad) * em + widest_label(ticks, em) + 0.4 * em + 1.3 * em;
+  const auto above = [&](const char* name, double value) { return text_extent(extreme(name, value, ticks), small_label * em).x; };
+  return std::max({beside, above("max", scale.greatest), above("min", scale.least)});
 }
-
-namespace {
-
-// The field goes on beyond that end of the bar.
-bool beyond(const ColourScale& scale, bool above) { return above ? scale.greatest > scale.high : scale.least < scale.low; }
-
-// A triangle on that end, in its colour.
-void draw_tip(Canvas& canvas, const ColourScale& scale, const Box& box, double em, bool above) {
-  const double foot = above ? box.top : box.bottom;
-  const std::array<Point, 3> corners{{{box.left, foot}, {box.right, foot}, {(box.left + box.right) / 2, foot + (above ? 1 : -1) * tip * em}}};
-  canvas.convex(corners, scale.at(above ? scale.high : scale.low));
-  canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
-}
-
-}  // namespace
 
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& p, double em, double left, double bottom, double top) {
   if (!scale.shown || p.field_label.empty()) return;
   const Ticks ticks = bar_ticks(scale);
-  const double tip_below = beyond(scale, false) ? tip * em : 0, tip_above = beyond(scale, true) ? tip * em : 0;
+  // Where the field goes on beyond an end of the bar, a triangle in the colour of that end says so.
+  const double tip_below = scale.least < scale.low ? tip * em : 0, tip_above = scale.greatest > scale.high ? tip * em : 0;
   const Box box{left, bottom + (ends + 1.0) * em + tip_below, left + bar * em, top - (ends + 1.0) * em - tip_above};
   const int n = std::max(2, static_cast<int>(box.height()));
   for (int i = 0; i < n; ++i) {
     const double y = box.bottom + box.height() * i / n;
     canvas.box({box.left, y, box.right, box.bottom + box.height() * (i + 1) / n}, scale.at(scale.low + (scale.high - scale.low) * (i + 0.5) / n));
   }
-  const std::array<Point, 4> edge{{{box.left, box.bottom}, {box.right, box.bottom}, {box.right, box.top}, {box.left, box.top}}};
-  canvas.polyline(edge, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
-  for (const bool above : {false, true})
-    if (beyond(scale, above)) draw_tip(canvas, scale, box, em, above);
-  TextStyle style;
-  style.size = em;
-  style.up = Align::middle;
-  double widest = 0;
+  canvas.outline(box, std::max(1.0, em / 22), {60, 60, 60});
+  for (const auto& [foot, height, value] : {std::tuple{box.bottom, -tip_below, scale.low}, std::tuple{box.top, tip_above, scale.high}}) {
+    if (height == 0) continue;
+    const std::array<Point, 3> corners{{{box.left, foot}, {box.right, foot}, {box.centre().x, foot + height}}};
+    canvas.convex(corners, scale.at(value));
+    canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
+  }
   for (const Tick& t : ticks.ticks) {
     if (t.label.empty()) continue;
     const double y = box.bottom + box.height() * (t.value - scale.low) / (scale.high - scale.low);
     canvas.line({box.right, y}, {box.right + tick * em, y}, std::max(1.0, em / 20), {60, 60, 60});
-    canvas.text({box.right + (tick + pad) * em, y}, t.label, style);
-    widest = std::max(widest, text_extent(t.label, em).x);
+    canvas.text({box.right + (tick + pad) * em, y}, t.label, {.size = em, .up = Align::middle});
   }
-  TextStyle end = style;
-  end.size = small_label * em;
-  end.colour = {70, 70, 70};
-  end.up = Align::low;
+  TextStyle end{.size = small_label * em, .colour = {70, 70, 70}};
   canvas.text({box.left, box.top + tip_above + ends * em}, extreme("max", scale.greatest, ticks), end);
   end.up = Align::high;
   canvas.text({box.left, box.bottom - tip_below - ends * em}, extreme("min", scale.least, ticks), end);
-  style.upright = true;
   const std::string name = label(p, ticks.exponent);
-  style.size = fitting_size(name, em, box.height());
-  canvas.text({box.right + (tick + pad) * em + widest + 0.4 * em, (box.bottom + box.top) / 2}, name, style);
+  canvas.text({box.right + (tick + pad) * em + widest_label(ticks, em) + 0.4 * em, box.centre().y}, name,
+              {.size = fitting_size(name, em, box.height()), .up = Align::middle, .upright = true});
 }
 
 }  // namespace dotyk::figure

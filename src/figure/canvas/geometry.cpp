@@ -24,8 +24,8 @@ Vec3 unit(const Vec3& a) {
 
 Point View::direction(const Vec3& d) const {
   const Point p{dot(d, right), dot(d, up)};
-  const double length = std::hypot(p.x, p.y);
-  return length > 1e-9 * std::sqrt(dot(d, d)) && length > 0 ? Point{p.x / length, p.y / length} : Point{0, 0};
+  const double size = length(p);
+  return size > 1e-9 * std::sqrt(dot(d, d)) && size > 0 ? Point{p.x / size, p.y / size} : Point{0, 0};
 }
 
 Vec3 node(const BodyPicture& body, std::size_t i, double factor) {
@@ -37,100 +37,32 @@ Vec3 node(const BodyPicture& body, std::size_t i, double factor) {
 
 namespace {
 
-// The facets of a cell, by its corners; -1 pads.
-struct CellFacets {
-  std::size_t corners;
-  int each;
-  std::vector<std::array<int, 4>> facets;
-};
-
-const CellFacets& facets_of(CellShape shape) {
-  static const CellFacets triangle{3, 2, {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 0, -1, -1}}};
-  static const CellFacets quad{4, 2, {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 3, -1, -1}, {3, 0, -1, -1}}};
-  static const CellFacets tetrahedron{4, 3, {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}}};
-  static const CellFacets hexahedron{8, 4, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-  switch (shape) {
-    case CellShape::triangle: return triangle;
-    case CellShape::quad: return quad;
-    case CellShape::tetrahedron: return tetrahedron;
-    case CellShape::hexahedron: return hexahedron;
-  }
-  return triangle;
-}
-
-}  // namespace
-
-Facets boundary(const BodyPicture& body) {
-  if (!body.facets.empty()) return {body.facets, body.nodes_per_facet};
-  const CellFacets& cell = facets_of(body.shape);
-  struct Seen {
-    std::array<int, 4> sorted, nodes;
-  };
-  std::vector<Seen> all;
-  all.reserve(body.cells.size() / cell.corners * cell.facets.size());
-  for (std::size_t c = 0; c + cell.corners <= body.cells.size(); c += cell.corners)
-    for (const std::array<int, 4>& facet : cell.facets) {
-      Seen seen;
-      for (std::size_t k = 0; k < 4; ++k) seen.nodes[k] = facet[k] < 0 ? -1 : body.cells[c + static_cast<std::size_t>(facet[k])];
-      seen.sorted = seen.nodes;
-      std::sort(seen.sorted.begin(), seen.sorted.end());
-      all.push_back(seen);
-    }
-  std::stable_sort(all.begin(), all.end(), [](const Seen& a, const Seen& b) { return a.sorted < b.sorted; });
-  Facets out{{}, cell.each};
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t j = i + 1;
-    while (j < all.size() && all[j].sorted == all[i].sorted) ++j;
-    if (j == i + 1) out.nodes.insert(out.nodes.end(), all[i].nodes.begin(), all[i].nodes.begin() + cell.each);
-    i = j;
+// Edges of polygons, sorted; `single`: those that belong to one polygon only.
+std::vector<int> edges_of(const Facets& polygons, bool single) {
+  const auto& [nodes, each] = polygons;
+  std::vector<std::pair<int, int>> all;
+  all.reserve(nodes.size());
+  for (std::size_t p = 0; p + each <= nodes.size(); p += each)
+    for (int k = 0; k < each; ++k) all.push_back(std::minmax(nodes[p + k], nodes[p + (k + 1) % each]));
+  std::sort(all.begin(), all.end());
+  std::vector<int> out;
+  for (auto first = all.begin(), next = first; first != all.end(); first = next) {
+    next = std::find_if(first, all.end(), [&](const auto& edge) { return edge != *first; });
+    if (!single || next - first == 1) out.insert(out.end(), {first->first, first->second});
   }
   return out;
 }
 
-namespace {
-
-// Every edge of every polygon as one number, least node first, sorted.
-std::vector<std::uint64_t> edge_keys(const std::vector<int>& polygons, int each) {
-  std::vector<std::uint64_t> keys;
-  keys.reserve(polygons.size());
-  const auto n = static_cast<std::size_t>(each);
-  for (std::size_t p = 0; p + n <= polygons.size(); p += n)
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto [a, b] = std::minmax(polygons[p + k], polygons[p + (k + 1) % n]);
-      keys.push_back(static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b));
-    }
-  std::sort(keys.begin(), keys.end());
-  return keys;
-}
-
-std::vector<int> nodes_of(const std::vector<std::uint64_t>& keys) {
-  std::vector<int> edges;
-  edges.reserve(2 * keys.size());
-  for (const std::uint64_t key : keys) {
-    edges.push_back(static_cast<int>(key >> 32));
-    edges.push_back(static_cast<int>(key & 0xffffffffu));
-  }
-  return edges;
-}
-
 }  // namespace
 
-std::vector<int> unique_edges(const std::vector<int>& polygons, int each) {
-  std::vector<std::uint64_t> keys = edge_keys(polygons, each);
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  return nodes_of(keys);
-}
+std::vector<int> unique_edges(const Facets& polygons) { return edges_of(polygons, false); }
 
-std::vector<int> rim(const std::vector<int>& polygons, int each) {
-  const std::vector<std::uint64_t> keys = edge_keys(polygons, each);
-  std::vector<std::uint64_t> single;
-  for (std::size_t i = 0; i < keys.size();) {
-    std::size_t j = i + 1;
-    while (j < keys.size() && keys[j] == keys[i]) ++j;
-    if (j == i + 1) single.push_back(keys[i]);
-    i = j;
-  }
-  return nodes_of(single);
+std::vector<int> rim(const Facets& polygons) { return edges_of(polygons, true); }
+
+std::vector<std::array<int, 2>> pairs(const std::vector<int>& edges) {
+  std::vector<std::array<int, 2>> out;
+  for (std::size_t e = 0; e + 1 < edges.size(); e += 2) out.push_back({edges[e], edges[e + 1]});
+  return out;
 }
 
 std::vector<std::vector<int>> chains(const std::vector<int>& edges) {
@@ -158,15 +90,6 @@ std::vector<std::vector<int>> chains(const std::vector<int>& edges) {
     if (its.size() != 2) follow(start);  // open ends first
   for (const auto& [start, its] : at) follow(start);
   return out;
-}
-
-void Bounds::add(Point p) {
-  left = std::min(left, p.x), right = std::max(right, p.x);
-  bottom = std::min(bottom, p.y), top = std::max(top, p.y);
-}
-
-void Bounds::merge(const Bounds& b) {
-  if (!b.empty()) add(Point{b.left, b.bottom}), add(Point{b.right, b.top});
 }
 
 }  // namespace dotyk::figure

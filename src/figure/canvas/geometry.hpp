@@ -31,32 +31,22 @@ struct View {
 // The point of node i, displaced by `factor` times its displacement.
 Vec3 node(const BodyPicture& body, std::size_t i, double factor);
 
-// The body's facets, or, where it gives none, the cell facets that belong to
-// one cell only. nodes_per_facet of the body says their length.
+// Polygons of `each` corners.
 struct Facets {
   std::vector<int> nodes;
   int each = 2;
 };
-Facets boundary(const BodyPicture& body);
 
-// Every edge of polygons with `each` corners once, two nodes an edge.
-std::vector<int> unique_edges(const std::vector<int>& polygons, int each);
+// Every edge of the polygons once, two nodes an edge.
+std::vector<int> unique_edges(const Facets& polygons);
 
-// Those edges of polygons that belong to one polygon only.
-std::vector<int> rim(const std::vector<int>& polygons, int each);
+// Those edges of the polygons that belong to one polygon only.
+std::vector<int> rim(const Facets& polygons);
 
-// Edges of the plane hung together: node lists, a closed one ends in its
-// first node.
+// Nodes two by two, as edges have them.
+std::vector<std::array<int, 2>> pairs(const std::vector<int>& edges);
+
+// Edges hung together: node lists, a closed one ends in its first node.
 std::vector<std::vector<int>> chains(const std::vector<int>& edges);
-
-// Least and greatest corner of points in the picture's plane.
-struct Bounds {
-  double left = 1e300, bottom = 1e300, right = -1e300, top = -1e300;
-  void add(Point p);
-  void merge(const Bounds& b);
-  bool empty() const { return left > right; }
-  double width() const { return right - left; }
-  double height() const { return top - bottom; }
-};
 
 }  // namespace dotyk::figure

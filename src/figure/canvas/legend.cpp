@@ -1,7 +1,6 @@
 #include "figure/canvas/legend.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "figure/canvas/text_fit.hpp"
 
@@ -43,8 +42,7 @@ void Legend::draw(Canvas& canvas, Point corner, bool framed) const {
   const Box frame{corner.x, corner.y, corner.x + width_, corner.y + height_};
   if (framed) {
     canvas.box(frame, {255, 255, 255}, 0.92);
-    const std::array<Point, 4> edge{{{frame.left, frame.bottom}, {frame.right, frame.bottom}, {frame.right, frame.top}, {frame.left, frame.top}}};
-    canvas.polyline(edge, std::max(1.0, em_ / 22), {190, 190, 190}, {}, true);
+    canvas.outline(frame, std::max(1.0, em_ / 22), {190, 190, 190});
   }
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     double x = frame.left + padding * em_ + places_[i].x;
@@ -53,10 +51,7 @@ void Legend::draw(Canvas& canvas, Point corner, bool framed) const {
       entries_[i].sample(canvas, {x, y, x + sample_width * em_, y + row * em_});
       x += (sample_width + gap) * em_;
     }
-    TextStyle style;
-    style.size = em_;
-    style.up = Align::middle;
-    canvas.text({x, y + 0.5 * row * em_}, entries_[i].name, style);
+    canvas.text({x, y + 0.5 * row * em_}, entries_[i].name, {.size = em_, .up = Align::middle});
   }
 }
 

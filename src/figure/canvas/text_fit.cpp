@@ -48,13 +48,13 @@ FittedText fitted(const std::string& text, double size, double pixels, bool bold
   return {smaller, {first, shortened(text.substr(rest), smaller, pixels - text_extent(end, smaller, bold).x, bold) + end}};
 }
 
-TextStyle title_style() {
-  TextStyle style;
-  style.bold = true;
-  style.across = Align::middle;
-  style.up = Align::high;
-  return style;
+double widest_label(const Ticks& ticks, double size) {
+  double widest = 0;
+  for (const Tick& t : ticks.ticks) widest = std::max(widest, text_extent(t.label, size).x);
+  return widest;
 }
+
+TextStyle title_style() { return {.across = Align::middle, .up = Align::high, .bold = true}; }
 
 void draw_lines(Canvas& canvas, Point first, const FittedText& text, TextStyle style) {
   style.size = text.size;

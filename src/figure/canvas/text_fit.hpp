@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "figure/canvas/canvas.hpp"
+#include "figure/canvas/ticks.hpp"
 
 namespace dotyk::figure {
 
@@ -15,6 +16,9 @@ struct FittedText {
   double size = 20;  // of the letters, pixels
   std::vector<std::string> lines;
 };
+
+// Of the labels of ticks.
+double widest_label(const Ticks& ticks, double size);
 
 // Of titles: bold, centred, hanging from their place.
 TextStyle title_style();

@@ -2,7 +2,9 @@
 // show all of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "figure/door/picture.hpp"
@@ -22,6 +24,9 @@ std::vector<int> cells_near(const BodyPicture& body, double factor, const Window
 struct Seen {
   bool body = false;                          // some area of some body
   double least = 1e300, greatest = -1e300;    // of the finite values; least > greatest: there are none
+  void add(double value) {
+    if (std::isfinite(value)) least = std::min(least, value), greatest = std::max(greatest, value);
+  }
 };
 Seen seen(const ScenePicture& picture, const Window& window);
 

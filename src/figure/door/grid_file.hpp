@@ -24,15 +24,6 @@ struct GridBody {
   int order = 1;
 };
 
-inline int nodes_per_cell(CellShape shape, int order) {
-  switch (shape) {
-    case CellShape::triangle: return order == 1 ? 3 : 6;
-    case CellShape::quad: return order == 1 ? 4 : 9;
-    case CellShape::tetrahedron: return order == 1 ? 4 : 10;
-    default: return order == 1 ? 8 : 27;
-  }
-}
-
 struct GridFile {
   std::string file;                     // ends in .vtu; its folder must exist
   std::vector<double> points;           // 3 n: reference coordinates, of all bodies

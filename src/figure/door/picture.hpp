@@ -41,6 +41,15 @@ Colour series_colour(int k);
 
 enum class CellShape { triangle, quad, tetrahedron, hexahedron };
 
+inline int nodes_per_cell(CellShape shape, int order) {
+  switch (shape) {
+    case CellShape::triangle: return order == 1 ? 3 : 6;
+    case CellShape::quad: return order == 1 ? 4 : 9;
+    case CellShape::tetrahedron: return order == 1 ? 4 : 10;
+    default: return order == 1 ? 8 : 27;
+  }
+}
+
 // One body. Cells of higher order are given by their corner nodes, or cut
 // into corner cells by the caller (a P2 triangle into four).
 struct BodyPicture {
@@ -49,9 +58,9 @@ struct BodyPicture {
   CellShape shape = CellShape::triangle;
   std::vector<double> points;               // 3 n: reference coordinates
   std::vector<double> displacement;         // 3 n, or empty: not displaced
-  std::vector<int> cells;                   // nodes of the cells, 3, 4, 4 or 8 each, VTK order
+  std::vector<int> cells;                   // nodes of the cells, 3, 4, 4 or 8 each, VTK order; in space they are not drawn
   std::vector<double> values;               // n: the field at the nodes, or empty: plain colour
-  std::vector<int> facets;                  // nodes of the boundary facets, flat
+  std::vector<int> facets;                  // nodes of the boundary facets, flat; empty in the plane: edges of one cell only
   int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
   std::vector<int> edges;                   // mesh lines, two nodes each; empty: the edges of the cells
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "figure/door/figures.hpp"
 #include "figure/plate/plate_stage.hpp"
@@ -9,52 +10,30 @@
 namespace dotyk::figure {
 
 Plate::Plate(const PlatePicture& p) : picture(p), runs(edge_runs(p)) {
-  for (const EdgeRun& run : runs)
+  for (const EdgeRun& run : runs) {
+    clamped = clamped || run.clamped;
     for (const EdgePoint& point : run.points) greatest_reaction = std::max(greatest_reaction, std::abs(point.reaction));
+  }
   for (const PlateForce& f : p.forces) greatest_force = std::max(greatest_force, std::abs(f.force));
 }
 
-bool Plate::any(bool (*of)(const EdgeRun&)) const { return std::any_of(runs.begin(), runs.end(), of); }
-
 Colour support_colour(PlateSupport support, const std::optional<Status>& status) {
   if (status) return status_colour(*status);
-  return support == PlateSupport::elastic ? elastic_colour : support_ink;
+  return support == PlateSupport::elastic ? Colour{120, 85, 55} : support_ink;
 }
 
 namespace {
 
 LegendEntry line_entry(const std::string& name, Colour colour, double width) {
-  return {name, [colour, width](Canvas& c, const Box& b) {
-            const double middle = (b.bottom + b.top) / 2;
-            c.line({b.left, middle}, {b.right, middle}, width, colour);
-          }};
-}
-
-// Statuses and supports without one, of edges.
-struct Occurring {
-  std::array<bool, 4> status{};
-  std::array<bool, 5> support{};
-};
-
-Occurring occurring(const Plate& plate) {
-  Occurring seen;
-  for (const EdgeRun& run : plate.runs)
-    for (const EdgePoint& p : run.points) {
-      if (p.status)
-        seen.status[static_cast<std::size_t>(*p.status)] = true;
-      else
-        seen.support[static_cast<std::size_t>(run.support)] = true;
-    }
-  return seen;
+  return {name, [colour, width](Canvas& c, const Box& b) { c.line(b.midline()[0], b.midline()[1], width, colour); }};
 }
 
 LegendEntry bearing_entry(double em) {
   return {"bears on the obstacle", [em](Canvas& c, const Box& b) {
-            const double middle = (b.bottom + b.top) / 2, half = 0.38 * em;
+            const double middle = b.centre().y, half = 0.38 * em;
             const Colour colour = status_colour(Status::closed);
-            const std::array<Point, 4> corners{{{b.left, middle - half}, {b.right, middle - half}, {b.right, middle + half}, {b.left, middle + half}}};
             for (double x = b.left; x + 2 * half <= b.right + 1; x += 0.45 * em) c.line({x, middle - half}, {x + 2 * half, middle + half}, std::max(1.0, em / 18), colour);
-            c.polyline(corners, std::max(1.4, em / 12), colour, {}, true);
+            c.outline({b.left, middle - half, b.right, middle + half}, std::max(1.4, em / 12), colour);
           }};
 }
 
@@ -79,9 +58,9 @@ RigidPicture obstacle_of(const PlatePicture& p) {
   RigidPicture out;
   double size = 0;
   for (const double x : p.points) size = std::max(size, std::abs(x - p.points[0]));
-  const auto there = [&](int i) { return std::isfinite(p.obstacle[static_cast<std::size_t>(i)]); };
+  const auto there = [&](std::size_t i) { return std::isfinite(p.obstacle[i]); };
   for (std::size_t i = 0; i < p.obstacle.size(); ++i)
-    out.points.insert(out.points.end(), {p.points[2 * i], p.points[2 * i + 1], there(static_cast<int>(i)) ? p.deformation * p.obstacle[i] - 0.004 * size : 0});
+    out.points.insert(out.points.end(), {p.points[2 * i], p.points[2 * i + 1], there(i) ? p.deformation * p.obstacle[i] - 0.004 * size : 0});
   const std::vector<int>& t = p.triangles;
   for (std::size_t k = 0; k + 2 < t.size(); k += 3)
     if (there(t[k]) && there(t[k + 1]) && there(t[k + 2])) out.triangles.insert(out.triangles.end(), &t[k], &t[k] + 3);
@@ -124,38 +103,43 @@ ScenePicture scene_of(const Plate& plate) {
 
 }  // namespace
 
-std::vector<LegendEntry> plate_legend(const Plate& plate, double em, double width) {
-  std::vector<LegendEntry> out;
-  const Occurring seen = occurring(plate);
+void plate_legend(const Plate& plate, double em, double width, std::vector<LegendEntry>& out) {
+  const auto occurs = [&](const auto& of) {
+    return std::any_of(plate.runs.begin(), plate.runs.end(), [&](const EdgeRun& run) {
+      return std::any_of(run.points.begin(), run.points.end(), [&](const EdgePoint& p) { return of(run, p); });
+    });
+  };
   if (plate.picture.view == PlateView::surface)
     for (const Status status : {Status::open, Status::closed, Status::stick, Status::slip})
-      if (seen.status[static_cast<std::size_t>(status)]) out.push_back(line_entry(status_name(status), status_colour(status), width));
+      if (occurs([&](const EdgeRun&, const EdgePoint& p) { return p.status == status; })) out.push_back(line_entry(status_name(status), status_colour(status), width));
   for (const PlateSupport support : {PlateSupport::held, PlateSupport::one_sided, PlateSupport::elastic, PlateSupport::friction})
-    if (seen.support[static_cast<std::size_t>(support)])
+    if (occurs([&](const EdgeRun& run, const EdgePoint& p) { return !p.status && run.support == support; }))
       out.push_back(line_entry(std::string("edge ") + support_name(support), support_colour(support, std::nullopt), width));
-  if (!plate.picture.supports.empty())
-    out.push_back({"point support", [em](Canvas& c, const Box& b) { c.marker(Marker::triangle, {(b.left + b.right) / 2, (b.bottom + b.top) / 2}, 0.6 * em, support_ink); }});
+  if (!plate.picture.supports.empty()) out.push_back({"point support", [em](Canvas& c, const Box& b) { c.marker(Marker::triangle, b.centre(), 0.6 * em, support_ink); }});
   if (!plate.picture.bearing.empty()) out.push_back(bearing_entry(em));
-  return out;
 }
 
-void draw_label(Stage& stage, const PlateLabel& label) {
-  const double pad = 0.15 * stage.em;
-  const Box& b = label.box;
-  if (label.ground) stage.over.box({b.left - pad, b.bottom - pad, b.right + pad, b.top + pad}, {255, 255, 255}, 0.8);
-  TextStyle style;
-  style.size = 0.85 * stage.em;
-  style.across = style.up = Align::middle;
-  style.colour = label.colour;
-  style.halo = !label.ground;
-  stage.over.text({(label.box.left + label.box.right) / 2, (label.box.bottom + label.box.top) / 2}, label.text, style);
+void draw_bearing_points(Stage& stage, const Plate& plate, const std::vector<int>& zone, double factor, double size) {
+  const std::set<int> inside(zone.begin(), zone.end());
+  for (const int i : plate.picture.bearing)
+    if (!inside.contains(i))
+      stage.over.marker(Marker::disc, stage.view.flat(plate.node(i, factor)), size, status_colour(Status::closed));
+}
+
+void draw_apex(Stage& stage, Point at, Point size, double rim, Colour colour) {
+  for (const auto& [grow, paint] : {std::pair{rim, Colour{255, 255, 255}}, std::pair{0.0, colour}}) {
+    const double low = at.y - size.y - 0.7 * grow;
+    stage.over.convex(std::array{Point{at.x, at.y + grow}, Point{at.x - size.x - grow, low}, Point{at.x + size.x + grow, low}}, paint);
+  }
 }
 
 void draw_plate(const PlatePicture& picture) {
   const Plate plate(picture);
   const ScenePicture scene = scene_of(plate);
   Stage stage(scene, oversampling(scene.width, scene.height));
-  stage.added = stage.plane ? plan_additions(plate) : surface_additions(plate);
+  const std::vector<Layer> layers = stage.plane ? plan_layers(plate) : surface_layers(plate);
+  stage.layers.insert(stage.layers.end() - 1, layers.begin(), layers.end());  // in the legend before what is said of bodies
+  stage.axes_of_bodies = stage.plane;
   draw_stage(stage);
 }
 

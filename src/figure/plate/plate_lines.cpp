@@ -11,8 +11,7 @@ namespace dotyk::figure {
 
 namespace {
 
-Vec3 at(const PlatePicture& plate, int node) {
-  const auto i = static_cast<std::size_t>(node);
+Vec3 at(const PlatePicture& plate, int i) {
   return {plate.points[2 * i], plate.points[2 * i + 1], plate.deflection[i]};
 }
 
@@ -32,13 +31,13 @@ public:
     std::vector<PlateLine> out;
     for (const std::vector<int>& chain : chains(edges_)) {
       out.emplace_back();
-      for (const int i : chain) out.back().push_back(points_[static_cast<std::size_t>(i)]);
+      for (const int i : chain) out.back().push_back(points_[i]);
     }
     return out;
   }
 
 private:
-  double field(int node) const { return plate_.values[static_cast<std::size_t>(node)]; }
+  double field(int node) const { return plate_.values[node]; }
   bool above(int node) const { return field(node) > value_; }
 
   int crossing(int i, int j) {
@@ -62,7 +61,7 @@ private:
 std::vector<PlateLine> contour(const PlatePicture& plate, double value) {
   Crossings crossings(plate, value);
   const std::vector<int>& t = plate.triangles;
-  const auto known = [&](int node) { return std::isfinite(plate.values[static_cast<std::size_t>(node)]); };
+  const auto known = [&](int node) { return std::isfinite(plate.values[node]); };
   for (std::size_t k = 0; k + 2 < t.size(); k += 3)
     if (known(t[k]) && known(t[k + 1]) && known(t[k + 2])) crossings.add(t[k], t[k + 1], t[k + 2]);
   return crossings.lines();
@@ -70,11 +69,11 @@ std::vector<PlateLine> contour(const PlatePicture& plate, double value) {
 
 std::vector<int> bearing_triangles(const PlatePicture& plate) {
   std::vector<bool> bears(plate.deflection.size(), false);
-  for (const int i : plate.bearing) bears[static_cast<std::size_t>(i)] = true;
+  for (const int i : plate.bearing) bears[i] = true;
   std::vector<int> out;
   const std::vector<int>& t = plate.triangles;
   for (std::size_t k = 0; k + 2 < t.size(); k += 3)
-    if (std::all_of(&t[k], &t[k] + 3, [&](int i) { return bears[static_cast<std::size_t>(i)]; })) out.insert(out.end(), &t[k], &t[k] + 3);
+    if (std::all_of(&t[k], &t[k] + 3, [&](int i) { return bears[i]; })) out.insert(out.end(), &t[k], &t[k] + 3);
   return out;
 }
 

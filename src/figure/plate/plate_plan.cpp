@@ -19,37 +19,30 @@ std::vector<Point> flat(const Stage& stage, const PlateLine& line) {
   return out;
 }
 
-bool overlap(const Box& a, const Box& b) { return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top; }
-
 // A place for a label on a contour line, clear of edges and other labels.
 class ContourLabels {
 public:
   ContourLabels(Stage& stage, const Plate& plate) : stage_(stage), plate_(plate) {}
 
   void add(const std::vector<Point>& line, const std::string& text) {
-    std::vector<double> length{0};
-    for (std::size_t i = 1; i < line.size(); ++i) length.push_back(length.back() + std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y));
+    std::vector<double> way{0};
+    for (std::size_t i = 1; i < line.size(); ++i) way.push_back(way.back() + length(line[i] - line[i - 1]));
     const double em = stage_.em, size = 0.68 * em;
     const Point extent = text_extent(text, size);
-    if (length.back() < 2.5 * extent.x + 2 * em) return;
+    if (way.back() < 2.5 * extent.x + 2 * em) return;
     for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9}) {
-      const auto i = static_cast<std::size_t>(std::lower_bound(length.begin(), length.end(), share * length.back()) - length.begin());
+      const std::size_t i = std::lower_bound(way.begin(), way.end(), share * way.back()) - way.begin();
       const Point at = line[std::min(i, line.size() - 1)];
-      const double pad = 0.35 * em;
-      const Box box{at.x - extent.x / 2 - pad, at.y - extent.y / 2 - pad, at.x + extent.x / 2 + pad, at.y + extent.y / 2 + pad};
+      const Box box = Box::about(at, extent).grown(0.35 * em);
       if (!free(box)) continue;
       taken_.push_back(box);
-      TextStyle style;
-      style.size = size;
-      style.across = style.up = Align::middle;
-      style.halo = true;
-      return stage_.over.text(at, text, style);
+      return stage_.over.text(at, text, {.size = size, .across = Align::middle, .up = Align::middle, .halo = true});
     }
   }
 
 private:
   bool free(const Box& box) const {
-    if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return overlap(box, other); })) return false;
+    if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return box.overlaps(other); })) return false;
     for (const EdgeRun& run : plate_.runs)
       for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
         Point p = stage_.view.flat(run.points[i].position), q = stage_.view.flat(run.points[i + 1].position);
@@ -84,21 +77,16 @@ void draw_contours(Stage& stage, const Plate& plate) {
 void draw_bearing(Stage& stage, const Plate& plate) {
   const Colour colour = status_colour(Status::closed);
   const std::vector<int> zone = bearing_triangles(plate.picture);
-  const auto at = [&](int i) { return stage.view.flat({plate.picture.points[2 * static_cast<std::size_t>(i)], plate.picture.points[2 * static_cast<std::size_t>(i) + 1], 0}); };
   for (const PlateLine& line : hatch(plate.picture, zone, 0.45 * stage.em / stage.view.scale)) {
     const std::vector<Point> ends = flat(stage, line);
     stage.over.line(ends[0], ends[1], std::max(1.0, stage.em / 18), colour);
   }
-  const std::vector<int> edges = rim(zone, 3);
-  for (const std::vector<int>& chain : chains(edges)) {
+  for (const std::vector<int>& chain : chains(rim({zone, 3}))) {
     std::vector<Point> points;
-    for (const int i : chain) points.push_back(at(i));
+    for (const int i : chain) points.push_back(stage.view.flat(plate.node(i, 0)));
     stage.over.polyline(points, std::max(1.6, stage.em / 10), colour);
   }
-  std::vector<int> inside = zone;
-  std::sort(inside.begin(), inside.end());
-  for (const int i : plate.picture.bearing)
-    if (!std::binary_search(inside.begin(), inside.end(), i)) stage.over.marker(Marker::disc, at(i), 0.5 * stage.em, colour);
+  draw_bearing_points(stage, plate, zone, 0, 0.5 * stage.em);
 }
 
 // Hatching outside an edge that cannot rotate, as of a wall.
@@ -107,12 +95,12 @@ void draw_clamp(Stage& stage, const EdgeRun& run) {
   double rest = 0;
   for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
     const Point p = stage.view.flat(run.points[i].position), q = stage.view.flat(run.points[i + 1].position), n = stage.view.direction(run.points[i].normal);
-    const double length = std::hypot(q.x - p.x, q.y - p.y);
-    for (double s = rest; s <= length; s += step, rest = s) {
-      const Point d{(q.x - p.x) / length, (q.y - p.y) / length}, a{p.x + s * d.x, p.y + s * d.y};
-      stage.over.line(a, {a.x + depth * (n.x - 0.7 * d.x), a.y + depth * (n.y - 0.7 * d.y)}, std::max(1.0, em / 20), support_ink);
+    const double size = length(q - p);
+    for (double s = rest; s <= size; s += step, rest = s) {
+      const Point d{(q.x - p.x) / size, (q.y - p.y) / size}, a = p + s * d;
+      stage.over.line(a, a + depth * (n - 0.7 * d), std::max(1.0, em / 20), support_ink);
     }
-    rest -= length;
+    rest -= size;
   }
 }
 
@@ -133,86 +121,69 @@ double dot_size(const Stage& stage, const Plate& plate, const PlateForce& f) {
 bool carries(const Plate& plate, const PlateForce& f) { return std::abs(f.force) > 1e-6 * plate.greatest_force; }
 
 // Beyond a corner; elsewhere within the plate, clear of strips.
-PlateLabel force_label(const Stage& stage, const Plate& plate, const PlateForce& f) {
-  PlateLabel label;
-  const std::string& unit = plate.picture.force_unit;
-  label.text = number(f.force) + (unit.empty() ? "" : " " + unit);
-  label.colour = f.force < 0 ? pull_line : pressure_line;
-  const Point at = stage.view.flat({f.x, f.y, 0}), extent = text_extent(label.text, 0.85 * stage.em);
+Label force_label(const Stage& stage, const Plate& plate, const PlateForce& f) {
+  Label label = reaction_label(stage, f.force, plate.picture.force_unit);
+  const Point at = stage.view.flat({f.x, f.y, 0}), extent = text_extent(label.text, label.size);
   Point n = stage.view.direction(outwards_at(plate.runs, f.x, f.y));
   const bool corner = std::abs(n.x) > 0.3 && std::abs(n.y) > 0.3;
   if (!corner) n = n.x == 0 && n.y == 0 ? Point{0.7, 0.7} : Point{-n.x, -n.y};
-  label.ground = !corner;
+  label.ground = corner ? 0 : 0.15 * stage.em;
   const double off = dot_size(stage, plate, f) / 2 + (corner ? 0.15 : 0.3) * stage.em;
   const auto side = [](double c) { return std::abs(c) > 0.3 ? (c > 0 ? 1.0 : -1.0) : 0.0; };
-  const Point middle{at.x + side(n.x) * (extent.x / 2 + off), at.y + side(n.y) * (extent.y / 2 + off)};
-  label.box = {middle.x - extent.x / 2, middle.y - extent.y / 2, middle.x + extent.x / 2, middle.y + extent.y / 2};
+  label.box = Box::about({at.x + side(n.x) * (extent.x / 2 + off), at.y + side(n.y) * (extent.y / 2 + off)}, extent);
   return label;
 }
 
-std::vector<PlateLabel> labels(const Stage& stage, const Plate& plate) {
-  std::vector<PlateLabel> out;
+std::vector<Label> labels(const Stage& stage, const Plate& plate) {
+  std::vector<Label> out;
   for (const PlateForce& f : plate.picture.forces)
     if (carries(plate, f)) out.push_back(force_label(stage, plate, f));
-  for (PlateLabel& label : strip_labels(stage, plate)) out.push_back(std::move(label));
+  for (Label& label : strip_labels(stage, plate)) out.push_back(std::move(label));
   return out;
-}
-
-// The apex at the point, as on drawings.
-void draw_point_support(Stage& stage, const PlatePointSupport& s) {
-  const Point at = stage.view.flat({s.x, s.y, 0});
-  const double em = stage.em;
-  for (const auto& [grow, colour] : {std::pair{0.12 * em, Colour{255, 255, 255}}, std::pair{0.0, support_colour(s.support, s.status)}})
-    stage.over.convex(std::array<Point, 3>{{{at.x, at.y + grow}, {at.x - 0.5 * em - grow, at.y - 0.85 * em - 0.7 * grow}, {at.x + 0.5 * em + grow, at.y - 0.85 * em - 0.7 * grow}}}, colour);
 }
 
 void draw_above(Stage& stage, const Plate& plate) {
   for (const EdgeRun& run : plate.runs) draw_edge(stage, run);
   draw_strips(stage, plate);
-  for (const PlatePointSupport& s : plate.picture.supports) draw_point_support(stage, s);
+  for (const PlatePointSupport& s : plate.picture.supports)  // the apex at the point, as on drawings
+    draw_apex(stage, stage.view.flat({s.x, s.y, 0}), {0.5 * stage.em, 0.85 * stage.em}, 0.12 * stage.em, support_colour(s.support, s.status));
   for (const PlateForce& f : plate.picture.forces)
     if (carries(plate, f)) stage.over.marker(Marker::disc, stage.view.flat({f.x, f.y, 0}), dot_size(stage, plate, f), f.force < 0 ? pull_line : pressure_line);
-  std::vector<Box> taken;
-  for (const PlateLabel& label : labels(stage, plate)) {
-    if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return overlap(label.box, other); })) continue;
-    taken.push_back(label.box);
-    draw_label(stage, label);
-  }
+  draw_labels(stage.over, labels(stage, plate));
 }
 
-void add_bounds(const Stage& stage, const Plate& plate, Bounds& bounds) {
-  if (plate.greatest_reaction > 0)
-    for (const EdgeRun& run : plate.runs)
-      for (const EdgePoint& p : run.points) bounds.add(strip_tip(stage, plate, p));
-  if (plate.any([](const EdgeRun& run) { return run.clamped; }))
-    for (const EdgeRun& run : plate.runs)
-      for (const EdgePoint& p : run.points) bounds.add(strip_foot(stage, plate, p));
+void plan_bounds(const Stage& stage, const Plate& plate, Bounds& bounds) {
+  for (const EdgeRun& run : plate.runs)
+    for (const EdgePoint& p : run.points) {
+      if (plate.greatest_reaction > 0) bounds.add(strip_tip(stage, plate, p));
+      if (plate.clamped) bounds.add(strip_foot(stage, plate, p));
+    }
   for (const PlatePointSupport& s : plate.picture.supports) {
     const Point at = stage.view.flat({s.x, s.y, 0});
-    bounds.add(Point{at.x - 0.6 * stage.em, at.y - stage.em}), bounds.add(Point{at.x + 0.6 * stage.em, at.y});
+    bounds.add(Box{at.x - 0.6 * stage.em, at.y - stage.em, at.x + 0.6 * stage.em, at.y});
   }
-  for (const PlateLabel& label : labels(stage, plate)) bounds.add(Point{label.box.left, label.box.bottom}), bounds.add(Point{label.box.right, label.box.top});
+  for (const Label& label : labels(stage, plate)) bounds.add(label.box);
 }
 
 // Per length and at points, as far as they occur.
 LegendEntry reaction_entry(double em, double sign, bool strip, bool force) {
   return {sign > 0 ? "reaction, pushing up" : "reaction, pulling down", [em, sign, strip, force](Canvas& c, const Box& b) {
-            const double middle = (b.bottom + b.top) / 2;
+            const double middle = b.centre().y, top = middle + 0.36 * em;
             const Colour colour = sign > 0 ? pressure_line : pull_line;
             if (strip) {
-              c.box({b.left, middle - 0.36 * em, b.right, middle + 0.36 * em}, sign > 0 ? push_fill : pull_fill);
-              c.line({b.left, middle + 0.36 * em}, {b.right, middle + 0.36 * em}, std::max(1.2, em / 14), colour);
+              c.box({b.left, middle - 0.36 * em, b.right, top}, sign > 0 ? pressure_fill : pull_fill);
+              c.line({b.left, top}, {b.right, top}, std::max(1.2, em / 14), colour);
             }
-            if (force) c.marker(Marker::disc, {(b.left + b.right) / 2, middle - (strip ? 0.05 * em : 0)}, 0.5 * em, colour);
+            if (force) c.marker(Marker::disc, {b.centre().x, middle - (strip ? 0.05 * em : 0)}, 0.5 * em, colour);
           }};
 }
 
-std::vector<LegendEntry> plan_legend(const Stage& stage, const Plate& plate) {
+void plan_legend(const Stage& stage, const Plate& plate, std::vector<LegendEntry>& out) {
   const double em = stage.em;
-  std::vector<LegendEntry> out = plate_legend(plate, em, support_width * em);
-  if (plate.any([](const EdgeRun& run) { return run.clamped; }))
+  plate_legend(plate, em, support_width * em, out);
+  if (plate.clamped)
     out.push_back({"cannot rotate", [em](Canvas& c, const Box& b) {
-                     const double low = (b.bottom + b.top) / 2 - 0.2 * em;
+                     const double low = b.centre().y - 0.2 * em;
                      c.line({b.left, low}, {b.right, low}, std::max(1.2, em / 18), support_ink);
                      for (double x = b.left; x < b.right; x += 0.4 * em) c.line({x, low}, {x + 0.3 * em, low + 0.45 * em}, std::max(1.0, em / 20), support_ink);
                    }});
@@ -223,22 +194,16 @@ std::vector<LegendEntry> plan_legend(const Stage& stage, const Plate& plate) {
     for (const PlateForce& f : plate.picture.forces) force = force || sign * f.force > 1e-6 * plate.greatest_force;
     if (strip || force) out.push_back(reaction_entry(em, sign, strip, force));
   }
-  return out;
 }
 
 }  // namespace
 
-Additions plan_additions(const Plate& plate) {
-  Additions out;
-  out.axes_of_bodies = true;
-  out.legend = [&plate](const Stage& stage) { return plan_legend(stage, plate); };
-  out.bounds = [&plate](const Stage& stage, Bounds& bounds) { add_bounds(stage, plate, bounds); };
-  out.below = [&plate](Stage& stage, vtkRenderer*) {
-    draw_contours(stage, plate);
-    draw_bearing(stage, plate);
-  };
-  out.above = [&plate](Stage& stage, vtkRenderer*) { draw_above(stage, plate); };
-  return out;
+std::vector<Layer> plan_layers(const Plate& plate) {
+  const auto below = [&plate](Stage& stage, vtkRenderer*) { draw_contours(stage, plate), draw_bearing(stage, plate); };
+  return {{2, below},
+          {6, [&plate](Stage& stage, vtkRenderer*) { draw_above(stage, plate); },
+           [&plate](const Stage& stage, std::vector<LegendEntry>& out) { plan_legend(stage, plate, out); },
+           [&plate](const Stage& stage, Bounds& bounds) { plan_bounds(stage, plate, bounds); }}};
 }
 
 }  // namespace dotyk::figure

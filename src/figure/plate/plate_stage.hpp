@@ -1,7 +1,6 @@
 // What the parts of a plate's figure share while it is drawn.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -10,7 +9,7 @@
 
 namespace dotyk::figure {
 
-constexpr Colour support_ink{40, 40, 40}, elastic_colour{120, 85, 55}, pull_line{0, 105, 78}, push_fill{205, 214, 235}, pull_fill{196, 230, 216};
+constexpr Colour support_ink{40, 40, 40}, pull_line{0, 105, 78}, pull_fill{196, 230, 216};
 
 struct Plate {
   explicit Plate(const PlatePicture& picture);
@@ -18,8 +17,9 @@ struct Plate {
   const PlatePicture& picture;
   std::vector<EdgeRun> runs;
   double greatest_reaction = 0, greatest_force = 0;
+  bool clamped = false;  // somewhere
 
-  bool any(bool (*of)(const EdgeRun&)) const;
+  Vec3 node(int i, double factor) const { return {picture.points[2 * i], picture.points[2 * i + 1], factor * picture.deflection[i]}; }
 };
 
 // In the colour of its status, or of the kind of support where it has none.
@@ -27,25 +27,23 @@ Colour support_colour(PlateSupport support, const std::optional<Status>& status)
 
 // Kinds of support that occur, in space statuses too, as lines of `width`
 // pixels; point supports; the zone that bears on the obstacle.
-std::vector<LegendEntry> plate_legend(const Plate& plate, double em, double width);
+void plate_legend(const Plate& plate, double em, double width, std::vector<LegendEntry>& out);
+
+// Nodes that bear alone, without a triangle of the zone about them, in the plane of the plate where the factor is 0.
+void draw_bearing_points(Stage& stage, const Plate& plate, const std::vector<int>& zone, double factor, double size);
+// A support at a point: a triangle below it, with a rim of white.
+void draw_apex(Stage& stage, Point at, Point size, double rim, Colour colour);
 
 // Reactions along the edges, outside of them.
 Point strip_foot(const Stage& stage, const Plate& plate, const EdgePoint& p);
 Point strip_tip(const Stage& stage, const Plate& plate, const EdgePoint& p);
 void draw_strips(Stage& stage, const Plate& plate);
-
-// A text clear of what it explains.
-struct PlateLabel {
-  std::string text;
-  Box box;
-  Colour colour;
-  bool ground = false;  // on a pale ground of its own
-};
+// "3.2 kN", in the colour of what pushes or pulls.
+Label reaction_label(const Stage& stage, double value, const std::string& unit);
 // The greatest reaction of each edge, beyond the strip.
-std::vector<PlateLabel> strip_labels(const Stage& stage, const Plate& plate);
-void draw_label(Stage& stage, const PlateLabel& label);
+std::vector<Label> strip_labels(const Stage& stage, const Plate& plate);
 
-Additions plan_additions(const Plate& plate);
-Additions surface_additions(const Plate& plate);
+std::vector<Layer> plan_layers(const Plate& plate);
+std::vector<Layer> surface_layers(const Plate& plate);
 
 }  // namespace dotyk::figure

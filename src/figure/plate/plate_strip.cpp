@@ -13,12 +13,11 @@ namespace {
 
 // The strip leaves room for the line of the edge, and for hatching where it is clamped.
 double foot(const Stage& stage, const Plate& plate) {
-  return (plate.any([](const EdgeRun& run) { return run.clamped; }) ? 0.75 : 0.34) * stage.em;
+  return (plate.clamped ? 0.75 : 0.34) * stage.em;
 }
 
 Point outside(const Stage& stage, const EdgePoint& p, double by) {
-  const Point at = stage.view.flat(p.position), n = stage.view.direction(p.normal);
-  return {at.x + by * n.x, at.y + by * n.y};
+  return stage.view.flat(p.position) + by * stage.view.direction(p.normal);
 }
 
 // Where the reaction between two points changes its sign.
@@ -67,7 +66,7 @@ void draw_strips(Stage& stage, const Plate& plate) {
     for (const EdgePoint& p : points) feet.push_back(strip_foot(stage, plate, p)), tips.push_back(strip_tip(stage, plate, p));
     const auto pulls = [&](std::size_t i) { return points[i].reaction + points[i + 1].reaction < 0; };
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
-      stage.over.convex(std::array<Point, 4>{{feet[i], feet[i + 1], tips[i + 1], tips[i]}}, pulls(i) ? pull_fill : push_fill, 0.85);
+      stage.over.convex(std::array{feet[i], feet[i + 1], tips[i + 1], tips[i]}, pulls(i) ? pull_fill : pressure_fill, 0.85);
     for (const std::size_t i : stage.spaced(feet, 0.55 * stage.em))
       stage.over.line(feet[i], tips[i], std::max(0.8, stage.em / 30), points[i].reaction < 0 ? pull_line : pressure_line, 0.6);
     stage.over.polyline(feet, std::max(0.8, stage.em / 30), {130, 130, 130});
@@ -77,27 +76,23 @@ void draw_strips(Stage& stage, const Plate& plate) {
       stage.over.line(tips[i], tips[i + 1], width, colour);
       for (const std::size_t k : {i, i + 1}) stage.over.disc(tips[k], width / 2, colour);
     }
-    if (std::hypot(feet.front().x - feet.back().x, feet.front().y - feet.back().y) < 0.5) continue;  // it goes all around
+    if (length(feet.front() - feet.back()) < 0.5) continue;  // it goes all around
     for (const std::size_t i : {std::size_t{0}, points.size() - 1}) stage.over.line(feet[i], tips[i], width, points[i].reaction < 0 ? pull_line : pressure_line);
   }
 }
 
 namespace {
 
-PlateLabel label_at(const Stage& stage, const Plate& plate, const EdgePoint& p) {
-  PlateLabel label;
-  const std::string& unit = plate.picture.reaction_unit;
-  label.text = number(p.reaction) + (unit.empty() ? "" : " " + unit);
-  label.colour = p.reaction < 0 ? pull_line : pressure_line;
-  const Point tip = strip_tip(stage, plate, p), n = stage.view.direction(p.normal), size = text_extent(label.text, 0.85 * stage.em);
+Label label_at(const Stage& stage, const Plate& plate, const EdgePoint& p) {
+  Label label = reaction_label(stage, p.reaction, plate.picture.reaction_unit);
+  const Point tip = strip_tip(stage, plate, p), n = stage.view.direction(p.normal), size = text_extent(label.text, label.size);
   const auto beyond = [](double c) { return std::clamp(1.5 * c, -1.0, 1.0); };  // on a slant by a corner of the box
-  const Point middle{tip.x + beyond(n.x) * size.x / 2 + 0.35 * stage.em * n.x, tip.y + beyond(n.y) * size.y / 2 + 0.3 * stage.em * n.y};
-  label.box = {middle.x - size.x / 2, middle.y - size.y / 2, middle.x + size.x / 2, middle.y + size.y / 2};
+  label.box = Box::about({tip.x + beyond(n.x) * size.x / 2 + 0.35 * stage.em * n.x, tip.y + beyond(n.y) * size.y / 2 + 0.3 * stage.em * n.y}, size);
   return label;
 }
 
 // Of equal peaks that in the middle; nothing where the run carries next to nothing.
-void add_peak(std::vector<PlateLabel>& out, const Stage& stage, const Plate& plate, const EdgeRun& run, double sign) {
+void add_peak(std::vector<Label>& out, const Stage& stage, const Plate& plate, const EdgeRun& run, double sign) {
   double peak = 0;
   for (const EdgePoint& p : run.points)
     if (!p.extrapolated) peak = std::max(peak, sign * p.reaction);
@@ -110,8 +105,12 @@ void add_peak(std::vector<PlateLabel>& out, const Stage& stage, const Plate& pla
 
 }  // namespace
 
-std::vector<PlateLabel> strip_labels(const Stage& stage, const Plate& plate) {
-  std::vector<PlateLabel> out;
+Label reaction_label(const Stage& stage, double value, const std::string& unit) {
+  return {number(value) + (unit.empty() ? "" : " " + unit), 0.85 * stage.em, {}, value < 0 ? pull_line : pressure_line};
+}
+
+std::vector<Label> strip_labels(const Stage& stage, const Plate& plate) {
+  std::vector<Label> out;
   if (!(plate.greatest_reaction > 0)) return out;
   for (const EdgeRun& run : plate.runs)
     for (const double sign : {1.0, -1.0}) add_peak(out, stage, plate, run, sign);

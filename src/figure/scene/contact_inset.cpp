@@ -26,31 +26,24 @@ const ContactPicture* inset_contact(const ScenePicture& picture) {
 }
 
 void fill(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
-  const auto each = static_cast<std::size_t>(contact.nodes_per_facet);
-  const auto mid = [](Point p, Point q) { return Point{(p.x + q.x) / 2, (p.y + q.y) / 2}; };
+  const int each = contact.nodes_per_facet;
+  const auto paint = [&](std::span<const Point> corners, Status status) {
+    stage.over.convex(corners, status_colour(status), status == Status::open ? 0.22 : 1.0);
+  };
   for (std::size_t f = 0; f + each <= contact.facets.size(); f += each) {
+    std::vector<Point> corner;
+    std::vector<Status> status;
     Point centre;
-    std::vector<std::size_t> corner;
-    for (std::size_t k = 0; k < each; ++k) {
-      corner.push_back(static_cast<std::size_t>(contact.facets[f + k]));
-      centre.x += at[corner[k]].x / static_cast<double>(each);
-      centre.y += at[corner[k]].y / static_cast<double>(each);
+    for (int k = 0; k < each; ++k) {
+      corner.push_back(at[contact.facets[f + k]]), status.push_back(contact.nodes[contact.facets[f + k]].status);
+      centre = {centre.x + corner[k].x / each, centre.y + corner[k].y / each};
     }
-    const Status first = contact.nodes[corner[0]].status;
-    const bool same = std::all_of(corner.begin(), corner.end(), [&](std::size_t i) { return contact.nodes[i].status == first; });
-    const auto opacity = [](Status s) { return s == Status::open ? 0.22 : 1.0; };
-    if (same) {
-      std::vector<Point> corners;
-      for (const std::size_t i : corner) corners.push_back(at[i]);
-      stage.over.convex(corners, status_colour(first), opacity(first));
+    if (std::count(status.begin(), status.end(), status[0]) == each) {
+      paint(corner, status[0]);
       continue;
     }
-    for (std::size_t k = 0; k < each; ++k) {
-      const Status status = contact.nodes[corner[k]].status;
-      const Point p = at[corner[k]];
-      stage.over.convex(std::array<Point, 4>{{p, mid(p, at[corner[(k + 1) % each]]), centre, mid(p, at[corner[(k + each - 1) % each]])}},
-                        status_colour(status), opacity(status));
-    }
+    for (int k = 0; k < each; ++k)
+      paint(std::array{corner[k], 0.5 * (corner[k] + corner[(k + 1) % each]), centre, 0.5 * (corner[k] + corner[(k + each - 1) % each])}, status[k]);
   }
 }
 
@@ -79,11 +72,9 @@ void draw_inset(Stage& stage, const Box& room) {
   // Title above, names of the axes to the left and below.
   const Box plot{room.left + 0.9 * em, room.bottom + 2.2 * em, room.right - 0.2 * em, room.top - 1.5 * em};
   const double scale = std::min(plot.width() / std::max(bounds.width(), 1e-300), plot.height() / std::max(bounds.height(), 1e-300));
-  const Point centre{(plot.left + plot.right) / 2, plot.top - scale * bounds.height() / 2};
+  const Point centre{plot.centre().x, plot.top - scale * bounds.height() / 2};
   std::vector<Point> at;
-  for (const ContactNode& node : contact->nodes)
-    at.push_back({centre.x + scale * (node.position[plan.across] - (bounds.left + bounds.right) / 2),
-                  centre.y + scale * (node.position[plan.up] - (bounds.bottom + bounds.top) / 2)});
+  for (const ContactNode& node : contact->nodes) at.push_back(centre + scale * (plan(node.position) - bounds.centre()));
   fill(stage, *contact, at);
 
   // Dots whose area is the pressure.
@@ -93,23 +84,17 @@ void draw_inset(Stage& stage, const Box& room) {
       const double share = contact->nodes[i].pressure / stage.greatest_pressure;
       if (share > 0.002) stage.over.disc(at[i], 0.45 * spacing * std::sqrt(share), pressure_line);
     }
-  draw_shear(stage, *contact, at, plan.across, plan.up);
-  const std::vector<int> edges = rim(contact->facets, contact->nodes_per_facet);
-  for (std::size_t e = 0; e + 1 < edges.size(); e += 2)
-    stage.over.line(at[static_cast<std::size_t>(edges[e])], at[static_cast<std::size_t>(edges[e + 1])], std::max(1.2, em / 18), outline_ink);
+  draw_shear(stage, *contact, at, plan);
+  for (const auto& [a, b] : pairs(rim({contact->facets, contact->nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, em / 18), outline_ink);
 
   const double half_w = scale * bounds.width() / 2, half_h = scale * bounds.height() / 2;
-  TextStyle style;
-  style.size = 0.85 * em;
-  style.across = Align::middle;
-  style.colour = outline_ink;
+  TextStyle style{.size = 0.85 * em, .across = Align::middle, .colour = outline_ink};
   stage.over.text({centre.x, centre.y + half_h + 0.25 * em}, contact->name.empty() ? "contact" : "contact " + contact->name, style);
   style.up = Align::high;
   stage.over.text({centre.x, centre.y - half_h - 0.2 * em}, std::string(1, "xyz"[plan.across]), style);
-  if (const std::optional<PeakLabel> peak = peak_label(stage, *contact); peak && stage.picture.pressure != PressureStyle::none)
+  if (const std::optional<Label> peak = peak_label(stage, *contact); peak && stage.picture.pressure != PressureStyle::none)
     stage.over.text({centre.x, centre.y - half_h - 1.2 * em}, "pressure " + peak->text, style);
-  style.up = Align::middle;
-  style.across = Align::high;
+  style.up = Align::middle, style.across = Align::high;
   stage.over.text({centre.x - half_w - 0.35 * em, centre.y}, std::string(1, "xyz"[plan.up]), style);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "figure/scene/spread.hpp"
 #include "figure/scene/stage.hpp"
@@ -12,62 +13,42 @@ namespace {
 
 constexpr double longest = 1.5, least_share = 0.1;  // of an arrow: em, and of the greatest shear
 
-double size(const Vec3& v) { return std::sqrt(dot(v, v)); }
+double magnitude(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
-// The nodes whose arrows are drawn: of those that rub, some that stand apart.
-template <class Choice>
-std::vector<std::size_t> nodes_with_arrow(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, Choice choice) {
+using Choice = std::function<std::vector<std::size_t>(const std::vector<Point>&)>;
+using Arrow = std::function<std::array<Point, 2>(std::size_t node)>;
+
+// At some of the nodes that rub, which stand apart.
+void draw_chosen(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, const Choice& choice, const Arrow& arrow) {
+  if (!(stage.greatest_shear > 0)) return;
   std::vector<std::size_t> rubbing;
   std::vector<Point> places;
   for (std::size_t i = 0; i < at.size(); ++i)
-    if (size(contact.nodes[i].shear) >= least_share * stage.greatest_shear) rubbing.push_back(i), places.push_back(at[i]);
-  std::vector<std::size_t> out;
-  for (const std::size_t k : choice(places)) out.push_back(rubbing[k]);
-  return out;
-}
-
-void draw(Stage& stage, Point tail, Point head) {
+    if (magnitude(contact.nodes[i].shear) >= least_share * stage.greatest_shear) rubbing.push_back(i), places.push_back(at[i]);
   const double em = stage.em;
-  stage.over.arrow(tail, head, std::max(1.4, em / 11), 0.42 * em, shear_line, std::max(0.9, em / 24));
+  for (const std::size_t k : choice(places)) {
+    const auto [tail, head] = arrow(rubbing[k]);
+    stage.over.arrow(tail, head, std::max(1.4, em / 11), 0.42 * em, shear_line, std::max(0.9, em / 24));
+  }
 }
 
 }  // namespace
 
 std::array<Point, 2> shear_arrow(const Stage& stage, const ContactNode& node) {
-  const Point at = stage.view.flat(stage.place(node)), n = stage.view.direction(node.normal), t = stage.view.direction(node.shear);
-  const double half = 0.5 * longest * stage.em * size(node.shear) / stage.greatest_shear, off = 0.75 * stage.em;
-  const Point middle{at.x - off * n.x, at.y - off * n.y};
-  return {{{middle.x - half * t.x, middle.y - half * t.y}, {middle.x + half * t.x, middle.y + half * t.y}}};
+  const double half = 0.5 * longest * stage.em * magnitude(node.shear) / stage.greatest_shear;
+  const Point middle = stage.at(node) - 0.75 * stage.em * stage.view.direction(node.normal), t = stage.view.direction(node.shear);
+  return {middle - half * t, middle + half * t};
 }
 
 void draw_shear(Stage& stage, const ContactPicture& contact) {
-  if (!(stage.greatest_shear > 0)) return;
-  std::vector<Point> at;
-  for (const ContactNode& node : contact.nodes) at.push_back(stage.view.flat(stage.place(node)));
-  const auto along_edge = [&](const std::vector<Point>& places) { return stage.spaced(places, 1.1 * longest * stage.em); };
-  for (const std::size_t i : nodes_with_arrow(stage, contact, at, along_edge)) {
-    const auto [tail, head] = shear_arrow(stage, contact.nodes[i]);
-    draw(stage, tail, head);
-  }
+  draw_chosen(stage, contact, stage.at(contact.nodes), [&](const std::vector<Point>& places) { return stage.spaced(places, 1.1 * longest * stage.em); },
+              [&](std::size_t i) { return shear_arrow(stage, contact.nodes[i]); });
 }
 
-void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, std::size_t across, std::size_t up) {
-  if (!(stage.greatest_shear > 0)) return;
+void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, const Plan& plan) {
   const double half = 0.5 * stage.em / stage.greatest_shear;
-  const auto on_plan = [&](const std::vector<Point>& places) { return spread(places, places, 0.85 * stage.em); };
-  for (const std::size_t i : nodes_with_arrow(stage, contact, at, on_plan)) {
-    const Vec3& shear = contact.nodes[i].shear;
-    const double x = half * shear[across], y = half * shear[up];
-    draw(stage, {at[i].x - x, at[i].y - y}, {at[i].x + x, at[i].y + y});
-  }
-}
-
-std::vector<LegendEntry> shear_legend(const Stage& stage) {
-  if (!(stage.greatest_shear > 0)) return {};
-  return {{"shear", [em = stage.em](Canvas& c, const Box& b) {
-             const double middle = (b.bottom + b.top) / 2;
-             c.arrow({b.left + 0.1 * em, middle}, {b.right - 0.1 * em, middle}, std::max(1.4, em / 11), 0.42 * em, shear_line);
-           }}};
+  draw_chosen(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, 0.85 * stage.em); },
+              [&](std::size_t i) { return std::array{at[i] - half * plan(contact.nodes[i].shear), at[i] + half * plan(contact.nodes[i].shear)}; });
 }
 
 }  // namespace dotyk::figure

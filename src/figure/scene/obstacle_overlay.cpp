@@ -8,8 +8,7 @@
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
-#include "figure/scene/stage.hpp"
-#include "figure/canvas/vtk_data.hpp"
+#include "figure/scene/shapes.hpp"
 
 namespace dotyk::figure {
 
@@ -17,53 +16,43 @@ namespace {
 
 constexpr Colour body_grey{205, 205, 205}, edge_grey{95, 95, 95}, hatch_grey{140, 140, 140};
 
-void draw_plane(Stage& stage, const RigidPicture& rigid) {
-  std::vector<Point> at;
-  for (std::size_t i = 0; i < rigid.points.size() / 3; ++i) at.push_back(stage.view.flat({rigid.points[3 * i], rigid.points[3 * i + 1], 0}));
-  Canvas& c = stage.under;
-  const double width = std::max(1.5, stage.em / 12);
-  if (rigid.closed) {
-    c.polygon(at, body_grey);
-    c.polyline(at, width, edge_grey, {}, true);
-    return;
-  }
-  const Point into = stage.view.direction(rigid.into_solid);
+Vec3 corner(const RigidPicture& rigid, std::size_t i) { return {rigid.points[3 * i], rigid.points[3 * i + 1], rigid.points[3 * i + 2]}; }
+
+// On the solid side of p q, whose direction is `along`; far ends, as of a plane without end, are cut before. `walked`: the
+// length of the line up to here, so that strokes go on evenly.
+void draw_hatching(Stage& stage, Point p, Point q, Point into, double& walked) {
+  const double size = length(q - p), reach = 2.0 * (stage.frame.width() + stage.frame.height());
+  if (!(size > 0)) return;
+  const Point along{(q.x - p.x) / size, (q.y - p.y) / size}, to_centre = stage.frame.centre() - p;
+  const double nearest = to_centre.x * along.x + to_centre.y * along.y;
+  const double from = std::max(0.0, nearest - reach), to = std::min(size, nearest + reach);
+  if (from >= to) return;
   const double depth = hatch_depth * stage.em, spacing = 0.55 * stage.em;
-  // Far ends, as of a plane without end, are cut before they are hatched.
-  double walked = 0;
-  const double reach = 2.0 * (stage.frame.width() + stage.frame.height());
-  const Point centre{(stage.frame.left + stage.frame.right) / 2, (stage.frame.bottom + stage.frame.top) / 2};
-  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-    Point p = at[i], q = at[i + 1];
-    double length = std::hypot(q.x - p.x, q.y - p.y);
-    if (!(length > 0)) continue;
-    const Point along{(q.x - p.x) / length, (q.y - p.y) / length};
-    const double nearest = (centre.x - p.x) * along.x + (centre.y - p.y) * along.y;
-    const double from = std::max(0.0, nearest - reach), to = std::min(length, nearest + reach);
-    if (from >= to) continue;
-    q = {p.x + to * along.x, p.y + to * along.y};
-    p = {p.x + from * along.x, p.y + from * along.y};
-    length = to - from;
-    c.convex(std::array<Point, 4>{{p, q, {q.x + depth * into.x, q.y + depth * into.y}, {p.x + depth * into.x, p.y + depth * into.y}}}, {226, 226, 226});
-    double s = spacing - std::fmod(walked, spacing);
-    for (; s <= length; s += spacing) {
-      const Point start{p.x + s * along.x, p.y + s * along.y};
-      // Slanted by half a right angle against the direction of the line.
-      c.line(start, {start.x + depth * (into.x - 0.7 * along.x), start.y + depth * (into.y - 0.7 * along.y)}, std::max(1.0, stage.em / 24), hatch_grey);
-    }
-    walked += length;
-  }
-  c.polyline(at, width, edge_grey);
+  const Point first = p + from * along, last = p + to * along;
+  stage.under.convex(std::array{first, last, last + depth * into, first + depth * into}, {226, 226, 226});
+  // Slanted by half a right angle against the direction of the line.
+  for (double s = spacing - std::fmod(walked, spacing); s <= to - from; s += spacing)
+    stage.under.line(first + s * along, first + s * along + depth * (into - 0.7 * along), std::max(1.0, stage.em / 24), hatch_grey);
+  walked += to - from;
 }
 
-void draw_space(const Stage& stage, const RigidPicture& rigid, vtkRenderer* renderer) {
+void draw_in_plane(Stage& stage, const RigidPicture& rigid) {
+  std::vector<Point> at;
+  for (std::size_t i = 0; i < rigid.points.size() / 3; ++i) at.push_back(stage.view.flat(corner(rigid, i)));
+  if (rigid.closed) stage.under.polygon(at, body_grey);
+  double walked = 0;
+  for (std::size_t i = 0; i + 1 < at.size() && !rigid.closed; ++i) draw_hatching(stage, at[i], at[i + 1], stage.view.direction(rigid.into_solid), walked);
+  stage.under.polyline(at, std::max(1.5, stage.em / 12), edge_grey, {}, rigid.closed);
+}
+
+void draw_in_space(const Stage& stage, const RigidPicture& rigid, vtkRenderer* renderer) {
   std::vector<Vec3> at;
   for (std::size_t i = 0; i < rigid.points.size() / 3; ++i) {
-    at.push_back(stage.view.pixel({rigid.points[3 * i], rigid.points[3 * i + 1], rigid.points[3 * i + 2]}));
+    at.push_back(stage.view.pixel(corner(rigid, i)));
     for (double& c : at.back()) c *= stage.factor;
   }
   vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(poly_data(at, rigid.triangles, 3));
+  normals->SetInputData(poly_data(at, {rigid.triangles, 3}));
   normals->SetFeatureAngle(40);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(normals->GetOutputPort());
@@ -79,17 +68,59 @@ void draw_space(const Stage& stage, const RigidPicture& rigid, vtkRenderer* rend
   renderer->AddActor(actor);
 }
 
-}  // namespace
-
 void draw_obstacles(Stage& stage, vtkRenderer* renderer) {
   if (stage.plane) stage.under.clip(stage.frame);
-  for (const RigidPicture& rigid : stage.picture.obstacles) {
-    if (stage.plane)
-      draw_plane(stage, rigid);
-    else
-      draw_space(stage, rigid, renderer);
-  }
+  for (const RigidPicture& rigid : stage.picture.obstacles) stage.plane ? draw_in_plane(stage, rigid) : draw_in_space(stage, rigid, renderer);
   stage.under.no_clip();
 }
+
+// The hatching of what of the line is near all that has asked for room before.
+void add_hatching(const Stage& stage, Bounds& bounds) {
+  if (!stage.plane) return;
+  const double depth = hatch_depth * stage.em;
+  for (const RigidPicture& rigid : stage.picture.obstacles) {
+    if (rigid.closed) continue;
+    const Point d = stage.view.direction(rigid.into_solid);
+    const Box near = bounds;
+    for (auto [p, q] : obstacle_line(stage, rigid)) {
+      if (!crop(p, q, near)) continue;
+      Bounds piece;
+      piece.add(p), piece.add(q);
+      if (d.y < -0.3) bounds.add(Point{piece.left, piece.bottom + d.y * depth});
+      if (d.y > 0.3) bounds.add(Point{piece.left, piece.top + d.y * depth});
+      if (d.x < -0.3) bounds.add(Point{piece.left + d.x * depth, piece.bottom});
+      if (d.x > 0.3) bounds.add(Point{piece.right + d.x * depth, piece.bottom});
+    }
+  }
+}
+
+bool obstacle_shows(const Stage& stage) {
+  if (!stage.window) return !stage.picture.obstacles.empty();
+  for (const RigidPicture& rigid : stage.picture.obstacles)
+    for (const auto& [p, q] : obstacle_line(stage, rigid))
+      if (stage.shows(p, q)) return true;
+  return false;
+}
+
+void obstacle_legend(const Stage& stage, std::vector<LegendEntry>& out) {
+  if (!obstacle_shows(stage)) return;
+  out.push_back({"rigid obstacle", [em = stage.em](Canvas& c, const Box& b) {
+                   const double middle = b.centre().y, top = middle + 0.3 * em;
+                   c.box({b.left, middle - 0.3 * em, b.right, top}, body_grey);
+                   c.line({b.left, top}, {b.right, top}, std::max(1.5, em / 12), edge_grey);
+                 }});
+}
+
+}  // namespace
+
+std::vector<std::array<Point, 2>> obstacle_line(const Stage& stage, const RigidPicture& rigid) {
+  const std::size_t n = rigid.points.size() / 3;
+  std::vector<std::array<Point, 2>> out;
+  for (std::size_t i = 0; i + (rigid.closed ? 0 : 1) < n; ++i)
+    out.push_back({stage.view.flat(corner(rigid, i)), stage.view.flat(corner(rigid, (i + 1) % n))});
+  return out;
+}
+
+Layer obstacle_layer() { return {0, draw_obstacles, obstacle_legend, add_hatching}; }
 
 }  // namespace dotyk::figure

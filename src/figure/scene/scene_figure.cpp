@@ -19,8 +19,10 @@ namespace dotyk::figure {
 Stage::Stage(const ScenePicture& p, int oversampled)
     : picture(p), factor(oversampled), plane(p.bodies.front().dimension == 2),
       em(0.032 * std::min<double>(p.height, 0.8 * p.width)), scale(colour_scale(p, p.window)), window(p.window),
-      under(oversampled), over(oversampled) {
+      under(oversampled), over(oversampled),
+      layers{contact_layer(), obstacle_layer(), load_layer(), support_layer(), body_layer()} {
   set_greatest();
+  for (const LoadArrow& load : p.loads) greatest_load = std::max(greatest_load, std::sqrt(dot(load.vector, load.vector)));
   for (const BodyPicture& body : p.bodies) {
     Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
     for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -45,22 +47,13 @@ bool Stage::arrows() const {
          (!plane && (picture.pressure == PressureStyle::automatic || picture.pressure == PressureStyle::strip));
 }
 
-Vec3 Stage::deformed(const Vec3& position, const Vec3& displacement) const {
-  return plus(position, displacement, picture.deformation);
-}
-
 std::vector<bool> Stage::shown(const ContactPicture& contact) const {
+  const std::vector<Point> at = this->at(contact.nodes);
   std::vector<bool> out;
-  std::vector<Point> at;
-  for (const ContactNode& node : contact.nodes) {
-    at.push_back(view.flat(place(node)));
-    out.push_back(shows(at.back()));
-  }
+  for (const Point& p : at) out.push_back(shows(p));
   if (!window || contact.nodes_per_facet != 2) return out;
-  for (std::size_t f = 0; f + 1 < contact.facets.size(); f += 2) {
-    const auto a = static_cast<std::size_t>(contact.facets[f]), b = static_cast<std::size_t>(contact.facets[f + 1]);
+  for (const auto& [a, b] : pairs(contact.facets))
     if (shows(at[a], at[b])) out[a] = out[b] = true;
-  }
   return out;
 }
 
@@ -135,16 +128,14 @@ void draw_stage(Stage& stage) {
     window.vtk()->AddRenderer(renderer);
   }
   ground->SetBackground(1, 1, 1);
-  draw_obstacles(stage, bodies);
   if (stage.window) stage.over.clip(stage.frame);
-  draw_bodies(stage, bodies);
-  if (stage.added.below) stage.added.below(stage, bodies);
-  draw_supports(stage);
-  draw_loads(stage);
-  draw_contacts(stage, bodies);
-  if (stage.added.above) stage.added.above(stage, bodies);
+  std::vector<Layer> upwards = stage.layers;
+  std::stable_sort(upwards.begin(), upwards.end(), [](const Layer& a, const Layer& b) { return a.height < b.height; });
+  for (const Layer& layer : upwards)
+    if (layer.draw) layer.draw(stage, bodies);
   stage.over.no_clip();
-  if (stage.window) draw_rim(stage);
+  // The rim of a window, above what it cuts off.
+  if (stage.window) stage.over.outline(stage.frame, std::max(1.0, stage.em / 20), {30, 30, 30});
   set_camera(stage, bodies);
   stage.under.add_to(ground);
   stage.over.add_to(overlay);

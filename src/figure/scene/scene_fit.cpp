@@ -2,81 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace dotyk::figure {
 
 namespace {
 
-void add_clipped(Bounds& to, Point p, Point q, const Bounds& box) {
-  if (!crop(p, q, {box.left, box.bottom, box.right, box.top})) return;
-  to.add(p);
-  to.add(q);
-}
-
-// What keeps its size in pixels, at the present scale, with origin (0, 0).
-void add_symbols(Bounds& bounds, const Stage& stage) {
-  const ScenePicture& p = stage.picture;
-  if (stage.strips() || stage.arrows())
-    for (const ContactPicture& contact : p.contacts)
-      for (const ContactNode& node : contact.nodes) {
-        if (!(node.pressure > 0) || !(stage.greatest_pressure > 0)) continue;
-        const Point at = stage.view.flat(stage.deformed(node.position, node.displacement)), n = stage.view.direction(node.normal);
-        const double length = stage.strip_height() * node.pressure / stage.greatest_pressure;
-        bounds.add({at.x + n.x * length, at.y + n.y * length});
-      }
-  if (stage.plane && stage.greatest_shear > 0)
-    for (const ContactPicture& contact : p.contacts)
-      for (const ContactNode& node : contact.nodes)
-        if (dot(node.shear, node.shear) > 0)
-          for (const Point& end : shear_arrow(stage, node)) bounds.add(end);
-  if ((stage.strips() || stage.arrows()) && inset_width(stage) == 0)
-    for (const ContactPicture& contact : p.contacts)
-      if (const std::optional<PeakLabel> label = peak_label(stage, contact)) {
-        bounds.add(Point{label->box.left, label->box.bottom});
-        bounds.add(Point{label->box.right, label->box.top});
-      }
-  if (stage.plane)
-    for (const SupportSymbol& s : p.supports) {
-      const Point at = stage.view.flat(stage.deformed(s.position, s.displacement)), n = stage.view.direction(s.normal);
-      const double r = 1.35 * support_size * stage.em;
-      bounds.add({at.x + n.x * r, at.y + n.y * r});
-    }
-  const double greatest = greatest_load(p);
-  for (const LoadArrow& load : p.loads)
-    for (const Point& end : load_arrow(stage, load, greatest)) bounds.add(end);
-  if (stage.added.bounds) stage.added.bounds(stage, bounds);
-  if (stage.plane)
-    for (const RigidPicture& rigid : p.obstacles) {
-      if (rigid.closed) continue;
-      const Point d = stage.view.direction(rigid.into_solid);
-      const double depth = hatch_depth * stage.em;
-      Bounds inside = bounds;
-      for (std::size_t i = 0; i + 1 < rigid.points.size() / 3; ++i) {
-        Bounds piece;
-        add_clipped(piece, stage.view.flat({rigid.points[3 * i], rigid.points[3 * i + 1], 0}),
-                    stage.view.flat({rigid.points[3 * i + 3], rigid.points[3 * i + 4], 0}), bounds);
-        if (piece.empty()) continue;
-        if (d.y < -0.3) inside.add(Point{piece.left, piece.bottom + d.y * depth});
-        if (d.y > 0.3) inside.add(Point{piece.left, piece.top + d.y * depth});
-        if (d.x < -0.3) inside.add(Point{piece.left + d.x * depth, piece.bottom});
-        if (d.x > 0.3) inside.add(Point{piece.right + d.x * depth, piece.bottom});
-      }
-      bounds = inside;
-    }
-}
-
+// Of what grows with the scale and of symbols, which do not, at the present scale with origin (0, 0).
 Bounds pixel_bounds(Stage& stage, const Bounds& scaled) {
   stage.view.origin = {0, 0};
   const double s = stage.view.scale;
   Bounds bounds;
-  bounds.add(Point{s * scaled.left, s * scaled.bottom});
-  bounds.add(Point{s * scaled.right, s * scaled.top});
-  add_symbols(bounds, stage);
-  // Half a line and a marker stand beyond the body.
-  const double rim = 0.3 * stage.em;
-  bounds.add(Point{bounds.left - rim, bounds.bottom - rim});
-  bounds.add(Point{bounds.right + rim, bounds.top + rim});
+  bounds.add(Box{s * scaled.left, s * scaled.bottom, s * scaled.right, s * scaled.top});
+  std::vector<Layer> downwards = stage.layers;
+  std::stable_sort(downwards.begin(), downwards.end(), [](const Layer& a, const Layer& b) { return a.height > b.height; });
+  for (const Layer& layer : downwards)
+    if (layer.bounds) layer.bounds(stage, bounds);
+  bounds.add(bounds.grown(0.3 * stage.em));  // half a line and a marker stand beyond the body
   return bounds;
 }
 
@@ -107,18 +48,15 @@ void aim(Stage& stage) {
 Bounds scaled_bounds(const Stage& stage) {
   View unit_view = stage.view;
   unit_view.scale = 1, unit_view.origin = {0, 0};
-  Bounds bounds;
+  Bounds all;
   for (const BodyPicture& body : stage.picture.bodies)
     for (std::size_t i = 0; i < body.points.size() / 3; ++i) {
-      bounds.add(unit_view.flat(node(body, i, stage.picture.deformation)));
-      if (stage.picture.undeformed_outline) bounds.add(unit_view.flat(node(body, i, 0)));
+      all.add(unit_view.flat(node(body, i, stage.picture.deformation)));
+      if (stage.picture.undeformed_outline) all.add(unit_view.flat(node(body, i, 0)));
     }
-  if (bounds.empty()) bounds.add(Point{0, 0});
-  const double size = std::max(bounds.width(), bounds.height());
-  Bounds near = bounds;
-  near.add(Point{bounds.left - 0.1 * size, bounds.bottom - 0.1 * size});
-  near.add(Point{bounds.right + 0.1 * size, bounds.top + 0.1 * size});
-  Bounds all = bounds;
+  if (all.empty()) all.add(Point{0, 0});
+  const double size = std::max(all.width(), all.height());
+  const Box near = all.grown(0.1 * size);
   for (const RigidPicture& rigid : stage.picture.obstacles) {
     std::vector<Point> at;
     Bounds own;
@@ -127,12 +65,10 @@ Bounds scaled_bounds(const Stage& stage) {
       own.add(at.back());
     }
     if (own.empty()) continue;
-    const bool small = std::max(own.width(), own.height()) < 1.3 * size;
-    if ((rigid.closed || !stage.plane) && small) {
-      all.merge(own);
-    } else {
-      for (std::size_t i = 0; i + 1 < at.size(); ++i) add_clipped(all, at[i], at[i + 1], near);
-    }
+    if ((rigid.closed || !stage.plane) && std::max(own.width(), own.height()) < 1.3 * size) all.add(own);
+    else
+      for (std::size_t i = 0; i + 1 < at.size(); ++i)
+        if (Point p = at[i], q = at[i + 1]; crop(p, q, near)) all.add(p), all.add(q);
   }
   return all;
 }
@@ -151,9 +87,8 @@ void fit(Stage& stage, const Bounds& scaled, const Box& room) {
     if (std::abs(stage.view.scale - s) < 1e-6 * s) break;
   }
   const Bounds now = pixel_bounds(stage, scaled);
-  stage.view.origin = {(room.left + room.right) / 2 - (now.left + now.right) / 2, (room.bottom + room.top) / 2 - (now.bottom + now.top) / 2};
-  const Point o = stage.view.origin;
-  stage.frame = {now.left + o.x, now.bottom + o.y, now.right + o.x, now.top + o.y};
+  stage.view.origin = room.centre() - now.centre();
+  stage.frame = now.moved(stage.view.origin);
 }
 
 }  // namespace dotyk::figure

@@ -30,9 +30,8 @@ Box crossed_sides(const Stage& stage, const ContactPicture& contact) {
   Box f{-1e9, -1e9, 1e9, 1e9};
   if (contact.nodes_per_facet != 2) return f;
   const Box& frame = stage.frame;
-  for (std::size_t e = 0; e + 1 < contact.facets.size(); e += 2) {
-    const Point p = stage.view.flat(stage.place(contact.nodes[static_cast<std::size_t>(contact.facets[e])]));
-    const Point q = stage.view.flat(stage.place(contact.nodes[static_cast<std::size_t>(contact.facets[e + 1])]));
+  for (const auto& [a, b] : pairs(contact.facets)) {
+    const Point p = stage.at(contact.nodes[a]), q = stage.at(contact.nodes[b]);
     if (!stage.shows(p, q)) continue;
     if (std::min(p.x, q.x) < frame.left) f.left = frame.left;
     if (std::min(p.y, q.y) < frame.bottom) f.bottom = frame.bottom;
@@ -54,17 +53,15 @@ Bounds pressure_bounds(const Stage& stage) {
     const auto add = [&](Point p, Point n) {
       const Box& across = std::abs(n.x) < 0.5 ? f : crossed;
       const Box& up = std::abs(n.y) < 0.5 ? f : crossed;
-      bounds.add({std::clamp(p.x, across.left, across.right), std::clamp(p.y, up.bottom, up.top)});
+      bounds.add(Point{std::clamp(p.x, across.left, across.right), std::clamp(p.y, up.bottom, up.top)});
     };
     for (const ContactNode& node : contact.nodes) {
-      const Point at = stage.view.flat(stage.place(node)), n = stage.view.direction(node.normal);
-      if (!(node.pressure > 0) || !stage.shows(at)) continue;
-      const Point tip = pressure_tip(stage, node, at);
-      add({tip.x + pad * n.x, tip.y + pad * n.y}, n);
+      const Point n = stage.view.direction(node.normal);
+      if (node.pressure > 0 && stage.shows(stage.at(node))) add(pressure_tip(stage, node) + pad * n, n);
     }
-    if (const std::optional<PeakLabel> label = peak_label(stage, contact, false)) {
-      add({label->box.left - pad, label->box.bottom - pad}, label->direction);
-      add({label->box.right + pad, label->box.top + pad}, label->direction);
+    if (const std::optional<Label> label = peak_label(stage, contact, false)) {
+      const Box box = label->box.grown(pad);
+      add({box.left, box.bottom}, label->direction), add({box.right, box.top}, label->direction);
     }
   }
   return bounds;

@@ -1,4 +1,4 @@
-// What the parts of a scene figure share while it is drawn.
+// What the parts of a scene figure share while it is drawn, and the layers that it consists of.
 #pragma once
 
 #include <array>
@@ -19,14 +19,14 @@ namespace dotyk::figure {
 
 struct Stage;
 
-// What a kind of picture adds to a scene: names for the legend, the room that
-// symbols want at the present scale, what is drawn below and above contacts
-// and supports.
-struct Additions {
-  std::function<std::vector<LegendEntry>(const Stage&)> legend = {};
+// A kind of thing that a scene shows; what it does not need is empty. Legends name layers in the order in which a
+// stage has them; layers are drawn from the lowest height to the highest.
+struct Layer {
+  double height = 0;
+  std::function<void(Stage&, vtkRenderer*)> draw = {};
+  std::function<void(const Stage&, std::vector<LegendEntry>&)> legend = {};
+  // The room that symbols want, which keep their size in pixels, at the present scale; asked from the highest to the lowest.
   std::function<void(const Stage&, Bounds&)> bounds = {};
-  std::function<void(Stage&, vtkRenderer*)> below = {}, above = {};
-  bool axes_of_bodies = false;  // plane: along the bodies, not all that stands around them
 };
 
 struct Stage {
@@ -42,16 +42,27 @@ struct Stage {
   std::vector<std::array<Vec3, 2>> body_boxes;  // least and greatest reference corner of each body
   std::optional<Window> window;  // what the figure shows, where that is not all; at least the picture's
   double window_strip = 0;    // pixels of the greatest pressure in a window
-  double greatest_pressure = 0, greatest_shear = 0;  // of what is seen
+  double greatest_pressure = 0, greatest_shear = 0, greatest_load = 0;  // the first two of what is seen
   bool deformation_shows = false;
   Canvas under, over;         // below and above the bodies
-  Additions added;
+  std::vector<Layer> layers;
+  bool axes_of_bodies = false;  // plane: axes along the bodies, not all that stands around them
 
   double strip_height() const;                    // pixels of the greatest pressure
   bool strips() const;                            // pressure as strips, not arrows
   bool arrows() const;
-  Vec3 deformed(const Vec3& position, const Vec3& displacement) const;
-  Vec3 place(const ContactNode& node) const { return deformed(node.position, node.displacement); }
+  // Where a contact's node, a support or a load is drawn: in space, and on the picture.
+  template <class Thing>
+  Vec3 place(const Thing& thing) const { return plus(thing.position, thing.displacement, picture.deformation); }
+  template <class Thing>
+  Point at(const Thing& thing) const { return view.flat(place(thing)); }
+  template <class Thing>
+  std::vector<Point> at(const std::vector<Thing>& things) const {
+    std::vector<Point> out;
+    for (const Thing& thing : things) out.push_back(at(thing));
+    return out;
+  }
+  Point at(const BodyPicture& body, int node, double factor) const { return view.flat(figure::node(body, node, factor)); }
   // In a window: the point lies in the frame, and `within` pixels off its rim.
   bool shows(Point p, double within = 0) const { return !window || frame.holds(p, -within); }
   bool shows(Point p, Point q) const { return !window || crop(p, q, frame); }
@@ -69,15 +80,21 @@ void draw_stage(Stage& stage);
 // Chooses the view and the frame, and reserves room for title, legend, axes
 // and colour bar; draws these.
 void lay_out(Stage& stage);
-// The rim of a window, above what it cuts off.
-void draw_rim(Stage& stage);
 
-// Fills and hatches obstacles in the plane; in space adds their surfaces.
-void draw_obstacles(Stage& stage, vtkRenderer* renderer);
+// Rigid obstacles: filled and hatched in the plane, surfaces in space.
+Layer obstacle_layer();
+// The pieces of an obstacle's line in the plane, in pixels.
+std::vector<std::array<Point, 2>> obstacle_line(const Stage& stage, const RigidPicture& rigid);
 // Surfaces, mesh edges and outlines of the bodies.
-void draw_bodies(Stage& stage, vtkRenderer* renderer);
-// Status and pressure on the contact boundary.
-void draw_contacts(Stage& stage, vtkRenderer* renderer);
+Layer body_layer();
+// The outline of a body in the plane, two nodes an edge.
+std::vector<int> outline_edges(const BodyPicture& body);
+// Status, pressure and shear on the contact boundary.
+Layer contact_layer();
+// Symbols of supports; arrows of loads.
+Layer support_layer();
+Layer load_layer();
+
 // A plan of the contact of a scene in space: the width it wants (0: none),
 // and its drawing in the room given to it.
 double inset_width(const Stage& stage);
@@ -90,39 +107,33 @@ Plan plan_of(const ContactPicture& contact);
 void draw_inset(Stage& stage, const Box& room);
 // Arrows of the shear, in the plane beside the contact line on the side of the
 // first part, which they act on; on the plan of a contact in space, whose
-// nodes are drawn at `at` and whose coordinates are those two.
+// nodes are drawn at `at`.
 void draw_shear(Stage& stage, const ContactPicture& contact);
-void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, std::size_t across, std::size_t up);
+void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, const Plan& plan);
 // The ends of a node's arrow in the plane.
 std::array<Point, 2> shear_arrow(const Stage& stage, const ContactNode& node);
-std::vector<LegendEntry> shear_legend(const Stage& stage);
 // Of one contact in space: statuses and arrows of the pressure.
 void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer);
-// Symbols of supports, arrows of loads.
-void draw_supports(Stage& stage);
-void draw_loads(Stage& stage);
+
+// A text in a place that it shares with no other.
+struct Label {
+  std::string text;
+  double size = 0;    // of the letters
+  Box box;
+  Colour colour;
+  double ground = 0;  // pixels of pale ground around it; 0: a rim of white instead
+  Point direction = {};  // outwards from what it explains
+};
+// Those that do not overlap one before them.
+void draw_labels(Canvas& canvas, const std::vector<Label>& labels);
 
 // The greatest pressure of a contact in words, beyond its ordinate and clear of
 // outlines and obstacles; none where the contact carries (next to) nothing.
-struct PeakLabel {
-  std::string text;
-  double size = 0;  // of the letters
-  Point direction;  // outwards from the contact
-  Box box;
-};
-std::optional<PeakLabel> peak_label(const Stage& stage, const ContactPicture& contact, bool within_frame = true);
-// The end of the pressure ordinate of a node that is drawn at `at`.
-Point pressure_tip(const Stage& stage, const ContactNode& node, Point at);
+std::optional<Label> peak_label(const Stage& stage, const ContactPicture& contact, bool within_frame = true);
+// The end of the pressure ordinate of a node.
+Point pressure_tip(const Stage& stage, const ContactNode& node);
 
-// Names of what the stage will show, for the legend.
-std::vector<LegendEntry> contact_legend(const Stage& stage);
-std::vector<LegendEntry> support_legend(const Stage& stage);
-
-constexpr Colour pressure_line{45, 50, 90}, shear_line{150, 15, 40};
-// Sizes of symbols in em, for the room they need.
-constexpr double support_size = 0.85, load_length = 2.6, hatch_depth = 0.75;
-// Where a load arrow begins and ends, in pixels.
-std::array<Point, 2> load_arrow(const Stage& stage, const LoadArrow& load, double greatest);
-double greatest_load(const ScenePicture& picture);
+constexpr Colour pressure_line{45, 50, 90}, pressure_fill{205, 214, 235}, shear_line{150, 15, 40};
+constexpr double hatch_depth = 0.75;  // em
 
 }  // namespace dotyk::figure

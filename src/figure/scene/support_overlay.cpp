@@ -10,14 +10,13 @@ namespace dotyk::figure {
 namespace {
 
 constexpr Colour symbol_ink{40, 40, 40}, symbol_fill{255, 255, 255};
+constexpr double support_size = 0.85, load_length = 2.6;  // em
 
 // A frame at a boundary point: `out` away from the body, `along` its edge.
 struct Local {
   Point at, out, along;
   double size;
-  Point operator()(double s, double t) const {
-    return {at.x + size * (s * along.x + t * out.x), at.y + size * (s * along.y + t * out.y)};
-  }
+  Point operator()(double s, double t) const { return at + size * (s * along + t * out); }
 };
 
 void ground(Canvas& c, const Local& l, double t, double width) {
@@ -68,65 +67,61 @@ Local frame_of(const Stage& stage, const SupportSymbol& s, bool& roller) {
     if (s.fixed[1]) out = {0, out.y > 1e-6 ? 1.0 : -1.0};
   }
   if (out.x == 0 && out.y == 0) out = {0, -1};
-  return {stage.view.flat(stage.deformed(s.position, s.displacement)), out, {-out.y, out.x}, support_size * stage.em};
+  return {stage.at(s), out, {-out.y, out.x}, support_size * stage.em};
 }
 
-Marker space_marker(SupportKind kind) {
-  switch (kind) {
-    case SupportKind::fix: return Marker::triangle;
-    case SupportKind::slide: return Marker::ring;
-    case SupportKind::displace: return Marker::diamond;
-    case SupportKind::spring: return Marker::plus;
-  }
-  return Marker::disc;
+// In the plane the symbols are those everyone knows; in space markers, which the legend names.
+struct Kind {
+  SupportKind kind;
+  Marker marker;
+  const char* name;
+};
+constexpr std::array kinds{Kind{SupportKind::fix, Marker::triangle, "fixed"}, Kind{SupportKind::slide, Marker::ring, "sliding"},
+                           Kind{SupportKind::displace, Marker::diamond, "displacement given"}, Kind{SupportKind::spring, Marker::plus, "spring"}};
+
+// In space those on the far side are hidden by the body.
+std::vector<SupportSymbol> symbols_of(const Stage& stage, SupportKind kind) {
+  std::vector<SupportSymbol> out;
+  for (const SupportSymbol& s : stage.picture.supports)
+    if (s.kind == kind && (stage.plane || dot(s.normal, stage.view.towards) > 0)) out.push_back(s);
+  return out;
 }
 
-const char* support_name(SupportKind kind) {
-  switch (kind) {
-    case SupportKind::fix: return "fixed";
-    case SupportKind::slide: return "sliding";
-    case SupportKind::displace: return "displacement given";
-    case SupportKind::spring: return "spring";
-  }
-  return "";
-}
-
-}  // namespace
-
-void draw_supports(Stage& stage) {
-  const double width = std::max(1.1, stage.em / 18);
-  for (const SupportKind kind : {SupportKind::fix, SupportKind::slide, SupportKind::displace, SupportKind::spring}) {
-    std::vector<const SupportSymbol*> symbols;
-    std::vector<Point> at;
-    for (const SupportSymbol& s : stage.picture.supports) {
-      // In space those on the far side are hidden by the body.
-      if (s.kind != kind || (!stage.plane && dot(s.normal, stage.view.towards) <= 0)) continue;
-      symbols.push_back(&s);
-      at.push_back(stage.view.flat(stage.deformed(s.position, s.displacement)));
-    }
+void draw_supports(Stage& stage, vtkRenderer*) {
+  for (const Kind& kind : kinds) {
+    const std::vector<SupportSymbol> symbols = symbols_of(stage, kind.kind);
+    const std::vector<Point> at = stage.at(symbols);
     for (const std::size_t i : stage.spaced(at, (stage.plane ? 1.3 : 1.1) * support_size * stage.em)) {
       if (!stage.plane) {
-        stage.over.marker(space_marker(kind), at[i], 0.45 * stage.em, symbol_ink);
+        stage.over.marker(kind.marker, at[i], 0.45 * stage.em, symbol_ink);
         continue;
       }
       bool roller = false;
-      const Local local = frame_of(stage, *symbols[i], roller);
-      symbol(stage.over, kind, local, width, roller);
+      const Local local = frame_of(stage, symbols[i], roller);
+      symbol(stage.over, kind.kind, local, std::max(1.1, stage.em / 18), roller);
     }
   }
 }
 
-double greatest_load(const ScenePicture& picture) {
-  double greatest = 0;
-  for (const LoadArrow& load : picture.loads) greatest = std::max(greatest, std::sqrt(dot(load.vector, load.vector)));
-  return greatest;
+void support_legend(const Stage& stage, std::vector<LegendEntry>& out) {
+  if (stage.plane) return;
+  for (const Kind& kind : kinds)
+    if (!symbols_of(stage, kind.kind).empty())
+      out.push_back({kind.name, [em = stage.em, marker = kind.marker](Canvas& c, const Box& b) { c.marker(marker, b.centre(), 0.45 * em, symbol_ink); }});
 }
 
-std::array<Point, 2> load_arrow(const Stage& stage, const LoadArrow& load, double greatest) {
-  const Point at = stage.view.flat(stage.deformed(load.position, load.displacement));
-  if (!(greatest > 0)) return {at, at};
-  const double scale = load_length * stage.em / greatest;
-  const Point along{scale * dot(load.vector, stage.view.right), scale * dot(load.vector, stage.view.up)};
+void support_bounds(const Stage& stage, Bounds& bounds) {
+  if (!stage.plane) return;
+  for (const SupportSymbol& s : stage.picture.supports) bounds.add(stage.at(s) + 1.35 * support_size * stage.em * stage.view.direction(s.normal));
+}
+
+using Segment = std::array<Point, 2>;
+
+// Where a load arrow begins and ends.
+Segment load_arrow(const Stage& stage, const LoadArrow& load) {
+  const Point at = stage.at(load);
+  if (!(stage.greatest_load > 0)) return {at, at};
+  const Point along = load_length * stage.em / stage.greatest_load * Point{dot(load.vector, stage.view.right), dot(load.vector, stage.view.up)};
   // A load that pushes ends at the boundary, one that pulls begins there.
   bool pushes = true;
   for (const auto& [least, most] : stage.body_boxes) {
@@ -138,66 +133,51 @@ std::array<Point, 2> load_arrow(const Stage& stage, const LoadArrow& load, doubl
     pushes = dot(plus(centre, load.position, -1), load.vector) >= 0;
     break;
   }
-  if (pushes) return {Point{at.x - along.x, at.y - along.y}, at};
-  return {at, Point{at.x + along.x, at.y + along.y}};
+  return pushes ? Segment{at - along, at} : Segment{at, at + along};
 }
 
-namespace {
-
-double distance(const std::array<Point, 2>& segment, Point p) {
-  const Point along{segment[1].x - segment[0].x, segment[1].y - segment[0].y};
+double distance(const Segment& segment, Point p) {
+  const Point along = segment[1] - segment[0], to = p - segment[0];
   const double square = along.x * along.x + along.y * along.y;
-  const double share = square > 0 ? ((p.x - segment[0].x) * along.x + (p.y - segment[0].y) * along.y) / square : 0;
-  const double s = std::clamp(share, 0.0, 1.0);
-  return std::hypot(p.x - segment[0].x - s * along.x, p.y - segment[0].y - s * along.y);
+  const double share = square > 0 ? (to.x * along.x + to.y * along.y) / square : 0;
+  return length(to - std::clamp(share, 0.0, 1.0) * along);
 }
 
 // Between arrows that do not cross.
-double distance(const std::array<Point, 2>& a, const std::array<Point, 2>& b) {
+double distance(const Segment& a, const Segment& b) {
   return std::min({distance(a, b[0]), distance(a, b[1]), distance(b, a[0]), distance(b, a[1])});
+}
+
+void draw_loads(Stage& stage, vtkRenderer*) {
+  std::vector<Segment> drawn;
+  for (const std::size_t i : stage.spaced(stage.at(stage.picture.loads), 0.95 * stage.em)) {
+    const Segment arrow = load_arrow(stage, stage.picture.loads[i]);
+    if (length(arrow[1] - arrow[0]) < 0.1 * stage.em) continue;
+    // Along a boundary that is loaded along itself arrows would lie on each other.
+    if (std::any_of(drawn.begin(), drawn.end(), [&](const Segment& other) { return distance(arrow, other) < 0.6 * stage.em; })) continue;
+    drawn.push_back(arrow);
+    stage.over.arrow(arrow[0], arrow[1], std::max(1.5, stage.em / 11), 0.6 * stage.em, load_colour);
+  }
+}
+
+void load_legend(const Stage& stage, std::vector<LegendEntry>& out) {
+  const auto& loads = stage.picture.loads;
+  const bool seen = std::any_of(loads.begin(), loads.end(), [&](const LoadArrow& load) { return stage.shows(stage.at(load)); });
+  if (!seen || !(stage.greatest_load > 0)) return;
+  out.push_back({"load", [em = stage.em](Canvas& c, const Box& b) {
+                   c.arrow(b.midline()[0], b.midline()[1], std::max(1.5, em / 11), 0.6 * em, load_colour);
+                 }});
+}
+
+void load_bounds(const Stage& stage, Bounds& bounds) {
+  for (const LoadArrow& load : stage.picture.loads)
+    for (const Point& end : load_arrow(stage, load)) bounds.add(end);
 }
 
 }  // namespace
 
-void draw_loads(Stage& stage) {
-  const double greatest = greatest_load(stage.picture);
-  std::vector<Point> at;
-  for (const LoadArrow& load : stage.picture.loads) at.push_back(stage.view.flat(stage.deformed(load.position, load.displacement)));
-  std::vector<std::array<Point, 2>> drawn;
-  for (const std::size_t i : stage.spaced(at, 0.95 * stage.em)) {
-    const auto arrow = load_arrow(stage, stage.picture.loads[i], greatest);
-    const auto& [tail, head] = arrow;
-    if (std::hypot(head.x - tail.x, head.y - tail.y) < 0.1 * stage.em) continue;
-    // Along a boundary that is loaded along itself arrows would lie on each other.
-    const auto on = [&](const auto& other) { return distance(arrow, other) < 0.6 * stage.em; };
-    if (std::any_of(drawn.begin(), drawn.end(), on)) continue;
-    drawn.push_back(arrow);
-    stage.over.arrow(tail, head, std::max(1.5, stage.em / 11), 0.6 * stage.em, load_colour);
-  }
-}
+Layer support_layer() { return {3, draw_supports, support_legend, support_bounds}; }
 
-std::vector<LegendEntry> support_legend(const Stage& stage) {
-  std::vector<LegendEntry> out;
-  const double em = stage.em;
-  const bool loads = std::any_of(stage.picture.loads.begin(), stage.picture.loads.end(), [&](const LoadArrow& load) {
-    return stage.shows(stage.view.flat(stage.deformed(load.position, load.displacement)));
-  });
-  if (loads && greatest_load(stage.picture) > 0)
-    out.push_back({"load", [em](Canvas& c, const Box& b) {
-                     const double middle = (b.bottom + b.top) / 2;
-                     c.arrow({b.left, middle}, {b.right, middle}, std::max(1.5, em / 11), 0.6 * em, load_colour);
-                   }});
-  // In the plane the symbols are those everyone knows.
-  if (stage.plane) return out;
-  for (const SupportKind kind : {SupportKind::fix, SupportKind::slide, SupportKind::displace, SupportKind::spring}) {
-    const bool seen = std::any_of(stage.picture.supports.begin(), stage.picture.supports.end(),
-                                  [&](const SupportSymbol& s) { return s.kind == kind && dot(s.normal, stage.view.towards) > 0; });
-    if (seen)
-      out.push_back({support_name(kind), [em, kind](Canvas& c, const Box& b) {
-                       c.marker(space_marker(kind), {(b.left + b.right) / 2, (b.bottom + b.top) / 2}, 0.45 * em, symbol_ink);
-                     }});
-  }
-  return out;
-}
+Layer load_layer() { return {4, draw_loads, load_legend, load_bounds}; }
 
 }  // namespace dotyk::figure

@@ -1,0 +1,36 @@
+// Lines and polygons of a scene for VTK, in rendered pixels, so that bodies in front hide them.
+#pragma once
+
+#include <vector>
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include "figure/canvas/geometry.hpp"
+#include "figure/scene/stage.hpp"
+
+namespace dotyk::figure {
+
+// Polygons over points, already in rendered pixels; lines where each has two corners.
+vtkSmartPointer<vtkPolyData> poly_data(const std::vector<Vec3>& points, const Facets& polygons);
+
+// Adds unlit lines or faces in one colour; `width` in pixels of the picture.
+void add_plain(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, Colour colour, double width = 1, double opacity = 1);
+
+// Lines or polygons, corner by corner.
+class Shapes {
+public:
+  Shapes(const Stage& stage, int each) : stage_(stage), each_(each) {}
+  bool empty() const { return points_.empty(); }
+  // A corner at a place of the scene, or at a pixel, `lift` pixels nearer to the eye than that is.
+  void add(const Vec3& place, double lift) { add_pixel(stage_.view.pixel(place), lift); }
+  void add_pixel(const Vec3& pixel, double lift);
+  void show(vtkRenderer* renderer, Colour colour, double width = 1, double opacity = 1) const;
+
+private:
+  const Stage& stage_;
+  int each_;
+  std::vector<Vec3> points_;
+};
+
+}  // namespace dotyk::figure
