@@ -7,6 +7,28 @@
 
 namespace dotyk::figure {
 
+bool Axis::shows(double value) const { return std::isfinite(value) && (!log || value > 0); }
+
+namespace {
+
+Wide place(const Axis& axis, double value) { return axis.log ? Wide{std::log10(value)} : Wide{value}; }
+
+Wide per_unit(const Axis& axis) { return (axis.to - axis.from) / (place(axis, axis.high) - place(axis, axis.low)); }
+
+}  // namespace
+
+double Axis::pixel(double value) const {
+  const Wide a = place(*this, low), b = place(*this, high);
+  const Wide at = from + (to - from) * ((place(*this, value) - a) / (b - a));
+  return static_cast<double>(std::clamp<Wide>(at, -most_pixels, most_pixels));
+}
+
+double Axis::pixels_per_unit() const { return static_cast<double>(std::min<Wide>(per_unit(*this), most_pixels)); }
+
+double steepness(const Axis& x, const Axis& y, double slope) {
+  return static_cast<double>(std::clamp<Wide>(slope * per_unit(y) / per_unit(x), -most_pixels, most_pixels));
+}
+
 namespace {
 double hair(double em) { return std::max(1.0, em / 24); }
 }  // namespace

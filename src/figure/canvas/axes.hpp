@@ -4,18 +4,43 @@
 #include <string>
 
 #include "figure/canvas/canvas.hpp"
-#include "figure/chart/chart_layout.hpp"
 #include "figure/canvas/ticks.hpp"
 
 namespace dotyk::figure {
 
+inline constexpr Colour reference_grey{90, 90, 90};
+inline constexpr double small_text = 0.85;  // in em
 constexpr Colour axes_ink{30, 30, 30}, axes_grid{228, 228, 228};
+
+// What lies farther off, or would rise more steeply, counts as so far.
+constexpr double most_pixels = 1e300;
+
+// An axis: values in [low, high] run over the pixels [from, to].
+struct Axis {
+  bool log = false;
+  double low = 0, high = 1;
+  double from = 0, to = 1;
+
+  bool shows(double value) const;            // finite, and positive where logarithmic
+  double pixel(double value) const;
+  double pixels_per_unit() const;            // or per decade
+};
+
+// A slope in units (or decades) as one in pixels.
+double steepness(const Axis& x, const Axis& y, double slope);
 
 struct Axes {
   Box room;
   Axis x, y;
   Ticks x_ticks, y_ticks;
   double em = 20;
+  Point at(double x_value, double y_value) const { return {x.pixel(x_value), y.pixel(y_value)}; }
+  // A line through points of these coordinates, in pixels.
+  std::vector<Point> line(const std::vector<double>& x_values, const std::vector<double>& y_values) const {
+    std::vector<Point> out;
+    for (std::size_t i = 0; i < x_values.size(); ++i) out.push_back(at(x_values[i], y_values[i]));
+    return out;
+  }
 };
 
 // White ground and grid lines.

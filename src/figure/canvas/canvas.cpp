@@ -237,15 +237,15 @@ void Canvas::add_to(vtkRenderer* renderer) const {
   renderer->AddViewProp(actor);
 }
 
-void write_canvas(const Canvas& canvas, int width, int height, const std::string& file) {
-  OsmesaWindow window(canvas.factor() * width, canvas.factor() * height);
+void write_canvas(const Canvas& canvas, const Sheet& sheet) {
+  OsmesaWindow window(canvas.factor() * sheet.width, canvas.factor() * sheet.height);
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   window.vtk()->AddRenderer(renderer);
   canvas.add_to(renderer);
-  Image image = reduce(window.render(), width, height, canvas.factor());
+  Image image = reduce(window.render(), sheet.width, sheet.height, canvas.factor());
   canvas.set_texts(image);
-  write_png(image, file);
+  write_png(image, sheet.file);
 }
 
 }  // namespace dotyk::figure

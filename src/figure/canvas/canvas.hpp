@@ -40,7 +40,7 @@ Marker status_marker(Status status);
 
 class Canvas {
 public:
-  explicit Canvas(int factor) : factor_(factor) {}
+  explicit Canvas(const Sheet& sheet) : factor_(oversampling(sheet.width, sheet.height)) {}
 
   // Where (0, 0) of what follows is.
   void origin(Point origin) { origin_ = origin; }
@@ -92,6 +92,6 @@ private:
 };
 
 // A canvas alone on white, as PNG.
-void write_canvas(const Canvas& canvas, int width, int height, const std::string& file);
+void write_canvas(const Canvas& canvas, const Sheet& sheet);
 
 }  // namespace dotyk::figure

@@ -1,14 +1,12 @@
-#include "figure/chart/chart_column.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "figure/chart/chart_layout.hpp"
-#include "figure/door/figures.hpp"
 #include "figure/canvas/text_fit.hpp"
+#include "figure/chart/chart.hpp"
+#include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {
 
@@ -39,7 +37,7 @@ ChartMargins share(std::vector<ChartPicture>& panels, const std::vector<ChartFra
   std::vector<double> beside;
   double plots = height;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    Canvas tried(1);
+    Canvas tried(panels[i]);
     const ChartMargins margins = draw_on(tried, panels[i], frames[i]);
     least.left = std::max(least.left, margins.left), least.right = std::max(least.right, margins.right);
     beside.push_back(margins.above + margins.below);
@@ -49,10 +47,6 @@ ChartMargins share(std::vector<ChartPicture>& panels, const std::vector<ChartFra
     panels[i].height = static_cast<int>(beside[i] + std::max(2.0, plots / static_cast<double>(panels.size())));
   return least;
 }
-
-}  // namespace
-
-namespace {
 
 // One column into its part of the canvas, from `height` downwards.
 void draw_column(Canvas& canvas, std::vector<ChartPicture> panels, double left, double bottom, double height, double em, bool shared_x) {
@@ -70,11 +64,11 @@ void draw_column(Canvas& canvas, std::vector<ChartPicture> panels, double left, 
 
 }  // namespace
 
-void draw_charts(const ChartColumn& picture) {
+void render(const ChartColumn& picture) {
   const auto columns = static_cast<std::size_t>(picture.columns), rows = (picture.panels.size() + columns - 1) / columns;
   const double width = static_cast<double>(picture.width) / picture.columns;
   const double em = std::min(0.022 * picture.width / std::sqrt(picture.columns), 0.075 * picture.height / static_cast<double>(rows));
-  Canvas canvas(oversampling(picture.width, picture.height));
+  Canvas canvas(picture);
   const double height = (picture.height - draw_title(canvas, picture, em)) / static_cast<double>(rows);
   for (std::size_t column = 0; column < columns; ++column) {
     std::vector<ChartPicture> panels;
@@ -86,7 +80,7 @@ void draw_charts(const ChartColumn& picture) {
     const double used = height * static_cast<double>(panels.size());
     draw_column(canvas, panels, width * static_cast<double>(column), height * static_cast<double>(rows) - used, used, em, picture.shared_x);
   }
-  write_canvas(canvas, picture.width, picture.height, picture.file);
+  write_canvas(canvas, picture);
 }
 
 }  // namespace dotyk::figure

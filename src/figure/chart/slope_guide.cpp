@@ -1,4 +1,4 @@
-#include "figure/chart/slope_guide.hpp"
+#include "figure/chart/chart.hpp"
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@ Occupied like(const ChartPicture& picture, double slope, const Axes& axes, const
   std::vector<std::vector<Point>> all;
   for (const SeriesPicture& s : picture.series)
     if (!s.reference)
-      for (auto& curve : curves(s, axes.x, axes.y)) all.push_back(std::move(curve));
+      for (auto& curve : curves(s.x, s.y, axes)) all.push_back(std::move(curve));
   const std::vector<Point>* best = nearest_slope(all, slope);
   if (!best) return occupied;
   Occupied out;
@@ -32,7 +32,7 @@ bool draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& g
   const double pad = 0.35 * axes.em;
   // With room for the labels on the right, and on the level side: below where the line rises, else above.
   const double width = run + extent.x + 2 * pad, height = up + 1.2 * axes.em + pad;
-  const std::optional<Point> place = near_place(occupied, like(picture, ratio, axes, occupied), axes.room, width, height, 0.5 * axes.em);
+  const std::optional<Point> place = near_place(occupied, like(picture, ratio, axes, occupied), axes.room, {width, height}, 0.5 * axes.em);
   if (!place) return false;
   const Point at = *place;
   occupied.add(Box{at.x, at.y, at.x + width, at.y + height});
@@ -42,15 +42,10 @@ bool draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& g
   const std::array<Point, 3> triangle{a, corner, b};
   canvas.convex(triangle, {235, 235, 235});
   canvas.polyline(triangle, std::max(1.2, axes.em / 16), reference_grey, {}, true);
-  TextStyle style;
-  style.size = size;
-  style.colour = reference_grey;
-  style.up = Align::middle;
-  canvas.text({b.x + pad, y0 + up / 2}, label, style);
-  if (!plain) return true;
-  style.across = Align::middle;
-  style.up = rise >= 0 ? Align::high : Align::low;
-  canvas.text({at.x + run / 2, rise >= 0 ? y0 - 0.15 * axes.em : a.y + 0.1 * axes.em}, "1", style);
+  canvas.text({b.x + pad, y0 + up / 2}, label, {.size = size, .up = Align::middle, .colour = reference_grey});
+  if (plain)
+    canvas.text({at.x + run / 2, rise >= 0 ? y0 - 0.15 * axes.em : a.y + 0.1 * axes.em}, "1",
+                {.size = size, .across = Align::middle, .up = rise >= 0 ? Align::high : Align::low, .colour = reference_grey});
   return true;
 }
 

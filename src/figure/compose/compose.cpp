@@ -16,31 +16,30 @@ using scene::Body;
 using scene::Contact;
 using scene::Solution;
 
-const char* label(FieldChoice field) {
-  static const char* names[] = {"",  "displacement", "displacement along x", "displacement along y",
-                                "displacement along z", "von Mises stress", "stress xx", "stress yy",
-                                "stress zz", "stress yz", "stress xz", "stress xy"};
-  return names[static_cast<int>(field)];
+using elasticity::Stress;
+
+// What a field is called, and its value of the displacement and the stress at a node.
+struct SceneValue {
+  const char* label;
+  double (*value)(const Vec3& u, const Stress& s);
+};
+
+template <int i>
+double displacement(const Vec3& u, const Stress&) { return u[i]; }
+template <int i>
+double stress(const Vec3&, const Stress& s) { return s[i]; }
+
+const SceneValue& field_of(FieldChoice choice) {
+  static const SceneValue fields[] = {{"", nullptr},
+                                 {"displacement", [](const Vec3& u, const Stress&) { return std::hypot(u[0], u[1], u[2]); }},
+                                 {"displacement along x", displacement<0>}, {"displacement along y", displacement<1>}, {"displacement along z", displacement<2>},
+                                 {"von Mises stress", [](const Vec3&, const Stress& s) { return elasticity::von_mises(s); }},
+                                 {"stress xx", stress<0>}, {"stress yy", stress<1>}, {"stress zz", stress<2>},
+                                 {"stress yz", stress<3>}, {"stress xz", stress<4>}, {"stress xy", stress<5>}};
+  return fields[static_cast<int>(choice)];
 }
 
 bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises; }
-
-double value(FieldChoice field, const double* u, int dim, const elasticity::Stress& s) {
-  switch (field) {
-    case FieldChoice::displacement: return std::hypot(u[0], u[1], dim == 3 ? u[2] : 0);
-    case FieldChoice::ux: return u[0];
-    case FieldChoice::uy: return u[1];
-    case FieldChoice::uz: return u[2];
-    case FieldChoice::von_mises: return elasticity::von_mises(s);
-    case FieldChoice::xx: return s[0];
-    case FieldChoice::yy: return s[1];
-    case FieldChoice::zz: return s[2];
-    case FieldChoice::yz: return s[3];
-    case FieldChoice::xz: return s[4];
-    case FieldChoice::xy: return s[5];
-    default: return 0;
-  }
-}
 
 Vec3 at_node(const std::vector<double>& values, int node, int dim) {
   Vec3 v{0, 0, 0};
@@ -83,10 +82,8 @@ BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
     picture.displacement.insert(picture.displacement.end(), d.begin(), d.end());
   }
   if (field == FieldChoice::none) return picture;
-  const elasticity::Stress none{};
   for (int n = 0; n < mesh.node_count(); ++n)
-    picture.values.push_back(value(field, &u[static_cast<std::size_t>(n) * dim], dim,
-                                   is_stress(field) ? s.stress(index)[n] : none));
+    picture.values.push_back(field_of(field).value(at_node(u, n, dim), is_stress(field) ? s.stress(index)[n] : Stress{}));
   return picture;
 }
 
@@ -186,10 +183,10 @@ ScenePicture compose(const Solution& s, const SceneOptions& options) {
   const int dim = s.scene().dimension();
   const auto missing = [&](FieldChoice f) { return options.field == f && dim == 2; };
   if (missing(FieldChoice::uz) || missing(FieldChoice::yz) || missing(FieldChoice::xz))
-    throw InputError(std::string("field ") + label(options.field) + " does not exist: the scene is 2-D");
+    throw InputError(std::string("field ") + field_of(options.field).label + " does not exist: the scene is 2-D");
   ScenePicture picture;
   picture.caption = solver::doubt(s.result());
-  picture.field_label = label(options.field);
+  picture.field_label = field_of(options.field).label;
   picture.deformation = options.deform.value_or(visible_deformation(s));
   const double size = scene_size(s);
   for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {

@@ -110,8 +110,6 @@ PageCurve curve_of(const BeamView& view, BeamPanel panel) {
   return curve;
 }
 
-std::string joined(const std::string& a, const char* sign, const std::string& b) { return a.empty() || b.empty() ? a + b : a + sign + b; }
-
 struct PanelStyle {
   std::string label;
   int colour;

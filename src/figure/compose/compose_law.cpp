@@ -75,7 +75,7 @@ std::vector<PageCell> law_cells(const SupportLaw& law, LawSide of, bool turned, 
   const double sign = turned ? -1 : 1;
   const GraphWindow w = window(law, at, scale);
   const problem::SupportGraph graph = problem::graph(law, w);
-  const std::string moment = units.force.empty() || units.length.empty() ? units.force + units.length : units.force + "·" + units.length;
+  const std::string moment = joined(units.force, "·", units.length);
   std::vector<PageCell> cells(2);
   CurveDrawing reaction = turn(reaction_drawing(graph, w), sign, sign), energy = turn(energy_drawing(graph, w), sign, 1);
   if (at) {

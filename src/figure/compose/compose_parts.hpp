@@ -19,4 +19,7 @@ BeamDrawing beam_drawing(const BeamView& view);
 // " [N]" after the name of a quantity; nothing where units are not given.
 inline std::string unit_text(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
 
+// "N·m"; one alone where the other is not given.
+inline std::string joined(const std::string& a, const char* sign, const std::string& b) { return a.empty() || b.empty() ? a + b : a + sign + b; }
+
 }  // namespace dotyk::figure

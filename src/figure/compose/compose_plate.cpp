@@ -36,13 +36,7 @@ PlateSupport support_of(Kind kind) {
 // Of supports that hold without condition there is none to tell.
 std::optional<Status> told(PlateSupport support, problem::Status status) {
   if (support != PlateSupport::one_sided && support != PlateSupport::friction) return std::nullopt;
-  switch (status) {
-    case problem::Status::open: return Status::open;
-    case problem::Status::closed: return Status::closed;
-    case problem::Status::stick: return Status::stick;
-    case problem::Status::slip: return Status::slip;
-  }
-  return std::nullopt;
+  return static_cast<Status>(static_cast<int>(status));
 }
 
 using Ends = std::pair<int, int>;  // vertices of an edge of the mesh, counter-clockwise about the plate
@@ -171,39 +165,33 @@ void add_obstacle(PlatePicture& picture, const plate::Solution& s) {
   }
 }
 
-double field_value(const plate::Moment& m, PlateField field) {
-  const double mean = (m.xx + m.yy) / 2, radius = std::hypot((m.xx - m.yy) / 2, m.xy);
-  switch (field) {
-    case PlateField::xx: return m.xx;
-    case PlateField::yy: return m.yy;
-    case PlateField::xy: return m.xy;
-    case PlateField::greatest: return mean + radius;
-    case PlateField::least: return mean - radius;
-    case PlateField::von_mises: return std::sqrt(mean * mean + 3 * radius * radius);
-    default: return 0;
-  }
-}
+// Half the sum of the principal moments, and half their difference.
+double mean(const plate::Moment& m) { return (m.xx + m.yy) / 2; }
+double radius(const plate::Moment& m) { return std::hypot((m.xx - m.yy) / 2, m.xy); }
 
-const char* field_label(PlateField field) {
-  switch (field) {
-    case PlateField::none: return "";
-    case PlateField::deflection: return "deflection u";
-    case PlateField::xx: return "moment Mxx";
-    case PlateField::yy: return "moment Myy";
-    case PlateField::xy: return "moment Mxy";
-    case PlateField::greatest: return "greatest principal moment";
-    case PlateField::least: return "least principal moment";
-    case PlateField::von_mises: return "von Mises moment";
-  }
-  return "";
+// What a field is called, and its value of the moment at a vertex.
+struct PlateValue {
+  const char* label;
+  double (*value)(const plate::Moment& m);
+};
+
+const PlateValue& field_of(PlateField choice) {
+  using M = plate::Moment;
+  static const PlateValue fields[] = {{"", nullptr}, {"deflection u", nullptr}, {"moment Mxx", [](const M& m) { return m.xx; }},
+                                 {"moment Myy", [](const M& m) { return m.yy; }}, {"moment Mxy", [](const M& m) { return m.xy; }},
+                                 {"greatest principal moment", [](const M& m) { return mean(m) + radius(m); }},
+                                 {"least principal moment", [](const M& m) { return mean(m) - radius(m); }},
+                                 {"von Mises moment", [](const M& m) { return std::sqrt(mean(m) * mean(m) + 3 * radius(m) * radius(m)); }}};
+  return fields[static_cast<int>(choice)];
 }
 
 void add_field(PlatePicture& picture, const plate::Solution& s, const PlateOptions& options) {
-  picture.field_label = field_label(options.field);
+  const PlateValue& field = field_of(options.field);
+  picture.field_label = field.label;
   picture.field_unit = options.field == PlateField::deflection ? options.units.length : options.units.force;  // force·length per length
   if (options.field == PlateField::deflection) picture.values = picture.deflection;
-  if (options.field == PlateField::none || options.field == PlateField::deflection) return;
-  for (const plate::Moment& m : s.vertex_moments()) picture.values.push_back(field_value(m, options.field));
+  if (!field.value) return;
+  for (const plate::Moment& m : s.vertex_moments()) picture.values.push_back(field.value(m));
 }
 
 }  // namespace

@@ -1,12 +1,15 @@
-#include "figure/door/check.hpp"
+#include "figure/door/drawing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
+#include "figure/canvas/plane.hpp"
 #include "figure/canvas/window.hpp"
 
 namespace dotyk::figure {
@@ -58,27 +61,30 @@ void check_file(const std::string& file, const std::string& ending) {
   place_to_write(file);
 }
 
-void check_size(const std::string& file, int width, int height) {
-  require(width >= 160 && width <= 8192 && height >= 160 && height <= 8192,
-          "the size of " + file + " is " + std::to_string(width) + " x " + std::to_string(height) +
+void check_sheet(const Sheet& sheet) {
+  check_file(sheet.file, ".png");
+  require(sheet.width >= 160 && sheet.width <= 8192 && sheet.height >= 160 && sheet.height <= 8192,
+          "the size of " + sheet.file + " is " + std::to_string(sheet.width) + " x " + std::to_string(sheet.height) +
               ", expected 160 to 8192 pixels each way");
+  check_text("'title'", sheet.title);
 }
 
 void check_nodes(const std::vector<int>& nodes, int each, std::size_t n, const std::string& what) {
-  require(nodes.size() % static_cast<std::size_t>(each) == 0,
+  require(nodes.size() % each == 0,
           what + ": " + count(nodes.size()) + " entries are not a multiple of " + std::to_string(each));
   for (const int i : nodes)
     require(i >= 0 && static_cast<std::size_t>(i) < n,
             what + ": node " + std::to_string(i) + " does not exist, there are " + count(n));
 }
 
-bool finite(const std::vector<double>& values) {
-  for (const double v : values)
-    if (!std::isfinite(v)) return false;
-  return true;
+bool finite(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-bool finite(const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+bool finite(std::initializer_list<double> values) { return finite(std::span(values.begin(), values.size())); }
+
+// Its ends, and how far they are apart.
+bool is_range(const std::array<double, 2>& range) { return range[0] <= range[1] && std::isfinite(range[1] - range[0]); }
 
 void check_body(const BodyPicture& body, int dimension) {
   const std::string who = "body \"" + body.name + "\"";
@@ -107,30 +113,26 @@ void check_window(const ScenePicture& p) {
   const std::string given = "window {" + number(x0) + ", " + number(y0) + ", " + number(x1) + ", " + number(y1) + "}";
   const auto refuse = [&](const std::string& why) { throw InputError(given + " " + why); };
   if (p.bodies.front().dimension != 2) refuse("needs a scene in the plane; this one is in space");
-  if (!(std::isfinite(x0) && std::isfinite(y0) && std::isfinite(x1) && std::isfinite(y1) && x0 < x1 && y0 < y1))
+  if (!(finite(*p.window) && x0 < x1 && y0 < y1))
     refuse("is empty; it must be {x0, y0, x1, y1} with x0 < x1 and y0 < y1");
   if (seen(p, *p.window).body) return;
-  double left = 1e300, bottom = 1e300, right = -1e300, top = -1e300;
+  Bounds all;
   for (const BodyPicture& body : p.bodies)
     for (std::size_t i = 0; i < body.points.size(); i += 3) {
       const auto at = [&](std::size_t c) { return body.points[i + c] + (body.displacement.empty() ? 0 : p.deformation * body.displacement[i + c]); };
-      left = std::min(left, at(0)), right = std::max(right, at(0));
-      bottom = std::min(bottom, at(1)), top = std::max(top, at(1));
+      all.add(Point{at(0), at(1)});
     }
-  refuse("shows no body; as drawn, they lie within {" + number(left) + ", " + number(bottom) + ", " + number(right) + ", " + number(top) + "}");
+  refuse("shows no body; as drawn, they lie within {" + number(all.left) + ", " + number(all.bottom) + ", " + number(all.right) + ", " + number(all.top) + "}");
 }
 
 }  // namespace
 
 void check(const ScenePicture& p) {
-  check_file(p.file, ".png");
-  check_size(p.file, p.width, p.height);
-  check_text("'title'", p.title);
+  check_sheet(p);
   for (const std::string& unit : {p.field_unit, p.pressure_unit}) check_text("'unit'", unit);
   require(!p.bodies.empty(), "the picture " + p.file + " shows no body");
   require(std::isfinite(p.deformation), "the deformation factor is not finite");
-  require(!p.field_range || (std::isfinite((*p.field_range)[0]) && std::isfinite((*p.field_range)[1]) &&
-                             (*p.field_range)[0] <= (*p.field_range)[1]),
+  require(!p.field_range || (finite(*p.field_range) && (*p.field_range)[0] <= (*p.field_range)[1]),
           "the range of the field must be {least, greatest}");
   const int dimension = p.bodies.front().dimension;
   for (const BodyPicture& body : p.bodies) check_body(body, dimension);
@@ -170,22 +172,19 @@ static void check_chart(const ChartPicture& p) {
   for (const SlopeGuide& guide : p.slopes) require(std::isfinite(guide.slope), "the slope of a guide is not finite");
   for (const auto& [range, log, name] : {std::tuple{p.x_range, p.log_x, "x"}, std::tuple{p.y_range, p.log_y, "y"}})
     if (range)
-      require(std::isfinite((*range)[0]) && std::isfinite((*range)[1]) && (*range)[0] < (*range)[1] && (!log || (*range)[0] > 0),
+      require(finite(*range) && (*range)[0] < (*range)[1] && (!log || (*range)[0] > 0),
               std::string("the range of the ") + name + " axis must be {least, greatest}" + (log ? ", both positive" : ""));
 }
 
 void check(const ChartPicture& p) {
-  check_file(p.file, ".png");
-  check_size(p.file, p.width, p.height);
+  check_sheet(p);
   check_chart(p);
 }
 
 void check(const ChartColumn& p) {
-  check_file(p.file, ".png");
-  check_size(p.file, p.width, p.height);
+  check_sheet(p);
   require(!p.panels.empty(), "the picture " + p.file + " has no panels");
   require(p.columns >= 1 && p.columns <= static_cast<int>(p.panels.size()), count(p.panels.size()) + " panels in " + number(p.columns) + " columns");
-  check_text("'title'", p.title);
   for (const ChartPicture& panel : p.panels) {
     check_chart(panel);
     require(!p.shared_x || panel.log_x == p.panels.front().log_x, "panels that share the x axis are all logarithmic in x, or none is");
@@ -198,10 +197,9 @@ void check_drawing(const BeamDrawing& b) {
           "a beam needs as many deflections and loads as points, two at least");
   require(finite(b.x) && finite(b.deflection) && finite(b.load), "a beam has a value that is not finite");
   for (const BeamSupport& s : b.supports)
-    require(std::isfinite(s.x) && std::isfinite(s.deflection) && std::isfinite(s.rotation) && std::isfinite(s.below.slip) && std::isfinite(s.arc.slip),
-            "a support of a beam has a value that is not finite");
+    require(finite({s.x, s.deflection, s.rotation, s.below.slip, s.arc.slip}), "a support of a beam has a value that is not finite");
   for (const BeamLoad& l : b.loads)
-    require(std::isfinite(l.x) && std::isfinite(l.force) && std::isfinite(l.moment), "a load of a beam has a value that is not finite");
+    require(finite({l.x, l.force, l.moment}), "a load of a beam has a value that is not finite");
 }
 
 void check_drawing(const CurveDrawing& c) {
@@ -209,13 +207,11 @@ void check_drawing(const CurveDrawing& c) {
   for (const PageCurve& curve : c.curves)
     require(!curve.x.empty() && curve.x.size() == curve.y.size() && finite(curve.x) && finite(curve.y), "a curve needs as many finite y as x, one at least");
   for (const auto& range : {c.x_range, c.y_range})
-    require(!range || ((*range)[0] < (*range)[1] && std::isfinite((*range)[1] - (*range)[0])), "the range of an axis must be {least, greatest}");
+    require(!range || (is_range(*range) && (*range)[0] < (*range)[1]), "the range of an axis must be {least, greatest}");
 }
 
 void check(const PagePicture& p) {
-  check_file(p.file, ".png");
-  check_size(p.file, p.width, p.height);
-  check_text("'title'", p.title);
+  check_sheet(p);
   require(!p.rows.empty() && p.rows.size() == p.row_weights.size(), "a page needs rows, and a weight of each");
   for (const auto& row : p.rows) {
     require(!row.empty() && row.size() == p.column_weights.size(), "the rows of a page have one cell a column");
@@ -230,19 +226,17 @@ void check(const PagePicture& p) {
 }
 
 void check_boundary(const PlateEdge& e) {
-  require(std::isfinite(e.from[0]) && std::isfinite(e.from[1]) && std::isfinite(e.to[0]) && std::isfinite(e.to[1]), "an edge of a plate has a coordinate that is not finite");
+  require(finite(e.from) && finite(e.to), "an edge of a plate has a coordinate that is not finite");
   double last = 0;
   for (const EdgeSample& s : e.samples) {
     require(s.share >= last && s.share <= 1, "samples along an edge of a plate ascend from 0 to 1");
-    require(std::isfinite(s.deflection) && std::isfinite(s.reaction), "an edge of a plate has a value that is not finite");
+    require(finite({s.deflection, s.reaction}), "an edge of a plate has a value that is not finite");
     last = s.share;
   }
 }
 
 void check(const PlatePicture& p) {
-  check_file(p.file, ".png");
-  check_size(p.file, p.width, p.height);
-  check_text("'title'", p.title);
+  check_sheet(p);
   for (const std::string& unit : {p.field_unit, p.reaction_unit, p.force_unit}) check_text("'units'", unit);
   require(p.points.size() % 2 == 0, "points of a plate come two coordinates each");
   const std::size_t n = p.points.size() / 2;
@@ -253,13 +247,11 @@ void check(const PlatePicture& p) {
   require(p.values.empty() || p.values.size() == n, "plate: " + count(p.values.size()) + " field values for " + count(n) + " nodes");
   require(p.obstacle.empty() || p.obstacle.size() == n, "plate: " + count(p.obstacle.size()) + " heights of the obstacle for " + count(n) + " nodes");
   require(finite(p.points) && finite(p.deflection) && std::isfinite(p.deformation), "a plate has a value that is not finite");
-  require(!p.field_range || ((*p.field_range)[0] <= (*p.field_range)[1] && std::isfinite((*p.field_range)[1] - (*p.field_range)[0])),
-          "the range of the field must be {least, greatest}");
+  require(!p.field_range || is_range(*p.field_range), "the range of the field must be {least, greatest}");
   require(!p.view_from || finite(*p.view_from), "the direction towards the eye is not finite");
   for (const PlateEdge& e : p.boundary) check_boundary(e);
-  for (const PlateForce& f : p.forces) require(std::isfinite(f.x) && std::isfinite(f.y) && std::isfinite(f.force), "a force on a plate is not finite");
-  for (const PlatePointSupport& s : p.supports)
-    require(std::isfinite(s.x) && std::isfinite(s.y) && std::isfinite(s.deflection), "a support of a plate has a value that is not finite");
+  for (const PlateForce& f : p.forces) require(finite({f.x, f.y, f.force}), "a force on a plate is not finite");
+  for (const PlatePointSupport& s : p.supports) require(finite({s.x, s.y, s.deflection}), "a support of a plate has a value that is not finite");
 }
 
 void check(const GridFile& g) {

@@ -16,7 +16,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "base/whole_file.hpp"
-#include "figure/door/figures.hpp"
+#include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {
 
@@ -74,7 +74,7 @@ class Quiet {
 
 }  // namespace
 
-void write_grid(const GridFile& file) {
+void render(const GridFile& file) {
   vtkNew<vtkDoubleArray> coordinates;
   look_at(coordinates, file.points, 3);
   vtkNew<vtkPoints> points;

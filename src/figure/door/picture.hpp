@@ -16,6 +16,13 @@ namespace dotyk::figure {
 
 using Vec3 = std::array<double, 3>;
 
+// The file that a picture becomes, and what stands above it.
+struct Sheet {
+  std::string file;                         // ends in .png; its folder must exist
+  int width = 1000, height = 900;           // pixels, 160 to 8192 each
+  std::string title;                        // empty: none, the space goes to the picture
+};
+
 // ---------------------------------------------------------------- colours
 
 // Contact status of a node, named as in s:contact(c).nodes[i].status.
@@ -124,10 +131,8 @@ enum class PressureStyle { automatic, strip, arrows, none };  // automatic: stri
 // colours of its statuses. In space: parallel projection, z upwards; open
 // parts of a contact are outlined, others filled, and a plan of the contact
 // that carries most, seen along its normal, stands beside the scene.
-struct ScenePicture {
-  std::string file;                         // ends in .png; its folder must exist
-  int width = 1200, height = 800;           // pixels, 160 to 8192 each
-  std::string title;                        // empty: none, the space goes to the scene
+struct ScenePicture : Sheet {
+  ScenePicture() : Sheet{{}, 1200, 800, {}} {}
   std::string caption;                      // empty: none; the deformation factor is stated in any case
 
   std::string field_label;                  // "von Mises stress"; empty: no colour bar
@@ -181,10 +186,8 @@ struct SlopeGuide {
   std::string label;                        // empty: the slope itself
 };
 
-struct ChartPicture {
-  std::string file;                         // ends in .png; its folder must exist
-  int width = 1000, height = 750;           // pixels, 160 to 8192 each
-  std::string title;
+struct ChartPicture : Sheet {
+  ChartPicture() : Sheet{{}, 1000, 750, {}} {}
   std::string x_label, y_label;             // with their units
   bool log_x = false, log_y = false;
   std::vector<SeriesPicture> series;
@@ -195,10 +198,7 @@ struct ChartPicture {
 };
 
 // Charts one below the other, or row by row in several columns. The panels' files and sizes are not looked at.
-struct ChartColumn {
-  std::string file;                         // ends in .png; its folder must exist
-  int width = 1000, height = 900;           // pixels, 160 to 8192 each
-  std::string title;
+struct ChartColumn : Sheet {
   bool shared_x = false;                    // one x axis, named below the last panel; all or none logarithmic
   int columns = 1;
   std::vector<ChartPicture> panels;         // from above, within a row from the left

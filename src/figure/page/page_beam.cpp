@@ -33,7 +33,7 @@ Room needs(const BeamDrawing& beam, const std::vector<double>& heights, double s
 
 double deflection_at(const BeamDrawing& beam, double x) {
   const auto above = std::lower_bound(beam.x.begin(), beam.x.end(), x);
-  const std::size_t j = std::min(static_cast<std::size_t>(above - beam.x.begin()), beam.x.size() - 1), i = j > 0 ? j - 1 : 0;
+  const std::size_t j = std::min<std::size_t>(above - beam.x.begin(), beam.x.size() - 1), i = j > 0 ? j - 1 : 0;
   const double span = beam.x[j] - beam.x[i], t = span > 0 ? (x - beam.x[i]) / span : 0;
   return beam.deflection[i] + t * (beam.deflection[j] - beam.deflection[i]);
 }
@@ -64,14 +64,12 @@ void fit_y(const BeamDrawing& beam, Axes& axes) {
 }
 
 void draw_cell(Canvas& canvas, const BeamDrawing& beam, const Axes& axes) {
-  const double em = axes.em, zero = axes.y.pixel(0);
-  std::vector<Point> line;
-  for (std::size_t i = 0; i < beam.x.size(); ++i) line.push_back({axes.x.pixel(beam.x[i]), axes.y.pixel(beam.deflection[i])});
+  const double em = axes.em;
   canvas.clip(axes.room);
   const std::array<double, 2> dash{0.5 * em, 0.3 * em};
-  canvas.polyline(std::array<Point, 2>{Point{axes.x.pixel(0), zero}, Point{axes.x.pixel(beam.length), zero}}, std::max(1.2, em / 16), {120, 120, 120}, dash);
+  canvas.polyline(std::array{axes.at(0, 0), axes.at(beam.length, 0)}, std::max(1.2, em / 16), {120, 120, 120}, dash);
   draw_distributed_load(canvas, beam, axes);
-  canvas.polyline(line, std::max(3.0, em / 4.5), {30, 30, 30});
+  canvas.polyline(axes.line(beam.x, beam.deflection), std::max(3.0, em / 4.5), {30, 30, 30});
   draw_supports(canvas, beam, axes);
   draw_point_loads(canvas, beam, axes);
   canvas.no_clip();

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "figure/canvas/axes.hpp"
-#include "figure/canvas/legend.hpp"
+#include "figure/canvas/places.hpp"
 #include "figure/page/page_picture.hpp"
 
 namespace dotyk::figure {

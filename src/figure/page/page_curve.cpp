@@ -11,91 +11,66 @@ namespace {
 
 constexpr Colour point_colour{213, 94, 0}, zero_ink{110, 110, 110}, forbidden_grey{236, 236, 236};
 
-// Places of the greatest and the least value of a diagram.
-struct Extremes {
-  std::size_t high = 0, low = 0;
-};
-
-Extremes extremes(const PageCurve& c) {
-  Extremes e;
-  const double slack = 1e-9 * std::abs(*std::max_element(c.y.begin(), c.y.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
-  for (std::size_t i = 0; i < c.y.size(); ++i) {  // the first of equal ones
-    if (c.y[i] > c.y[e.high] + slack) e.high = i;
-    if (c.y[i] < c.y[e.low] - slack) e.low = i;
-  }
-  return e;
-}
-
+// Down to zero.
 void fill(Canvas& canvas, const PageCurve& c, const Axes& axes, Colour colour) {
   const double zero = axes.y.pixel(0);
-  for (std::size_t i = 0; i + 1 < c.x.size(); ++i) {
-    const Point p{axes.x.pixel(c.x[i]), axes.y.pixel(c.y[i])}, q{axes.x.pixel(c.x[i + 1]), axes.y.pixel(c.y[i + 1])};
+  const std::vector<Point> line = axes.line(c.x, c.y);
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Point p = line[i], q = line[i + 1], p0{p.x, zero}, q0{q.x, zero};
     if ((c.y[i] < 0) == (c.y[i + 1] < 0) || c.y[i] == 0 || c.y[i + 1] == 0) {
-      canvas.convex(std::array<Point, 4>{Point{p.x, zero}, p, q, Point{q.x, zero}}, colour, 0.22);
+      canvas.convex(std::array{p0, p, q, q0}, colour, 0.22);
       continue;
     }
-    const double cross = p.x + (q.x - p.x) * (zero - p.y) / (q.y - p.y);
-    canvas.convex(std::array<Point, 3>{Point{p.x, zero}, p, Point{cross, zero}}, colour, 0.22);
-    canvas.convex(std::array<Point, 3>{Point{cross, zero}, q, Point{q.x, zero}}, colour, 0.22);
+    const Point cross{p.x + (q.x - p.x) * (zero - p.y) / (q.y - p.y), zero};
+    canvas.convex(std::array{p0, p, cross}, colour, 0.22);
+    canvas.convex(std::array{cross, q, q0}, colour, 0.22);
   }
 }
 
+// The greatest value and the least, of equal ones the first.
 void label_extremes(Canvas& canvas, const PageCurve& c, const Axes& axes) {
-  const Extremes e = extremes(c);
+  const double slack = 1e-9 * std::abs(*std::max_element(c.y.begin(), c.y.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   const double em = axes.em, size = 0.95 * em;
-  for (const bool top : {true, false}) {
-    const std::size_t i = top ? e.high : e.low;
-    if (top ? !(c.y[i] > 0) : !(c.y[i] < 0)) continue;
-    const Point p{axes.x.pixel(c.x[i]), axes.y.pixel(c.y[i])};
+  for (const int sign : {1, -1}) {
+    std::size_t most = 0;
+    for (std::size_t i = 0; i < c.y.size(); ++i)
+      if (sign * c.y[i] > sign * c.y[most] + slack) most = i;
+    if (!(sign * c.y[most] > 0)) continue;
+    const Point p = axes.at(c.x[most], c.y[most]);
     canvas.marker(Marker::disc, p, 0.4 * em, axes_ink);
-    const std::string text = number(c.y[i], 4);
+    const std::string text = number(c.y[most], 4);
     const double half = text_extent(text, size).x / 2;
-    TextStyle style;
-    style.size = size;
-    style.across = Align::middle;
-    style.up = top ? Align::low : Align::high;
-    style.halo = true;
-    canvas.text({std::clamp(p.x, axes.room.left + half + 0.3 * em, axes.room.right - half - 0.3 * em), p.y + (top ? 0.35 : -0.35) * em}, text, style);
+    canvas.text({std::clamp(p.x, axes.room.left + half + 0.3 * em, axes.room.right - half - 0.3 * em), p.y + sign * 0.35 * em}, text,
+                {.size = size, .across = Align::middle, .up = sign > 0 ? Align::low : Align::high, .halo = true});
   }
 }
 
 void draw_zero(Canvas& canvas, const Axes& axes, bool vertical_too) {
   const double width = std::max(1.0, axes.em / 18);
-  if (axes.y.low < 0 && axes.y.high > 0) canvas.line({axes.room.left, axes.y.pixel(0)}, {axes.room.right, axes.y.pixel(0)}, width, zero_ink);
-  if (vertical_too && axes.x.low < 0 && axes.x.high > 0) canvas.line({axes.x.pixel(0), axes.room.bottom}, {axes.x.pixel(0), axes.room.top}, width, zero_ink);
+  const Point zero = axes.at(0, 0);
+  if (axes.y.low < 0 && axes.y.high > 0) canvas.line({axes.room.left, zero.y}, {axes.room.right, zero.y}, width, zero_ink);
+  if (vertical_too && axes.x.low < 0 && axes.x.high > 0) canvas.line({zero.x, axes.room.bottom}, {zero.x, axes.room.top}, width, zero_ink);
 }
 
 // The working point, told by its coordinates where no curve is.
 void draw_point(Canvas& canvas, const CurveDrawing& curve, const Axes& axes) {
   const auto [x, y] = *curve.point;
   const double em = axes.em;
-  const Point p{axes.x.pixel(x), axes.y.pixel(y)};
-  const auto sample = [em](Canvas& c, Point at) { c.marker(Marker::disc, at, 0.62 * em, point_colour); };
-  sample(canvas, p);
+  const Point p = axes.at(x, y), origin = axes.at(0, 0);
+  canvas.marker(Marker::disc, p, 0.62 * em, point_colour);
   Occupied occupied;
-  for (const PageCurve& c : curve.curves) {
-    std::vector<Point> points;
-    for (std::size_t i = 0; i < c.x.size(); ++i) points.push_back({axes.x.pixel(c.x[i]), axes.y.pixel(c.y[i])});
-    occupied.add(points, axes.room);
-  }
+  for (const PageCurve& c : curve.curves) occupied.add(axes.line(c.x, c.y), axes.room);
   occupied.add(Box{p.x - 0.4 * em, p.y - 0.4 * em, p.x + 0.4 * em, p.y + 0.4 * em});
+  // Clear of the axes too, if that can be had.
+  Occupied all = occupied;
+  all.add({{axes.room.left, origin.y}, {axes.room.right, origin.y}}, axes.room);
+  all.add({{origin.x, axes.room.bottom}, {origin.x, axes.room.top}}, axes.room);
   const double size = 0.9 * em;
   const std::string text = "(" + number(x) + ", " + number(y) + ")";
   const Point extent = text_extent(text, size);
-  // Clear of the axes too, if that can be had.
-  Occupied all = occupied;
-  const Point origin{axes.x.pixel(0), axes.y.pixel(0)};
-  all.add({{axes.room.left, origin.y}, {axes.room.right, origin.y}}, axes.room);
-  all.add({{origin.x, axes.room.bottom}, {origin.x, axes.room.top}}, axes.room);
-  std::optional<Point> place = place_beside(all, axes.room, p, extent.x, extent.y, 0.35 * em);
-  if (!place) place = place_beside(occupied, axes.room, p, extent.x, extent.y, 0.35 * em);
-  if (!place) return;
-  TextStyle style;
-  style.size = size;
-  style.colour = {150, 60, 0};
-  style.across = style.up = Align::middle;
-  style.halo = true;
-  canvas.text(*place, text, style);
+  std::optional<Point> place = place_beside(all, axes.room, p, extent, 0.35 * em);
+  if (!place) place = place_beside(occupied, axes.room, p, extent, 0.35 * em);
+  if (place) canvas.text(*place, text, {.size = size, .across = Align::middle, .up = Align::middle, .colour = {150, 60, 0}, .halo = true});
 }
 
 }  // namespace
@@ -132,9 +107,7 @@ void draw_cell(Canvas& canvas, const CurveDrawing& curve, const Axes& axes) {
   const std::array<double, 2> dash{0.35 * em, 0.3 * em};
   for (const PageCurve& c : curve.curves) {
     if (curve.area) fill(canvas, c, axes, colour);
-    std::vector<Point> points;
-    for (std::size_t i = 0; i < c.x.size(); ++i) points.push_back({axes.x.pixel(c.x[i]), axes.y.pixel(c.y[i])});
-    canvas.polyline(points, c.dashed ? 0.6 * width : width, colour, c.dashed ? std::span<const double>(dash) : std::span<const double>());
+    canvas.polyline(axes.line(c.x, c.y), c.dashed ? 0.6 * width : width, colour, c.dashed ? std::span<const double>(dash) : std::span<const double>());
   }
   canvas.no_clip();
   if (curve.area && !curve.curves.empty()) label_extremes(canvas, curve.curves.front(), axes);

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <set>
 
-#include "figure/canvas/canvas.hpp"
-#include "figure/door/figures.hpp"
+#include "figure/door/drawing.hpp"
 #include "figure/canvas/legend.hpp"
+#include "figure/canvas/text_fit.hpp"
 #include "figure/page/page_cells.hpp"
 
 namespace dotyk::figure {
@@ -16,7 +16,7 @@ namespace {
 
 class Page {
 public:
-  Page(const PagePicture& picture, int factor) : picture_(picture), canvas_(factor), columns_(picture.rows.front().size()) {
+  explicit Page(const PagePicture& picture) : picture_(picture), canvas_(picture), columns_(picture.rows.front().size()) {
     const double lowest = picture.height * *std::min_element(picture.row_weights.begin(), picture.row_weights.end()) / total(picture.row_weights);
     em_ = std::min(0.02 * picture.width / std::pow(static_cast<double>(columns_), 0.35), 0.075 * lowest);
     double top = picture.height - 0.4 * em_;
@@ -39,29 +39,26 @@ private:
 
   double draw_title(double top) {
     if (picture_.title.empty()) return top - 0.4 * em_;
-    TextStyle style;
-    style.bold = true;
+    TextStyle style = title_style();
     style.size = fitting_size(picture_.title, 1.25 * em_, picture_.width - 2 * em_, true);
-    style.across = Align::middle;
-    style.up = Align::high;
     canvas_.text({picture_.width / 2.0, top - 0.4 * em_}, picture_.title, style);
     return top - 0.7 * em_ - 1.5 * style.size;
   }
 
   // States of supports that occur; none where all do no more than act.
   double draw_legend(double top) {
-    std::map<SupportState, bool> seen;
+    std::set<SupportState> seen;
     for (const auto& row : picture_.rows)
       for (const PageCell& c : row)
         if (const auto* beam = std::get_if<BeamDrawing>(&c.drawing))
           for (const BeamSupport& s : beam->supports)
             for (const SupportElement& e : {s.below, s.arc})
-              if (e.kind != ElementKind::none) seen[e.state] = true;
-    if (seen.empty() || (seen.size() == 1 && seen.contains(SupportState::acting))) return top;
+              if (e.kind != ElementKind::none) seen.insert(e.state);
+    if (seen.empty() || seen == std::set{SupportState::acting}) return top;
     std::vector<LegendEntry> entries;
-    for (const auto& [state, yes] : seen)
-      entries.push_back({std::string("support ") + state_name(state), [state = state](Canvas& c, const Box& b) {
-                           const double middle = (b.bottom + b.top) / 2, half = 0.16 * b.height();
+    for (const SupportState state : seen)
+      entries.push_back({std::string("support ") + state_name(state), [state](Canvas& c, const Box& b) {
+                           const double middle = b.centre().y, half = 0.16 * b.height();
                            c.box({b.left + 0.3 * b.width(), middle - half, b.right, middle + half}, state_colour(state));
                          }});
     const Legend legend(std::move(entries), em_, picture_.width - em_);
@@ -96,7 +93,7 @@ private:
       double widest = 0;
       for (std::size_t i = 0; i < axes_.size(); ++i) {
         std::visit([&](const auto& drawing) { fit_y(drawing, axes_[i][j]); }, cell(i, j).drawing);
-        for (const Tick& t : axes_[i][j].y_ticks.ticks) widest = std::max(widest, text_extent(t.label, em_).x);
+        widest = std::max(widest, widest_label(axes_[i][j].y_ticks, em_));
       }
       for (auto& row : axes_) {
         row[j].room.left += widest + (0.6 + 1.7 + 0.5) * em_;
@@ -120,17 +117,16 @@ private:
     const auto* curve = std::get_if<CurveDrawing>(&cell(i, j).drawing);
     if (curve && curve->x_range) {
       axes.x.low = (*curve->x_range)[0], axes.x.high = (*curve->x_range)[1];
-    } else {
-      const double length = curve ? curve->curves.front().x.back() : std::get<BeamDrawing>(cell(i, j).drawing).length;
-      const double pad = beyond_ends_of(j) * std::min(1.4 * em_, axes.room.width() / 22);
-      const double per_unit = (axes.room.width() - 2 * pad) / length;
-      axes.x.low = -pad / per_unit, axes.x.high = length + pad / per_unit;
+      axes.x_ticks = spaced_ticks(axes.x, em_);
+      return;
     }
+    const double length = curve ? curve->curves.front().x.back() : std::get<BeamDrawing>(cell(i, j).drawing).length;
+    const double pad = beyond_ends_of(j) * std::min(1.4 * em_, axes.room.width() / 22);
+    const double per_unit = (axes.room.width() - 2 * pad) / length;
+    axes.x.low = -pad / per_unit, axes.x.high = length + pad / per_unit;
     axes.x_ticks = spaced_ticks(axes.x, em_);
-    if (!curve || !curve->x_range) {
-      const double low = -1e-9 * axes.x.high, high = (curve ? curve->curves.front().x.back() : std::get<BeamDrawing>(cell(i, j).drawing).length) * (1 + 1e-9);
-      std::erase_if(axes.x_ticks.ticks, [&](const Tick& t) { return t.value < low || t.value > high; });
-    }
+    const double low = -1e-9 * axes.x.high, high = length * (1 + 1e-9);
+    std::erase_if(axes.x_ticks.ticks, [&](const Tick& t) { return t.value < low || t.value > high; });
   }
 
   void draw(std::size_t i, std::size_t j) {
@@ -140,25 +136,12 @@ private:
     std::visit([&](const auto& drawing) { draw_cell(canvas_, drawing, axes); }, c.drawing);
     draw_ticks(canvas_, axes, labels_x(i));
     draw_frame(canvas_, axes);
-    TextStyle style;
-    style.across = Align::middle;
-    if (labels_x(i)) {
-      const std::string name = axis_name(c.x_label, axes.x_ticks);
-      style.size = fitting_size(name, em_, axes.room.width());
-      style.up = Align::high;
-      canvas_.text({(axes.room.left + axes.room.right) / 2, axes.room.bottom - 1.75 * em_}, name, style);
-    }
-    const std::string name = axis_name(c.y_label, axes.y_ticks);
-    TextStyle upright;
-    upright.size = fitting_size(name, em_, axes.room.height());
-    upright.upright = true;
-    upright.up = Align::middle;
-    canvas_.text({left_of(j) + 0.5 * em_, (axes.room.bottom + axes.room.top) / 2}, name, upright);
-    TextStyle title;
-    title.bold = true;
-    title.size = fitting_size(c.title, em_, std::min(1.25 * axes.room.width(), picture_.width - axes.room.left - em_), true);
-    title.up = Align::low;
-    canvas_.text({axes.room.left, axes.room.top + 0.4 * em_}, c.title, title);
+    const Point middle = axes.room.centre();
+    const std::string across = labels_x(i) ? axis_name(c.x_label, axes.x_ticks) : "", up = axis_name(c.y_label, axes.y_ticks);
+    canvas_.text({middle.x, axes.room.bottom - 1.75 * em_}, across, {.size = fitting_size(across, em_, axes.room.width()), .across = Align::middle, .up = Align::high});
+    canvas_.text({left_of(j) + 0.5 * em_, middle.y}, up, {.size = fitting_size(up, em_, axes.room.height()), .up = Align::middle, .upright = true});
+    const double wide = std::min(1.25 * axes.room.width(), picture_.width - axes.room.left - em_);
+    canvas_.text({axes.room.left, axes.room.top + 0.4 * em_}, c.title, {.size = fitting_size(c.title, em_, wide, true), .bold = true});
   }
 
   double left_of(std::size_t j) const {
@@ -174,9 +157,8 @@ private:
 
 }  // namespace
 
-void draw_page(const PagePicture& picture) {
-  const Page page(picture, oversampling(picture.width, picture.height));
-  write_canvas(page.canvas(), picture.width, picture.height, picture.file);
+void render(const PagePicture& picture) {
+  write_canvas(Page(picture).canvas(), picture);
 }
 
 }  // namespace dotyk::figure

@@ -29,7 +29,7 @@ public:
     std::vector<Point> line;
     for (const double x : beam.x) line.push_back(on_line(x));
     occupied_.add(line, axes.room);
-    occupied_.add({{axes.x.pixel(0), axes.y.pixel(0)}, {axes.x.pixel(beam.length), axes.y.pixel(0)}}, axes.room);
+    occupied_.add({axes.at(0, 0), axes.at(beam.length, 0)}, axes.room);
     for (const auto& top : tops()) occupied_.add(top, axes.room);
     const double symbol = symbol_em(axes);
     for (const BeamSupport& s : beam.supports) {
@@ -92,7 +92,7 @@ private:
   }
 
   Point on_line(double x) const {
-    return {axes_.x.pixel(x), axes_.y.pixel(deflection_at(beam_, x))};
+    return axes_.at(x, deflection_at(beam_, x));
   }
 
   // There the arrow of the point load stands.
@@ -104,25 +104,25 @@ private:
 
   void draw_force(const BeamLoad& l, double most) {
     const Point p = on_line(l.x);
-    const double length = (0.55 + 0.45 * std::abs(l.force) / most) * force_length * em_;
-    const Point low{p.x, p.y + clear_of_bar(beam_, l.x, symbol_em(axes_)) + 0.15 * em_}, high{p.x, low.y + length};
+    const double reach = (0.55 + 0.45 * std::abs(l.force) / most) * force_length * em_;
+    const Point low{p.x, p.y + clear_of_bar(beam_, l.x, symbol_em(axes_)) + 0.15 * em_}, high{p.x, low.y + reach};
     canvas_.arrow(l.force < 0 ? high : low, l.force < 0 ? low : high, std::max(2.0, em_ / 7), 0.7 * em_, load_colour, 1.5);
     occupied_.add(Box{low.x - 0.3 * em_, low.y, low.x + 0.3 * em_, high.y});
   }
 
+  // Over the point from one side to the other, in the sense of the moment.
   void draw_moment(const BeamLoad& l) {
     const Point p = on_line(l.x);
     const double r = moment_radius * em_, sign = l.moment > 0 ? 1 : -1, pi = std::numbers::pi;
-    // Over the point from one side to the other, in the sense of the moment.
-    const auto at = [&](double angle) { return Point{p.x + r * std::cos(angle), p.y + r * std::sin(angle)}; };
-    const double from = pi / 2 - sign * 0.75 * pi, to = pi / 2 + sign * 0.6 * pi;
+    const double from = pi / 2 - sign * 0.75 * pi, to = pi / 2 + sign * 0.6 * pi, width = std::max(1.8, em_ / 9);
     std::vector<Point> points;
-    for (int i = 0; i <= 32; ++i) points.push_back(at(from + (to - from) * i / 32));
-    const double width = std::max(1.8, em_ / 9);
+    for (int i = 0; i <= 32; ++i) {
+      const double angle = from + (to - from) * i / 32;
+      points.push_back(p + r * Point{std::cos(angle), std::sin(angle)});
+    }
     canvas_.polyline(points, width, load_colour);
     const Point end = points.back(), tangent{-sign * std::sin(to), sign * std::cos(to)};
-    canvas_.arrow({end.x - 0.1 * em_ * tangent.x, end.y - 0.1 * em_ * tangent.y}, {end.x + 0.55 * em_ * tangent.x, end.y + 0.55 * em_ * tangent.y},
-                  width, 0.6 * em_, load_colour);
+    canvas_.arrow(end - 0.1 * em_ * tangent, end + 0.55 * em_ * tangent, width, 0.6 * em_, load_colour);
     occupied_.add(Box{p.x - 1.2 * r, p.y - 0.8 * r, p.x + 1.2 * r, p.y + 1.1 * r});
   }
 
@@ -140,7 +140,7 @@ private:
     while (to + 1 < beam_.load.size() && std::abs(beam_.load[to + 1]) >= 0.999 * most) ++to;
     const std::size_t middle = (from + to) / 2;
     if (middle >= beam_.x.size()) return;
-    const Point p{axes_.x.pixel(beam_.x[middle]), axes_.y.pixel(beam_.deflection[middle])};
+    const Point p = axes_.at(beam_.x[middle], beam_.deflection[middle]);
     label("q = " + number(beam_.load[middle]), {p.x, p.y + (load_gap + most_load + 0.4) * em_});
   }
 
@@ -148,15 +148,10 @@ private:
   void label(const std::string& text, Point at) {
     const double size = 0.9 * em_;
     const Point extent = text_extent(text, size);
-    const auto place = place_beside(occupied_, axes_.room, {at.x, at.y + extent.y / 2}, extent.x, extent.y, 0.25 * em_);
+    const auto place = place_beside(occupied_, axes_.room, {at.x, at.y + extent.y / 2}, extent, 0.25 * em_);
     if (!place) return;
-    occupied_.add(Box{place->x - extent.x / 2, place->y - extent.y / 2, place->x + extent.x / 2, place->y + extent.y / 2});
-    TextStyle style;
-    style.size = size;
-    style.across = style.up = Align::middle;
-    style.colour = load_colour;
-    style.halo = true;
-    canvas_.text(*place, text, style);
+    occupied_.add(Box::about(*place, extent));
+    canvas_.text(*place, text, {.size = size, .across = Align::middle, .up = Align::middle, .colour = load_colour, .halo = true});
   }
 
   Canvas& canvas_;

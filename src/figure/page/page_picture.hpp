@@ -86,10 +86,7 @@ struct PageCell {
 
 // Cells in rows and columns. Cells of a column have their axes above each other. States of supports that occur
 // are told by the legend.
-struct PagePicture {
-  std::string file;                         // ends in .png; its folder must exist
-  int width = 1000, height = 900;           // pixels, 160 to 8192 each
-  std::string title;
+struct PagePicture : Sheet {
   std::vector<std::vector<PageCell>> rows;  // of equal length
   std::vector<double> column_weights, row_weights;  // shares of width and height, positive
   bool shared_x = false;                    // one x axis a column, labelled below the last row

@@ -36,7 +36,7 @@ class SupportSymbols {
 public:
   SupportSymbols(Canvas& canvas, const BeamDrawing& beam, const Axes& axes, const BeamSupport& support)
       : canvas_(canvas), beam_(beam), axes_(axes), support_(support), em_(symbol_em(axes)),
-        at_{axes.x.pixel(support.x), axes.y.pixel(support.deflection)} {
+        at_(axes.at(support.x, support.deflection)) {
     lean_ = std::clamp(std::atan(support.rotation * axes.y.pixels_per_unit() / axes.x.pixels_per_unit()), -most_lean, most_lean);
   }
 
@@ -85,7 +85,7 @@ private:
     if (left() || right()) return wall(left() ? -1 : 1, 0);
     for (const double side : {-1.0, 1.0}) {  // held between two blocks
       const auto p = [&](double along, double up) { return local(along * em_, side * up * em_); };
-      canvas_.convex(std::array<Point, 4>{p(-0.7, 0.1), p(0.7, 0.1), p(0.7, 0.45), p(-0.7, 0.45)}, ground_ink);
+      canvas_.convex(std::array{p(-0.7, 0.1), p(0.7, 0.1), p(0.7, 0.45), p(-0.7, 0.45)}, ground_ink);
       for (const double s : {-0.55, -0.2, 0.15, 0.5}) canvas_.line(p(s, 0.45), p(s - 0.2, 0.72), 0.6 * width(), ground_ink);
     }
   }
@@ -93,7 +93,7 @@ private:
   void draw_pin() {
     const Track down = Track::down(at_);
     const double foot = pin_height * em_;
-    const std::array<Point, 3> corners{at_, down(foot, -0.55 * em_), down(foot, 0.55 * em_)};
+    const std::array corners{at_, down(foot, -0.55 * em_), down(foot, 0.55 * em_)};
     canvas_.convex(corners, white);
     canvas_.polyline(corners, width(), state_colour(support_.below.state), {}, true);
     draw_ground(canvas_, down, foot, 0.75 * em_, em_);

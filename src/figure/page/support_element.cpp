@@ -89,7 +89,7 @@ private:
     const double middle = end - 0.4 * em_;
     for (const double side : {-1.0, 1.0}) {
       const auto corner = [&](double s, double t) { return at(middle + s * pad_half * em_, side * t * em_); };
-      const std::array<Point, 4> pad{corner(-1, pad_in), corner(1, pad_in), corner(1, pad_out), corner(-1, pad_out)};
+      const std::array pad{corner(-1, pad_in), corner(1, pad_in), corner(1, pad_out), corner(-1, pad_out)};
       canvas_.convex(pad, colour_, 0.55);
       canvas_.polyline(pad, 0.7 * width(), colour_, {}, true);
       canvas_.line(corner(-1.25, pad_out), corner(1.25, pad_out), 0.8 * width(), ground_ink);
@@ -127,7 +127,7 @@ private:
     zigzag(top, foot - tear);
     plate(top);
     const auto half = [&](double base, double tip, double shift) {
-      canvas_.convex(std::array<Point, 4>{at(base, shift - 0.3 * em_), at(base, shift + 0.3 * em_), at(tip, shift + thin * em_), at(tip, shift - thin * em_)}, colour_);
+      canvas_.convex(std::array{at(base, shift - 0.3 * em_), at(base, shift + 0.3 * em_), at(tip, shift + thin * em_), at(tip, shift - thin * em_)}, colour_);
     };
     half(foot - tear, middle - 1.2 * tear, side);
     half(end, middle + tear, -side);
@@ -146,7 +146,7 @@ private:
 Point Track::operator()(double s, double t) const {
   if (straight()) return {origin_.x + t, origin_.y - s};
   const double angle = std::numbers::pi / 2 + sign_ * s / radius_;
-  return {origin_.x + (radius_ + t) * std::cos(angle), origin_.y + (radius_ + t) * std::sin(angle)};
+  return origin_ + (radius_ + t) * Point{std::cos(angle), std::sin(angle)};
 }
 
 void draw_ground(Canvas& canvas, const Track& track, double s, double half, double em) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "figure/door/figures.hpp"
+#include "figure/door/drawing.hpp"
 #include "figure/plate/plate_stage.hpp"
 
 namespace dotyk::figure {
@@ -85,8 +85,8 @@ ScenePicture scene_of(const Plate& plate) {
   const PlatePicture& p = plate.picture;
   const bool space = p.view == PlateView::surface;
   ScenePicture scene;
-  scene.file = p.file, scene.width = p.width, scene.height = p.height;
-  scene.title = p.title, scene.caption = p.caption;
+  static_cast<Sheet&>(scene) = p;
+  scene.caption = p.caption;
   scene.field_label = p.field_label, scene.field_unit = p.field_unit, scene.field_range = p.field_range, scene.map = p.map;
   scene.edges = !space && p.edges == MeshEdges::automatic ? MeshEdges::off : p.edges;
   scene.bodies = {body_of(p, space)};
@@ -133,10 +133,10 @@ void draw_apex(Stage& stage, Point at, Point size, double rim, Colour colour) {
   }
 }
 
-void draw_plate(const PlatePicture& picture) {
+void render(const PlatePicture& picture) {
   const Plate plate(picture);
   const ScenePicture scene = scene_of(plate);
-  Stage stage(scene, oversampling(scene.width, scene.height));
+  Stage stage(scene);
   const std::vector<Layer> layers = stage.plane ? plan_layers(plate) : surface_layers(plate);
   stage.layers.insert(stage.layers.end() - 1, layers.begin(), layers.end());  // in the legend before what is said of bodies
   stage.axes_of_bodies = stage.plane;

@@ -46,10 +46,8 @@ struct PlatePointSupport {
   std::optional<Status> status;
 };
 
-struct PlatePicture {
-  std::string file;                         // ends in .png; its folder must exist
-  int width = 1200, height = 900;           // pixels, 160 to 8192 each
-  std::string title;                        // empty: none
+struct PlatePicture : Sheet {
+  PlatePicture() : Sheet{{}, 1200, 900, {}} {}
   std::string caption;                      // empty: none; the factor on the deflection is stated in any case
   PlateView view = PlateView::surface;
 

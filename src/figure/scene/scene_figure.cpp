@@ -9,17 +9,17 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
-#include "figure/door/figures.hpp"
+#include "figure/door/drawing.hpp"
 #include "figure/canvas/osmesa_window.hpp"
 #include "figure/scene/spread.hpp"
 #include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {
 
-Stage::Stage(const ScenePicture& p, int oversampled)
-    : picture(p), factor(oversampled), plane(p.bodies.front().dimension == 2),
+Stage::Stage(const ScenePicture& p)
+    : picture(p), factor(oversampling(p.width, p.height)), plane(p.bodies.front().dimension == 2),
       em(0.032 * std::min<double>(p.height, 0.8 * p.width)), scale(colour_scale(p, p.window)), window(p.window),
-      under(oversampled), over(oversampled),
+      under(p), over(p),
       layers{contact_layer(), obstacle_layer(), load_layer(), support_layer(), body_layer()} {
   set_greatest();
   for (const LoadArrow& load : p.loads) greatest_load = std::max(greatest_load, std::sqrt(dot(load.vector, load.vector)));
@@ -145,8 +145,8 @@ void draw_stage(Stage& stage) {
   write_png(image, picture.file);
 }
 
-void draw_scene(const ScenePicture& picture) {
-  Stage stage(picture, oversampling(picture.width, picture.height));
+void render(const ScenePicture& picture) {
+  Stage stage(picture);
   draw_stage(stage);
 }
 

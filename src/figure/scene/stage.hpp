@@ -30,7 +30,7 @@ struct Layer {
 };
 
 struct Stage {
-  Stage(const ScenePicture& picture, int factor);
+  explicit Stage(const ScenePicture& picture);
 
   const ScenePicture& picture;
   int factor;                 // rendered pixels per pixel

@@ -87,7 +87,7 @@ std::vector<SupportSymbol> symbols_of(const Stage& stage, SupportKind kind) {
   return out;
 }
 
-void draw_supports(Stage& stage, vtkRenderer*) {
+void draw_support_symbols(Stage& stage, vtkRenderer*) {
   for (const Kind& kind : kinds) {
     const std::vector<SupportSymbol> symbols = symbols_of(stage, kind.kind);
     const std::vector<Point> at = stage.at(symbols);
@@ -176,7 +176,7 @@ void load_bounds(const Stage& stage, Bounds& bounds) {
 
 }  // namespace
 
-Layer support_layer() { return {3, draw_supports, support_legend, support_bounds}; }
+Layer support_layer() { return {3, draw_support_symbols, support_legend, support_bounds}; }
 
 Layer load_layer() { return {4, draw_loads, load_legend, load_bounds}; }
 

@@ -1,0 +1,40 @@
+// What the parts of a chart share.
+#pragma once
+
+#include <vector>
+
+#include "figure/canvas/axes.hpp"
+#include "figure/canvas/places.hpp"
+
+namespace dotyk::figure {
+
+// The axis range of the data: that given, or the finite values with a margin.
+Axis fit_axis(const ChartPicture& chart, bool vertical);
+
+// A curve in pixels, in pieces between points that an axis cannot show.
+std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes);
+
+// Which of the curves has nearest to this slope, pixels over pixels: from its first to its last point.
+const std::vector<Point>* nearest_slope(const std::vector<std::vector<Point>>& curves, double slope);
+
+// A triangle whose slanted side has the slope, near the curve whose slope is most like it and clear of
+// all; smaller where there is little room. What it takes is added to `occupied`.
+void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& guide, const Axes& axes, Occupied& occupied);
+
+// Pixels beside the plot.
+struct ChartMargins {
+  double left = 0, right = 0, below = 0, above = 0;
+};
+
+// What a chart has in common with those above and below it.
+struct ChartFrame {
+  double em = 20;
+  ChartMargins least = {};  // left and right
+  bool x_labels = true;
+  bool alone = false;       // may be narrower than the picture
+};
+
+// From the canvas's origin, of the picture's size; returns the margins taken.
+ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame);
+
+}  // namespace dotyk::figure
