@@ -7,7 +7,7 @@
 
 #include "scene/model/model.hpp"
 #include "scenes.hpp"
-#include "solver/feti/dual_bounds.hpp"
+#include "solver/bounded/dual_bounds.hpp"
 #include "solver/feti/dual_spectrum.hpp"
 #include "solver/feti/face_coarse.hpp"
 #include "solver/rows/projection.hpp"

@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "solver/rows/disc.hpp"
 
 namespace dotyk::solver {
 
@@ -37,6 +36,15 @@ void check_discs(const Vector& low, const Vector& high, const std::vector<Separa
         throw InputError(text("separable set: component ", i, " has a disc and an interval"));
     }
   }
+}
+
+/// The greatest s ≥ 0 with ‖u + s p‖ ≤ radius, for ‖u‖ ≤ radius; infinite for p = 0.
+double room_in_disc(const Eigen::Vector2d& u, const Eigen::Vector2d& p, double radius) {
+  const double a = p.squaredNorm(), b = u.dot(p), c = (u.norm() - radius) * (u.norm() + radius);
+  if (a == 0) return kInfinity;
+  // The root of as² + 2bs + c, in the form without cancellation.
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  return std::max(0.0, b > 0 ? -c / (b + root) : (root - b) / a);
 }
 
 /// The point of the disc nearest to v = (x_i, x_j); drawn inward by rounding units until it is in it.

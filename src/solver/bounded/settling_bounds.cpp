@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solver/rows/projection.hpp"
+
 namespace dotyk::solver {
 
 using algebra::Vector;
@@ -16,7 +18,7 @@ constexpr double kLeastStep = 1.0 / 32;
 
 bool SettlingBounds::follow(const Vector& next) {
   const double size = next.stableNorm();
-  const bool bounded = now_.allFinite();
+  const bool bounded = (now_.array() < kNoSlip).all();
   change_ = bounded ? (next - now_).stableNorm() / (size > 0 ? size : 1) : 1;
   now_ = bounded ? Vector(now_ + step_ * (next - now_)) : next;
   since_best_ = change_ < 0.9 * best_ ? 0 : since_best_ + 1;

@@ -10,7 +10,7 @@ namespace dotyk::solver {
 /// the solution with b make of them. s is halved where the change has not fallen by a tenth for some steps.
 class SettlingBounds {
  public:
-  /// They may be infinite: then b ← b' the first time.
+  /// They may be kNoSlip: then b ← b' the first time.
   explicit SettlingBounds(algebra::Vector first = {}) : now_(std::move(first)) {}
   const algebra::Vector& now() const { return now_; }
   /// False where they have not settled with the least s.

@@ -9,14 +9,14 @@
 #include "base/text.hpp"
 #include "problem/rigid_motions.hpp"
 #include "solver/feti/coarse_space.hpp"
-#include "solver/feti/dual_bounds.hpp"
 #include "solver/feti/dual_problem.hpp"
 #include "solver/feti/dual_spectrum.hpp"
 #include "solver/feti/feti_preconditioner.hpp"
 #include "solver/core/load_size.hpp"
-#include "solver/feti/opposed_springs.hpp"
 #include "solver/rows/projection.hpp"
 #include "solver/core/require_solvable.hpp"
+#include "solver/bounded/dual_bounds.hpp"
+#include "solver/bounded/opposed_springs.hpp"
 #include "solver/bounded/settling_bounds.hpp"
 #include "solver/core/treatable.hpp"
 
@@ -124,7 +124,7 @@ class FetiRun {
   }
 
   void iterate() {
-    bounds_ = SettlingBounds(first_bounds(problem_));
+    bounds_ = SettlingBounds(no_slip_bounds(problem_));
     if (!bounds_depend_on_normal(problem_)) {
       solve_given(method_.tol);
       return;
@@ -283,7 +283,10 @@ class FetiRun {
 
 Result solve(const Problem& problem, const Feti& method, Monitor& monitor) {
   require_springs(problem, "feti");
-  if (has_two_springs(problem)) return joined(solve(opposed_springs(problem), method, monitor), problem);
+  if (has_two_springs(problem)) {
+    const OpposedSprings split = opposed_springs(problem);
+    return joined(solve(split.problem, method, monitor), split.from, problem.rows());
+  }
   problem::Clock clock;
   const auto [rigid, note] = require_solvable(problem, clock, monitor);
   Result result = FetiRun(problem, method, problem::unnoticed_displacements(problem, rigid), monitor)();

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/text.hpp"
+#include "solver/bounded/dual_bounds.hpp"
 
 namespace dotyk::solver {
 
@@ -92,15 +93,6 @@ SparseRows spread(const Problem& problem, const TornProblem& torn, const Copies&
   SparseRows rows(problem.rows(), torn.copies());
   rows.setFromTriplets(entries.begin(), entries.end());
   return rows;
-}
-
-/// 1/k_q of every row's law; 0 without a spring, and where k_q is 0.
-Vector law_compliance(const Problem& problem) {
-  Vector compliance = Vector::Zero(problem.rows());
-  for (const problem::RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r)
-      if (const double k = group.law->springs(r - group.first).value().above; k > 0) compliance[r] = 1 / k;
-  return compliance;
 }
 
 /// A row's norm in k⁻¹, `first` being the first copy of its columns, its spring's compliance included.

@@ -16,20 +16,8 @@ using problem::Problem;
 
 /// Steps of the loop without a fall of the residual.
 constexpr int kLoopPatience = 50;
-/// No force reaches it.
-constexpr double kNoSlip = 1e300;
 /// Changes of the bounds below this part of them are the inner solver's rounding, and tell no contraction.
 constexpr double kNoise = 1e-8;
-
-/// The rows with their laws, without the bodies: what methods on the condensed problem see.
-Problem rows_of(const Problem& problem) {
-  Problem rows;
-  rows.c = problem.c;
-  rows.groups = problem.groups;
-  rows.friction = problem.friction;
-  rows.row_name = problem.row_name;
-  return rows;
-}
 
 /// Gives the rows these bounds, one a point.
 void freeze(Problem& rows, const Vector& bounds) {
@@ -39,16 +27,6 @@ void freeze(Problem& rows, const Vector& bounds) {
     point += group.points();
     group.law = problem::tresca(std::move(own));
   }
-}
-
-/// Bounds that keep Coulomb's points from slipping; given ones are as they are.
-Vector no_slip(const Problem& problem) {
-  Vector bounds = friction_bounds(problem, Vector::Zero(problem.rows()));
-  Eigen::Index point = 0;
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k, ++point)
-      if (group.law->bound_slope(k) > 0) bounds[point] = kNoSlip;
-  return bounds;
 }
 
 /// The geometric mean of the last half of the factors from change to change; 0 where there are too few.
@@ -61,11 +39,11 @@ double contraction(const std::vector<double>& changes) {
 }  // namespace
 
 void CoulombLoop::iterate(RowIteration& it) const {
-  Problem rows = rows_of(it.problem);
+  Problem rows = laws_of(it.problem);
   InnerMonitor monitor(it.monitor());
   Settings settings = *inner;
   settings.tol = std::min(inner->tol, tol / 10);
-  Vector bounds = it.begun() ? friction_bounds(it.problem, it.lambda()) : no_slip(it.problem);
+  Vector bounds = it.begun() ? friction_bounds(it.problem, it.lambda()) : no_slip_bounds(it.problem);
   std::vector<double> changes;
   int inner_iterations = 0;
   while (it.next()) {

@@ -1,14 +1,14 @@
 #include "solver/rows/projected_cg.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "base/text.hpp"
-#include "solver/bounded/face.hpp"
+#include "solver/bounded/dual_bounds.hpp"
+#include "solver/bounded/mprgp.hpp"
+#include "solver/bounded/opposed_springs.hpp"
+#include "solver/core/treatable.hpp"
 #include "solver/rows/projection.hpp"
 #include "solver/rows/stationary_iteration.hpp"
-#include "solver/core/treatable.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -19,126 +19,75 @@ using algebra::Vector;
 constexpr double kWeight = 10;
 /// The inner problem's residual against the outer error at which bounds and equilibrium are updated.
 constexpr double kInnerPrecision = 0.1;
-/// Fixed steps, of the bound 2/λ_max.
-constexpr double kStep = 0.95;
 
+/// The dual energy in x = λ/D: D makes its Hessian D(W + C)D about 1 on the diagonal, C the compliances of the laws.
 class ProjectedCgRun {
  public:
   explicit ProjectedCgRun(RowIteration& it)
-      : it_(it), equilibrium_(equilibrium_of(it, kWeight)), coulomb_(bounds_depend_on_normal(it.problem)) {
-    step_ = kStep * equilibrium_.step_bound(it.map.rho()) * it.map.rho();
-    start(it.lambda());
+      : it_(it), equilibrium_(equilibrium_of(it, kWeight)), split_(opposed_springs(laws_of(it.problem))), scale_(split_.from.size()) {
+    const Vector compliance = law_compliance(split_.problem);
+    scale_ = (it.map.rho()(split_.from).cwiseInverse() + compliance).cwiseSqrt().cwiseInverse();
+    added_ = scale_.cwiseAbs2().cwiseProduct(compliance);
+    const double largest = added_.size() > 0 ? added_.maxCoeff() : 0;
+    norm_ = 2 / equilibrium_.step_bound(joined(scale_.cwiseAbs2())) + largest;
   }
 
   void iterate() {
-    face_.emplace(face());
+    start();
+    int updates = 0;
     while (it_.next()) {
-      if (!proportional() || !conjugate_step()) gradient_step();
-      if (it_.record()) break;
+      const bool made = inner_->step() != Mprgp::Step::none;
+      move_to(it_, equilibrium_, joined(scale_.cwiseProduct(inner_->x())));
+      if (it_.record() || it_.stalled()) break;
       if (update_outer()) {
-        ++updates_;
-        direction_.resize(0);
+        ++updates;
+      } else if (!made) {
+        it_.give_up("rounding is all that is left of the gradient");
+        break;
       }
-      if (it_.stalled()) break;
     }
-    if (coulomb_) it_.remark(text("Coulomb's bounds were updated ", updates_, " times"));
+    if (bounds_depend_on_normal(it_.problem)) it_.remark(text("Coulomb's bounds were updated ", updates, " times"));
   }
 
  private:
-  /// Takes the bounds at λ, and λ into them.
-  void start(const Vector& lambda) {
-    bounds_ = friction_bounds(it_.problem, lambda);
-    move_to(it_, equilibrium_, project(it_.problem, lambda, Vector::Zero(lambda.size()), &bounds_));
+  /// Of the problem's rows, the sum over those that each was split into.
+  Vector joined(const Vector& v) const {
+    Vector sum = Vector::Zero(it_.problem.rows());
+    for (Eigen::Index r = 0; r < v.size(); ++r) sum[split_.from[r]] += v[r];
+    return sum;
   }
 
-  Face face() const { return Face(it_.problem, it_.lambda(), it_.jump(), it_.map.rho(), bounds_); }
-
-  /// Where a fixed step goes from (λ, x).
-  Vector projected(const Vector& lambda, const Vector& x, const Vector& step) const {
-    return project(it_.problem, lambda + step.cwiseProduct(x), step, &bounds_);
+  /// From the iterate, with the bounds and the equilibrium there.
+  void start() {
+    bounds_ = friction_bounds(it_.problem, it_.lambda());
+    set_.emplace(admissible(split_.problem, scale_, bounds_, Vector::Zero(scale_.size())));
+    const auto hessian = [this](const Vector& v) -> Vector {
+      const Vector moved = equilibrium_.W() * joined(scale_.cwiseProduct(v));
+      return scale_.cwiseProduct(moved(split_.from)) + added_.cwiseProduct(v);
+    };
+    const Vector load = scale_.cwiseProduct(equilibrium_.x0()(split_.from));
+    inner_.emplace(hessian, norm_, load, *set_, it_.lambda()(split_.from).cwiseQuotient(scale_));
   }
 
-  /// Is the projected gradient off the face no greater than along it?
-  bool proportional() const {
-    const Vector moved = projected(it_.lambda(), it_.jump(), step_) - it_.lambda();
-    double along = 0, off = 0;
-    for (Eigen::Index r = 0; r < moved.size(); ++r)
-      (face_->free()[r] ? along : off) += moved[r] * moved[r] / step_[r];
-    return off <= along && along > 0;
-  }
-
-  void gradient_step() {
-    move_to(it_, equilibrium_, projected(it_.lambda(), it_.jump(), step_));
-    face_.emplace(face());
-    direction_.resize(0);
-  }
-
-  /// False, where it was, if the step cannot be made or would raise the energy (on a circle it might).
-  bool conjugate_step() {
-    const Vector &gradient = face_->gradient(), scaled = face_->tangential(it_.map.rho().cwiseProduct(gradient));
-    Vector p = scaled;
-    if (direction_.size()) {
-      const double beta = scaled.dot(gradient - gradient_) / product_;
-      if (beta > 0) p += beta * face_->tangential(direction_);
-    }
-    double slope = gradient.dot(p);
-    if (!(slope > 0)) slope = gradient.dot(p = scaled);
-    const Vector Wp = equilibrium_.W() * p;
-    const double curvature = p.dot(Wp) + face_->curvature(p);
-    const double room = face_->room(p), length = curvature > 0 ? slope / curvature : room;
-    if (!(slope > 0) || !std::isfinite(length)) return false;
-    if (!descend(face_->along(std::min(length, room), p))) return false;
-    if (length >= room) {  // at the end of the face: a gradient step from there
-      gradient_step();
-      return true;
-    }
-    product_ = scaled.dot(gradient);
-    gradient_ = gradient;
-    direction_ = p;
-    Face next = face();
-    if (!next.same(*face_)) direction_.resize(0);
-    face_.emplace(std::move(next));
-    return true;
-  }
-
-  /// Moves unless that would raise the energy.
-  bool descend(Vector target) {
-    const Vector lambda = it_.lambda(), alpha = it_.alpha();
-    const double before = energy();
-    move_to(it_, equilibrium_, std::move(target));
-    if (energy() <= before + 1e-13 * std::abs(before)) return true;
-    it_.move_to(lambda, alpha);
-    return false;
-  }
-
-  /// q without its constant: −½λᵀ(x₀' + x) + Σφ*(λ).
-  double energy() const {
-    const Vector& lambda = it_.lambda();
-    double q = -0.5 * lambda.dot(equilibrium_.x0() + it_.jump());
-    for (const problem::RowGroup& group : it_.problem.groups)
-      for (int r = group.first; r < group.first + group.count; ++r)
-        q += group.law->conjugate(r - group.first, lambda[r]);
-    return q;
-  }
-
+  /// Where the inner problem is solved well enough; false where it is not, or where nothing is off.
   bool update_outer() {
-    const Vector& lambda = it_.lambda();
+    const Vector &lambda = it_.lambda(), &rho = it_.map.rho();
     const double off = (friction_bounds(it_.problem, lambda) - bounds_).norm() + equilibrium_.unbalanced(lambda);
-    if (off == 0 || (lambda - projected(lambda, it_.jump(), it_.map.rho())).norm() > kInnerPrecision * off) return false;
+    const Vector projected = project(it_.problem, lambda + rho.cwiseProduct(it_.jump()), rho, &bounds_);
+    if (off == 0 || (lambda - projected).norm() > kInnerPrecision * off) return false;
     equilibrium_.update(lambda);
-    start(lambda);
-    face_.emplace(face());
+    start();
     return true;
   }
 
   RowIteration& it_;
   Equilibrium equilibrium_;
-  bool coulomb_;
-  Vector step_, bounds_;
-  std::optional<Face> face_;
-  Vector direction_, gradient_;  ///< of the last conjugate step; empty: start anew
-  double product_ = 0;           ///< its gradient's scaled square
-  int updates_ = 0;
+  const OpposedSprings split_;
+  Vector scale_, added_;  ///< D and D C D
+  double norm_;           ///< of the Hessian, from above
+  Vector bounds_;
+  std::optional<SeparableSet> set_;
+  std::optional<Mprgp> inner_;
 };
 
 }  // namespace

@@ -25,6 +25,24 @@ Vector friction_bounds(const Problem& problem, const Vector& lambda) {
   return bounds;
 }
 
+Vector no_slip_bounds(const Problem& problem) {
+  Vector bounds = friction_bounds(problem, Vector::Zero(problem.rows()));
+  Eigen::Index point = 0;
+  for (const FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k, ++point)
+      if (group.law->bound_slope(k) > 0) bounds[point] = kNoSlip;
+  return bounds;
+}
+
+Problem laws_of(const Problem& problem) {
+  Problem rows;
+  rows.c = problem.c;
+  rows.groups = problem.groups;
+  rows.friction = problem.friction;
+  rows.row_name = problem.row_name;
+  return rows;
+}
+
 Vector project(const Problem& problem, const Vector& y, const Vector& rho, const Vector* bounds) {
   Vector lambda(y.size());
   for (const RowGroup& group : problem.groups)

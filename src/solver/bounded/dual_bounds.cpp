@@ -1,4 +1,4 @@
-#include "solver/feti/dual_bounds.hpp"
+#include "solver/bounded/dual_bounds.hpp"
 
 #include <cmath>
 
@@ -28,7 +28,7 @@ SeparableSet admissible(const Problem& problem, const Vector& scale, const Vecto
     for (int k = 0; k < group.points(); ++k, ++point) {
       const int r = group.row(k);
       const double bound = bounds[point];
-      if (!std::isfinite(bound)) continue;
+      if (!(bound < kNoSlip)) continue;
       if (group.components == 1)
         interval(r, -bound, bound);
       else
@@ -37,13 +37,12 @@ SeparableSet admissible(const Problem& problem, const Vector& scale, const Vecto
   return SeparableSet(std::move(low), std::move(high), std::move(discs));
 }
 
-Vector first_bounds(const Problem& problem) {
-  Vector bounds = friction_bounds(problem, Vector::Zero(problem.rows()));
-  Eigen::Index point = 0;
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k, ++point)
-      if (group.law->bound_slope(k) > 0) bounds[point] = INFINITY;
-  return bounds;
+Vector law_compliance(const Problem& problem) {
+  Vector compliance = Vector::Zero(problem.rows());
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r)
+      if (const double k = group.law->springs(r - group.first).value().above; k > 0) compliance[r] = 1 / k;
+  return compliance;
 }
 
 }  // namespace dotyk::solver
