@@ -53,6 +53,18 @@ void take_friction(const problem::FrictionGroup& group, int point, const Vector&
 
 bool may_open(const problem::Law& law, int row) { return law.unilateral() || law.multipliers(row).low == 0; }
 
+std::vector<char> first_active(const Problem& problem, const std::vector<char>& flags) {
+  const double touching = 1e-12 * (problem.rows() ? problem.c.lpNorm<Eigen::Infinity>() : 0);
+  std::vector<char> active(problem.rows(), 0);
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count; ++r)
+      active[r] = !may_open(*group.law, r - group.first) || (flags.empty() ? !group.law->unilateral() || problem.c[r] <= touching : flags[r]);
+  for (const problem::FrictionGroup& group : problem.friction)
+    for (int k = 0; k < group.points(); ++k)
+      std::fill_n(active.begin() + group.row(k), group.components, group.normal[k] < 0 ? char(1) : active[group.normal[k]]);
+  return active;
+}
+
 bool Linearisation::same_piece(const Linearisation& other, int row) const {
   if (slipping[row] || other.slipping[row]) return slipping[row] == other.slipping[row];
   return slope[row] == other.slope[row] && (slope[row] != 0 || value[row] == other.value[row]);

@@ -60,6 +60,10 @@ Linearisation linearise(const problem::Problem& problem, const algebra::Vector& 
 /// greatest force?
 bool may_open(const problem::Law& law, int row);
 
+/// The rows that an iteration begins with as active: those flagged or, where there are no flags, those that touch at rest up to 1e-12 of the
+/// greatest gap; besides all that cannot open, and the friction of active normal rows.
+std::vector<char> first_active(const problem::Problem& problem, const std::vector<char>& flags);
+
 /// The linearisation whose rows that may open are active as flagged (others: at y = 0).
 Linearisation from_flags(const problem::Problem& problem, const std::vector<char>& active,
                          const algebra::Vector& rho);

@@ -48,7 +48,7 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
   lambda = Vector::Zero(problem.rows());
   result.method = settings.reduced ? "pdas" : "pdas (held)";
   place_screws();
-  l = first();
+  l = held(from_flags(problem, first_active(problem, settings.start), rho), -problem.c);
   step = make_step();
 }
 
@@ -98,19 +98,6 @@ HeldStiffness& SetIteration::stiffness() {
   result.factor_bytes = stiffness_->solver().bytes();
   result.ordering = stiffness_->solver().method();
   return *stiffness_;
-}
-
-Linearisation SetIteration::first() const {
-  const double touching = 1e-12 * (problem.rows() ? problem.c.lpNorm<Eigen::Infinity>() : 0);
-  std::vector<char> active = settings.start;
-  if (active.empty()) {
-    active.resize(problem.rows());
-    for (const problem::RowGroup& group : problem.groups)
-      for (int r = group.first; r < group.first + group.count; ++r) active[r] = !group.law->unilateral() || problem.c[r] <= touching;
-  }
-  for (const problem::FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k) std::fill_n(active.begin() + group.row(k), group.components, group.normal[k] < 0 ? char(1) : active[group.normal[k]]);
-  return held(from_flags(problem, active, rho), -problem.c);
 }
 
 Linearisation SetIteration::held(Linearisation l, const Vector& x) const {

@@ -65,7 +65,6 @@ class SetIteration {
   double noise_of_screws() const;
   bool move_screws();
   std::unique_ptr<Step> make_step();
-  Linearisation first() const;
   bool crawls() const;
   std::optional<End> advance();
   Linearisation follow();

@@ -1,6 +1,7 @@
 #include "solver/programs/active_set.hpp"
 
 #include "program/active_set.hpp"
+#include "solver/active/linearisation.hpp"
 #include "solver/programs/primal_program.hpp"
 
 namespace dotyk::solver {
@@ -15,11 +16,9 @@ program::ActiveSet options(const problem::Problem& problem, const ActiveSet& set
   out.tol = settings.tol;
   out.max_iterations = settings.max_iterations;
   const program::QuadraticProgram& p = primal.program();
-  const double touching = 1e-12 * problem.c.lpNorm<Eigen::Infinity>();
+  const std::vector<char> first = first_active(problem, settings.start);
   for (int k = 0; k < p.rows(); ++k) {
-    const int r = primal.rows()[k];
-    const bool holds = settings.start.empty() ? problem.c[r] <= touching : settings.start[r] != 0;
-    out.working.push_back(p.equality(k) ? program::Side::equal : holds ? program::Side::high : program::Side::free);
+    out.working.push_back(p.equality(k) ? program::Side::equal : first[primal.rows()[k]] ? program::Side::high : program::Side::free);
   }
   if (settings.start.empty()) out.point = algebra::Vector::Zero(p.unknowns());
   return out;

@@ -121,14 +121,7 @@ NaturalMap::Value NaturalMap::with_jump(const Vector& lambda, Vector x) const {
 NaturalMap::Value NaturalMap::sticking(const std::vector<char>& start) const {
   const int m = problem_->rows();
   Value v = at(Vector::Zero(m), Vector::Zero(condensed_->kernel_size()));
-  const double touching = 1e-12 * (m ? problem_->c.lpNorm<Eigen::Infinity>() : 0);
-  std::vector<char> closed(m, 0);
-  for (const RowGroup& group : problem_->groups)
-    for (int r = group.first; r < group.first + group.count; ++r)
-      closed[r] = !may_open(*group.law, r - group.first) || (start.empty() ? !group.law->unilateral() || problem_->c[r] <= touching : start[r]);
-  for (const FrictionGroup& group : problem_->friction)
-    for (int k = 0; k < group.points(); ++k)
-      for (int i = 0; i < group.components; ++i) closed[group.row(k) + i] = group.normal[k] < 0 || closed[group.normal[k]];
+  const std::vector<char> closed = first_active(*problem_, start);
   std::vector<char> scalar(m, 0);
   for (const RowGroup& group : problem_->groups)
     for (int r = group.first; r < group.first + group.count; ++r) scalar[r] = !group.law->unilateral() && closed[r];
