@@ -12,14 +12,15 @@ Key size_key(const char* otherwise) {
   return key::list("size", key::integer("", ""), "width and height").count(2).unit("pixels").otherwise(otherwise);
 }
 
-void read_size(const Arguments& call, int& width, int& height) {
+void read_page(const Arguments& call, figure::Sheet& sheet) {
+  call.read("file", sheet.file);
+  call.read("title", sheet.title);
   if (!call.has("size")) return;
   const auto size = call.integers("size");
   for (const long long pixels : size)
     if (pixels < 160 || pixels > 8192)
       throw InputError(text("size has ", pixels, " pixels; a side must have from 160 to 8192"));
-  width = static_cast<int>(size[0]);
-  height = static_cast<int>(size[1]);
+  sheet.width = static_cast<int>(size[0]), sheet.height = static_cast<int>(size[1]);
 }
 
 std::optional<figure::Vec3> read_direction(const Arguments& call, const char* name) {

@@ -10,17 +10,11 @@ namespace dotyk::script {
 Key picture_key();
 Key title_key(const char* help = "above the figure");
 
-// Width and height. read_size throws InputError where one is out of range.
+// Width and height.
 Key size_key(const char* otherwise);
-void read_size(const Arguments& call, int& width, int& height);
 
-// File, title, and size where it is given.
-template <class Picture>
-void read_page(const Arguments& call, Picture& picture) {
-  call.read("file", picture.file);
-  call.read("title", picture.title);
-  read_size(call, picture.width, picture.height);
-}
+// File, title, and size where it is given. Throws InputError where a side of that is out of range.
+void read_page(const Arguments& call, figure::Sheet& sheet);
 
 // The direction towards the eye, given as `name`. Throws InputError where it is zero.
 std::optional<figure::Vec3> read_direction(const Arguments& call, const char* name);

@@ -99,8 +99,7 @@ void read_chart(const Arguments& given, figure::ChartPicture& chart) {
   chart.log_x = log.find('x') != std::string::npos;
   chart.log_y = log.find('y') != std::string::npos;
   for (const Arguments& series : given.tables("series")) chart.series.push_back(series_of(series));
-  if (given.has("slopes"))
-    for (const double slope : given.vector("slopes")) chart.slopes.push_back({slope, ""});
+  if (given.has("slopes")) chart.slopes = given.vector("slopes");
 }
 
 void tell_not_shown(const figure::ChartPicture& chart, const std::string& file) {
