@@ -14,7 +14,7 @@ function init.include(file)
     from = core.getinfo(level, "S")
   end
   local folder <const> = not file:find "^/" and from and from.source:match "^@(.*/)"
-  local chunk <const>, why = loadfile((folder or "") .. file, "t")
+  local chunk <const>, why = _G.loadfile((folder or "") .. file, "t")  -- which --safe replaces
   if not chunk then core.fail(why) end
   return chunk()
 end

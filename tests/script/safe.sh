@@ -54,6 +54,7 @@ refused "renaming in" "rename: 'outside/secret.txt' $out" 'os.rename("outside/se
 refused "removing" "remove: 'outside/secret.txt' $out" 'os.remove "outside/secret.txt"'
 refused "dofile" "dofile: 'outside/module2.lua' $out" 'dofile "outside/module2.lua"'
 refused "loadfile" "loadfile: 'outside/module2.lua' $out" 'loadfile "outside/module2.lua"'
+refused "include" "loadfile: 'outside/module2.lua' $out" 'include "outside/module2.lua"'
 refused "require of a file outside" "module 'module2' not found" 'package.path = "outside/?.lua;/?" require "module2"'
 refused "searchers kept from before" "attempt to call a nil value" 'package.searchers[3] "x"'
 refused "a compiled chunk" "attempt to load a binary chunk (mode is 't')" 'error(select(2, load(string.dump(function() end), "x", "b")), 0 + 1)'

@@ -132,10 +132,7 @@ std::string Arguments::text(const std::string& name) const {
   return {start, length};
 }
 
-std::size_t Arguments::choice(const std::string& name) const {
-  const auto& choices = find(name).first.choices;
-  return static_cast<std::size_t>(std::find(choices.begin(), choices.end(), text(name)) - choices.begin());
-}
+std::size_t Arguments::choice(const std::string& name) const { return find(name).first.which(text(name)); }
 
 std::vector<double> read_vector(lua_State* L, int index) {
   return read_list(L, index, [L](int at) { return static_cast<double>(lua_tonumber(L, at)); });

@@ -63,6 +63,13 @@ class Arguments {
   Enum choice(const std::string& name) const {  // what that stands for
     return static_cast<Enum>(find(name).first.values.at(choice(name)));
   }
+  template <class Enum>
+  std::vector<Enum> choices(const std::string& name) const {  // what the choices of a list stand for
+    const Key& item = find(name).first.items.front();
+    std::vector<Enum> all;
+    for (const std::string& text : texts(name)) all.push_back(static_cast<Enum>(item.values.at(item.which(text))));
+    return all;
+  }
   std::vector<double> vector(const std::string& name) const;
   std::vector<long long> integers(const std::string& name) const;  // a list of integers
   std::vector<std::string> texts(const std::string& name) const;   // a list of strings

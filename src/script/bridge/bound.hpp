@@ -40,11 +40,15 @@ template <class Struct, class Member>
 Key& Key::into(Member member) {
   Struct standard{};
   const auto own = member(standard);  // the default
+  using Value = std::remove_const_t<decltype(own)>;
   if (!needed && default_text.empty()) {
-    using Value = std::remove_const_t<decltype(own)>;
-    if constexpr (std::is_same_v<Value, bool>) kind == Kind::choice ? choice_fallback(own) : fallback(own);
-    else if constexpr (std::is_arithmetic_v<Value>) in_range(own) ? fallback(static_cast<double>(own)) : *this;
-    else if constexpr (requires { fallback(own); }) fallback(own);
+    if constexpr (std::is_same_v<Value, bool>) {
+      kind == Kind::choice ? choice_fallback(own) : fallback(own);
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+      if (in_range(own)) fallback(static_cast<double>(own));
+    } else if constexpr (requires { fallback(own); }) {
+      fallback(own);
+    }
   }
   const auto set = [key = name, member](const Arguments& from, void* all) { from.read(key, member(*static_cast<Struct*>(all))); };
   targets.push_back({&typeid(Struct), set});

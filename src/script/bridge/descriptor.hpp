@@ -110,6 +110,11 @@ struct Key {
     return (least_excluded ? value > least : value >= least) && (greatest_excluded ? value < greatest : value <= greatest);
   }
 
+  // Which of the choices.
+  std::size_t which(const std::string& text) const {
+    return static_cast<std::size_t>(std::find(choices.begin(), choices.end(), text) - choices.begin());
+  }
+
   // "a positive number", "one of "strain" or "stress"", "a body": completes "expected …".
   std::string expected() const;
 

@@ -30,7 +30,7 @@ std::vector<Key> with_kernel(std::vector<Key> own) {
 }
 
 std::optional<std::vector<int>> screws_of(const Call& call, std::string& shown) {
-  if (call.choice("kernel") == 0) return {};
+  if (call.text("kernel") == "exact") return {};
   shown += ", kernel by screws";
   std::vector<int> rows;
   if (call.has("screws"))

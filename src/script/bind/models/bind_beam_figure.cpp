@@ -36,11 +36,7 @@ std::string draw(Call& call, figure::PagePicture picture) {
 }
 
 std::vector<BeamPanel> panels(const Arguments& call, std::vector<BeamPanel> otherwise) {
-  if (!call.has("panels")) return otherwise;
-  std::vector<BeamPanel> out;
-  for (const std::string& name : call.texts("panels"))
-    out.push_back(std::find_if(kPanels.begin(), kPanels.end(), [&](const auto& panel) { return name == panel.first; })->second);
-  return out;
+  return call.has("panels") ? call.choices<BeamPanel>("panels") : otherwise;
 }
 
 std::string render_beam(Call& call) {

@@ -1,3 +1,5 @@
+#include <map>
+
 #include "program/active_set.hpp"
 #include "program/augmented_lagrangian.hpp"
 #include "program/bracket.hpp"
@@ -86,9 +88,11 @@ int equalities(const QuadraticProgram& p) {
 }
 
 std::vector<std::string> working(const ProgramResult& r) {
-  static const char* const names[] = {"low", "free", "high", "equal", "above", "below"};
+  using program::Side;
+  static const std::map<Side, const char*> names = {{Side::low, "low"}, {Side::free, "free"}, {Side::high, "high"}, {Side::equal, "equal"},
+                                                    {Side::above, "above"}, {Side::below, "below"}};
   std::vector<std::string> out;
-  for (const program::Side side : r.result.working) out.emplace_back(names[static_cast<int>(side) + 1]);
+  for (const Side side : r.result.working) out.emplace_back(names.at(side));
   return out;
 }
 

@@ -121,12 +121,10 @@ int design_contact(Call& call) {
 
 std::shared_ptr<Design> along(Call& call) {
   const auto d = call.self<Design>();
-  const std::vector<double> beta = call.vector("direction");
-  if (static_cast<int>(beta.size()) != d->state->space().variables())
-    throw InputError(text("'direction' has ", beta.size(), " components; there are ", d->state->space().variables(), " design variables"));
-  if (std::all_of(beta.begin(), beta.end(), [](double b) { return b == 0; })) throw InputError("'direction' is zero; derivatives go along one that moves something");
+  const algebra::Vector beta = variables_of(call.vector("direction"), d->state->space(), "direction");
+  if ((beta.array() == 0).all()) throw InputError("'direction' is zero; derivatives go along one that moves something");
   auto line = std::make_shared<Design>(*d);
-  line->state = std::make_shared<const DesignState>(*d->state, Eigen::Map<const algebra::Vector>(beta.data(), static_cast<Eigen::Index>(beta.size())));
+  line->state = std::make_shared<const DesignState>(*d->state, beta);
   line->derivatives = true;
   return line;
 }

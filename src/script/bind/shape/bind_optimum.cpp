@@ -81,12 +81,10 @@ class Run {
   }
 
   std::shared_ptr<OptimumHandle> run() {
-    if (start_.size() != static_cast<std::size_t>(shape_->space->variables()))
-      throw InputError(text("'start' has ", start_.size(), " components; there are ", shape_->space->variables(), " design variables"));
+    const Vector start = variables_of(start_, *shape_->space, "start");
     const shape::DesignProblem problem{shape_->lower, shape_->upper, [this](const Vector& alpha) { return evaluated(alpha); },
                                        [this](const DesignRecord& record) { tell(record); }};
     auto handle = std::make_shared<OptimumHandle>();
-    const Vector start = Eigen::Map<const Vector>(start_.data(), static_cast<Eigen::Index>(start_.size()));
     handle->optimum = method_ == 0 ? minimise(problem, start, slp(), stopping_) : minimise(problem, start, mma(), stopping_);
     handle->refusals = refusals_;
     handle->method = method_;

@@ -113,19 +113,12 @@ Given<Shape> make_shape(Call& call) {
   return {};
 }
 
-Vector alpha_of(const Call& call, const Shape& shape) {
-  if (!call.has("alpha")) return shape.start;
-  const std::vector<double> alpha = call.vector("alpha");
-  if (static_cast<int>(alpha.size()) != shape.space->variables())
-    throw InputError(text("'alpha' has ", alpha.size(), " components; there are ", shape.space->variables(), " design variables"));
-  return vector_of(alpha);
-}
-
 std::shared_ptr<Design> design(Call& call) {
   const auto shape = call.self<Shape>();
+  const Vector alpha = call.has("alpha") ? variables_of(call.vector("alpha"), *shape->space, "alpha") : shape->start;
   Watch watch(call.state(), "solving");
   auto design = std::make_shared<Design>();
-  design->state = std::make_shared<const shape::DesignState>(shape->space, alpha_of(call, *shape), shape->method, nullptr, std::make_shared<shape::Cost>(), watch);
+  design->state = std::make_shared<const shape::DesignState>(shape->space, alpha, shape->method, nullptr, std::make_shared<shape::Cost>(), watch);
   watch.judge(design->state->solution()->result());
   watch.answer();
   design->places = shape->places;
@@ -134,6 +127,12 @@ std::shared_ptr<Design> design(Call& call) {
 }
 
 }  // namespace
+
+Vector variables_of(const std::vector<double>& values, const shape::DesignSpace& space, const char* what) {
+  if (static_cast<int>(values.size()) != space.variables())
+    throw InputError(text("'", what, "' has ", values.size(), " components; there are ", space.variables(), " design variables"));
+  return vector_of(values);
+}
 
 Sought sought(const Call& call, const Shape& shape) {
   const auto take = [&](const QuantityChoice& choice) -> std::shared_ptr<const shape::Quantity> {

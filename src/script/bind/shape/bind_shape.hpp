@@ -6,13 +6,25 @@
 
 #include "scene/result/locate.hpp"
 #include "script/bridge/call.hpp"
-#include "script/bind/shape/dual.hpp"
+#include "algebra/types.hpp"
 #include "script/bridge/wrapped.hpp"
 #include "shape/design/evaluator.hpp"
 
 namespace dotyk::script {
 
 class Library;
+
+// A dual number of a script (lua/dual.lua): a value and its gradient.
+struct Dual {
+  double value = 0;
+  algebra::Vector gradient;
+};
+
+void push(lua_State* L, const Dual& dual);
+
+// The dual number on top of the stack, which is taken off; where `size` is 0, also a number. Throws std::runtime_error,
+// beginning with `what`, for anything else, another size, and numbers that are not finite.
+Dual take_dual(lua_State* L, Eigen::Index size, const std::string& what);
 
 // Finds the cells of the first design.
 class Places {
@@ -64,6 +76,9 @@ struct Variables {
   std::vector<double> lower, upper, start;
 };
 Variables read_moves(const Call& call, const scene::Scene& scene);
+
+// As many numbers as there are design variables; throws InputError, which calls them `what`, where there are more or fewer.
+algebra::Vector variables_of(const std::vector<double>& values, const shape::DesignSpace& space, const char* what);
 
 // The objective and the constraints, functions taken from those kept with the shape at stack index 1, for the running call.
 struct Sought {

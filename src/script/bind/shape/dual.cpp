@@ -1,4 +1,4 @@
-#include "script/bind/shape/dual.hpp"
+#include "script/bind/shape/bind_shape.hpp"
 
 #include <stdexcept>
 

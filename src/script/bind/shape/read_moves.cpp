@@ -8,6 +8,7 @@
 namespace dotyk::script {
 namespace {
 
+using shape::Extension;
 using shape::Velocities;
 
 std::vector<Key> move_keys() {
@@ -18,8 +19,8 @@ std::vector<Key> move_keys() {
           key::integer("degree", "of the B-spline").within(1, 3).into(&shape::ControlPoints::degree),
           key::vector("direction", "in which control points go; its length scales the variables").otherwise("along the outward normal"),
           key::boolean("symmetric", "control points mirrored at the middle of the part are one variable").fallback(false),
-          key::choice("extension", {"harmonic", "structured"},
-                      "how the mesh follows: each component harmonic, or linear along the lines of a grid to the opposite side (in the plane)").fallback("harmonic"),
+          key::choice<Extension>("extension", {{"harmonic", Extension::harmonic}, {"structured", Extension::structured}},
+                      "how the mesh follows: each component harmonic, or linear along the lines of a grid to the opposite side (in the plane)").fallback(Extension::harmonic),
           key::list("fixed", key::object<scene::Part>("", ""), "parts of the body that stay").otherwise("what is not beside the moving part stays by itself"),
           key::object<scene::Body>("body", "a body whose nodes move by one variable, as velocity says").otherwise("part"),
           key::function("velocity", "f(x, y[, z]) → components of a node's velocity per unit of the variable"),
@@ -61,7 +62,7 @@ std::vector<std::vector<double>> by_spline(const Arguments& move, const scene::S
   std::vector<scene::Part> fixed;
   if (move.has("fixed"))
     for (const auto& stays : move.objects<scene::Part>("fixed")) fixed.push_back(*stays);
-  return extend(motion, fixed, move.choice("extension") == 0 ? shape::Extension::harmonic : shape::Extension::structured);
+  return extend(motion, fixed, move.choice<Extension>("extension"));
 }
 
 std::vector<double> by_function(const Arguments& move, const scene::Body& body) {
