@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace dotyk::problem {
@@ -17,45 +18,30 @@ enum class Side { left, right };
 
 /// The limit of r at v from one side; within the displacements that the law admits.
 double limit_of_reaction(const SupportLaw& law, double v, Side side) {
-  const double k = law.value, yield = yield_displacement(law);
   const auto below = [&](double kink) { return v < kink || (v == kink && side == Side::left); };
-  switch (law.kind) {
-    case Kind::free:
-    case Kind::prescribed:
-    case Kind::signorini:
-    case Kind::coulomb: return 0;
-    case Kind::load: return law.value;
-    case Kind::elastic: return -k * v;
-    case Kind::one_sided_elastic: return below(0) ? -k * v : 0;
-    case Kind::compliance: return below(0) ? k * std::pow(-v, law.power) : 0;
-    case Kind::friction: return below(0) ? law.value : -law.value;
-    case Kind::one_sided_friction: return below(0) ? law.value : 0;
-    case Kind::capped_elastic: return below(-yield) ? law.limit : below(yield) ? -k * v : -law.limit;
-    case Kind::unequal_elastic: return -(below(0) ? k : law.pull) * v;
-    case Kind::breaking: return below(-yield) || !below(0) ? 0 : -k * v;
-  }
-  return 0;
+  if (law.kind == Kind::load) return law.value;
+  if (law.kind == Kind::compliance) return below(0) ? law.value * std::pow(-v, law.power) : 0;
+  if (law.kind == Kind::breaking && below(-yield_displacement(law))) return 0;
+  const auto row = row_law(law);
+  if (!row || law.kind == Kind::prescribed) return 0;
+  const Interval bounds = row->multipliers(0);
+  const double k = below(0) ? row->springs(0)->above : row->springs(0)->below;
+  if (!std::isfinite(k)) return below(0) ? bounds.high : bounds.low;
+  return std::clamp(-k * v, bounds.low, bounds.high);
 }
 
-/// Displacements where r has a kink or many values, ascending.
-std::vector<double> kinks(const SupportLaw& law) {
-  const double yield = yield_displacement(law);
-  switch (law.kind) {
-    case Kind::one_sided_elastic:
-    case Kind::compliance:
-    case Kind::unequal_elastic:
-    case Kind::friction:
-    case Kind::one_sided_friction: return {0};
-    case Kind::capped_elastic: return {-yield, yield};
-    case Kind::breaking: return {-yield, 0};
-    case Kind::free:
-    case Kind::prescribed:
-    case Kind::load:
-    case Kind::elastic:
-    case Kind::coulomb:
-    case Kind::signorini: break;
-  }
-  return {};
+/// Displacements where r has a kink or many values.
+std::set<double> kinks(const SupportLaw& law) {
+  std::set<double> at;
+  if (law.kind == Kind::compliance) return {0};
+  if (law.kind == Kind::breaking) at.insert(-yield_displacement(law));
+  const auto row = row_law(law);
+  if (!row || row->multipliers(0).low == row->multipliers(0).high) return at;
+  if (kinked_at_zero(*row, 0)) at.insert(0);
+  const Interval x = following(*row, 0);
+  for (const double end : {x.low, x.high})
+    if (std::isfinite(end)) at.insert(-end);
+  return at;
 }
 
 void add(Curve& curve, double x, double y) { curve.x.push_back(x), curve.y.push_back(y); }
@@ -106,23 +92,12 @@ double yield_displacement(const SupportLaw& law) {
 }
 
 double energy(const SupportLaw& law, double v) {
+  if (law.kind == Kind::load) return -law.value * v;
+  if (law.kind == Kind::prescribed) return v == law.value ? 0 : kInfinite;
+  if (law.kind == Kind::signorini) return v >= 0 ? 0 : kInfinite;
   const auto row = row_law(law);
-  switch (law.kind) {
-    case Kind::free:
-    case Kind::coulomb: return 0;
-    case Kind::load: return -law.value * v;
-    case Kind::prescribed: return v == law.value ? 0 : kInfinite;
-    case Kind::signorini: return v >= 0 ? 0 : kInfinite;
-    case Kind::breaking: return row->energy(0, std::min(-v, yield_displacement(law)));
-    case Kind::elastic:
-    case Kind::one_sided_elastic:
-    case Kind::compliance:
-    case Kind::friction:
-    case Kind::one_sided_friction:
-    case Kind::capped_elastic:
-    case Kind::unequal_elastic: break;
-  }
-  return row->energy(0, -v);
+  if (!row) return 0;
+  return row->energy(0, law.kind == Kind::breaking ? std::min(-v, yield_displacement(law)) : -v);
 }
 
 SupportGraph graph(const SupportLaw& law, const GraphWindow& window) {

@@ -1,5 +1,6 @@
 #include "problem/support_law.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -139,25 +140,14 @@ std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit, const std
 }
 
 std::optional<double> sole_displacement(const SupportLaw& law, double r) {
-  const auto within = [&](bool inside, double v) { return inside ? std::optional<double>(v) : std::nullopt; };
-  switch (law.kind) {
-    case Kind::free:
-    case Kind::load:
-    case Kind::coulomb: return std::nullopt;
-    case Kind::prescribed: return law.value;
-    case Kind::compliance: return within(law.value > 0 && r > 0, -std::pow(r / law.value, 1 / law.power));
-    case Kind::elastic: return within(law.value > 0, -r / law.value);
-    case Kind::one_sided_elastic: return within(law.value > 0 && r > 0, -r / law.value);
-    case Kind::signorini: return within(r > 0, 0);
-    case Kind::friction: return within(std::abs(r) < law.value, 0);
-    case Kind::one_sided_friction: return within(r > 0 && r < law.value, 0);
-    case Kind::capped_elastic: return within(law.value > 0 && std::abs(r) < law.limit, -r / law.value);
-    case Kind::unequal_elastic:
-      if (r == 0) return within(law.value > 0 && law.pull > 0, 0);
-      return r > 0 ? within(law.value > 0, -r / law.value) : within(law.pull > 0, -r / law.pull);
-    case Kind::breaking: return within(law.value > 0 && r > 0 && r < law.limit, -r / law.value);
-  }
-  return std::nullopt;
+  if (law.kind == Kind::prescribed) return law.value;
+  const auto row = row_law(law);
+  if (!row) return std::nullopt;
+  const Interval bounds = row->multipliers(0);
+  const double most = law.kind == Kind::breaking ? std::min(law.limit, bounds.high) : bounds.high;
+  if (!(r > bounds.low && r < most)) return std::nullopt;
+  if (law.kind == Kind::compliance) return -std::pow(r / law.value, 1 / law.power);
+  return -r / (r > 0 ? row->springs(0)->above : row->springs(0)->below);
 }
 
 }  // namespace dotyk::problem

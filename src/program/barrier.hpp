@@ -2,53 +2,67 @@
 
 #include <vector>
 
-#include "program/kkt.hpp"
+#include "program/program.hpp"
 
 namespace dotyk::program {
 
-/// The iterate of a primal–dual interior-point method for a (scaled) program, and its steps: predictor
-/// (Mehrotra 1992), centrality corrections (Gondzio 1996), quasidefinite KKT systems with refinement.
+/// Mehrotra's predictor–corrector method (1992) with Gondzio's centrality corrections (1996), whatever linear algebra solves
+/// for its steps. Unknowns w have limits low ≤ w ≤ high, each finite one a slack s and a multiplier z > 0,
+///   w − low = s_l,   high − w = s_u,   s z = μ → 0,   y = z_u − z_l;
+/// what derives knows the equations that bind w and y to each other, and to other unknowns x. Slacks are unknowns of their own: w − low
+/// would lose its digits. Once s and z are eliminated, a step has
+///   dy = θ dw + κ,   θ = z_l/s_l + z_u/s_u,
+/// where w has limits. Where low = high or both are infinite there is no pair s, z, and y is for the equations to say.
 class Barrier {
  public:
-  explicit Barrier(const QuadraticProgram& program);
-
-  /// x, the activities w of the rows, and slack s and multiplier z ≥ 0 of their finite limits; y = z_u − z_l
-  /// but for equalities. Slacks are unknowns of their own: w − low would lose its digits.
   struct Point {
-    Vector x, y, w, sl, su, zl, zu;
+    Vector w, y, sl, su, zl, zu;  ///< m
+    Vector x;
   };
+  virtual ~Barrier() = default;
 
-  /// Multipliers start `far` inside: too near zero they shrink the first steps.
-  void start(double far);
-  /// Residuals at the point.
-  void evaluate();
-  /// The largest of the residuals, relative, and of the gap.
-  double merit() const;
-  /// False where the KKT system cannot be factored or the step is not finite.
+  /// The residuals at the point, which step() goes by. What derives adds those of its equations.
+  virtual void evaluate();
+  /// False where a linear system cannot be factored or the step is not finite.
   bool step();
-  /// Rows whose multiplier exceeds their slack at a point: the active set it predicts.
-  std::vector<Side> active(const Point& at) const;
 
   const Point& point() const { return at_; }
   /// The last step's direction: of iterates that go to infinity it is the cleaner proof.
   const Point& last() const { return last_; }
-  int factorisations() const { return factorisations_; }
+  /// The mean of s z, which is μ.
+  double gap() const { return mu_; }
+  /// Has one of s and z ceased to fall in every pair in the last step, while the other falls on?
+  bool decided() const;
+  /// Which limit w ends at: where s fell by more in the last step than z, whatever their units.
+  Side end(int row) const;
+
+ protected:
+  Barrier(Vector low, Vector high);
+  /// w as near to `towards` as `room` from its limits allows, or a quarter of their distance where that is less; all s z are `unit`,
+  /// beside which μ is small or not.
+  void place(const Vector& towards, double room, double unit);
+  /// Gets ready to solve with θ (m, zero where w has no limits); false where that cannot be done.
+  virtual bool factor(const Vector& theta) = 0;
+  /// dw, dx, and dy where w has no limits, for κ (m) and the θ before.
+  virtual void solve(const Vector& kappa, Point& step) = 0;
+  bool limited(int row) const { return has_low_[row] || has_high_[row]; }
+  int rows() const { return static_cast<int>(low_.size()); }
+
+  const Vector low_, high_;
+  std::vector<char> has_low_, has_high_;
+  Vector rl_, ru_;            ///< residuals of the slacks
+  double complementary_ = 0;  ///< the sum of s z
+  Point at_;
 
  private:
-  bool factor(const Vector& theta_inverse, double least);
-  Vector solve(const Vector& f, const Vector& h, const Vector& theta_inverse) const;
-  Point zero() const;
-  Point direction(const Vector& theta_inverse, Vector cl, Vector cu) const;
+  Point direction(Vector cl, Vector cu);
   double longest(const Point& d) const;
+  double complementary(const Point& d, double length) const;
   void centre(const Point& d, double reach, double aim, Vector& cl, Vector& cu) const;
 
-  const QuadraticProgram& p_;
-  int n_, m_, limits_ = 0, factorisations_ = 0;
-  Kkt kkt_;
-  std::vector<char> taken_, has_low_, has_high_;
-  Vector D_, rd_, rp_, rl_, ru_;  ///< residuals: stationarity, Ax = w, the two slacks
-  Point at_, last_;
-  double regular_ = 0, mu_ = 0, primal_ = 0, dual_ = 0, gap_ = 0, size_b_ = 0;
+  int limits_ = 0;
+  double mu_ = 0, unit_ = 1;
+  Point last_, before_;  ///< the last direction, and where it began
 };
 
 }  // namespace dotyk::program

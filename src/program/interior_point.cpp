@@ -9,6 +9,8 @@
 #include "program/active_set.hpp"
 #include "program/barrier.hpp"
 #include "program/certificate.hpp"
+#include "program/kkt.hpp"
+#include "program/refine.hpp"
 #include "program/scaling.hpp"
 
 namespace dotyk::program {
@@ -22,6 +24,122 @@ constexpr int kEndsExactly = 200;
 constexpr int kPatience = 15;
 /// The same where all that is asked for yet is `fine`.
 constexpr int kFinerPatience = 3;
+
+/// Least regularisation of the KKT matrix, in units of a scaled program.
+constexpr double kBarrierRegularisation = 1e-12;
+
+/// The barrier of a (scaled) program, w its activities Ax: quasidefinite KKT systems with refinement.
+class ProgramBarrier final : public Barrier {
+ public:
+  /// Multipliers start `far` inside: too near zero they shrink the first steps.
+  ProgramBarrier(const QuadraticProgram& program, double far);
+
+  void evaluate() override;
+  /// The largest of the residuals, relative, and of the gap.
+  double merit() const { return std::max({primal_ / (1 + size_b_), dual_ / (1 + peak(p_.q)), gap_}); }
+  /// Rows whose multiplier exceeds their slack at a point: the active set it predicts.
+  std::vector<Side> active(const Point& at) const;
+  int factorisations() const { return factorisations_; }
+
+ private:
+  bool factor(const Vector& theta) override;
+  bool factor(const Vector& theta_inverse, double least);
+  void solve(const Vector& kappa, Point& step) override;
+
+  const QuadraticProgram& p_;
+  int n_, factorisations_ = 0;
+  Kkt kkt_;
+  std::vector<char> taken_;
+  Vector theta_inverse_, D_, rd_, rp_;  ///< residuals: stationarity, Ax = w
+  double regular_ = 0, primal_ = 0, dual_ = 0, gap_ = 0, size_b_ = 0;
+};
+
+ProgramBarrier::ProgramBarrier(const QuadraticProgram& p, double far)
+    : Barrier(p.low, p.high), p_(p), n_(p.unknowns()), kkt_(p), taken_(rows(), 0), theta_inverse_(Vector::Ones(rows())), D_(rows()) {
+  Vector b(n_ + rows());
+  b << -p.q, Vector::Zero(rows());
+  for (int r = 0; r < rows(); ++r) {
+    taken_[r] = std::isfinite(p.low[r]) || std::isfinite(p.high[r]);
+    if (p.equality(r)) size_b_ = std::max(size_b_, std::abs(p.low[r])), theta_inverse_[r] = 0;
+    if (taken_[r]) b[n_ + r] = std::clamp(0.0, p.low[r], p.high[r]);
+  }
+  Vector z = Vector::Zero(n_ + rows());
+  if (factor(theta_inverse_, 1)) {
+    regular_ = kBarrierRegularisation;
+    z = kkt_.solve(b);
+  }
+  at_.x = z.head(n_);
+  const Vector Ax = p.A * at_.x, y = z.tail(rows());
+  double out = 0, force = 0;
+  for (int r = 0; r < rows(); ++r) {
+    if (has_low_[r]) out = std::max(out, p.low[r] - Ax[r]);
+    if (has_high_[r]) out = std::max(out, Ax[r] - p.high[r]);
+    if (limited(r)) force = std::max(force, std::abs(y[r]));
+  }
+  place(Ax, std::max(1.0, 1.5 * out), 1);
+  const double push = far * std::max(1.0, 0.5 * force);
+  for (int r = 0; r < rows(); ++r) {
+    if (has_low_[r]) at_.zl[r] = push + std::max(0.0, -y[r]);
+    if (has_high_[r]) at_.zu[r] = push + std::max(0.0, y[r]);
+    at_.y[r] = limited(r) ? at_.zu[r] - at_.zl[r] : taken_[r] ? y[r] : 0;
+  }
+}
+
+/// Regularised no more than the pivots ask for: as many of them must be negative as there are rows.
+bool ProgramBarrier::factor(const Vector& theta_inverse, double least) {
+  for (regular_ = least; regular_ <= 1; regular_ *= 10) {
+    ++factorisations_;
+    for (int r = 0; r < rows(); ++r) D_[r] = regular_ + theta_inverse[r];
+    if (kkt_.factor(regular_, D_, taken_)) return true;
+  }
+  return false;
+}
+
+bool ProgramBarrier::factor(const Vector& theta) {
+  for (int r = 0; r < rows(); ++r) theta_inverse_[r] = limited(r) ? 1 / theta[r] : 0;
+  return factor(theta_inverse_, std::max(kBarrierRegularisation, 0.1 * regular_));
+}
+
+/// Solves [P Aᵀ; A −Θ⁻¹] (dx, dy) = (−r_d, −r_p − Θ⁻¹κ), refined; dw = Θ⁻¹(dy − κ).
+void ProgramBarrier::solve(const Vector& kappa, Point& d) {
+  Vector b(n_ + rows());
+  b << -rd_, -rp_ - kappa.cwiseProduct(theta_inverse_);
+  for (int r = 0; r < rows(); ++r)
+    if (!taken_[r]) b[n_ + r] = 0;
+  const auto K = [&](const Vector& z) {
+    Vector out = kkt_times(p_, taken_, z);
+    for (int r = 0; r < rows(); ++r) out[n_ + r] = taken_[r] ? out[n_ + r] - theta_inverse_[r] * z[n_ + r] : -z[n_ + r];
+    return out;
+  };
+  const Vector z = refine(K, [&](const Vector& v) { return kkt_.solve(v); }, b, 1e-12 * peak(b), 4).z;
+  d.x = z.head(n_), d.y = z.tail(rows());
+  for (int r = 0; r < rows(); ++r)
+    if (limited(r)) d.w[r] = (d.y[r] - kappa[r]) * theta_inverse_[r];
+}
+
+void ProgramBarrier::evaluate() {
+  Barrier::evaluate();
+  const Vector Px = times(p_.P, at_.x);
+  rd_ = Px + p_.q + p_.A.transpose() * at_.y;
+  rp_ = p_.A * at_.x;
+  for (int r = 0; r < rows(); ++r) rp_[r] = !taken_[r] ? 0 : rp_[r] - (p_.equality(r) ? p_.low[r] : at_.w[r]);
+  primal_ = std::max({peak(rp_), peak(rl_), peak(ru_)});
+  dual_ = peak(rd_);
+  // Residuals count by what they may change of the objective, too: multipliers can be huge.
+  gap_ = complementary_ + std::abs(rd_.dot(at_.x)) + rp_.cwiseAbs().dot(at_.y.cwiseAbs()) +
+         rl_.cwiseAbs().dot(at_.zl) + ru_.cwiseAbs().dot(at_.zu);
+  gap_ /= 1 + std::abs(0.5 * at_.x.dot(Px) + p_.q.dot(at_.x));
+}
+
+std::vector<Side> ProgramBarrier::active(const Point& at) const {
+  std::vector<Side> side(rows(), Side::free);
+  for (int r = 0; r < rows(); ++r) {
+    if (p_.equality(r)) side[r] = Side::equal;
+    else if (has_low_[r] && at.zl[r] > at.sl[r]) side[r] = Side::low;
+    else if (has_high_[r] && at.zu[r] > at.su[r]) side[r] = Side::high;
+  }
+  return side;
+}
 
 /// Iterates that go to infinity show a direction that proves why.
 bool diverged(const QuadraticProgram& p, const Barrier& barrier, Result& result) {
@@ -52,8 +170,7 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
   Result result;
   result.iterations = done;
   Stopwatch clock;
-  Barrier barrier(p);
-  barrier.start(far);
+  ProgramBarrier barrier(p, far);
   Barrier::Point best = barrier.point();
   double least = INFINITY;
   int since_best = 0;

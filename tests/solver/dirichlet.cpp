@@ -1,11 +1,10 @@
-#include "solver/feti/dirichlet.hpp"
 
 #include <doctest/doctest.h>
 
 #include "../support/dual.hpp"
 #include "algebra/dense/decompositions.hpp"
 #include "solver/feti/feti.hpp"
-#include "solver/feti/lumped.hpp"
+#include "solver/feti/piece_stiffness.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -29,7 +28,7 @@ DenseMatrix schur(const solver::Piece& piece) {
   return S;
 }
 
-solver::Dirichlet dirichlet_of(const solver::DualProblem& dual) {
+solver::PieceStiffness dirichlet_of(const solver::DualProblem& dual) {
   Monitor quiet;
   return {dual, algebra::Ordering::automatic, quiet};
 }
@@ -103,7 +102,7 @@ TEST_CASE("spectra on im P: from 1 on with either preconditioner, to H/h with th
     const auto p = test::cut_box(true, n);
     const auto dual = test::dual_of(p);
     const auto dirichlet = dirichlet_of(dual);
-    const solver::Lumped simple(dual);
+    const solver::PieceStiffness simple(dual);
     const int m = dual.rows();
     const DenseMatrix P = test::projector({dual.G(), dual.e()}, m);
     const DenseMatrix F = test::as_matrix(m, [&](const Vector& v) { return dual.apply(v); });

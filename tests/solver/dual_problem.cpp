@@ -6,8 +6,7 @@
 #include "../support/programs.hpp"
 #include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
-#include "solver/feti/dirichlet.hpp"
-#include "solver/feti/lumped.hpp"
+#include "solver/feti/piece_stiffness.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -41,7 +40,7 @@ TEST_CASE("F is symmetric, positive semidefinite, and B K† Bᵀ where rigid mo
     const DenseMatrix P = test::projector({dual.G(), dual.e()}, n);
     CHECK(test::relative(P * F * P, P * exact * P) < 1e-12);
     if (!support_rows) CHECK(dual.e().size() == 8 * 6);  // the left pieces are held by what stays in their K
-    const solver::Lumped preconditioner(dual);
+    const solver::PieceStiffness preconditioner(dual);
     const DenseMatrix lumped = test::as_matrix(n, [&](const Vector& v) { return preconditioner.apply(v); });
     CHECK(test::relative(lumped, test::dense_weighted(dual.torn(), [](const auto& piece) { return test::full(*piece.K); })) < 1e-13);
   }
@@ -162,8 +161,8 @@ TEST_CASE("blocks that no row touches, held, free or without unknowns") {
   CHECK((problem::stiffness_times(p, u) - test::load(p)).norm() < 1e-12 * test::load(p).norm());
   Monitor quiet;
   CHECK(dual.apply(Vector(0)).size() == 0);
-  CHECK(solver::Lumped(dual).apply(Vector(0)).size() == 0);
-  CHECK(solver::Dirichlet(dual, algebra::Ordering::automatic, quiet).apply(Vector(0)).size() == 0);
+  CHECK(solver::PieceStiffness(dual).apply(Vector(0)).size() == 0);
+  CHECK(solver::PieceStiffness(dual, algebra::Ordering::automatic, quiet).apply(Vector(0)).size() == 0);
 }
 
 TEST_CASE("a piece whose kernel is larger than said is refused, naming it and where") {

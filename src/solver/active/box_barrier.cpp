@@ -1,10 +1,11 @@
 #include "solver/active/box_barrier.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
+#include "program/barrier.hpp"
 
 namespace dotyk::solver {
 
@@ -37,219 +38,111 @@ namespace {
 constexpr int kMostBarrierSteps = 80;
 constexpr double kUndecidedBound = 1e-8;  ///< of the tolerance: bounds that are undecided there touch without pressing
 
-/// The scaled program, without rows that have one multiplier only.
-class Barrier {
- public:
-  Barrier(const BoxProgram& program, double tol) : whole_(program), tol_(tol) {
-    for (int i = 0; i < program.g.size(); ++i)
-      if (program.low[i] < program.high[i]) rows_.push_back(i);
-    scale();
-  }
+/// A program in units in which H has a diagonal of 1, g a greatest entry of 1 and columns of N are of length 1, without rows that have one
+/// multiplier only.
+struct ScaledBox {
+  explicit ScaledBox(const BoxProgram& whole);
+  int size() const { return static_cast<int>(rows.size()); }
 
-  BoxSolution operator()() {
-    BoxSolution out;
-    start();
-    while (out.iterations < kMostBarrierSteps && step()) {
-      ++out.iterations;
-      if (error() > tol_) {
-        if (out.converged) break;  // rounding has taken over
-        continue;
-      }
-      out.converged = true;
-      if (decided() || gap_at(x_, z_low_, z_high_) <= kUndecidedBound * tol_) break;
-    }
-    out.lambda = whole_.low;
-    out.alpha = alpha_.cwiseProduct(motion_unit_);
-    out.side.assign(whole_.g.size(), 0);
-    for (int k = 0; k < size(); ++k) {
-      const int i = rows_[k];
-      out.lambda[i] = std::clamp(x_[k] * unit_[k] * force_, whole_.low[i], whole_.high[i]);
-      if (bounded_below(k) && slower(z_low_[k], before_.z_low[k], x_[k] - low_[k], before_.x[k] - low_[k])) out.side[i] = -1;
-      else if (bounded_above(k) && slower(z_high_[k], before_.z_high[k], high_[k] - x_[k], high_[k] - before_.x[k])) out.side[i] = 1;
-    }
-    return out;
+  std::vector<int> rows;  ///< of the whole program
+  double force = 1;
+  Vector unit, motion_unit;  ///< of multipliers, besides `force`, and of motions
+  BoxProgram program;
+};
+
+ScaledBox::ScaledBox(const BoxProgram& whole) {
+  const int m = static_cast<int>(whole.N.cols());
+  Vector fixed = Vector::Zero(whole.g.size());
+  for (int i = 0; i < fixed.size(); ++i) {
+    if (whole.low[i] < whole.high[i]) rows.push_back(i);
+    else fixed[i] = whole.low[i];
   }
+  const Vector diagonal = whole.H.diagonal(), g = whole.g - whole.H * fixed;
+  unit = diagonal(rows).cwiseMax(1e-14 * (size() > 0 ? diagonal.maxCoeff() : 1)).cwiseSqrt().cwiseInverse();
+  program = {unit.asDiagonal() * whole.H(rows, rows) * unit.asDiagonal(), unit.cwiseProduct(g(rows)), {}, {},
+             unit.asDiagonal() * whole.N(rows, Eigen::all), whole.e - whole.N.transpose() * fixed};
+  if (size() > 0) force = program.g.lpNorm<Eigen::Infinity>();
+  if (m > 0) force = std::max(force, program.e.lpNorm<Eigen::Infinity>() / std::max(1e-300, program.N.lpNorm<Eigen::Infinity>()));
+  if (!(force > 0)) force = 1;
+  program.g /= force, program.e /= force;
+  program.low = whole.low(rows).cwiseQuotient(unit * force);
+  program.high = whole.high(rows).cwiseQuotient(unit * force);
+  motion_unit = Vector::Zero(m);
+  for (int j = 0; j < m; ++j) {
+    const double length = program.N.col(j).norm();
+    if (length == 0) continue;
+    program.N.col(j) /= length;
+    program.e[j] /= length;
+    motion_unit[j] = force / length;
+  }
+}
+
+/// w is λ, x is α.
+class BoxBarrier final : public program::Barrier {
+ public:
+  explicit BoxBarrier(const BoxProgram& program) : Barrier(program.low, program.high), p_(program) {
+    at_.x = Vector::Zero(p_.N.cols());
+    place(Vector::Zero(rows()), 1, 1);
+  }
+  void evaluate() override {
+    Barrier::evaluate();
+    unbalanced_ = p_.e - p_.N.transpose() * at_.w;
+    dual_ = p_.g - p_.H * at_.w + p_.N * at_.x - at_.y;
+  }
+  double error() const { return std::max({program::peak(dual_), program::peak(unbalanced_), gap()}); }
 
  private:
-  int size() const { return static_cast<int>(rows_.size()); }
-
-  void scale() {
-    const int n = size(), m = static_cast<int>(whole_.N.cols());
-    const double greatest = n > 0 ? whole_.H.diagonal().maxCoeff() : 1;
-    unit_.resize(n), H_.resize(n, n), g_.resize(n), low_.resize(n), high_.resize(n), N_.resize(n, m);
-    Vector fixed = Vector::Zero(whole_.g.size());
-    for (int i = 0; i < fixed.size(); ++i)
-      if (whole_.low[i] >= whole_.high[i]) fixed[i] = whole_.low[i];
-    const Vector g = whole_.g - whole_.H * fixed;
-    e_ = whole_.e - whole_.N.transpose() * fixed;
-    for (int k = 0; k < n; ++k) unit_[k] = 1 / std::sqrt(std::max(whole_.H(rows_[k], rows_[k]), 1e-14 * greatest));
-    for (int k = 0; k < n; ++k) g_[k] = unit_[k] * g[rows_[k]];
-    force_ = n > 0 ? g_.lpNorm<Eigen::Infinity>() : 1;
-    if (m > 0) force_ = std::max(force_, e_.lpNorm<Eigen::Infinity>() / std::max(1e-300, (unit_.asDiagonal() * pick(whole_.N)).cwiseAbs().maxCoeff()));
-    if (!(force_ > 0)) force_ = 1;
-    g_ /= force_;
-    for (int k = 0; k < n; ++k) {
-      for (int j = 0; j < n; ++j) H_(j, k) = unit_[j] * whole_.H(rows_[j], rows_[k]) * unit_[k];
-      low_[k] = whole_.low[rows_[k]] / (unit_[k] * force_);
-      high_[k] = whole_.high[rows_[k]] / (unit_[k] * force_);
-    }
-    N_ = unit_.asDiagonal() * pick(whole_.N);
-    e_ /= force_;
-    motion_unit_ = Vector::Zero(m);
-    for (int j = 0; j < m; ++j) {
-      const double length = N_.col(j).norm();
-      if (length == 0) continue;
-      N_.col(j) /= length;
-      motion_unit_[j] = force_ / length;
-      e_[j] /= length;
-    }
-  }
-
-  DenseMatrix pick(const DenseMatrix& from) const {
-    DenseMatrix out(size(), from.cols());
-    for (int k = 0; k < size(); ++k) out.row(k) = from.row(rows_[k]);
-    return out;
-  }
-
-  bool bounded_below(int k) const { return std::isfinite(low_[k]); }
-  bool bounded_above(int k) const { return std::isfinite(high_[k]); }
-
-  void start() {
-    const int n = size();
-    x_ = Vector::Zero(n), z_low_ = Vector::Zero(n), z_high_ = Vector::Zero(n), alpha_ = Vector::Zero(N_.cols());
-    for (int k = 0; k < n; ++k) {
-      if (bounded_below(k) && bounded_above(k)) x_[k] = std::clamp(0.0, std::min(low_[k] + 1, middle(k)), std::max(high_[k] - 1, middle(k)));
-      else if (bounded_below(k)) x_[k] = low_[k] + 1;
-      else if (bounded_above(k)) x_[k] = high_[k] - 1;
-      z_low_[k] = bounded_below(k), z_high_[k] = bounded_above(k);
-    }
-    before_ = {x_, z_low_, z_high_, {}};
-  }
-
-  double middle(int k) const { return (low_[k] + high_[k]) / 2; }
-  int bounds() const {
-    int count = 0;
-    for (int k = 0; k < size(); ++k) count += bounded_below(k) + bounded_above(k);
-    return std::max(count, 1);
-  }
-  double gap_at(const Vector& x, const Vector& z_low, const Vector& z_high) const {
-    double sum = 0;
-    for (int k = 0; k < size(); ++k) {
-      if (bounded_below(k)) sum += z_low[k] * (x[k] - low_[k]);
-      if (bounded_above(k)) sum += z_high[k] * (high_[k] - x[k]);
-    }
-    return sum / bounds();
-  }
-  Vector stationarity() const { return g_ - H_ * x_ + N_ * alpha_ + z_low_ - z_high_; }
-  double error() const {
-    const double dual = size() ? stationarity().lpNorm<Eigen::Infinity>() : 0, primal = e_.size() ? (e_ - N_.transpose() * x_).lpNorm<Eigen::Infinity>() : 0;
-    return std::max({dual, primal, gap_at(x_, z_low_, z_high_)});
-  }
-
-  struct Direction {
-    Vector x, z_low, z_high, alpha;
-  };
-
-  /// Has z fallen by less than the distance to its bound in the last step, whatever their units?
-  static bool slower(double z, double z_before, double distance, double distance_before) { return z * distance_before > distance * z_before; }
-
-  /// Has one of the two ceased to fall at every bound, while the other falls on?
-  bool decided() const {
-    const auto clear = [](double a, double b) { return std::min(a, b) < kFalls * std::max(a, b) && std::max(a, b) > kStays; };
-    for (int k = 0; k < size(); ++k) {
-      if (bounded_below(k) && !clear((x_[k] - low_[k]) / (before_.x[k] - low_[k]), z_low_[k] / before_.z_low[k])) return false;
-      if (bounded_above(k) && !clear((high_[k] - x_[k]) / (high_[k] - before_.x[k]), z_high_[k] / before_.z_high[k])) return false;
-    }
-    return true;
-  }
-
-  bool factor() {
-    M_ = H_;
-    for (int k = 0; k < size(); ++k) {
-      if (bounded_below(k)) M_(k, k) += z_low_[k] / (x_[k] - low_[k]);
-      if (bounded_above(k)) M_(k, k) += z_high_[k] / (high_[k] - x_[k]);
-      M_(k, k) += 1e-14;
-    }
+  bool factor(const Vector& theta) override {
+    M_ = p_.H;
+    M_.diagonal() += theta + Vector::Constant(rows(), 1e-14);
     if (!algebra::cholesky(M_)) return false;
-    Y_ = N_;
+    Y_ = p_.N;
     if (Y_.cols() == 0) return true;
     algebra::solve_lower(M_, Y_);
     schur_.emplace(algebra::gram(Y_));
     return true;
   }
 
-  /// Newton's step to complementarity `target`, with the predictor's products taken off.
-  Direction direction(double target, const Direction* predictor) const {
-    const int n = size();
-    Vector low_target = Vector::Zero(n), high_target = Vector::Zero(n);
-    for (int k = 0; k < n; ++k) {
-      if (bounded_below(k)) low_target[k] = target - (predictor ? predictor->x[k] * predictor->z_low[k] : 0);
-      if (bounded_above(k)) high_target[k] = target + (predictor ? predictor->x[k] * predictor->z_high[k] : 0);
-    }
-    DenseMatrix r = stationarity();
-    for (int k = 0; k < n; ++k) {
-      if (bounded_below(k)) r(k, 0) += low_target[k] / (x_[k] - low_[k]) - z_low_[k];
-      if (bounded_above(k)) r(k, 0) -= high_target[k] / (high_[k] - x_[k]) - z_high_[k];
-    }
-    Direction d;
+  void solve(const Vector& kappa, Point& d) override {
+    DenseMatrix r = dual_ - kappa;
     algebra::solve_lower(M_, r);
-    d.alpha = Vector::Zero(N_.cols());
-    if (N_.cols() > 0) {
-      d.alpha = schur_->solve(Vector(e_ - N_.transpose() * x_ - Y_.transpose() * r));
-      r += Y_ * d.alpha;
+    d.x = Vector::Zero(p_.N.cols());
+    if (d.x.size() > 0) {
+      d.x = schur_->solve(Vector(unbalanced_ - Y_.transpose() * r));
+      r += Y_ * d.x;
     }
     algebra::solve_lower_transposed(M_, r);
-    d.x = r;
-    d.z_low = Vector::Zero(n), d.z_high = Vector::Zero(n);
-    for (int k = 0; k < n; ++k) {
-      if (bounded_below(k)) d.z_low[k] = (low_target[k] - z_low_[k] * d.x[k]) / (x_[k] - low_[k]) - z_low_[k];
-      if (bounded_above(k)) d.z_high[k] = (high_target[k] + z_high_[k] * d.x[k]) / (high_[k] - x_[k]) - z_high_[k];
-    }
-    return d;
+    d.w = r;
   }
 
-  double length(const Direction& d) const {
-    double step = 1;
-    const auto limit = [&](double value, double change) {
-      if (change < 0) step = std::min(step, -value / change);
-    };
-    for (int k = 0; k < size(); ++k) {
-      if (bounded_below(k)) limit(x_[k] - low_[k], d.x[k]), limit(z_low_[k], d.z_low[k]);
-      if (bounded_above(k)) limit(high_[k] - x_[k], -d.x[k]), limit(z_high_[k], d.z_high[k]);
-    }
-    return step;
-  }
-
-  bool step() {
-    if (!factor()) return false;
-    const double gap = gap_at(x_, z_low_, z_high_);
-    const Direction predictor = direction(0, nullptr);
-    if (!predictor.x.allFinite()) return false;
-    const double reach = length(predictor);
-    const double after = gap_at(x_ + reach * predictor.x, z_low_ + reach * predictor.z_low, z_high_ + reach * predictor.z_high);
-    const double centring = std::pow(std::max(after, 0.0) / std::max(gap, 1e-300), 3);
-    const Direction d = direction(centring * gap, &predictor);
-    if (!d.x.allFinite()) return false;
-    const double t = std::min(1.0, kBack * length(d));
-    before_ = {x_, z_low_, z_high_, {}};
-    x_ += t * d.x, z_low_ += t * d.z_low, z_high_ += t * d.z_high, alpha_ += t * d.alpha;
-    return true;
-  }
-
-  const BoxProgram& whole_;
-  double tol_, force_ = 1;
-  std::vector<int> rows_;
-  Vector motion_unit_;
-  Vector unit_;                     ///< of each multiplier, so that H has a diagonal of 1
-  DenseMatrix H_, N_, M_, Y_;
-  Vector g_, low_, high_, e_;
-  Vector x_, z_low_, z_high_, alpha_;
-  Direction before_;  ///< where the last step began
+  const BoxProgram& p_;
+  Vector dual_, unbalanced_;
+  DenseMatrix M_, Y_;
   std::optional<algebra::MinimumNorm> schur_;
 };
 
 }  // namespace
 
-BoxSolution solve_by_barrier(const BoxProgram& program, double tol) { return Barrier(program, tol)(); }
+BoxSolution solve_by_barrier(const BoxProgram& program, double tol) {
+  const ScaledBox scaled(program);
+  BoxBarrier barrier(scaled.program);
+  BoxSolution out;
+  for (barrier.evaluate(); out.iterations < kMostBarrierSteps && barrier.step(); ++out.iterations) {
+    barrier.evaluate();
+    const bool within = barrier.error() <= tol;
+    if (out.converged && !within) break;  // rounding has taken over
+    out.converged = within;
+    if (within && (barrier.decided() || barrier.gap() <= kUndecidedBound * tol)) break;
+  }
+  out.lambda = program.low;
+  out.alpha = barrier.point().x.cwiseProduct(scaled.motion_unit);
+  out.side.assign(program.g.size(), 0);
+  for (int k = 0; k < scaled.size(); ++k) {
+    const int i = scaled.rows[k];
+    out.lambda[i] = std::clamp(barrier.point().w[k] * scaled.unit[k] * scaled.force, program.low[i], program.high[i]);
+    out.side[i] = static_cast<signed char>(barrier.end(k));
+  }
+  return out;
+}
 
 }  // namespace dotyk::solver

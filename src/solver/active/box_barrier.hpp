@@ -20,9 +20,6 @@ struct BoxProgram {
 BoxProgram box_program(const problem::Problem& problem, const problem::CondensedProblem& condensed, const std::vector<int>& rows,
                        const std::vector<double>& stands_for);
 
-/// Steps of barrier methods: how much of the way to the nearest bound, and how much of its last value stays or falls.
-constexpr double kBack = 0.995, kStays = 0.7, kFalls = 0.3;
-
 struct BoxSolution {
   algebra::Vector lambda;
   algebra::Vector alpha;          ///< amounts of the rigid motions
@@ -31,7 +28,7 @@ struct BoxSolution {
   int iterations = 0;
 };
 
-/// Mehrotra's predictor–corrector method, one dense Cholesky factorisation an iteration: its number hardly depends on the
+/// A barrier method (program::Barrier), one dense Cholesky factorisation an iteration: their number hardly depends on the
 /// program, so it is where active-set iterations go that do not come to rest. `tol`: on the residuals and the gap, with
 /// the diagonal of H and the greatest of g scaled to 1.
 BoxSolution solve_by_barrier(const BoxProgram& program, double tol);

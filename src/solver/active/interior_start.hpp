@@ -11,7 +11,7 @@ struct InteriorPointState {
   int iterations = 0;  ///< 0: it did not begin, for want of a load or because nothing holds the body
 };
 
-/// Mehrotra's predictor-corrector method on the whole problem with
+/// A barrier method (program::Barrier) on the whole problem with
 ///   x = Bu − c = λ/k + z⁺ − z⁻,   z⁺(high − λ) = z⁻(λ − low) = μ → 0,   Ku + Bᵀλ = f,
 /// low, high and k (by the side that λ is on) each law's. A step needs
 ///   (K + BᵀD⁻¹B) du = …,   D = 1/k + z⁺/(high − λ) + z⁻/(λ − low),

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -9,7 +11,6 @@
 #include "base/text.hpp"
 #include "solver/active/nested_start.hpp"
 #include "solver/active/rescues.hpp"
-#include "solver/active/rest.hpp"
 #include "solver/core/treatable.hpp"
 #include "solver/core/verdict.hpp"
 
@@ -85,6 +86,32 @@ void conclude(SetIteration& it, End end, bool inside, const std::string& rescued
                           ? text("no confirmed active set within ", it.settings.max_iterations, " iterations; rows that still change: ", it.places())
                           : text("after ", result.iterations, " iterations forces are off their laws by ", it.l.off, " of their size, and no longer come nearer");
   }
+}
+
+/// Where one-sided rows are closed and bear nothing (below `noise`), for the sake of rigid motions that nothing else holds, the bodies
+/// may have gone far for it, and rounding of the way costs digits of the stresses. The same linearisation with such rows held where
+/// they are at rest, x_r = −c_r; nothing where there are none, or none of them is apart at rest.
+std::optional<Linearisation> held_at_rest(const problem::Problem& problem, const Linearisation& closed, const Vector& lambda,
+                                          const Vector& rho, const Noise& noise) {
+  std::optional<Linearisation> rest;
+  for (const problem::RowGroup& group : problem.groups) {
+    if (!group.law->unilateral()) continue;
+    for (int r = group.first; r < group.first + group.count; ++r) {
+      if (!closed.active[r] || std::abs(lambda[r]) > noise.force[r] || !(problem.c[r] > noise.gap[r])) continue;
+      if (!rest) rest = closed;
+      rest->y[r] = rest->value[r] - rho[r] * problem.c[r];
+    }
+  }
+  return rest;
+}
+
+/// Does (λ, x), the solution of `rest` = held_at_rest(closed), obey the laws? `found`: the linearisation there.
+bool obeys(const Linearisation& found, const Linearisation& rest, const Linearisation& closed, const Vector& lambda, const Noise& noise) {
+  for (int r = 0; r < static_cast<int>(closed.active.size()); ++r) {
+    const bool held = rest.y[r] != closed.y[r];
+    if (held ? std::abs(lambda[r]) > noise.force[r] : !found.same_piece(closed, r)) return false;
+  }
+  return true;
 }
 
 /// Bodies that were moved for the sake of rows that bear nothing go back, where the laws allow it.

@@ -6,7 +6,6 @@
 #include "algebra/dense/bounded_least_squares.hpp"
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
-#include "algebra/dense/lu.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -22,11 +21,7 @@ namespace {
 /// Least regularity at which screws are taken to hold: below, half of the digits are lost.
 constexpr double kRegular = 1e-8;
 
-DenseMatrix pick(const DenseMatrix& N, const std::vector<int>& rows) {
-  DenseMatrix picked(static_cast<Eigen::Index>(rows.size()), N.cols());
-  for (std::size_t k = 0; k < rows.size(); ++k) picked.row(static_cast<Eigen::Index>(k)) = N.row(rows[k]);
-  return picked;
-}
+DenseMatrix pick(const DenseMatrix& N, const std::vector<int>& rows) { return N(rows, Eigen::all); }
 
 double regularity_of(const DenseMatrix& N) {
   if (N.rows() < N.cols() || N.cols() == 0) return N.cols() == 0 ? 1 : 0;
@@ -147,33 +142,32 @@ bool Screws::move(int screw, const Vector& lambda, double noise) {
   return true;
 }
 
+HeldByScrews::HeldByScrews(const problem::CondensedProblem& condensed, std::vector<int> screws)
+    : condensed_(condensed), screws_(std::move(screws)), motions_(pick(condensed.N(), screws_)),
+      Q_(DenseMatrix::Identity(condensed.rows(), condensed.rows())), balance_(Vector::Zero(condensed.rows())) {
+  Q_(Eigen::all, screws_) -= motions_.solve_transposed(DenseMatrix(condensed.N().transpose())).transpose();
+  Q_(screws_, Eigen::all).setZero();  // without what rounding leaves
+  balance_(screws_) = motions_.solve_transposed(condensed.e());
+  DenseMatrix W = Q_ * condensed.W() * Q_.transpose();
+  for (const int r : screws_) W(r, r) = condensed.W()(r, r);
+  problem_.emplace(std::move(W), Q_ * condensed.jump(balance_, Vector()));
+}
+
+Vector HeldByScrews::amounts(const Vector& lambda) const { return motions_.solve(-condensed_.jump(lambda, Vector())(screws_)); }
+
 namespace {
 
 class ScrewStep final : public Step {
  public:
-  ScrewStep(const problem::CondensedProblem& condensed, const Vector& rho, const Screws& screws)
-      : condensed_(condensed), rho_(rho), screws_(screws), lambda_(Vector::Zero(condensed.rows())),
-        alpha_(Vector::Zero(condensed.kernel_size())) {}
+  ScrewStep(const problem::CondensedProblem& condensed, const Vector& rho, const Screws& screws) : condensed_(condensed), rho_(rho), screws_(screws) {}
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
-    const std::vector<int>& s = screws_.rows();
-    std::vector<int> other;
-    lambda = Vector::Zero(condensed_.rows());
-    for (int r = 0; r < condensed_.rows(); ++r) {
-      if (std::find(s.begin(), s.end(), r) != s.end()) continue;
-      if (l.active[r])
-        other.push_back(r);
-      else
-        lambda[r] = l.value[r];
-    }
-    const DenseMatrix N_S = pick(condensed_.N(), s);
-    const algebra::Lu motions(N_S);
-    const Vector balance = motions.solve_transposed(Vector(condensed_.e() - condensed_.N().transpose() * lambda));
-    for (std::size_t k = 0; k < s.size(); ++k) lambda[s[k]] = balance[static_cast<Eigen::Index>(k)];
-    if (!other.empty() && !add_others(l, other, motions, lambda)) return false;
-    const Vector jump = condensed_.jump(lambda, Vector());
-    alpha_ = motions.solve(-pick(jump, s));
-    lambda_ = lambda;
+    if (!held_ || held_->screws() != screws_.rows()) held_.emplace(condensed_, screws_.rows());
+    Linearisation other = l;
+    for (const int r : screws_.rows()) other.active[r] = 0, other.value[r] = 0;
+    if (!reduced_step(held_->problem(), rho_)->solve(other, lambda, x)) return false;
+    lambda_ = lambda = held_->multipliers(lambda);
+    alpha_ = held_->amounts(lambda);
     x = condensed_.jump(lambda, alpha_);
     return lambda.allFinite() && x.allFinite();
   }
@@ -181,32 +175,10 @@ class ScrewStep final : public Step {
   Vector recover() override { return condensed_.recover(lambda_, alpha_); }
 
  private:
-  /// Adds to λ (in equilibrium) what closes the other active rows, Z μ: μ on these, the screws following.
-  bool add_others(const Linearisation& l, const std::vector<int>& other,
-                  const algebra::Lu& motions, Vector& lambda) const {
-    const std::vector<int>& s = screws_.rows();
-    const DenseMatrix T = -motions.solve_transposed(DenseMatrix(pick(condensed_.N(), other).transpose()));  // screws × others
-    const Eigen::Index n = static_cast<Eigen::Index>(other.size());
-    DenseMatrix Z = DenseMatrix::Zero(condensed_.rows(), n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      Z(other[j], j) = 1;
-      for (std::size_t k = 0; k < s.size(); ++k) Z(s[k], j) = T(static_cast<Eigen::Index>(k), j);
-    }
-    DenseMatrix H = Z.transpose() * condensed_.W() * Z;
-    Vector g = Z.transpose() * condensed_.jump(lambda, Vector());
-    for (Eigen::Index j = 0; j < n; ++j) {
-      H(j, j) += l.added_compliance(other[j], rho_[other[j]]);
-      g[j] -= l.offset(other[j], rho_[other[j]]);
-    }
-    const algebra::Ldlt ldlt(H);
-    if (!ldlt.factored() || ldlt.rcond() < 1e-15) return false;
-    lambda += Z * ldlt.solve(g);
-    return true;
-  }
-
   const problem::CondensedProblem& condensed_;
   const Vector& rho_;
   const Screws& screws_;
+  std::optional<HeldByScrews> held_;
   Vector lambda_, alpha_;
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <vector>
 
+#include "algebra/dense/lu.hpp"
 #include "problem/condensed.hpp"
 #include "problem/rigid_motions.hpp"
 #include "solver/active/step.hpp"
@@ -53,9 +55,29 @@ class Screws {
   int moves_ = 0;
 };
 
-/// One linear problem with the screws closed, by elimination: their multipliers follow from global
-/// equilibrium (1.79)–(1.80), N_Sᵀ λ_S = e − N_Oᵀ λ_O, the rigid motions from x_S = 0, and what is
-/// left for the other active rows is positive definite.
+/// A condensed problem held by screws, which is one without rigid motions: λ_S follows from global equilibrium (1.79)–(1.80),
+/// N_Sᵀλ_S = e − N_Oᵀλ_O, and motions from x_S = 0. With E_S the columns of the identity and Q = I − N N_S⁻¹E_Sᵀ,
+///   x = Q(x₀ − W E_S N_S⁻ᵀe) − QWQᵀλ',   λ = E_S N_S⁻ᵀe + Qᵀλ'.
+class HeldByScrews {
+ public:
+  HeldByScrews(const problem::CondensedProblem& condensed, std::vector<int> screws);
+  const std::vector<int>& screws() const { return screws_; }
+  /// The problem of λ', which is 0 on the screws' rows.
+  const problem::CondensedProblem& problem() const { return *problem_; }
+  algebra::Vector multipliers(const algebra::Vector& other) const { return balance_ + Q_.transpose() * other; }
+  /// The motions with which the screws are where they are.
+  algebra::Vector amounts(const algebra::Vector& lambda) const;
+
+ private:
+  const problem::CondensedProblem& condensed_;
+  std::vector<int> screws_;
+  algebra::Lu motions_;  ///< N_S
+  algebra::DenseMatrix Q_;
+  algebra::Vector balance_;
+  std::optional<problem::CondensedProblem> problem_;
+};
+
+/// One linear problem with the screws closed, by elimination.
 std::unique_ptr<Step> screw_step(const problem::CondensedProblem& condensed, const algebra::Vector& rho,
                                  const Screws& screws);
 

@@ -1,5 +1,6 @@
 #include "solver/bounded/dual_bounds.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/rows/projection.hpp"
@@ -10,6 +11,14 @@ using algebra::Vector;
 using problem::FrictionGroup;
 using problem::Problem;
 using problem::RowGroup;
+
+namespace {
+
+/// Steps in which the change must fall by a tenth.
+constexpr int kBoundsPatience = 8;
+constexpr double kLeastStep = 1.0 / 32;
+
+}  // namespace
 
 SeparableSet admissible(const Problem& problem, const Vector& scale, const Vector& bounds, const Vector& shift) {
   Vector low = Vector::Constant(shift.size(), -INFINITY), high = Vector::Constant(shift.size(), INFINITY);
@@ -43,6 +52,19 @@ Vector law_compliance(const Problem& problem) {
     for (int r = group.first; r < group.first + group.count; ++r)
       if (const double k = group.law->springs(r - group.first).value().above; k > 0) compliance[r] = 1 / k;
   return compliance;
+}
+
+bool SettlingBounds::follow(const Vector& next) {
+  const double size = next.stableNorm();
+  const bool bounded = (now_.array() < kNoSlip).all();
+  change_ = bounded ? (next - now_).stableNorm() / (size > 0 ? size : 1) : 1;
+  now_ = bounded ? Vector(now_ + step_ * (next - now_)) : next;
+  since_best_ = change_ < 0.9 * best_ ? 0 : since_best_ + 1;
+  best_ = std::min(best_, change_);
+  if (since_best_ == 0 || since_best_ % kBoundsPatience != 0) return true;
+  if (step_ <= kLeastStep) return false;
+  step_ /= 2;
+  return true;
 }
 
 }  // namespace dotyk::solver

@@ -49,7 +49,7 @@ OpposedSprings opposed_springs(const Problem& whole) {
     for (int r = 0; r < group.count; ++r) out.from.push_back(group.first + r);
   }
   problem.c = whole.c(out.from);
-  if (whole.B.rows() > 0) problem.B = algebra::pick_rows(whole.B, out.from);
+  problem.B = algebra::pick_rows(whole.B, out.from);
   if (whole.row_name) problem.row_name = [name = whole.row_name, from = out.from](int row) { return name(from[row]); };
   return out;
 }

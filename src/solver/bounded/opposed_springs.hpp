@@ -13,7 +13,6 @@ struct OpposedSprings {
   problem::Problem problem;
   std::vector<int> from;  ///< of each row, the one that it is or was split from
 };
-/// Without the rows of B where `whole` has none (laws_of).
 OpposedSprings opposed_springs(const problem::Problem& whole);
 
 /// A result of a split problem as one of the problem of so many rows: both multipliers of a row, active where one of its springs is.

@@ -98,10 +98,7 @@ void DualProblem::add_modes() {
 }
 
 Vector DualProblem::apply(const Vector& lambda) const {
-  const Vector moved = through_pieces(torn_, batches_, lambda, [this](const Batch& batch, DenseMatrix& columns) {
-    columns = inverses_[batch.kind].apply(columns);
-  });
-  return moved + torn_.compliance.cwiseProduct(lambda);
+  return torn_.B * touched(torn_, inverse(spread(torn_, torn_.Bt * lambda))) + torn_.compliance.cwiseProduct(lambda);
 }
 
 Vector DualProblem::inverse(const Vector& f) const {

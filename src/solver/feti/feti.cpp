@@ -8,16 +8,15 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "problem/rigid_motions.hpp"
+#include "problem/uniqueness.hpp"
 #include "solver/feti/coarse_space.hpp"
 #include "solver/feti/dual_problem.hpp"
 #include "solver/feti/dual_spectrum.hpp"
 #include "solver/feti/feti_preconditioner.hpp"
-#include "solver/core/load_size.hpp"
 #include "solver/rows/projection.hpp"
 #include "solver/core/require_solvable.hpp"
 #include "solver/bounded/dual_bounds.hpp"
 #include "solver/bounded/opposed_springs.hpp"
-#include "solver/bounded/settling_bounds.hpp"
 #include "solver/core/treatable.hpp"
 
 namespace dotyk::solver {
@@ -42,6 +41,38 @@ constexpr double kImbalance = 1e-9;
 constexpr double kSpoilt = 1e4, kMostNoise = 1e-2;
 /// Below this part of what it is the difference of Pd may be rounding; it is taken for so many times what was seen of it.
 constexpr double kSuspect = 1e-9, kSuspectRoundings = 10;
+
+/// One over the unit in which ‖Qx‖ counts forces (TornProblem: by the stiffness of what carries them): ‖λ̄‖ / ‖B̂ᵀλ̄‖, or where
+/// loads balance on every piece ‖k^(−½)f‖ / ‖f‖; 1 where there are none. 1 as well where k = 1. `balanced`: λ̄.
+double force_unit(const DualProblem& dual, const Vector& balanced) {
+  const TornProblem& torn = dual.torn();
+  const double carried = (torn.Bt * balanced).stableNorm();
+  if (carried > 0) return balanced.stableNorm() / carried;
+  double plain = 0, weighted = 0;
+  for (const Piece& piece : torn.pieces) {
+    if (piece.size() == 0) continue;
+    plain = std::hypot(plain, piece.f->stableNorm());
+    weighted = std::hypot(
+        weighted, piece.f->cwiseQuotient(torn.stiffness.segment(piece.first, piece.size()).cwiseSqrt()).stableNorm());
+  }
+  return plain > 0 ? weighted / plain : 1;
+}
+
+/// The greatest of the sums of what λ̄ and the load do on a motion of a piece, |G̃||λ̄| + |R̂|ᵀ|f|: none of it cancelled.
+double gross_load(const DualProblem& dual, const Vector& balanced) {
+  Vector gross = Vector::Zero(dual.e().size());
+  for (int r = 0; r < dual.G().cols(); ++r)
+    for (algebra::SparseMatrix::InnerIterator it(dual.G(), r); it; ++it)
+      gross[it.row()] += std::abs(it.value() * balanced[r]);
+  const std::vector<Piece>& pieces = dual.torn().pieces;
+  Eigen::Index first = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const algebra::DenseMatrix& R = dual.basis(static_cast<int>(p));
+    gross.segment(first, R.cols()) += R.cwiseAbs().transpose() * pieces[p].f->cwiseAbs();
+    first += R.cols();
+  }
+  return gross.size() > 0 ? gross.maxCoeff() : 0;
+}
 
 class FetiRun {
  public:
@@ -125,7 +156,7 @@ class FetiRun {
 
   void iterate() {
     bounds_ = SettlingBounds(no_slip_bounds(problem_));
-    if (!bounds_depend_on_normal(problem_)) {
+    if (!problem::has_coulomb(problem_)) {
       solve_given(method_.tol);
       return;
     }

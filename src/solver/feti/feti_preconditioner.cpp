@@ -8,8 +8,8 @@ FetiPreconditioner::FetiPreconditioner(const DualProblem& dual, const CoarseSpac
                                        Monitor& monitor)
     : coarse_(coarse), springs_(dual.torn().stiffest * (dual.torn().stiffest * dual.torn().compliance)), face_(coarse),
       on_face_(method.face_coarse) {
-  if (method.preconditioner == Feti::Preconditioner::lumped) lumped_.emplace(dual);
-  if (method.preconditioner == Feti::Preconditioner::dirichlet) dirichlet_.emplace(dual, method.ordering, monitor);
+  if (method.preconditioner == Feti::Preconditioner::lumped) stiffness_.emplace(dual);
+  if (method.preconditioner == Feti::Preconditioner::dirichlet) stiffness_.emplace(dual, method.ordering, monitor);
 }
 
 std::function<Vector(const Vector& v, const Vector& x, const SeparableSet::Gradients& at, double rho)> FetiPreconditioner::on(
@@ -19,7 +19,7 @@ std::function<Vector(const Vector& v, const Vector& x, const SeparableSet::Gradi
       face_.move_to(set, x, at, norm / rho);
       return face(v, norm);
     };
-  if (!any()) return {};
+  if (!stiffness_) return {};
   return [this](const Vector& v, const Vector&, const SeparableSet::Gradients&, double rho) { return whole(v, rho); };
 }
 
@@ -30,7 +30,7 @@ Vector FetiPreconditioner::whole(const Vector& v, double rho) const {
 
 Vector FetiPreconditioner::face(const Vector& v, double norm) const {
   const Vector Wv = face_.W(v);
-  if (!any()) return Wv / norm;
+  if (!stiffness_) return Wv / norm;
   const Vector left = (v - Wv) / norm;
   return face_.W(face_.E(M(Wv)) + left);
 }

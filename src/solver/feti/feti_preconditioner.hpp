@@ -3,10 +3,9 @@
 #include <functional>
 #include <optional>
 
-#include "solver/feti/dirichlet.hpp"
 #include "solver/feti/face_coarse.hpp"
 #include "solver/feti/feti.hpp"
-#include "solver/feti/lumped.hpp"
+#include "solver/feti/piece_stiffness.hpp"
 
 namespace dotyk::solver {
 
@@ -16,19 +15,16 @@ namespace dotyk::solver {
 ///   without                               nothing, or PMP + Q/ρ.
 class FetiPreconditioner {
  public:
-  /// `dual` and `coarse` must outlive the object. Throws as Dirichlet does.
+  /// `dual` and `coarse` must outlive the object. Throws as PieceStiffness does.
   FetiPreconditioner(const DualProblem& dual, const CoarseSpace& coarse, const Feti& method, Monitor& monitor);
   /// For Smalbe::preconditioner, empty where there is none. `set` and this must outlive it. θ: `norm`.
   std::function<algebra::Vector(const algebra::Vector& v, const algebra::Vector& x, const SeparableSet::Gradients& at, double rho)>
   on(const SeparableSet& set, double norm);
-  double factor_bytes() const { return dirichlet_ ? dirichlet_->factor_bytes() : 0; }
+  double factor_bytes() const { return stiffness_ ? stiffness_->factor_bytes() : 0; }
 
  private:
-  bool any() const { return lumped_ || dirichlet_; }
   /// Springs are as pieces of one unknown each, whose B̂WKWB̂ᵀ is the square of the greatest stiffness times their compliance.
-  algebra::Vector M(const algebra::Vector& v) const {
-    return (dirichlet_ ? dirichlet_->apply(v) : lumped_->apply(v)) + springs_.cwiseProduct(v);
-  }
+  algebra::Vector M(const algebra::Vector& v) const { return stiffness_->apply(v) + springs_.cwiseProduct(v); }
   algebra::Vector whole(const algebra::Vector& v, double rho) const;
   algebra::Vector face(const algebra::Vector& v, double norm) const;
 
@@ -36,8 +32,7 @@ class FetiPreconditioner {
   algebra::Vector springs_;
   FaceCoarse face_;
   bool on_face_;
-  std::optional<Lumped> lumped_;
-  std::optional<Dirichlet> dirichlet_;
+  std::optional<PieceStiffness> stiffness_;
 };
 
 }  // namespace dotyk::solver

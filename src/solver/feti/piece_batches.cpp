@@ -31,45 +31,19 @@ std::vector<Batch> batches(const std::vector<std::vector<int>>& kinds, const std
 
 namespace {
 
-void for_batches(const std::vector<Batch>& batches, const std::function<void(const Batch&)>& work) {
-  const algebra::OneBlasThread one;
-  parallel_for(static_cast<int>(batches.size()), [&](int b) { work(batches[b]); }, one.workers());
-}
-
-}  // namespace
-
-Vector through_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& lambda,
-                      const OnColumns& A) {
-  const Vector before = torn.Bt * lambda;
-  Vector after(before.size());
-  for_batches(batches, [&](const Batch& batch) {
-    DenseMatrix columns = DenseMatrix::Zero(torn.pieces[batch.pieces[0]].size(), batch.pieces.size());
-    for (std::size_t k = 0; k < batch.pieces.size(); ++k) {
-      const Piece& p = torn.pieces[batch.pieces[k]];
-      for (std::size_t i = 0; i < p.touched.size(); ++i) columns(p.touched[i], k) = before[p.first_touched + i];
-    }
-    A(batch, columns);
-    for (std::size_t k = 0; k < batch.pieces.size(); ++k) {
-      const Piece& p = torn.pieces[batch.pieces[k]];
-      for (std::size_t i = 0; i < p.touched.size(); ++i) after[p.first_touched + i] = columns(p.touched[i], k);
-    }
-  });
-  return torn.B * after;
-}
-
-namespace {
-
 /// A on columns that are segments of a vector: `size` long, piece p's from first(p) on.
 Vector on_segments(const std::vector<Batch>& batches, const Vector& f, const std::function<int(int)>& first,
                    const std::function<std::size_t(int)>& size, const OnColumns& A) {
   Vector result(f.size());
-  for_batches(batches, [&](const Batch& batch) {
+  const auto treat = [&](const Batch& batch) {
     const auto rows = static_cast<Eigen::Index>(size(batch.pieces[0]));
     DenseMatrix columns(rows, batch.pieces.size());
     for (std::size_t k = 0; k < batch.pieces.size(); ++k) columns.col(k) = f.segment(first(batch.pieces[k]), rows);
     A(batch, columns);
     for (std::size_t k = 0; k < batch.pieces.size(); ++k) result.segment(first(batch.pieces[k]), rows) = columns.col(k);
-  });
+  };
+  const algebra::OneBlasThread one;
+  parallel_for(static_cast<int>(batches.size()), [&](int b) { treat(batches[b]); }, one.workers());
   return result;
 }
 

@@ -20,11 +20,6 @@ std::vector<Batch> batches(const std::vector<std::vector<int>>& kinds, const std
 /// What a block of A (one a kind) makes of columns, in their place. Called by several threads at once.
 using OnColumns = std::function<void(const Batch&, algebra::DenseMatrix& columns)>;
 
-/// B̂ A B̂ᵀ λ for A block diagonal. Columns: a piece's own unknowns, zero but on the touched ones, and only the result's
-/// entries on these are looked at.
-algebra::Vector through_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const algebra::Vector& lambda,
-                               const OnColumns& A);
-
 /// B̂WAWB̂ᵀλ, W = k⁻¹ (TornProblem): with A a stiffness a preconditioner of F, as B̂WB̂ᵀ = I but for rows of the problem
 /// that share an unknown. Rows touch all pieces of a batch alike. Columns: the touched unknowns alone.
 algebra::Vector through_touched(const TornProblem& torn, const std::vector<Batch>& batches,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "problem/uniqueness.hpp"
 #include "solver/rows/coulomb_loop.hpp"
 #include "solver/rows/newton.hpp"
 #include "solver/rows/newton_stepper.hpp"
@@ -27,7 +28,7 @@ struct Alternative {
 
 std::vector<Alternative> alternatives(const problem::Problem& problem) {
   const auto proximal = std::make_shared<Proximal>();
-  if (bounds_depend_on_normal(problem)) {
+  if (problem::has_coulomb(problem)) {
     const auto loop = std::make_shared<CoulombLoop>();
     loop->inner = std::make_shared<Newton>();
     return {{proximal, 60}, {loop, 100}, {std::make_shared<Psor>(), 5000}};
@@ -76,7 +77,7 @@ std::string search(RowIteration& iteration, double tol) {
 }  // namespace
 
 void hand_over(RowIteration& iteration, double tol) {
-  if (bounds_depend_on_normal(iteration.problem)) require_bearable(iteration.problem, iteration.condensed, iteration.monitor());
+  if (problem::has_coulomb(iteration.problem)) require_bearable(iteration.problem, iteration.condensed, iteration.monitor());
   std::string tried = text("newton lost its way in ", iteration.iterations(), " iterations");
   for (const Alternative& next : alternatives(iteration.problem)) {
     if (iteration.monitor().stop()) break;
@@ -87,7 +88,7 @@ void hand_over(RowIteration& iteration, double tol) {
     tried += text(iteration.converged() ? "; ended by " : "; tried ", next.method->name(), ", ", iteration.iterations() - before, " iterations");
     if (iteration.converged()) break;
   }
-  if (!iteration.converged() && !iteration.monitor().stop() && bounds_depend_on_normal(iteration.problem)) tried += search(iteration, tol);
+  if (!iteration.converged() && !iteration.monitor().stop() && problem::has_coulomb(iteration.problem)) tried += search(iteration, tol);
   iteration.remark(tried);
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "problem/uniqueness.hpp"
 #include "solver/bounded/dual_bounds.hpp"
 #include "solver/bounded/mprgp.hpp"
 #include "solver/bounded/opposed_springs.hpp"
@@ -46,7 +47,7 @@ class ProjectedCgRun {
         break;
       }
     }
-    if (bounds_depend_on_normal(it_.problem)) it_.remark(text("Coulomb's bounds were updated ", updates, " times"));
+    if (problem::has_coulomb(it_.problem)) it_.remark(text("Coulomb's bounds were updated ", updates, " times"));
   }
 
  private:

@@ -36,6 +36,7 @@ Vector no_slip_bounds(const Problem& problem) {
 
 Problem laws_of(const Problem& problem) {
   Problem rows;
+  rows.B = algebra::SparseRows(problem.rows(), 0);
   rows.c = problem.c;
   rows.groups = problem.groups;
   rows.friction = problem.friction;
@@ -57,13 +58,6 @@ Vector project(const Problem& problem, const Vector& y, const Vector& rho, const
       lambda.segment(group.row(k), group.components) = length <= bound ? Vector(own) : Vector(bound / length * own);
     }
   return lambda;
-}
-
-bool bounds_depend_on_normal(const Problem& problem) {
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k)
-      if (group.law->bound_slope(k) != 0) return true;
-  return false;
 }
 
 }  // namespace dotyk::solver

@@ -22,7 +22,4 @@ algebra::Vector project(const problem::Problem& problem, const algebra::Vector& 
 /// The rows with their laws, without the bodies: what methods on the condensed problem see.
 problem::Problem laws_of(const problem::Problem& problem);
 
-/// Does any friction bound depend on the normal multiplier (Coulomb)?
-bool bounds_depend_on_normal(const problem::Problem& problem);
-
 }  // namespace dotyk::solver

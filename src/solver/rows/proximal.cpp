@@ -5,6 +5,7 @@
 
 #include "algebra/dense/lu.hpp"
 #include "base/text.hpp"
+#include "problem/uniqueness.hpp"
 #include "solver/rows/projection.hpp"
 
 namespace dotyk::solver {
@@ -186,7 +187,7 @@ void let_go(RowIteration& iteration) {
 
 void Proximal::iterate(RowIteration& iteration) const {
   const Vector compliance = compliance_of_rows(iteration);
-  const bool convex = !bounds_depend_on_normal(iteration.problem);
+  const bool convex = !problem::has_coulomb(iteration.problem);
   double softness = sigma, before = INFINITY;
   int steps = 0;
   while (iteration.next()) {

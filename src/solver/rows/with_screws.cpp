@@ -2,16 +2,15 @@
 
 #include <algorithm>
 
-#include "algebra/dense/lu.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "problem/uniqueness.hpp"
 #include "solver/active/screws.hpp"
+#include "solver/rows/projection.hpp"
 
 namespace dotyk::solver {
 namespace {
 
-using algebra::DenseMatrix;
 using algebra::Vector;
 using problem::FrictionGroup;
 using problem::Problem;
@@ -20,10 +19,8 @@ using problem::RowGroup;
 /// The rows with their laws, those of screws without: λ' = 0 there.
 Problem other_rows(const Problem& problem, const std::vector<int>& screws) {
   std::vector<char> screwed(static_cast<std::size_t>(problem.rows()), 0);
-  Problem rows;
-  rows.c = problem.c;
-  rows.B = algebra::SparseRows(problem.rows(), 0);  // no bodies
-  rows.row_name = problem.row_name;
+  Problem rows = laws_of(problem);
+  rows.groups.clear(), rows.friction.clear();
   for (const int r : screws) screwed[r] = 1, rows.groups.push_back({"screw", problem::elastic({0.0}), r, 1});
   for (const RowGroup& group : problem.groups) {
     const auto end = screwed.begin() + group.first + group.count;
@@ -41,37 +38,6 @@ Problem other_rows(const Problem& problem, const std::vector<int>& screws) {
     }
   return rows;
 }
-
-/// The problem held by the screws, and its multipliers' way back.
-struct Held {
-  Held(const problem::CondensedProblem& condensed, const std::vector<int>& screws) : screws(screws), Q(DenseMatrix::Identity(condensed.rows(), condensed.rows())), balance(Vector::Zero(condensed.rows())) {
-    const auto count = static_cast<Eigen::Index>(screws.size());
-    DenseMatrix N_S(count, condensed.N().cols());
-    for (Eigen::Index k = 0; k < count; ++k) N_S.row(k) = condensed.N().row(screws[static_cast<std::size_t>(k)]);
-    motions.emplace(N_S);
-    const DenseMatrix P = motions->solve_transposed(DenseMatrix(condensed.N().transpose())).transpose();
-    const Vector own = motions->solve_transposed(condensed.e());
-    for (Eigen::Index k = 0; k < count; ++k) Q.col(screws[static_cast<std::size_t>(k)]) -= P.col(k), balance[screws[static_cast<std::size_t>(k)]] = own[k];
-    for (const int r : screws) Q.row(r).setZero();  // without what rounding leaves
-  }
-  problem::CondensedProblem problem(const problem::CondensedProblem& condensed) const {
-    DenseMatrix W = Q * condensed.W() * Q.transpose();
-    for (const int r : screws) W(r, r) = condensed.W()(r, r);
-    return {std::move(W), Q * condensed.jump(balance, Vector())};
-  }
-  Vector multipliers(const Vector& other) const { return balance + Q.transpose() * other; }
-  /// The motions with which the screws are where they are.
-  Vector amounts(const Vector& jump) const {
-    Vector at(static_cast<Eigen::Index>(screws.size()));
-    for (Eigen::Index k = 0; k < at.size(); ++k) at[k] = -jump[screws[static_cast<std::size_t>(k)]];
-    return motions->solve(at);
-  }
-
-  const std::vector<int>& screws;
-  std::optional<algebra::Lu> motions;
-  DenseMatrix Q;
-  Vector balance;
-};
 
 }  // namespace
 
@@ -95,16 +61,15 @@ void WithScrews::iterate(RowIteration& it) const {
   bool placed = true;
   while (placed && it.next()) {
     it.note({places.rows(), places.regularity(), places.determinant()});
-    const Held held(it.condensed, places.rows());
-    const problem::CondensedProblem condensed = held.problem(it.condensed);
+    const HeldByScrews held(it.condensed, places.rows());
     const Problem rows = other_rows(it.problem, places.rows());
     InnerMonitor monitor(it.monitor());
-    RowIteration other(rows, condensed, settings, inner->map_weight(), monitor);
+    RowIteration other(rows, held.problem(), settings, inner->map_weight(), monitor);
     inner->iterate(other);
     const Result found = other.finish();
     iterations += found.iterations;
     const Vector lambda = held.multipliers(found.state.lambda);
-    it.move_to(lambda, held.amounts(it.condensed.jump(lambda, Vector())));
+    it.move_to(lambda, held.amounts(lambda));
     if (it.record()) break;
     // Where the inner method does not end, a screw may be where the solution slips.
     placed = places.moves() < max_moves && places.move(lambda, 1e-9 * lambda.lpNorm<Eigen::Infinity>());

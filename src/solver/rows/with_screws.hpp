@@ -8,10 +8,7 @@ namespace dotyk::solver {
 
 /// Free bodies with given friction by magnetic screws (TR965 2.2, 3.2 (3.32)–(3.33), remark 3.5): contact rows taken as closed and, where
 /// contact leaves motions along it free, friction rows taken as stuck, the report's p(v) = 0, hold all motions. Their multipliers follow
-/// from equilibrium, so that `inner` works on a problem without motions. With N_S the screws' rows of N, E_S the columns of the identity
-/// and Q = I − N N_S⁻¹E_Sᵀ that is
-///   x = Q(x₀ − W E_S N_S⁻ᵀe) − QWQᵀλ',   λ = E_S N_S⁻ᵀe + Qᵀλ'.
-/// A screw that pulls, or bears more than its friction bound, is moved and the problem solved again.
+/// from equilibrium, so that `inner` works on a problem without motions (HeldByScrews). A screw that pulls, or bears more than its friction bound, is moved and the problem solved again.
 struct WithScrews : RowMethod {
   std::shared_ptr<const RowMethod> inner;
   /// Rows on which the screws are placed first; empty: chosen.
