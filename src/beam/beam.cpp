@@ -105,9 +105,11 @@ std::vector<double> nodes(const Beam& beam) {
   return x;
 }
 
-int cell_of(const std::vector<double>& nodes, double x) {
+Place place(const std::vector<double>& nodes, double x) {
+  if (!(x >= 0 && x <= nodes.back())) throw InputError(text("x = ", x, " is not on the beam, which goes from 0 to ", nodes.back()));
   const auto above = std::upper_bound(nodes.begin(), nodes.end(), x);
-  return std::clamp(static_cast<int>(above - nodes.begin()) - 1, 0, static_cast<int>(nodes.size()) - 2);
+  const int cell = std::clamp(static_cast<int>(above - nodes.begin()) - 1, 0, static_cast<int>(nodes.size()) - 2);
+  return {cell, (x - nodes[cell]) / (nodes[cell + 1] - nodes[cell])};
 }
 
 int nearest(const std::vector<double>& nodes, double x) {

@@ -61,8 +61,13 @@ bool has_row(const Beam& beam, const std::vector<double>& nodes, int node);
 /// more where another support has that.
 std::vector<double> nodes(const Beam& beam);
 
-/// The cell that x lies in, of a node the one to its right where there is one.
-int cell_of(const std::vector<double>& nodes, double x);
+/// The cell that x lies in, of a node the one to its right where there is one, and where in it: 0 ≤ s ≤ 1. Throws InputError where x is not on
+/// the beam.
+struct Place {
+  int cell;
+  double s;
+};
+Place place(const std::vector<double>& nodes, double x);
 
 /// The node next to x.
 int nearest(const std::vector<double>& nodes, double x);

@@ -42,30 +42,23 @@ double Solution::moment_between(double from, double to) const {
   return integral([&](double s) { return (to - s) * beam_.q_of(s); }, from, to);
 }
 
-Solution::Place Solution::place(double x) const {
-  if (!(x >= 0 && x <= beam_.length)) throw InputError(text("x = ", x, " is not on the beam, which goes from 0 to ", beam_.length));
-  const auto& nodes = model_.nodes;
-  const int cell = cell_of(nodes, x);
-  return {cell, (x - nodes[cell]) / (nodes[cell + 1] - nodes[cell])};
-}
-
 Eigen::Vector4d Solution::values(int cell) const {
   const Eigen::Vector4d w = result_.state.u.segment<4>(2 * cell);
   return {w[0], w[1] / model_.unit, w[2], w[3] / model_.unit};
 }
 
 double Solution::deflection(double x) const {
-  const auto [cell, s] = place(x);
+  const auto [cell, s] = place(model_.nodes, x);
   return Hermite(s, model_.nodes[cell + 1] - model_.nodes[cell]).value.dot(values(cell));
 }
 
 double Solution::rotation(double x) const {
-  const auto [cell, s] = place(x);
+  const auto [cell, s] = place(model_.nodes, x);
   return Hermite(s, model_.nodes[cell + 1] - model_.nodes[cell]).slope.dot(values(cell));
 }
 
 double Solution::shear(double x) const {
-  const int cell = place(x).cell;
+  const int cell = place(model_.nodes, x).cell;
   double sum = sum_q_[cell] + force_between(model_.nodes[cell], x);
   for (const PointLoad& f : forces_)
     if (f.x <= x && (f.x < beam_.length)) sum += f.force;
@@ -73,7 +66,7 @@ double Solution::shear(double x) const {
 }
 
 double Solution::moment(double x) const {
-  const int cell = place(x).cell;
+  const int cell = place(model_.nodes, x).cell;
   double sum = sum_moment_[cell] + (x - model_.nodes[cell]) * sum_q_[cell] + moment_between(model_.nodes[cell], x);
   for (const PointLoad& f : forces_)
     if (f.x <= x && f.x < beam_.length) sum += f.force * (x - f.x) - f.moment;
@@ -86,7 +79,7 @@ double Solution::foundation_force(int node) const {
 }
 
 double Solution::pressure(double x) const {
-  const auto [cell, s] = place(x);
+  const auto [cell, s] = place(model_.nodes, x);
   const auto at = [&](int node) { return foundation_force(node) / model_.share(node); };
   return (1 - s) * at(cell) + s * at(cell + 1);
 }

@@ -37,11 +37,6 @@ class Solution {
   Reaction reaction(int support) const;
 
  private:
-  struct Place {
-    int cell;
-    double s;  ///< 0 ≤ s ≤ 1
-  };
-  Place place(double x) const;
   Eigen::Vector4d values(int cell) const;  ///< u, u', u, u' at its ends
   void sum_loads();
   double force_between(double from, double to) const;

@@ -8,22 +8,7 @@
 
 namespace dotyk::contact {
 
-/// A box along the axes.
-struct Box {
-  mesh::Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  void add(const mesh::Point& x) {
-    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], x[i]), high[i] = std::max(high[i], x[i]);
-  }
-  void add(const Box& other) { add(other.low), add(other.high); }
-  void grow(double by) {
-    for (int i = 0; i < 3; ++i) low[i] -= by, high[i] += by;
-  }
-  bool holds(const mesh::Point& x) const {
-    for (int i = 0; i < 3; ++i)
-      if (x[i] < low[i] || x[i] > high[i]) return false;
-    return true;
-  }
-};
+using mesh::Box;
 
 /// All places within `radius` of a line.
 class Tube {

@@ -14,6 +14,15 @@ struct NodeWeight {
   bool operator==(const NodeWeight&) const = default;
 };
 
+/// Σ weight v of the nodes' vectors, `nodal` (node × dimension): with weights 1 in sum their mean.
+inline mesh::Point mean(const std::vector<NodeWeight>& nodes, const std::vector<double>& nodal, int dimension) {
+  mesh::Point sum{0, 0, 0};
+  for (const NodeWeight& n : nodes)
+    for (int i = 0; i < dimension; ++i) sum[i] += n.weight * nodal[static_cast<std::size_t>(n.node) * dimension + i];
+  return sum;
+}
+inline mesh::Point mean_place(const std::vector<NodeWeight>& nodes, const mesh::Mesh& mesh) { return mean(nodes, mesh.coordinates, mesh.dimension()); }
+
 /// One condition of non-penetration at a corner of the first part's facets:
 ///   normal·(Σ weight u_own − Σ weight u_partner) ≤ gap        (no partners against a rigid shape)
 /// Cells of order 1: a node is its own alone. Order 2: the condition is asked for in the mean with the corner's dual hat ψ (dual_hats.hpp),

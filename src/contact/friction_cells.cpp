@@ -35,13 +35,11 @@ Gram half_gram(double length, int c) {
 }
 
 Piece around(const std::vector<Point>& points, int component) {
-  Piece piece{{0, 0, 0}, points[0], points[0], component};
-  for (const Point& p : points)
-    for (int i = 0; i < 3; ++i) {
-      piece.centre[i] += p[i] / static_cast<double>(points.size());
-      piece.low[i] = std::min(piece.low[i], p[i]);
-      piece.high[i] = std::max(piece.high[i], p[i]);
-    }
+  Piece piece{{0, 0, 0}, {}, component};
+  for (const Point& p : points) {
+    for (int i = 0; i < 3; ++i) piece.centre[i] += p[i] / static_cast<double>(points.size());
+    piece.box.add(p);
+  }
   return piece;
 }
 

@@ -213,12 +213,6 @@ Matching find_matching(const Face& first, const Face& second) {
   return result;
 }
 
-std::vector<NodePair> match(const Face& first, const Face& second) {
-  Matching found = find_matching(first, second);
-  if (!found.mismatch.empty()) throw InputError(found.mismatch);
-  return std::move(found.pairs);
-}
-
 double touching(const Face& face, double size, const std::vector<int>& facets) {
   double way = INFINITY, greatest = 0;
   const int count = face.mesh.topology().facet_corners;

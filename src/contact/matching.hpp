@@ -30,10 +30,6 @@ struct Matching {
 };
 Matching find_matching(const Face& first, const Face& second);
 
-/// The pairs. Throws InputError where no node of `first` has a partner whose normal is opposed, and where a node
-/// of either part has none though it lies before a facet of the other, naming the first such node.
-std::vector<NodePair> match(const Face& first, const Face& second);
-
 /// What may be rounding of coordinates, relative to a mesh's size; where facets are so small that this is more than a thousandth of them,
 /// that thousandth.
 inline constexpr double kTouching = 1e-6;
@@ -55,19 +51,14 @@ std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::un
 /// Throws InputError where rows overlap at rest by more than kTouching; a negative `added` is no overlap.
 void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, const Face& second);
 
-/// Rows at these pairs, one a side of the first part at each. Throws as row_of() and, unless `interference`, as refuse_overlap().
+/// Rows at these pairs, one a side of the first part at each; `added` (may be empty) is added to the geometric gap. Throws as row_of() and,
+/// unless `interference`, as refuse_overlap().
 std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const Face& first, const Face& second,
                                       const elasticity::ScalarField& added, bool interference);
 
-/// Rows at the matching nodes, one a side of the first part at each; `added` (may be empty) is added
-/// to the geometric gap. Throws as match(), for a gap that is not finite, and unless `interference` is
-/// set for parts that overlap at rest (by more than kTouching; a negative `added` is no overlap).
-std::vector<ContactRow> between(const Face& first, const Face& second,
-                                const elasticity::ScalarField& added, bool interference = false);
-
-/// The rows that between() made of `first` on the mesh `before`, whose nodes have moved (as those of `second` may have): pairs, M of
+/// The rows that matching_rows() made of `first` on the mesh `before`, whose nodes have moved (as those of `second` may have): pairs, M of
 /// frame.hpp and what was added to the gaps stay, normals, weights, gaps and what normals are uncertain by are made anew. A part that rests is
-/// still the mesh that it was. Throws as between() for an overlap, and as moved_sides().
+/// still the mesh that it was. Throws as matching_rows() for an overlap, and as moved_sides().
 std::vector<ContactRow> moved_rows(const mesh::Mesh& before, const mesh::Mesh& second_before, const std::vector<ContactRow>& rows, const Face& first, const Face& second,
                                    bool interference);
 

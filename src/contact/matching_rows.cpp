@@ -23,12 +23,7 @@ ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double
 
 ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double added, const Face& first, const Face& second, const Frame& frame) {
   const Point x = first.mesh.point(side.node);
-  Point own{0, 0, 0}, across{0, 0, 0};
-  for (const NodeWeight& p : side.own)
-    for (int i = 0; i < 3; ++i) own[i] += p.weight * first.mesh.point(p.node)[i];
-  for (const NodeWeight& p : partners)
-    for (int i = 0; i < 3; ++i) across[i] += p.weight * second.mesh.point(p.node)[i];
-  const double gap = dot(minus(across, own), frame.normal) + added;
+  const double gap = dot(minus(mean_place(partners, second.mesh), mean_place(side.own, first.mesh)), frame.normal) + added;
   if (!std::isfinite(gap))
     throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), first.mesh.dimension()),
                           "; it must be a finite number"));
@@ -87,11 +82,6 @@ std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const 
   }
   if (!interference) refuse_overlap(rows, first, second);
   return rows;
-}
-
-std::vector<ContactRow> between(const Face& first, const Face& second,
-                                const elasticity::ScalarField& added, bool interference) {
-  return matching_rows(match(first, second), first, second, added, interference);
 }
 
 namespace {

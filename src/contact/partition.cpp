@@ -7,11 +7,7 @@
 namespace dotyk::contact {
 namespace {
 
-using mesh::Point;
-
-struct Box {
-  Point low{-INFINITY, -INFINITY, -INFINITY}, high{INFINITY, INFINITY, INFINITY};
-};
+using mesh::Box;
 
 class Cutter {
  public:
@@ -22,8 +18,8 @@ class Cutter {
     const Box box = around(list, within);
     int axis = 0;
     for (int i = 1; i < 3; ++i)
-      if (length(box, i) > (1 + 1e-9) * length(box, axis)) axis = i;
-    const double extent = length(box, axis);
+      if (box.extent(i) > (1 + 1e-9) * box.extent(axis)) axis = i;
+    const double extent = box.extent(axis);
     const int slabs = std::min(static_cast<int>(list.size()), static_cast<int>(std::ceil(extent / size_ - 1e-6)));
     if (slabs <= 1) {
       for (const int p : list) cell_[p] = count_;
@@ -47,14 +43,12 @@ class Cutter {
   std::vector<int> take() { return std::move(cell_); }
 
  private:
-  static double length(const Box& b, int axis) { return b.high[axis] - b.low[axis]; }
   Box around(const std::vector<int>& list, const Box& within) const {
     Box box;
+    for (const int p : list) box.add(pieces_[p].box);
     for (int i = 0; i < 3; ++i) {
-      double low = INFINITY, high = -INFINITY;
-      for (const int p : list) low = std::min(low, pieces_[p].low[i]), high = std::max(high, pieces_[p].high[i]);
-      box.low[i] = std::max(low, within.low[i]);
-      box.high[i] = std::max(box.low[i], std::min(high, within.high[i]));
+      box.low[i] = std::max(box.low[i], within.low[i]);
+      box.high[i] = std::max(box.low[i], std::min(box.high[i], within.high[i]));
     }
     return box;
   }
@@ -71,7 +65,8 @@ std::vector<int> partition(const std::vector<Piece>& pieces, double size) {
   std::map<int, std::vector<int>> by_component;
   for (std::size_t p = 0; p < pieces.size(); ++p) by_component[pieces[p].component].push_back(static_cast<int>(p));
   Cutter cutter(pieces, size);
-  for (const auto& [component, list] : by_component) cutter.cut(list, {});
+  constexpr Box kSpace{{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+  for (const auto& [component, list] : by_component) cutter.cut(list, kSpace);
   return cutter.take();
 }
 

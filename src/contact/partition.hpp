@@ -8,8 +8,9 @@ namespace dotyk::contact {
 
 /// A small piece of a surface, to be joined with its neighbours.
 struct Piece {
-  mesh::Point centre, low, high;  ///< low, high: the box around it
-  int component;                  ///< pieces of different components are not joined
+  mesh::Point centre;
+  mesh::Box box;  ///< around it
+  int component;  ///< pieces of different components are not joined
 };
 
 /// Joins pieces into cells of extent `size` along the coordinate axes: each component is cut into

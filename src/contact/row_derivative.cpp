@@ -24,10 +24,7 @@ using mesh::minus;
 bool none(const Point& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
 Point velocity(const Mesh& mesh, const std::vector<double>& V, int node) {
-  Point out{0, 0, 0};
-  if (V.empty()) return out;
-  for (int i = 0; i < mesh.dimension(); ++i) out[i] = V[static_cast<std::size_t>(node) * mesh.dimension() + i];
-  return out;
+  return V.empty() ? Point{0, 0, 0} : mesh::at_node(V, node, mesh.dimension());
 }
 
 /// d/dt of m/|m|.

@@ -14,7 +14,7 @@ struct RowDerivative {
   double weight = 0;  ///< of ∫φ over the row's facets
 };
 
-/// Of the rows of between(), whose nodes match: the normal is that of frame.hpp, its M kept, where a part's own is m/|m|, m = Σ ∫φ n over
+/// Of the rows of matching_rows(): the normal is that of frame.hpp, its M kept, where a part's own is m/|m|, m = Σ ∫φ n over
 /// the facets of its side; the gap is (x₂ − x₁)·normal + added. `V` is the velocity of the first part's mesh, `W` that of the second's.
 std::vector<RowDerivative> row_derivatives(const Face& first, const std::vector<ContactRow>& rows, const std::vector<double>& V,
                                            const Face& second, const std::vector<double>& W);

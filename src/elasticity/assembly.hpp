@@ -34,6 +34,15 @@ System assemble(const mesh::Mesh& mesh, const MaterialField& material,
                 const std::vector<FacetSpring>& springs, const std::vector<double>& force,
                 const Numbering& numbering);
 
+/// Springs as rows: ½ Σ k_q (Sv)_q² of the unknowns v is what assemble() makes of them.
+struct SpringRows {
+  algebra::SparseRows S;      ///< one a quadrature point and component with a spring: its displacement there
+  algebra::Vector stiffness;  ///< k_q > 0, force per displacement: the point's share of the boundary included
+};
+
+/// Throws std::logic_error where a spring acts on a prescribed component.
+SpringRows spring_rows(const mesh::Mesh& mesh, const std::vector<FacetSpring>& springs, const Numbering& numbering);
+
 /// ∫ ε(φ):c:ε(u) + springs for every node and component (node × dimension), of
 /// the displacement u (node × dimension): the forces that hold u in place.
 std::vector<double> internal_force(const mesh::Mesh& mesh, const MaterialField& material,

@@ -3,7 +3,6 @@
 // From a mesh's cell type to its reference element, at compile time. Used inside this room only.
 
 #include "elasticity/reference_element.hpp"
-#include "elasticity/second_order_element.hpp"
 
 namespace dotyk::elasticity {
 

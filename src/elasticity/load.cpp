@@ -18,39 +18,24 @@ struct FacetShape {
   double n[mesh::kMostFacetNodes], du[mesh::kMostFacetNodes], dv[mesh::kMostFacetNodes];
 };
 
-/// An edge's point q, its weight returned: two Gauss points, or three of order 2.
-double edge_rule(int order, int q, FacetShape& f) {
-  f.dv[0] = f.dv[1] = f.dv[2] = 0;
-  if (order == 1) {
-    const double s = q == 0 ? -kGauss : kGauss;
-    f.n[0] = 0.5 * (1 - s), f.n[1] = 0.5 * (1 + s);
-    f.du[0] = -0.5, f.du[1] = 0.5;
-    return 1;
-  }
-  const double s = (q - 1) * kGauss3;
-  f.n[0] = 0.5 * s * (s - 1), f.n[1] = 0.5 * s * (s + 1), f.n[2] = 1 - s * s;
-  f.du[0] = s - 0.5, f.du[1] = s + 0.5, f.du[2] = -2 * s;
-  return q == 1 ? 8.0 / 9 : 5.0 / 9;
-}
-
-/// Point q of a face, which is a cell of the plane.
+/// Point q of a facet, which is a line or a cell of the plane; its weight returned.
 template <class E>
-double face_rule(int q, FacetShape& f) {
+double rule(int q, FacetShape& f) {
   const auto x = E::load_point(q);
   const auto shape = E::shape(x);
-  double g[E::nodes][2];
+  double g[E::nodes][E::dim];
   E::gradient(x, g);
-  for (int a = 0; a < E::nodes; ++a) f.n[a] = shape[a], f.du[a] = g[a][0], f.dv[a] = g[a][1];
+  for (int a = 0; a < E::nodes; ++a) f.n[a] = shape[a], f.du[a] = g[a][0], f.dv[a] = E::dim == 2 ? g[a][E::dim - 1] : 0;
   return E::load_weight(q);
 }
 
 double facet_rule(const mesh::ElementTopology& t, int q, FacetShape& f) {
   switch (t.nodes_per_facet) {
-    case 3: return t.dimension == 2 ? edge_rule(2, q, f) : face_rule<TriangleP1>(q, f);
-    case 4: return face_rule<QuadrilateralQ1>(q, f);
-    case 6: return face_rule<TriangleP2>(q, f);
-    case 9: return face_rule<QuadrilateralQ2>(q, f);
-    default: return edge_rule(1, q, f);
+    case 3: return t.dimension == 2 ? rule<Tensor<1, 2>>(q, f) : rule<TriangleP1>(q, f);
+    case 4: return rule<QuadrilateralQ1>(q, f);
+    case 6: return rule<TriangleP2>(q, f);
+    case 9: return rule<QuadrilateralQ2>(q, f);
+    default: return rule<Tensor<1, 1>>(q, f);
   }
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "elasticity/adjacency.hpp"
 
 namespace dotyk::elasticity {
 
@@ -21,7 +20,7 @@ Pattern::Pattern(const mesh::Mesh& mesh, const Numbering& numbering) {
 
 std::size_t Pattern::find_neighbours(const mesh::Mesh& mesh, const std::vector<int>& unknowns_of) {
   const int nodes = mesh.node_count(), dim = mesh.dimension(), per_cell = mesh.topology().nodes;
-  const NodeCells around = cells_of_nodes(mesh);
+  const mesh::Buckets around = mesh::cells_of_nodes(mesh);
   std::vector<int> mark(nodes, -1);
   start_.assign(nodes + 1, 0);
   neighbour_.reserve(static_cast<std::size_t>(nodes) * (dim == 2 ? 4 : 14));
@@ -31,9 +30,9 @@ std::size_t Pattern::find_neighbours(const mesh::Mesh& mesh, const std::vector<i
     start_[b] = first;
     neighbour_.push_back(b);
     mark[b] = b;
-    for (int k = around.start[b]; k < around.start[b + 1]; ++k)
+    for (const int c : around[b])
       for (int l = 0; l < per_cell; ++l) {
-        const int a = mesh.cell(around.cells[k])[l];
+        const int a = mesh.cell(c)[l];
         if (a > b && mark[a] != b) {
           mark[a] = b;
           neighbour_.push_back(a);

@@ -1,7 +1,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "elasticity/adjacency.hpp"
 #include "elasticity/strain.hpp"
 
 namespace dotyk::elasticity {
@@ -25,15 +24,14 @@ int enough_cells(mesh::Element element) {
 }
 
 /// The cells about a node; if they are too few, also those about its neighbours.
-void patch_of(const Mesh& mesh, const NodeCells& around, int node, std::vector<int>& patch) {
-  patch.assign(around.cells.begin() + around.start[node], around.cells.begin() + around.start[node + 1]);
+void patch_of(const Mesh& mesh, const mesh::Buckets& around, int node, std::vector<int>& patch) {
+  patch.assign(around[node].begin(), around[node].end());
   if (static_cast<int>(patch.size()) >= enough_cells(mesh.element)) return;
   const std::vector<int> own = patch;
   for (int c : own)
     for (int k = 0; k < mesh.topology().nodes; ++k) {
-      const int n = mesh.cell(c)[k];
-      patch.insert(patch.end(), around.cells.begin() + around.start[n],
-                   around.cells.begin() + around.start[n + 1]);
+      const auto here = around[mesh.cell(c)[k]];
+      patch.insert(patch.end(), here.begin(), here.end());
     }
   std::sort(patch.begin(), patch.end());
   patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
@@ -80,7 +78,7 @@ std::vector<Stress> mean_stress(const Mesh& mesh, const MaterialField& material,
   std::vector<Stress> sum(mesh.node_count(), Stress{});
   std::vector<double> weight(mesh.node_count(), 0);
   dispatch(mesh.element, [&]<class E>() {
-    if constexpr (requires { E::node(0); }) {
+    if constexpr (E::order == 2) {
       double x[E::nodes][E::dim], measure;
       Hooke hooke = material.at(0);
       for (int c = 0; c < mesh.cell_count(); ++c) {
@@ -107,7 +105,7 @@ std::vector<Stress> nodal_stress(const Mesh& mesh, const MaterialField& material
 }
 
 std::vector<Stress> recover_stress(const Mesh& mesh, const std::vector<Stress>& at_centres) {
-  const NodeCells around = cells_of_nodes(mesh);
+  const mesh::Buckets around = mesh::cells_of_nodes(mesh);
   std::vector<mesh::Point> centre(mesh.cell_count());
   for (int c = 0; c < mesh.cell_count(); ++c) centre[c] = mesh.cell_centre(c);
   std::vector<Stress> result(mesh.node_count());

@@ -75,12 +75,6 @@ void add_cell(const Hooke& h, const double x[][E::dim], const double u[][E::dim]
   }
 }
 
-Point velocity(const Mesh& mesh, const std::vector<double>& V, int node) {
-  Point out{0, 0, 0};
-  for (int i = 0; i < mesh.dimension(); ++i) out[i] = V[static_cast<std::size_t>(node) * mesh.dimension() + i];
-  return out;
-}
-
 /// Derivatives of a facet's shape functions (in space) by its two coordinates where they have these values.
 void facet_gradients(int nodes, const double shape[4], double du[4], double dv[4]) {
   if (nodes == 3) {
@@ -99,7 +93,7 @@ class FacetGrowth {
   FacetGrowth(const Mesh& mesh, Facet facet, const std::vector<double>& V) : plane_(mesh.dimension() == 2) {
     for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) {
       x_.push_back(mesh.point(mesh.facet_node(facet, k)));
-      v_.push_back(velocity(mesh, V, mesh.facet_node(facet, k)));
+      v_.push_back(mesh::at_node(V, mesh.facet_node(facet, k), mesh.dimension()));
     }
   }
 

@@ -198,11 +198,6 @@ Refined Bisection::end(Monitor& monitor) {
   return result;
 }
 
-Refined Bisection::refine(const std::vector<int>& cells) {
-  Monitor unwatched;
-  return mesh::refine({this}, {cells}, {}, unwatched).front();
-}
-
 void Bisection::project(const std::string& part, const std::function<Point(const Point&)>& map) {
   const auto old = mesh_;
   const auto found = old->parts.find(part);

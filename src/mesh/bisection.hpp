@@ -37,10 +37,6 @@ class Bisection {
 
   const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
 
-  /// Bisects the cells (ascending or not, repeated or not) `dimension` times, which halves their extent, and others
-  /// as conformity needs. Facets of boundary parts hand their name down. Throws InputError for a cell out of range.
-  Refined refine(const std::vector<int>& cells);
-
   /// Moves the nodes that the last round made on the boundary part to `map(x)`: without it, new nodes of a curved
   /// boundary stay on its chords. Throws InputError where the mesh has no such part, a cell inverts, or `map`
   /// itself changed these meshes, and then moves none.
@@ -86,7 +82,8 @@ struct Joint {
   std::vector<std::pair<int, int>> nodes; ///< of the first and of the second
 };
 
-/// A round for several meshes at once, cells[m] of mesh m: what is bisected on one side of a joint is on the other.
+/// A round for several meshes at once: bisects cells[m] of mesh m (ascending or not, repeated or not) `dimension` times, which halves their extent, and
+/// others as conformity needs. What is bisected on one side of a joint is on the other. Facets of boundary parts hand their name down.
 /// Throws InputError for a cell out of range, Interrupted where the monitor asks to stop; whatever it throws, the meshes
 /// are as they were.
 std::vector<Refined> refine(const std::vector<Bisection*>& meshes, const std::vector<std::vector<int>>& cells,

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
-#include <vector>
 
 #include "mesh/mesh.hpp"
 
@@ -18,7 +16,7 @@ class CellGrid {
  private:
   Point low_{}, high_{}, step_{};
   std::array<int, 3> count_{1, 1, 1};
-  std::vector<int> start_, cells_;  ///< bin → cells whose box meets it
+  Buckets cells_;  ///< bin → cells whose box meets it
 };
 
 }  // namespace dotyk::mesh

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -34,18 +33,14 @@ double edge_scale(const Mesh& mesh, int c) {
 void refuse_repeated_cells(const Mesh& mesh, const std::string& what) {
   // Two cells with the same nodes have the same centre's node sum and least node; compare those.
   const int n = mesh.topology().nodes;
-  std::vector<int> by_least_start(mesh.node_count() + 1, 0), order(mesh.cell_count());
-  auto least = [&](int c) { return *std::min_element(mesh.cell(c), mesh.cell(c) + n); };
-  for (int c = 0; c < mesh.cell_count(); ++c) ++by_least_start[least(c) + 1];
-  std::partial_sum(by_least_start.begin(), by_least_start.end(), by_least_start.begin());
-  std::vector<int> fill(by_least_start.begin(), by_least_start.end() - 1);
-  for (int c = 0; c < mesh.cell_count(); ++c) order[fill[least(c)]++] = c;
+  const Buckets by_least(mesh.node_count(), [&](auto&& put) {
+    for (int c = 0; c < mesh.cell_count(); ++c) put(*std::min_element(mesh.cell(c), mesh.cell(c) + n), c);
+  });
   for (int node = 0; node < mesh.node_count(); ++node)
-    for (int i = by_least_start[node]; i < by_least_start[node + 1]; ++i)
-      for (int j = i + 1; j < by_least_start[node + 1]; ++j)
-        if (std::is_permutation(mesh.cell(order[i]), mesh.cell(order[i]) + n, mesh.cell(order[j])))
-          throw InputError(text(what, ": cells ", order[i] + 1, " and ", order[j] + 1,
-                                " have the same nodes; remove one of them"));
+    for (const int a : by_least[node])
+      for (const int b : by_least[node])
+        if (a < b && std::is_permutation(mesh.cell(a), mesh.cell(a) + n, mesh.cell(b)))
+          throw InputError(text(what, ": cells ", a + 1, " and ", b + 1, " have the same nodes; remove one of them"));
 }
 
 void refuse_stray_nodes(const Mesh& mesh, const std::string& what) {

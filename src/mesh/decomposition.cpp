@@ -57,13 +57,13 @@ Graph graph_of(const std::vector<int>& members, const std::vector<int>& neighbou
         if (std::find(sides(n), sides(n + 1), c) == sides(n + 1)) edge(rank[n], rank[c]);
       }
   };
-  Graph graph;
-  graph.start.assign(members.size() + 1, 0);
-  visit([&](int from, int) { ++graph.start[from + 1]; });
-  std::partial_sum(graph.start.begin(), graph.start.end(), graph.start.begin());
-  graph.adjacent.resize(graph.start.back());
-  std::vector<idx_t> fill(graph.start.begin(), graph.start.end() - 1);
-  visit([&](int from, int to) { graph.adjacent[fill[from]++] = to; });
+  const Buckets neighbours(static_cast<int>(members.size()), visit);
+  Graph graph{{0}, {}};
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const auto own = neighbours[static_cast<int>(k)];
+    graph.adjacent.insert(graph.adjacent.end(), own.begin(), own.end());
+    graph.start.push_back(static_cast<idx_t>(graph.adjacent.size()));
+  }
   return graph;
 }
 
@@ -115,16 +115,12 @@ Pieces decompose(const Mesh& mesh, int count) {
 
 Pieces decompose(const Mesh& mesh, const std::array<int, 3>& boxes) {
   std::vector<std::int64_t> part(mesh.cell_count(), 0);
+  const Box whole = mesh.box();
   for (int i = 0; i < mesh.dimension(); ++i) {
-    double low = INFINITY, high = -INFINITY;
-    for (int n = 0; n < mesh.node_count(); ++n) {
-      low = std::min(low, mesh.node(n)[i]);
-      high = std::max(high, mesh.node(n)[i]);
-    }
     // A centre on the plane between two boxes, up to rounding, is above it.
-    const double per_length = boxes[i] / (high - low), rounding = 1e-9;
+    const double per_length = boxes[i] / whole.extent(i), rounding = 1e-9;
     for (int c = 0; c < mesh.cell_count(); ++c) {
-      const double at = (mesh.cell_centre(c)[i] - low) * per_length + rounding;
+      const double at = (mesh.cell_centre(c)[i] - whole.low[i]) * per_length + rounding;
       part[c] = part[c] * boxes[i] + static_cast<std::int64_t>(std::min(at, boxes[i] - 1.0));
     }
     // Numbered densely again, so that no number of boxes overflows.

@@ -74,32 +74,23 @@ double corner_hat(const ElementTopology& t, int corner, int k) {
   return corner == edge || corner == (edge + 1) % corners ? 0.5 : 0;
 }
 
-Element first_order(Element element) {
-  switch (element) {
-    case Element::triangle_p2: return Element::triangle_p1;
-    case Element::quadrilateral_q2: return Element::quadrilateral_q1;
-    case Element::tetrahedron_p2: return Element::tetrahedron_p1;
-    case Element::hexahedron_q2: return Element::hexahedron_q1;
-    case Element::triangle_p1:
-    case Element::quadrilateral_q1:
-    case Element::tetrahedron_p1:
-    case Element::hexahedron_q1: break;
-  }
+namespace {
+
+/// A cell of each shape, of order 1 and 2.
+constexpr Element kOrders[][2] = {{Element::triangle_p1, Element::triangle_p2},
+                                  {Element::quadrilateral_q1, Element::quadrilateral_q2},
+                                  {Element::tetrahedron_p1, Element::tetrahedron_p2},
+                                  {Element::hexahedron_q1, Element::hexahedron_q2}};
+
+Element of_order(Element element, int order) {
+  for (const auto& shape : kOrders)
+    if (shape[0] == element || shape[1] == element) return shape[order - 1];
   return element;
 }
 
-Element second_order(Element element) {
-  switch (element) {
-    case Element::triangle_p1: return Element::triangle_p2;
-    case Element::quadrilateral_q1: return Element::quadrilateral_q2;
-    case Element::tetrahedron_p1: return Element::tetrahedron_p2;
-    case Element::hexahedron_q1: return Element::hexahedron_q2;
-    case Element::triangle_p2:
-    case Element::quadrilateral_q2:
-    case Element::tetrahedron_p2:
-    case Element::hexahedron_q2: break;
-  }
-  return element;
-}
+}  // namespace
+
+Element first_order(Element element) { return of_order(element, 1); }
+Element second_order(Element element) { return of_order(element, 2); }
 
 }  // namespace dotyk::mesh

@@ -21,17 +21,15 @@ Point Mesh::cell_centre(int c) const {
   return p;
 }
 
+Box Mesh::box() const {
+  Box box;
+  for (int k = 0; k < node_count(); ++k) box.add(point(k));
+  return box;
+}
+
 double Mesh::size() const {
-  double extent = 0;
-  for (int i = 0; i < dimension(); ++i) {
-    double low = INFINITY, high = -INFINITY;
-    for (int k = 0; k < node_count(); ++k) {
-      low = std::min(low, node(k)[i]);
-      high = std::max(high, node(k)[i]);
-    }
-    extent = std::max(extent, high - low);
-  }
-  return extent;
+  const Box all = box();
+  return std::max({0.0, all.extent(0), all.extent(1), all.extent(2)});
 }
 
 Point Mesh::facet_centre(Facet f) const {
@@ -68,6 +66,13 @@ Point Mesh::facet_area_vector(Facet f) const {
   if (topology().nodes_per_facet == 3) return times(0.5, cross(minus(b, a), minus(c, a)));
   const Point d = point(facet_node(f, 3));
   return times(0.5, cross(minus(c, a), minus(d, b)));  // of the diagonals
+}
+
+Buckets cells_of_nodes(const Mesh& mesh) {
+  return Buckets(mesh.node_count(), [&](auto&& put) {
+    for (int c = 0; c < mesh.cell_count(); ++c)
+      for (int k = 0; k < mesh.topology().nodes; ++k) put(mesh.cell(c)[k], c);
+  });
 }
 
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/buckets.hpp"
 #include "mesh/element.hpp"
 #include "mesh/point.hpp"
 
@@ -14,7 +15,7 @@ namespace dotyk::mesh {
 struct Facet {
   int cell;
   int local;  ///< which facet of the cell, as in ElementTopology::facet_nodes
-  bool operator==(const Facet&) const = default;
+  auto operator<=>(const Facet&) const = default;
 };
 
 /// A conforming mesh of one cell type, with named boundary parts.
@@ -33,6 +34,7 @@ struct Mesh {
 
   Point point(int i) const;
   Point cell_centre(int c) const;
+  Box box() const;  ///< around the nodes
   /// Greatest extent of the nodes along a coordinate axis.
   double size() const;
 
@@ -48,6 +50,9 @@ struct Mesh {
 
 /// d/dt of facet_area_vector() of a facet of order 1 where nodes move with the velocity V (node × dimension).
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f);
+
+/// Node → the cells that have it, ascending.
+Buckets cells_of_nodes(const Mesh& mesh);
 
 /// Cell × facets of a cell → the cell on the other side, or -1 on the boundary. Where more than two cells
 /// share a facet, each has one of the others.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace dotyk::mesh {
 
@@ -36,5 +38,30 @@ inline Point unit(const Point& a) {
 
 /// How far d leads off the line along a unit vector.
 inline double off_line(const Point& d, const Point& along) { return length(minus(d, times(dot(d, along), along))); }
+
+/// The vector that a list of vectors (node × dimension) has at a node.
+inline Point at_node(const std::vector<double>& nodal, int node, int dimension) {
+  Point v{0, 0, 0};
+  std::copy_n(nodal.begin() + static_cast<std::ptrdiff_t>(node) * dimension, dimension, v.begin());
+  return v;
+}
+
+/// A box along the axes around what was added to it.
+struct Box {
+  Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  void add(const Point& x) {
+    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], x[i]), high[i] = std::max(high[i], x[i]);
+  }
+  void add(const Box& other) { add(other.low), add(other.high); }
+  void grow(double by) {
+    for (int i = 0; i < 3; ++i) low[i] -= by, high[i] += by;
+  }
+  bool holds(const Point& x) const {
+    for (int i = 0; i < 3; ++i)
+      if (x[i] < low[i] || x[i] > high[i]) return false;
+    return true;
+  }
+  double extent(int axis) const { return high[axis] - low[axis]; }
+};
 
 }  // namespace dotyk::mesh

@@ -68,16 +68,16 @@ Mesh of_family(Mesh first, Family family) {
 namespace {
 
 /// Corners of the pieces of a cell or a facet of order 2, by its corners and dimension.
-using Pieces = std::vector<std::vector<int>>;
+using PieceCorners = std::vector<std::vector<int>>;
 
-Pieces simplex_pieces(int dimension) {
+PieceCorners simplex_pieces(int dimension) {
   if (dimension == 1) return {{0, 2}, {2, 1}};
   if (dimension == 2) return {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
   // Four at the corners; the octahedron between is cut along its diagonal from node 6 to node 8.
   return {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3}, {4, 5, 6, 8}, {4, 6, 7, 8}, {6, 8, 9, 7}, {6, 5, 9, 8}};
 }
 
-Pieces tensor_pieces(int dimension) {
+PieceCorners tensor_pieces(int dimension) {
   if (dimension == 2) return {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
   return {{0, 8, 24, 11, 16, 22, 26, 20}, {8, 1, 9, 24, 22, 17, 21, 26},  {24, 9, 2, 10, 26, 21, 18, 23},
           {11, 24, 10, 3, 20, 26, 23, 19}, {16, 22, 26, 20, 4, 12, 25, 15}, {22, 17, 21, 26, 12, 5, 13, 25},
@@ -90,8 +90,8 @@ Mesh cut_at_nodes(Mesh whole) {
   if (whole.topology().order == 1) return whole;
   const ElementTopology& t = whole.topology();
   const bool simplex = t.corners == t.dimension + 1;
-  const Pieces pieces = simplex ? simplex_pieces(t.dimension) : tensor_pieces(t.dimension);
-  const Pieces facet_pieces = t.dimension == 2 || simplex ? simplex_pieces(t.dimension - 1) : tensor_pieces(2);
+  const PieceCorners pieces = simplex ? simplex_pieces(t.dimension) : tensor_pieces(t.dimension);
+  const PieceCorners facet_pieces = t.dimension == 2 || simplex ? simplex_pieces(t.dimension - 1) : tensor_pieces(2);
   Mesh mesh;
   mesh.element = first_order(whole.element);
   mesh.coordinates = whole.coordinates;

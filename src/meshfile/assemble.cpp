@@ -136,7 +136,7 @@ void add_parts(const Contents& c, const FacetTable& table, const std::vector<int
     }
   }
   for (auto& [name, facets] : mesh.parts) {
-    std::sort(facets.begin(), facets.end(), [](mesh::Facet a, mesh::Facet b) { return a.cell != b.cell ? a.cell < b.cell : a.local < b.local; });
+    std::sort(facets.begin(), facets.end());
     facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
   }
   std::erase_if(mesh.parts, [](const auto& part) { return part.second.empty(); });

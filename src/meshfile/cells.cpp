@@ -70,17 +70,13 @@ Cells cells(const std::vector<const Block*>& blocks, int each, int between) {
 
 /// Plane meshes: z must not vary, by more than rounding of the file's numbers.
 void check_plane(const Contents& c, const Cells& cells, const std::string& what) {
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  mesh::Box box;
   for (const std::vector<int>* nodes : {&cells.corners, &cells.between})
     for (const int n : *nodes)
-      for (int k = 0; n >= 0 && k < 3; ++k) {
-        low[k] = std::min(low[k], c.points[3 * static_cast<std::size_t>(n) + k]);
-        high[k] = std::max(high[k], c.points[3 * static_cast<std::size_t>(n) + k]);
-      }
-  const double size = std::max(high[0] - low[0], high[1] - low[1]);
-  if (!(high[2] - low[2] > 1e-9 * size)) return;
+      if (n >= 0) box.add(mesh::at_node(c.points, n, 3));
+  if (!(box.extent(2) > 1e-9 * std::max(box.extent(0), box.extent(1)))) return;
   for (int k = 0; k < 2; ++k)
-    if (!(high[k] - low[k] > 1e-9 * (high[2] - low[2])))
+    if (!(box.extent(k) > 1e-9 * box.extent(2)))
       throw InputError(text(what, ": its cells lie in a plane of constant ", "xy"[k], "; turn them into the plane of x and y"));
   throw InputError(what + ": its cells are a surface in space, not a solid and not in the plane of x and y; for a solid, mesh the volume");
 }

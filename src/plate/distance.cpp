@@ -46,10 +46,7 @@ class Sampler {
     D_ = solution_.stiffness(cell);
     LocalMatrix to_basis = LocalMatrix::Identity(space.local_size(), space.local_size());
     space.to_freedoms(cell, to_basis);
-    const auto freedom = space.freedoms(cell);
-    LocalVector own(space.local_size());
-    for (int i = 0; i < space.local_size(); ++i) own[i] = solution_.freedoms()[freedom[i]];
-    coefficients_ = to_basis * own;
+    coefficients_ = to_basis * space.of_cell(cell, solution_.freedoms());
   }
 
   const Solution& solution_;

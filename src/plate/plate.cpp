@@ -13,10 +13,10 @@ const char* element_name(Element element) { return element == Element::morley ? 
 namespace {
 
 void require_facets_once(const Plate& plate) {
-  std::map<std::pair<int, int>, const EdgeSupport*> taken;
+  std::map<mesh::Facet, const EdgeSupport*> taken;
   for (const EdgeSupport& edge : plate.edges)
     for (const mesh::Facet f : edge.facets) {
-      const auto [place, fresh] = taken.emplace(std::pair(f.cell, f.local), &edge);
+      const auto [place, fresh] = taken.emplace(f, &edge);
       if (fresh) continue;
       const mesh::Point at = plate.mesh->facet_centre(f);
       throw InputError(text("the edge at ", point_text(at.data(), 2), " belongs to '", place->second->part, "' and to '", edge.part,

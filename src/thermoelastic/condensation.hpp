@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "algebra/direct/quasi_definite.hpp"
@@ -18,9 +19,8 @@ class Condensation {
   algebra::Vector recovered(const algebra::Vector& b, const algebra::Vector& on_gamma) const;
 
  private:
-  static algebra::SparseMatrix interior(const algebra::SparseMatrix& lower, const std::vector<int>& place);
   std::vector<int> gamma_, inner_;
-  algebra::QuasiDefinite factor_;
+  std::optional<algebra::QuasiDefinite> factor_;  ///< of A_II
   algebra::DenseMatrix W_, S_;
 };
 

@@ -23,14 +23,11 @@ CellVector Stepping::Place::end_forces() const {
 }
 
 Stepping::Place Stepping::place(Effect::Kind kind, double x) const {
-  if (!(x >= 0 && x <= data().length))
-    throw InputError(text("x = ", x, " is not on the beam, which goes from 0 to ", data().length));
   for (const auto& group : groups_)
     for (const Part& part : group.model->parts)
       if (part.effect.kind() == kind) {
-        const auto& nodes = group.model->heat.nodes();
-        const int cell = beam::cell_of(nodes, x);
-        return {group, part, cell, (x - nodes[cell]) / (nodes[cell + 1] - nodes[cell])};
+        const auto [cell, s] = beam::place(group.model->heat.nodes(), x);
+        return {group, part, cell, s};
       }
   throw std::logic_error("no such effect");
 }

@@ -8,6 +8,7 @@
 
 #include "../support/block_pair.hpp"
 #include "../support/facets.hpp"
+#include "../support/matching.hpp"
 #include "base/error.hpp"
 
 using namespace dotyk;

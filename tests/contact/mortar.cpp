@@ -6,6 +6,7 @@
 
 #include "../support/block_pair.hpp"
 #include "../support/facets.hpp"
+#include "../support/matching.hpp"
 #include "base/error.hpp"
 #include "contact/projection.hpp"
 

@@ -246,7 +246,7 @@ TEST_CASE("pieces join into cells of the size asked for, component by component"
   std::vector<contact::Piece> pieces;
   for (int side : {0, 1})
     for (int i = 0; i < 12; ++i)
-      pieces.push_back({{i + 0.5, 0, 0}, {1.0 * i, 0, 0}, {i + 1.0, 0, 0}, side});
+      pieces.push_back({{i + 0.5, 0, 0}, {{1.0 * i, 0, 0}, {i + 1.0, 0, 0}}, side});
   for (double size : {1.0, 2.0, 2.5, 3.0, 5.0, 12.0, 100.0}) {
     const auto cell = contact::partition(pieces, size);
     const int per_side = static_cast<int>(std::ceil(12 / size));

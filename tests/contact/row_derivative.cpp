@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "../support/matching.hpp"
 #include "base/error.hpp"
 #include "contact/frame.hpp"
 #include "contact/matching.hpp"

@@ -17,6 +17,9 @@ using mesh::Point;
 
 namespace {
 
+/// Every column less its part in the kernel.
+DenseMatrix project(const GeneralisedInverse& inverse, const DenseMatrix& u) { return u - inverse.basis() * (inverse.basis().transpose() * u); }
+
 struct Body {
   mesh::Mesh mesh;
   elasticity::Numbering numbering;
@@ -102,7 +105,7 @@ TEST_CASE("a generalised inverse by fixed unknowns: K K⁺ K = K, K⁺ K K⁺ = 
     CHECK(test::relative(X * b.K * X, X) < 1e-11);  // of the size of X's own error, ε κ(K_JJ)
     CHECK((X - X.transpose()).norm() < 1e-12 * X.norm());
     for (int unknown : inverse.fixed()) CHECK(X.row(unknown).norm() == 0);
-    CHECK(test::relative(inverse.project(inverse.project(X).transpose()), pseudo_inverse(b)) < 1e-10);
+    CHECK(test::relative(project(inverse, project(inverse, X).transpose()), pseudo_inverse(b)) < 1e-10);
     // The bound on the norm by the regularity of the choice.
     const auto norm = [](const DenseMatrix& a) { return algebra::singular_values(a)[0]; };
     CHECK(norm(X) <= (1 + 1e-9) * norm(pseudo_inverse(b)) / std::pow(inverse.regularity(), 2));
@@ -115,9 +118,9 @@ TEST_CASE("loads in equilibrium are balanced; of others the fixed unknowns take 
   for (const Body& b : bodies()) {
     const GeneralisedInverse inverse = factored(b);
     const int n = static_cast<int>(b.K.rows());
-    const DenseMatrix f = random.matrix(n, 7), balanced = inverse.project(f);
+    const DenseMatrix f = random.matrix(n, 7), balanced = project(inverse, f);
     CHECK(test::relative(b.K * inverse.apply(balanced), balanced) < 1e-12);
-    CHECK((inverse.project(inverse.apply(balanced)).transpose() * b.R).norm() < 1e-11 * inverse.apply(balanced).norm());
+    CHECK((project(inverse, inverse.apply(balanced)).transpose() * b.R).norm() < 1e-11 * inverse.apply(balanced).norm());
     DenseMatrix missing = b.K * inverse.apply(f) - f;
     if (b.R.cols() > 0) CHECK(missing.norm() > 1e-3);
     missing(inverse.fixed(), Eigen::all).setZero();

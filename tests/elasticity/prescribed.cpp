@@ -1,4 +1,4 @@
-#include "elasticity/spring_rows.hpp"
+#include "elasticity/assembly.hpp"
 
 #include <doctest/doctest.h>
 

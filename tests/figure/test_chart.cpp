@@ -130,7 +130,7 @@ TEST_CASE("numbers next to nothing and near the greatest are drawn where they be
   };
   ChartPicture chart = chart_of("extreme.png", {1, 2}, {least, 1e-310});
   chart.x_range = {0, 3};
-  chart.slopes = {1, -1e9};
+  chart.slopes = {{1, ""}, {-1e9, ""}};
   Pixels p = drawn(chart);  // from 0 to 1.05e-310
   Frame f = frame_of(p);
   CHECK(drawn_at(p, f, 1.5 / 3, 0.5 / 1.05, series_colour(0)));
@@ -158,7 +158,7 @@ TEST_CASE("numbers next to nothing and near the greatest are drawn where they be
       chart.series[0].style = SeriesStyle::both;
       chart.series[0].low = {0, low}, chart.series[0].high = chart.series[0].y;
       chart.log_x = chart.log_y = log;
-      chart.slopes = {1};
+      chart.slopes = {{1, ""}};
       CHECK(drawn(chart).count(series_colour(0), 6) > 20);
       if (low < high) chart.x_range = chart.y_range = {low, high};
       CHECK(drawn(chart).count(series_colour(0), 6) > 20);
@@ -174,7 +174,7 @@ TEST_CASE("each series has its colour; the legend does not hide a curve") {
     for (int i = 0; i <= 10; ++i) s.x.push_back(i), s.y.push_back(k + 0.1 * i * (k % 2 ? 1 : -1));
     chart.series.push_back(s);
   }
-  chart.slopes = {1, -2};
+  chart.slopes = {{1, ""}, {-2, "−2"}};
   draw(chart);
   const Pixels p = read_png("series.png");
   for (int k = 0; k < 7; ++k) CHECK(p.count(series_colour(k), 6) > 150);
@@ -277,7 +277,7 @@ TEST_CASE("what a slope guide says keeps clear of the frame") {
     chart.log_x = chart.log_y = true;
     chart.x_range = {1, 1e4};
     chart.y_range = {1e-6, std::pow(10, room)};
-    chart.slopes = {-0.25};
+    chart.slopes = {{-0.25, ""}};
     draw(chart);
     const Pixels p = read_png("guide_frame.png");
     const Frame f = frame_of(p);

@@ -170,7 +170,7 @@ TEST_CASE("a guide stands beside the curve whose slope it has") {
     chart.series.push_back(line({1e-2, 1}, {1e-8, 1e-4}));
     chart.file = "guide.png", chart.width = 700, chart.height = 560;
     chart.log_x = chart.log_y = true, chart.x_range = {1e-2, 1}, chart.y_range = {1e-9, 10};
-    chart.slopes = {slope};
+    chart.slopes = {{slope, ""}};
     draw(chart);
     const Pixels p = read_png("guide.png");
     // Its filled inside, in the plane of log10 x and log10 y.

@@ -46,9 +46,11 @@ void add_boundary(PlatePicture& p, int n, PlateSupport support, const Along& sam
         return std::array<double, 2>{corner[side][0] + t * (corner[side + 1][0] - corner[side][0]), corner[side][1] + t * (corner[side + 1][1] - corner[side][1])};
       };
       PlateEdge e{at(static_cast<double>(k) / n), at((k + 1.0) / n), support, false, {}};
-      for (const int end : {0, 1}) {
-        const auto q = at(static_cast<double>(k + end) / n);
-        e.samples[end] = sample(q[0], q[1]);
+      for (const double share : {0.0, 1.0}) {
+        const auto q = at((k + share) / n);
+        EdgeSample s = sample(q[0], q[1]);
+        s.share = share;
+        e.samples.push_back(s);
       }
       p.boundary.push_back(e);
     }
@@ -121,8 +123,8 @@ TEST_CASE("an edge that has lifted shows the gap under it") {
 
 TEST_CASE("areas of reactions are as their integrals") {
   const auto along = [](double x, double y) { return x > 0 && x < 1 ? x : y; };
-  const Pixels whole = drawn(loaded([](double, double) { return EdgeSample{0, 2, {}}; }));
-  const Pixels ramp = drawn(loaded([&](double x, double y) { return EdgeSample{0, 2 * along(x, y), {}}; }));
+  const Pixels whole = drawn(loaded([](double, double) { return EdgeSample{0, 0, 2, {}}; }));
+  const Pixels ramp = drawn(loaded([&](double x, double y) { return EdgeSample{0, 0, 2 * along(x, y), {}}; }));
   REQUIRE(whole.count(push_area, 8) > 5000);
   CHECK(whole.count(pull, 3) == 0);
   CHECK(white_rim(whole));
@@ -132,7 +134,7 @@ TEST_CASE("areas of reactions are as their integrals") {
 }
 
 TEST_CASE("what pulls down is told from what pushes up, at points too") {
-  const Pixels down = drawn(loaded([](double, double) { return EdgeSample{0, -1, {}}; }));
+  const Pixels down = drawn(loaded([](double, double) { return EdgeSample{0, 0, -1, {}}; }));
   CHECK(down.count(pull_area, 8) > 5000);
   CHECK(down.count(push, 3) == 0);
   PlatePicture p = loaded([](double, double) { return EdgeSample{}; });
@@ -218,6 +220,6 @@ TEST_CASE("plates that cannot be drawn are refused") {
   refused([](PlatePicture& p) { p.values[3] = 1, p.values.pop_back(); }, "24 field values");
   refused([](PlatePicture& p) { p.bearing = {-1}; }, "nodes that bear");
   refused([](PlatePicture& p) { p.deflection[0] = NAN; }, "not finite");
-  refused([](PlatePicture& p) { p.boundary[0].samples[0].reaction = NAN; }, "not finite");
+  refused([](PlatePicture& p) { p.boundary[0].samples[0].share = 2; }, "ascend from 0 to 1");
   refused([](PlatePicture& p) { p.triangles.clear(); }, "no triangle");
 }

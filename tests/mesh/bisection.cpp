@@ -93,7 +93,7 @@ TEST_CASE("twenty random rounds of bisection keep the mesh conforming, its volum
     for (int c = 0; c < start.cell_count(); ++c) origin[c] = c;
     for (int round = 0; round < 20; ++round) {
       const auto before = bisection.mesh();
-      const auto refined = bisection.refine(some(*before, dim == 2 ? 10 : 4, random));
+      const auto refined = test::refine(bisection, some(*before, dim == 2 ? 10 : 4, random));
       const mesh::Mesh& m = *bisection.mesh();
       CHECK_NOTHROW(mesh::check(m, "refined"));
       CHECK(conforming(m));
@@ -132,7 +132,7 @@ TEST_CASE("thirty rounds at a corner make cells smaller there only, and no flatt
   for (const int dim : {2, 3}) {
     const auto start = test::unit(dim, mesh::Family::p1, 2);
     mesh::Bisection bisection(start);
-    for (int round = 0; round < 30; ++round) bisection.refine(at(*bisection.mesh(), {0, 0, 0}));
+    for (int round = 0; round < 30; ++round) test::refine(bisection, at(*bisection.mesh(), {0, 0, 0}));
     const mesh::Mesh& m = *bisection.mesh();
     CHECK(conforming(m));
     CHECK(test::measure(m) == doctest::Approx(1).epsilon(1e-12));
@@ -150,7 +150,7 @@ TEST_CASE("all cells refined is uniform refinement: every extent halved") {
     mesh::Bisection bisection(start);
     std::vector<int> all(start.cell_count());
     for (int c = 0; c < start.cell_count(); ++c) all[c] = c;
-    bisection.refine(all);
+    test::refine(bisection, all);
     CHECK(bisection.mesh()->cell_count() == start.cell_count() << dim);
     CHECK(bisection.mesh()->node_count() == test::unit(dim, mesh::Family::p1, 4).node_count());
   }
@@ -194,7 +194,7 @@ TEST_CASE("new nodes of a curved boundary go where the projection puts them") {
   const auto start = test::disc(mesh::Family::p1, 2);
   mesh::Bisection bisection(start);
   for (int round = 0; round < 3; ++round) {
-    bisection.refine({0, 3, 7});
+    test::refine(bisection, {0, 3, 7});
     bisection.project("boundary", [](const mesh::Point& x) {
       const double r = std::hypot(x[0], x[1]);
       return mesh::Point{x[0] / r, x[1] / r, 0};
@@ -205,7 +205,7 @@ TEST_CASE("new nodes of a curved boundary go where the projection puts them") {
   for (const mesh::Facet f : mesh::boundary(m))
     for (int k = 0; k < 2; ++k) CHECK(test::length(m.point(m.facet_node(f, k))) == doctest::Approx(1).epsilon(1e-14));
   CHECK_THROWS_WITH_AS(bisection.project("rim", [](const mesh::Point& x) { return x; }), doctest::Contains("no part 'rim'; it has boundary"), InputError);
-  bisection.refine({bisection.mesh()->parts.at("boundary")[0].cell});
+  test::refine(bisection, {bisection.mesh()->parts.at("boundary")[0].cell});
   const auto unmoved = bisection.mesh();
   CHECK_THROWS_AS(bisection.project("boundary", [](const mesh::Point&) { return mesh::Point{50, 0, 0}; }), InputError);
   CHECK(bisection.mesh() == unmoved);
@@ -235,7 +235,7 @@ TEST_CASE("a round that is stopped leaves the meshes as they were") {
   }
   CHECK(stops > 4);  // among others in the midst of the first and of the second
   mesh::Bisection whole(*before);
-  whole.refine(all);
+  test::refine(whole, all);
   CHECK(stopped.mesh()->cells == whole.mesh()->cells);
   CHECK(stopped.mesh()->coordinates == whole.mesh()->coordinates);
 }
@@ -243,5 +243,5 @@ TEST_CASE("a round that is stopped leaves the meshes as they were") {
 TEST_CASE("meshes that cannot be bisected and cells that are not there are refused") {
   CHECK_THROWS_WITH_AS(mesh::Bisection(test::rectangle(mesh::Family::q1, 2, 2)), doctest::Contains("quadrilaterals (Q1); only simplices"), InputError);
   mesh::Bisection bisection(test::rectangle(mesh::Family::p1, 2, 2));
-  CHECK_THROWS_WITH_AS(bisection.refine({8}), doctest::Contains("cell 9 is to be refined; the mesh has cells 1 to 8"), InputError);
+  CHECK_THROWS_WITH_AS(test::refine(bisection, {8}), doctest::Contains("cell 9 is to be refined; the mesh has cells 1 to 8"), InputError);
 }

@@ -59,7 +59,7 @@ Outcome effectivity(const Make& make, const std::vector<mesh::Mesh>& start, int 
     for (std::size_t b = 0; b < start.size(); ++b) {
       std::vector<int> all(meshes[b].mesh()->cell_count());
       std::iota(all.begin(), all.end(), 0);
-      prolong(u[b], meshes[b].refine(all), dim);
+      prolong(u[b], test::refine(meshes[b], all), dim);
     }
   const auto fine = solve(make(now()));
   REQUIRE(fine->result().converged);

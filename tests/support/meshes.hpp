@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "mesh/bisection.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/second_order.hpp"
 
@@ -13,6 +14,12 @@ namespace dotyk::test {
 using mesh::Family;
 using mesh::Mesh;
 using mesh::Point;
+
+/// A round of one mesh alone.
+inline mesh::Refined refine(mesh::Bisection& mesh, const std::vector<int>& cells) {
+  Monitor unwatched;
+  return mesh::refine({&mesh}, {cells}, {}, unwatched).front();
+}
 
 inline constexpr Family kFamilies[] = {Family::p1, Family::q1};     ///< of order 1
 inline constexpr Family kSecondOrder[] = {Family::p2, Family::q2};

@@ -104,9 +104,4 @@ DenseMatrix GeneralisedInverse::apply(const DenseMatrix& f) const {
   return factor_.solve(held);
 }
 
-DenseMatrix GeneralisedInverse::project(const DenseMatrix& u) const {
-  if (basis_.cols() == 0) return u;
-  return u - basis_ * (basis_.transpose() * u);
-}
-
 }  // namespace dotyk::algebra

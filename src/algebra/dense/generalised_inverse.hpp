@@ -49,8 +49,6 @@ class GeneralisedInverse {
 
   /// K⁺ f for every column of f; zero on F. Several threads may call it at once.
   DenseMatrix apply(const DenseMatrix& f) const;
-  /// P u: every column less its part in the kernel.
-  DenseMatrix project(const DenseMatrix& u) const;
 
   const std::vector<int>& fixed() const { return fixed_; }
   /// Least singular value of R̂_F, R̂ an orthonormal basis of R: 1 at best, 0 where F does not hold R.

@@ -30,20 +30,7 @@ struct Cholesky::Implementation {
   ~Implementation() { cholmod_free_factor(&factor, common.get()); }
 
   DenseMatrix sweep(int system, const DenseMatrix& b) const {
-    if (!factor || b.cols() == 0) return b;
-    CholmodCommon& own = common_of_this_thread();
-    cholmod_dense in{};
-    in.nrow = in.d = b.rows();
-    in.ncol = b.cols();
-    in.nzmax = b.size();
-    in.x = const_cast<double*>(b.data());
-    in.xtype = CHOLMOD_REAL;
-    in.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* out = cholmod_solve(system, factor, &in, own.get());
-    own.check("back substitution");
-    DenseMatrix x = Eigen::Map<DenseMatrix>(static_cast<double*>(out->x), b.rows(), b.cols());
-    cholmod_free_dense(&out, own.get());
-    return x;
+    return factor && b.cols() > 0 ? solution(system, factor, b, common_of_this_thread()) : b;
   }
 };
 

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "algebra/types.hpp"
+
 namespace dotyk::algebra {
 
 /// cholmod_common with this project's settings: supernodal LLᵀ, no messages.
@@ -47,7 +49,7 @@ class CholmodCommon {
 };
 
 /// A view of a lower-triangular Eigen matrix as CHOLMOD sees it; no copy.
-inline cholmod_sparse view(const Eigen::SparseMatrix<double, Eigen::ColMajor, int>& lower) {
+inline cholmod_sparse view(const SparseMatrix& lower) {
   cholmod_sparse a{};
   a.nrow = lower.rows();
   a.ncol = lower.cols();
@@ -62,6 +64,22 @@ inline cholmod_sparse view(const Eigen::SparseMatrix<double, Eigen::ColMajor, in
   a.sorted = true;
   a.packed = true;
   return a;
+}
+
+/// What CHOLMOD's system (CHOLMOD_A: A x = b; CHOLMOD_L, …: a sweep) with a factor has for every column of b.
+inline DenseMatrix solution(int system, cholmod_factor* factor, const DenseMatrix& b, CholmodCommon& common) {
+  cholmod_dense in{};
+  in.nrow = in.d = b.rows();
+  in.ncol = b.cols();
+  in.nzmax = b.size();
+  in.x = const_cast<double*>(b.data());
+  in.xtype = CHOLMOD_REAL;
+  in.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense* out = cholmod_solve(system, factor, &in, common.get());
+  common.check("back substitution");
+  DenseMatrix x = Eigen::Map<DenseMatrix>(static_cast<double*>(out->x), b.rows(), b.cols());
+  cholmod_free_dense(&out, common.get());
+  return x;
 }
 
 }  // namespace dotyk::algebra

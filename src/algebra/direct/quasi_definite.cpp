@@ -15,19 +15,7 @@ struct QuasiDefinite::Implementation {
     return static_cast<double*>(factor->x)[static_cast<int*>(factor->p)[k]];
   }
 
-  Vector sweep(int system, const Vector& b) {
-    cholmod_dense in{};
-    in.nrow = in.d = in.nzmax = b.size();
-    in.ncol = 1;
-    in.x = const_cast<double*>(b.data());
-    in.xtype = CHOLMOD_REAL;
-    in.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* out = cholmod_solve(system, factor, &in, common.get());
-    common.check("back substitution");
-    Vector x = Eigen::Map<Vector>(static_cast<double*>(out->x), b.size());
-    cholmod_free_dense(&out, common.get());
-    return x;
-  }
+  Vector sweep(int system, const Vector& b) { return solution(system, factor, b, common); }
 };
 
 QuasiDefinite::QuasiDefinite(const SparseMatrix& lower) : it_(std::make_unique<Implementation>()) {

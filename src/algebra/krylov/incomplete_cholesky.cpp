@@ -52,8 +52,6 @@ IncompleteCholesky::IncompleteCholesky(const SparseMatrix& lower) : Precondition
   d_ = l_.diagonal();
 }
 
-DenseMatrix IncompleteCholesky::apply(const Eigen::Ref<const DenseMatrix>& v) const { return forward(times(backward(v))); }
-
 DenseMatrix IncompleteCholesky::forward(const Eigen::Ref<const DenseMatrix>& b) const {
   DenseMatrix x = b;
   sweep_forward(l_, d_, x);

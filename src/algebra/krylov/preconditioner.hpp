@@ -24,7 +24,7 @@ class Preconditioner {
   /// K v.
   DenseMatrix times(const Eigen::Ref<const DenseMatrix>& v) const;
   /// Â v.
-  virtual DenseMatrix apply(const Eigen::Ref<const DenseMatrix>& v) const = 0;
+  virtual DenseMatrix apply(const Eigen::Ref<const DenseMatrix>& v) const { return forward(times(backward(v))); }
   /// C⁻¹ b: to the right-hand side and the residual of the system with Â.
   virtual DenseMatrix forward(const Eigen::Ref<const DenseMatrix>& b) const = 0;
   /// C⁻ᵀ x̂: back to x.
@@ -42,7 +42,6 @@ class Preconditioner {
 class NoPreconditioner final : public Preconditioner {
  public:
   using Preconditioner::Preconditioner;
-  DenseMatrix apply(const Eigen::Ref<const DenseMatrix>& v) const override { return times(v); }
   DenseMatrix forward(const Eigen::Ref<const DenseMatrix>& b) const override { return b; }
   DenseMatrix backward(const Eigen::Ref<const DenseMatrix>& x) const override { return x; }
   DenseMatrix lift(const Eigen::Ref<const DenseMatrix>& r) const override { return r; }
@@ -75,7 +74,6 @@ class Ssor final : public Preconditioner {
 class IncompleteCholesky final : public Preconditioner {
  public:
   explicit IncompleteCholesky(const SparseMatrix& lower);
-  DenseMatrix apply(const Eigen::Ref<const DenseMatrix>& v) const override;
   DenseMatrix forward(const Eigen::Ref<const DenseMatrix>& b) const override;
   DenseMatrix backward(const Eigen::Ref<const DenseMatrix>& x) const override;
   DenseMatrix lift(const Eigen::Ref<const DenseMatrix>& r) const override;

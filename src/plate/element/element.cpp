@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 
 Triangle triangle(const mesh::Mesh& mesh, const Edges& edges, int cell) {
   Triangle t;
-  for (int k = 0; k < 3; ++k) t.x[k] = {mesh.node(mesh.cell(cell)[k])[0], mesh.node(mesh.cell(cell)[k])[1]};
+  for (int k = 0; k < 3; ++k) t.x[k] = node_position(mesh, mesh.cell(cell)[k]);
   for (int k = 0; k < 3; ++k) {
     const Vector2d along = t.x[(k + 1) % 3] - t.x[k];
     t.length[k] = along.norm();

@@ -28,6 +28,13 @@ std::array<int, 12> Space::freedoms(int cell) const {
   return out;
 }
 
+LocalVector Space::of_cell(int cell, const algebra::Vector& all) const {
+  const auto freedom = freedoms(cell);
+  LocalVector own(local_size());
+  for (int i = 0; i < own.size(); ++i) own[i] = all[freedom[i]];
+  return own;
+}
+
 Functional Space::slope_of_vertex(int vertex, const Vector2d& direction) const {
   const Vector2d a = frame[vertex];
   const double along = a.dot(direction), across = a[0] * direction[1] - a[1] * direction[0];

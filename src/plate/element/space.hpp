@@ -35,6 +35,8 @@ struct Space {
   int node(int freedom) const;
   /// Of a cell, in the order of Basis.
   std::array<int, 12> freedoms(int cell) const;
+  /// The values that a cell's freedoms have among all.
+  LocalVector of_cell(int cell, const algebra::Vector& freedoms) const;
   /// From functions of a cell's Basis to those of its freedoms here: each factor of the row. Columns of a row-wise quantity are replaced.
   template <class Columns>
   void to_freedoms(int cell, Columns& columns) const {

@@ -86,7 +86,7 @@ std::vector<double> bending_stiffness(const Plate& plate) {
   for (int c = 0; c < mesh.cell_count(); ++c)
     for (const Barycentric& b : rule.points) {
       Vector2d x(0, 0);
-      for (int k = 0; k < 3; ++k) x += b[k] * Vector2d(mesh.node(mesh.cell(c)[k])[0], mesh.node(mesh.cell(c)[k])[1]);
+      for (int k = 0; k < 3; ++k) x += b[k] * node_position(mesh, mesh.cell(c)[k]);
       out.push_back(plate.D_of(x[0], x[1]));
       if (!(out.back() > 0) || !std::isfinite(out.back())) throw InputError(text("D is ", out.back(), " at (", x[0], ", ", x[1], "); it must be positive"));
     }
@@ -100,9 +100,7 @@ Stiffness stiffness(const std::vector<double>& D, double nu, const Space& space,
   assembly.each_cell([&](int c, const std::array<int, 12>& at) {
     const LocalMatrix K = cell_stiffness(D, nu, space, c);
     assembly.add(at, K);
-    const auto freedom = space.freedoms(c);
-    LocalVector v(K.rows());
-    for (int i = 0; i < v.size(); ++i) v[i] = held.value[freedom[i]];
+    const LocalVector v = space.of_cell(c, held.value);
     if (v.isZero(0)) return;
     const LocalVector force = K * v;
     out.energy_of_held += 0.5 * v.dot(force);
@@ -119,11 +117,8 @@ Vector holding_forces(const std::vector<double>& D, double nu, const Space& spac
     const auto freedom = space.freedoms(c);
     const auto end = freedom.begin() + space.local_size();
     if (std::none_of(freedom.begin(), end, [&](int i) { return held.is[i]; })) continue;
-    const LocalMatrix K = cell_stiffness(D, nu, space, c);
-    LocalVector v(K.rows());
-    for (int i = 0; i < v.size(); ++i) v[i] = u[freedom[i]];
-    const LocalVector force = K * v;
-    for (int i = 0; i < v.size(); ++i)
+    const LocalVector force = cell_stiffness(D, nu, space, c) * space.of_cell(c, u);
+    for (int i = 0; i < force.size(); ++i)
       if (held.is[freedom[i]]) out[freedom[i]] += force[i];
   }
   for (int i = 0; i < out.size(); ++i)

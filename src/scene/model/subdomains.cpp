@@ -4,7 +4,6 @@
 #include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
-#include "elasticity/spring_rows.hpp"
 #include "scene/model/congruent.hpp"
 #include "scene/model/pieces.hpp"
 

@@ -12,7 +12,7 @@ using mesh::dot;
 
 Boundary::Boundary(const Body& body, const elasticity::Numbering& numbering, const std::vector<double>& u) : mesh_(*body.mesh) {
   for (const Facet f : mesh::boundary(mesh_)) {
-    index_[{f.cell, f.local}] = all_.size();
+    index_[f] = all_.size();
     all_.push_back({f});
   }
   for (const LoadArrow& load : load_arrows(body))
@@ -24,7 +24,7 @@ Boundary::Boundary(const Body& body, const elasticity::Numbering& numbering, con
 }
 
 FacetTraction* Boundary::find(Facet f) {
-  const auto found = index_.find({f.cell, f.local});
+  const auto found = index_.find(f);
   return found == index_.end() ? nullptr : &all_[found->second];
 }
 

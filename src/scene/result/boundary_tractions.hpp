@@ -23,7 +23,7 @@ class Boundary {
   mesh::Point unit_normal(mesh::Facet f) const;
 
   const mesh::Mesh& mesh_;
-  std::map<std::pair<int, int>, std::size_t> index_;
+  std::map<mesh::Facet, std::size_t> index_;
   std::vector<elasticity::FacetTraction> all_;
 };
 

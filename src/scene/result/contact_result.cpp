@@ -10,12 +10,6 @@ namespace {
 
 using mesh::Point;
 
-Point at_node(const std::vector<double>& values, int node, int dim) {
-  Point p{0, 0, 0};
-  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(node) * dim, dim, p.begin());
-  return p;
-}
-
 /// Pressures: the values of the pressure at the contact rows, λ/∫ψ a basis function.
 std::vector<double> pressures(const Contact& contact, const Model& model, int index, const algebra::Vector& lambda) {
   std::vector<double> value(contact.rows.size(), 0);
@@ -68,23 +62,22 @@ algebra::Vector friction_part(const std::vector<FrictionRows>& friction, const a
 
 /// Where the row's force acts: at its node, but for a mean over nodes that lies elsewhere.
 Point acting_at(const mesh::Mesh& mesh, const contact::ContactRow& row) {
-  Point x{0, 0, 0};
-  for (const contact::NodeWeight& n : row.own) x = mesh::plus(x, mesh::times(n.weight, mesh.point(n.node)));
-  const Point node = mesh.point(row.node);
+  const Point x = contact::mean_place(row.own, mesh), node = mesh.point(row.node);
   return mesh::length(mesh::minus(x, node)) > 1e-9 * mesh.size() ? x : node;
 }
 
-void count(const ContactNode& node, ContactResult& result) {
-  if (node.status != problem::Status::open) result.area += node.weight;
-  switch (node.status) {
-    case problem::Status::open: ++result.open; break;
-    case problem::Status::closed: ++result.closed; break;
-    case problem::Status::stick: ++result.stick; break;
-    case problem::Status::slip: ++result.slip; break;
+}  // namespace
+
+void NodeCount::add(problem::Status status, double weight, double pressure) {
+  if (status != problem::Status::open) area += weight;
+  max_pressure = std::max(max_pressure, pressure);
+  switch (status) {
+    case problem::Status::open: ++open; break;
+    case problem::Status::closed: ++closed; break;
+    case problem::Status::stick: ++stick; break;
+    case problem::Status::slip: ++slip; break;
   }
 }
-
-}  // namespace
 
 ContactResult as_given(const Contact& contact, ContactResult result) {
   if (!contact.turned) return result;
@@ -119,23 +112,13 @@ ContactResult Solution::contact(const Contact& asked) const {
     ContactNode node;
     node.node = row.node;
     node.x = scene_->bodies[first]->mesh->point(row.node);
-    node.displacement = at_node(displacement_[first], row.node, dim);
+    node.displacement = mesh::at_node(displacement_[first], row.node, dim);
     node.normal = row.normal;
     node.weight = row.weight;
     if (contact.pairing == contact::Pairing::mortar) node.x = acting_at(*scene_->bodies[first]->mesh, row);
-    Point own{0, 0, 0};
-    for (const contact::NodeWeight& n : row.own)
-      for (int i = 0; i < dim; ++i) own[i] += n.weight * displacement_[first][static_cast<std::size_t>(n.node) * dim + i];
-    Point other = second >= 0 ? Point{0, 0, 0} : model_.move[index];
-    for (const contact::NodeWeight& partner : row.partners)
-      for (int i = 0; i < dim; ++i)
-        other[i] += partner.weight * displacement_[second][static_cast<std::size_t>(partner.node) * dim + i];
-    Point jump;
-    double normal_jump = 0;
-    for (int i = 0; i < 3; ++i) {
-      jump[i] = own[i] - other[i];
-      normal_jump += row.normal[i] * jump[i];
-    }
+    const Point other = second >= 0 ? contact::mean(row.partners, displacement_[second], dim) : model_.move[index];
+    const Point jump = mesh::minus(contact::mean(row.own, displacement_[first], dim), other);
+    const double normal_jump = mesh::dot(row.normal, jump);
     node.gap = row.gap - normal_jump;
     for (int i = 0; i < 3; ++i) node.slip[i] = jump[i] - normal_jump * row.normal[i];
     node.pressure = pressure[k];
@@ -151,8 +134,7 @@ ContactResult Solution::contact(const Contact& asked) const {
       result.force[i] += force[k][i];
       result.friction_force[i] += rubbed[k][i];
     }
-    count(node, result);
-    result.max_pressure = std::max(result.max_pressure, node.pressure);
+    result.add(node.status, node.weight, node.pressure);
     result.nodes.push_back(node);
   }
   return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scene/statement/loading.hpp"
@@ -15,6 +16,9 @@ std::vector<double> load_derivative(const Body& body, const Loading& loading, co
 
 /// d/dt of elasticity::internal_force() of the displacement u (node × dimension) with springs: (dK) u.
 std::vector<double> internal_force_derivative(const Body& body, const std::vector<double>& u, const std::vector<double>& V);
+
+/// The first of the facets with a node that moves, by more than 1e-12 of V's greatest component, which is rounding. None where all rest; V may be empty.
+std::optional<mesh::Facet> moving_facet(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const std::vector<double>& V);
 
 /// Throws InputError where what supports hold changes with V (a body each; empty where it rests) in a way that has no derivative here,
 /// naming the part and what to do: the normal of a slide turns, the part of a law's support moves, or that of a contact with a rigid

@@ -29,14 +29,19 @@ struct ContactNode {
   problem::Status status = problem::Status::open;
 };
 
-struct ContactResult {
+/// What the nodes of a contact, or of a support by laws, do along the normal.
+struct NodeCount {
+  double area = 0;          ///< of nodes that are not open
+  double max_pressure = 0;
+  int open = 0, closed = 0, stick = 0, slip = 0;  ///< nodes, by their status
+  void add(problem::Status status, double weight, double pressure);
+};
+
+struct ContactResult : NodeCount {
   mesh::Point force{};           ///< on the first part
   mesh::Point friction_force{};  ///< its part by friction
   /// Work that friction has dissipated, over all steps: Σ λ_t·(increment of slip), each term ≥ 0.
   double dissipated = 0;
-  double area = 0;             ///< of closed nodes
-  double max_pressure = 0;
-  int open = 0, closed = 0, stick = 0, slip = 0;
   std::vector<ContactNode> nodes;
 };
 
@@ -61,11 +66,9 @@ struct SupportNode {
   bool broken = false;
 };
 
-struct SupportResult {
+struct SupportResult : NodeCount {
   mesh::Point force{};  ///< on the body
-  double area = 0;      ///< of nodes that are not open along the normal
-  double max_pressure = 0;
-  int open = 0, closed = 0, stick = 0, slip = 0, broken = 0;  ///< nodes, by their status along the normal
+  int broken = 0;       ///< nodes
   int tangential_stick = 0, tangential_slip = 0;
   double dissipated = 0;  ///< as of a contact
   std::vector<SupportNode> nodes;

@@ -6,28 +6,10 @@
 #include "scene/model/support_rows.hpp"
 
 namespace dotyk::scene {
-namespace {
-
 using mesh::Point;
 using mesh::dot;
 using problem::Status;
 using Kind = problem::SupportLaw::Kind;
-
-void count(const SupportNode& node, SupportResult& result) {
-  if (node.status != Status::open) result.area += node.weight;
-  result.broken += node.broken;
-  result.tangential_stick += node.tangential == Status::stick;
-  result.tangential_slip += node.tangential == Status::slip;
-  result.max_pressure = std::max(result.max_pressure, node.pressure);
-  switch (node.status) {
-    case Status::open: ++result.open; break;
-    case Status::closed: ++result.closed; break;
-    case Status::stick: ++result.stick; break;
-    case Status::slip: ++result.slip; break;
-  }
-}
-
-}  // namespace
 
 SupportResult Solution::support(const Part& part) const {
   const int index = scene_->index_of(part.body.get());
@@ -46,7 +28,10 @@ SupportResult Solution::support(const Part& part) const {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const SupportNode node = support_node(*found, k, rows[k], index);
     for (int i = 0; i < 3; ++i) result.force[i] += node.weight * (node.shear[i] - node.pressure * node.normal[i]);
-    count(node, result);
+    result.add(node.status, node.weight, node.pressure);
+    result.broken += node.broken;
+    result.tangential_stick += node.tangential == Status::stick;
+    result.tangential_slip += node.tangential == Status::slip;
     for (int i = 0; i < rows[k].count; ++i) result.dissipated += dissipated_[rows[k].row[i]];
     result.nodes.push_back(node);
   }
@@ -58,10 +43,7 @@ SupportNode Solution::support_node(const LawSupport& support, std::size_t k, con
   const Body& body = this->body(index);
   const algebra::Vector& lambda = result_.state.lambda;
   SupportNode node{side.node, body.mesh->point(side.node), side.normal, side.weight};
-  Point u{0, 0, 0};
-  for (const contact::NodeWeight& own : side.own)
-    for (int i = 0; i < body.dimension(); ++i)
-      u[i] += own.weight * displacement_[index][static_cast<std::size_t>(own.node) * body.dimension() + i];
+  const Point u = contact::mean(side.own, displacement_[index], body.dimension());
   node.away = -dot(u, side.normal);
   const Point load = law_load(support, side, body.dimension()), force = law_force(side, rows, lambda);
   for (int i = 0; i < 3; ++i) node.slip[i] = u[i] + node.away * side.normal[i];

@@ -46,17 +46,6 @@ double widest_cell(const Scene& scene, const Model& model, const Vector& lambda)
   return widest;
 }
 
-/// Half of the longest side of the box about a body.
-double half_extent(const Body& body) {
-  double longest = 0;
-  for (int i = 0; i < body.dimension(); ++i) {
-    double low = INFINITY, high = -INFINITY;
-    for (int k = 0; k < body.mesh->node_count(); ++k) low = std::min(low, body.mesh->point(k)[i]), high = std::max(high, body.mesh->point(k)[i]);
-    longest = std::max(longest, high - low);
-  }
-  return longest / 2;
-}
-
 /// A rotation that contact hardly wider than its cells resists.
 std::string resisted_by_cells(const Scene& scene, const Model& model, const problem::Problem& problem, const problem::FreeMotions& free,
                               const Vector& lambda) {
@@ -66,7 +55,7 @@ std::string resisted_by_cells(const Scene& scene, const Model& model, const prob
   free.weakest.cwiseAbs().maxCoeff(&mode);
   if (motions.size() != static_cast<std::size_t>(free.weakest.size()) || motions[mode].motion.kind != Motion::Kind::rotation) return "";
   for (const auto& body : scene.bodies)
-    if (body->name == motions[mode].body && free.grip * half_extent(*body) <= kNarrow * widest_cell(scene, model, lambda))
+    if (body->name == motions[mode].body && free.grip * body->mesh->size() / 2 <= kNarrow * widest_cell(scene, model, lambda))
       return text("; ", motions[mode].text(), " is resisted only by terms of the order of the mesh (contact is hardly wider than its cells): how far it goes "
                   "is the mesh's");
   return "";

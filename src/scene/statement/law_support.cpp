@@ -16,9 +16,8 @@ using problem::SupportLaw;
 using Kind = SupportLaw::Kind;
 
 bool shares_facet(const LawSupport& a, const LawSupport& b) {
-  std::set<std::pair<int, int>> of_a;
-  for (const mesh::Facet& f : a.facets) of_a.insert({f.cell, f.local});
-  return std::any_of(b.facets.begin(), b.facets.end(), [&](const mesh::Facet& f) { return of_a.count({f.cell, f.local}) > 0; });
+  const std::set<mesh::Facet> of_a(a.facets.begin(), a.facets.end());
+  return std::any_of(b.facets.begin(), b.facets.end(), [&](const mesh::Facet& f) { return of_a.contains(f); });
 }
 
 bool given(const SupportLaw& law) { return law.kind != Kind::free; }

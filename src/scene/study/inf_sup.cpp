@@ -1,13 +1,13 @@
 #include "scene/study/inf_sup.hpp"
 
 #include <cmath>
+#include <random>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "base/error.hpp"
 #include "contact/trace_norm.hpp"
 #include "elasticity/h1_norm.hpp"
-#include "scene/study/cone_constant.hpp"
 #include "scene/model/model.hpp"
 
 namespace dotyk::scene {
@@ -130,12 +130,9 @@ DenseMatrix compliance(Model& model, const std::vector<int>& picked, double leng
 
 /// The diagonal of the box around the contact's nodes.
 double diagonal(const Contact& contact) {
-  Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  for (const contact::ContactRow& row : contact.rows) {
-    const Point x = contact.first.body->mesh->point(row.node);
-    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], x[i]), high[i] = std::max(high[i], x[i]);
-  }
-  return mesh::length(mesh::minus(high, low));
+  mesh::Box box;
+  for (const contact::ContactRow& row : contact.rows) box.add(contact.first.body->mesh->point(row.node));
+  return mesh::length(mesh::minus(box.high, box.low));
 }
 
 /// Square roots of the eigenvalues of W μ = β² N μ, ascending.
@@ -147,6 +144,49 @@ algebra::Vector constants(const DenseMatrix& W, const DenseMatrix& N) {
     scaled.transposeInPlace();
   }
   return algebra::eigenvalues(0.5 * (scaled + scaled.transpose())).cwiseMax(0).cwiseSqrt();
+}
+
+/// Goes down from here; the quotient at the end.
+double descend(const DenseMatrix& W, const DenseMatrix& N, const algebra::Ldlt& factor, Eigen::Index unilateral, algebra::Vector mu) {
+  constexpr int kSteps = 300;
+  const auto quotient = [&](const algebra::Vector& v) {
+    const double size = v.dot(N * v);
+    return size > 0 ? v.dot(W * v) / size : INFINITY;
+  };
+  double least = quotient(mu), step = 1;
+  for (int k = 0; k < kSteps && step > 1e-10; ++k) {
+    mu /= std::sqrt(mu.dot(N * mu));
+    const algebra::Vector down = factor.solve(algebra::Vector(W * mu - least * (N * mu))) / std::max(least, 1e-300);
+    for (step *= 4; step > 1e-10; step /= 2) {
+      algebra::Vector next = mu - step * down;
+      next.head(unilateral) = next.head(unilateral).cwiseMax(0);
+      const double there = quotient(next);
+      if (!(there < least)) continue;
+      mu = std::move(next), least = there;
+      break;
+    }
+  }
+  return least;
+}
+
+/// The least √(μᵀWμ / μᵀNμ) found over the cone of μ whose first `unilateral` entries are not negative, the others any: TR965 (3.16) over
+/// M_hn × M_Ht, whose multiples it is. W positive semidefinite, N positive definite. The quotient has many minima on the cone: steps of
+/// projected gradients from each hat and from random points, so that the least may be a little less. Throws Interrupted.
+double cone_constant(const DenseMatrix& W, const DenseMatrix& N, Eigen::Index unilateral, Monitor& monitor) {
+  constexpr int kRandomStarts = 10;
+  const algebra::Ldlt factor(N);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> entry(0, 1);
+  double least = INFINITY;
+  for (Eigen::Index start = 0; start < N.cols() + kRandomStarts; ++start) {
+    monitor.check();
+    algebra::Vector mu = algebra::Vector::Zero(N.cols());
+    if (start < N.cols()) mu[start] = 1;
+    else
+      for (double& m : mu) m = entry(random);
+    least = std::min(least, descend(W, N, factor, unilateral, std::move(mu)));
+  }
+  return std::sqrt(std::max(least, 0.0));
 }
 
 Basis join(Basis a, const Basis& b) {

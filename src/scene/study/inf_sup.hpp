@@ -31,7 +31,7 @@ struct InfSup {
   int multipliers = 0;      ///< rows
   double h = 0;             ///< contact::facet_width
   double H = 0;             ///< extent of the cells of friction: friction_size or its default
-  std::optional<double> cone;  ///< over pressures ≥ 0 alone, see cone_constant()
+  std::optional<double> cone;  ///< over the cone of pressures ≥ 0, by steps of projected gradients from many starts: the least may be a little less
 };
 
 /// Throws InputError for a

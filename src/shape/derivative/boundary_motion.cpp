@@ -64,20 +64,16 @@ DenseMatrix along_chain(const scene::Part& part, const std::vector<int>& nodes, 
 
 DenseMatrix over_surface(const scene::Part& part, const std::vector<int>& nodes, const ControlPoints& points) {
   const mesh::Mesh& mesh = *part.body->mesh;
-  double low[3], extent[3];
-  for (int i = 0; i < 3; ++i) {
-    const auto [least, greatest] = std::minmax_element(nodes.begin(), nodes.end(), [&](int a, int b) { return mesh.node(a)[i] < mesh.node(b)[i]; });
-    low[i] = mesh.node(*least)[i];
-    extent[i] = mesh.node(*greatest)[i] - low[i];
-  }
+  mesh::Box box;
+  for (const int node : nodes) box.add(mesh.point(node));
   int axis[3] = {0, 1, 2};
-  std::stable_sort(axis, axis + 3, [&](int i, int j) { return extent[i] > extent[j]; });
+  std::stable_sort(axis, axis + 3, [&](int i, int j) { return box.extent(i) > box.extent(j); });
   const BSplines first(points.degree, points.count[0]), second(points.degree, points.count[1]);
   DenseMatrix weight(nodes.size(), first.count() * second.count());
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     const double* x = mesh.node(nodes[a]);
-    const DenseMatrix product = first.values((x[axis[0]] - low[axis[0]]) / extent[axis[0]]) *
-                                second.values((x[axis[1]] - low[axis[1]]) / extent[axis[1]]).transpose();
+    const auto values = [&](const BSplines& along, int i) { return along.values((x[i] - box.low[i]) / box.extent(i)); };
+    const DenseMatrix product = values(first, axis[0]) * values(second, axis[1]).transpose();
     weight.row(static_cast<Eigen::Index>(a)) = Eigen::Map<const Eigen::RowVectorXd>(product.data(), product.size());
   }
   return weight;

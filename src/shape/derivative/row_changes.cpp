@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "contact/row_derivative.hpp"
 #include "scene/model/free_jumps.hpp"
+#include "scene/result/load_derivative.hpp"
 
 namespace dotyk::shape {
 namespace {
@@ -16,18 +17,6 @@ using mesh::Point;
 using mesh::dot;
 using scene::Contact;
 
-/// Do nodes of these facets move, beyond rounding of V's greatest?
-bool moves(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const std::vector<double>& V) {
-  double greatest = 0, here = 0;
-  for (const double v : V) greatest = std::max(greatest, std::abs(v));
-  if (greatest == 0) return false;
-  for (const mesh::Facet f : facets)
-    for (int a = 0; a < mesh.topology().nodes_per_facet; ++a)
-      for (int i = 0; i < mesh.dimension(); ++i)
-        here = std::max(here, std::abs(V[static_cast<std::size_t>(mesh.facet_node(f, a)) * mesh.dimension() + i]));
-  return here > 1e-12 * greatest;
-}
-
 /// A contact with what moves its two sides.
 struct Moving {
   const Contact& contact;
@@ -35,7 +24,9 @@ struct Moving {
   const std::vector<double>&V, &W;
 
   const mesh::Mesh& mesh() const { return *contact.first.body->mesh; }
-  bool any() const { return moves(mesh(), contact.first.facets, V) || (second >= 0 && moves(*contact.second.body->mesh, contact.second.facets, W)); }
+  bool any() const {
+    return scene::moving_facet(mesh(), contact.first.facets, V) || (second >= 0 && scene::moving_facet(*contact.second.body->mesh, contact.second.facets, W));
+  }
   std::vector<RowDerivative> derivatives() const {
     if (second < 0) return contact::row_derivatives(mesh(), contact.first.facets, contact.rows, contact.shape, V);
     return contact::row_derivatives(contact.first.face(), contact.rows, V, contact.second.face(), W);
@@ -106,18 +97,11 @@ class ContactChanges {
                                        "given or Coulomb friction, or keep its nodes at rest");
   }
 
-  Point displacement(int body, int node) const {
-    Point u{0, 0, 0};
-    for (int i = 0; i < dim_; ++i) u[i] = solution_.displacement(body)[static_cast<std::size_t>(node) * dim_ + i];
-    return u;
-  }
+  Point displacement(int body, int node) const { return mesh::at_node(solution_.displacement(body), node, dim_); }
 
   /// u₁ − u₂ at a contact row, or less the rigid shape's displacement.
   Point jump(const ContactRow& row) const {
-    Point j = displacement(first_, row.node);
-    const Point other = second_ < 0 ? model_.move[index_] : displacement(second_, row.partners.front().node);
-    for (int i = 0; i < 3; ++i) j[i] -= other[i];
-    return j;
+    return mesh::minus(displacement(first_, row.node), second_ < 0 ? model_.move[index_] : displacement(second_, row.partners.front().node));
   }
 
   /// Row r of B, at contact row k, changes its direction and gap.

@@ -99,7 +99,8 @@ void read_chart(const Arguments& given, figure::ChartPicture& chart) {
   chart.log_x = log.find('x') != std::string::npos;
   chart.log_y = log.find('y') != std::string::npos;
   for (const Arguments& series : given.tables("series")) chart.series.push_back(series_of(series));
-  if (given.has("slopes")) chart.slopes = given.vector("slopes");
+  if (given.has("slopes"))
+    for (const double slope : given.vector("slopes")) chart.slopes.push_back({slope, ""});
 }
 
 void tell_not_shown(const figure::ChartPicture& chart, const std::string& file) {
@@ -149,7 +150,7 @@ Key series_key() {
 // Of a chart, alone or a panel.
 std::vector<Key> chart_keys(Key series) {
   using figure::ChartPicture;
-  return {title_key("above the chart").into(&ChartPicture::title),
+  return {title_key("above the chart").into<ChartPicture>([](ChartPicture& chart) -> std::string& { return chart.title; }),
           key::string("x", "label of the x axis").into(&ChartPicture::x_label), key::string("y", "label of the y axis").into(&ChartPicture::y_label),
           key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
                       "are left out, and counted on standard error").fallback(""),

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace dotyk::mesh {
+
+/// Numbers put into buckets 0 … count − 1, those of a bucket in the order in which they came.
+class Buckets {
+ public:
+  Buckets() : start_(1, 0) {}
+  /// `visit(put)` calls put(bucket, number) for every number. It is called twice: to count, then to fill.
+  template <class Visit>
+  Buckets(int count, const Visit& visit) : start_(count + 1, 0) {
+    visit([&](int bucket, int) { ++start_[bucket + 1]; });
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    numbers_.resize(start_.back());
+    std::vector<int> next(start_.begin(), start_.end() - 1);
+    visit([&](int bucket, int number) { numbers_[next[bucket]++] = number; });
+  }
+
+  std::span<const int> operator[](int bucket) const {
+    return std::span(numbers_).subspan(start_[bucket], start_[bucket + 1] - start_[bucket]);
+  }
+
+ private:
+  std::vector<int> start_, numbers_;
+};
+
+}  // namespace dotyk::mesh

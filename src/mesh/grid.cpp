@@ -1,0 +1,112 @@
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "mesh/generators.hpp"
+#include "mesh/second_order.hpp"
+
+namespace dotyk::mesh {
+
+std::vector<double> ticks(double a, double b, int n, const Grading& grading, const char* axis) {
+  if (n < 1) throw InputError(text("cells along ", axis, " is ", n, "; it must be at least 1"));
+  if (!(b > a))
+    throw InputError(text("'to' must exceed 'from' along ", axis, " (from ", a, " to ", b, ")"));
+  if (!std::isfinite(b - a))
+    throw InputError(text("the extent along ", axis, ", from ", a, " to ", b, ", is beyond the range of numbers; choose another unit of length"));
+  std::vector<double> t(n + 1);
+  double before = -INFINITY;
+  for (int i = 0; i <= n; ++i) {
+    double s = static_cast<double>(i) / n;
+    if (grading) s = grading(s);
+    t[i] = i == 0 && !grading ? a : i == n && !grading ? b : a + (b - a) * s;
+    if (!std::isfinite(t[i]) || !(s > before))
+      throw InputError(text("grading.", axis, " must increase and be finite; at s = ",
+                            static_cast<double>(i) / n, " it gives ", s));
+    if (i > 0 && !(t[i] > t[i - 1]))
+      throw InputError(text("the ", n, " cells along ", axis, ", from ", a, ", are so narrow that their nodes coincide in rounding; ",
+                            "take fewer cells, or move them nearer to the origin"));
+    before = s;
+  }
+  if (grading && (std::abs(t[0] - a) > 1e-9 * (b - a) || std::abs(t[n] - b) > 1e-9 * (b - a)))
+    throw InputError(text("grading.", axis, " must map 0 to 0 and 1 to 1; it gives ",
+                          (t[0] - a) / (b - a), " and ", (t[n] - a) / (b - a)));
+  t[0] = a;
+  t[n] = b;
+  return t;
+}
+
+namespace {
+
+/// How a box of the grid is made of cells: the corners of each as bits, bit k set at the upper end of axis k, in the order of the cell's
+/// nodes. Simplices: along the paths of axes from corner 0 to the last (Kuhn), each oriented positively.
+using Corners = std::vector<std::vector<int>>;
+
+const Corners& corners_of(int dimension, bool simplices) {
+  static const Corners triangles{{0, 1, 3}, {0, 3, 2}}, quadrilateral{{0, 1, 3, 2}},
+      tetrahedra{{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}, hexahedron{{0, 1, 3, 2, 4, 5, 7, 6}};
+  if (dimension == 2) return simplices ? triangles : quadrilateral;
+  return simplices ? tetrahedra : hexahedron;
+}
+
+/// Part names by axis and end.
+constexpr const char* kPlaneParts[2][2] = {{"left", "right"}, {"bottom", "top"}};
+constexpr const char* kSpaceParts[3][2] = {{"left", "right"}, {"front", "back"}, {"bottom", "top"}};
+
+/// Names the facets of the last cell that lie on a side of the grid; `bits` of its nodes, `at`: which box it is in.
+void name_facets(Mesh& mesh, const std::vector<int>& bits, const int at[3], const int* cells) {
+  const ElementTopology& t = mesh.topology();
+  for (int l = 0; l < t.facets; ++l)
+    for (int axis = 0; axis < t.dimension; ++axis)
+      for (int end = 0; end < 2; ++end) {
+        if (at[axis] != (end ? cells[axis] - 1 : 0)) continue;
+        bool on = true;
+        for (int k = 0; k < t.nodes_per_facet && on; ++k) on = ((bits[t.facet_nodes[l][k]] >> axis) & 1) == end;
+        if (on) mesh.parts[(t.dimension == 2 ? kPlaneParts : kSpaceParts)[axis][end]].push_back({mesh.cell_count() - 1, l});
+      }
+}
+
+/// Boxes between ticks of each axis, two or three, cut into cells.
+Mesh grid(int dimension, const double* from, const double* to, const int* cells, Family family, const Grading* grading) {
+  constexpr const char* kAxis[] = {"x", "y", "z"};
+  const bool simplex = simplices(family);
+  Mesh mesh;
+  mesh.element = dimension == 2 ? (simplex ? Element::triangle_p1 : Element::quadrilateral_q1) : simplex ? Element::tetrahedron_p1 : Element::hexahedron_q1;
+  std::vector<double> tick[3] = {{}, {}, {0}};
+  int count[3] = {1, 1, 1}, stride[3] = {1, 1, 1};
+  for (int i = 0; i < dimension; ++i) {
+    tick[i] = ticks(from[i], to[i], cells[i], grading[i], kAxis[i]);
+    count[i] = cells[i];
+    for (int k = i + 1; k < 3; ++k) stride[k] *= cells[i] + 1;
+  }
+  for (const double z : tick[2])
+    for (const double y : tick[1])
+      for (const double x : tick[0]) {
+        const double place[3] = {x, y, z};
+        mesh.coordinates.insert(mesh.coordinates.end(), place, place + dimension);
+      }
+  for (int k = 0; k < count[2]; ++k)
+    for (int j = 0; j < count[1]; ++j)
+      for (int i = 0; i < count[0]; ++i)
+        for (const std::vector<int>& bits : corners_of(dimension, simplex)) {
+          const int at[3] = {i, j, k};
+          for (const int corner : bits) {
+            int node = 0;
+            for (int axis = 0; axis < dimension; ++axis) node += (at[axis] + ((corner >> axis) & 1)) * stride[axis];
+            mesh.cells.push_back(node);
+          }
+          name_facets(mesh, bits, at, cells);
+        }
+  return of_family(std::move(mesh), family);
+}
+
+}  // namespace
+
+Mesh rectangle(const double from[2], const double to[2], const int cells[2], Family family, const Grading grading[2]) {
+  return grid(2, from, to, cells, family, grading);
+}
+
+Mesh box(const double from[3], const double to[3], const int cells[3], Family family, const Grading grading[3]) {
+  return grid(3, from, to, cells, family, grading);
+}
+
+}  // namespace dotyk::mesh
