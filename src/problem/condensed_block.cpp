@@ -16,21 +16,17 @@ struct Grouping {
   std::vector<int> of_unknown, last;
 };
 
-/// The unknowns of a node that some row acts on, and its others apart: where normals are along an axis, Γ is a third of what its nodes have. Together of a free
-/// block, so that every motion that displaces Γ is seen on it.
+/// The unknowns of a node that some row acts on, and its others apart: where normals are along an axis, Γ is a third of what its nodes have.
 Grouping apart(const Block& block, const SparseRows& rows) {
-  const auto n = static_cast<int>(block.node.size());
-  const bool together = block.kernel.cols() > 0;
-  const auto place = [&](int unknown) { return together ? block.node[unknown] : unknown; };
-  std::vector<char> touched(n ? place(n - 1) + 1 : 0, 0);
+  std::vector<char> touched(block.node.size(), 0);
   for (int r = 0; r < rows.rows(); ++r)
-    for (SparseRows::InnerIterator it(rows, r); it; ++it) touched[place(static_cast<int>(it.col()))] = 1;
+    for (SparseRows::InnerIterator it(rows, r); it; ++it) touched[it.col()] = 1;
   Grouping out;
   int group = -1;
-  for (int i = 0; i < n; ++i) {
-    if (i == 0 || block.node[i] != block.node[i - 1] || touched[place(i)] != touched[place(i - 1)]) {
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    if (i == 0 || block.node[i] != block.node[i - 1] || touched[i] != touched[i - 1]) {
       ++group;
-      if (touched[place(i)]) out.last.push_back(group);
+      if (touched[i]) out.last.push_back(group);
     }
     out.of_unknown.push_back(group);
   }

@@ -86,7 +86,7 @@ printf '%s\n' 'local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, 
   'local s for k = 2, 4 do s = dotyk.solver.psor{ max_iterations = k }:solve(scene) end' 'print(s.converged, tostring(s):match "NOT CONVERGED: [^\n]*")' \
   'dotyk.solve(scene) dotyk.solver.psor{ max_iterations = 1 }:solve(scene)' \
   'print(pcall(s.error_estimate, s))' \
-  'local beam = dotyk.beam{ load = -1, left = { deflection = dotyk.law.signorini() }, right = { deflection = dotyk.law.signorini() } }' \
+  'local beam = dotyk.beam{ load = -1, left = { deflection = dotyk.law.signorini() }, right = { deflection = dotyk.law.signorini(), rotation = dotyk.law.friction(0.01) } }' \
   'dotyk.solver.psor{ max_iterations = 1 }:solve(beam)' >doubtful.lua
 expect "solutions that are none" 0 $'false\tNOT CONVERGED: no convergence within 4 iterations (psor, 4 iterations); a method to try next: pdas
 false\tdoubtful.lua:8: error_estimate: the solution has not converged, so that the error estimate, which is of a solution, does not apply (no convergence within 4 iterations; a method to try next: pdas)' \

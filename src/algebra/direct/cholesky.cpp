@@ -34,33 +34,52 @@ struct Cholesky::Implementation {
   }
 };
 
-Cholesky::Cholesky(const SparseMatrix& lower, const std::vector<int>& node,
-                   const std::vector<int>& last, Ordering ordering)
+SparseMatrix with_block(const SparseMatrix& lower, const std::vector<int>& unknowns, const std::function<double(int, int)>& entry) {
+  SparseMatrix block(lower.rows(), lower.cols());
+  const int size = static_cast<int>(unknowns.size());
+  block.reserve(static_cast<Eigen::Index>(size) * (size + 1) / 2);
+  int j = 0;
+  for (int column = 0; column < lower.cols(); ++column) {
+    block.startVec(column);
+    if (j == size || unknowns[j] != column) continue;
+    for (int i = j; i < size; ++i) block.insertBack(unknowns[i], column) = entry(i, j);
+    ++j;
+  }
+  block.finalize();
+  return lower + block;
+}
+
+Cholesky::Cholesky(const SparseMatrix& lower, const std::vector<int>& node, const std::vector<int>& last, Ordering ordering,
+                   bool full_boundary)
     : it_(std::make_unique<Implementation>()) {
   Permutation permutation = order(lower, node, last, ordering);
   it_->flops = permutation.flops;
   it_->method = permutation.method;
   if (node.empty()) return;
+  std::vector<char> is_last(node.back() + 1, 0);
+  for (const int n : last)
+    if (n < static_cast<int>(is_last.size())) is_last[n] = 1;
+  std::vector<int> gamma;
+  for (int k = 0; k < static_cast<int>(node.size()); ++k)
+    if (is_last[node[k]]) gamma.push_back(k);
+
   cholmod_common* c = it_->common.get();
   c->nmethods = 1;
   c->method[0].ordering = CHOLMOD_GIVEN;
   c->postorder = true;
-  cholmod_sparse a = view(lower);
+  const SparseMatrix full = full_boundary ? with_block(lower, gamma, [](int, int) { return 1; }) : SparseMatrix();
+  cholmod_sparse a = view(full_boundary ? full : lower);
   it_->factor = cholmod_analyze_p(&a, permutation.order.data(), nullptr, 0, c);
   it_->common.check("symbolic factorisation");
 
   // The postordering moves Γ among the rest, but keeps it closed under "ancestor in the
   // elimination tree", so L[I,Γ] = 0 and L[Γ,Γ] is still the Schur complement's factor.
-  std::vector<char> is_last(node.empty() ? 0 : node.back() + 1, 0);
-  for (int n : last)
-    if (n < static_cast<int>(is_last.size())) is_last[n] = 1;
   const int* perm = static_cast<int*>(it_->factor->Perm);
-  if (!last.empty())
-    for (int k = 0; k < static_cast<int>(node.size()); ++k)
-      if (is_last[node[perm[k]]]) {
-        it_->boundary.push_back(perm[k]);
-        it_->position.push_back(k);
-      }
+  for (int k = 0; k < static_cast<int>(node.size()) && !gamma.empty(); ++k)
+    if (is_last[node[perm[k]]]) {
+      it_->boundary.push_back(perm[k]);
+      it_->position.push_back(k);
+    }
 }
 
 Cholesky::~Cholesky() = default;

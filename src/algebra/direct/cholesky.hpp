@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 
 namespace dotyk::algebra {
 
+/// Lower triangles: the matrix with entry(i, j) added at (unknowns[i], unknowns[j]), i ≥ j. `unknowns`: ascending.
+SparseMatrix with_block(const SparseMatrix& lower, const std::vector<int>& unknowns, const std::function<double(int i, int j)>& entry);
+
 /// Sparse Cholesky factorisation A = Pᵀ L Lᵀ P of a symmetric positive definite
 /// matrix, with an optional set Γ of unknowns eliminated last. The trailing
 /// block L_Γ of the factor then gives the Schur complement onto Γ,
@@ -16,9 +20,10 @@ namespace dotyk::algebra {
 /// and one forward and one backward sweep around a problem on Γ solve the whole.
 class Cholesky {
  public:
-  /// Orders and analyses. `lower`: lower triangle; `node`, `last` as in order().
-  Cholesky(const SparseMatrix& lower, const std::vector<int>& node,
-           const std::vector<int>& last, Ordering ordering = Ordering::automatic);
+  /// Orders and analyses. `lower`: lower triangle; `node`, `last` as in order(). `full_boundary`: what is factored will have
+  /// entries between all unknowns of Γ (with_block()), which the ordering need not see.
+  Cholesky(const SparseMatrix& lower, const std::vector<int>& node, const std::vector<int>& last,
+           Ordering ordering = Ordering::automatic, bool full_boundary = false);
   ~Cholesky();
   Cholesky(Cholesky&&) noexcept;
   Cholesky& operator=(Cholesky&&) noexcept;

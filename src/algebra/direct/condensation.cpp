@@ -1,6 +1,7 @@
 #include "algebra/direct/condensation.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
@@ -19,7 +20,7 @@ double& diagonal(SparseMatrix& lower, int unknown) {
 Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
                            const std::vector<int>& last, const DenseMatrix& kernel,
                            Ordering ordering)
-    : factor_(K, node, last, ordering) {
+    : factor_(K, node, last, ordering, kernel.cols() > 0) {
   const Eigen::Index n = static_cast<Eigen::Index>(boundary().size()), modes = kernel.cols();
   kernel_.resize(n, modes);
   for (Eigen::Index k = 0; k < n; ++k) kernel_.row(k) = kernel.row(boundary()[k]);
@@ -33,28 +34,26 @@ Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
 bool Condensation::factor(const SparseMatrix& K) {
   if (kernel_size() == 0) {
     if (!factor_.factor(K)) return false;
-    l_gamma_ = factor_.boundary_factor();
-    return true;
+  } else {
+    std::vector<int> place(boundary().size());  // on Γ, of its unknowns in ascending order
+    std::iota(place.begin(), place.end(), 0);
+    std::sort(place.begin(), place.end(), [&](int a, int b) { return boundary()[a] < boundary()[b]; });
+    std::vector<int> unknowns;
+    for (const int k : place) unknowns.push_back(boundary()[k]);
+    tau_ = 0;
+    for (const int unknown : unknowns) tau_ += K.coeff(unknown, unknown) / static_cast<double>(unknowns.size());
+    const DenseMatrix R = basis_(place, Eigen::all).transpose();
+    SparseMatrix held = with_block(K, unknowns, [&](int i, int j) { return tau_ * R.col(i).dot(R.col(j)); });
+    for (const int unknown : pinned_) diagonal(held, unknown) *= 2;
+    if (!factor_.factor(held)) return false;
   }
-  // Shift by the diagonal itself: of the size of the stiffness, so that taking it off again
-  // loses a digit at most, and only on Γ.
-  SparseMatrix shifted = K;
-  for (int unknown : pinned_) diagonal(shifted, unknown) *= 2;
-  shift_.resize(static_cast<Eigen::Index>(boundary().size()));
-  for (std::size_t k = 0; k < boundary().size(); ++k) {
-    shift_[k] = diagonal(shifted, boundary()[k]);
-    diagonal(shifted, boundary()[k]) *= 2;
-  }
-  if (!factor_.factor(shifted)) return false;
   l_gamma_ = factor_.boundary_factor();
-  l_dense_ = schur();
-  if (basis_.cols() > 0) l_dense_ += shift_.mean() * basis_ * basis_.transpose();
-  return algebra::cholesky(l_dense_);
+  return true;
 }
 
 DenseMatrix Condensation::schur() const {
   DenseMatrix S = square(l_gamma_);
-  if (shift_.size()) S.diagonal() -= shift_;
+  if (kernel_size()) S -= tau_ * basis_ * basis_.transpose();
   return S;
 }
 
@@ -65,14 +64,14 @@ Vector Condensation::condense(const Vector& f) {
 
 Vector Condensation::solve(const Vector& b) const {
   Vector x = b;
-  solve_lower(dense_factor(), x);
-  solve_lower_transposed(dense_factor(), x);
+  solve_lower(l_gamma_, x);
+  solve_lower_transposed(l_gamma_, x);
   return x;
 }
 
 DenseMatrix Condensation::half_compliance(const SparseRows& B) const {
   DenseMatrix x = DenseMatrix(B.transpose());
-  solve_lower(dense_factor(), x);
+  solve_lower(l_gamma_, x);
   return x;
 }
 

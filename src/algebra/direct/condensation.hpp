@@ -12,12 +12,10 @@ namespace dotyk::algebra {
 /// nodes: the Schur complement S from the trailing block of one factor, and
 /// what is needed to work with it.
 ///
-/// A kernel R of K (rigid modes) is allowed: K is then factored with a known
-/// diagonal D added on Γ, S = L_Γ L_Γᵀ − D, and the small dense M = S + τ R̂R̂ᵀ
-/// (R̂ an orthonormal basis of R on Γ) is positive definite, M⁻¹ a generalised
-/// inverse of S. Motions in the kernel that vanish on Γ are held by a diagonal
-/// added at as many well-chosen unknowns (fixing_unknowns): it carries nothing
-/// for loads in equilibrium, so S is as it would be.
+/// A kernel R of K (rigid modes) is allowed: with R̂ an orthonormal basis of R on Γ, K + τ R̂R̂ᵀ is factored, so that
+/// M = S + τ R̂R̂ᵀ = L_Γ L_Γᵀ is positive definite and M⁻¹ a generalised inverse of S. Motions in the kernel that vanish on Γ
+/// are held by a diagonal added at as many well-chosen unknowns (fixing_unknowns): it carries nothing for loads in
+/// equilibrium, so S is as it would be.
 class Condensation {
  public:
   /// Orders and analyses. `last`: nodes of Γ, see order(). `kernel`: K.rows() × modes.
@@ -40,7 +38,7 @@ class Condensation {
   DenseMatrix schur() const;
   /// M⁻¹ b, b on Γ (S⁻¹ b without a kernel).
   Vector solve(const Vector& b) const;
-  /// X = L_M⁻¹ Bᵀ for a sparse B (rows × |Γ|, columns in boundary() order), so that
+  /// X = L_Γ⁻¹ Bᵀ for a sparse B (rows × |Γ|, columns in boundary() order), so that
   /// XᵀX = B M⁻¹ Bᵀ.
   DenseMatrix half_compliance(const SparseRows& B) const;
   /// The whole u from u_Γ, for the f of the last condense(): one backward sweep.
@@ -59,12 +57,9 @@ class Condensation {
   std::vector<int> pinned_;   ///< unknowns off Γ that hold the motions vanishing on Γ
   DenseMatrix kernel_;        ///< R on Γ
   DenseMatrix basis_;         ///< R̂
-  DenseMatrix l_gamma_;       ///< L_Γ (of the shifted matrix)
-  Vector shift_;              ///< D; empty without a kernel
-  DenseMatrix l_dense_;       ///< Cholesky factor of M; empty without a kernel
+  double tau_ = 0;
+  DenseMatrix l_gamma_;       ///< L_Γ, of M
   Vector swept_;
-
-  const DenseMatrix& dense_factor() const { return kernel_size() ? l_dense_ : l_gamma_; }
 };
 
 }  // namespace dotyk::algebra

@@ -14,7 +14,8 @@ using problem::Problem;
 
 namespace {
 
-constexpr double kBalanced = 1e-6;  ///< of all forces
+/// Of all forces: where steps end, and what is enough. Friction comes at once when a row closes, so that there may be no balance.
+constexpr double kBalanced = 1e-6, kNearlyBalanced = 1e-2;
 
 /// A block is L ≈ h n^(1/d) wide, of n nodes h apart: pressure on it moves what it acts on L/h times as far as its row's own stiffness says.
 double nodes_across(const problem::Block& block) {
@@ -34,9 +35,10 @@ class Springs {
   }
 
   const Vector& load() const { return rigid_.noticed_e; }
-  bool balanced(const Vector& unbalanced, const Vector& alpha) {
+  /// Beside all forces.
+  double share(const Vector& unbalanced, const Vector& alpha) {
     const Vector gross = load().cwiseAbs() + N_.cwiseAbs().transpose() * forces(overlap(alpha)).cwiseAbs();
-    return unbalanced.norm() <= kBalanced * gross.norm();
+    return unbalanced.norm() / gross.norm();
   }
   const DenseMatrix& N() const { return N_; }
   const Vector& stiffness() const { return k_; }
@@ -80,17 +82,20 @@ std::optional<Vector> settled_overlap(const Problem& problem) {
   const Vector& k = springs.stiffness();
   Vector alpha = Vector::Zero(N.cols());
   Vector left = springs.load() + N.transpose() * k.cwiseProduct(problem.c), slope = k;  // at first all rows hold
-  for (int step = 0; step < kSteps && left.allFinite(); ++step) {
+  double share = INFINITY;
+  for (int step = 0; step < kSteps && share > kBalanced && left.allFinite(); ++step) {
     const Vector d = algebra::Ldlt(N.transpose() * slope.asDiagonal() * N).solve(left);
     // A convex energy falls along d until its slope turns.
     double length = 1;
-    for (int h = 0; h < kHalvings && step > 0 && d.dot(springs.unbalanced(alpha + length * d)) < 0; ++h) length /= 2;
+    int halvings = 0;
+    for (; halvings < kHalvings && step > 0 && d.dot(springs.unbalanced(alpha + length * d)) < 0; ++halvings) length /= 2;
     alpha += length * d;
     left = springs.unbalanced(alpha);
     slope = springs.slope().cwiseMax(kFloor * k);
-    if (springs.balanced(left, alpha)) return springs.overlap(alpha);
+    share = springs.share(left, alpha);
+    if (halvings == kHalvings) break;
   }
-  return std::nullopt;
+  return share <= kNearlyBalanced ? std::optional<Vector>(springs.overlap(alpha)) : std::nullopt;
 }
 
 }  // namespace dotyk::solver

@@ -17,8 +17,8 @@ namespace dotyk::solver {
 /// K is singular where bodies are free.
 class PrimalProgram {
  public:
-  /// On all unknowns, or `reduced` to those of the nodes that rows act on: K is then the Schur complement,
-  /// semidefinite as K is. `method` names who asks, in messages. Throws InputError for friction, for laws
+  /// On all unknowns, or `reduced` to those that rows act on: K is then the Schur complement, semidefinite as K is, and
+  /// motions that no row notices are not in the program. `method` names who asks, in messages. Throws InputError for friction, for laws
   /// with other branches, and where a block is not held.
   PrimalProgram(const problem::Problem& problem, const problem::RigidMotions& rigid, const std::string& method,
                 bool reduced, algebra::Ordering ordering, problem::Clock& clock, Monitor& monitor);
