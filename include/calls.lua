@@ -1,1 +1,0 @@
-return pcall(include, "lib/two.lua")

@@ -1,1 +1,0 @@
-return include "lib/one.lua"

@@ -1,1 +1,0 @@
-local two <const> = include "two.lua" return two + 1, "and more"

@@ -1,1 +1,0 @@
-return include "two.lua"
