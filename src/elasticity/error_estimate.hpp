@@ -22,7 +22,7 @@ namespace dotyk::elasticity {
 ///   contact_pressure, friction   the same with the normal and the tangential part of r on the contact boundary, t the
 ///              traction that the multipliers are; friction also has what slip and shear lack of its law
 ///   complementarity   2∫ λ gap: where a facet has one closed and one open node
-///   laws       what elastic laws of supports lose by acting at nodes: see scene/model/lumped_laws.hpp
+///   laws       what elastic laws of supports lose by acting at nodes: see scene/result/energy_norm.hpp
 /// H the cell's height over the facet, Q_ik = c_ijkl n_j n_l: a stress that falls linearly from rn on the facet to 0
 /// has the energy H/3 ∫ r·Q⁻¹r. No constant is fitted. Not measured: what interpolation loses of prescribed
 /// displacements and of the gap, and what facet means lose of loads (all of higher order where they are smooth); the

@@ -28,6 +28,15 @@ class ContactRowMaker {
     for (const contact::ContactRow& row : contact.rows) free_.push_back(jumps.at(row));
   }
 
+  void operator()() {
+    normal();
+    if (contact_.friction == Friction::Kind::none && contact_.tangential.kind == Kind::free) return;
+    const std::vector<Candidate> points = nodal(contact_) ? nodal_points() : cell_points();
+    for (int components = 1; components < dim_; ++components)
+      for (const bool slips : {true, false}) add(points, components, slips);
+  }
+
+ private:
   void normal() {
     const bool law = problem::row_law(contact_.normal) != nullptr;
     if (law) builder_.rows.open_group(contact_.name, contact_.normal);
@@ -58,14 +67,6 @@ class ContactRowMaker {
     }
   }
 
-  void tangential() {
-    if (contact_.friction == Friction::Kind::none && contact_.tangential.kind == Kind::free) return;
-    std::vector<Candidate> points = nodal(contact_) ? nodal_points() : cell_points();
-    for (int components = 1; components < dim_; ++components)
-      for (const bool slips : {true, false}) add(points, components, slips);
-  }
-
- private:
   /// A friction point before it has rows.
   struct Candidate {
     contact::FrictionCell cell;
@@ -76,8 +77,7 @@ class ContactRowMaker {
 
   Pull pull(const contact::Term& term, const Point& direction) const {
     const contact::ContactRow& row = contact_.rows[term.row];
-    return {row.own, row.partners,
-            {term.weight * direction[0], term.weight * direction[1], term.weight * direction[2]}};
+    return {row.own, row.partners, mesh::times(term.weight, direction)};
   }
   /// Is the jump at a contact row free along the direction?
   bool moves(std::size_t row, const Point& direction) const {
@@ -164,7 +164,7 @@ class ContactRowMaker {
       Point mean{0, 0, 0};
       double most = 0;
       for (const contact::Term& jump : point.cell.jumps) {
-        for (int i = 0; i < 3; ++i) mean[i] += jump.weight * contact_.rows[jump.row].normal[i];
+        mean = mesh::plus(mean, mesh::times(jump.weight, contact_.rows[jump.row].normal));
         const int n = model_.contact_row.back()[jump.row];
         if (n >= 0 && jump.weight > most) most = jump.weight, point.normal = n;
       }
@@ -230,35 +230,18 @@ class ContactRowMaker {
 
 }  // namespace
 
-int facing(const Contact& contact, int node, const std::vector<contact::NodeWeight>& partners) {
-  if (partners.size() == 1) return partners.front().node;
-  const Point x = contact.first.body->mesh->point(node);
-  int nearest = -1;
-  double least = INFINITY;
-  for (const contact::NodeWeight& partner : partners) {
-    const double distance = mesh::length(mesh::minus(x, contact.second.body->mesh->point(partner.node)));
-    if (distance < least) least = distance, nearest = partner.node;
-  }
-  return nearest;
-}
-
 Point FrictionRows::at(int i, const contact::ContactRow& row, int dimension) const {
   const Point& n = row.normal;
   if (dimension == 2) return {-n[1], n[0], 0};
-  Point t = direction[i];
-  double along = 0;
-  for (int k = 0; k < 3; ++k) along += t[k] * n[k];
-  if (std::abs(along) < 1e-15) return t;
-  for (int k = 0; k < 3; ++k) t[k] -= along * n[k];
-  return t;
+  const Point& t = direction[i];
+  const double along = mesh::dot(t, n);
+  return std::abs(along) < 1e-15 ? t : mesh::minus(t, mesh::times(along, n));
 }
 
 std::vector<Point> Model::contact_force(int index, const algebra::Vector& lambda) const {
   const Contact& contact = *contacts[index];
   std::vector<Point> force(contact.rows.size(), Point{0, 0, 0});
-  const auto push = [&](int k, const Point& direction, double amount) {
-    for (int i = 0; i < 3; ++i) force[k][i] -= amount * direction[i];
-  };
+  const auto push = [&](int k, const Point& direction, double amount) { force[k] = mesh::minus(force[k], mesh::times(amount, direction)); };
   for (std::size_t j = 0; j < normal[index].size(); ++j) {
     const int r = contact_row[index][j];
     if (r < 0) continue;
@@ -273,12 +256,8 @@ std::vector<Point> Model::contact_force(int index, const algebra::Vector& lambda
   return force;
 }
 
-void add_normal_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model) {
-  ContactRowMaker(scene, contact, jumps, builder, model).normal();
-}
-
-void add_tangential_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model) {
-  ContactRowMaker(scene, contact, jumps, builder, model).tangential();
+void add_contact_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model) {
+  ContactRowMaker(scene, contact, jumps, builder, model)();
 }
 
 }  // namespace dotyk::scene

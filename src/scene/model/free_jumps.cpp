@@ -6,7 +6,6 @@
 #include "algebra/dense/decompositions.hpp"
 #include "contact/row_derivative.hpp"
 #include "contact/tangents.hpp"
-#include "scene/model/contact_rows.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -35,6 +34,20 @@ Matrix3d onto_range(const Matrix3d& sum) {
 constexpr double kNoWeight = 1e-9;
 /// Distance between planes that are one, relative to a body's size.
 constexpr double kInPlane = 1e-6;
+
+/// The nearest of a node's partners. Where nodes do not match and supports hold both, as on a plane of symmetry, there is no row
+/// (as between matching nodes), though partners further in may move: multipliers there would hold the second part alone.
+int facing(const Contact& contact, int node, const std::vector<contact::NodeWeight>& partners) {
+  if (partners.size() == 1) return partners.front().node;
+  const Point x = contact.first.body->mesh->point(node);
+  int nearest = -1;
+  double least = INFINITY;
+  for (const contact::NodeWeight& partner : partners) {
+    const double distance = mesh::length(mesh::minus(x, contact.second.body->mesh->point(partner.node)));
+    if (distance < least) least = distance, nearest = partner.node;
+  }
+  return nearest;
+}
 
 int dimension_of(const Matrix3d& V) { return static_cast<int>(std::lround(V.trace())); }
 

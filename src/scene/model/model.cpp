@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/listed.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -31,9 +32,7 @@ std::string supports_of(const Body& body) {
   for (std::size_t k = 0; k < body.springs.size(); ++k)
     if (k == 0 || !(body.springs[k].part == body.springs[k - 1].part))
       all.push_back("spring on " + body.springs[k].part.name);
-  std::string out;
-  for (std::size_t k = 0; k < all.size() && k < 4; ++k) out += (k ? ", " : "") + all[k];
-  return all.size() > 4 ? text(out, " and ", all.size() - 4, " more") : out;
+  return listed(all, 4);
 }
 
 /// The entry of Model::nearly_free; lowers `softest`.
@@ -41,8 +40,7 @@ std::string nearly_free(const Body& body, const Numbering& numbering, const prob
   const auto weak = elasticity::weak_motions(*body.mesh, numbering, block.K, block.kernel);
   if (weak.motions.empty()) return "";
   softest = std::min(softest, weak.stiffness);
-  std::string motions;
-  for (const Motion& motion : weak.motions) motions += (motions.empty() ? "" : ", ") + motion.text();
+  const std::string motions = listed(texts(weak.motions));
   if (weak.stiffness == 0)
     throw InputError(text("'", body.name, "' is as good as free: ", motions, " is held only by ", supports_of(body),
                           ", whose stiffness is lost in rounding beside the body's; leave that away, or make it stiffer"));
@@ -86,12 +84,11 @@ void add_body(const Body& body, Model& model) {
   problem::add(model.problem, std::move(block));
 }
 
-void add_glue_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, std::vector<GlueRow>& rows) {
+void add_glue_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder) {
   const int first = scene.index_of(contact.first.body.get());
   const int second = scene.index_of(contact.second.body.get());
   builder.rows.open_group(contact.name, problem::bilateral());
-  for (std::size_t k = 0; k < contact.glued.size(); ++k) {
-    const contact::Tie& tie = contact.glued[k];
+  for (const contact::Tie& tie : contact.glued) {
     const auto require_together = [&](double apart) {
       if (!(apart > 1e-12 * contact.first.body->mesh->size())) return;
       throw InputError(text(contact.name, ": at ", point_text(contact.first.body->mesh->node(tie.node), scene.dimension()),
@@ -100,9 +97,7 @@ void add_glue_rows(const Scene& scene, const Contact& contact, const FreeJumps& 
     require_together(jumps.torn(tie));
     for (const Point& direction : jumps.at(tie)) {
       double jump = 0;
-      const int row = builder.add(first, second, {{tie.own, tie.partners, direction}}, jump);
-      if (row >= 0) rows.push_back({static_cast<int>(k), direction, row});
-      else require_together(std::abs(jump));
+      if (builder.add(first, second, {{tie.own, tie.partners, direction}}, jump) < 0) require_together(std::abs(jump));
     }
   }
 }
@@ -143,14 +138,7 @@ void require_consistent(const Scene& scene, const problem::Problem& problem) {
 void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   model.problem.groups.clear();
   model.problem.friction.clear();
-  model.contacts.clear();
-  model.contact_row.clear();
-  model.normal.clear();
-  model.friction.clear();
-  model.glue_row.clear();
-  model.slide_row.clear();
-  model.support_row.clear();
-  model.move.clear();
+  static_cast<SceneRows&>(model) = {};
   RowBuilder builder(scene, model);
   for (const auto& given : scene.contacts) {
     const FreeJumps jumps(scene, model.bodies, model.numbering, *given);
@@ -158,15 +146,10 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
     model.move.push_back(loading.move_of(static_cast<int>(model.move.size())));
     builder.set_move(model.move.back());
     model.contact_row.emplace_back();
-    model.glue_row.emplace_back();
     model.normal.emplace_back();
     model.friction.emplace_back();
-    if (contact->kind == Contact::Kind::contact) {
-      add_normal_rows(scene, *contact, jumps, builder, model);
-      add_tangential_rows(scene, *contact, jumps, builder, model);
-    } else {
-      add_glue_rows(scene, *contact, jumps, builder, model.glue_row.back());
-    }
+    if (contact->kind == Contact::Kind::contact) add_contact_rows(scene, *contact, jumps, builder, model);
+    else add_glue_rows(scene, *contact, jumps, builder);
   }
   builder.set_move({0, 0, 0});
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -177,8 +160,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
     builder.rows.open_group("slide of '" + body.name + "'", problem::bilateral());
     for (const SlideRow& slide : body.slides) {
       double jump = 0;
-      model.slide_row.back().push_back(
-          builder.add(static_cast<int>(b), slide.node, slide.normal, jump));
+      model.slide_row.back().push_back(builder.add(static_cast<int>(b), {{slide.node, 1}}, slide.normal, jump));
       const mesh::Mesh& mesh = *body.mesh;
       if (model.slide_row.back().back() < 0 && std::abs(jump) > 1e-12 * mesh.size())
         throw InputError(text("contradictory supports on '", body.name, "': at the node ",

@@ -33,28 +33,32 @@ struct SupportRows {
   }
 };
 
-/// A tie's row of B: no jump along the direction.
-struct GlueRow {
-  int tie;
-  mesh::Point direction;
-  int row;
+/// What a row of B measures at a component whose displacement is prescribed; B itself is of the unknowns.
+struct HeldEntry {
+  int row, body;
+  std::size_t component;  ///< node × dimension
+  double value;
 };
 
-/// A scene as a problem, and the way back.
-struct Model {
-  problem::Problem problem;
-  std::vector<Body> bodies;                      ///< as they were: a script may add supports and loads later; scaled
-  std::vector<elasticity::Numbering> numbering;  ///< one a body
+/// Where the rows of a scene's problem come from.
+struct SceneRows {
   /// The scene's, their normals as the supports say: see with_held_normals(). Results and rows are by these.
   std::vector<std::shared_ptr<const Contact>> contacts;
   /// Contact → its row → row of B of the normal multiplier there, or -1 where no unknown moves it (both sides fixed).
   std::vector<std::vector<int>> contact_row;
   std::vector<std::vector<contact::NormalRow>> normal;  ///< contact → its row → what that row of B measures
   std::vector<std::vector<FrictionRows>> friction;      ///< contact → its cells
-  std::vector<std::vector<GlueRow>> glue_row;    ///< of each glue
   std::vector<std::vector<int>> slide_row;       ///< body → its SlideRow → row of B, or -1
   std::vector<std::vector<std::vector<SupportRows>>> support_row;  ///< body → its LawSupport → its nodes
   std::vector<mesh::Point> move;                 ///< contact → displacement of its rigid shape
+  std::vector<HeldEntry> held;                   ///< of all rows
+};
+
+/// A scene as a problem, and the way back.
+struct Model : SceneRows {
+  problem::Problem problem;
+  std::vector<Body> bodies;                      ///< as they were: a script may add supports and loads later; scaled
+  std::vector<elasticity::Numbering> numbering;  ///< one a body
   std::optional<problem::Decomposition> decomposition;  ///< by which problem.subdomains were cut; none: they were not
 
   /// Body → rigid motions that its supports hardly hold, with what they are and how stiff: "nearly free:

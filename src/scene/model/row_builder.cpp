@@ -1,7 +1,5 @@
 #include "scene/model/row_builder.hpp"
 
-#include <algorithm>
-
 #include "base/text.hpp"
 
 namespace dotyk::scene {
@@ -9,38 +7,27 @@ namespace dotyk::scene {
 using mesh::Point;
 using mesh::dot;
 
-int RowBuilder::add(int body, int node, const Point& direction, double& gap) {
-  return add(body, std::vector<contact::NodeWeight>{{node, 1}}, direction, gap);
-}
-
 int RowBuilder::add(int body, const std::vector<contact::NodeWeight>& mean, const Point& direction, double& gap, double share) {
   return add(body, -1, {{mean, {}, direction}}, gap, share);
 }
 
 int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, double& gap, double share) {
   const Pull* main = &pulls.front();
+  const std::size_t held = model_.held.size();
   for (const Pull& pull : pulls) {
     for (const contact::NodeWeight& own : pull.own) collect(body, own.node, pull.direction, own.weight, gap);
     if (other_body >= 0)
       for (const contact::NodeWeight& partner : pull.partners) collect(other_body, partner.node, pull.direction, -partner.weight, gap);
     else
-      for (int i = 0; i < 3; ++i) gap += pull.direction[i] * move_[i];
+      gap += dot(pull.direction, move_);
     if (dot(pull.direction, pull.direction) > dot(main->direction, main->direction)) main = &pull;
   }
-  if (!rows.any()) return -1;
+  if (!rows.any()) {
+    model_.held.resize(held);
+    return -1;
+  }
   places_.push_back({body, main->own.front().node});
   return rows.add(gap, share);
-}
-
-bool RowBuilder::moves(int body, int node, const Point& direction) const {
-  const int dim = scene_.dimension();
-  for (int i = 0; i < dim; ++i)
-    if (direction[i] != 0 && model_.numbering[body].unknown[static_cast<std::size_t>(node) * dim + i] >= 0) return true;
-  return false;
-}
-
-bool RowBuilder::moves(int body, const std::vector<contact::NodeWeight>& mean, const Point& direction) const {
-  return std::any_of(mean.begin(), mean.end(), [&](const contact::NodeWeight& n) { return moves(body, n.node, direction); });
 }
 
 void RowBuilder::finish() {
@@ -63,10 +50,12 @@ void RowBuilder::collect(int body, int node, const Point& direction, double sign
   for (int i = 0; i < dim; ++i) {
     if (direction[i] == 0) continue;
     const std::size_t at = static_cast<std::size_t>(node) * dim + i;
-    if (numbering.unknown[at] >= 0)
+    if (numbering.unknown[at] >= 0) {
       rows.entry(model_.problem.blocks[body].first + numbering.unknown[at], sign * direction[i]);
-    else
-      gap -= sign * direction[i] * numbering.prescribed[at];
+      continue;
+    }
+    model_.held.push_back({rows.count(), body, at, sign * direction[i]});
+    gap -= sign * direction[i] * numbering.prescribed[at];
   }
 }
 

@@ -24,17 +24,11 @@ class RowBuilder {
 
   /// The rigid shape of rows added from now on is displaced by this: part of their gap.
   void set_move(const mesh::Point& move) { move_ = move; }
-  /// direction·u at a node = jump; returns the row, or -1 where nothing is unknown.
-  /// `gap` is reduced by what prescribed components contribute and left so. `share`: see problem::Rows.
-  int add(int body, int node, const mesh::Point& direction, double& gap);
-
-  /// The same of several pulls (at least one) of two bodies, or of one and a rigid shape (other_body -1).
+  /// The row Σ pulls (at least one) = gap, of two bodies or of one and a rigid shape (other_body -1); returns it, or -1 where nothing
+  /// is unknown. `gap` is reduced by what prescribed components contribute and left so. `share`: see problem::Rows.
   int add(int body, int other_body, const std::vector<Pull>& pulls, double& gap, double share = 1);
   /// The row direction·Σ weight u.
   int add(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction, double& gap, double share = 1);
-  /// Has the node (one of the nodes) an unknown along the direction?
-  bool moves(int body, int node, const mesh::Point& direction) const;
-  bool moves(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction) const;
 
   /// Sets B, c and the rows' names.
   void finish();

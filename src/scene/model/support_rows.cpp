@@ -76,16 +76,15 @@ class SupportRowMaker {
   }
 
   std::vector<Point> free_tangents(const contact::NodeSide& side) const {
-    std::vector<Point> free;
-    for (const Point& t : contact::tangents(side.normal, on_.dimension()))
-      if (moves(side, t)) free.push_back(t);
+    std::vector<Point> free = contact::tangents(side.normal, on_.dimension());
+    std::erase_if(free, [&](const Point& t) { return !moves(side, t); });
     return free;
   }
 
   /// The row direction·u = gap, or -1 where nothing moves.
   int add(const contact::NodeSide& side, const Point& direction, const SupportLaw& law, double gap, double share) {
     if (moves(side, direction)) return builder_.add(body_, side.own, direction, gap, share);
-    if (!builder_.moves(body_, side.own, direction)) builder_.add(body_, side.own, direction, gap);  // no row; gap changes
+    if (!unknown_along(model_.numbering[body_], side.own, direction, on_.dimension())) builder_.add(body_, side.own, direction, gap);  // no row; gap changes
     const double rounding = 1e-12 * on_.mesh->size();
     if (law.kind == Kind::prescribed ? std::abs(gap) > rounding : law.kind == Kind::signorini && gap < -rounding)
       throw InputError(text("contradictory supports on '", on_.name, "': at the node ",
@@ -121,17 +120,6 @@ Point law_load(const LawSupport& support, const contact::NodeSide& side, int dim
     if (support.normal.kind == Kind::load) force[i] -= support.normal.value * side.weight * side.normal[i];
     if (support.tangential.kind == Kind::load) force[i] += support.tangential.value * side.weight * t[i];
   }
-  return force;
-}
-
-Point law_force(const contact::NodeSide& side, const SupportRows& rows, const algebra::Vector& lambda) {
-  Point force{0, 0, 0};
-  const auto push = [&](int row, const Point& direction) {
-    if (row >= 0)
-      for (int i = 0; i < 3; ++i) force[i] -= lambda[row] * direction[i];
-  };
-  push(rows.normal, side.normal);
-  for (int i = 0; i < rows.count; ++i) push(rows.row[i], rows.direction[i]);
   return force;
 }
 

@@ -12,8 +12,6 @@ void add_support_rows(int body, RowBuilder& builder, Model& model);
 
 /// The force of `load` laws on the body at a node.
 mesh::Point law_load(const LawSupport& support, const contact::NodeSide& side, int dimension);
-/// The force of the other laws on it, −λ along each row's direction.
-mesh::Point law_force(const contact::NodeSide& side, const SupportRows& rows, const algebra::Vector& lambda);
 /// Adds the forces of the body's `load` laws to its nodal loads.
 void add_law_loads(Body& body);
 

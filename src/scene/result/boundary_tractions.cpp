@@ -11,10 +11,7 @@ using mesh::Point;
 using mesh::dot;
 
 Boundary::Boundary(const Body& body, const elasticity::Numbering& numbering, const std::vector<double>& u) : mesh_(*body.mesh) {
-  for (const Facet f : mesh::boundary(mesh_)) {
-    index_[f] = all_.size();
-    all_.push_back({f});
-  }
+  for (const Facet f : mesh::boundary(mesh_)) all_.push_back({f});
   for (const LoadArrow& load : load_arrows(body))
     if (FacetTraction* at = find(load.facet))
       for (Point& t : at->traction)
@@ -24,8 +21,8 @@ Boundary::Boundary(const Body& body, const elasticity::Numbering& numbering, con
 }
 
 FacetTraction* Boundary::find(Facet f) {
-  const auto found = index_.find(f);
-  return found == index_.end() ? nullptr : &all_[found->second];
+  const auto found = std::lower_bound(all_.begin(), all_.end(), f, [](const FacetTraction& at, Facet wanted) { return at.facet < wanted; });
+  return found == all_.end() || found->facet != f ? nullptr : &*found;
 }
 
 /// −k u at the nodes, k the facet's mean.
@@ -53,7 +50,7 @@ void Boundary::forget_held(const Body& body, const elasticity::Numbering& number
       if (held) facet.forget(axis);
     }
     if (slides.empty()) continue;
-    const Point n = unit_normal(facet.facet);
+    const Point n = mesh::unit(mesh_.facet_area_vector(facet.facet));
     bool slides_all = true;
     for (int k = 0; k < corners(); ++k) {
       const auto found = slides.find(mesh_.facet_node(facet.facet, k));
@@ -64,20 +61,11 @@ void Boundary::forget_held(const Body& body, const elasticity::Numbering& number
   }
 }
 
-Point Boundary::unit_normal(Facet f) const {
-  Point n = mesh_.facet_area_vector(f);
-  const double area = std::sqrt(dot(n, n));
-  for (double& v : n) v /= area;
-  return n;
-}
-
 namespace {
 
 /// Traction on the first body at a contact node.
 Point traction(const ContactNode& node) {
-  Point t = node.shear;
-  for (int i = 0; i < 3; ++i) t[i] -= node.pressure * node.normal[i];
-  return t;
+  return mesh::minus(node.shear, mesh::times(node.pressure, node.normal));
 }
 
 /// The opposite tractions on the second body's facets all of whose nodes are partners, on the side that looks their way.
@@ -100,8 +88,7 @@ void add_second_nodes(const Contact& contact, const ContactResult& result, Bound
       const std::size_t row = *std::min_element(found->second.begin(), found->second.end(), [&](std::size_t i, std::size_t j) {
         return dot(contact.rows[i].normal, n) < dot(contact.rows[j].normal, n);
       });
-      const Point t = traction(result.nodes[row]);
-      for (int i = 0; i < 3; ++i) opposite[a][i] = -t[i];
+      opposite[a] = mesh::times(-1, traction(result.nodes[row]));
     }
     if (!all || !any) continue;
     at->contact = true;

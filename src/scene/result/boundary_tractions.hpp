@@ -1,7 +1,5 @@
 #pragma once
 
-#include <map>
-
 #include "scene/result/solution.hpp"
 
 namespace dotyk::scene {
@@ -20,11 +18,9 @@ class Boundary {
   void add_spring(const elasticity::FacetSpring& spring, const std::vector<double>& u);
   void forget_held(const Body& body, const elasticity::Numbering& numbering);
   int corners() const { return mesh_.topology().nodes_per_facet; }
-  mesh::Point unit_normal(mesh::Facet f) const;
 
   const mesh::Mesh& mesh_;
-  std::map<mesh::Facet, std::size_t> index_;
-  std::vector<elasticity::FacetTraction> all_;
+  std::vector<elasticity::FacetTraction> all_;  ///< by facet
 };
 
 /// Adds the tractions of a contact to the first body's facets.

@@ -20,16 +20,14 @@ using mesh::Point;
 double square(double x) { return x * x; }
 
 double squared_distance(const Point& a, const Point& b) {
-  return square(a[0] - b[0]) + square(a[1] - b[1]) + square(a[2] - b[2]);
+  const Point off = mesh::minus(a, b);
+  return mesh::dot(off, off);
 }
 
 /// Places of points in a mesh, and beside it by the nearest cell.
 class Places {
  public:
-  Places(const Mesh& mesh, const std::string& body) : mesh_(mesh), body_(body), locator_(mesh), cells_(mesh.node_count()) {
-    for (int c = 0; c < mesh.cell_count(); ++c)
-      for (int k = 0; k < mesh.topology().nodes; ++k) cells_[mesh.cell(c)[k]].push_back(c);
-  }
+  Places(const Mesh& mesh, const std::string& body) : mesh_(mesh), body_(body), locator_(mesh), cells_(mesh::cells_of_nodes(mesh)) {}
 
   Place find(const Point& x) const {
     if (const auto inside = locator_.find(x)) return *inside;
@@ -49,7 +47,7 @@ class Places {
   const Mesh& mesh_;
   const std::string& body_;
   Locator locator_;
-  std::vector<std::vector<int>> cells_;  ///< node → its cells
+  mesh::Buckets cells_;  ///< node → its cells
 };
 
 /// The displacement of a body (node × dimension) at the nodes of another mesh of it.
@@ -109,8 +107,7 @@ double pressure_at(const std::vector<ContactNode>& nodes, const ContactNode& at,
     return sum / weights;
   }
   for (const auto& [squared, n] : near) {
-    const Point a{first.x[0] - at.x[0], first.x[1] - at.x[1], 0}, b{n->x[0] - at.x[0], n->x[1] - at.x[1], 0};
-    if (mesh::dot(a, b) >= 0) continue;
+    if (mesh::dot(mesh::minus(first.x, at.x), mesh::minus(n->x, at.x)) >= 0) continue;
     const double da = std::sqrt(near[0].first), db = std::sqrt(squared);
     return (first.pressure * db + n->pressure * da) / (da + db);
   }

@@ -7,7 +7,6 @@
 #include "base/text.hpp"
 #include "scene/result/boundary_tractions.hpp"
 #include "scene/result/energy_norm.hpp"
-#include "scene/model/lumped_laws.hpp"
 
 namespace dotyk::scene {
 namespace {

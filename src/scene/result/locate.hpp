@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "elasticity/interpolation.hpp"
 #include "mesh/cell_grid.hpp"
 
 namespace dotyk::scene {
@@ -18,7 +19,11 @@ class Locator {
  public:
   explicit Locator(const mesh::Mesh& mesh) : mesh_(mesh), grid_(mesh) {}
   /// Empty outside the mesh (by more than 1e-6 of a cell).
-  std::optional<Place> find(const mesh::Point& x) const;
+  std::optional<Place> find(const mesh::Point& x) const {
+    for (const int cell : grid_.near(x))
+      if (Place place{cell, {}}; elasticity::shape_at(mesh_, cell, x, 1e-6, place.shape)) return place;
+    return std::nullopt;
+  }
 
  private:
   const mesh::Mesh& mesh_;

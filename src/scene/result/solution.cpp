@@ -8,23 +8,79 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
-#include "scene/solve/after_solve.hpp"
+#include "problem/free_motions.hpp"
 #include "scene/solve/doubts.hpp"
-#include "scene/result/locate.hpp"
-#include "scene/solve/path_error.hpp"
 #include "solver/core/ending.hpp"
+#include "solver/core/settle.hpp"
 #include "solver/core/verdict.hpp"
 
 namespace dotyk::scene {
 
+using algebra::Vector;
 using mesh::Point;
+using solver::kOnBound;
 
 namespace {
 
+/// Smaller ones are rounding.
+constexpr double kRounding = 1e-12;
+/// Half the width of contact, in cells, that does not tell a rotation from none.
+constexpr double kNarrow = 1.5;
+
+/// Rows whose multiplier is rounding bear nothing, nor do those where it is as good as none and which have parted.
+void open_without_force(const problem::Problem& problem, solver::Result& result) {
+  if (result.active_sets.empty()) return;
+  const Vector& lambda = result.state.lambda;
+  const Vector x = problem.B * result.state.u - problem.c;
+  const Vector none = problem::small_forces(problem, lambda, kOnBound);
+  const Vector compliance = problem.row_compliance();
+  const std::vector<problem::Scales> scales = problem::scales(problem, result.state);
+  for (const problem::RowGroup& group : problem.groups)
+    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
+      const problem::Scales& scale = scales[static_cast<std::size_t>(r)];
+      const bool parted = x[r] < -kOnBound * scale.length;
+      if (lambda[r] <= kRounding * scale.force || (parted && (lambda[r] <= none[r] || (lambda[r] <= 10 * kOnBound * scale.force && compliance[r] * lambda[r] <= -problem::kBesideGap * x[r])))) result.active_sets.back()[r] = 0;
+    }
+}
+
+/// The width of the widest cell of contact that presses.
+double widest_cell(const Scene& scene, const Model& model, const Vector& lambda) {
+  double widest = 0;
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c)
+    for (std::size_t k = 0; k < model.contact_row[c].size(); ++k)
+      if (const int r = model.contact_row[c][k]; r >= 0 && lambda[r] > kOnBound * lambda.lpNorm<Eigen::Infinity>())
+        widest = std::max(widest, std::pow(scene.contacts[c]->rows[k].weight, 1.0 / (scene.dimension() - 1)));
+  return widest;
+}
+
+/// A rotation that contact hardly wider than its cells resists.
+std::string resisted_by_cells(const Scene& scene, const Model& model, const problem::Problem& problem, const problem::FreeMotions& free,
+                              const Vector& lambda) {
+  if (free.weakest.size() == 0) return "";
+  const auto motions = problem::body_motions(problem);
+  Eigen::Index mode;
+  free.weakest.cwiseAbs().maxCoeff(&mode);
+  if (motions.size() != static_cast<std::size_t>(free.weakest.size()) || motions[mode].motion.kind != Motion::Kind::rotation) return "";
+  for (const auto& body : scene.bodies)
+    if (body->name == motions[mode].body && free.grip * body->mesh->size() / 2 <= kNarrow * widest_cell(scene, model, lambda))
+      return text("; ", motions[mode].text(), " is resisted only by terms of the order of the mesh (contact is hardly wider than its cells): how far it goes "
+                  "is the mesh's");
+  return "";
+}
+
+/// As solver::settle(). A rotation that contact no wider than its cells resists is named as well. Contact rows whose pressure is rounding
+/// are open.
+void settle(const Scene& scene, const Model& model, const problem::Problem& problem, const Vector& before, solver::Result& result) {
+  if (!result.converged || problem.rows() == 0) return;
+  const problem::FreeMotions free = solver::settle(problem, before, result);
+  if (free.count == 0) result.reason += resisted_by_cells(scene, model, problem, free, result.state.lambda);
+  open_without_force(problem, result);
+}
+
 /// What a displacement that is not unique shall be near to: the step before, at the beginning rest; u itself where that step is not at hand.
-algebra::Vector state_before(const Past& past, const algebra::Vector& u) {
+Vector state_before(const Past& past, const Vector& u) {
   if (!past.steps.empty()) return past.steps.back()->result().state.u;
-  return past.slip.size() > 0 ? u : algebra::Vector(algebra::Vector::Zero(u.size()));
+  return past.slip.size() > 0 ? u : Vector(Vector::Zero(u.size()));
 }
 
 }  // namespace
@@ -47,39 +103,33 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
 
 void Solution::take_state(const problem::Problem& problem) {
   friction_energy_ = problem::friction_energy(problem, result_.state);
-  add_step(problem);
-  displacement_.clear();
-  for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
-    displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
-}
-
-Solution::Solution(const Solution& other, algebra::Vector u)
-    : scene_(other.scene_), model_(other.model_), result_(other.result_), past_(other.past_), stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
-  result_.state.u = std::move(u);
-  residual_ = problem::residual(model_.problem, result_.state);
-  take_state(model_.problem);
-}
-
-std::shared_ptr<Solution> Solution::with(algebra::Vector u) const { return std::shared_ptr<Solution>(new Solution(*this, std::move(u))); }
-
-void Solution::add_step(const problem::Problem& problem) {
-  const algebra::Vector x = problem.B * result_.state.u - problem.c;
-  slip_ = past_.slip.size() ? past_.slip : algebra::Vector::Zero(x.size());
+  const Vector x = problem.B * result_.state.u - problem.c;
+  slip_ = past_.slip.size() ? past_.slip : Vector::Zero(x.size());
   dissipated_ = past_.dissipated.empty() ? std::vector<double>(x.size(), 0.0) : past_.dissipated;
   for (const problem::FrictionGroup& group : problem.friction)
     for (int r = group.first; r < group.first + group.points() * group.components; ++r) {
       slip_[r] += x[r];
       dissipated_[r] += result_.state.lambda[r] * x[r];
     }
+  displacement_.clear();
+  for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
+    displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
 }
+
+Solution::Solution(const Solution& other, Vector u)
+    : scene_(other.scene_), model_(other.model_), result_(other.result_), past_(other.past_), stress_(scene_->bodies.size()), locators_(scene_->bodies.size()) {
+  result_.state.u = std::move(u);
+  residual_ = problem::residual(model_.problem, result_.state);
+  take_state(model_.problem);
+}
+
+std::shared_ptr<Solution> Solution::with(Vector u) const { return std::shared_ptr<Solution>(new Solution(*this, std::move(u))); }
 
 std::vector<std::shared_ptr<const Solution>> Solution::steps() const {
   auto all = past_.steps;
   all.push_back(shared_from_this());
   return all;
 }
-
-Solution::~Solution() = default;
 
 const std::vector<elasticity::Stress>& Solution::stress(int body) const {
   if (stress_[body].empty()) {
@@ -92,36 +142,25 @@ const std::vector<elasticity::Stress>& Solution::stress(int body) const {
   return stress_[body];
 }
 
-const Locator& Solution::locator(int body) const {
-  if (!locators_[body]) locators_[body] = std::make_unique<Locator>(*this->body(body).mesh);
-  return *locators_[body];
+Place Solution::place(int body, const Point& x) const {
+  const Body& b = this->body(body);
+  if (!locators_[body]) locators_[body].emplace(*b.mesh);
+  if (const auto found = locators_[body]->find(x)) return *found;
+  throw InputError(text("the point ", point_text(x.data(), b.dimension()), " lies outside '", b.name, "' at rest"));
 }
-
-namespace {
-
-Place place(const Locator& locator, const Body& body, const Point& x) {
-  const auto found = locator.find(x);
-  if (!found)
-    throw InputError(text("the point ", point_text(x.data(), body.dimension()), " lies outside '",
-                          body.name, "' at rest"));
-  return *found;
-}
-
-}  // namespace
 
 Point Solution::displacement(int body, const Point& x) const {
   const Body& b = this->body(body);
-  const Place at = place(locator(body), b, x);
+  const Place at = place(body, x);
   Point u{0, 0, 0};
   for (int a = 0; a < b.mesh->topology().nodes; ++a)
-    for (int i = 0; i < b.dimension(); ++i)
-      u[i] += at.shape[a] * displacement_[body][static_cast<std::size_t>(b.mesh->cell(at.cell)[a]) * b.dimension() + i];
+    u = mesh::plus(u, mesh::times(at.shape[a], mesh::at_node(displacement_[body], b.mesh->cell(at.cell)[a], b.dimension())));
   return u;
 }
 
 elasticity::Stress Solution::stress(int body, const Point& x) const {
   const Body& b = this->body(body);
-  const Place at = place(locator(body), b, x);
+  const Place at = place(body, x);
   const auto& nodal = stress(body);
   elasticity::Stress s{};
   for (int a = 0; a < b.mesh->topology().nodes; ++a)
@@ -129,7 +168,7 @@ elasticity::Stress Solution::stress(int body, const Point& x) const {
   return s;
 }
 
-const algebra::Vector& Solution::rounding_of_forces() const {
+const Vector& Solution::rounding_of_forces() const {
   if (!rounding_of_forces_) rounding_of_forces_ = problem::rounding_of_forces(model_.problem, result_.state);
   return *rounding_of_forces_;
 }
@@ -153,7 +192,7 @@ constexpr int kMostToPrintPath = 4000;
 
 /// What one load step from rest leaves out of friction's path; empty where nothing.
 std::string path_text(const Solution& s) {
-  if (s.follows() || !s.result().converged || !follows_path(s)) return "";
+  if (s.follows() || !s.result().converged || !share_of_path(s)) return "";
   const std::string known = "  friction follows the path of the load, this is one step of it: ";
   if (s.unknowns() > kMostToPrintPath) return known + "path_error() says how far from eight steps\n";
   Monitor quiet;

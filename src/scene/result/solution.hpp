@@ -9,6 +9,7 @@
 #include "elasticity/stress.hpp"
 #include "problem/residual.hpp"
 #include "scene/model/model.hpp"
+#include "scene/result/locate.hpp"
 #include "scene/statement/scene.hpp"
 #include "solver/core/method.hpp"
 
@@ -83,7 +84,6 @@ struct ErrorEstimate {
   std::vector<std::vector<elasticity::ErrorParts>> cells;    ///< body → cell → its share
 };
 
-class Locator;
 class Solution;
 
 /// What a solution follows in a quasi-static history.
@@ -101,7 +101,6 @@ class Solution : public std::enable_shared_from_this<Solution> {
   /// problem where `model` lacks the stiffness matrices, else null.
   Solution(std::shared_ptr<const Scene> scene, Model model, const problem::Problem* with_stiffness,
            solver::Result result, Past past);
-  ~Solution();
 
   /// The scene as it was solved: contacts added since are not in it. Its bodies are the ones the script
   /// holds; what these bore then is body().
@@ -149,8 +148,13 @@ class Solution : public std::enable_shared_from_this<Solution> {
   /// Force that the supports (fix, slide, displace, spring, laws) of the part exert on the body. A node
   /// component held by several parts counts for the one that held it first.
   mesh::Point reaction(const Part& part) const;
-  /// See path_error.hpp; made on first use.
+  /// How far one load step is from kPathSteps equal ones of the load, the prescribed displacements and the rigid shapes' displacements:
+  /// Σ|λ_t − λ_t'| over the points of friction in Σ|λ_t'|, λ_t' their forces after the steps. A node that sticks where a share τ of the load
+  /// has closed it bears 1/(1 − τ) times too much after one step; by two steps that is not seen if τ < ½, by n if τ < 1/n. Of a solution
+  /// without steps before it; the steps have one factorisation and the default method. 0 where share_of_path() is nothing. Throws InputError
+  /// for a solution that follows another, or where the steps do not converge. Made on first use.
   double path_error(Monitor& monitor) const;
+  static constexpr int kPathSteps = 8;
   /// A posteriori estimate of the error in the energy norm, contact included, made on first use.
   const ErrorEstimate& error_estimate() const;
 
@@ -165,8 +169,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   SupportNode support_node(const LawSupport& support, std::size_t node, const SupportRows& rows, int body) const;
   Solution(const Solution& other, algebra::Vector u);
   void take_state(const problem::Problem& problem);
-  void add_step(const problem::Problem& problem);
-  const Locator& locator(int body) const;
+  Place place(int body, const mesh::Point& x) const;
 
   std::shared_ptr<const Scene> scene_;
   Model model_;
@@ -178,11 +181,19 @@ class Solution : public std::enable_shared_from_this<Solution> {
   std::vector<double> dissipated_;
   std::vector<std::vector<double>> displacement_;
   mutable std::vector<std::vector<elasticity::Stress>> stress_;
-  mutable std::vector<std::unique_ptr<Locator>> locators_;
+  mutable std::vector<std::optional<Locator>> locators_;
   mutable std::optional<ErrorEstimate> error_estimate_;
   mutable std::optional<double> path_error_;
   mutable std::optional<algebra::Vector> rounding_of_forces_;
 };
+
+/// Does what a contact's friction bears depend on the way of the load? Where nodes that rub closed from a gap (or opened a pressure fit):
+/// a single step takes all of the jump since rest for slip, also what came before the node closed. And where a contact without friction
+/// closed from a gap: before, bodies may have gone where it then did not let them go on. Where all gaps of closed nodes are 0,
+/// a solution under Coulomb friction at a part of the load is that part of it, and one step is exact: nothing. Else the share of
+/// friction's force, Σ|λ_t|, at points that closed on the way and stick at the end (where points slip, |λ_t| is its bound and does
+/// not depend on the way); all of it where a contact without friction closed on the way.
+std::optional<double> share_of_path(const Solution& solution);
 
 /// Where contacts and supports by laws start: as a coarser solution's nearest nodes were (its contact or support of the
 /// same number), or with the contact rows named (numbered over all contacts in order); rows of which neither tells, and

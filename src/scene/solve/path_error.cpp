@@ -1,10 +1,10 @@
-#include "scene/solve/path_error.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "scene/model/moved.hpp"
+#include "scene/result/solution.hpp"
 
 namespace dotyk::scene {
 
@@ -50,8 +50,6 @@ std::optional<double> share_of_path(const Solution& solution) {
   return sum > 0 ? stuck / sum : 0;
 }
 
-bool follows_path(const Solution& solution) { return share_of_path(solution).has_value(); }
-
 namespace {
 
 /// The scene with what its bodies bore when it was solved.
@@ -77,19 +75,17 @@ Step part_of(double share, const Scene& scene, const Model& model) {
   return step;
 }
 
-}  // namespace
-
 double estimate_path_error(const Solution& solution, Monitor& monitor) {
   if (!solution.result().converged)
     throw InputError("the solution has not converged, so that path_error, which is of a solution, does not apply (" + solution.result().reason + ")");
   if (solution.follows()) throw InputError("path_error is of one load step from rest; this solution follows another: halve the steps and compare");
-  if (!follows_path(solution)) return 0;
+  if (!share_of_path(solution)) return 0;
   const auto scene = as_solved(solution);
   const Model& model = solution.model();
   std::vector<Step> steps;
-  for (int k = 1; k <= kPathSteps; ++k) steps.push_back(part_of(static_cast<double>(k) / kPathSteps, *scene, model));
+  for (int k = 1; k <= Solution::kPathSteps; ++k) steps.push_back(part_of(static_cast<double>(k) / Solution::kPathSteps, *scene, model));
   const auto stepped = solve(scene, {}, {}, monitor, steps);
-  if (!stepped->result().converged) throw InputError(text("path_error: ", kPathSteps, " load steps do not converge: ", stepped->result().reason));
+  if (!stepped->result().converged) throw InputError(text("path_error: ", Solution::kPathSteps, " load steps do not converge: ", stepped->result().reason));
   double apart = 0, sum = 0;
   for (const auto& contact : model.friction)
     for (const FrictionRows& rows : contact) {
@@ -102,6 +98,8 @@ double estimate_path_error(const Solution& solution, Monitor& monitor) {
     }
   return sum > 0 ? apart / sum : 0;
 }
+
+}  // namespace
 
 double Solution::path_error(Monitor& monitor) const {
   if (!path_error_) path_error_ = estimate_path_error(*this, monitor);

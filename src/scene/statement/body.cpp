@@ -1,6 +1,7 @@
 #include "scene/statement/body.hpp"
 
 #include "base/error.hpp"
+#include "base/listed.hpp"
 #include "base/text.hpp"
 #include "mesh/decomposition.hpp"
 
@@ -18,18 +19,14 @@ namespace {
 void require_one_piece(const mesh::Mesh& mesh, const std::string& name) {
   const mesh::Pieces pieces = mesh::pieces_of(mesh);
   if (pieces.count == 1) return;
-  std::string list;
-  const auto cells = pieces.cells();
-  for (std::size_t k = 0; k < cells.size() && k < 4; ++k) {
+  std::vector<std::string> all;
+  for (const auto& cells : pieces.cells()) {
     mesh::Point middle{0, 0, 0};
-    for (const int c : cells[k])
-      for (int i = 0; i < 3; ++i) middle[i] += mesh.cell_centre(c)[i] / static_cast<double>(cells[k].size());
-    list += text(k ? ", " : "", cells[k].size(), cells[k].size() == 1 ? " cell" : " cells", " around ",
-                 point_text(middle.data(), mesh.dimension()));
+    for (const int c : cells) middle = mesh::plus(middle, mesh::times(1.0 / static_cast<double>(cells.size()), mesh.cell_centre(c)));
+    all.push_back(text(cells.size(), cells.size() == 1 ? " cell" : " cells", " around ", point_text(middle.data(), mesh.dimension())));
   }
-  if (cells.size() > 4) list += text(" and ", cells.size() - 4, " more");
-  throw InputError(text("the mesh of '", name, "' is in ", cells.size(), " pieces that share no ",
-                        mesh.dimension() == 2 ? "edge" : "face", ": ", list,
+  throw InputError(text("the mesh of '", name, "' is in ", all.size(), " pieces that share no ",
+                        mesh.dimension() == 2 ? "edge" : "face", ": ", listed(all, 4),
                         "; make each a body of its own (mesh:keep takes cells by their centres), in contact or glued"));
 }
 
@@ -68,8 +65,7 @@ std::vector<std::string> part_names(const Body& body) {
 Part named_part(const std::shared_ptr<Body>& body, const std::string& name) {
   const auto found = body->mesh->parts.find(name);
   if (found == body->mesh->parts.end()) {
-    std::string all;
-    for (const std::string& known : part_names(*body)) all += (all.empty() ? "" : ", ") + known;
+    const std::string all = listed(part_names(*body));
     throw InputError(text("'", body->name, "' has no part '", name, "'; it has ", all.empty() ? "none" : all));
   }
   if (found->second.empty()) throw InputError(text("part '", name, "' of '", body->name, "' has no facets"));

@@ -153,8 +153,13 @@ Part named_part(const std::shared_ptr<Body>& body, const std::string& name);
 Part chosen_part(const std::shared_ptr<Body>& body, const std::string& name,
                  const std::function<bool(const mesh::Point&, const mesh::Point&)>& chosen);
 
-/// Zero displacement of the components flagged. This and the next two throw InputError, and leave the
-/// body as it was, where the support contradicts another one at a node.
+/// Numbers the body's free components. Throws InputError where supports contradict each other at a
+/// node, naming both parts.
+elasticity::Numbering number(const Body& body);
+/// Changes what holds a body. Throws InputError, and leaves the body as it was, where supports then contradict each other.
+void hold(Body& body, const std::function<void(Body&)>& change);
+
+/// Zero displacement of the components flagged. This and the next two throw as hold().
 void fix(Part& part, const std::array<bool, 3>& components);
 /// Bilateral contact without friction: u·n = 0 on the part; at an edge between two of its sides, for both normals.
 void slide(Part& part);
@@ -193,12 +198,9 @@ void require_laws_free(const Body& body, const elasticity::Numbering& numbering)
 std::string describe(const LawSupport& support);
 /// Sides of a law's part with a normal's components that are rounding made 0: no unknown may hang on them.
 std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides);
-/// Does a displacement component along this direction move at the node? Not along what a slide on no axis holds.
-bool moves(const Body& body, const elasticity::Numbering& numbering, int node, const mesh::Point& direction);
-bool moves(const Body& body, const elasticity::Numbering& numbering, const contact::NodeSide& side, const mesh::Point& direction);  ///< one of its own
-
-/// Numbers the body's free components. Throws InputError where supports contradict each other at a
-/// node, naming both parts.
-elasticity::Numbering number(const Body& body);
+/// Has one of the nodes an unknown along the direction?
+bool unknown_along(const elasticity::Numbering& numbering, const std::vector<contact::NodeWeight>& nodes, const mesh::Point& direction, int dimension);
+/// Does one of the side's own nodes move along the direction? Not along what a slide on no axis holds.
+bool moves(const Body& body, const elasticity::Numbering& numbering, const contact::NodeSide& side, const mesh::Point& direction);
 
 }  // namespace dotyk::scene

@@ -93,18 +93,21 @@ std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides) {
   return sides;
 }
 
-bool moves(const Body& body, const elasticity::Numbering& numbering, int node, const Point& direction) {
-  for (const SlideRow& slide : body.slides) {
-    if (slide.node != node) continue;
-    if (std::abs(mesh::dot(slide.normal, direction)) > 1 - 1e-9) return false;
-  }
-  for (int i = 0; i < body.dimension(); ++i)
-    if (direction[i] != 0 && numbering.unknown[static_cast<std::size_t>(node) * body.dimension() + i] >= 0) return true;
+bool unknown_along(const elasticity::Numbering& numbering, const std::vector<contact::NodeWeight>& nodes, const Point& direction, int dimension) {
+  for (const contact::NodeWeight& n : nodes)
+    for (int i = 0; i < dimension; ++i)
+      if (direction[i] != 0 && numbering.unknown[static_cast<std::size_t>(n.node) * dimension + i] >= 0) return true;
   return false;
 }
 
 bool moves(const Body& body, const elasticity::Numbering& numbering, const contact::NodeSide& side, const Point& direction) {
-  return std::any_of(side.own.begin(), side.own.end(), [&](const contact::NodeWeight& own) { return moves(body, numbering, own.node, direction); });
+  const auto slides = [&](int node) {
+    return std::any_of(body.slides.begin(), body.slides.end(),
+                       [&](const SlideRow& slide) { return slide.node == node && std::abs(mesh::dot(slide.normal, direction)) > 1 - 1e-9; });
+  };
+  return std::any_of(side.own.begin(), side.own.end(), [&](const contact::NodeWeight& own) {
+    return !slides(own.node) && unknown_along(numbering, {own}, direction, body.dimension());
+  });
 }
 
 void require_laws_free(const Body& body, const elasticity::Numbering& numbering) {
@@ -128,21 +131,16 @@ void support(Part& part, const SupportLaw& normal, const SupportLaw& tangential,
   LawSupport added{part.mark(), part.facets, law_sides(contact::corner_sides(*part.body->mesh, part.facets)), normal, tangential};
   if (friction) added.friction_value = at_nodes(body, added, friction);
   require_no_other(body, added);
-  std::vector<LawSupport> before = body.laws;
-  const auto same = std::find_if(body.laws.begin(), body.laws.end(), [&](const LawSupport& l) { return l.part == added.part; });
-  if (same == body.laws.end()) {
-    body.laws.push_back(std::move(added));
-  } else {
-    if (given(normal)) same->normal = normal;
-    if (given(tangential)) same->tangential = tangential, same->friction_value = added.friction_value;
-  }
-  try {
-    for (LawSupport& on : body.laws) settle_coulomb(body, on);
-    require_laws_free(body, number(body));
-  } catch (...) {
-    body.laws = std::move(before);
-    throw;
-  }
+  hold(body, [&](Body& changed) {
+    const auto same = std::find_if(changed.laws.begin(), changed.laws.end(), [&](const LawSupport& l) { return l.part == added.part; });
+    if (same == changed.laws.end()) {
+      changed.laws.push_back(std::move(added));
+    } else {
+      if (given(normal)) same->normal = normal;
+      if (given(tangential)) same->tangential = tangential, same->friction_value = added.friction_value;
+    }
+    for (LawSupport& on : changed.laws) settle_coulomb(changed, on);
+  });
 }
 
 }  // namespace dotyk::scene

@@ -43,10 +43,7 @@ void add(Part& part, const std::string& load_case, bool pressure, AddValues&& ad
 }  // namespace
 
 Point FacetLoad::traction(std::size_t facet, const FacetPoint& p, int dimension) const {
-  if (pressure) {
-    const double v = pressure_at(facet, p);
-    return {-v * p.normal[0], -v * p.normal[1], -v * p.normal[2]};
-  }
+  if (pressure) return mesh::times(-pressure_at(facet, p), p.normal);
   Point t{0, 0, 0};
   const std::size_t points = values.size() / facets.size() / dimension;
   for (int i = 0; i < dimension; ++i) t[i] = values[(facet * points + p.index) * dimension + i];
@@ -80,18 +77,13 @@ void load_volume(Body& body, const elasticity::VectorField& force) {
   const std::size_t dim = body.dimension();
   VolumeLoad load{elasticity::cell_points(*body.mesh), true, nullptr, 1};
   std::vector<double> values;
-  std::size_t known = 0;  // points so far
   elasticity::add_body_force(*body.mesh, elasticity::CellField([&](const elasticity::CellPoint& p) {
     const Point f = force(p.x);
-    if (known > 0 && load.uniform && !std::equal(f.begin(), f.begin() + dim, values.begin())) {
-      load.uniform = false;
-      values.reserve(static_cast<std::size_t>(body.mesh->cell_count()) * load.points * dim);
-      for (std::size_t k = dim; k < known * dim; ++k) values.push_back(values[k - dim]);
-    }
-    if (known == 0 || !load.uniform) values.insert(values.end(), f.begin(), f.begin() + dim);
-    ++known;
+    values.insert(values.end(), f.begin(), f.begin() + dim);
+    load.uniform = load.uniform && std::equal(f.begin(), f.begin() + dim, values.begin());
     return f;
   }), body.force);
+  if (load.uniform) values = {values.begin(), values.begin() + dim};
   load.values = std::make_shared<const std::vector<double>>(std::move(values));
   body.volume_load = std::move(load);
 }
@@ -115,7 +107,7 @@ std::vector<LoadArrow> load_arrows(const Body& body) {
       elasticity::for_each_facet_point(*body.mesh, arrow.facet, [&](const FacetPoint& p) {
         const Point t = load.traction(k, p, body.dimension());
         area += p.measure;
-        for (int i = 0; i < 3; ++i) arrow.value[i] += p.measure * t[i];
+        arrow.value = mesh::plus(arrow.value, mesh::times(p.measure, t));
       });
       for (double& v : arrow.value) v /= area;
       arrows.push_back(arrow);

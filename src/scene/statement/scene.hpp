@@ -112,4 +112,13 @@ std::string plan(const Scene& scene);
 /// A short report: bodies with sizes, supports, contacts.
 std::string describe(const Scene& scene);
 
+/// What is known of a scene's solutions before they are computed; with Coulomb friction also the factor of problem::uniqueness_factor(),
+/// for which the scene is condensed: as long as a solve. Throws InputError where there is no solution, as solver::require_solvable.
+struct UniquenessOfScene {
+  bool exists = true, unique = false;
+  std::optional<double> factor;
+  std::string text;
+};
+UniquenessOfScene uniqueness(const Scene& scene, Monitor& monitor);
+
 }  // namespace dotyk::scene

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -18,35 +19,56 @@ Support on_nodes(const Part& part, SupportKind kind) {
   return support;
 }
 
-/// Takes the support, or leaves the body as it was where the support contradicts another.
-void hold(Body& body, Support support) {
-  body.supports.push_back(std::move(support));
-  try {
-    require_laws_free(body, number(body));
-  } catch (...) {
-    body.supports.pop_back();
-    throw;
-  }
+}  // namespace
+
+elasticity::Numbering number(const Body& body) {
+  const int dim = body.dimension();
+  std::vector<char> fixed(body.mesh->coordinates.size(), 0);
+  std::vector<double> value(fixed.size(), 0.0);
+  std::vector<const Support*> by(fixed.size(), nullptr);
+  double largest = 0;
+  for (const Support& s : body.supports)
+    for (const mesh::Point& v : s.values)
+      for (int i = 0; i < dim; ++i) largest = std::max(largest, std::abs(v[i]));
+  for (const Support& s : body.supports)
+    for (std::size_t k = 0; k < s.nodes.size(); ++k)
+      for (int i = 0; i < dim; ++i) {
+        if (!s.components[k][i]) continue;
+        const std::size_t at = static_cast<std::size_t>(s.nodes[k]) * dim + i;
+        if (fixed[at] && std::abs(value[at] - s.values[k][i]) > 1e-12 * largest)
+          throw InputError(text("contradictory supports on '", body.name, "': at the node ",
+                                point_text(body.mesh->node(s.nodes[k]), dim), " part '", by[at]->part.name,
+                                "' prescribes u", "xyz"[i], " = ", value[at], " and part '", s.part.name,
+                                "' prescribes ", s.values[k][i]));
+        fixed[at] = 1;
+        value[at] = s.values[k][i];
+        by[at] = &s;
+      }
+  return elasticity::number(*body.mesh, fixed, std::move(value));
 }
 
-}  // namespace
+void hold(Body& body, const std::function<void(Body&)>& change) {
+  Body changed = body;
+  change(changed);
+  require_laws_free(changed, number(changed));
+  body = std::move(changed);
+}
 
 void fix(Part& part, const std::array<bool, 3>& components) {
   Support support = on_nodes(part, SupportKind::fix);
   support.components.assign(support.nodes.size(), components);
   support.values.assign(support.nodes.size(), {0, 0, 0});
-  hold(*part.body, std::move(support));
+  hold(*part.body, [&](Body& body) { body.supports.push_back(std::move(support)); });
 }
 
 void slide(Part& part) {
-  Body& body = *part.body;
   Support support{SupportKind::slide, part.mark(), {}, {}, {}, {}, {}, part.facets};
   const auto facets = std::make_shared<const std::vector<mesh::Facet>>(part.facets);
   std::vector<SlideRow> oblique;
-  for (const contact::NodeSide& side : contact::sides(*body.mesh, part.facets)) {
+  for (const contact::NodeSide& side : contact::sides(*part.body->mesh, part.facets)) {
     std::array<bool, 3> along{false, false, false};
     bool axis = false;
-    for (int i = 0; i < body.dimension(); ++i) {
+    for (int i = 0; i < part.body->dimension(); ++i) {
       along[i] = std::abs(std::abs(side.normal[i]) - 1) < kAlongAxis;
       axis = axis || along[i];
     }
@@ -59,15 +81,10 @@ void slide(Part& part) {
       oblique.push_back({support.part, side.node, side.normal, facets});
     }
   }
-  if (!support.nodes.empty()) hold(body, std::move(support));
-  const std::size_t before = body.slides.size();
-  body.slides.insert(body.slides.end(), oblique.begin(), oblique.end());
-  try {
-    require_laws_free(body, number(body));
-  } catch (...) {
-    body.slides.resize(before);
-    throw;
-  }
+  hold(*part.body, [&](Body& body) {
+    if (!support.nodes.empty()) body.supports.push_back(std::move(support));
+    body.slides.insert(body.slides.end(), oblique.begin(), oblique.end());
+  });
 }
 
 void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components, const std::string& load_case) {
@@ -82,7 +99,7 @@ void displace(Part& part, const std::array<elasticity::ScalarField, 3>& componen
       if (given[i]) value[i] = components[i](part.body->mesh->point(n));
     support.values.push_back(value);
   }
-  hold(*part.body, std::move(support));
+  hold(*part.body, [&](Body& body) { body.supports.push_back(std::move(support)); });
 }
 
 }  // namespace dotyk::scene

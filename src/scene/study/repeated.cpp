@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/listed.hpp"
 #include "base/text.hpp"
 #include "scene/result/load_derivative.hpp"
 
@@ -26,9 +27,7 @@ const Body& only_body(const Scene& scene) {
 const problem::Block& held_block(const Model& model) {
   const problem::Block& block = model.problem.blocks.front();
   if (block.kernel.cols() == 0) return block;
-  std::string motions;
-  for (const Motion& motion : block.motions) motions += (motions.empty() ? "" : ", ") + motion.text();
-  throw InputError(text("'", block.name, "' is free to move (", motions, "); its stiffness must be positive definite: fix it"));
+  throw InputError(text("'", block.name, "' is free to move (", listed(texts(block.motions)), "); its stiffness must be positive definite: fix it"));
 }
 
 Loading only(const Scene& scene, const std::string& load_case) {

@@ -1,6 +1,6 @@
 #include "algebra/direct/stop_factoring.hpp"
-#include "scene/solve/uniqueness.hpp"
 #include "problem/solvability.hpp"
+#include "problem/uniqueness.hpp"
 #include "scene/model/model.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/scene/space.hpp"

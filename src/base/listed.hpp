@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/text.hpp"
+
+namespace dotyk {
+
+/// "a, b and 2 more": the words one after the other, of more than `most` only the first ones.
+inline std::string listed(const std::vector<std::string>& words, std::size_t most = std::string::npos) {
+  std::string out;
+  for (std::size_t k = 0; k < words.size() && k < most; ++k) out += (k ? ", " : "") + words[k];
+  return words.size() > most ? text(out, " and ", words.size() - most, " more") : out;
+}
+
+}  // namespace dotyk
