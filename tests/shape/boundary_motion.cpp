@@ -5,7 +5,6 @@
 #include "../support/scenes.hpp"
 #include "base/error.hpp"
 #include "shape/design/bspline.hpp"
-#include "shape/design/chain.hpp"
 
 using namespace dotyk;
 using mesh::Point;

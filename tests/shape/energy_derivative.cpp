@@ -1,6 +1,6 @@
 // The derivative of a solution's energy, without u' and λ', against central differences of scenes solved again; weights of
 // contact rows, too.
-#include "shape/derivative/energy_derivative.hpp"
+#include "shape/derivative/quantity.hpp"
 
 #include "base/error.hpp"
 #include "differences.hpp"

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "scene/result/solution.hpp"
-#include "shape/derivative/velocities.hpp"
 
 namespace dotyk::shape {
+
+/// How the nodes of a scene's bodies move: body → node × dimension, length per unit of the design variable; empty: the
+/// body rests.
+using Velocities = std::vector<std::vector<double>>;
 
 /// What the rows of B give to the derivative of a state when nodes move. Contacts keep their pairs of nodes, what was
 /// added to their gaps and friction's bounds per length or area; glued nodes keep their axes.

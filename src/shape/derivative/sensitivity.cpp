@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/listed.hpp"
 #include "base/text.hpp"
 #include "scene/result/load_derivative.hpp"
-#include "shape/derivative/row_changes.hpp"
-#include "shape/derivative/weak_contact.hpp"
 
 namespace dotyk::shape {
 namespace {
@@ -79,10 +78,9 @@ void Sensitivity::require_differentiable() const {
 }
 
 std::string Sensitivity::weak_text() const {
-  const Problem& problem = solution_->model().problem;
-  std::string out;
-  for (std::size_t k = 0; k < weak().size() && k < 4; ++k) out += (k ? ", " : "") + problem.row_name(weak()[k]);
-  return weak().size() > 4 ? text(out, " and ", weak().size() - 4, " more") : out;
+  std::vector<std::string> rows;
+  for (const int r : weak()) rows.push_back(solution_->model().problem.row_name(r));
+  return listed(rows, 4);
 }
 
 Change Sensitivity::change(const Velocities& velocities) const {

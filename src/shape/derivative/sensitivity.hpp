@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "scene/result/solution.hpp"
-#include "shape/optimise/bordered.hpp"
-#include "shape/derivative/velocities.hpp"
+#include "shape/derivative/bordered.hpp"
+#include "shape/derivative/row_changes.hpp"
 
 namespace dotyk::shape {
 

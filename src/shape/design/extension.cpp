@@ -9,7 +9,6 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "elasticity/assembly.hpp"
-#include "shape/design/chain.hpp"
 
 namespace dotyk::shape {
 namespace {

@@ -2,7 +2,6 @@
 #include "script/bind/bind.hpp"
 #include "script/bind/shape/bind_shape.hpp"
 #include "script/bind/scene/space.hpp"
-#include "shape/derivative/contact_derivative.hpp"
 
 namespace dotyk::script {
 

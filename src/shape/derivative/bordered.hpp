@@ -4,6 +4,7 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/lu.hpp"
+#include "base/monitor.hpp"
 #include "problem/condensed.hpp"
 #include "shape/derivative/law_derivative.hpp"
 
@@ -40,5 +41,14 @@ class BorderedFactor {
   algebra::Lu lu_;
   std::optional<algebra::MinimumNorm> dependent_;
 };
+
+/// P7 (16)–(17) on the rows, its dual: minimise ½yᵀHy − gᵀy subject to Gy = e and y ≥ 0 in weak contact, with H = FᵀWE + C
+/// and G = NᵀE symmetric and semidefinite, (g, e) the right side `b` of Bordered. Returns the unknowns y that are not 0 by
+/// their bound: all but those in weak contact that open.
+/// Throws InputError where a motion that no row stops would grow at once: the solution then has no derivative.
+std::vector<int> closing(const Bordered& bordered, const std::vector<int>& weak, const algebra::Vector& b, Monitor& monitor);
+
+/// Are weak contact's signs right at (y, α)? Throws std::runtime_error where they are not, up to rounding.
+void require_complementary(const Bordered& bordered, const std::vector<int>& weak, const algebra::Vector& b, const algebra::Vector& solved);
 
 }  // namespace dotyk::shape
