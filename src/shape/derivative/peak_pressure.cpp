@@ -41,19 +41,18 @@ class PeakPressure final : public Quantity {
   std::string name() const override { return "peak_pressure"; }
 
   double value(const DesignState& state) const override {
-    const double length = contact_length(state.space().first());
-    const Sum s = sum(state);
-    return s.peak * std::pow(s.value / length, 1 / q_);
+    return smoothed(state, sum(*state.solution(), [](int, double force) { return force; }));
   }
 
   Vector gradient(const DesignState& state) const override {
     const std::vector<int>& weak = state.sensitivity().weak();
-    const Sum s = sum(state, weak);
+    const scene::Solution& solution = *state.solution();
+    // Forces of weak contact are rounding.
+    const Sum s = sum(solution, [&](int row, double force) { return std::find(weak.begin(), weak.end(), row) != weak.end() ? 0 : force; });
     if (s.peak == 0) return from_rest(state);
     Vector gradient = Vector::Zero(state.space().variables());
     // P = p̂ (S/|Γ|)^{1/q},  dP = P/S Σ (p/p̂)^{q−1} (dλ/p̂ + (1/q − 1) (p/p̂) dw)
     const double factor = value(state) / s.value;
-    const scene::Solution& solution = *state.solution();
     Vector by_lambda = Vector::Zero(solution.rows());
     for_each(s, solution, [&](int, std::size_t, int row, double ratio) { by_lambda[row] += factor * std::pow(ratio, q_ - 1) / s.peak; });
     if (state.sensitivity().smooth()) {
@@ -86,16 +85,16 @@ class PeakPressure final : public Quantity {
     return length;
   }
 
-  /// Of forces in these rows nothing counts: they are rounding.
-  Sum sum(const DesignState& state, const std::vector<int>& without = {}) const {
-    const scene::Solution& solution = *state.solution();
+  /// Each node with the force(row of B, or -1; its own force).
+  template <class Force>
+  Sum sum(const scene::Solution& solution, Force&& force) const {
     Sum s;
     for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c) {
       const bool glue = solution.scene().contacts[c]->kind != scene::Contact::Kind::contact;
       s.nodes.push_back(glue ? std::vector<ContactValue>{} : contact_values(solution, static_cast<int>(c)));
       for (std::size_t k = 0; k < s.nodes.back().size(); ++k) {
         ContactValue& node = s.nodes.back()[k];
-        if (std::find(without.begin(), without.end(), solution.model().contact_row[c][k]) != without.end()) node.force = 0;
+        node.force = force(solution.model().contact_row[c][k], node.force);
         s.peak = std::max(s.peak, node.pressure());
       }
     }
@@ -106,27 +105,16 @@ class PeakPressure final : public Quantity {
     return s;
   }
 
+  double smoothed(const DesignState& state, const Sum& s) const {
+    return s.peak * std::pow(s.value / contact_length(state.space().first()), 1 / q_);
+  }
+
   /// Where nothing presses, P' along a variable is the P of the pressures' derivatives λ'/w ≥ 0 (not linear in the direction).
   Vector from_rest(const DesignState& state) const {
     Vector gradient = Vector::Zero(state.space().variables());
-    if (state.sensitivity().smooth()) return gradient;
-    const scene::Solution& solution = *state.solution();
-    const double length = contact_length(state.space().first());
-    for (int i = 0; i < gradient.size(); ++i) {
+    for (int i = 0; i < gradient.size() && !state.sensitivity().smooth(); ++i) {
       const Vector& lambda = state.derivative(i).lambda;
-      double most = 0, sum = 0;
-      const auto each = [&](auto&& visit) {
-        for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c)
-          if (solution.scene().contacts[c]->kind == scene::Contact::Kind::contact)
-            for (std::size_t k = 0; k < solution.model().contact_row[c].size(); ++k) {
-              const int row = solution.model().contact_row[c][k];
-              const double weight = solution.scene().contacts[c]->rows[k].weight;
-              if (row >= 0 && weight > 0) visit(weight, std::max(0.0, lambda[row] / weight));
-            }
-      };
-      each([&](double, double slope) { most = std::max(most, slope); });
-      if (most > 0) each([&](double weight, double slope) { sum += weight * std::pow(slope / most, q_); });
-      gradient[i] = most * std::pow(sum / length, 1 / q_);
+      gradient[i] = smoothed(state, sum(*state.solution(), [&](int row, double) { return row < 0 ? 0 : lambda[row]; }));
     }
     return gradient;
   }

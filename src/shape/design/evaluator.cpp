@@ -19,16 +19,14 @@ std::shared_ptr<const DesignState> Evaluator::solved(const Vector& alpha, const 
 }
 
 Vector Evaluator::values(const DesignState& state) const {
-  Vector v(1 + static_cast<Eigen::Index>(constraints_.size()));
-  v[0] = objective_->value(state);
-  for (std::size_t j = 0; j < constraints_.size(); ++j) v[static_cast<Eigen::Index>(j) + 1] = constraints_[j].quantity->value(state) - constraints_[j].most;
+  Vector v(static_cast<Eigen::Index>(sought_.size()));
+  for (Eigen::Index j = 0; j < v.size(); ++j) v[j] = sought_[static_cast<std::size_t>(j)].quantity->value(state) - sought_[static_cast<std::size_t>(j)].most;
   return v;
 }
 
 DenseMatrix Evaluator::exact(const DesignState& state) const {
-  DenseMatrix g(1 + static_cast<Eigen::Index>(constraints_.size()), space_->variables());
-  g.row(0) = objective_->gradient(state);
-  for (std::size_t j = 0; j < constraints_.size(); ++j) g.row(static_cast<Eigen::Index>(j) + 1) = constraints_[j].quantity->gradient(state);
+  DenseMatrix g(static_cast<Eigen::Index>(sought_.size()), space_->variables());
+  for (Eigen::Index j = 0; j < g.rows(); ++j) g.row(j) = sought_[static_cast<std::size_t>(j)].quantity->gradient(state);
   return g;
 }
 

@@ -30,8 +30,9 @@ class Evaluator {
   /// `step`: 0, or h of forward differences (q(α + h e_i) − q(α))/h instead of exact derivatives, to compare.
   Evaluator(std::shared_ptr<const DesignSpace> space, solver::Method method, std::shared_ptr<const Quantity> objective,
             std::vector<DesignConstraint> constraints, double step, Monitor& monitor)
-      : space_(std::move(space)), method_(std::move(method)), objective_(std::move(objective)), constraints_(std::move(constraints)), step_(step),
-        monitor_(monitor) {}
+      : space_(std::move(space)), method_(std::move(method)), sought_(std::move(constraints)), step_(step), monitor_(monitor) {
+    sought_.insert(sought_.begin(), {std::move(objective), 0});
+  }
 
   /// Nothing where the design is not admissible: cells inverted, bodies that overlap, no solution, none found, no
   /// derivatives; refusal() says why. Throws Interrupted.
@@ -49,8 +50,7 @@ class Evaluator {
 
   std::shared_ptr<const DesignSpace> space_;
   solver::Method method_;
-  std::shared_ptr<const Quantity> objective_;
-  std::vector<DesignConstraint> constraints_;
+  std::vector<DesignConstraint> sought_;  ///< the objective first
   double step_;
   Monitor& monitor_;
   std::shared_ptr<Cost> designs_ = std::make_shared<Cost>(), beside_ = std::make_shared<Cost>();

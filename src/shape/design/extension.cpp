@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/cholesky.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -16,40 +17,25 @@ namespace {
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using mesh::Point;
-using mesh::cross;
-using mesh::dot;
-using mesh::unit;
 
 constexpr double kStraight = 1e-6;  ///< sine of the angle between normals that count as one
 
-/// Directions held at a node: orthonormal.
-struct Held {
-  int count = 0;
-  Point direction[3];
+/// What is left free at a node: the projection onto it.
+struct Free {
+  Eigen::Matrix3d P = Eigen::Matrix3d::Identity();
 
-  void add(const Point& normal) {
-    Point rest = normal;
-    for (int pass = 0; pass < 2; ++pass)
-      for (int k = 0; k < count; ++k) {
-        const double share = dot(rest, direction[k]);
-        for (int i = 0; i < 3; ++i) rest[i] -= share * direction[k][i];
-      }
-    if (count < 3 && mesh::length(rest) > kStraight) direction[count++] = unit(rest);
+  void hold(const Point& normal) {
+    const Eigen::Vector3d n = Eigen::Vector3d(normal.data()), e = P * (P * n);
+    if (e.norm() > kStraight) P -= e * e.transpose() / e.squaredNorm();
   }
 
-  /// The directions left free, orthonormal.
-  std::vector<Point> rest() const {
-    if (count == 0) return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    if (count == 3) return {};
-    if (count == 2) return {unit(cross(direction[0], direction[1]))};
-    const Point& n = direction[0];
-    int least = 0;
-    for (int i = 1; i < 3; ++i)
-      if (std::abs(n[i]) < std::abs(n[least])) least = i;
-    Point axis{0, 0, 0};
-    axis[least] = 1;
-    const Point t = unit(cross(n, axis));
-    return {t, cross(n, t)};
+  /// Orthonormal, exactly along the axes where these are free.
+  std::vector<Eigen::Vector3d> directions() const {
+    std::vector<Eigen::Vector3d> out;
+    const algebra::Eigenpairs3 eigen = P.isDiagonal(0) ? algebra::Eigenpairs3{P.diagonal(), Eigen::Matrix3d::Identity()} : algebra::eigenpairs3(P);
+    for (int i = 0; i < 3; ++i)
+      if (eigen.values[i] > 0.5) out.push_back(eigen.vectors.col(i));
+    return out;
   }
 };
 
@@ -62,22 +48,22 @@ std::vector<char> nodes_of(const mesh::Mesh& mesh, const std::vector<scene::Part
   return out;
 }
 
-/// What is held of each node of a body: in the plane all of its boundary, in space what would lead off its sides.
-std::vector<Held> held(const BoundaryMotion& motion) {
+/// What is free of each node of a body: in the plane none of its boundary, in space not what would lead off its sides.
+std::vector<Free> free_directions(const BoundaryMotion& motion) {
   const mesh::Mesh& mesh = *motion.part.body->mesh;
-  std::vector<Held> out(mesh.node_count());
+  std::vector<Free> out(mesh.node_count());
   std::vector<char> moves(static_cast<std::size_t>(mesh.cell_count()) * mesh.topology().facets, 0);
   const auto at = [&](mesh::Facet f) -> char& { return moves[static_cast<std::size_t>(f.cell) * mesh.topology().facets + f.local]; };
   for (const mesh::Facet f : motion.part.facets) at(f) = 1;
   for (const mesh::Facet f : mesh::boundary(mesh)) {
     if (at(f)) continue;
     for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) {
-      Held& node = out[mesh.facet_node(f, k)];
-      if (mesh.dimension() == 2) node.count = 3;
-      else node.add(unit(mesh.facet_area_vector(f)));
+      Free& node = out[mesh.facet_node(f, k)];
+      if (mesh.dimension() == 2) node.P.setZero();
+      else node.hold(mesh::unit(mesh.facet_area_vector(f)));
     }
   }
-  for (const int node : motion.nodes) out[node].count = 3;
+  for (const int node : motion.nodes) out[node].P.setZero();
   return out;
 }
 
@@ -90,12 +76,12 @@ struct Directions {
 Directions directions(const BoundaryMotion& motion, const std::vector<char>& fixed) {
   const mesh::Mesh& mesh = *motion.part.body->mesh;
   const int dim = mesh.dimension();
-  const std::vector<Held> sides = held(motion);
+  const std::vector<Free> sides = free_directions(motion);
   std::vector<Eigen::Triplet<double>> entries;
   Directions out;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (fixed[node]) continue;
-    for (const Point& d : sides[node].rest()) {
+    for (const Eigen::Vector3d& d : sides[node].directions()) {
       if (dim == 2 && d[2] != 0) continue;
       for (int i = 0; i < dim; ++i)
         if (d[i] != 0) entries.emplace_back(node * dim + i, static_cast<int>(out.node.size()), d[i]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <memory>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -27,8 +28,7 @@ nlopt_algorithm algorithm(Mma::Method method) {
 class Answers {
  public:
   Answers(ScaledProblem& problem, nlopt_opt optimiser)
-      : problem_(problem), optimiser_(optimiser), last_(problem.first()), best_(problem.first()), at_(stationarity(best_)), greatest_(best_.value.objective) {
-    problem_.judge(true, 0, at_.gap);
+      : problem_(problem), optimiser_(optimiser), last_(problem.best()), greatest_(last_.value.objective) {
     settle();
   }
 
@@ -47,14 +47,12 @@ class Answers {
     });
   }
 
-  bool ended() const { return !reason_.empty(); }
-
   Optimum finish(nlopt_result code) {
     if (thrown_) std::rethrow_exception(thrown_);
-    if (!ended() && (code == NLOPT_XTOL_REACHED || code == NLOPT_SUCCESS))
-      end(!stepped_back_ && !refused_, stepped_back_ || refused_ ? "designs farther on are not admissible" : "the design changes by less than tol_design");
-    if (!ended()) end(false, text("the method ended: ", nlopt_result_to_string(code)));
-    return problem_.finish(best_, at_, 0, converged_, reason_);
+    if (!problem_.ended() && (code == NLOPT_XTOL_REACHED || code == NLOPT_SUCCESS))
+      problem_.end(!stepped_back_ && !refused_, stepped_back_ || refused_ ? "designs farther on are not admissible" : "the design changes by less than tol_design");
+    if (!problem_.ended()) problem_.end(false, text("the method ended: ", nlopt_result_to_string(code)));
+    return problem_.finish(0);
   }
 
  private:
@@ -62,13 +60,13 @@ class Answers {
   double guarded(unsigned n, const double* x, const Use& use) {
     try {
       const Eigen::Map<const Vector> asked(x, n);
-      if (!ended() && asked != last_.x) take(asked);
+      if (!problem_.ended() && asked != last_.x) take(asked);
       return use(last_.value);
     } catch (...) {  // also a script's own error, let go on in finish()
       thrown_ = std::current_exception();
-      reason_ = "thrown";
+      problem_.end(false, "thrown");
       nlopt_force_stop(optimiser_);
-      return use(best_.value);
+      return use(problem_.best().value);
     }
   }
 
@@ -76,25 +74,21 @@ class Answers {
     auto design = problem_.evaluate(x);
     const bool better = design && is_better(*design);
     refused_ = refused_ || !design;
-    if (better) {
-      best_ = *design;
-      at_ = stationarity(best_);
-      stepped_back_ = refused_;
-      refused_ = false;
-    }
+    if (better) stepped_back_ = std::exchange(refused_, false);
     if (design) greatest_ = std::max(greatest_, design->value.objective);
+    if (!problem_.interrupted()) problem_.judge(better ? &*design : nullptr, 0);
     last_ = design ? std::move(*design) : far(x);
-    if (!problem_.interrupted()) problem_.judge(better, 0, at_.gap);
     settle();
   }
 
   bool is_better(const ScaledDesign& d) const {
-    if (!problem_.feasible(best_)) return problem_.feasible(d) || d.violation < best_.violation;
-    return problem_.feasible(d) && d.value.objective < best_.value.objective;
+    const ScaledDesign& best = problem_.best();
+    if (!problem_.feasible(best)) return problem_.feasible(d) || d.violation < best.violation;
+    return problem_.feasible(d) && d.value.objective < best.value.objective;
   }
 
   ScaledDesign far(const Vector& x) const {
-    ScaledDesign d = best_;
+    ScaledDesign d = problem_.best();
     d.x = x;
     d.value.objective = greatest_ + kFar;
     d.value.constraints = d.value.constraints.cwiseMax(0.0).array() + 1;
@@ -102,25 +96,15 @@ class Answers {
   }
 
   void settle() {
-    if (problem_.feasible(best_) && at_.gap <= problem_.stopping().tol_gap) end(true, "the first order promises no more");
-    else if (const std::string why = problem_.must_end(); !why.empty()) end(false, why);
-    if (ended()) nlopt_force_stop(optimiser_);
-  }
-
-  void end(bool converged, std::string reason) {
-    converged_ = converged;
-    reason_ = std::move(reason);
+    if (problem_.must_end()) nlopt_force_stop(optimiser_);
   }
 
   ScaledProblem& problem_;
   nlopt_opt optimiser_;
-  ScaledDesign last_, best_;
-  Stationarity at_;
+  ScaledDesign last_;
   double greatest_;
-  bool refused_ = false;       ///< a design asked since best_ was not admissible
-  bool stepped_back_ = false;  ///< one on the way to best_ was not: its short step is no convergence
-  bool converged_ = false;
-  std::string reason_;
+  bool refused_ = false;       ///< a design asked since the best one was not admissible
+  bool stepped_back_ = false;  ///< one on the way to the best one was not: its short step is no convergence
   std::exception_ptr thrown_;
 };
 
@@ -132,8 +116,8 @@ Optimum minimise(const DesignProblem& problem, const Vector& start, const Mma& s
   const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(nlopt_create(algorithm(settings.method), n), nlopt_destroy);
   if (!optimiser) throw std::bad_alloc();
   Answers answers(scaled, optimiser.get());
-  if (answers.ended() || n == 0) return answers.finish(NLOPT_SUCCESS);
-  Vector upper = Vector::Zero(n), x = scaled.first().x;
+  if (scaled.ended() || n == 0) return answers.finish(NLOPT_SUCCESS);
+  Vector upper = Vector::Zero(n), x = scaled.best().x;
   for (unsigned i = 0; i < n; ++i) upper[i] = scaled.is_free(i) ? 1 : 0;
   const Vector lower = Vector::Zero(n), tolerance = Vector::Constant(m, settings.tol_violation / std::max(m, 1u));
   nlopt_set_lower_bounds(optimiser.get(), lower.data());

@@ -31,8 +31,6 @@ void check(const Stopping& s) {
                           ") and at least one design allowed (", s.max_designs, ")"));
 }
 
-}  // namespace
-
 Stationarity stationarity(const ScaledDesign& design) {
   const Evaluation& v = design.value;
   const Eigen::Index n = design.x.size();
@@ -41,6 +39,8 @@ Stationarity stationarity(const ScaledDesign& design) {
   if (s.status != LinearStatus::solved) return {INFINITY, Vector::Zero(room.size())};  // d = 0 is a point: the simplex method broke down
   return {std::max(0.0, -s.value), s.y};
 }
+
+}  // namespace
 
 ScaledProblem::ScaledProblem(const DesignProblem& problem, const Vector& start, const Stopping& stopping, Monitor& monitor)
     : problem_(problem), stopping_(stopping), monitor_(monitor) {
@@ -59,7 +59,8 @@ ScaledProblem::ScaledProblem(const DesignProblem& problem, const Vector& start, 
   for (Eigen::Index i = 0; i < variables(); ++i)
     if (is_free(i)) x[i] = (start[i] - problem.lower[i]) / range_[i];
   history_.push_back({1, start, true, value.objective, value.constraints, 0, false, 0, watch_.seconds()});
-  first_ = scaled(std::move(x), start, value);
+  const ScaledDesign first = scaled(std::move(x), start, value);
+  judge(&first, 0);
 }
 
 Vector ScaledProblem::unscaled(const Vector& x) const {
@@ -112,11 +113,12 @@ std::optional<ScaledDesign> ScaledProblem::evaluate(const Vector& x) {
   return design;
 }
 
-void ScaledProblem::judge(bool accepted, double radius, double gap) {
+void ScaledProblem::judge(const ScaledDesign* better, double radius) {
+  if (better) best_ = *better, at_ = stationarity(best_);
   DesignRecord& r = history_.back();
-  r.accepted = accepted;
+  r.accepted = better != nullptr;
   r.radius = radius;
-  r.gap = gap;
+  r.gap = at_.gap;
   try {
     if (problem_.each) problem_.each(r);
   } catch (const Interrupted&) {
@@ -124,24 +126,31 @@ void ScaledProblem::judge(bool accepted, double radius, double gap) {
   }
 }
 
-std::string ScaledProblem::must_end() {
-  if (interrupted_ || monitor_.stop()) return "stopped";
-  if (static_cast<int>(history_.size()) >= stopping_.max_designs) return text("no more than ", stopping_.max_designs, " designs were allowed");
-  return "";
+void ScaledProblem::end(bool converged, std::string reason) {
+  converged_ = converged;
+  reason_ = std::move(reason);
 }
 
-Optimum ScaledProblem::finish(const ScaledDesign& best, const Stationarity& at, double radius, bool converged, std::string reason) {
+bool ScaledProblem::must_end() {
+  if (ended()) return true;
+  if (feasible(best_) && at_.gap <= stopping_.tol_gap) end(true, "the first order promises no more");
+  else if (interrupted_ || monitor_.stop()) end(false, "stopped");
+  else if (static_cast<int>(history_.size()) >= stopping_.max_designs) end(false, text("no more than ", stopping_.max_designs, " designs were allowed"));
+  return ended();
+}
+
+Optimum ScaledProblem::finish(double radius) {
   Optimum o;
-  o.alpha = best.alpha;
-  o.value = best.given;
-  o.multipliers = at.multipliers.cwiseQuotient(constraint_scale_) * objective_scale_;
-  o.gap = at.gap;
+  o.alpha = best_.alpha;
+  o.value = best_.given;
+  o.multipliers = at_.multipliers.cwiseQuotient(constraint_scale_) * objective_scale_;
+  o.gap = at_.gap;
   o.radius = radius;
-  const bool stuck = converged && at.gap > std::max(kStuck, stopping_.tol_gap);
-  o.converged = converged && !stuck && feasible(best);
-  o.reason = std::move(reason);
-  if (stuck) o.reason += text("; but over the whole box the first order still promises ", at.gap, " of what it did at first: the steps are too short, as at kinks");
-  if (!feasible(best)) o.reason += text("; constraints are violated (", best.violation, " of their changes over the box)");
+  const bool stuck = converged_ && at_.gap > std::max(kStuck, stopping_.tol_gap);
+  o.converged = converged_ && !stuck && feasible(best_);
+  o.reason = reason_;
+  if (stuck) o.reason += text("; but over the whole box the first order still promises ", at_.gap, " of what it did at first: the steps are too short, as at kinks");
+  if (!feasible(best_)) o.reason += text("; constraints are violated (", best_.violation, " of their changes over the box)");
   o.history = std::move(history_);
   return o;
 }

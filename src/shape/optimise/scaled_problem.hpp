@@ -20,15 +20,14 @@ struct Stationarity {
   double gap = 0;
   Vector multipliers;
 };
-Stationarity stationarity(const ScaledDesign& design);
 
-/// A design problem scaled, its designs counted, recorded and told of.
+/// A design problem scaled, its designs counted, recorded and told of; the best one so far, and why the search has ended.
 class ScaledProblem {
  public:
-  /// Evaluates the first design. Throws InputError for bounds or a start that do not fit, and where it is not admissible.
+  /// Evaluates and judges the first design. Throws InputError for bounds or a start that do not fit, and where it is not admissible.
   ScaledProblem(const DesignProblem& problem, const Vector& start, const Stopping& stopping, Monitor& monitor);
 
-  const ScaledDesign& first() const { return first_; }
+  const ScaledDesign& best() const { return best_; }
   const Stopping& stopping() const { return stopping_; }
   Eigen::Index variables() const { return range_.size(); }
   Eigen::Index constraints() const { return constraint_scale_.size(); }
@@ -38,14 +37,16 @@ class ScaledProblem {
   /// judged. Throws InputError for an evaluation of wrong sizes or numbers.
   std::optional<ScaledDesign> evaluate(const Vector& x);
   bool interrupted() const { return interrupted_; }
-  /// Records the last design evaluated and tells of it.
-  void judge(bool accepted, double radius, double gap);
-  /// Why no further design may be evaluated; empty: it may.
-  std::string must_end();
+  /// Records the last design evaluated and tells of it. `better`: it, scaled, where it is the best one from now on, else null.
+  void judge(const ScaledDesign* better, double radius);
   bool feasible(const ScaledDesign& design) const { return design.violation <= stopping_.tol_violation; }
 
-  /// Ends at `best`. Never converged where that violates constraints: the reason then says so.
-  Optimum finish(const ScaledDesign& best, const Stationarity& at, double radius, bool converged, std::string reason);
+  void end(bool converged, std::string reason);
+  bool ended() const { return !reason_.empty(); }
+  /// Ends where the best design's gap is small, or no further design may be evaluated; has it ended?
+  bool must_end();
+  /// Ends at the best design. Never converged where that violates constraints: the reason then says so.
+  Optimum finish(double radius);
 
  private:
   Vector unscaled(const Vector& x) const;
@@ -58,8 +59,10 @@ class ScaledProblem {
   Stopwatch watch_;
   Vector range_, constraint_scale_;
   double objective_scale_ = 1;
-  ScaledDesign first_;
-  bool interrupted_ = false;
+  ScaledDesign best_;
+  Stationarity at_;  ///< of the best design
+  bool interrupted_ = false, converged_ = false;
+  std::string reason_;
   std::vector<DesignRecord> history_;
 };
 

@@ -76,58 +76,23 @@ class Stepper {
   double penalty_;
 };
 
-class Iteration {
- public:
-  Iteration(ScaledProblem& problem, const Slp& settings)
-      : problem_(problem), radius_(settings.radius), stepper_(problem, settings.penalty), best_(problem.first()), at_(stationarity(best_)) {}
-
-  Optimum run() {
-    problem_.judge(true, 0, at_.gap);
-    while (!ended()) advance();
-    return problem_.finish(best_, at_, radius_, converged_, reason_);
-  }
-
- private:
-  bool ended() {
-    if (reason_.empty() && problem_.feasible(best_) && at_.gap <= problem_.stopping().tol_gap) end(true, "the first order promises no more");
-    if (reason_.empty()) reason_ = problem_.must_end();
-    return !reason_.empty();
-  }
-
-  void end(bool converged, std::string reason) {
-    converged_ = converged;
-    reason_ = std::move(reason);
-  }
-
-  void advance() {
-    const Step step = stepper_.step(best_, radius_);
-    if (!step.failure.empty()) return end(false, "no step: " + step.failure);
-    if (step.predicted <= kRounding) return end(true, "the first order promises no more");
-    const double length = step.d.lpNorm<Eigen::Infinity>(), sought = radius_;
-    auto trial = problem_.evaluate(best_.x + step.d);
-    if (problem_.interrupted()) return;
-    const double ratio = trial ? (stepper_.merit(best_) - stepper_.merit(*trial)) / step.predicted : -INFINITY;
-    if (ratio < kPoor) radius_ = length / 2;
-    else if (ratio > kGood && length > 0.99 * radius_) radius_ = std::min(1.0, 2 * radius_);
-    const bool taken = ratio >= kTaken;
-    if (taken) {
-      best_ = *trial;
-      at_ = stationarity(best_);
-    }
-    problem_.judge(taken, sought, at_.gap);
-    const double tol = problem_.stopping().tol_design;
-    if (taken ? length < tol : radius_ < tol)
-      end(trial.has_value(), trial ? "the design changes by less than tol_design" : "designs farther on are not admissible");
-  }
-
-  ScaledProblem& problem_;
-  double radius_;
-  Stepper stepper_;
-  ScaledDesign best_;
-  Stationarity at_;
-  bool converged_ = false;
-  std::string reason_;
-};
+/// A step, the next box's radius, and whether the search has ended.
+void advance(ScaledProblem& problem, Stepper& stepper, double& radius) {
+  const Step step = stepper.step(problem.best(), radius);
+  if (!step.failure.empty()) return problem.end(false, "no step: " + step.failure);
+  if (step.predicted <= kRounding) return problem.end(true, "the first order promises no more");
+  const double length = step.d.lpNorm<Eigen::Infinity>(), sought = radius;
+  const auto trial = problem.evaluate(problem.best().x + step.d);
+  if (problem.interrupted()) return;
+  const double ratio = trial ? (stepper.merit(problem.best()) - stepper.merit(*trial)) / step.predicted : -INFINITY;
+  if (ratio < kPoor) radius = length / 2;
+  else if (ratio > kGood && length > 0.99 * radius) radius = std::min(1.0, 2 * radius);
+  const bool taken = ratio >= kTaken;
+  problem.judge(taken ? &*trial : nullptr, sought);
+  const double tol = problem.stopping().tol_design;
+  if (taken ? length < tol : radius < tol)
+    problem.end(trial.has_value(), trial ? "the design changes by less than tol_design" : "designs farther on are not admissible");
+}
 
 }  // namespace
 
@@ -135,7 +100,10 @@ Optimum minimise(const DesignProblem& problem, const Vector& start, const Slp& s
   if (!(settings.radius > 0) || !(settings.penalty > 0))
     throw InputError(text("the first radius (", settings.radius, ") and penalty (", settings.penalty, ") must be positive"));
   ScaledProblem scaled(problem, start, settings, monitor);
-  return Iteration(scaled, settings).run();
+  Stepper stepper(scaled, settings.penalty);
+  double radius = settings.radius;
+  while (!scaled.must_end()) advance(scaled, stepper, radius);
+  return scaled.finish(radius);
 }
 
 }  // namespace dotyk::shape
