@@ -1,4 +1,4 @@
-#include "shape/optimise/mma.hpp"
+#include "shape/optimise/optimiser.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "shape/optimise/slp.hpp"
+#include "shape/optimise/optimiser.hpp"
 
 #include <doctest/doctest.h>
 

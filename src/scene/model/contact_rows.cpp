@@ -1,4 +1,4 @@
-#include "scene/model/contact_rows.hpp"
+#include "scene/model/row_builder.hpp"
 
 #include <algorithm>
 #include <cmath>

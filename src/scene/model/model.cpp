@@ -12,9 +12,8 @@
 #include "elasticity/weak_motions.hpp"
 #include "problem/contradiction.hpp"
 #include "problem/range.hpp"
-#include "scene/model/contact_rows.hpp"
+#include "scene/model/row_builder.hpp"
 #include "scene/model/subdomains.hpp"
-#include "scene/model/support_rows.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -104,12 +103,14 @@ void add_glue_rows(const Scene& scene, const Contact& contact, const FreeJumps& 
 
 }  // namespace
 
+std::vector<double> spread(const Numbering& numbering, const algebra::Vector& x, std::vector<double> rest) {
+  for (std::size_t k = 0; k < rest.size(); ++k)
+    if (numbering.unknown[k] >= 0) rest[k] = x[numbering.unknown[k]];
+  return rest;
+}
+
 std::vector<double> Model::displacement(int body, const algebra::Vector& u) const {
-  std::vector<double> result = numbering[body].prescribed;
-  for (std::size_t k = 0; k < result.size(); ++k)
-    if (numbering[body].unknown[k] >= 0)
-      result[k] = u[problem.blocks[body].first + numbering[body].unknown[k]];
-  return result;
+  return spread(numbering[body], u.segment(problem.blocks[body].first, numbering[body].count()), numbering[body].prescribed);
 }
 
 namespace {

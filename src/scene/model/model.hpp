@@ -73,6 +73,9 @@ struct Model : SceneRows {
   std::vector<mesh::Point> contact_force(int contact, const algebra::Vector& lambda) const;
 };
 
+/// The values of a body's unknowns at all its components, node × dimension; `rest` at the others.
+std::vector<double> spread(const elasticity::Numbering& numbering, const algebra::Vector& x, std::vector<double> rest);
+
 /// Assembles. Throws InputError for contradictory supports, for a contact that nodes fixed on both sides
 /// make impossible, for a body whose supports are lost in rounding beside its stiffness, and, with rows or subdomains, as
 /// problem::require_moderate(). Adds its time to clock.assembly. With a `decomposition` the bodies are also cut into subdomains by it: see cut().

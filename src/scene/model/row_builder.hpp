@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "problem/rows.hpp"
+#include "scene/model/free_jumps.hpp"
 #include "scene/model/model.hpp"
 
 namespace dotyk::scene {
@@ -46,5 +47,26 @@ class RowBuilder {
   mesh::Point move_{0, 0, 0};
   std::vector<Place> places_;  ///< where a row is, for messages made only when needed
 };
+
+/// Adds the rows of the newest contact of the model, one of Model::contacts. Normal ones: none where supports hold the normal on both
+/// sides. Tangential ones: springs, a row for each free tangent of a node; for each cell of friction with an unknown along its tangents, a
+/// node's surroundings where multipliers are nodal. No rows where the bound or coefficient is 0; rows that never slip where it is
+/// infinite. The normal row of a friction point is its node's; of a cell (given friction only, whose bound does
+/// not depend on it) that of the node with most weight in it. Throws InputError where nodes fixed on both sides lie inside each other.
+void add_contact_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder, Model& model);
+
+/// Adds the rows of a body's support laws and notes them in the model (for all bodies, one after the other). Normal
+/// rows measure u·n, tangential ones u·t, so that the reaction on the body is −λ along the row's direction; a node has no row in
+/// a direction that other supports hold. Friction is given friction (Tresca), bound times share. Throws InputError where a
+/// node that is held cannot obey a law: a prescribed displacement of another value, Signorini's below 0.
+void add_support_rows(int body, RowBuilder& builder, Model& model);
+
+/// The force of `load` laws on the body at a node.
+mesh::Point law_load(const LawSupport& support, const contact::NodeSide& side, int dimension);
+/// Adds the forces of the body's `load` laws to its nodal loads.
+void add_law_loads(Body& body);
+
+/// The energy ½g²/k (times share) that each broken support took.
+double broken_energy(const Body& body);
 
 }  // namespace dotyk::scene

@@ -1,4 +1,4 @@
-#include "scene/model/support_rows.hpp"
+#include "scene/model/row_builder.hpp"
 
 #include <cmath>
 

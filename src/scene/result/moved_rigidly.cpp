@@ -1,8 +1,7 @@
-#include "scene/result/moved_rigidly.hpp"
-
 #include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "scene/result/solution.hpp"
 
 namespace dotyk::scene {
 

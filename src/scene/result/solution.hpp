@@ -187,6 +187,16 @@ class Solution : public std::enable_shared_from_this<Solution> {
   mutable std::optional<algebra::Vector> rounding_of_forces_;
 };
 
+/// A motion of a whole body: x moves by translation + rotation × (x − about).
+struct RigidMotion {
+  mesh::Point translation{}, rotation{}, about{};
+};
+
+/// The same solution with one body moved rigidly. Where a solution is unique up to a rigid motion, all these are solutions, with the same forces and energy. A
+/// solve gives the one of least displacement; TR965 chooses the one with p(v) = 0, (1.77)–(1.78). Throws InputError where supports resist the motion, where
+/// contacts or laws do not allow it, and for a step that is not the last of its history.
+std::shared_ptr<Solution> moved_rigidly(const Solution& solution, int body, const RigidMotion& motion);
+
 /// Does what a contact's friction bears depend on the way of the load? Where nodes that rub closed from a gap (or opened a pressure fit):
 /// a single step takes all of the jump since rest for slip, also what came before the node closed. And where a contact without friction
 /// closed from a gap: before, bodies may have gone where it then did not let them go on. Where all gaps of closed nodes are 0,

@@ -5,7 +5,7 @@
 #include "base/listed.hpp"
 #include "base/text.hpp"
 #include "scene/result/solution.hpp"
-#include "scene/model/support_rows.hpp"
+#include "scene/model/row_builder.hpp"
 
 namespace dotyk::scene {
 using mesh::Point;

@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "scene/model/support_rows.hpp"
+#include "scene/model/row_builder.hpp"
 
 namespace dotyk::scene {
 namespace {

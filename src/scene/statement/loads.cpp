@@ -83,7 +83,7 @@ void load_volume(Body& body, const elasticity::VectorField& force) {
     load.uniform = load.uniform && std::equal(f.begin(), f.begin() + dim, values.begin());
     return f;
   }), body.force);
-  if (load.uniform) values = {values.begin(), values.begin() + dim};
+  if (load.uniform) values = std::vector<double>(values.begin(), values.begin() + dim);
   load.values = std::make_shared<const std::vector<double>>(std::move(values));
   body.volume_load = std::move(load);
 }

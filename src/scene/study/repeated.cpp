@@ -36,13 +36,6 @@ Loading only(const Scene& scene, const std::string& load_case) {
   return loading;
 }
 
-/// The values of unknowns to all components; the others get `rest`.
-std::vector<double> spread(const elasticity::Numbering& numbering, const Vector& x, std::vector<double> rest) {
-  for (std::size_t k = 0; k < rest.size(); ++k)
-    if (numbering.unknown[k] >= 0) rest[k] = x[numbering.unknown[k]];
-  return rest;
-}
-
 Vector gather(const elasticity::Numbering& numbering, const std::vector<double>& nodal) {
   Vector b(numbering.count());
   for (std::size_t k = 0; k < nodal.size(); ++k)

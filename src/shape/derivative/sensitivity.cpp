@@ -154,10 +154,9 @@ Derivative Sensitivity::along(const Change& change) const {
   d.x = solution_->model().problem.B * d.u - change.c;
   const scene::Model& model = solution_->model();
   for (std::size_t body = 0; body < model.numbering.size(); ++body) {
-    const std::vector<int>& unknown = model.numbering[body].unknown;
-    std::vector<double>& nodal = d.displacement.emplace_back(unknown.size(), 0.0);
-    for (std::size_t k = 0; k < nodal.size(); ++k)
-      if (unknown[k] >= 0) nodal[k] = d.u[model.problem.blocks[body].first + unknown[k]];
+    const elasticity::Numbering& numbering = model.numbering[body];
+    const Vector own = d.u.segment(model.problem.blocks[body].first, numbering.count());
+    d.displacement.push_back(scene::spread(numbering, own, std::vector<double>(numbering.unknown.size(), 0.0)));
   }
   return d;
 }

@@ -1,5 +1,3 @@
-#include "shape/optimise/mma.hpp"
-
 #include <nlopt.h>
 
 #include <algorithm>

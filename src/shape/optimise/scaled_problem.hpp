@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/monitor.hpp"
 #include "base/stopwatch.hpp"
 #include "shape/optimise/optimiser.hpp"
 

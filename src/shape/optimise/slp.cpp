@@ -1,5 +1,3 @@
-#include "shape/optimise/slp.hpp"
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,5 @@
 #include "scene/result/distance.hpp"
 #include "scene/solve/doubts.hpp"
-#include "scene/result/moved_rigidly.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/scene/space.hpp"
 

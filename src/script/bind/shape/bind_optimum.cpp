@@ -5,8 +5,6 @@
 #include "script/bind/bind.hpp"
 #include "script/bind/shape/bind_shape.hpp"
 #include "script/prompt/interrupt.hpp"
-#include "shape/optimise/mma.hpp"
-#include "shape/optimise/slp.hpp"
 
 namespace dotyk::script {
 
