@@ -1,6 +1,7 @@
 #include "multigrid/hierarchy.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 
@@ -121,7 +122,11 @@ void Hierarchy::coarsen(const Matrix& matrix) {
   }
   check(PetscFree(interpolations));
   check(PetscFree(operators));
-  if (own && !interpolations_.empty()) take_unknowns(embedded(*matrix.unknowns, embedding_));
+  if (own && !interpolations_.empty()) {
+    const OwnedMat S = embedded(*matrix.unknowns, embedding_);
+    find_shared(S, displaced);
+    take_unknowns(S);
+  }
   for (std::size_t l = 0; l < interpolations_.size(); ++l) {
     check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
     products_.emplace_back(interpolations_[l], matrices_[l + 1]);
@@ -141,6 +146,26 @@ void Hierarchy::take_unknowns(Mat S) {
     check(MatPtAP(matrices_[l], interpolations_[l], MAT_INITIAL_MATRIX, PETSC_DEFAULT, coarse.put()));
     matrices_[l + 1] = std::move(coarse);
   }
+}
+
+void Hierarchy::find_shared(Mat S, Mat displaced) {
+  constexpr double kFarStiffer = 10;
+  OwnedVec diagonal;
+  check(MatCreateVecs(displaced, diagonal.put(), nullptr));
+  check(MatGetDiagonal(displaced, diagonal));
+  const PetscScalar* k = nullptr;
+  check(VecGetArrayRead(diagonal, &k));
+  const RowsView rows(S);
+  for (int i = 0; i < rows.count; ++i)
+    for (int at = rows.starts[i]; at < rows.starts[i + 1]; ++at)
+      if (const int j = rows.columns[at]; j != i && k[i] * rows.values[at] * rows.values[at] > kFarStiffer * k[j]) shared_.insert({i, j});
+  check(VecRestoreArrayRead(diagonal, &k));
+}
+
+std::vector<PetscInt> Hierarchy::shared() const {
+  std::vector<PetscInt> slots;
+  std::copy_if(shared_.begin(), shared_.end(), std::back_inserter(slots), [&](int slot) { return !empty_[slot]; });
+  return slots;
 }
 
 void Hierarchy::truncate(const std::vector<char>& held, std::vector<char>& changed) {

@@ -1,6 +1,7 @@
 // Matrices and interpolations of all levels.
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "multigrid/embedding.hpp"
@@ -21,12 +22,16 @@ class Hierarchy {
   Mat matrix(int level) const { return matrices_[level]; }                ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
   const Embedding& embedding() const { return embedding_; }
+  /// Slots, ascending, that are not held and share the stiffness of two bodies, one ten times stiffer than the other: a jump that is an unknown
+  /// in place of the stiffer body's displacement, and the softer body's displacements in it.
+  std::vector<PetscInt> shared() const;
   double bytes() const;
 
  private:
   void coarsen(const Matrix& matrix);
   /// S: the unknowns, of displacements; all slots.
   void take_unknowns(Mat S);
+  void find_shared(Mat S, Mat displaced);
   void truncate(const std::vector<char>& held, std::vector<char>& changed);
 
   Embedding embedding_;
@@ -34,6 +39,7 @@ class Hierarchy {
   std::vector<Galerkin> products_;            // of each interpolation
   std::vector<double> finest_interpolation_;  // its numbers, no unknown held
   std::vector<char> empty_;                   // its rows that are empty now
+  std::set<int> shared_;                      // slots that shared() picks from
   bool fresh_ = true;                         // no coarse matrix is ours yet
 };
 

@@ -80,14 +80,17 @@ void PetscSolver::make_cycle() {
     check(PCMGSetInterpolation(pc, theirs, hierarchy_.interpolation(l)));
     check(PCMGGetSmootherDown(pc, theirs, &ksp));
     make_smoother(ksp, hierarchy_.matrix(l), SOR_LOCAL_FORWARD_SWEEP);
+    if (l == 0) finest_.attach(ksp, true);
     check(PCMGGetSmootherUp(pc, theirs, &ksp));
     make_smoother(ksp, hierarchy_.matrix(l), SOR_LOCAL_BACKWARD_SWEEP);
+    if (l == 0) finest_.attach(ksp, false);
     check(KSPSetInitialGuessNonzero(ksp, PETSC_TRUE));
   }
 }
 
 bool PetscSolver::set(const algebra::SparseMatrix& lower, const std::vector<char>& held) {
   if (!hierarchy_.set(lower, held)) return false;
+  finest_.set(hierarchy_.matrix(0), hierarchy_.shared());
   check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
   check(KSPSetUp(ksp_));
   return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "multigrid/door.hpp"
+#include "multigrid/finest_smoother.hpp"
 #include "multigrid/hierarchy.hpp"
 
 namespace dotyk::multigrid {
@@ -18,6 +19,7 @@ class PetscSolver {
   void make_cycle();
 
   Hierarchy hierarchy_;
+  FinestSmoother finest_;
   OwnedKsp ksp_;
   OwnedVec b_, x_;
   int iterations_ = 0;

@@ -1,0 +1,70 @@
+#include "multigrid/finest_smoother.hpp"
+
+namespace dotyk::multigrid {
+
+void FinestSmoother::set(Mat matrix, const std::vector<PetscInt>& shared) {
+  matrix_ = matrix, shared_ = shared;
+  if (shared_.empty()) return;
+  PetscInt size = 0;
+  check(MatGetSize(matrix_, &size, nullptr));
+  Owned<IS, ISDestroy> some, all;
+  check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(shared_.size()), shared_.data(), PETSC_COPY_VALUES, some.put()));
+  check(ISCreateStride(PETSC_COMM_SELF, size, 0, 1, all.put()));
+  rows_ = OwnedMat(), block_ = OwnedMat(), exact_ = OwnedKsp(), left_ = OwnedVec(), change_ = OwnedVec();
+  check(MatCreateSubMatrix(matrix_, some, all, MAT_INITIAL_MATRIX, rows_.put()));
+  check(MatCreateSubMatrix(matrix_, some, some, MAT_INITIAL_MATRIX, block_.put()));
+  check(MatCreateVecs(block_, change_.put(), left_.put()));
+  check(KSPCreate(PETSC_COMM_SELF, exact_.put()));
+  check(KSPSetOperators(exact_, block_, block_));
+  check(KSPSetType(exact_, KSPPREONLY));
+  PC pc = nullptr;
+  check(KSPGetPC(exact_, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERCHOLMOD));
+  check(KSPSetUp(exact_));
+}
+
+void FinestSmoother::attach(KSP level, bool before) {
+  PC pc = nullptr;
+  check(KSPGetPC(level, &pc));
+  check(PCSetType(pc, PCSHELL));
+  check(PCShellSetContext(pc, &sides_[before]));
+  check(PCShellSetApplyRichardson(pc, smooth));
+}
+
+PetscErrorCode FinestSmoother::smooth(PC shell, Vec b, Vec x, Vec, PetscReal, PetscReal, PetscReal, PetscInt, PetscBool from_zero, PetscInt* count,
+                                      PCRichardsonConvergedReason* reason) {
+  void* context = nullptr;
+  PetscCall(PCShellGetContext(shell, &context));
+  const auto [self, before] = *static_cast<Side*>(context);
+  *count = 1, *reason = PCRICHARDSON_CONVERGED_ITS;
+  try {
+    if (from_zero) check(VecSet(x, 0));
+    if (before) check(MatSOR(self->matrix_, b, 1, SOR_LOCAL_FORWARD_SWEEP, 0, 1, 1, x));
+    self->solve_shared(b, x);
+    if (!before) check(MatSOR(self->matrix_, b, 1, SOR_LOCAL_BACKWARD_SWEEP, 0, 1, 1, x));
+  } catch (const std::exception& error) {
+    SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "%s", error.what());
+  }
+  return 0;
+}
+
+void FinestSmoother::solve_shared(Vec b, Vec x) {
+  if (shared_.empty()) return;
+  check(MatMult(rows_, x, left_));
+  const PetscScalar *all = nullptr, *change = nullptr;
+  PetscScalar *left = nullptr, *out = nullptr;
+  check(VecGetArrayRead(b, &all));
+  check(VecGetArray(left_, &left));
+  for (std::size_t i = 0; i < shared_.size(); ++i) left[i] = all[shared_[i]] - left[i];
+  check(VecRestoreArray(left_, &left));
+  check(VecRestoreArrayRead(b, &all));
+  check(KSPSolve(exact_, left_, change_));
+  check(VecGetArrayRead(change_, &change));
+  check(VecGetArray(x, &out));
+  for (std::size_t i = 0; i < shared_.size(); ++i) out[shared_[i]] += change[i];
+  check(VecRestoreArray(x, &out));
+  check(VecRestoreArrayRead(change_, &change));
+}
+
+}  // namespace dotyk::multigrid
