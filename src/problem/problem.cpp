@@ -18,6 +18,20 @@ std::size_t Problem::block_of(Eigen::Index unknown) const {
   return static_cast<std::size_t>(next - blocks.begin()) - 1;
 }
 
+std::vector<ScalarRow> Problem::scalar_rows() const {
+  std::vector<ScalarRow> all;
+  for (const RowGroup& group : groups)
+    for (int k = 0; k < group.count; ++k) all.push_back({*group.law, k, group.first + k});
+  return all;
+}
+
+std::vector<FrictionPoint> Problem::friction_points() const {
+  std::vector<FrictionPoint> all;
+  for (const FrictionGroup& group : friction)
+    for (int k = 0; k < group.points(); ++k) all.push_back({group, k, group.row(k), group.normal[k]});
+  return all;
+}
+
 std::vector<const RowGroup*> Problem::group_of_rows() const {
   std::vector<const RowGroup*> of(rows());
   for (const RowGroup& group : groups)

@@ -36,6 +36,18 @@ struct RowGroup {
   int count = 0;
 };
 
+/// One row of a group: the k-th of its law, r of all rows.
+struct ScalarRow {
+  const Law& law;
+  int k, r;
+};
+
+/// One point of friction: the k-th of its group, `first` of its rows, its normal row n or -1.
+struct FrictionPoint {
+  const FrictionGroup& group;
+  int k, first, n;
+};
+
 /// The one statement behind every model:
 ///   minimise ½uᵀKu − fᵀu + Σ_r φ_r((Bu − c)_r),   K u + Bᵀλ = f,  λ_r ∈ ∂φ_r.
 struct Problem {
@@ -57,6 +69,9 @@ struct Problem {
   int rows() const { return static_cast<int>(c.size()); }
   /// The index of the block that an unknown belongs to.
   std::size_t block_of(Eigen::Index unknown) const;
+  /// All rows under scalar laws, and all points of friction, group by group.
+  std::vector<ScalarRow> scalar_rows() const;
+  std::vector<FrictionPoint> friction_points() const;
   /// The group of every row.
   std::vector<const RowGroup*> group_of_rows() const;
   /// Stiffness seen by each row: Σ_j B_rj² K_jj, in force per displacement. The unit of ρ.

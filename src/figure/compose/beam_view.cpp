@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/core/ending.hpp"
+#include "solver/core/verdict.hpp"
 
 namespace dotyk::figure {
 

@@ -7,7 +7,7 @@
 #include "figure/canvas/cell_shape.hpp"
 #include "figure/compose/compose_contact.hpp"
 #include "mesh/second_order.hpp"
-#include "solver/core/ending.hpp"
+#include "solver/core/verdict.hpp"
 
 namespace dotyk::figure {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "plate/reaction.hpp"
-#include "solver/core/ending.hpp"
+#include "solver/core/verdict.hpp"
 
 namespace dotyk::figure {
 

@@ -10,7 +10,6 @@
 #include "base/text.hpp"
 #include "problem/free_motions.hpp"
 #include "scene/solve/doubts.hpp"
-#include "solver/core/ending.hpp"
 #include "solver/core/settle.hpp"
 #include "solver/core/verdict.hpp"
 

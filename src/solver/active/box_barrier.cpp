@@ -16,19 +16,16 @@ BoxProgram box_program(const problem::Problem& problem, const problem::Condensed
                        const std::vector<double>& stands_for) {
   const auto groups = problem.group_of_rows();
   const int n = static_cast<int>(rows.size());
-  BoxProgram p{DenseMatrix(n, n), Vector(n), Vector(n), Vector(n), DenseMatrix(n, condensed.kernel_size()), condensed.e()};
+  BoxProgram p{condensed.W()(rows, rows), condensed.x0()(rows), Vector(n), Vector(n), condensed.N()(rows, Eigen::all), condensed.e()};
   for (int j = 0; j < n; ++j) {
     const int r = rows[j], k = r - groups[r]->first;
     const double f = stands_for[r];
-    for (int i = 0; i < n; ++i) p.H(i, j) = condensed.W()(rows[i], r);
     const problem::Springs springs = groups[r]->law->springs(k).value();
     const auto compliance = [](double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; };
     p.H(j, j) += (compliance(springs.below) + compliance(springs.above)) / 2 / f;
     const problem::Interval bounds = groups[r]->law->multipliers(k);
-    p.g[j] = condensed.x0()[r];
     p.low[j] = f * bounds.low;
     p.high[j] = f * bounds.high;
-    p.N.row(j) = condensed.N().row(r);
   }
   return p;
 }

@@ -7,28 +7,19 @@ namespace dotyk::solver {
 using algebra::Vector;
 using problem::CondensedProblem;
 using problem::Problem;
-using problem::RowGroup;
 
 Vector admissible(const Problem& problem, const Vector& lambda) {
   return project(problem, lambda, Vector::Zero(lambda.size()));
 }
 
 DualDescent::DualDescent(const Problem& problem, const CondensedProblem& condensed, const Vector& lambda)
-    : problem_(problem), equilibrium_(condensed, Vector::Zero(condensed.kernel_size())),
-      relaxation_(problem, equilibrium_.W()),
-      lambda_(admissible(problem, lambda)), x_(jump_at(lambda_)) {}
-
-Vector DualDescent::jump_at(const Vector& lambda) const { return equilibrium_.x0() - equilibrium_.W() * lambda; }
+    : problem_(problem), equilibrium_(condensed), relaxation_(problem, equilibrium_.W()), lambda_(admissible(problem, lambda)), x_(jump_at(lambda_)) {}
 
 double DualDescent::energy_at(const Vector& lambda) const {
   double q = 0.5 * lambda.dot(equilibrium_.W() * lambda) - equilibrium_.x0().dot(lambda);
-  for (const RowGroup& group : problem_.groups)
-    for (int r = group.first; r < group.first + group.count; ++r)
-      q += group.law->conjugate(r - group.first, lambda[r]);
+  for (const auto& [law, k, r] : problem_.scalar_rows()) q += law.conjugate(k, lambda[r]);
   return q;
 }
-
-void DualDescent::sweep() { relaxation_.sweep(1, lambda_, x_); }
 
 void DualDescent::update_equilibrium() {
   if (!equilibrium_.needed()) return;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/rows/equilibrium.hpp"
-#include "solver/rows/relaxation.hpp"
+#include "solver/rows/psor.hpp"
 
 namespace dotyk::solver {
 
@@ -21,21 +21,21 @@ class DualDescent {
               const algebra::Vector& lambda);
 
   /// One sweep over all rows.
-  void sweep();
+  void sweep() { relaxation_.sweep(1, lambda_, x_); }
   /// The next α; nothing without free bodies.
   void update_equilibrium();
   /// Moves to `candidate`, made admissible, if the energy is lower there.
   void take_if_lower(const algebra::Vector& candidate);
 
   const algebra::Vector& lambda() const { return lambda_; }
-  algebra::Vector alpha() const { return equilibrium_.alpha(lambda_); }
+  algebra::Vector alpha() const { return equilibrium_.at(lambda_).alpha; }
   /// The (augmented) jump: minus the gradient of the smooth part of the energy.
   const algebra::Vector& jump() const { return x_; }
   double energy() const { return energy_at(lambda_); }
 
  private:
   double energy_at(const algebra::Vector& lambda) const;
-  algebra::Vector jump_at(const algebra::Vector& lambda) const;
+  algebra::Vector jump_at(const algebra::Vector& lambda) const { return equilibrium_.x0() - equilibrium_.W() * lambda; }
 
   const problem::Problem& problem_;
   Equilibrium equilibrium_;

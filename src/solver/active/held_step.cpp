@@ -65,7 +65,7 @@ class HeldStep final : public Step {
 
   void go_back(double part) override { u_ = before_ + static_cast<long double>(part) * (u_ - before_); }
 
-  Vector recover() override { return displacement(); }
+  Vector recover() override { return u_.cast<double>(); }
 
  private:
   /// What each row does, and u where it is held; elsewhere iterations go on from the last one.
@@ -128,10 +128,6 @@ class HeldStep final : public Step {
     const int own = stiffness_.basis().unknown[row];
     return own >= 0 && held_[own] ? left[own] : static_cast<double>(lambda_[row] + spring_[row] * gap(row));
   }
-
-  Vector displacement() const { return u_.cast<double>(); }
-
-  void step() { u_ += stiffness_.solve_in_basis(residual()).cast<long double>(); }
 
   /// Where cells are small beside the body, as with thousands of supports of a beam, one solution leaves forces that are no rounding of the loads.
   void refine() {
@@ -214,7 +210,7 @@ class HeldStep final : public Step {
   bool tie() {
     for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round) {
       approach();
-      step();
+      u_ += stiffness_.solve_in_basis(residual()).cast<long double>();
     }
     return off(tied_gap()) <= kOff;
   }
@@ -225,7 +221,8 @@ class HeldStep final : public Step {
     double energy = gap.dot(z);
     for (int k = 0; k < kMostSteps && off(gap) > kAim; ++k) {
       const Vector moved = stiffness_.solve(problem_.B.transpose() * p);
-      const Vector q = on_tied(problem_.B * moved);
+      Vector q = Vector::Zero(p.size());
+      q(tied_) = Vector(problem_.B * moved)(tied_);
       const double curvature = p.dot(q);
       if (!(curvature > 0)) return;
       const double t = energy / curvature;
@@ -242,26 +239,14 @@ class HeldStep final : public Step {
     return out;
   }
 
-  Vector on_tied(const Vector& all) const {
-    Vector out = Vector::Zero(problem_.rows());
-    for (const int r : tied_) out[r] = all[r];
-    return out;
-  }
-
   /// The greatest gap of a tied row against the displacements in it.
   double off(const Vector& gap) const {
     if (!gap.allFinite()) return INFINITY;
-    const double size = tied_.empty() ? 0 : displacement().lpNorm<Eigen::Infinity>();
+    const double size = tied_.empty() ? 0 : u_.cast<double>().lpNorm<Eigen::Infinity>();
     double worst = 0;
     for (const int r : tied_)
-      if (gap[r] != 0) worst = std::max(worst, std::abs(gap[r]) / (length(r) * size + std::abs(target_[r])));
+      if (gap[r] != 0) worst = std::max(worst, std::abs(gap[r]) / (problem_.B.row(r).cwiseAbs().sum() * size + std::abs(target_[r])));
     return worst;
-  }
-
-  double length(int row) const {
-    double sum = 0;
-    for (SparseRows::InnerIterator it(problem_.B, row); it; ++it) sum += std::abs(it.value());
-    return sum;
   }
 
   /// λ and x: multipliers of springs, and of rows that hold by equilibrium.

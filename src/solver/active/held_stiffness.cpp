@@ -4,9 +4,11 @@
 
 #include "algebra/dense/generalised_inverse.hpp"
 #include "base/text.hpp"
+#include "multigrid/multigrid.hpp"
 
 namespace dotyk::solver {
 
+using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::SparseRows;
 using algebra::Vector;
@@ -17,7 +19,6 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
   assemble();
-  place_rows();
   for (const int unknown : algebra::fixing_unknowns(unnoticed_)) lower_.coeffRef(unknown, unknown) *= 2;  // carries nothing
   stiffness_ = Eigen::Map<const Vector>(lower_.valuePtr(), lower_.nonZeros());
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
@@ -34,36 +35,20 @@ void HeldStiffness::assemble() {
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
       for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.0);
-  for (const problem::FrictionGroup& group : problem_.friction)
-    for (int k = 0; k < group.points(); ++k) {
-      const int a = basis_.unknown[group.row(k)], b = basis_.unknown[group.row(k) + group.components - 1];
-      if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
-    }
+  for (const auto& [group, k, first, n] : problem_.friction_points()) {
+    const int a = basis_.unknown[first], b = basis_.unknown[first + group.components - 1];
+    if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
+  }
   for (int i = 0; i < problem_.unknowns(); ++i) entries.emplace_back(i, i, 0.0);
   SparseMatrix springs(K.rows(), K.cols());
   springs.setFromTriplets(entries.begin(), entries.end());
   lower_ = K + springs;
 }
 
-void HeldStiffness::place_rows() {
-  const int *column = lower_.outerIndexPtr(), *row = lower_.innerIndexPtr();
-  first_.assign(1, 0);
-  for (int r = 0; r < problem_.rows(); ++r) {
-    for (SparseRows::InnerIterator i(rows_, r); i; ++i)
-      for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) {
-        const int* at = std::lower_bound(row + column[j.col()], row + column[j.col() + 1], static_cast<int>(i.col()));
-        place_.push_back(static_cast<int>(at - row));
-        product_.push_back(i.value() * j.value());
-      }
-    first_.push_back(static_cast<std::ptrdiff_t>(place_.size()));
-  }
-}
-
 void HeldStiffness::spring_rows(const Vector& spring) {
-  double* value = lower_.valuePtr();
   for (int r = 0; r < problem_.rows(); ++r)
-    if (spring[r] != 0)
-      for (std::ptrdiff_t k = first_[r]; k < first_[r + 1]; ++k) value[place_[k]] += spring[r] * product_[k];
+    for (SparseRows::InnerIterator i(rows_, r); i && spring[r] != 0; ++i)
+      for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) lower_.coeffRef(i.col(), j.col()) += spring[r] * (i.value() * j.value());
 }
 
 bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added) {
@@ -88,6 +73,48 @@ Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
     throw NotSolved(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
                           "stretched cells or great contrasts of stiffness; linear = \"factor\" does without iterations"));
   return problem::least(unnoticed_, basis_.T * solution);
+}
+
+namespace {
+
+/// The rigid motions of all bodies moving as one. No columns if a block has no function `rigid`.
+DenseMatrix all_rigid_motions(const Problem& problem) {
+  DenseMatrix all(problem.unknowns(), 0);
+  for (const problem::Block& block : problem.blocks) {
+    if (!block.rigid) return DenseMatrix(problem.unknowns(), 0);
+    const DenseMatrix own = block.rigid();
+    if (all.cols() == 0) all.setZero(problem.unknowns(), own.cols());
+    all.middleRows(block.first, block.size()) = own;
+  }
+  return all;
+}
+
+/// The stiffness, definite also where nothing holds a body.
+SparseMatrix held_slightly(const Problem& problem) {
+  constexpr double kSlightly = 1e-8;
+  SparseMatrix K = problem::lower_stiffness(problem);
+  K.diagonal() *= 1 + kSlightly;
+  return K;
+}
+
+}  // namespace
+
+MakeSpdSolver factor(algebra::Ordering ordering) {
+  return [ordering](const SpdSystem& s) { return algebra::factored(s.lower, problem::nodes(s.problem), ordering); };
+}
+
+MakeSpdSolver incomplete_factor() {
+  return [](const SpdSystem& s) { return algebra::incompletely_factored(s.monitor); };
+}
+
+MakeSpdSolver algebraic_multigrid() {
+  return [](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
+    const std::vector<int> nodes = problem::nodes(s.problem);
+    const DenseMatrix motions = all_rigid_motions(s.problem);
+    if (s.basis.trivial()) return multigrid::make_solver({s.lower, nodes, motions}, s.monitor);
+    const SparseMatrix K = held_slightly(s.problem), unknowns = s.basis.of_displacements(s.problem);
+    return multigrid::make_solver({s.lower, nodes, motions, &K, &unknowns}, s.monitor);
+  };
 }
 
 }  // namespace dotyk::solver

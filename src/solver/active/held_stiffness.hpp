@@ -1,12 +1,36 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
+#include "algebra/spd_solver.hpp"
+#include "base/error.hpp"
 #include "problem/rigid_motions.hpp"
-#include "solver/active/linear_solvers.hpp"
+#include "problem/row_basis.hpp"
 
 namespace dotyk::solver {
+
+/// What a linear solver is made from: the first matrix, in the basis where rows are unknowns, and the problem that it belongs to.
+struct SpdSystem {
+  const algebra::SparseMatrix& lower;  ///< positive definite: nothing held, but springs in the rows of bodies that nothing else holds
+  const problem::Problem& problem;
+  const problem::RowBasis& basis;
+  Monitor& monitor;  ///< outlives the solver
+};
+using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
+
+/// Iterations did not solve a linear system.
+struct NotSolved : InputError {
+  using InputError::InputError;
+};
+
+/// A sparse Cholesky factor.
+MakeSpdSolver factor(algebra::Ordering ordering);
+/// Conjugate gradients with an incomplete Cholesky factor.
+MakeSpdSolver incomplete_factor();
+/// Conjugate gradients with algebraic multigrid. Making the solver throws InputError where its library was not built.
+MakeSpdSolver algebraic_multigrid();
 
 /// A = Tᵀ(K + Σ_r s_r B_rᵀB_r)T in the basis T where rows are unknowns, with the rows and columns of held unknowns emptied but for their diagonal:
 /// what active-set and barrier iterations solve with where rows act on few unknowns each. One pattern for all s and all that is held.
@@ -30,7 +54,6 @@ class HeldStiffness {
 
  private:
   void assemble();
-  void place_rows();
   void spring_rows(const algebra::Vector& spring);
 
   const problem::Problem& problem_;
@@ -39,9 +62,6 @@ class HeldStiffness {
   algebra::SparseRows rows_;        ///< B T
   algebra::SparseMatrix lower_;     ///< of the pattern, with the numbers of the last factor()
   algebra::Vector stiffness_;       ///< TᵀKT's numbers in that pattern
-  std::vector<std::ptrdiff_t> first_;  ///< of a row's products in the next
-  std::vector<int> place_;          ///< in the pattern, of each product (BT)_ri (BT)_rj
-  std::vector<double> product_;
   std::vector<char> held_;
   std::unique_ptr<algebra::SpdSolver> solver_;
 };

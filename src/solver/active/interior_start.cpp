@@ -36,14 +36,12 @@ LawsInUnits::LawsInUnits(const Problem& problem, const problem::RigidMotions& ri
   for (const problem::Block& block : problem.blocks) f.segment(block.first, block.size()) = block.f;
   low = high = below = above = Vector::Zero(problem.rows());
   const auto compliance = [](double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; };
-  for (const problem::RowGroup& group : problem.groups)
-    for (int k = 0; k < group.count; ++k) {
-      const int r = group.first + k;
-      const problem::Interval bounds = group.law->multipliers(k);
-      const problem::Springs springs = group.law->springs(k).value();
-      low[r] = bounds.low, high[r] = bounds.high;
-      below[r] = compliance(springs.below), above[r] = compliance(springs.above);
-    }
+  for (const auto& [law, k, r] : problem.scalar_rows()) {
+    const problem::Interval bounds = law.multipliers(k);
+    const problem::Springs springs = law.springs(k).value();
+    low[r] = bounds.low, high[r] = bounds.high;
+    below[r] = compliance(springs.below), above[r] = compliance(springs.above);
+  }
   measure(problem, rigid, stiffness);
 }
 

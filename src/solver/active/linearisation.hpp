@@ -29,6 +29,7 @@ struct Linearisation {
   std::vector<Slip> slips;
   double off = 1;  ///< how far (λ, x) is off its laws, of its forces; 1 where that says nothing
 
+  void set(int row, double at, problem::Projection p) { y[row] = at, value[row] = p.lambda, slope[row] = p.slope, active[row] = p.slope > 0; }
   /// (1 − D)/(Dρ), the compliance that an active row's law adds; 0 for D = 1.
   double added_compliance(int row, double rho) const {
     return (1 - slope[row]) / (slope[row] * rho);
@@ -39,6 +40,8 @@ struct Linearisation {
   }
   /// Is the row on the same piece of its law? Pieces have different slopes, or where that is 0 different values.
   bool same_piece(const Linearisation& other, int row) const;
+  /// The rows that are not.
+  std::vector<int> changed(const Linearisation& other) const;
   /// Of all rows' pieces.
   std::uint64_t fingerprint() const;
   int active_count() const;
@@ -50,8 +53,8 @@ struct Noise {
 };
 
 /// Linearises at (λ, x). With `previous`, (λ, x) solves it: of a unilateral row one of λ and x is zero but
-/// for rounding, which ρ must not blow up, so the other one alone decides; below its noise the row keeps its
-/// branch, for touching without force it would flip with rounding. So does a row of any other law at a kink.
+/// for rounding, which ρ must not blow up, so the other one alone decides. A row at a kink of its law, up to its noise, keeps its
+/// branch, for touching without force it would flip with rounding.
 Linearisation linearise(const problem::Problem& problem, const algebra::Vector& lambda,
                         const algebra::Vector& x, const algebra::Vector& rho, const Noise& noise,
                         const Linearisation* previous);

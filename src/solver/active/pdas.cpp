@@ -10,7 +10,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "solver/active/nested_start.hpp"
-#include "solver/active/rescues.hpp"
+#include "solver/active/set_iteration.hpp"
 #include "solver/core/treatable.hpp"
 #include "solver/core/verdict.hpp"
 
@@ -29,10 +29,10 @@ constexpr std::array<Rescue, 3> kRescues{by_sweeps, by_barrier, by_interior_poin
 std::string begin(SetIteration& it) {
   const bool given = !it.settings.start.empty();
   if (it.settings.reduced && !it.screws && !given) {
-    NestedStart nested(it.problem, it.condensed(), it.rho);
-    if (!nested.worthwhile()) return "";
-    it.l = it.held(nested.run(*it.step), -it.problem.c);
-    return text(", begun with ", nested.solves(), " solves on a part of the rows");
+    const auto nested = nested_start(it.problem, it.condensed(), it.rho, *it.step);
+    if (!nested) return "";
+    it.l = it.held(nested->linearisation, -it.problem.c);
+    return text(", begun with ", nested->solves, " solves on a part of the rows");
   }
   if (!it.settings.interior || given || !it.problem.friction.empty()) return "";
   const std::string how = by_interior_point(it, End::exhausted);
@@ -88,33 +88,8 @@ void conclude(SetIteration& it, End end, bool inside, const std::string& rescued
   }
 }
 
-/// Where one-sided rows are closed and bear nothing (below `noise`), for the sake of rigid motions that nothing else holds, the bodies
-/// may have gone far for it, and rounding of the way costs digits of the stresses. The same linearisation with such rows held where
-/// they are at rest, x_r = −c_r; nothing where there are none, or none of them is apart at rest.
-std::optional<Linearisation> held_at_rest(const problem::Problem& problem, const Linearisation& closed, const Vector& lambda,
-                                          const Vector& rho, const Noise& noise) {
-  std::optional<Linearisation> rest;
-  for (const problem::RowGroup& group : problem.groups) {
-    if (!group.law->unilateral()) continue;
-    for (int r = group.first; r < group.first + group.count; ++r) {
-      if (!closed.active[r] || std::abs(lambda[r]) > noise.force[r] || !(problem.c[r] > noise.gap[r])) continue;
-      if (!rest) rest = closed;
-      rest->y[r] = rest->value[r] - rho[r] * problem.c[r];
-    }
-  }
-  return rest;
-}
-
-/// Does (λ, x), the solution of `rest` = held_at_rest(closed), obey the laws? `found`: the linearisation there.
-bool obeys(const Linearisation& found, const Linearisation& rest, const Linearisation& closed, const Vector& lambda, const Noise& noise) {
-  for (int r = 0; r < static_cast<int>(closed.active.size()); ++r) {
-    const bool held = rest.y[r] != closed.y[r];
-    if (held ? std::abs(lambda[r]) > noise.force[r] : !found.same_piece(closed, r)) return false;
-  }
-  return true;
-}
-
-/// Bodies that were moved for the sake of rows that bear nothing go back, where the laws allow it.
+/// Where one-sided rows are closed and bear nothing, for the sake of rigid motions that nothing else holds, the bodies may have gone far for
+/// it, and rounding of the way costs digits of the stresses. Such rows are held where they are at rest, x_r = −c_r, where the laws allow it.
 void come_to_rest(SetIteration& it) {
   const problem::Problem& problem = it.problem;
   const Noise before = it.noise(it.lambda, it.x);
@@ -123,16 +98,26 @@ void come_to_rest(SetIteration& it) {
     if ((problem.c + before.gap).minCoeff() >= 0) it.lambda.setZero(), it.x = -problem.c, it.settled = Vector::Zero(problem.unknowns());
     return;
   }
-  const auto rest = held_at_rest(problem, it.l, it.lambda, it.rho, before);
-  if (!rest) return;
+  Linearisation rest = it.l;
+  std::vector<int> resting;
+  for (const auto& [law, k, r] : problem.scalar_rows()) {
+    if (!law.unilateral() || !it.l.active[r] || std::abs(it.lambda[r]) > before.force[r] || !(problem.c[r] > before.gap[r])) continue;
+    rest.y[r] = rest.value[r] - it.rho[r] * problem.c[r];
+    resting.push_back(r);
+  }
+  if (resting.empty()) return;
   Vector lambda, x;
-  if (it.step->solve(*rest, lambda, x)) {
+  if (it.step->solve(rest, lambda, x)) {
     const Noise small = it.noise(lambda, x);
-    if (obeys(linearise(problem, lambda, x, it.rho, small, &it.l), *rest, it.l, lambda, small)) {
-      it.lambda = std::move(lambda);
-      it.x = std::move(x);
-      for (int r = 0; r < problem.rows(); ++r)
-        if (rest->y[r] != it.l.y[r]) it.lambda[r] = 0, it.result.active_sets.back()[r] = 0;
+    Linearisation found = linearise(problem, lambda, x, it.rho, small, &it.l);
+    bool allowed = true;
+    for (const int r : resting) {
+      allowed = allowed && std::abs(lambda[r]) <= small.force[r];
+      found.set(r, it.l.y[r], {it.l.value[r], it.l.slope[r]});  // wherever it is
+    }
+    if (allowed && found.changed(it.l).empty()) {
+      it.lambda = std::move(lambda), it.x = std::move(x);
+      for (const int r : resting) it.lambda[r] = 0, it.result.active_sets.back()[r] = 0;
       return;
     }
   }

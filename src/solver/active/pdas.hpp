@@ -40,9 +40,8 @@ struct Pdas : Settings {
 };
 
 /// Solves. Where Newton steps cycle, meet a singular problem or crawl (after fourteen steps still as many rows change), rescues follow one
-/// another: Gauss–Seidel sweeps that decrease the dual energy (for cycles), a barrier method on the condensed rows, an interior point method on the unknowns.
-/// Each has steps of its own, told in `reason` and not among `iterations`; Newton steps confirm what it found, whatever max_iterations says. Where they cycle
-/// even so, ActiveSet solves the problem from rest if all laws are unilateral or linear, else Proximal.
+/// another (set_iteration.hpp). Each has steps of its own, told in `reason` and not among `iterations`; Newton steps confirm what it found,
+/// whatever max_iterations says.
 /// Throws InputError where a body is not held, naming its motion.
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
 

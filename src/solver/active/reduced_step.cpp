@@ -26,19 +26,17 @@ class ReducedStep final : public Step {
     if (!active.empty() || condensed_.kernel_size() > 0) {
       // (W + C)_AA λ_A − N_A α = (x₀ − W λ_I)_A − offset,  N_Aᵀ λ_A = e − N_Iᵀ λ_I
       const int n = static_cast<int>(active.size());
-      const Vector rest = condensed_.jump(lambda, Vector());
-      DenseMatrix H(n, n), N(n, condensed_.kernel_size());
-      Vector g(n);
+      DenseMatrix H = condensed_.W()(active, active);
+      const DenseMatrix N = condensed_.N()(active, Eigen::all);
+      Vector g = condensed_.jump(lambda, Vector())(active);
       for (int j = 0; j < n; ++j) {
-        for (int i = 0; i < n; ++i) H(i, j) = condensed_.W()(active[i], active[j]);
         H(j, j) += l.added_compliance(active[j], rho_[active[j]]);
-        N.row(j) = condensed_.N().row(active[j]);
-        g[j] = rest[active[j]] - l.offset(active[j], rho_[active[j]]);
+        g[j] -= l.offset(active[j], rho_[active[j]]);
       }
       const Vector e = condensed_.e() - condensed_.N().transpose() * lambda;
       Vector solved;
       if (!solve_definite(H, N, g, e, solved) && !solve_dependent(H, N, g, e, solved)) return false;
-      for (int j = 0; j < n; ++j) lambda[active[j]] = solved[j];
+      lambda(active) = solved;
     }
     lambda_ = lambda;
     x = condensed_.jump(lambda, alpha_);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "algebra/dense/lu.hpp"
 #include "solver/rows/natural_map.hpp"
 
 namespace dotyk::solver {
@@ -33,12 +32,9 @@ std::optional<State> step(const Problem& problem, const CondensedProblem& conden
   NaturalMap::Value value = map.with_jump(from.lambda, x);
   value.projected -= from.lambda;
   value.y = map.rho().cwiseProduct(x);
-  const NaturalMap::System system = map.linearise(value);
-  Vector solved(0), lambda, alpha;
-  if (system.matrix.size() > 0) solved = algebra::Lu(system.matrix).solve(system.right_side);
-  if (!solved.allFinite()) return std::nullopt;
-  map.take(system, solved, lambda, alpha);
-  State to{balanced + condensed.response(-(problem.B.transpose() * lambda), alpha), from.lambda + lambda};
+  const Iterate d = map.solve(map.linearise(value));
+  if (!d.finite()) return std::nullopt;
+  State to{balanced + condensed.response(-(problem.B.transpose() * d.lambda), d.alpha), from.lambda + d.lambda};
   return to.u.allFinite() && to.lambda.allFinite() ? std::optional(std::move(to)) : std::nullopt;
 }
 

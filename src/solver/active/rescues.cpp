@@ -1,4 +1,4 @@
-#include "solver/active/rescues.hpp"
+#include "solver/active/set_iteration.hpp"
 
 #include <numeric>
 
@@ -26,12 +26,6 @@ constexpr int kSweeps = 3, kSweepRounds = 3;
 constexpr int kMostDense = 3000, kStepsPerRow = 20;
 constexpr double kBarrierTol = 1e-10, kBeginning = 1e-10;
 
-bool same_pieces(const Linearisation& a, const Linearisation& b) {
-  for (int r = 0; r < a.y.size(); ++r)
-    if (!a.same_piece(b, r)) return false;
-  return true;
-}
-
 bool dense(const SetIteration& it) { return it.is_condensed() && it.problem.rows() <= kMostDense; }
 
 }  // namespace
@@ -48,7 +42,7 @@ std::string by_sweeps(SetIteration& it, End end) {
     Vector lambda, x;
     if (!newton->solve(it.l, lambda, x)) continue;
     const Linearisation next = linearise(problem, lambda, x, it.rho, it.noise(lambda, x), &it.l);
-    if (same_pieces(it.l, next)) return "sweeps that decrease the dual energy";
+    if (it.l.changed(next).empty()) return "sweeps that decrease the dual energy";
     descent.take_if_lower(lambda);
   }
   it.lambda = descent.lambda();

@@ -8,13 +8,15 @@
 #include "algebra/dense/dense.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "problem/uniqueness.hpp"
+#include "solver/rows/projection.hpp"
 
 namespace dotyk::solver {
 
 using algebra::DenseMatrix;
 using algebra::Vector;
-using problem::FrictionGroup;
 using problem::Problem;
+using problem::RowGroup;
 
 namespace {
 
@@ -29,15 +31,19 @@ double regularity_of(const DenseMatrix& N) {
   return s[0] > 0 ? s[s.size() - 1] / s[0] : 0;
 }
 
+std::vector<int> sorted(std::vector<int> rows) {
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
 }  // namespace
 
 Screws::Screws(const Problem& problem, DenseMatrix N, Vector e, std::vector<int> rows)
-    : problem_(problem), N_(std::move(N)), e_(std::move(e)), unilateral_(problem.rows(), 0), friction_(problem.rows(), nullptr),
-      rows_(std::move(rows)) {
-  for (const problem::RowGroup& group : problem.groups) std::fill_n(unilateral_.begin() + group.first, group.count, group.law->unilateral());
-  may_hold_ = unilateral_;
-  for (const FrictionGroup& group : problem.friction)
-    for (int r = group.first; r < group.row(group.points()); ++r) friction_[r] = &group, may_hold_[r] = group.bound((r - group.first) / group.components, Vector::Zero(problem.rows())) > 0;
+    : N_(std::move(N)), e_(std::move(e)), low_(Vector::Zero(problem.rows())), high_(low_), point_(problem.rows(), {0, 0}), rows_(std::move(rows)) {
+  for (const auto& [law, k, r] : problem.scalar_rows())
+    if (law.unilateral()) high_[r] = INFINITY;
+  for (const auto& [group, k, first, n] : problem.friction_points())
+    for (int r = first; r < first + group.components; ++r) point_[r] = {first, group.components}, high_[r] = group.law->bound(k, 0), low_[r] = -high_[r];
   const std::size_t count = static_cast<std::size_t>(N_.cols());
   if (rows_.empty()) {
     complete();
@@ -63,19 +69,13 @@ bool Screws::regular(const std::vector<int>& rows) const {
 }
 
 void Screws::complete() {
-  Vector low = Vector::Zero(problem_.rows()), high = low;
-  for (int r = 0; r < problem_.rows(); ++r) {
-    if (unilateral_[r]) high[r] = INFINITY;
-    if (!may_hold_[r] || unilateral_[r]) continue;
-    high[r] = friction_[r]->bound((r - friction_[r]->first) / friction_[r]->components, low);
-    low[r] = -high[r];
-  }
-  const Vector carried = algebra::bounded_least_squares(N_.transpose(), e_, low, high).x;
+  const Vector carried = algebra::bounded_least_squares(N_.transpose(), e_, low_, high_).x;
   std::vector<int> order;  // first what presses, then what is farthest from slipping
-  for (int r = 0; r < problem_.rows(); ++r)
-    if (may_hold_[r]) order.push_back(r);
+  for (int r = 0; r < N_.rows(); ++r)
+    if (high_[r] > 0) order.push_back(r);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return unilateral_[a] != unilateral_[b] ? unilateral_[a] > unilateral_[b] : excess(a, carried) < excess(b, carried);
+    const bool presses = std::isinf(high_[a]);
+    return presses != std::isinf(high_[b]) ? presses : excess(a, carried) < excess(b, carried);
   });
   add(order, 1e-3);
   add(order, kRegular);  // badly conditioned contacts: whatever is regular at all
@@ -91,18 +91,9 @@ void Screws::add(const std::vector<int>& order, double least) {
   }
 }
 
-namespace {
-std::vector<int> sorted(std::vector<int> rows) {
-  std::sort(rows.begin(), rows.end());
-  return rows;
-}
-}  // namespace
-
 double Screws::excess(int row, const Vector& lambda) const {
-  const FrictionGroup* group = friction_[row];
-  if (!group) return -lambda[row];
-  const int point = (row - group->first) / group->components;
-  return lambda.segment(group->row(point), group->components).norm() - group->bound(point, lambda);
+  const auto [first, components] = point_[row];
+  return components == 0 ? -lambda[row] : lambda.segment(first, components).norm() - high_[row];
 }
 
 bool Screws::pulls(const Vector& lambda, double noise) const {
@@ -125,8 +116,8 @@ bool Screws::move(int screw, const Vector& lambda, double noise) {
   // come first, others only where none does.
   std::vector<int> best;
   double nearest = INFINITY;
-  for (int r = 0; r < problem_.rows(); ++r) {
-    if (!may_hold_[r] || std::find(rows_.begin(), rows_.end(), r) != rows_.end()) continue;
+  for (int r = 0; r < N_.rows(); ++r) {
+    if (!(high_[r] > 0) || std::find(rows_.begin(), rows_.end(), r) != rows_.end()) continue;
     const double far = excess(r, lambda) < -noise ? 0 : 1e6;
     const double distance = far + (N_.row(r) - N_.row(rows_[screw])).norm();
     if (!(distance < nearest)) continue;
@@ -182,11 +173,71 @@ class ScrewStep final : public Step {
   Vector lambda_, alpha_;
 };
 
+/// The rows with their laws, those of screws without: λ' = 0 there.
+Problem other_rows(const Problem& problem, const std::vector<int>& screws) {
+  std::vector<char> screwed(static_cast<std::size_t>(problem.rows()), 0);
+  Problem rows = laws_of(problem);
+  rows.groups.clear(), rows.friction.clear();
+  for (const int r : screws) screwed[r] = 1, rows.groups.push_back({"screw", problem::elastic({0.0}), r, 1});
+  for (const RowGroup& group : problem.groups) {
+    const auto end = screwed.begin() + group.first + group.count;
+    if (std::find(screwed.begin() + group.first, end, 1) == end) rows.groups.push_back(group);
+    else  // unilateral: one law for all its rows
+      for (int r = group.first; r < group.first + group.count; ++r)
+        if (!screwed[r]) rows.groups.push_back({group.name, group.law, r, 1});
+  }
+  for (const auto& [group, k, first, n] : problem.friction_points()) {
+    const int kept = static_cast<int>(std::count(screwed.begin() + first, screwed.begin() + first + group.components, 0));
+    if (kept == 0) continue;
+    const int from = kept == group.components || !screwed[first] ? first : first + 1;
+    rows.friction.push_back({group.name, problem::tresca({group.law->bound(k, 0)}), from, kept, {-1}});
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::unique_ptr<Step> screw_step(const problem::CondensedProblem& condensed, const Vector& rho,
                                  const Screws& screws) {
   return std::make_unique<ScrewStep>(condensed, rho, screws);
+}
+
+WithScrews::WithScrews(std::shared_ptr<const RowMethod> method)
+    : RowMethod(), inner(std::move(method)), name_(text(inner->name(), " with screws")) {
+  static_cast<Settings&>(*this) = *inner;
+}
+
+void WithScrews::require_treatable(const Problem& problem) const {
+  inner->require_treatable(problem);
+  if (problem::has_coulomb(problem))
+    throw InputError("kernel = \"screws\" goes with given friction: the bound of Coulomb's at a screw is not known before its force is");
+}
+
+void WithScrews::iterate(RowIteration& it) const {
+  if (it.condensed.kernel_size() == 0) return inner->iterate(it);
+  Screws places(it.problem, it.condensed.N(), it.condensed.e(), screws);
+  Settings settings = *inner;
+  settings.tol = tol / 10;
+  int iterations = 0;
+  bool placed = true;
+  while (placed && it.next()) {
+    it.note({places.rows(), places.regularity(), places.determinant()});
+    const HeldByScrews held(it.condensed, places.rows());
+    const Problem rows = other_rows(it.problem, places.rows());
+    InnerMonitor monitor(it.monitor());
+    RowIteration other(rows, held.problem(), settings, inner->map_weight(), monitor);
+    inner->iterate(other);
+    const Result found = other.finish();
+    iterations += found.iterations;
+    const Vector lambda = held.multipliers(found.state.lambda);
+    it.move_to({lambda, held.amounts(lambda)});
+    if (it.record()) break;
+    // Where the inner method does not end, a screw may be where the solution slips.
+    placed = places.moves() < max_moves && places.move(lambda, 1e-9 * lambda.lpNorm<Eigen::Infinity>());
+    if (!placed) it.give_up(text(found.converged ? std::string() : "held by screws: " + found.reason + "; ", "a screw still pulls, or slips, after ", places.moves(),
+                                " moves: where fewer points stick than motions are free no place is right; kernel = \"exact\" needs none"));
+  }
+  it.remark(text(iterations, " iterations of ", inner->name()));
 }
 
 }  // namespace dotyk::solver

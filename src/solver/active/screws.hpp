@@ -1,13 +1,15 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "algebra/dense/lu.hpp"
-#include "problem/condensed.hpp"
-#include "problem/rigid_motions.hpp"
 #include "solver/active/step.hpp"
+#include "solver/rows/row_iteration.hpp"
 
 namespace dotyk::solver {
 
@@ -44,12 +46,10 @@ class Screws {
   /// How much the row's force is beyond what a screw there may bear, a force: it presses, or sticks, below 0.
   double excess(int row, const algebra::Vector& lambda) const;
 
-  const problem::Problem& problem_;
   algebra::DenseMatrix N_;  ///< rows × noticed motions
   algebra::Vector e_;
-  /// Of each row: may a screw be there, and whose friction it is.
-  std::vector<char> unilateral_, may_hold_;
-  std::vector<const problem::FrictionGroup*> friction_;
+  algebra::Vector low_, high_;              ///< of each row, what a screw may bear there: from 0 on, within the friction bound, or nothing
+  std::vector<std::pair<int, int>> point_;  ///< of each row of friction, the first of its point and how many these are; else 0
   std::vector<int> rows_;
   std::set<std::vector<int>> tried_;  ///< placements, ascending
   int moves_ = 0;
@@ -80,5 +80,24 @@ class HeldByScrews {
 /// One linear problem with the screws closed, by elimination.
 std::unique_ptr<Step> screw_step(const problem::CondensedProblem& condensed, const algebra::Vector& rho,
                                  const Screws& screws);
+
+/// Free bodies with given friction by magnetic screws (TR965 2.2, 3.2 (3.32)–(3.33), remark 3.5): contact rows taken as closed and, where
+/// contact leaves motions along it free, friction rows taken as stuck, the report's p(v) = 0, hold all motions. Their multipliers follow
+/// from equilibrium, so that `inner` works on a problem without motions (HeldByScrews). A screw that pulls, or bears more than its friction bound, is moved and the problem solved again.
+struct WithScrews : RowMethod {
+  std::shared_ptr<const RowMethod> inner;
+  /// Rows on which the screws are placed first; empty: chosen.
+  std::vector<int> screws;
+  int max_moves = 50;
+  const char* name() const override { return name_.c_str(); }
+  void iterate(RowIteration& iteration) const override;
+  /// Throws InputError for Coulomb friction, whose bound at a screw is not known.
+  void require_treatable(const problem::Problem& problem) const override;
+
+  explicit WithScrews(std::shared_ptr<const RowMethod> method);
+
+ private:
+  std::string name_;
+};
 
 }  // namespace dotyk::solver

@@ -1,12 +1,17 @@
 #include "solver/active/set_iteration.hpp"
 
+#include <cmath>
 #include <utility>
 
+#include "algebra/dense/null_space.hpp"
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "problem/residual.hpp"
 
 namespace dotyk::solver {
 
+using algebra::SparseMatrix;
+using algebra::SparseRows;
 using algebra::Vector;
 using problem::Problem;
 using End = SetIteration::End;
@@ -19,28 +24,63 @@ constexpr std::size_t kStretch = 4;
 constexpr int kUnguided = 4, kHalvings = 6;
 /// With friction the iteration ends after so many steps in a row that come no nearer to the laws.
 constexpr int kFrictionPatience = 15;
+constexpr double kApproaches = 1e-9;  // of a unit motion; less is sliding along the row
 
-/// The linearisation at the flags, but on rows whose flag is that of `l`, which stay.
-Linearisation with_flags(const Problem& problem, const Linearisation& l, const std::vector<char>& active, const Vector& rho) {
-  Linearisation changed = from_flags(problem, active, rho);
-  for (int r = 0; r < problem.rows(); ++r)
-    if (active[r] == l.active[r]) {
-      changed.y[r] = l.y[r];
-      changed.value[r] = l.value[r];
-      changed.slope[r] = l.slope[r];
-      changed.active[r] = l.active[r];
-      changed.slipping[r] = l.slipping[r];
+/// Motions that the active rows leave free, as an orthonormal basis.
+SparseMatrix free_motions(const SparseRows& N, const std::vector<char>& active) {
+  SparseMatrix held = N;
+  held.prune([&](int row, int, double) { return active[static_cast<std::size_t>(row)] != 0; });
+  return algebra::range_and_null(held, problem::kNotAtAll).unseen;
+}
+
+/// Adds rows to `active` until the active rows hold every motion that rows notice: while one is
+/// free, the bodies move along the load's part of it (or, without one, towards the nearest row)
+/// until further rows close. `x` = Bu − c says where the rows are, λ what those bear that are not active: the least
+/// or the greatest that their law allows. Throws InputError where nothing would ever stop the motion.
+void hold(const Problem& problem, const problem::RigidMotions& rigid, std::vector<char>& active, const Vector& x, const Vector& lambda) {
+  if (rigid.noticed_e.size() == 0) return;
+  const SparseRows N = rigid.noticed_N;
+  // How far each row, moving by `approach` per unit, has to go until its λ follows x; infinite where it is, or never does, and of friction.
+  const auto distances = [&, rows = problem.scalar_rows()](const Vector& approach) {
+    Vector far = Vector::Constant(problem.rows(), INFINITY);
+    for (const auto& [law, k, r] : rows) {
+      const auto [least, greatest] = law.multipliers(k);
+      const auto [low, high] = problem::following(law, k);
+      const bool above = lambda[r] >= greatest;
+      const double end = above ? high : low;
+      if (!active[r] && std::isfinite(end) && least != greatest && (above ? -approach[r] : approach[r]) > kApproaches) far[r] = (end - x[r]) / approach[r];
     }
-  for (const Linearisation::Slip& s : l.slips)
-    if (changed.slipping[s.row]) changed.slips.push_back(s);
-  return changed;
+    return far;
+  };
+  const auto nearest = [](const Vector& far) { return far.minCoeff<Eigen::PropagateNumbers>(); };
+  for (;;) {
+    const SparseMatrix free = free_motions(N, active);
+    if (free.cols() == 0) return;
+    Vector driving = rigid.noticed_e;
+    for (int r = 0; r < problem.rows(); ++r)
+      if (!active[r] && lambda[r] != 0) driving -= lambda[r] * Vector(N.row(r).transpose());
+    Vector motion = free * Vector(free.transpose() * driving);
+    if (!(motion.norm() > 1e-10 * rigid.e.norm())) {
+      // No load drives it: towards the nearer side, for a state that multipliers can belong to.
+      motion = free.col(0);
+      if (nearest(distances(-(N * motion))) < nearest(distances(N * motion))) motion = -motion;
+    }
+    motion /= motion.lpNorm<Eigen::Infinity>();
+    const Vector far = distances(N * motion);
+    const double first = nearest(far);
+    if (!std::isfinite(first))
+      throw InputError(text("not held: nothing stops ", problem::describe(rigid.motions, rigid.noticed * motion),
+                            "; fix, slide or spring a part, or add a contact in its way"));
+    for (int r = 0; r < problem.rows(); ++r)
+      if (far[r] <= first + 1e-9 * std::abs(first)) active[r] = 1;
+  }
 }
 
 }  // namespace
 
 SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor& monitor)
     : problem(problem), settings(settings), monitor(monitor), solvable(require_solvable(problem, result.clock, monitor)),
-      rho(settings.rho * problem.row_stiffness()), holder_(problem, rigid), compliance_(problem.row_compliance()), parts_(problem::parts(problem)) {
+      rho(settings.rho * problem.row_stiffness()), compliance_(problem.row_compliance()), parts_(problem::parts(problem)) {
   // A row that no unknown moves has no stiffness; any ρ will do.
   const double largest = rho.size() && rho.maxCoeff() > 0 ? rho.maxCoeff() : 1;
   for (int r = 0; r < rho.size(); ++r)
@@ -49,7 +89,11 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
   result.method = settings.reduced ? "pdas" : "pdas (held)";
   place_screws();
   l = held(from_flags(problem, first_active(problem, settings.start), rho), -problem.c);
-  step = make_step();
+  if (settings.reduced) condensed();
+  step = screws             ? screw_step(*condensed_, rho, *screws)
+         : settings.reduced ? reduced_step(*condensed_, rho)
+         : settings.step    ? settings.step(problem, rigid, rho)
+                            : held_step(problem, stiffness(), rho);
 }
 
 void SetIteration::place_screws() {
@@ -71,14 +115,6 @@ bool SetIteration::move_screws() {
   l = held(std::move(l), x);
   seen_.clear();
   return true;
-}
-
-std::unique_ptr<Step> SetIteration::make_step() {
-  if (settings.reduced) condensed();
-  return screws             ? screw_step(*condensed_, rho, *screws)
-         : settings.reduced ? reduced_step(*condensed_, rho)
-         : settings.step    ? settings.step(problem, rigid, rho)
-                            : held_step(problem, stiffness(), rho);
 }
 
 const problem::CondensedProblem& SetIteration::condensed() {
@@ -105,9 +141,13 @@ Linearisation SetIteration::held(Linearisation l, const Vector& x) const {
   if (screws)
     for (int r : screws->rows()) active[r] = 1;
   for (Eigen::Index r = 0; r < x.size(); ++r) active[r] |= l.slipping[r];  // bounds hold as well, or the load could not be borne
-  holder_.hold(active, x, l.value);
+  hold(problem, rigid, active, x, l.value);
   for (Eigen::Index r = 0; r < x.size(); ++r) active[r] &= !l.slipping[r];
-  return active == l.active ? l : with_flags(problem, l, active, rho);
+  if (active == l.active) return l;
+  const Linearisation flagged = from_flags(problem, active, rho);
+  for (int r = 0; r < problem.rows(); ++r)
+    if (active[r] != l.active[r]) l.set(r, flagged.y[r], {flagged.value[r], flagged.slope[r]});
+  return l;
 }
 
 End SetIteration::iterate(int most, int patience) {
@@ -137,10 +177,15 @@ std::optional<End> SetIteration::advance() {
   if (!problem.friction.empty()) result.slipping = l.slipping;
   seen_.insert(l.fingerprint());
   Vector next_lambda, next_x;
+  std::optional<End> failed;
   try {
-    if (!step->solve(l, next_lambda, next_x)) return stay(End::singular);
+    if (!step->solve(l, next_lambda, next_x)) failed = End::singular;
   } catch (const Interrupted&) {
-    return stay(End::interrupted);
+    failed = End::interrupted;
+  }
+  if (failed) {
+    step->go_back(0);  // the state stays that of the last solve
+    return failed;
   }
   std::swap(lambda, next_lambda);
   std::swap(x, next_x);
@@ -166,12 +211,6 @@ double SetIteration::off() const {
   const double force = lambda.norm();
   const Vector beyond = problem::distances_from_laws(problem, x, lambda, rho).cwiseAbs() - noise(lambda, x).force;
   return beyond.cwiseMax(0).norm() / (force > 0 ? force : 1);
-}
-
-/// The state stays that of the last solve.
-End SetIteration::stay(End end) {
-  step->go_back(0);
-  return end;
 }
 
 /// Halves the step from (λ, x) until the new state is nearer to its laws than (λ, x). False if the whole step is kept, because it
@@ -202,9 +241,7 @@ bool SetIteration::at_rest(const Linearisation& next) const {
 Linearisation SetIteration::follow() {
   Linearisation next = held(linearise(problem, lambda, x, rho, noise(lambda, x), &l), x);
   if (!problem.friction.empty()) next.off = off();
-  changed_.clear();
-  for (int r = 0; r < problem.rows(); ++r)
-    if (!next.same_piece(l, r)) changed_.push_back(r);
+  changed_ = next.changed(l);
   return next;
 }
 
@@ -227,8 +264,8 @@ void SetIteration::record(const Linearisation& next) {
   IterationInfo info;
   info.iteration = result.iterations;
   info.active = next.active_count();
-  for (const problem::FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k) info.stick += next.active[group.row(k)] != 0, info.active -= group.components * next.active[group.row(k)];
+  for (const auto& [group, k, first, n] : problem.friction_points())
+    info.stick += next.active[first] != 0, info.active -= group.components * next.active[first];
   info.slip = static_cast<int>(next.slips.size());
   info.changed = static_cast<int>(changed_.size());
   info.residual = problem::natural_residual(problem, x, lambda, rho);

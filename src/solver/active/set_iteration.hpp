@@ -8,7 +8,6 @@
 #include "base/stopwatch.hpp"
 #include "problem/parts.hpp"
 #include "solver/active/held_stiffness.hpp"
-#include "solver/active/hold.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/active/screws.hpp"
 #include "solver/core/require_solvable.hpp"
@@ -64,18 +63,15 @@ class SetIteration {
   void note_screws() { result.screws.push_back({screws->rows(), screws->regularity(), screws->determinant()}); }
   double noise_of_screws() const;
   bool move_screws();
-  std::unique_ptr<Step> make_step();
   bool crawls() const;
   std::optional<End> advance();
   Linearisation follow();
   double off() const;
-  End stay(End end);
   bool shorten(const algebra::Vector& from_lambda, const algebra::Vector& from_x);
   bool repeats(const Linearisation& next) const;
   bool at_rest(const Linearisation& next) const;
   void record(const Linearisation& next);
 
-  Holder holder_;
   algebra::Vector compliance_;  ///< of the rows
   problem::Parts parts_;
   problem::Condenser own_;
@@ -86,5 +82,25 @@ class SetIteration {
   bool sharp_ = false;  ///< From the first sharpened state on every state is sharpened, so that branches which come again tell a cycle.
   Stopwatch watch_;
 };
+
+/// What goes on where Newton steps of active sets do not come to rest. Each says in words what it has done, nothing where it has not been of use.
+using Rescue = std::string (*)(SetIteration&, SetIteration::End);
+
+/// Those that leave a linearisation to go on from, in the order in which they are tried:
+///   Gauss–Seidel sweeps that decrease the dual energy, of cycles, trying a Newton step after every few until one confirms its own active set;
+std::string by_sweeps(SetIteration& it, SetIteration::End end);
+///   a barrier method on the condensed rows;
+std::string by_barrier(SetIteration& it, SetIteration::End end);
+///   an interior point method on the unknowns, once.
+std::string by_interior_point(SetIteration& it, SetIteration::End end);
+
+/// Those that leave a solution (result.converged, λ and `settled`), and their reason; `why` they are asked:
+///   the active-set method of programs, from rest, which ends where laws are unilateral or linear;
+bool by_active_set(SetIteration& it, const std::string& why);
+///   the proximal point method, which converges from everywhere as the energy is convex, whatever the laws.
+bool by_proximal(SetIteration& it, const std::string& why);
+
+/// Where laws are off by more than rounding explains: a step of refinement, the same on all unknowns, the proximal point method.
+void confirm_laws(SetIteration& it);
 
 }  // namespace dotyk::solver

@@ -20,7 +20,6 @@ using algebra::Vector;
 using problem::CondensedProblem;
 using problem::FrictionGroup;
 using problem::Problem;
-using problem::RowGroup;
 
 constexpr int kMostBoundRows = 600;  // the programs are dense
 constexpr int kSides = 16;           // of the polygon around a disc
@@ -50,26 +49,22 @@ class FrictionPrograms {
  private:
   bool add_laws() {
     pushes_.assign(problem_.rows(), 0);
-    for (const RowGroup& group : problem_.groups)
-      for (int k = 0; k < group.count; ++k) {
-        const auto stiffness = group.law->linear_stiffness(k);
-        const int r = group.first + k;
-        if (group.law->unilateral()) pushes_[r] = 1, limit({{r, 1.0}});
-        else if (!stiffness) return false;
-        else if (std::isfinite(*stiffness)) W_(r, r) += root_[r] * root_[r] / *stiffness;  // λ_r x_r = λ_r²/k
-      }
+    for (const auto& [law, k, r] : problem_.scalar_rows()) {
+      const auto stiffness = law.linear_stiffness(k);
+      if (law.unilateral()) pushes_[r] = 1, limit({{r, 1.0}});
+      else if (!stiffness) return false;
+      else if (std::isfinite(*stiffness)) W_(r, r) += root_[r] * root_[r] / *stiffness;  // λ_r x_r = λ_r²/k
+    }
     return W_.allFinite();
   }
 
   bool add_friction() {
     slipping_ = DenseMatrix::Zero(W_.rows(), W_.rows());
-    for (const FrictionGroup& group : problem_.friction)
-      for (int k = 0; k < group.points(); ++k) {
-        const int n = group.normal[k], t = group.row(k);
-        const double mu = group.law->bound_slope(k);
-        if (group.law->bound(k, 0) > 0 || (mu > 0 && (n < 0 || !pushes_[n]))) return false;
-        add_point(n, t, group.components, mu);
-      }
+    for (const auto& [group, k, t, n] : problem_.friction_points()) {
+      const double mu = group.law->bound_slope(k);
+      if (group.law->bound(k, 0) > 0 || (mu > 0 && (n < 0 || !pushes_[n]))) return false;
+      add_point(n, t, group.components, mu);
+    }
     return true;
   }
 
@@ -178,8 +173,7 @@ std::optional<FrictionalMotion> stopped_by_friction_alone(const Problem& problem
 double friction_capacity(const Problem& problem, const FrictionalMotion& motion, const Vector& lambda) {
   const Vector slip = motion.rigid.N * motion.amounts;
   double sum = 0;
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k) sum += group.bound(k, lambda) * slip.segment(group.row(k), group.components).norm();
+  for (const auto& [group, k, t, n] : problem.friction_points()) sum += group.bound(k, lambda) * slip.segment(t, group.components).norm();
   return sum;
 }
 

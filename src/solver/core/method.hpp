@@ -3,20 +3,10 @@
 #include <functional>
 #include <optional>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
-#include "solver/core/advice.hpp"
-#include "solver/rows/row_iteration.hpp"
 #include "solver/core/treatable.hpp"
+#include "solver/rows/row_iteration.hpp"
 
 namespace dotyk::solver {
-
-/// What a run begins with; see Settings.
-struct Beginning {
-  std::vector<char> start;  ///< empty: the method's own choice
-  std::shared_ptr<problem::Condenser> condenser = nullptr;
-  std::shared_ptr<const problem::State> from = nullptr;
-};
 
 /// Any method with its options, by value: what a model needs to know of it. Made of anything derived
 /// from Settings for which there is a solve(problem, settings, monitor). Empty: none named.
@@ -31,9 +21,8 @@ class Method {
         decomposition_(decomposition_of(chosen)),
         run_([chosen](const problem::Problem& problem, Beginning from, Monitor& monitor) {
           Chosen started = chosen;
-          if (!from.start.empty()) started.start = std::move(from.start);
-          started.from = std::move(from.from);
-          started.condenser = std::move(from.condenser);
+          if (from.start.empty()) from.start = chosen.start;
+          static_cast<Beginning&>(started) = std::move(from);
           return ended(problem, solve(problem, started, monitor), started.tol, monitor);
         }),
         with_tol_([chosen](double tol) {
@@ -55,21 +44,15 @@ class Method {
     return run_(problem, std::move(from), monitor);
   }
   /// On a problem already condensed. Throws InputError for a method that works on bodies.
-  Result run(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) const {
-    if (!on_rows_) throw InputError(text("this method works on scenes alone; on rows alone work ", kRowMethods));
-    return ended(problem, solve(problem, condensed, *on_rows_, monitor), on_rows_->tol, monitor);
-  }
+  Result run(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) const;
   /// The method, where it works on the condensed problem alone; else null.
   const std::shared_ptr<const RowMethod>& on_rows() const { return on_rows_; }
 
  private:
-  /// The residuals that a scene measures are no more than so many times the natural residual that tol is about.
-  static constexpr double kMost = 1e4;
-  static Result ended(const problem::Problem& problem, Result result, double tol, Monitor& monitor) {
-    result.asked = kMost * tol;
-    if (!result.converged && !monitor.stop()) result.reason += advice(problem, result);
-    return result;
-  }
+  /// With what the method's tol explains, and advice where it has failed: that there may be no solution, where the load is on a motion that friction
+  /// alone stops and the state's pressures have less friction than it asks for; and a method to try next, one that can treat the problem and that
+  /// neither failed nor, by the reason, was tried.
+  static Result ended(const problem::Problem& problem, Result result, double tol, Monitor& monitor);
 
   template <class Chosen>
   static std::optional<problem::Decomposition> decomposition_of(const Chosen& chosen) {

@@ -76,20 +76,24 @@ struct Result {
   std::string ordering;  ///< the ordering used, "AMD", "METIS", …
 };
 
+/// What a run begins with.
+struct Beginning {
+  /// Rows taken as active at the start, one flag a row; empty: the method's own choice, mostly the rows whose gap is closed at rest.
+  std::vector<char> start;
+  /// Shared by problems that differ in f and c alone, for methods that condense; empty: condensed anew.
+  std::shared_ptr<problem::Condenser> condenser = nullptr;
+  /// A state of this problem to go on from, for methods that know more of one than which rows are active (RowMethod); beside it
+  /// `start` does not count. Empty: from rest.
+  std::shared_ptr<const problem::State> from = nullptr;
+};
+
 /// What every method takes.
-struct Settings {
+struct Settings : Beginning {
   double tol = 1e-10;        ///< on the relative natural residual
   int max_iterations = 100;
   algebra::Ordering ordering = algebra::Ordering::automatic;
-  /// Rows taken as active at the start, one flag a row; empty: the rows whose gap is closed at rest.
-  std::vector<char> start;
-  /// A state of this problem to go on from, for methods that know more of one than which rows are active (RowMethod); beside it
-  /// `start` does not count. Empty: from rest.
-  std::shared_ptr<const problem::State> from;
   /// Does the method begin anew, whatever `start` and `from` say?
   static constexpr bool begins_anew = false;
-  /// Shared by problems that differ in f and c alone, for methods that condense; empty: condensed anew.
-  std::shared_ptr<problem::Condenser> condenser;
 };
 
 /// K u = f for a problem without rows: order, factor, substitute. The yardstick of every other method.

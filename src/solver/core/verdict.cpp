@@ -69,7 +69,19 @@ void refuse_lost_motions(double softest, Result& result) {
   if (lost > result.noise) refuse(text("rounding may leave ", lost, " of a motion that supports hardly hold"), result);
 }
 
+std::size_t first_clause(const std::string& reason) { return std::min(reason.find("; "), reason.size()); }
+
 }  // namespace
+
+std::string ending(const Result& r) {
+  const std::size_t end = first_clause(r.reason);
+  return text(r.converged ? "converged: " : "NOT CONVERGED: ", r.reason.substr(0, end), " (", r.method, ", ", r.iterations,
+              r.iterations == 1 ? " iteration)" : " iterations)", r.reason.substr(end));
+}
+
+std::string doubt(const Result& r) {
+  return r.converged ? "" : "not converged: " + r.reason.substr(0, first_clause(r.reason));
+}
 
 bool loaded(const Problem& problem) {
   return std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& block) { return !block.f.isZero(0); });

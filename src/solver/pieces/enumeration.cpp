@@ -8,7 +8,6 @@
 #include "algebra/dense/polyhedron.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "solver/pieces/choices.hpp"
 #include "solver/rows/natural_map.hpp"
 #include "solver/core/require_solvable.hpp"
 
@@ -18,55 +17,87 @@ namespace {
 using algebra::DenseMatrix;
 using algebra::Vector;
 using problem::CondensedProblem;
-using problem::FrictionGroup;
 using problem::Problem;
-using problem::RowGroup;
 
 constexpr double kRelative = 1e-9;  ///< what counts as rounding in multipliers and jumps
 constexpr double kSingularPivot = 1e-11; ///< pivots below this part of the greatest are rounding
 constexpr double kNothing = 1e-13;  ///< of a family's size: rounding in its ends
+constexpr long kMostCombinations = 1L << 20;
+
+/// A row or two whose pieces are chosen together.
+struct Choice {
+  int row = -1;            ///< of contact
+  int tangent = -1;        ///< of friction
+  int pieces = 2;          ///< open, closed; stick, forward, backward; open, stick, forward, backward
+  double bound = 0;        ///< of given friction
+  double coefficient = 0;  ///< ∂b/∂λ_n
+};
+
+/// Of unilateral rows, alone or with the friction of the same point, and of given friction in the plane.
+std::vector<Choice> choices_of(const Problem& problem) {
+  std::vector<Choice> choices;
+  std::vector<int> choice_of(problem.rows(), -1);
+  for (const auto& [law, k, r] : problem.scalar_rows()) {
+    if (!law.unilateral()) continue;
+    choice_of[r] = static_cast<int>(choices.size());
+    choices.push_back({.row = r});
+  }
+  for (const problem::RowGroup& group : problem.groups)
+    if (group.count > 0 && !group.law->unilateral() && !group.law->linear_stiffness(0))
+      throw InputError(text("enumeration cannot treat the ", group.law->name(), " law of the ", group.name, group.law->springs(0) ? "; pdas can" : "; newton can"));
+  for (const auto& [group, k, first, n] : problem.friction_points()) {
+    const auto refuse = [&, &name = group.name](const char* why) {
+      throw InputError(text("enumeration cannot treat ", name, ": ", why, "; newton from several starts can (seed = 1, 2, …)"));
+    };
+    if (group.components != 1) refuse("in space slip has not finitely many pieces");
+    const double slope = group.law->bound_slope(k), bound = group.law->bound(k, 0);
+    if (slope > 0) {
+      const int at = choice_of[n];
+      if (at < 0 || choices[at].tangent >= 0) refuse("its normal rows are not contact rows of one point each");
+      choices[at].tangent = first, choices[at].coefficient = slope, choices[at].pieces = 4;
+    } else if (bound > 0) {
+      choices.push_back({.tangent = first, .pieces = 3, .bound = bound});
+    }
+  }
+  double combinations = 1;
+  for (const Choice& choice : choices) combinations *= choice.pieces;
+  if (combinations > kMostCombinations)
+    throw InputError(text("enumeration would try ", combinations, " combinations of the pieces of ", choices.size(),
+                          " contact and friction points; it takes up to ", kMostCombinations));
+  return choices;
+}
 
 class BranchSearch {
  public:
-  BranchSearch(const Problem& problem, const CondensedProblem& condensed, Monitor& monitor)
-      : problem_(problem), condensed_(condensed), monitor_(monitor), choices_(choices_of(problem)),
+  BranchSearch(const Problem& problem, const CondensedProblem& condensed, const problem::Clock& clock, Monitor& monitor)
+      : problem_(problem), condensed_(condensed), clock_(clock), monitor_(monitor), choices_(choices_of(problem)),
         map_(problem, condensed, stiffness_of_rows(condensed)), pieces_(problem.rows(), RowPiece::closed) {
-    for (const FrictionGroup& group : problem.friction)
-      for (int k = 0; k < group.points(); ++k) pieces_[group.row(k)] = RowPiece::open;  // without friction
+    for (const auto& point : problem.friction_points()) pieces_[point.first] = RowPiece::open;  // without friction
     // Rows of one piece are linear: what the map is anywhere.
     base_ = map_.sticking(std::vector<char>(problem.rows(), 0));
     scale_ = size(join({Vector::Zero(problem.rows()), Vector::Zero(condensed.kernel_size())}));
   }
 
   Enumeration run() {
-    std::vector<int> digit(choices_.size(), 0);
-    do {
-      if (++out_.tried % 1024 == 0 && monitor_.stop()) {
-        out_.complete = false;
-        break;
-      }
-      try_pieces(digit);
-    } while (advance(digit));
+    long combinations = 1;
+    for (const Choice& c : choices_) combinations *= c.pieces;
+    for (long i = 0; i < combinations && out_.complete; ++i) {
+      if (++out_.tried % 1024 == 0 && monitor_.stop()) out_.complete = false;
+      else try_pieces(i);
+    }
     finish();
     return std::move(out_);
   }
 
  private:
-  bool advance(std::vector<int>& digit) const {
-    for (std::size_t k = digit.size(); k-- > 0;) {
-      if (++digit[k] < choices_[k].pieces) return true;
-      digit[k] = 0;
-    }
-    return false;
-  }
-
-  /// The map on these pieces, as it is linearised.
-  NaturalMap::Value value(const std::vector<int>& digit) {
+  /// The map on one combination of pieces, as it is linearised. The last choice's pieces change first.
+  NaturalMap::Value value(long combination) {
     NaturalMap::Value v = base_;
     const auto close = [&](int row) { v.slope.emplace_back(row, row, 1.0); };
-    for (std::size_t k = 0; k < choices_.size(); ++k) {
+    for (std::size_t k = choices_.size(); k-- > 0;) {
       const Choice& c = choices_[k];
-      const RowPiece piece = static_cast<RowPiece>(c.pieces == 3 ? digit[k] + 1 : digit[k]);
+      const RowPiece piece = static_cast<RowPiece>(combination % c.pieces + (c.pieces == 3));
+      combination /= c.pieces;
       if (c.row >= 0) {
         pieces_[c.row] = piece == RowPiece::open ? RowPiece::open : RowPiece::closed;
         if (piece != RowPiece::open) close(c.row);
@@ -84,8 +115,8 @@ class BranchSearch {
     return v;
   }
 
-  void try_pieces(const std::vector<int>& digit) {
-    const NaturalMap::System system = map_.linearise(value(digit));
+  void try_pieces(long combination) {
+    const NaturalMap::System system = map_.linearise(value(combination));
     Vector solved(0);
     if (system.matrix.size() > 0) {
       const algebra::PivotedLu lu(system.matrix, kSingularPivot);
@@ -97,12 +128,9 @@ class BranchSearch {
         return;
       }
     }
-    Point at;
-    map_.take(system, solved, at.lambda, at.alpha);
+    const Iterate at = map_.take(system, solved);
     if (at.lambda.allFinite()) add(at);
   }
-
-  struct Point { Vector lambda, alpha; };
 
   /// Of all that the singular system allows, what the signs and bounds of the pieces leave.
   void add_family(const NaturalMap::System& system, const Vector& solved, const DenseMatrix& kernel) {
@@ -110,11 +138,11 @@ class BranchSearch {
     const Vector least = solved - Z * (Z.transpose() * solved);
     Members members;
     members.pieces = pieces_;
-    const Vector origin = members.origin = coordinates(system, least);
+    const Vector origin = members.origin = join(map_.take(system, least));
     if (const double greatest = std::max(size(origin), scale_); greatest > 0) members.size = greatest;
     members.directions = DenseMatrix(origin.size(), Z.cols());
     for (Eigen::Index k = 0; k < Z.cols(); ++k)  // steps of the origin's size, so that their difference keeps its digits
-      members.directions.col(k) = (coordinates(system, least + members.size * Z.col(k)) - origin) / members.size;
+      members.directions.col(k) = (join(map_.take(system, least + members.size * Z.col(k))) - origin) / members.size;
     members.inequalities(*this);
     members.set = algebra::polyhedron(members.A, members.b, kRelative);
     const int dimension = members.set.dimension(kRelative);
@@ -123,18 +151,13 @@ class BranchSearch {
   }
 
   /// (v, x̃, a) in one unit, the root of an energy: scaled multipliers, jumps and motions.
-  Vector coordinates(const NaturalMap::System& system, const Vector& solved) const {
-    Point at;
-    map_.take(system, solved, at.lambda, at.alpha);
-    return join(at);
-  }
-  Vector join(const Point& at) const {
+  Vector join(const Iterate& at) const {
     const Vector x = condensed_.jump(at.lambda, at.alpha).cwiseProduct(map_.rho().cwiseSqrt());
     Vector all(2 * x.size() + at.alpha.size());
     all << map_.scaled_lambda(at.lambda), x, map_.scaled_alpha(at.alpha);
     return all;
   }
-  Point split(const Vector& all) const {
+  Iterate split(const Vector& all) const {
     const Eigen::Index m = problem_.rows();
     return {map_.lambda(all.head(m)), map_.alpha(all.tail(all.size() - 2 * m))};
   }
@@ -159,32 +182,27 @@ class BranchSearch {
     /// What the pieces ask for, each a functional of the coordinates that is not negative.
     void inequalities(const BranchSearch& search) {
       const Eigen::Index m = search.problem_.rows();
-      std::vector<Vector> wanted;
-      const auto want = [&](Eigen::Index i, double factor, Eigen::Index j = 0, double other = 0) {
-        Vector w = Vector::Zero(origin.size());
-        w[i] += factor;
-        w[j] += other;
-        wanted.push_back(std::move(w));
-      };
-      std::vector<double> constant;
+      std::vector<std::pair<Vector, double>> wanted;  // the constants of the functionals beside
+      const auto want = [&](Eigen::Index i, double factor) -> auto& { return wanted.emplace_back(factor * Vector::Unit(origin.size(), i), 0); };
       for (const Choice& c : search.choices_) {
         if (c.row >= 0) pieces[c.row] == RowPiece::open ? want(m + c.row, -1) : want(c.row, 1);
-        if (c.row >= 0) constant.push_back(0);
         if (c.tangent < 0) continue;
         const RowPiece piece = pieces[c.tangent];
-        if (piece == RowPiece::forward) want(m + c.tangent, 1), constant.push_back(0);
-        if (piece == RowPiece::backward) want(m + c.tangent, -1), constant.push_back(0);
+        if (piece == RowPiece::forward) want(m + c.tangent, 1);
+        if (piece == RowPiece::backward) want(m + c.tangent, -1);
         if (piece != RowPiece::closed) continue;
         for (const double side : {1.0, -1.0}) {  // a point has one ρ
-          want(c.tangent, side, std::max(c.row, 0), c.row >= 0 ? c.coefficient : 0);
-          constant.push_back(c.bound / std::sqrt(search.map_.rho()[c.tangent]));
+          auto& [functional, constant] = want(c.tangent, side);
+          if (c.row >= 0) functional[c.row] += c.coefficient;
+          constant = c.bound / std::sqrt(search.map_.rho()[c.tangent]);
         }
       }
       A = DenseMatrix(static_cast<Eigen::Index>(wanted.size()), directions.cols());
       b = Vector(A.rows());
       for (Eigen::Index k = 0; k < A.rows(); ++k) {
-        A.row(k) = -wanted[k].transpose() * directions;
-        b[k] = (constant[k] + wanted[k].dot(origin)) / size;
+        const auto& [functional, constant] = wanted[k];
+        A.row(k) = -functional.transpose() * directions;
+        b[k] = (constant + functional.dot(origin)) / size;
         if (A.row(k).norm() <= kRelative) A.row(k).setZero();
       }
     }
@@ -208,17 +226,14 @@ class BranchSearch {
         all.push_back(at(set.vertices.col(k)).unaryExpr([&](double v) { return std::abs(v) > kNothing * size ? v : 0.0; }));
       return all;
     }
-    bool meets(const Members& other) const {
-      for (const Vector& point : other.ends())
-        if (contains(point)) return true;
-      for (const Vector& point : ends())
-        if (other.contains(point)) return true;
-      return false;
+    bool has_end_of(const Members& other) const {
+      const std::vector<Vector> points = other.ends();
+      return std::any_of(points.begin(), points.end(), [&](const Vector& point) { return contains(point); });
     }
   };
 
-  void add(const Point& at) {
-    const NaturalMap::Value v = map_.at(at.lambda, at.alpha);
+  void add(const Iterate& at) {
+    const NaturalMap::Value v = map_.at(at);
     const double size = at.lambda.norm() + v.y.norm();
     if (!(v.norm <= kRelative * size)) return;
     // Without force friction may point to either side, but a piece is slip to its own side.
@@ -235,14 +250,17 @@ class BranchSearch {
     found_.push_back({at.lambda, v.y, join(at)});
   }
 
-  Enumeration::Solution solution(const Point& at, const std::vector<RowPiece>& pieces) const {
-    const NaturalMap::Value v = map_.at(at.lambda, at.alpha);
+  Enumeration::Solution solution(const Iterate& at, const std::vector<RowPiece>& pieces) const {
+    const NaturalMap::Value v = map_.at(at);
     Enumeration::Solution out;
     out.result.state = {condensed_.recover(at.lambda, at.alpha), at.lambda};
     out.result.converged = true;
     out.result.method = "enumeration";
     out.result.active_sets = {v.closed};
     out.result.slipping = v.slipping;
+    out.result.clock = clock_;
+    out.result.ordering = condensed_.ordering();
+    out.result.factor_bytes = condensed_.factor_bytes();
     out.pieces = {pieces};
     return out;
   }
@@ -260,17 +278,20 @@ class BranchSearch {
       if (std::any_of(all.begin(), all.end(), [&](const Members& family) { return family.contains(found_[k].coordinates); }))
         out_.solutions.erase(out_.solutions.begin() + static_cast<std::ptrdiff_t>(k));
     for (const Members& family : all) out_.families.push_back(report(family));
-    connect(all);
+    int sets = 0;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (out_.families[k].connected < 0) connect(all, k, sets++);
     const std::string summary = out_.summary();
     for (std::size_t k = 0; k < out_.solutions.size(); ++k)
       out_.solutions[k].result.reason = text("number ", k + 1, " of ", summary);
-    for (std::size_t f = 0; f < out_.families.size(); ++f)
-      for (std::size_t k = 0; k < out_.families[f].ends.size(); ++k)
-        out_.families[f].ends[k].result.reason = text("end ", k + 1, " of ", out_.families[f].ends.size(), " of family ", f + 1, " of ", summary);
+    for (std::size_t f = 0; f < all.size(); ++f)
+      for (auto& ends = out_.families[f].ends; Enumeration::Solution& end : ends)
+        end.result.reason = text("end ", &end - ends.data() + 1, " of ", ends.size(), " of family ", f + 1, " of ", summary);
   }
 
   Enumeration::Family report(const Members& members) const {
     Enumeration::Family family;
+    family.connected = -1;
     family.dimension = members.set.dimension(kRelative);
     for (const Vector& end : members.ends()) family.ends.push_back(solution(split(end), members.pieces));
     family.unbounded = static_cast<int>(members.set.rays.cols() + 2 * members.set.lines.cols());
@@ -279,26 +300,17 @@ class BranchSearch {
     return family;
   }
 
-  void connect(const std::vector<Members>& all) {
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      out_.families[k].connected = static_cast<int>(k);
-      for (std::size_t j = 0; j < k; ++j) {
-        const int mine = out_.families[k].connected, its = out_.families[j].connected;
-        if (mine == its || !all[k].meets(all[j])) continue;
-        for (Enumeration::Family& family : out_.families)
-          if (family.connected == mine) family.connected = its;
-      }
-    }
-    std::vector<int> sets;  // numbered as they come
-    for (Enumeration::Family& family : out_.families) {
-      if (std::find(sets.begin(), sets.end(), family.connected) == sets.end()) sets.push_back(family.connected);
-      family.connected = static_cast<int>(std::find(sets.begin(), sets.end(), family.connected) - sets.begin());
-    }
+  /// Numbers a family, those that it meets, and so on.
+  void connect(const std::vector<Members>& all, std::size_t k, int set) {
+    out_.families[k].connected = set;
+    for (std::size_t j = 0; j < all.size(); ++j)
+      if (out_.families[j].connected < 0 && (all[k].has_end_of(all[j]) || all[j].has_end_of(all[k]))) connect(all, j, set);
   }
 
   struct Found { Vector lambda, y, coordinates; };
   const Problem& problem_;
   const CondensedProblem& condensed_;
+  const problem::Clock& clock_;
   Monitor& monitor_;
   const std::vector<Choice> choices_;
   const NaturalMap map_;
@@ -332,17 +344,7 @@ Enumeration enumerate(const Problem& problem, Monitor& monitor) {
   problem::Clock clock;
   const problem::RigidMotions rigid = require_solvable(problem, clock, monitor).rigid;
   const CondensedProblem condensed(problem, rigid, algebra::Ordering::automatic, clock, monitor);
-  Enumeration all = BranchSearch(problem, condensed, monitor).run();
-  const auto complete = [&](std::vector<Enumeration::Solution>& solutions) {
-    for (Enumeration::Solution& solution : solutions) {
-      solution.result.clock = clock;
-      solution.result.ordering = condensed.ordering();
-      solution.result.factor_bytes = condensed.factor_bytes();
-    }
-  };
-  complete(all.solutions);
-  for (Enumeration::Family& family : all.families) complete(family.ends);
-  return all;
+  return BranchSearch(problem, condensed, clock, monitor).run();
 }
 
 }  // namespace dotyk::solver

@@ -33,10 +33,10 @@ constexpr double kComplementary = 1e-8;  // a column this small, relative to the
 class DepthFirstSearch {
  public:
   DepthFirstSearch(const PieceProgramme& programme, const Attempt& attempt, Monitor& monitor)
-      : on_(programme), attempt_(attempt), monitor_(monitor), low_(on_.low()), high_(on_.high()) {}
+      : on_(programme), attempt_(attempt), monitor_(monitor) {}
 
   PieceSearch run() {
-    const std::optional<Pairs> conflict = visit(solved({low_, high_, std::vector<int>(low_.size(), -1)}, Vector()));
+    const std::optional<Pairs> conflict = visit(solved({on_.low, on_.high, std::vector<int>(on_.low.size(), -1)}, Vector()));
     if (conflict) out_.verdict = PieceSearch::Verdict::none;
     else if (out_.verdict == PieceSearch::Verdict::undecided && out_.lambda.size() > 0) out_.verdict = PieceSearch::Verdict::near;
     return std::move(out_);
@@ -66,32 +66,24 @@ class DepthFirstSearch {
 
   void solve(Node& node, const Vector& start) const {
     try {
-      node.point = algebra::bounded_least_squares(on_.A(), on_.b(), node.low, node.high, kAngle, start);
+      node.point = algebra::bounded_least_squares(on_.A, on_.b, node.low, node.high, kAngle, start);
     } catch (const std::runtime_error&) {  // its active sets repeat
-      auto fitted = algebra::cone_least_squares(on_.transposed(), on_.b(), {{node.low.begin(), node.low.end()}, {node.high.begin(), node.high.end()}, {}}, 0.1 * kSolved);
+      auto fitted = algebra::cone_least_squares(on_.transposed, on_.b, {{node.low.begin(), node.low.end()}, {node.high.begin(), node.high.end()}, {}}, 0.1 * kSolved);
       node.point.x = std::move(fitted.x);
-      node.point.residual = on_.b() - on_.A() * node.point.x;
+      node.point.residual = on_.b - on_.A * node.point.x;
     }
-    node.end = excluded(node) ? End::excluded : node.point.residual.norm() <= kSolved * on_.b().norm() ? End::point : End::unknown;
+    node.end = excluded(node) ? End::excluded : node.point.residual.norm() <= kSolved * on_.b.norm() ? End::point : End::unknown;
   }
 
-  Node with_column_zero(const Node& of, int pair) {
+  /// One choice of the pair: its column or its others fixed at 0 or, with `at_high`, at their upper bounds.
+  Node with(const Node& of, int pair, const std::vector<int>& columns, bool at_high) {
     Node node{of.low, of.high, of.chosen};
-    bind(node, on_.pairs()[pair].column, pair, false);
+    for (const int j : columns) {
+      if (at_high) node.low[j] = node.high[j];
+      else node.high[j] = 0;
+      if (node.chosen[j] < 0) node.chosen[j] = pair;
+    }
     return solved(std::move(node), of.point.x);
-  }
-
-  Node with_others_at_bounds(const Node& of, int pair) {
-    Node node{of.low, of.high, of.chosen};
-    for (const int j : on_.pairs()[pair].others) bind(node, j, pair, on_.pairs()[pair].at_high);
-    return solved(std::move(node), of.point.x);
-  }
-
-  /// Fixes a column at 0 or, with `at_high`, at its upper bound, as a choice of the pair asks.
-  static void bind(Node& node, int column, int pair, bool at_high) {
-    if (at_high) node.low[column] = node.high[column];
-    else node.high[column] = 0;
-    if (node.chosen[column] < 0) node.chosen[column] = pair;
   }
 
   /// Explores a node. Returns the pairs whose choices exclude it; nothing if a solution is found, or if parts of it stay undecided. Among the
@@ -103,7 +95,8 @@ class DepthFirstSearch {
       if (over() || taken(node, worst.empty()) || worst.empty()) return std::nullopt;
       std::optional<Node> only, first, second;
       for (const int pair : worst) {
-        Node closed = with_column_zero(node, pair), open = with_others_at_bounds(node, pair);
+        const auto& [column, others, at_high] = on_.pairs[pair];
+        Node closed = with(node, pair, {column}, false), open = with(node, pair, others, at_high);
         if (closed.end == End::excluded || open.end == End::excluded) {
           const bool first_out = closed.end == End::excluded;
           forced.push_back({pair, first_out ? std::move(closed.conflict) : std::move(open.conflict)});
@@ -151,14 +144,14 @@ class DepthFirstSearch {
   /// Does the residual r prove that the programme has no feasible point? By Farkas' lemma it does if rᵀ(b − A z) > 0 for all z within the bounds.
   bool excluded(Node& node) const {
     const double left = node.point.residual.norm();
-    if (!(left > kSolved * on_.b().norm())) return false;
-    const Vector along = on_.A().transpose() * node.point.residual / left;
+    if (!(left > kSolved * on_.b.norm())) return false;
+    const Vector along = on_.A.transpose() * node.point.residual / left;
     double reach = 0;
     std::map<int, double> wider;  // by pair: how much `reach` would grow without its choice
     for (Eigen::Index j = 0; j < along.size(); ++j) {
       const double bound = along[j] > 0 ? node.high[j] : node.low[j];
       reach += along[j] * (bound - node.point.x[j]);
-      if (node.chosen[j] >= 0) wider[node.chosen[j]] += along[j] * ((along[j] > 0 ? high_[j] : low_[j]) - bound);
+      if (node.chosen[j] >= 0) wider[node.chosen[j]] += along[j] * ((along[j] > 0 ? on_.high[j] : on_.low[j]) - bound);
     }
     if (!(reach < 0.5 * left)) return false;
     for (const auto& [pair, more] : wider) {
@@ -172,8 +165,8 @@ class DepthFirstSearch {
   std::vector<int> broken(const Node& node) const {
     const Vector& z = node.point.x;
     std::vector<std::pair<double, int>> all;
-    for (std::size_t i = 0; i < on_.pairs().size(); ++i) {
-      const Pair& pair = on_.pairs()[i];
+    for (std::size_t i = 0; i < on_.pairs.size(); ++i) {
+      const Pair& pair = on_.pairs[i];
       double off = 0;
       for (const int j : pair.others) off += pair.at_high ? node.high[j] - z[j] : z[j];
       if (std::min(z[pair.column], off) > kComplementary * z.norm()) all.push_back({-z[pair.column] * off, static_cast<int>(i)});
@@ -188,7 +181,6 @@ class DepthFirstSearch {
   const PieceProgramme& on_;
   const Attempt& attempt_;
   Monitor& monitor_;
-  const Vector low_, high_;
   PieceSearch out_;
 };
 
@@ -196,8 +188,8 @@ class DepthFirstSearch {
 
 PieceSearch search_pieces(const Problem& problem, const CondensedProblem& condensed, const Attempt& attempt, Monitor& monitor) {
   if (problem.rows() == 0 || problem.rows() > kMostRows || !tells_springs(problem)) return {};
-  const PieceProgramme programme(problem, condensed);
-  return programme.treatable() ? DepthFirstSearch(programme, attempt, monitor).run() : PieceSearch{};
+  const auto programme = piece_programme(problem, condensed);
+  return programme ? DepthFirstSearch(*programme, attempt, monitor).run() : PieceSearch{};
 }
 
 }  // namespace dotyk::solver

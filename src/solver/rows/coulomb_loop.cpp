@@ -49,11 +49,11 @@ void CoulombLoop::iterate(RowIteration& it) const {
   while (it.next()) {
     freeze(rows, bounds);
     RowIteration given(rows, it, settings, inner->map_weight(), monitor);
-    if (it.iterations() > 1 || it.begun()) given.begin_at(it.lambda(), it.alpha());
+    if (it.iterations() > 1 || it.begun()) given.begin_at(it.at());
     inner->iterate(given);
     const Result solved = given.finish();
     inner_iterations += solved.iterations;
-    it.move_to(given.lambda(), given.alpha());
+    it.move_to(given.at());
     const Vector next = friction_bounds(it.problem, it.lambda());
     double factor = 0;
     if (const double change = (next - bounds).norm(); change < kNoSlip && change > kNoise * next.norm()) {

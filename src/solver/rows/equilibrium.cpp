@@ -10,11 +10,10 @@ namespace dotyk::solver {
 using algebra::DenseMatrix;
 using algebra::Vector;
 
-Equilibrium::Equilibrium(const problem::CondensedProblem& condensed, Vector start, double weight)
-    : condensed_(condensed), alpha_(std::move(start)) {
+Equilibrium::Equilibrium(const problem::CondensedProblem& condensed, double weight)
+    : condensed_(condensed), alpha_(Vector::Zero(condensed.kernel_size())) {
   if (!needed()) return;
-  const DenseMatrix& N = condensed.N();
-  auto [Q, R] = algebra::orthogonal_factors(N);
+  auto [Q, R] = algebra::orthogonal_factors(condensed.N());
   Q_ = std::move(Q), R_ = std::move(R);
   e_ = R_.transpose().triangularView<Eigen::Lower>().solve(condensed.e());
   const double largest = algebra::largest_eigenvalue(condensed.W());
@@ -22,8 +21,10 @@ Equilibrium::Equilibrium(const problem::CondensedProblem& condensed, Vector star
   augmented_ = condensed.W() + gamma_ * Q_ * Q_.transpose();
 }
 
-void Equilibrium::go_on_from(const Vector& lambda, const Vector& alpha) {
-  if (needed()) alpha_ += alpha - this->alpha(lambda);
+Equilibrium::Equilibrium(const RowIteration& iteration, double weight) : Equilibrium(iteration.condensed, weight) {
+  if (!iteration.begun() || !needed()) return;
+  alpha_ = iteration.alpha();
+  alpha_ += iteration.alpha() - alpha(iteration.lambda());
 }
 
 Vector Equilibrium::x0() const {
@@ -41,14 +42,26 @@ Vector Equilibrium::alpha(const Vector& lambda) const {
   return alpha_ - gamma_ * R_.triangularView<Eigen::Upper>().solve(excess(lambda));
 }
 
-double Equilibrium::unbalanced(const Vector& lambda) const { return needed() ? excess(lambda).norm() : 0; }
+Iterate Equilibrium::at(Vector lambda) const {
+  Vector amounts = alpha(lambda);
+  return {std::move(lambda), std::move(amounts)};
+}
 
-void Equilibrium::update(const Vector& lambda) { alpha_ = alpha(lambda); }
-
-bool Equilibrium::settle(double residual, const Vector& lambda) {
-  if (!needed() || residual > unbalanced(lambda) / 3) return false;
-  update(lambda);
+bool Equilibrium::settle(RowIteration& iteration) {
+  if (!needed() || iteration.law_residual() > unbalanced(iteration.lambda()) / 3) return false;
+  update(iteration.lambda());
+  iteration.move_to(at(iteration.lambda()));
   return true;
+}
+
+void iterate(RowIteration& it, Equilibrium& equilibrium, const std::function<Vector(Vector, Vector)>& next) {
+  it.move_to(equilibrium.at(it.lambda()));
+  while (it.next()) {
+    it.move_to(equilibrium.at(next(it.lambda(), it.jump())));
+    if (it.record()) break;
+    equilibrium.settle(it);
+    if (it.stalled()) break;
+  }
 }
 
 }  // namespace dotyk::solver

@@ -13,27 +13,21 @@ namespace dotyk::solver {
 using algebra::DenseMatrix;
 using algebra::SparseRows;
 using algebra::Vector;
-using problem::FrictionGroup;
 using problem::Problem;
-using problem::RowGroup;
 
 Vector stiffness_of_rows(const problem::CondensedProblem& condensed) {
   const Vector compliance = condensed.W().diagonal();
   const double least = compliance.size() ? 1e-14 * compliance.maxCoeff() : 0;
-  Vector stiffness(compliance.size());
-  double greatest = 0;
-  for (Eigen::Index r = 0; r < compliance.size(); ++r)
-    if (compliance[r] > least) greatest = std::max(greatest, stiffness[r] = 1 / compliance[r]);
-  for (Eigen::Index r = 0; r < compliance.size(); ++r)
-    if (!(compliance[r] > least)) stiffness[r] = greatest > 0 ? greatest : 1;
-  return stiffness;
+  const auto yields = compliance.array() > least;
+  const Vector stiffness = yields.select(compliance.cwiseInverse(), 0.0);
+  const double greatest = stiffness.size() ? stiffness.maxCoeff() : 0;
+  return yields.select(stiffness, greatest > 0 ? greatest : 1.0);
 }
 
 NaturalMap::NaturalMap(const Problem& problem, const problem::CondensedProblem& condensed, const Vector& rho)
     : problem_(&problem), condensed_(&condensed), rho_(rho) {
-  for (const FrictionGroup& group : problem.friction)  // the projection onto a disc needs one ρ
-    for (int k = 0; k < group.points(); ++k)
-      rho_.segment(group.row(k), group.components).setConstant(rho[group.scale_row(k)]);
+  for (const auto& [group, k, first, n] : problem.friction_points())  // the projection onto a disc needs one ρ
+    rho_.segment(first, group.components).setConstant(rho[group.scale_row(k)]);
   root_ = rho_.cwiseSqrt();
   const DenseMatrix N = root_.asDiagonal() * condensed.N();
   if (N.size() == 0) return;
@@ -49,12 +43,9 @@ Vector NaturalMap::scaled_alpha(const Vector& alpha) const {
   return alpha.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>() * alpha) : alpha;
 }
 
-Vector NaturalMap::scaled_load(const Vector& e) const {
-  return e.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>().transpose().solve(e)) : e;
-}
-
 Vector NaturalMap::unbalanced(const Vector& lambda) const {
-  return scaled_load(condensed_->e() - condensed_->N().transpose() * lambda);
+  const Vector left = condensed_->e() - condensed_->N().transpose() * lambda;
+  return left.size() > 0 ? Vector(R_.triangularView<Eigen::Upper>().transpose().solve(left)) : left;
 }
 
 Vector NaturalMap::balancing(const Vector& unbalanced) const {
@@ -83,34 +74,32 @@ NaturalMap::Value NaturalMap::with_jump(const Vector& lambda, Vector x) const {
   v.slipping.assign(m, 0);
   v.piece.assign(m, 0);
   Vector slope = Vector::Zero(m);
-  for (const RowGroup& group : problem_->groups)
-    for (int r = group.first; r < group.first + group.count; ++r) {
-      const problem::Projection p = group.law->project(r - group.first, v.y[r], rho_[r]);
-      v.projected[r] = p.lambda;
-      slope[r] = p.slope;
-      if (p.slope == 0) continue;
-      v.slope.emplace_back(r, r, p.slope);
-      v.closed[r] = 1;
-      v.piece[r] = p.lambda < 0 && problem::kinked_at_zero(*group.law, r - group.first) ? 2 : 1;
-      ++v.active;
+  for (const auto& [law, k, r] : problem_->scalar_rows()) {
+    const problem::Projection p = law.project(k, v.y[r], rho_[r]);
+    v.projected[r] = p.lambda;
+    slope[r] = p.slope;
+    if (p.slope == 0) continue;
+    v.slope.emplace_back(r, r, p.slope);
+    v.closed[r] = 1;
+    v.piece[r] = p.lambda < 0 && problem::kinked_at_zero(law, k) ? 2 : 1;
+    ++v.active;
+  }
+  for (const auto& [group, k, first, n] : problem_->friction_points()) {
+    const int d = group.components;
+    const double bound = group.bound(k, v.projected);
+    if (bound == 0) continue;  // open, or without friction here
+    const problem::DiscProjection p = problem::project_disc(v.y.segment(first, d), bound);
+    v.projected.segment(first, d) = p.value;
+    for (int i = 0; i < d; ++i) {
+      for (int j = 0; j < d; ++j)
+        if (p.slope(i, j) != 0) v.slope.emplace_back(first + i, first + j, p.slope(i, j));
+      const double by_normal = n < 0 ? 0 : p.by_bound[i] * group.law->bound_slope(k) * slope[n];
+      if (by_normal != 0) v.slope.emplace_back(first + i, n, by_normal);
+      v.piece[first + i] = p.stick ? 1 : 2;
+      v.slipping[first + i] = !p.stick;
     }
-  for (const FrictionGroup& group : problem_->friction)
-    for (int k = 0; k < group.points(); ++k) {
-      const int first = group.row(k), n = group.normal[k], d = group.components;
-      const double bound = group.bound(k, v.projected);
-      if (bound == 0) continue;  // open, or without friction here
-      const problem::DiscProjection p = problem::project_disc(v.y.segment(first, d), bound);
-      v.projected.segment(first, d) = p.value;
-      for (int i = 0; i < d; ++i) {
-        for (int j = 0; j < d; ++j)
-          if (p.slope(i, j) != 0) v.slope.emplace_back(first + i, first + j, p.slope(i, j));
-        const double by_normal = n < 0 ? 0 : p.by_bound[i] * group.law->bound_slope(k) * slope[n];
-        if (by_normal != 0) v.slope.emplace_back(first + i, n, by_normal);
-        v.piece[first + i] = p.stick ? 1 : 2;
-        v.slipping[first + i] = !p.stick;
-      }
-      ++(p.stick ? v.stick : v.slip);
-    }
+    ++(p.stick ? v.stick : v.slip);
+  }
   const Vector unbalanced = condensed_->e() - condensed_->N().transpose() * lambda;
   v.norm = std::sqrt((lambda - v.projected).squaredNorm() + unbalanced.squaredNorm());
   v.scaled_norm = (lambda - v.projected).cwiseQuotient(root_).norm();
@@ -123,8 +112,7 @@ NaturalMap::Value NaturalMap::sticking(const std::vector<char>& start) const {
   Value v = at(Vector::Zero(m), Vector::Zero(condensed_->kernel_size()));
   const std::vector<char> closed = first_active(*problem_, start);
   std::vector<char> scalar(m, 0);
-  for (const RowGroup& group : problem_->groups)
-    for (int r = group.first; r < group.first + group.count; ++r) scalar[r] = !group.law->unilateral() && closed[r];
+  for (const auto& [law, k, r] : problem_->scalar_rows()) scalar[r] = !law.unilateral() && closed[r];
   std::erase_if(v.slope, [&](const auto& t) { return !scalar[t.row()]; });
   for (int r = 0; r < m; ++r) {
     if (scalar[r]) continue;
@@ -173,11 +161,16 @@ NaturalMap::System NaturalMap::linearise(const Value& v) const {
   return system;
 }
 
-void NaturalMap::take(const System& system, const Vector& solved, Vector& lambda, Vector& alpha) const {
-  lambda = system.fixed;
+void NaturalMap::System::hold(double spring, const Vector& anchor) {
+  matrix.diagonal().tail(anchor.size()).array() += spring;
+  right_side.tail(anchor.size()) += spring * anchor;
+}
+
+Iterate NaturalMap::take(const System& system, const Vector& solved) const {
+  Iterate to{system.fixed, alpha(solved.tail(condensed_->kernel_size()))};
   for (std::size_t i = 0; i < system.rows.size(); ++i)
-    lambda[system.rows[i]] = solved[static_cast<Eigen::Index>(i)] * root_[system.rows[i]];
-  alpha = this->alpha(solved.tail(condensed_->kernel_size()));
+    to.lambda[system.rows[i]] = solved[static_cast<Eigen::Index>(i)] * root_[system.rows[i]];
+  return to;
 }
 
 }  // namespace dotyk::solver

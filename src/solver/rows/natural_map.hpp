@@ -2,9 +2,19 @@
 
 #include <vector>
 
+#include "algebra/dense/lu.hpp"
 #include "problem/condensed.hpp"
 
 namespace dotyk::solver {
+
+/// Multipliers of all rows, and amounts of rigid motions.
+struct Iterate {
+  algebra::Vector lambda, alpha;
+  bool finite() const { return lambda.allFinite() && alpha.allFinite(); }
+  friend Iterate operator+(const Iterate& a, const Iterate& b) { return {a.lambda + b.lambda, a.alpha + b.alpha}; }
+  friend Iterate operator-(const Iterate& a, const Iterate& b) { return {a.lambda - b.lambda, a.alpha - b.alpha}; }
+  friend Iterate operator*(double s, const Iterate& a) { return {s * a.lambda, s * a.alpha}; }
+};
 
 /// 1/W_rr, the stiffness (force per displacement) that each row sees; rows that nothing moves take the greatest
 /// of the others'.
@@ -33,6 +43,7 @@ class NaturalMap {
     int differences(const Value& other) const;
   };
   Value at(const algebra::Vector& lambda, const algebra::Vector& alpha) const { return with_jump(lambda, condensed_->jump(lambda, alpha)); }
+  Value at(const Iterate& it) const { return at(it.lambda, it.alpha); }
   /// The same where the jump is x, known better than the condensed problem does.
   Value with_jump(const algebra::Vector& lambda, algebra::Vector x) const;
   /// The pieces with every row that touches at rest closed and sticking (or those flagged).
@@ -59,16 +70,17 @@ class NaturalMap {
     algebra::Vector right_side;
     std::vector<int> rows;           ///< of the unknowns v
     algebra::Vector fixed;           ///< λ' of the other rows (0 on `rows`)
+    /// Holds motions by springs: δ(a − a₀) is added to the equations of equilibrium.
+    void hold(double spring, const algebra::Vector& anchor);
   };
   System linearise(const Value& v) const;
-  void take(const System& system, const algebra::Vector& solved, algebra::Vector& lambda,
-            algebra::Vector& alpha) const;
+  /// (λ', α') of a solution of the system; without one, of that by LU.
+  Iterate take(const System& system, const algebra::Vector& solved) const;
+  Iterate solve(const System& system) const { return take(system, algebra::Lu(system.matrix).solve(system.right_side)); }
 
   const algebra::Vector& rho() const { return rho_; }
 
  private:
-  algebra::Vector scaled_load(const algebra::Vector& e) const;  ///< R^{-T} e
-
   const problem::Problem* problem_;
   const problem::CondensedProblem* condensed_;
   algebra::Vector rho_, root_;  ///< ρ, √ρ

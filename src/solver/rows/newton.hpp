@@ -10,8 +10,8 @@ namespace dotyk::solver {
 /// (2.27), (3.23)), on the condensed problem: with x = x₀ − Wλ + Nα,
 ///   F_n = λ_n − P(λ_n + ρ x_n),   F_t = λ_t − π_b(λ_t + ρ x_t),   Nᵀλ = e,
 /// b the bound of given friction or μ (λ_n + ρ x_n)⁺ for Coulomb, with the exact derivative of both
-/// projections. Takes every scalar law as well. Damped and guarded by NewtonStepper; where that does not come near a
-/// solution, hand_over().
+/// projections. Takes every scalar law as well. Steps are damped and guarded; where they do not come near a
+/// solution, other methods follow, and of small problems with Coulomb friction search_pieces(), which may find that there is none (InputError).
 ///
 /// Is the derivative regular? In scaled unknowns (natural_map.hpp) it is G = I − S(I − W̃). Eliminating u
 /// from (2.27) gives det G(y) = det A det G, and, u in the norm of A, σ/(σ + 1 + M) ≤ σ_min(G(y)) ≤ σ = σ_min(G);

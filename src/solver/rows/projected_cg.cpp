@@ -8,8 +8,8 @@
 #include "solver/bounded/mprgp.hpp"
 #include "solver/bounded/opposed_springs.hpp"
 #include "solver/core/treatable.hpp"
+#include "solver/rows/equilibrium.hpp"
 #include "solver/rows/projection.hpp"
-#include "solver/rows/stationary_iteration.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -25,7 +25,7 @@ constexpr double kInnerPrecision = 0.1;
 class ProjectedCgRun {
  public:
   explicit ProjectedCgRun(RowIteration& it)
-      : it_(it), equilibrium_(equilibrium_of(it, kWeight)), split_(opposed_springs(laws_of(it.problem))), scale_(split_.from.size()) {
+      : it_(it), equilibrium_(it, kWeight), split_(opposed_springs(laws_of(it.problem))), scale_(split_.from.size()) {
     const Vector compliance = law_compliance(split_.problem);
     scale_ = (it.map.rho()(split_.from).cwiseInverse() + compliance).cwiseSqrt().cwiseInverse();
     added_ = scale_.cwiseAbs2().cwiseProduct(compliance);
@@ -38,7 +38,7 @@ class ProjectedCgRun {
     int updates = 0;
     while (it_.next()) {
       const bool made = inner_->step() != Mprgp::Step::none;
-      move_to(it_, equilibrium_, joined(scale_.cwiseProduct(inner_->x())));
+      it_.move_to(equilibrium_.at(joined(scale_.cwiseProduct(inner_->x()))));
       if (it_.record() || it_.stalled()) break;
       if (update_outer()) {
         ++updates;

@@ -3,35 +3,19 @@
 namespace dotyk::solver {
 
 using algebra::Vector;
-using problem::FrictionGroup;
 using problem::Problem;
-using problem::RowGroup;
-
-namespace {
-
-int friction_points(const Problem& problem) {
-  int count = 0;
-  for (const FrictionGroup& group : problem.friction) count += group.points();
-  return count;
-}
-
-}  // namespace
 
 Vector friction_bounds(const Problem& problem, const Vector& lambda) {
-  Vector bounds(friction_points(problem));
-  Eigen::Index point = 0;
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k) bounds[point++] = group.bound(k, lambda);
-  return bounds;
+  std::vector<double> bounds;
+  for (const auto& [group, k, first, n] : problem.friction_points()) bounds.push_back(group.bound(k, lambda));
+  return Eigen::Map<const Vector>(bounds.data(), static_cast<Eigen::Index>(bounds.size()));
 }
 
 Vector no_slip_bounds(const Problem& problem) {
-  Vector bounds = friction_bounds(problem, Vector::Zero(problem.rows()));
-  Eigen::Index point = 0;
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k, ++point)
-      if (group.law->bound_slope(k) > 0) bounds[point] = kNoSlip;
-  return bounds;
+  std::vector<double> bounds;
+  for (const auto& [group, k, first, n] : problem.friction_points())
+    bounds.push_back(group.law->bound_slope(k) > 0 ? kNoSlip : group.law->bound(k, 0));
+  return Eigen::Map<const Vector>(bounds.data(), static_cast<Eigen::Index>(bounds.size()));
 }
 
 Problem laws_of(const Problem& problem) {
@@ -46,17 +30,13 @@ Problem laws_of(const Problem& problem) {
 
 Vector project(const Problem& problem, const Vector& y, const Vector& rho, const Vector* bounds) {
   Vector lambda(y.size());
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r)
-      lambda[r] = group.law->project(r - group.first, y[r], rho[r]).lambda;
+  for (const auto& [law, k, r] : problem.scalar_rows()) lambda[r] = law.project(k, y[r], rho[r]).lambda;
   Eigen::Index point = 0;
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k, ++point) {
-      const auto own = y.segment(group.row(k), group.components);
-      const double bound = bounds ? (*bounds)[point] : group.bound(k, lambda);
-      const double length = own.norm();
-      lambda.segment(group.row(k), group.components) = length <= bound ? Vector(own) : Vector(bound / length * own);
-    }
+  for (const auto& [group, k, first, n] : problem.friction_points()) {
+    const auto own = y.segment(first, group.components);
+    const double bound = bounds ? (*bounds)[point++] : group.bound(k, lambda), length = own.norm();
+    lambda.segment(first, group.components) = length <= bound ? Vector(own) : Vector(bound / length * own);
+  }
   return lambda;
 }
 

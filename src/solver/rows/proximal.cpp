@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/dense/lu.hpp"
 #include "base/text.hpp"
 #include "problem/uniqueness.hpp"
 #include "solver/rows/projection.hpp"
@@ -28,25 +27,19 @@ constexpr int kSections = 30;  // of one such step
 constexpr double kFlat = 1e-3;  // a slope against the first one
 constexpr double kSigma = 0.1, kHolding = 3e-3;  // springs that hold free bodies, against C, at this σ; proportional to σ below it
 
-struct Iterate {
-  Vector lambda, alpha;
-};
-
 /// What each row yields to its own force; all rows of a friction point the mean of theirs.
 Vector compliance_of_rows(const RowIteration& on) {
   Vector compliance = on.map.rho().cwiseInverse();
-  for (const problem::FrictionGroup& group : on.problem.friction)
-    for (int k = 0; k < group.points(); ++k) {
-      const int n = group.normal[k];
-      double sum = n < 0 ? 0 : compliance[n];
-      for (int i = 0; i < group.components; ++i) sum += on.condensed.W()(group.row(k) + i, group.row(k) + i);
-      const double mean = sum / ((n >= 0) + group.components);
-      if (n >= 0) compliance[n] = mean;
-      compliance.segment(group.row(k), group.components).setConstant(mean);
-    }
-  for (const problem::FrictionGroup& group : on.problem.friction)  // cells of friction may share a normal row
-    for (int k = 0; k < group.points(); ++k)
-      compliance.segment(group.row(k), group.components).setConstant(compliance[group.scale_row(k)]);
+  const auto points = on.problem.friction_points();
+  for (const auto& [group, k, first, n] : points) {
+    double sum = n < 0 ? 0 : compliance[n];
+    for (int i = first; i < first + group.components; ++i) sum += on.condensed.W()(i, i);
+    const double mean = sum / ((n >= 0) + group.components);
+    if (n >= 0) compliance[n] = mean;
+    compliance.segment(first, group.components).setConstant(mean);
+  }
+  for (const auto& [group, k, first, n] : points)  // cells of friction may share a normal row
+    compliance.segment(first, group.components).setConstant(compliance[group.scale_row(k)]);
   return compliance;
 }
 
@@ -56,14 +49,14 @@ double noise(const RowIteration& on, const Vector& springs) {
 }
 
 /// Newton's method on the problem with springs, from (λ_k, α_k) on.
-class Springs {
+class SpringProblem {
  public:
   /// `convex`: the bounds of friction are given.
-  Springs(const RowIteration& on, const Vector& springs, double sigma, double tol, bool convex)
+  SpringProblem(const RowIteration& on, const Vector& springs, double sigma, double tol, bool convex)
       : convex_(convex), centre_(on.lambda()), W_(on.condensed.W()), softened_(on.condensed.softened(springs, centre_)),
         map_(on.problem, softened_, convex ? Vector(springs.cwiseInverse()) : Vector((on.map.rho().cwiseInverse() + springs).cwiseInverse())),
         anchor_(map_.scaled_alpha(on.alpha())), holding_(sigma * std::min(kHolding, kHolding * sigma / kSigma)),
-        forces_(on.forces()), place_{on.lambda(), on.alpha()}, value_(map_.at(place_.lambda, place_.alpha)), enough_(tol),
+        forces_(on.forces()), place_(on.at()), value_(map_.at(place_)), enough_(tol),
         noise_(noise(on, map_.rho().cwiseInverse())) {}
 
   /// False where it did not come near a solution. One step is always made: the first error may be rounding, and λ yet to move.
@@ -82,21 +75,15 @@ class Springs {
 
   /// Did the rounding of x end it?
   bool rounded() const { return rounded_; }
-  Iterate& place() { return place_; }
+  const Iterate& place() const { return place_; }
   int steps() const { return steps_; }
 
  private:
   bool step() {
     NaturalMap::System system = map_.linearise(value_);
-    system.matrix.diagonal().tail(anchor_.size()).array() += holding_;
-    system.right_side.tail(anchor_.size()) += holding_ * anchor_;
-    Vector solved(0);
-    if (system.matrix.size() > 0) solved = algebra::Lu(system.matrix).solve(system.right_side);
-    if (!solved.allFinite()) return false;
-    Iterate to;
-    map_.take(system, solved, to.lambda, to.alpha);
-    const Iterate from = place_;
-    const Iterate way{to.lambda - from.lambda, to.alpha - from.alpha};
+    system.hold(holding_, anchor_);
+    const Iterate to = map_.solve(system), from = place_, way = to - from;
+    if (!to.finite()) return false;
     if (convex_) descend(from, way);
     else damp(from, way);
     return true;  // a short step that increases ‖F‖ a little may lead out of a corner
@@ -115,8 +102,8 @@ class Springs {
   }
 
   void move(const Iterate& from, const Iterate& way, double length) {
-    place_ = {from.lambda + length * way.lambda, from.alpha + length * way.alpha};
-    value_ = map_.at(place_.lambda, place_.alpha);
+    place_ = from + length * way;
+    value_ = map_.at(place_);
   }
 
   void damp(const Iterate& from, const Iterate& way) {
@@ -172,15 +159,14 @@ class Springs {
 /// One Newton step without springs, kept only if the residual falls. Springs make slow progress along a motion that almost nothing resists;
 /// once the pieces of the laws are right, this step is exact.
 void let_go(RowIteration& iteration) {
-  const Iterate from{iteration.lambda(), iteration.alpha()};
+  const Iterate from = iteration.at();
   const double before = iteration.residual();
   const NaturalMap::System system = iteration.map.linearise(iteration.value());
   if (system.matrix.size() == 0) return;
-  Iterate to;
-  iteration.map.take(system, algebra::Lu(system.matrix).solve(system.right_side), to.lambda, to.alpha);
-  if (!to.lambda.allFinite() || !to.alpha.allFinite()) return;
-  iteration.move_to(std::move(to.lambda), std::move(to.alpha));
-  if (!(iteration.residual() < before)) iteration.move_to(from.lambda, from.alpha);
+  Iterate to = iteration.map.solve(system);
+  if (!to.finite()) return;
+  iteration.move_to(std::move(to));
+  if (!(iteration.residual() < before)) iteration.move_to(from);
 }
 
 }  // namespace
@@ -191,11 +177,11 @@ void Proximal::iterate(RowIteration& iteration) const {
   double softness = sigma, before = INFINITY;
   int steps = 0;
   while (iteration.next()) {
-    Springs springs(iteration, softness * compliance, softness, 0.1 * tol, convex);
+    SpringProblem springs(iteration, softness * compliance, softness, 0.1 * tol, convex);
     const bool solved = springs.solve();
     steps += springs.steps();
     if (solved) {
-      iteration.move_to(std::move(springs.place().lambda), std::move(springs.place().alpha));
+      iteration.move_to(springs.place());
       if (iteration.residual() > kSlow * before) let_go(iteration);
       before = iteration.residual();
       const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeastSigma);

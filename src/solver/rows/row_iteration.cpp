@@ -1,6 +1,8 @@
 #include "solver/rows/row_iteration.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/stop_factoring.hpp"
@@ -15,6 +17,62 @@ using algebra::Vector;
 using problem::CondensedProblem;
 using problem::Problem;
 
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kSumRoundings = 128;    // k: of the sums in x, and of the solve that made λ
+
+RowScales::RowScales(const problem::Problem& problem, const problem::CondensedProblem& condensed)
+    : condensed_(&condensed), c_(problem.c), stiffness_(stiffness_of_rows(condensed)), parts_(problem::parts(problem)),
+      least_(static_cast<std::size_t>(parts_.count), 0) {
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    double& least = least_[parts_.of_block[b]];
+    least = std::max(least, problem.blocks[b].f.lpNorm<Eigen::Infinity>());
+  }
+  std::vector<double> driving = parts_.greatest(stiffness_.cwiseProduct(condensed.x0()));
+  for (std::size_t p = 0; p < least_.size(); ++p)
+    if (least_[p] > 0) driving[p] = least_[p];
+  const bool loaded = *std::max_element(least_.begin(), least_.end()) > 0;
+  const std::vector<double> beside_others = problem::least_beside_others(driving, loaded);
+  const double half = std::sqrt(kEps), of_others = loaded ? 1 : half;
+  for (std::size_t p = 0; p < least_.size(); ++p)
+    least_[p] = least_[p] > 0 ? half * least_[p] : std::max(half * driving[p], of_others * beside_others[p]);
+}
+
+Vector RowScales::forces(const Vector& lambda) const {
+  std::vector<double> of_part(least_.size(), 0);
+  for (Eigen::Index r = 0; r < lambda.size(); ++r) of_part[parts_.of_row[r]] += lambda[r] * lambda[r];
+  for (std::size_t p = 0; p < least_.size(); ++p) of_part[p] = std::max(std::sqrt(of_part[p]), least_[p]);
+  return by_row(of_part);
+}
+
+Vector RowScales::rounding(const Vector& alpha, const Vector& x) const {
+  const Vector moved = alpha.size() > 0 ? Vector(condensed_->N() * alpha) : Vector::Zero(x.size());
+  const auto greatest = [&](const Vector& v) { return by_row(parts_.greatest(v)); };
+  return kSumRoundings * kEps * (greatest(condensed_->x0()) + greatest(moved) + greatest(condensed_->x0() + moved - x));
+}
+
+Vector RowScales::by_row(const std::vector<double>& of_part) const {
+  return Eigen::Map<const Vector>(of_part.data(), static_cast<Eigen::Index>(of_part.size()))(parts_.of_row);
+}
+
+Vector RowScales::rho(const Vector& lambda, const Vector& alpha, const Vector& x, double tol) const {
+  if (x.size() == 0) return x;
+  // Row by row: where one body goes far, others' gaps are known as before. Nor may Wλ and Nα cancel.
+  Vector gross = condensed_->x0().cwiseAbs() + condensed_->W().cwiseAbs() * lambda.cwiseAbs();
+  if (alpha.size() > 0) gross += condensed_->N().cwiseAbs() * alpha.cwiseAbs();
+  const Vector F = forces(lambda);
+  const std::vector<double> greatest_force = parts_.greatest(lambda), stiffest = parts_.greatest(stiffness_);
+  std::vector<double> moved = parts_.greatest(x + c_);
+  for (std::size_t p = 0; p < moved.size(); ++p)
+    if (stiffest[p] > 0) moved[p] = std::max(moved[p], greatest_force[p] / stiffest[p]);
+  Vector rho = stiffness_;
+  for (Eigen::Index r = 0; r < x.size(); ++r) {
+    const int part = parts_.of_row[r];
+    if (const double length = std::max(moved[part], std::abs(c_[r])); length > 0) rho[r] = std::max(rho[r], greatest_force[part] / length);
+    if (const double rounding = kSumRoundings * kEps * gross[r]; rounding > 0) rho[r] = std::min(rho[r], tol * F[r] / rounding);
+  }
+  return rho;
+}
+
 RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
                            Monitor& monitor)
     : RowIteration(on, RowScales(on, rows), rows, settings, rho, monitor) {}
@@ -26,32 +84,31 @@ RowIteration::RowIteration(const Problem& on, RowScales scales, const CondensedP
                            Monitor& monitor)
     : problem(on), condensed(rows), scales_(std::move(scales)), map_(on, rows, rho * scales_.stiffness()), settings_(settings),
       monitor_(monitor), allowed_(settings.max_iterations) {
-  move_to(Vector::Zero(rows.rows()), Vector::Zero(rows.kernel_size()));
+  move_to({Vector::Zero(rows.rows()), Vector::Zero(rows.kernel_size())});
   recorded_ = value_;
-  first_lambda_ = lambda_, first_alpha_ = alpha_;
+  first_ = at_;
 }
 
 double RowIteration::residual() const {
-  const Vector off = problem::distances_from_laws(problem, value_.x, lambda_, scales_.rho(lambda_, alpha_, value_.x, settings_.tol));
+  const Vector off = problem::distances_from_laws(problem, value_.x, at_.lambda, scales_.rho(at_.lambda, at_.alpha, value_.x, settings_.tol));
   const Vector force = forces();
   return std::hypot(off.cwiseQuotient(force).norm(), map_.balancing(value_.unbalanced).cwiseQuotient(force).norm());
 }
 
 Vector RowIteration::forces() const {
-  return scales_.forces(lambda_).unaryExpr([](double f) { return f > 0 ? f : 1; });
+  return scales_.forces(at_.lambda).unaryExpr([](double f) { return f > 0 ? f : 1; });
 }
 
-void RowIteration::move_to(Vector lambda, Vector alpha) {
-  lambda_ = std::move(lambda);
-  alpha_ = std::move(alpha);
-  value_ = map.at(lambda_, alpha_);
+void RowIteration::move_to(Iterate iterate) {
+  at_ = std::move(iterate);
+  value_ = map.at(at_);
 }
 
-void RowIteration::begin_at(Vector lambda, Vector alpha) {
-  move_to(std::move(lambda), std::move(alpha));
+void RowIteration::begin_at(Iterate iterate) {
+  move_to(std::move(iterate));
   recorded_ = value_;
-  best_ = {lambda_, alpha_, residual()};
-  first_lambda_ = lambda_, first_alpha_ = alpha_;
+  first_ = best_ = at_;
+  best_residual_ = residual();
   begun_ = true;
 }
 
@@ -61,8 +118,7 @@ bool RowIteration::next() {
   return true;
 }
 
-bool RowIteration::record(const IterationDetail& detail) {
-  IterationInfo info;
+bool RowIteration::record(IterationInfo info) {
   info.iteration = result_.iterations;
   info.active = value_.active;
   info.stick = value_.stick;
@@ -70,13 +126,11 @@ bool RowIteration::record(const IterationDetail& detail) {
   info.changed = value_.differences(recorded_);
   info.residual = residual();
   info.seconds = watch_.seconds();
-  info.singular_value = detail.singular_value;
-  info.contraction = detail.contraction;
   result_.history.push_back(info);
   record_active_set();
   monitor_.iteration(info);
   recorded_ = value_;
-  if (info.residual < best_.residual) best_ = {lambda_, alpha_, info.residual};
+  if (info.residual < best_residual_) best_ = at_, best_residual_ = info.residual;
   if (info.residual < 0.99 * milestone_) milestone_ = info.residual, at_milestone_ = info.iteration;
   return result_.converged = info.residual <= settings_.tol;
 }
@@ -87,17 +141,17 @@ void RowIteration::grant(int more) {
   milestone_ = std::numeric_limits<double>::infinity();
   map_ = NaturalMap(problem, condensed, scales_.stiffness());
   if (best_.lambda.size()) {
-    move_to(std::move(best_.lambda), std::move(best_.alpha));
-    best_ = {lambda_, alpha_, residual()};
+    move_to(best_);
+    best_residual_ = residual();
   }
-  move_to(first_lambda_, first_alpha_);
+  move_to(first_);
 }
 
 bool RowIteration::stalled(int patience) {
   // Forces of the size of what the free jump meets, or of the best state's, are the measure.
   const double measure = best_.lambda.norm() + map.rho().cwiseProduct(condensed.x0()).norm();
-  if (!(lambda_.norm() <= 1e9 * measure)) {
-    give_up(text("the iterates diverge: the multipliers have grown to ", lambda_.norm()));
+  if (!(at_.lambda.norm() <= 1e9 * measure)) {
+    give_up(text("the iterates diverge: the multipliers have grown to ", at_.lambda.norm()));
     return true;
   }
   if (result_.iterations - at_milestone_ < patience) return false;
@@ -117,9 +171,9 @@ Result RowIteration::finish() {
     result_.reason = monitor_.stop() ? "interrupted; this is the state so far"
                                      : text("no convergence within ", result_.iterations, " iterations");
   for (const std::string& remark : remarks_) result_.reason += "; " + remark;
-  if (!result_.converged && best_.lambda.size() && !(residual() <= best_.residual)) move_to(best_.lambda, best_.alpha);
+  if (!result_.converged && best_.lambda.size() && !(residual() <= best_residual_)) move_to(best_);
   record_active_set();
-  result_.state.lambda = lambda_;
+  result_.state.lambda = at_.lambda;
   result_.slipping = value_.slipping;
   return std::move(result_);
 }
@@ -175,7 +229,7 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
     const algebra::StopFactoring stop(monitor);
     return RowIteration(problem, condensed, method, method.map_weight(), monitor);
   }();
-  if (method.from) iteration.begin_at(method.from->lambda, rigid_motion_of(*method.from, problem, condensed));
+  if (method.from) iteration.begin_at({method.from->lambda, rigid_motion_of(*method.from, problem, condensed)});
   if (method.from && iteration.residual() <= method.tol && iteration.next())
     iteration.record();  // nothing is left to do: a method whose residual does not fall at every step would first go away from there
   else

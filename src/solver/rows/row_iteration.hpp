@@ -4,17 +4,44 @@
 #include <string>
 
 #include "base/stopwatch.hpp"
-#include "problem/condensed.hpp"
+#include "problem/parts.hpp"
 #include "solver/rows/natural_map.hpp"
-#include "solver/rows/row_scales.hpp"
 #include "solver/core/solver.hpp"
 
 namespace dotyk::solver {
 
-/// What some methods know of an iteration beyond its iterate; see IterationInfo.
-struct IterationDetail {
-  double singular_value = std::numeric_limits<double>::quiet_NaN();
-  double contraction = 0;
+/// What counts as a force and as a gap on the rows of a condensed problem, so that one number says of an iterate how far it is
+/// from the laws: ‖λ − P(λ + ρx)‖ / F, with an F of each part of the problem that has nothing to do with others. A greater ρ asks more of gaps, and a row's force is known to tol F only where ρ_r is not
+/// below the stiffness that the row sees, 1/W_rr. Two things bound it:
+///
+/// - below F/X a gap that is great beside the displacements X would hardly count: on soft springs, whose 1/W_rr is far less.
+///   X is that of problem::Residual, by which results are judged, of the rows alone; it is at least what the greatest multiplier moves
+///   the stiffest row by: where loads meet their reactions at the contact itself, nothing moves;
+/// - above tol F / kεG the rounding of x would count as a force beyond tol: x is a sum of terms of the size G, ε a rounding. A
+///   body that moves as a whole far more than it deforms is such a case; no method could end there.
+///
+/// Hence ρ_r = min(max(1/W_rr, F/max(X, |c_r|)), tol F / kεG).
+class RowScales {
+ public:
+  RowScales(const problem::Problem& problem, const problem::CondensedProblem& condensed);
+
+  /// 1/W_rr; see stiffness_of_rows().
+  const algebra::Vector& stiffness() const { return stiffness_; }
+  /// F by row, that of its part: ‖λ‖, or √ε of the greatest load |f| (where nothing is loaded, of what would hold the rows where they are at
+  /// rest), if that is more: bodies that get out of each other's way end free of forces, and rounding is all that is left of those.
+  algebra::Vector forces(const algebra::Vector& lambda) const;
+  /// kεG by row, that of its part: what rounding may leave of x, a displacement.
+  algebra::Vector rounding(const algebra::Vector& alpha, const algebra::Vector& x) const;
+  /// ρ.
+  algebra::Vector rho(const algebra::Vector& lambda, const algebra::Vector& alpha, const algebra::Vector& x, double tol) const;
+
+ private:
+  algebra::Vector by_row(const std::vector<double>& of_part) const;
+
+  const problem::CondensedProblem* condensed_;
+  algebra::Vector c_, stiffness_;
+  problem::Parts parts_;
+  std::vector<double> least_;  ///< force of each part
 };
 
 /// A method at work on a condensed problem: the iterate (λ, α), what the natural map says there, the
@@ -31,8 +58,9 @@ class RowIteration {
   const problem::CondensedProblem& condensed;
   const NaturalMap& map = map_;
 
-  const algebra::Vector& lambda() const { return lambda_; }
-  const algebra::Vector& alpha() const { return alpha_; }
+  const Iterate& at() const { return at_; }
+  const algebra::Vector& lambda() const { return at_.lambda; }
+  const algebra::Vector& alpha() const { return at_.alpha; }
   const NaturalMap::Value& value() const { return value_; }
   /// x = x₀ − Wλ + Nα of the iterate.
   const algebra::Vector& jump() const { return value_.x; }
@@ -42,20 +70,20 @@ class RowIteration {
   /// By row, the force that the iterate's errors are measured by (RowScales::forces()); 1 where it would vanish.
   algebra::Vector forces() const;
   /// By row, how far rounding may put the iterate's jump off, a displacement.
-  algebra::Vector rounding() const { return scales_.rounding(alpha_, value_.x); }
+  algebra::Vector rounding() const { return scales_.rounding(at_.alpha, value_.x); }
   /// ‖λ − P(λ + ρx)‖ of the iterate: F without what is out of balance.
-  double law_residual() const { return (lambda_ - value_.projected).norm(); }
-  void move_to(algebra::Vector lambda, algebra::Vector alpha);
+  double law_residual() const { return (at_.lambda - value_.projected).norm(); }
+  void move_to(Iterate iterate);
 
   /// Starts from here, in place of λ = 0 and α = 0.
-  void begin_at(algebra::Vector lambda, algebra::Vector alpha);
+  void begin_at(Iterate iterate);
   /// Was it told where to start?
   bool begun() const { return begun_; }
 
   /// Begins an iteration; false after the last one allowed, or where the user stops.
   bool next();
-  /// Writes the iterate into the history; true where its residual is within tol.
-  bool record(const IterationDetail& detail = {});
+  /// Writes the iterate into the history, with what `info` says beyond that; true where its residual is within tol.
+  bool record(IterationInfo info = {});
   /// The residual's least value has not fallen by a hundredth in the last `patience` iterations, or the
   /// multipliers are beyond all measure. Gives up then.
   bool stalled(int patience = 2000);
@@ -64,7 +92,6 @@ class RowIteration {
   void grant(int more);
   /// Was the last iterate recorded within tol?
   bool converged() const { return result_.converged; }
-  const std::string& reason() const { return result_.reason; }
   /// Gives up, for this reason.
   void give_up(std::string reason) { result_.reason = std::move(reason); }
   /// Magnetic screws, where they are now.
@@ -82,10 +109,6 @@ class RowIteration {
   Result finish();
 
  private:
-  struct Best {
-    algebra::Vector lambda, alpha;
-    double residual = std::numeric_limits<double>::infinity();
-  };
   RowIteration(const problem::Problem& problem, RowScales scales, const problem::CondensedProblem& condensed, const Settings& settings,
                double rho, Monitor& monitor);
   void record_active_set();
@@ -95,16 +118,15 @@ class RowIteration {
   const Settings& settings_;
   Monitor& monitor_;
   Result result_;
-  Best best_;
   bool begun_ = false;
+  Iterate at_, first_, best_;  ///< first_: where it began; best_: of least residual; empty: none yet
+  double best_residual_ = std::numeric_limits<double>::infinity();
   double milestone_ = std::numeric_limits<double>::infinity();  ///< the last residual below all before by a hundredth
   int at_milestone_ = 0;
-  algebra::Vector lambda_, alpha_;
   NaturalMap::Value value_, recorded_;
   std::vector<std::string> remarks_;
   Stopwatch watch_;
   int allowed_;  ///< iterations
-  algebra::Vector first_lambda_, first_alpha_;  ///< where it began
 };
 
 /// A method that works on the condensed problem alone.

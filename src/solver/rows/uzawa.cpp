@@ -1,15 +1,15 @@
 #include "solver/rows/uzawa.hpp"
 
 #include "base/text.hpp"
+#include "solver/rows/equilibrium.hpp"
 #include "solver/rows/projection.hpp"
-#include "solver/rows/stationary_iteration.hpp"
 
 namespace dotyk::solver {
 
 using algebra::Vector;
 
 void Uzawa::iterate(RowIteration& it) const {
-  Equilibrium equilibrium = equilibrium_of(it);
+  Equilibrium equilibrium(it);
   const double bound = equilibrium.step_bound(it.map.rho());
   const Vector step = rho * bound * it.map.rho();
   it.remark(text("rho = ", rho * bound, " for a bound 2/λ_max of ", bound, " (in units of 1/W_rr)",

@@ -11,7 +11,7 @@
 #include "script/bridge/library.hpp"
 #include "script/bridge/wrapped.hpp"
 #include "solver/core/method.hpp"
-#include "solver/rows/with_screws.hpp"
+#include "solver/active/screws.hpp"
 
 namespace dotyk::script {
 

@@ -2,7 +2,7 @@
 
 #include "beam/sampled.hpp"
 #include "script/bind/bind.hpp"
-#include "solver/core/ending.hpp"
+#include "solver/core/verdict.hpp"
 
 namespace dotyk::script {
 using problem::SupportLaw;

@@ -6,7 +6,7 @@
 #include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
 #include "script/bind/models/models.hpp"
-#include "solver/core/ending.hpp"
+#include "solver/core/verdict.hpp"
 
 namespace dotyk::script {
 namespace {

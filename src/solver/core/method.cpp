@@ -1,7 +1,8 @@
-#include "solver/core/advice.hpp"
+#include "solver/core/method.hpp"
 
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "solver/core/friction_bound.hpp"
 #include "solver/core/treatable.hpp"
@@ -38,8 +39,16 @@ std::string too_little_friction(const problem::Problem& problem, const Result& f
 
 }  // namespace
 
-std::string advice(const problem::Problem& problem, const Result& failed) {
-  return problem.rows() == 0 ? "" : too_little_friction(problem, failed) + next_method(problem, failed);
+Result Method::ended(const problem::Problem& problem, Result result, double tol, Monitor& monitor) {
+  constexpr double kMost = 1e4;  // the residuals that a scene measures are no more than so many times the natural residual that tol is about
+  result.asked = kMost * tol;
+  if (!result.converged && !monitor.stop() && problem.rows() > 0) result.reason += too_little_friction(problem, result) + next_method(problem, result);
+  return result;
+}
+
+Result Method::run(const problem::Problem& problem, const problem::CondensedProblem& condensed, Monitor& monitor) const {
+  if (!on_rows_) throw InputError(text("this method works on scenes alone; on rows alone work ", kRowMethods));
+  return ended(problem, solve(problem, condensed, *on_rows_, monitor), on_rows_->tol, monitor);
 }
 
 }  // namespace dotyk::solver
