@@ -24,12 +24,17 @@ inline double number_in(const char* file) {
 
 }  // namespace detail
 
+/// Bytes of address space that this process has taken; 0 where the system does not say.
+inline double address_space_taken() {
+  const double pages = detail::number_in("/proc/self/statm");
+  return std::isfinite(pages) ? pages * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
 /// Bytes of address space that this process's own limit (ulimit -v, --memory) leaves; infinite without one.
 inline double address_space_left() {
   rlimit own{};
   if (getrlimit(RLIMIT_AS, &own) != 0 || own.rlim_cur == RLIM_INFINITY) return INFINITY;
-  const double used = detail::number_in("/proc/self/statm") * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return std::isfinite(used) ? std::max(0.0, static_cast<double>(own.rlim_cur) - used) : INFINITY;
+  return std::max(0.0, static_cast<double>(own.rlim_cur) - address_space_taken());
 }
 
 /// Throws InputError where that is less than `bytes`, for libraries that end the program, or ask for ever, where they do not

@@ -3,10 +3,11 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
-#include <climits>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "base/memory.hpp"
@@ -28,24 +29,18 @@ struct LibraryPlace {
   std::string tried;
 };
 
-namespace detail {
-
-inline std::string program_folder() {
-  char path[PATH_MAX];
-  const ssize_t n = readlink("/proc/self/exe", path, sizeof path);
-  const std::string program(path, n > 0 ? static_cast<std::size_t>(n) : 0);
-  return program.substr(0, program.rfind('/') == std::string::npos ? 0 : program.rfind('/'));
+/// Where a file of this program's own may be: beside it, in the library folder of its installation, where the build has put it.
+inline std::vector<std::string> places_of(const std::string& file, const std::string& libdir, const std::string& built) {
+  std::error_code none;
+  const std::string here = std::filesystem::read_symlink("/proc/self/exe", none).parent_path().string() + "/";
+  std::vector<std::string> places{here + file, here + "../lib/dotyk/" + file, here + "../" + libdir + "/dotyk/" + file};
+  if (!built.empty()) places.push_back(built);
+  return places;
 }
 
-}  // namespace detail
-
 inline LibraryPlace look_for(const SharedLibrary& library) {
-  const std::string here = detail::program_folder();
-  std::vector<std::string> places = {here + "/" + library.file, here + "/../lib/dotyk/" + library.file,
-                                     here + "/../" + library.libdir + "/dotyk/" + library.file};
-  if (!library.built.empty()) places.push_back(library.built);
   LibraryPlace result;
-  for (const std::string& place : places) {
+  for (const std::string& place : places_of(library.file, library.libdir, library.built)) {
     if (access(place.c_str(), R_OK) == 0) return {place, ""};
     result.tried += "\n  not at " + place;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <filesystem>
 #include <stdexcept>
@@ -36,5 +37,27 @@ inline std::filesystem::path place_of(const std::filesystem::path& file) {
   }
   return place;
 }
+
+/// A folder that files must not lie outside of.
+class Folder {
+ public:
+  /// Throws std::runtime_error where there is no such folder.
+  explicit Folder(const std::string& name) : name_(name), place_(name.empty() ? std::filesystem::path() : place_of(name)) {
+    if (name.empty() || !std::filesystem::is_directory(place_)) throw std::runtime_error("'" + name + "' is not a folder");
+  }
+
+  /// Throws std::runtime_error naming file and folder unless the file, which need not exist, lies below the folder once its
+  /// "." and ".." and every symbolic link on its way, to nowhere too, are followed.
+  void require(const std::string& file) const {
+    const auto place = place_of(file);
+    const auto [end, rest] = std::mismatch(place_.begin(), place_.end(), place.begin(), place.end());
+    if (end == place_.end() && rest != place.end()) return;
+    throw std::runtime_error("'" + file + "' is not below '" + name_ + "', the folder of this run (--safe)");
+  }
+
+ private:
+  std::string name_;             // as given
+  std::filesystem::path place_;  // without links
+};
 
 }  // namespace dotyk

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -12,7 +14,6 @@
 
 #include "base/error.hpp"
 #include "base/place.hpp"
-#include "base/removed_at_end.hpp"
 
 namespace dotyk {
 
@@ -47,6 +48,52 @@ inline std::string place_to_write(const std::string& file) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) fail("folder " + folder + ": " + std::strerror(errno));
   return place;
 }
+
+/// While it lives, a signal that asks the program to end (SIGTERM, SIGHUP, SIGQUIT, the end of processors' time) removes
+/// this file first. One at a time: of a second one nothing is noted. Signals that are ignored, or that somebody else
+/// handles, stay as they are.
+class RemovedAtEnd {
+ public:
+  explicit RemovedAtEnd(const std::string& file) {
+    if (*name_ || file.size() >= sizeof name_) return;
+    std::memcpy(name_, file.c_str(), file.size() + 1);
+    mine_ = true;
+    for (int k = 0; k < kCount; ++k) {
+      noted_[k] = false;
+      // Of those who handle it, the limit of processors' time is the one that ends the program.
+      if (sigaction(kSignals[k], nullptr, &before_[k]) != 0 || before_[k].sa_handler == SIG_IGN) continue;
+      if (before_[k].sa_handler != SIG_DFL && kSignals[k] != SIGXCPU) continue;
+      struct sigaction action {};
+      action.sa_handler = end;
+      sigfillset(&action.sa_mask);
+      noted_[k] = sigaction(kSignals[k], &action, nullptr) == 0;
+    }
+  }
+  ~RemovedAtEnd() {
+    if (!mine_) return;
+    for (int k = 0; k < kCount; ++k)
+      if (noted_[k]) sigaction(kSignals[k], &before_[k], nullptr);
+    *name_ = 0;
+  }
+  RemovedAtEnd(const RemovedAtEnd&) = delete;
+  RemovedAtEnd& operator=(const RemovedAtEnd&) = delete;
+
+ private:
+  static void end(int signal) {
+    const int reason = errno;
+    unlink(name_);
+    for (int k = 0; k < kCount; ++k)
+      if (kSignals[k] == signal) sigaction(signal, &before_[k], nullptr);
+    raise(signal);  // comes when this returns
+    errno = reason;
+  }
+
+  static constexpr int kSignals[] = {SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}, kCount = 4;
+  static inline char name_[PATH_MAX] = "";
+  static inline struct sigaction before_[kCount] = {};
+  static inline bool noted_[kCount] = {};
+  bool mine_ = false;
+};
 
 /// A result that is written whole or not at all: beside its place first, then renamed into it. What was there stays until
 /// then. Gone if it is never finished, also where a signal ends the program. Throws InputError naming file and reason.

@@ -1,29 +1,14 @@
-#include <algorithm>
-#include <climits>
-
-#include "mesh/mesh.hpp"
+#include "mesh/facet_table.hpp"
 
 namespace dotyk::mesh {
 
 std::vector<int> facet_neighbours(const Mesh& mesh) {
-  // The two sides of an inner facet have the same corners: put into buckets by the least, then compared within the few of a bucket.
-  const ElementTopology& t = mesh.topology();
-  std::vector<std::array<int, 4>> corners(static_cast<std::size_t>(mesh.cell_count()) * t.facets, {INT_MAX, INT_MAX, INT_MAX, INT_MAX});
-  const int count = static_cast<int>(corners.size());
-  for (int f = 0; f < count; ++f) {
-    for (int k = 0; k < t.facet_corners; ++k) corners[f][k] = mesh.facet_node({f / t.facets, f % t.facets}, k);
-    std::sort(corners[f].begin(), corners[f].end());
-  }
-  const Buckets by_least(mesh.node_count(), [&](auto&& put) {
-    for (int f = 0; f < count; ++f) put(corners[f][0], f);
-  });
-  std::vector<int> neighbour(corners.size(), -1);
-  for (int f = 0; f < count; ++f)
-    for (const int g : by_least[corners[f][0]])
-      if (g != f && corners[g] == corners[f]) {
-        neighbour[f] = g / t.facets;
-        break;
-      }
+  const FacetTable table(mesh);
+  std::vector<int> neighbour(table.count(), -1);
+  for (int f = 0; f < table.count(); ++f)
+    table.with(table.corners(f), [&](int g) {
+      if (g != f && neighbour[f] < 0) neighbour[f] = g / mesh.topology().facets;
+    });
   return neighbour;
 }
 

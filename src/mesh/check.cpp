@@ -44,14 +44,10 @@ void refuse_repeated_cells(const Mesh& mesh, const std::string& what) {
 }
 
 void refuse_stray_nodes(const Mesh& mesh, const std::string& what) {
-  std::vector<char> used(mesh.node_count(), 0);
-  for (int c = 0; c < mesh.cell_count(); ++c)
-    for (int k = 0; k < mesh.topology().nodes; ++k) used[mesh.cell(c)[k]] = 1;
-  const auto stray = std::find(used.begin(), used.end(), 0);
-  if (stray == used.end()) return;
-  const int node = static_cast<int>(stray - used.begin());
-  throw InputError(text(what, ": node ", node + 1, " at ", point_text(mesh.node(node), mesh.dimension()),
-                        " belongs to no cell; remove it"));
+  const Buckets cells = cells_of_nodes(mesh);
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (cells[node].empty())
+      throw InputError(text(what, ": node ", node + 1, " at ", point_text(mesh.node(node), mesh.dimension()), " belongs to no cell; remove it"));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <map>
 #include <numeric>
 #include <queue>
 #include <stdexcept>
@@ -19,7 +19,7 @@ int least_member(std::vector<int>& set, int c) {
 }
 
 /// Parts of cells in connected pieces. `neighbour`: cell × facets, see facet_neighbours().
-Pieces connected(const std::vector<int>& neighbour, const std::vector<std::int64_t>& part) {
+Pieces connected(const std::vector<int>& neighbour, const std::vector<int>& part) {
   const int cells = static_cast<int>(part.size());
   std::vector<int> set(cells);
   std::iota(set.begin(), set.end(), 0);
@@ -91,43 +91,40 @@ std::vector<std::vector<int>> Pieces::cells() const {
 }
 
 Pieces pieces_of(const Mesh& mesh) {
-  return connected(facet_neighbours(mesh), std::vector<std::int64_t>(mesh.cell_count(), 0));
+  return connected(facet_neighbours(mesh), std::vector<int>(mesh.cell_count(), 0));
 }
 
 Pieces decompose(const Mesh& mesh, int count) {
   const std::vector<int> neighbour = facet_neighbours(mesh);
   const std::size_t facets = mesh.topology().facets;
-  const auto bodies = connected(neighbour, std::vector<std::int64_t>(mesh.cell_count(), 0)).cells();
+  const auto bodies = connected(neighbour, std::vector<int>(mesh.cell_count(), 0)).cells();
   std::vector<int> sizes, rank(mesh.cell_count());
   for (const auto& members : bodies) {
     sizes.push_back(static_cast<int>(members.size()));
     for (std::size_t k = 0; k < members.size(); ++k) rank[members[k]] = static_cast<int>(k);
   }
   const std::vector<int> shares = share_out(count, sizes);
-  std::vector<std::int64_t> part(mesh.cell_count());
-  std::int64_t first = 0;
+  std::vector<int> part(mesh.cell_count());
+  int first = 0;
   for (std::size_t b = 0; b < bodies.size(); first += shares[b++]) {
     const auto of = partition(graph_of(bodies[b], neighbour, facets, rank), shares[b]);
-    for (std::size_t k = 0; k < of.size(); ++k) part[bodies[b][k]] = first + of[k];
+    for (std::size_t k = 0; k < of.size(); ++k) part[bodies[b][k]] = first + static_cast<int>(of[k]);
   }
   return connected(neighbour, part);
 }
 
 Pieces decompose(const Mesh& mesh, const std::array<int, 3>& boxes) {
-  std::vector<std::int64_t> part(mesh.cell_count(), 0);
+  std::vector<int> part(mesh.cell_count());
+  std::map<std::array<int, 3>, int> used;
   const Box whole = mesh.box();
-  for (int i = 0; i < mesh.dimension(); ++i) {
-    // A centre on the plane between two boxes, up to rounding, is above it.
-    const double per_length = boxes[i] / whole.extent(i), rounding = 1e-9;
-    for (int c = 0; c < mesh.cell_count(); ++c) {
-      const double at = (mesh.cell_centre(c)[i] - whole.low[i]) * per_length + rounding;
-      part[c] = part[c] * boxes[i] + static_cast<std::int64_t>(std::min(at, boxes[i] - 1.0));
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    std::array<int, 3> box{};
+    for (int i = 0; i < mesh.dimension(); ++i) {
+      // A centre on the plane between two boxes, up to rounding, is above it.
+      const double at = (mesh.cell_centre(c)[i] - whole.low[i]) * (boxes[i] / whole.extent(i)) + 1e-9;
+      box[i] = static_cast<int>(std::min(at, boxes[i] - 1.0));
     }
-    // Numbered densely again, so that no number of boxes overflows.
-    std::vector<std::int64_t> used = part;
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (std::int64_t& p : part) p = std::lower_bound(used.begin(), used.end(), p) - used.begin();
+    part[c] = used.try_emplace(box, static_cast<int>(used.size())).first->second;
   }
   return connected(facet_neighbours(mesh), part);
 }

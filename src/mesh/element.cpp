@@ -1,21 +1,10 @@
 #include "mesh/element.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace dotyk::mesh {
 namespace {
-
-/// The node that lies between these corners, in any order.
-int node_between(const ElementTopology& t, std::vector<int> corners) {
-  std::sort(corners.begin(), corners.end());
-  int node = t.corners;
-  for (std::vector<int> own : t.between) {
-    std::sort(own.begin(), own.end());
-    if (own == corners) return node;
-    ++node;
-  }
-  return -1;  // a triangle's centre is no node
-}
 
 ElementTopology with_second_order(ElementTopology t, const char* name, std::vector<std::vector<int>> between) {
   t.name = name;
@@ -34,36 +23,39 @@ ElementTopology with_second_order(ElementTopology t, const char* name, std::vect
   return t;
 }
 
-struct Topologies {
-  ElementTopology triangle{"P1", "triangle", "triangles", 2, 3, 3, 2, {{0, 1}, {1, 2}, {2, 0}}};
-  ElementTopology quadrilateral{"Q1", "quadrilateral", "quadrilaterals", 2, 4, 4, 2, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
-  ElementTopology tetrahedron{"P1", "tetrahedron", "tetrahedra", 3, 4, 4, 3, {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-  ElementTopology hexahedron{"Q1", "hexahedron", "hexahedra", 3, 8, 6, 4,
-                             {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-  ElementTopology triangle_p2 = with_second_order(triangle, "P2", {{0, 1}, {1, 2}, {2, 0}});
-  ElementTopology quadrilateral_q2 = with_second_order(quadrilateral, "Q2", {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 1, 2, 3}});
-  ElementTopology tetrahedron_p2 = with_second_order(tetrahedron, "P2", {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}});
-  ElementTopology hexahedron_q2 = with_second_order(
-      hexahedron, "Q2",
-      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}, {0, 4, 7, 3},
-       {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}});
-};
+/// In the order of Element.
+std::array<ElementTopology, 8> topologies() {
+  const ElementTopology triangle{"P1", "triangle", "triangles", 2, 3, 3, 2, {{0, 1}, {1, 2}, {2, 0}}};
+  const ElementTopology quadrilateral{"Q1", "quadrilateral", "quadrilaterals", 2, 4, 4, 2, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+  const ElementTopology tetrahedron{"P1", "tetrahedron", "tetrahedra", 3, 4, 4, 3, {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+  const ElementTopology hexahedron{"Q1", "hexahedron", "hexahedra", 3, 8, 6, 4,
+                                   {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  return {triangle, quadrilateral, tetrahedron, hexahedron,
+          with_second_order(triangle, "P2", {{0, 1}, {1, 2}, {2, 0}}),
+          with_second_order(quadrilateral, "Q2", {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 1, 2, 3}}),
+          with_second_order(tetrahedron, "P2", {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}),
+          with_second_order(hexahedron, "Q2",
+                            {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7},
+                             {0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 1, 2, 3}, {4, 5, 6, 7},
+                             {0, 1, 2, 3, 4, 5, 6, 7}})};
+}
 
 }  // namespace
 
 const ElementTopology& topology(Element element) {
-  static const Topologies all;
-  switch (element) {
-    case Element::triangle_p1: return all.triangle;
-    case Element::quadrilateral_q1: return all.quadrilateral;
-    case Element::tetrahedron_p1: return all.tetrahedron;
-    case Element::hexahedron_q1: return all.hexahedron;
-    case Element::triangle_p2: return all.triangle_p2;
-    case Element::quadrilateral_q2: return all.quadrilateral_q2;
-    case Element::tetrahedron_p2: return all.tetrahedron_p2;
-    case Element::hexahedron_q2: break;
+  static const auto all = topologies();
+  return all[static_cast<std::size_t>(element)];
+}
+
+int node_between(const ElementTopology& t, std::vector<int> corners) {
+  std::sort(corners.begin(), corners.end());
+  int node = t.corners;
+  for (std::vector<int> own : t.between) {
+    std::sort(own.begin(), own.end());
+    if (own == corners) return node;
+    ++node;
   }
-  return all.hexahedron_q2;
+  return -1;  // a triangle's centre is no node
 }
 
 double corner_hat(const ElementTopology& t, int corner, int k) {
@@ -74,23 +66,7 @@ double corner_hat(const ElementTopology& t, int corner, int k) {
   return corner == edge || corner == (edge + 1) % corners ? 0.5 : 0;
 }
 
-namespace {
-
-/// A cell of each shape, of order 1 and 2.
-constexpr Element kOrders[][2] = {{Element::triangle_p1, Element::triangle_p2},
-                                  {Element::quadrilateral_q1, Element::quadrilateral_q2},
-                                  {Element::tetrahedron_p1, Element::tetrahedron_p2},
-                                  {Element::hexahedron_q1, Element::hexahedron_q2}};
-
-Element of_order(Element element, int order) {
-  for (const auto& shape : kOrders)
-    if (shape[0] == element || shape[1] == element) return shape[order - 1];
-  return element;
-}
-
-}  // namespace
-
-Element first_order(Element element) { return of_order(element, 1); }
-Element second_order(Element element) { return of_order(element, 2); }
+Element first_order(Element element) { return static_cast<Element>(static_cast<int>(element) % 4); }
+Element second_order(Element element) { return static_cast<Element>(static_cast<int>(element) % 4 + 4); }
 
 }  // namespace dotyk::mesh

@@ -5,7 +5,7 @@
 
 namespace dotyk::mesh {
 
-/// A cell type: its shape and the order of its displacement.
+/// A cell type: its shape and the order of its displacement. Of each shape order 2 comes four places after order 1.
 enum class Element {
   triangle_p1, quadrilateral_q1, tetrahedron_p1, hexahedron_q1,
   triangle_p2, quadrilateral_q2, tetrahedron_p2, hexahedron_q2
@@ -38,6 +38,9 @@ struct ElementTopology {
 };
 
 const ElementTopology& topology(Element element);
+
+/// The node of a cell of order 2 that lies between these corners, in any order; -1: none (a triangle's centre).
+int node_between(const ElementTopology& topology, std::vector<int> corners);
 
 /// The linear (bilinear) hat of a facet's corner at the facet's node k.
 double corner_hat(const ElementTopology& topology, int corner, int k);

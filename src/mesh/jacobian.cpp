@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "mesh/mesh.hpp"
 
@@ -43,23 +42,12 @@ double hex_jacobian(const Mesh& mesh, const int* n) {
   return least;
 }
 
-double first_order_jacobian(const Mesh& mesh, const int* n) {
+double quad_jacobian(const Mesh& mesh, const int* n) {
   const auto edge = [&](int a, int b) { return minus(mesh.point(n[b]), mesh.point(n[a])); };
   double least = INFINITY;
-  switch (mesh.element) {
-    case Element::triangle_p1: return determinant(edge(0, 1), edge(0, 2), kUp);
-    case Element::tetrahedron_p1: return determinant(edge(0, 1), edge(0, 2), edge(0, 3));
-    case Element::quadrilateral_q1:
-      for (int k = 0; k < 4; ++k)
-        least = std::min(least, determinant(edge(k, kQuadCorner[k][0]), edge(k, kQuadCorner[k][1]), kUp));
-      return least;
-    case Element::hexahedron_q1: return hex_jacobian(mesh, n);
-    case Element::triangle_p2:
-    case Element::quadrilateral_q2:
-    case Element::tetrahedron_p2:
-    case Element::hexahedron_q2: break;
-  }
-  throw std::logic_error("not of order 1");
+  for (int k = 0; k < 4; ++k)
+    least = std::min(least, determinant(edge(k, kQuadCorner[k][0]), edge(k, kQuadCorner[k][1]), kUp));
+  return least;
 }
 
 void add(Point& sum, double weight, const Point& x) {
@@ -78,9 +66,10 @@ std::array<double, 8> shares(const ElementTopology& t, int node) {
   return share;
 }
 
-/// ∂x/∂λ_i of Σ λ_i(2λ_i − 1) x_i + Σ 4λ_iλ_j x_ij.
+/// ∂x/∂λ_i of Σ λ_i(2λ_i − 1) x_i + Σ 4λ_iλ_j x_ij, of order 1 of Σ λ_i x_i.
 Point simplex_derivative(const Mesh& mesh, const int* n, const std::array<double, 8>& lambda, int i) {
   const ElementTopology& t = mesh.topology();
+  if (t.order == 1) return mesh.point(n[i]);
   Point d{0, 0, 0};
   add(d, 4 * lambda[i] - 1, mesh.point(n[i]));
   for (std::size_t k = 0; k < t.between.size(); ++k) {
@@ -93,7 +82,7 @@ Point simplex_derivative(const Mesh& mesh, const int* n, const std::array<double
 double simplex_jacobian(const Mesh& mesh, const int* n) {
   const ElementTopology& t = mesh.topology();
   double least = INFINITY;
-  for (int node = 0; node < t.nodes; ++node) {
+  for (int node = 0; node < (t.order == 1 ? 1 : t.nodes); ++node) {
     const auto lambda = shares(t, node);
     const Point first = simplex_derivative(mesh, n, lambda, 0);
     Point d[3] = {{}, {}, kUp};
@@ -140,8 +129,10 @@ double tensor_jacobian(const Mesh& mesh, const int* n) {
 
 double least_jacobian(const Mesh& mesh, int c) {
   const ElementTopology& t = mesh.topology();
-  if (t.order == 1) return first_order_jacobian(mesh, mesh.cell(c));
-  return t.corners == t.dimension + 1 ? simplex_jacobian(mesh, mesh.cell(c)) : tensor_jacobian(mesh, mesh.cell(c));
+  const int* nodes = mesh.cell(c);
+  if (t.corners == t.dimension + 1) return simplex_jacobian(mesh, nodes);
+  if (t.order == 2) return tensor_jacobian(mesh, nodes);
+  return t.dimension == 2 ? quad_jacobian(mesh, nodes) : hex_jacobian(mesh, nodes);
 }
 
 }  // namespace dotyk::mesh

@@ -13,13 +13,14 @@ Point Mesh::point(int i) const {
   return p;
 }
 
-Point Mesh::cell_centre(int c) const {
+Point Mesh::mean(const int* nodes, int count) const {
   Point p{0, 0, 0};
-  const int n = topology().nodes;
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i < dimension(); ++i) p[i] += node(cell(c)[k])[i] / n;
+  for (int k = 0; k < count; ++k)
+    for (int i = 0; i < dimension(); ++i) p[i] += node(nodes[k])[i] / count;
   return p;
 }
+
+Point Mesh::cell_centre(int c) const { return mean(cell(c), topology().nodes); }
 
 Box Mesh::box() const {
   Box box;
@@ -33,11 +34,9 @@ double Mesh::size() const {
 }
 
 Point Mesh::facet_centre(Facet f) const {
-  Point p{0, 0, 0};
-  const int n = topology().nodes_per_facet;
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i < dimension(); ++i) p[i] += node(facet_node(f, k))[i] / n;
-  return p;
+  int nodes[kMostFacetNodes];
+  for (int k = 0; k < topology().nodes_per_facet; ++k) nodes[k] = facet_node(f, k);
+  return mean(nodes, topology().nodes_per_facet);
 }
 
 namespace {
@@ -78,10 +77,7 @@ Buckets cells_of_nodes(const Mesh& mesh) {
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f) {
   const int dim = mesh.dimension(), nodes = mesh.topology().nodes_per_facet;
   const auto difference = [&](const std::vector<double>& of, int from, int to) {  // between two of the facet's nodes
-    Point d{0, 0, 0};
-    for (int i = 0; i < dim; ++i)
-      d[i] = of[static_cast<std::size_t>(mesh.facet_node(f, to)) * dim + i] - of[static_cast<std::size_t>(mesh.facet_node(f, from)) * dim + i];
-    return d;
+    return minus(at_node(of, mesh.facet_node(f, to), dim), at_node(of, mesh.facet_node(f, from), dim));
   };
   const Point first = difference(V, 0, nodes == 4 ? 2 : 1);
   if (dim == 2) return {first[1], -first[0], 0};
@@ -97,18 +93,11 @@ Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Face
 }
 
 void transform(Mesh& mesh, const std::function<Point(const Point&)>& map) {
-  std::vector<double> old = mesh.coordinates;
-  try {
-    for (int i = 0; i < mesh.node_count(); ++i) {
-      const Point moved = map(mesh.point(i));
-      std::copy_n(moved.begin(), mesh.dimension(),
-                  mesh.coordinates.begin() + static_cast<std::ptrdiff_t>(i) * mesh.dimension());
-    }
-    check(mesh, "the moved mesh");
-  } catch (...) {  // also a script error passing through: restore, then let it go on
-    mesh.coordinates = std::move(old);
-    throw;
-  }
+  Mesh moved = mesh;
+  for (int i = 0; i < mesh.node_count(); ++i)
+    std::copy_n(map(mesh.point(i)).begin(), mesh.dimension(), moved.coordinates.begin() + static_cast<std::ptrdiff_t>(i) * mesh.dimension());
+  check(moved, "the moved mesh");
+  mesh = std::move(moved);
 }
 
 }  // namespace dotyk::mesh

@@ -33,6 +33,7 @@ struct Mesh {
   const int* cell(int c) const { return &cells[static_cast<std::size_t>(c) * topology().nodes]; }
 
   Point point(int i) const;
+  Point mean(const int* nodes, int count) const;
   Point cell_centre(int c) const;
   Box box() const;  ///< around the nodes
   /// Greatest extent of the nodes along a coordinate axis.

@@ -58,7 +58,7 @@ struct Box {
   }
   bool holds(const Point& x) const {
     for (int i = 0; i < 3; ++i)
-      if (x[i] < low[i] || x[i] > high[i]) return false;
+      if (!(x[i] >= low[i] && x[i] <= high[i])) return false;
     return true;
   }
   double extent(int axis) const { return high[axis] - low[axis]; }

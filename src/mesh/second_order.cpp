@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/facet_table.hpp"
+
 namespace dotyk::mesh {
 namespace {
 
@@ -29,13 +31,6 @@ std::vector<Between> all_between(const Mesh& mesh, const ElementTopology& t) {
   return all;
 }
 
-Point mean(const Mesh& mesh, int cell, const std::vector<int>& corners) {
-  Point x{0, 0, 0};
-  for (const int k : corners)
-    for (int i = 0; i < mesh.dimension(); ++i) x[i] += mesh.node(mesh.cell(cell)[k])[i] / static_cast<double>(corners.size());
-  return x;
-}
-
 }  // namespace
 
 Mesh second_order(Mesh first) {
@@ -53,7 +48,9 @@ Mesh second_order(Mesh first) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Between& one = all[k];
     if (k == 0 || one.corners != all[k - 1].corners) {
-      const Point x = mean(first, one.cell, t.between[one.local - t.corners]);
+      std::vector<int> corners = t.between[one.local - t.corners];
+      for (int& k : corners) k = first.cell(one.cell)[k];
+      const Point x = first.mean(corners.data(), static_cast<int>(corners.size()));
       mesh.coordinates.insert(mesh.coordinates.end(), x.begin(), x.begin() + t.dimension);
     }
     mesh.cells[static_cast<std::size_t>(one.cell) * t.nodes + one.local] = mesh.node_count() - 1;
@@ -98,24 +95,14 @@ Mesh cut_at_nodes(Mesh whole) {
   for (int c = 0; c < whole.cell_count(); ++c)
     for (const std::vector<int>& piece : pieces)
       for (const int k : piece) mesh.cells.push_back(whole.cell(c)[k]);
-  const ElementTopology& f = mesh.topology();
-  const auto find = [&](int cell, const std::vector<int>& nodes) -> Facet {  // of a piece of the cell
-    for (int p = 0; p < static_cast<int>(pieces.size()); ++p)
-      for (int l = 0; l < f.facets; ++l) {
-        const Facet facet{static_cast<int>(pieces.size()) * cell + p, l};
-        bool same = true;
-        for (int k = 0; same && k < f.nodes_per_facet; ++k)
-          same = std::find(nodes.begin(), nodes.end(), mesh.facet_node(facet, k)) != nodes.end();
-        if (same) return facet;
-      }
-    return {0, 0};
-  };
+  const FacetTable table(mesh);
+  const int each = mesh.topology().facets;
   for (const auto& [name, facets] : whole.parts)
     for (const Facet facet : facets)
       for (const std::vector<int>& piece : facet_pieces) {
-        std::vector<int> nodes;
-        for (const int k : piece) nodes.push_back(whole.facet_node(facet, k));
-        mesh.parts[name].push_back(find(facet.cell, nodes));
+        int nodes[4], count = 0;
+        for (const int k : piece) nodes[count++] = whole.facet_node(facet, k);
+        table.with(FacetTable::sorted(nodes, count), [&](int f) { mesh.parts[name].push_back({f / each, f % each}); });
       }
   return mesh;
 }

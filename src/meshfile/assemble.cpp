@@ -7,28 +7,11 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "meshfile/cell_of.hpp"
 #include "meshfile/cells.hpp"
-#include "meshfile/facet_table.hpp"
+#include "mesh/facet_table.hpp"
 
 namespace dotyk::meshfile {
 namespace {
-
-void check_numbers(const Contents& c, const std::string& what) {
-  if (c.points.size() % 3 != 0) throw InputError(what + ": its nodes are damaged");
-  const auto nodes = static_cast<long long>(c.points.size() / 3);
-  for (const Block& b : c.blocks) {
-    if (b.nodes.size() % kind(b.shape).nodes != 0) throw InputError(text(what, ": its ", kind(b.shape).plural, " are damaged"));
-    for (const int n : b.nodes)
-      if (n < 0 || n >= nodes) throw InputError(text(what, ": one of its ", kind(b.shape).plural, " has a node that is not there"));
-    const std::size_t between = b.order == 2 ? b.nodes.size() / kind(b.shape).nodes * between_count(b.shape) : 0;
-    if (b.between.size() != between) throw InputError(text(what, ": its ", kind(b.shape).plural, " are damaged"));
-    for (const int n : b.between)
-      if (n < -1 || n >= nodes) throw InputError(text(what, ": one of its ", kind(b.shape).plural, " has a node that is not there"));
-    for (const int g : b.groups)
-      if (g < 0 || g >= static_cast<int>(c.groups.size())) throw InputError(what + ": its groups are damaged");
-  }
-}
 
 int dimension(const Contents& c, const std::string& what) {
   int greatest = 0;
@@ -92,14 +75,16 @@ bool same_way(const mesh::Mesh& mesh, mesh::Facet f, mesh::Facet g) {
 }
 
 /// Right-handed cells that share a facet lie on its two sides, unless the mesh is folded; there are never three.
-void refuse_overlaps(const mesh::Mesh& mesh, const FacetTable& table, const std::string& what) {
-  const auto& e = table.entries();
-  for (std::size_t i = 0, end; i < e.size(); i = end) {
-    for (end = i + 1; end < e.size() && e[end].nodes == e[i].nodes;) ++end;
-    for (std::size_t j = i + 1; j < end; ++j)
-      if (end - i > 2 || same_way(mesh, e[i].facet, e[j].facet)) {
-        const mesh::Point x = mesh.facet_centre(e[i].facet);
-        throw InputError(text(what, ": cells ", e[i].facet.cell + 1, " and ", e[j].facet.cell + 1, " overlap: they lie on the same side of their common facet near ",
+void refuse_overlaps(const mesh::Mesh& mesh, const mesh::FacetTable& table, const std::string& what) {
+  const int facets = mesh.topology().facets;
+  std::vector<mesh::Facet> all;
+  for (int f = 0; f < table.count(); ++f) {
+    all.clear();
+    table.with(table.corners(f), [&](int g) { all.push_back({g / facets, g % facets}); });
+    for (std::size_t k = 1; k < all.size(); ++k)
+      if (all.size() > 2 || same_way(mesh, all[0], all[k])) {
+        const mesh::Point x = mesh.facet_centre(all[0]);
+        throw InputError(text(what, ": cells ", all[0].cell + 1, " and ", all[k].cell + 1, " overlap: they lie on the same side of their common facet near ",
                               point_text(x.data(), mesh.dimension())));
       }
   }
@@ -110,28 +95,29 @@ struct PartCount {
 };
 
 /// The boundary facets that the elements of the block are, added to `part`.
-PartCount add_facets(const Block& block, const FacetTable& table, const std::vector<int>& number, std::vector<mesh::Facet>& part) {
+PartCount add_facets(const Block& block, const mesh::FacetTable& table, int facets, const std::vector<int>& number, std::vector<mesh::Facet>& part) {
   const int each = kind(block.shape).nodes;
   PartCount left_out;
   for (std::size_t k = 0; k < block.nodes.size(); k += each) {
     int nodes[4];
     bool here = true;
     for (int i = 0; i < each; ++i) here = (nodes[i] = number[block.nodes[k + i]]) >= 0 && here;
-    const auto found = here ? table.find(nodes, each) : std::vector<mesh::Facet>();
-    if (found.size() == 1) part.push_back(found.front());
-    else ++(found.empty() ? left_out.elsewhere : left_out.within);
+    int count = 0, found = 0;
+    if (here) table.with(mesh::FacetTable::sorted(nodes, each), [&](int f) { found = f, ++count; });
+    if (count == 1) part.push_back({found / facets, found % facets});
+    else ++(count == 0 ? left_out.elsewhere : left_out.within);
   }
   return left_out;
 }
 
-void add_parts(const Contents& c, const FacetTable& table, const std::vector<int>& number, bool whole, Loaded& loaded) {
+void add_parts(const Contents& c, const mesh::FacetTable& table, const std::vector<int>& number, bool whole, Loaded& loaded) {
   mesh::Mesh& mesh = loaded.mesh;
   std::map<std::string, PartCount> left_out;
   for (const Block& b : c.blocks) {
     if (kind(b.shape).dimension != mesh.dimension() - 1) continue;
     for (const int g : b.groups) {
       std::vector<mesh::Facet>& part = mesh.parts[c.groups[g].name];
-      const PartCount here = add_facets(b, table, number, part);
+      const PartCount here = add_facets(b, table, mesh.topology().facets, number, part);
       left_out[c.groups[g].name].within += here.within, left_out[c.groups[g].name].elsewhere += here.elsewhere;
     }
   }
@@ -150,7 +136,7 @@ void add_parts(const Contents& c, const FacetTable& table, const std::vector<int
 }  // namespace
 
 Loaded assemble(const Contents& contents, const Choice& choice, const std::string& what) {
-  check_numbers(contents, what);
+  check(contents, what);
   const std::vector<std::string>& regions = choice.regions;
   const int dim = dimension(contents, what);
   check_regions(contents, dim, regions, what);
@@ -160,7 +146,7 @@ Loaded assemble(const Contents& contents, const Choice& choice, const std::strin
   if (choice.order == 2) refuse_above_second(blocks, what);
   loaded.mesh = mesh_of(contents, blocks, choice.order, number, what);
   mesh::check(loaded.mesh, what);
-  const FacetTable table(loaded.mesh);
+  const mesh::FacetTable table(loaded.mesh);
   refuse_overlaps(loaded.mesh, table, what);
   note_order(blocks, choice.order, loaded.notes);
   add_parts(contents, table, number, regions.empty(), loaded);

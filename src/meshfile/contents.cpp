@@ -1,17 +1,24 @@
 #include "contents.hpp"
 
-#include <algorithm>
 #include <cstdint>
-#include <stdexcept>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "reader/bytes.hpp"
 
 namespace dotyk::meshfile {
 
 const ShapeKind& kind(Shape shape) {
-  static const ShapeKind kinds[] = {{"segments", 1, 2},   {"triangles", 2, 3}, {"quadrilaterals", 2, 4}, {"tetrahedra", 3, 4},
-                                    {"hexahedra", 3, 8}, {"prisms", 3, 6},    {"pyramids", 3, 5}};
+  using mesh::Element;
+  static const ShapeKind kinds[] = {
+      {"segments", 1, 2}, {"triangles", 2, 3, Element::triangle_p1}, {"quadrilaterals", 2, 4, Element::quadrilateral_q1},
+      {"tetrahedra", 3, 4, Element::tetrahedron_p1}, {"hexahedra", 3, 8, Element::hexahedron_q1}, {"prisms", 3, 6}, {"pyramids", 3, 5}};
   return kinds[static_cast<int>(shape)];
+}
+
+const std::vector<std::vector<int>>& between_corners(Shape shape) {
+  static const std::vector<std::vector<int>> none;
+  return kind(shape).cell ? mesh::topology(mesh::second_order(*kind(shape).cell)).between : none;
 }
 
 void write(std::FILE* out, const Contents& contents) {
@@ -24,21 +31,22 @@ void write(std::FILE* out, const Contents& contents) {
   reader::put_end(out);
 }
 
-namespace {
-
-/// Are the numbers such that they can be places? What a library made of a damaged file need not be.
-bool sound(const Contents& c) {
-  const auto points = static_cast<int>(c.points.size() / 3), groups = static_cast<int>(c.groups.size());
-  const auto within = [](const std::vector<int>& all, int low, int high) {
-    return std::all_of(all.begin(), all.end(), [&](int i) { return i >= low && i < high; });
-  };
-  return std::all_of(c.blocks.begin(), c.blocks.end(), [&](const Block& b) {
-    return b.shape >= Shape::segment && b.shape <= Shape::pyramid && within(b.groups, 0, groups) && within(b.nodes, 0, points) &&
-           within(b.between, -1, points);
-  });
+void check(const Contents& c, const std::string& what) {
+  if (c.points.size() % 3 != 0) throw InputError(what + ": its nodes are damaged");
+  const auto nodes = static_cast<long long>(c.points.size() / 3);
+  for (const Block& b : c.blocks) {
+    if (b.shape < Shape::segment || b.shape > Shape::pyramid) throw InputError(what + ": its elements are damaged");
+    if (b.nodes.size() % kind(b.shape).nodes != 0) throw InputError(text(what, ": its ", kind(b.shape).plural, " are damaged"));
+    for (const int n : b.nodes)
+      if (n < 0 || n >= nodes) throw InputError(text(what, ": one of its ", kind(b.shape).plural, " has a node that is not there"));
+    const std::size_t between = b.order == 2 ? b.nodes.size() / kind(b.shape).nodes * between_corners(b.shape).size() : 0;
+    if (b.between.size() != between) throw InputError(text(what, ": its ", kind(b.shape).plural, " are damaged"));
+    for (const int n : b.between)
+      if (n < -1 || n >= nodes) throw InputError(text(what, ": one of its ", kind(b.shape).plural, " has a node that is not there"));
+    for (const int g : b.groups)
+      if (g < 0 || g >= static_cast<int>(c.groups.size())) throw InputError(what + ": its groups are damaged");
+  }
 }
-
-}  // namespace
 
 Contents read(std::string_view bytes) {
   reader::Answer from(bytes);
@@ -56,7 +64,7 @@ Contents read(std::string_view bytes) {
     c.blocks.push_back({shape, std::move(groups), std::move(nodes), order, from.get_all<std::vector<int>>()});
   }
   from.end();
-  if (!sound(c)) throw std::runtime_error("the reader's answer has places beyond its lists");
+  check(c, "the reader's answer");
   return c;
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "mesh/element.hpp"
 
 namespace dotyk::meshfile {
 
@@ -13,9 +16,13 @@ struct ShapeKind {
   const char* plural;
   int dimension;
   int nodes;  ///< corners
+  std::optional<mesh::Element> cell = {};  ///< of order 1; there are none that are segments, prisms and pyramids
 };
 
 const ShapeKind& kind(Shape shape);
+
+/// mesh::ElementTopology::between of the cell of order 2: the corners of each node after them; none of other shapes.
+const std::vector<std::vector<int>>& between_corners(Shape shape);
 
 /// A named set of elements of one dimension: a region, where that is the dimension of the cells, or part of a boundary.
 struct Group {
@@ -41,9 +48,12 @@ struct Contents {
   std::vector<Block> blocks;
 };
 
+/// Throws InputError, beginning with `what`, where there are places beyond the lists or numbers that are not whole elements.
+void check(const Contents& contents, const std::string& what);
+
 /// To and from a reader that runs in a process of its own. The numbers are this machine's.
 void write(std::FILE* out, const Contents& contents);
-/// Throws std::runtime_error where `bytes` are not whole, or name places beyond the lists.
+/// Throws std::runtime_error where `bytes` are not whole; see check(), too.
 Contents read(std::string_view bytes);
 
 }  // namespace dotyk::meshfile

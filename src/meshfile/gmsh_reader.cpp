@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <unordered_map>
 
-#include "cell_of.hpp"
+#include "contents.hpp"
 #include "reader/reader_main.hpp"
 
 namespace {
@@ -68,10 +68,8 @@ struct Type {
 
 /// Gmsh's nodes between corners by their places in its reference element, `local` (dimension × nodes), which is straight.
 std::vector<int> between(Shape shape, int dimension, const std::vector<double>& local) {
-  const auto cell = cell_of(shape);
-  if (!cell) return {};
   std::vector<int> result;
-  for (const std::vector<int>& corners : dotyk::mesh::topology(dotyk::mesh::second_order(*cell)).between) {
+  for (const std::vector<int>& corners : between_corners(shape)) {
     result.push_back(-1);
     for (std::size_t node = 0; (node + 1) * dimension <= local.size(); ++node) {
       double off = 0;
@@ -211,6 +209,12 @@ class Reader {
   std::map<std::pair<int, int>, std::vector<int>> groups_;
 };
 
+Contents read_all() {
+  Contents result;
+  run([&] { result = Reader().read(); });
+  return result;
+}
+
 /// Another name of the file, one without neighbours: beside FILE Gmsh looks for FILE.opt, and does what that says.
 std::string lone_name(const std::string& file) {
   const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC);  // as long as this program runs
@@ -247,8 +251,7 @@ Contents load(const std::string& file) {
   const std::string name = lone_name(file);
   start();
   run([&] { gmsh::merge(name); });
-  Contents result;
-  run([&] { result = Reader().read(); });
+  const Contents result = read_all();
   refuse_loss(result);
   return result;
 }
@@ -272,9 +275,7 @@ Contents generate(const std::string& file, int dimension, double size, int order
     gmsh::option::setNumber("Mesh.HighOrderOptimize", 1);  // cells that curved sides would turn inside out
   }
   run([&] { gmsh::model::mesh::generate(dimension); });
-  Contents result;
-  run([&] { result = Reader().read(); });
-  return result;
+  return read_all();
 }
 
 }  // namespace

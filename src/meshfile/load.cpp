@@ -1,6 +1,6 @@
 #include "meshfile/load.hpp"
 
-#include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,13 +10,11 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
-#include <optional>
 
 #include "base/error.hpp"
 #include "base/in_quotes.hpp"
 #include "base/memory.hpp"
 #include "base/readable_file.hpp"
-#include "base/removed_at_end.hpp"
 #include "base/text.hpp"
 #include "meshfile/mfem.hpp"
 #include "reader/process.hpp"
@@ -94,29 +92,20 @@ Loaded mesh_file(const std::string& file, const Meshing& meshing, const Choice& 
   return assemble(read(answer), choice, what);
 }
 
-/// A file in the folder for temporary files, gone at the end.
-class TemporaryFile {
+/// A text as a file in memory, which the programs that this one starts can open by its name.
+class TextFile {
  public:
-  explicit TemporaryFile(const std::string& content) {
-    const char* folder = std::getenv("TMPDIR");
-    name_ = std::string(folder && *folder ? folder : "/tmp") + "/dotyk-XXXXXX.geo";
-    const int file = mkstemps(name_.data(), 4);
-    if (file < 0) throw std::runtime_error("cannot write '" + name_ + "': " + std::strerror(errno));
-    at_end_.emplace(name_);
-    const ssize_t n = ::write(file, content.data(), content.size());
-    ::close(file);
-    if (n == static_cast<ssize_t>(content.size())) return;
-    ::unlink(name_.c_str());
-    throw std::runtime_error("cannot write '" + name_ + "'");
+  explicit TextFile(const std::string& text) : file_(memfd_create("geometry", 0)) {
+    if (file_ < 0 || ::write(file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+      throw std::runtime_error(std::string("the geometry's text cannot be handed over: ") + std::strerror(errno));
   }
-  ~TemporaryFile() { ::unlink(name_.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::string& name() const { return name_; }
+  ~TextFile() { ::close(file_); }
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+  std::string name() const { return "/proc/self/fd/" + std::to_string(file_); }
 
  private:
-  std::string name_;
-  std::optional<RemovedAtEnd> at_end_;
+  int file_;
 };
 
 }  // namespace
@@ -141,7 +130,7 @@ Loaded mesh_geometry(const std::string& file, const Meshing& meshing, const Choi
 }
 
 Loaded mesh_text(const std::string& geometry, const Meshing& meshing, const Choice& choice, Monitor& monitor) {
-  const TemporaryFile file(geometry + "\n");  // without a last newline Gmsh leaves out what comes last
+  const TextFile file(geometry + "\n");  // without a last newline Gmsh leaves out what comes last
   try {
     return mesh_file(file.name(), meshing, choice, "geometry", monitor);
   } catch (const InputError& e) {

@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/in_quotes.hpp"
 #include "base/text.hpp"
-#include "meshfile/cell_of.hpp"
 
 namespace dotyk::meshfile {
 namespace {
@@ -89,16 +88,11 @@ void read_elements(Words& words, Contents& contents, int dimension, std::vector<
 }
 
 /// MFEM's order of edges, then faces, then the cell, by places in mesh::ElementTopology::between.
-const std::vector<int>& between_in_order(Shape shape) {
-  static const std::vector<int> triangle{0, 1, 2}, quadrilateral{0, 1, 2, 3, 4}, tetrahedron{0, 2, 3, 1, 4, 5},
-      hexahedron{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 14, 13, 15, 12, 17, 18}, none;
-  switch (shape) {
-    case Shape::triangle: return triangle;
-    case Shape::quadrilateral: return quadrilateral;
-    case Shape::tetrahedron: return tetrahedron;
-    case Shape::hexahedron: return hexahedron;
-    default: return none;
-  }
+const std::map<Shape, std::vector<int>>& between_in_order() {
+  static const std::map<Shape, std::vector<int>> orders{
+      {Shape::triangle, {0, 1, 2}}, {Shape::quadrilateral, {0, 1, 2, 3, 4}}, {Shape::tetrahedron, {0, 2, 3, 1, 4, 5}},
+      {Shape::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 14, 13, 15, 12, 17, 18}}};
+  return orders;
 }
 
 /// Makes the elements' order 2: after the vertices come the nodes on edges, in quadrilateral faces, then in cells, each
@@ -110,9 +104,9 @@ int number_between(Contents& contents, const std::vector<std::size_t>& elements,
   std::vector<std::size_t> done(contents.blocks.size(), 0);
   for (const std::size_t b : elements) {
     Block& block = contents.blocks[b];
-    const auto& order = between_in_order(block.shape);
-    if (order.empty()) words.fail(text("nodes of ", kind(block.shape).plural, "; those of triangles, quadrilaterals, tetrahedra and hexahedra are read"));
-    const auto& between = mesh::topology(mesh::second_order(*cell_of(block.shape))).between;
+    const auto order = between_in_order().find(block.shape);
+    if (order == between_in_order().end()) words.fail(text("nodes of ", kind(block.shape).plural, "; those of triangles, quadrilaterals, tetrahedra and hexahedra are read"));
+    const auto& between = between_corners(block.shape);
     const int* corner = &block.nodes[done[b]++ * kind(block.shape).nodes];
     for (int k = 0; k < kind(block.shape).nodes; ++k)
       if (corner[k] < 0 || corner[k] >= vertices) words.fail(text("vertex ", corner[k], " of an element; there are ", vertices, ", counted from 0"));
@@ -120,7 +114,7 @@ int number_between(Contents& contents, const std::vector<std::size_t>& elements,
     block.order = 2;
     block.between.resize(first + between.size());
     of_kind[b].resize(first + between.size());
-    for (const int k : order) {
+    for (const int k : order->second) {
       std::array<int, 4> key{-1, -1, -1, -1};
       const bool inside = between[k].size() == 8 || (between[k].size() == 4 && block.shape == Shape::quadrilateral);
       for (std::size_t i = 0; !inside && i < between[k].size(); ++i) key[i] = corner[between[k][i]];

@@ -19,7 +19,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "cell_of.hpp"
+#include "contents.hpp"
 #include "reader/reader_main.hpp"
 
 namespace {
@@ -117,7 +117,7 @@ class Blocks {
     };
     for (int k = 0; k < corners; ++k) block.nodes.push_back(node(type->corner.empty() ? k : type->corner[k]));
     // VTK's order is ours; serendipity cells end with the nodes on their edges.
-    const int all = type->order == 2 ? corners + between_count(type->shape) : corners;
+    const int all = type->order == 2 ? corners + static_cast<int>(between_corners(type->shape).size()) : corners;
     for (int k = corners; k < all; ++k) block.between.push_back(k < ids->GetNumberOfIds() ? node(k) : -1);
   }
 

@@ -23,7 +23,7 @@ std::optional<Place> Finder::find(const Vector2d& x) const {
   constexpr double kSlack = 1e-6;  // in barycentric coordinates
   Place best{-1, {}};
   double depth = -kSlack;
-  for (const int c : grid_.near({x[0], x[1], 0})) {
+  for (const int c : cells_.around({x[0], x[1], 0})) {
     const Barycentric b = barycentric(triangle(*space_.mesh, space_.edges, c), x);
     if (!(b.minCoeff() >= depth)) continue;
     best = {c, b};

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "mesh/cell_grid.hpp"
+#include "mesh/box_tree.hpp"
 #include "plate/samples.hpp"
 
 namespace dotyk::plate {
@@ -15,13 +15,13 @@ struct Place {
 };
 class Finder {
  public:
-  explicit Finder(const Space& space) : space_(space), grid_(*space.mesh) {}
+  explicit Finder(const Space& space) : space_(space), cells_(mesh::boxes_of_cells(*space.mesh)) {}
   Place find(const Eigen::Vector2d& x, const std::string& what) const;
   std::optional<Place> find(const Eigen::Vector2d& x) const;
 
  private:
   const Space& space_;
-  mesh::CellGrid grid_;
+  mesh::BoxTree cells_;
 };
 
 /// ∫ f v + loads on points, those of point supports included, and lines, of every freedom. What edges are loaded with by their laws is not in it. Throws InputError where

@@ -3,11 +3,13 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <climits>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -15,19 +17,60 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/open_library.hpp"
 #include "base/text.hpp"
-#include "reader/processor_time.hpp"
 
 extern char** environ;
 
 namespace dotyk::reader {
 namespace {
 
-std::string own_folder() {
-  char path[PATH_MAX];
-  const ssize_t n = readlink("/proc/self/exe", path, sizeof path);
-  const std::string program(path, n > 0 ? static_cast<std::size_t>(n) : 0);
-  return program.substr(0, program.rfind('/') == std::string::npos ? 0 : program.rfind('/'));
+// The limit of processors' time of this process (--seconds, ulimit -t) is one for it and the programs that it starts together:
+// where that time is spent, this process ends as by the limit (SIGXCPU).
+
+/// Of this process alone, as the system keeps it now.
+rlimit own_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_CPU, &limit) != 0) limit.rlim_cur = RLIM_INFINITY;
+  return limit;
+}
+
+/// Seconds for all together; what it is when the first program is started, for count_ended() lowers the system's.
+double allowed() {
+  static const double seconds = own_limit().rlim_cur == RLIM_INFINITY ? INFINITY : static_cast<double>(own_limit().rlim_cur);
+  return seconds;
+}
+
+double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+
+double taken_by(int who) {
+  rusage usage{};
+  return getrusage(who, &usage) == 0 ? seconds(usage.ru_utime) + seconds(usage.ru_stime) : 0;
+}
+
+double taken_by_running(pid_t program) {
+  clockid_t clock{};
+  timespec time{};
+  if (clock_getcpuclockid(program, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+void end_where_spent(double more) {
+  if (taken_by(RUSAGE_SELF) + taken_by(RUSAGE_CHILDREN) + more >= allowed()) std::raise(SIGXCPU);
+}
+
+/// To be called from time to time while the program runs, so that it gets no more than what is left.
+void count_running(pid_t program) {
+  if (std::isfinite(allowed())) end_where_spent(taken_by_running(program));
+}
+
+/// To be called when a program has ended and been waited for: what it took is no longer this process's.
+void count_ended() {
+  if (!std::isfinite(allowed())) return;
+  end_where_spent(0);
+  rlimit limit = own_limit();
+  limit.rlim_cur = static_cast<rlim_t>(std::max(1.0, std::ceil(allowed() - taken_by(RUSAGE_CHILDREN))));
+  setrlimit(RLIMIT_CPU, &limit);
 }
 
 /// The reading end of a pipe to a running program.
@@ -96,10 +139,7 @@ class Child {
 }  // namespace
 
 std::string require_program(const std::string& name, const std::string& library) {
-  const std::string here = own_folder();
-  const std::vector<std::string> places{here + "/" + name, here + "/../lib/dotyk/" + name, here + "/../" DOTYK_READER_LIBDIR "/dotyk/" + name,
-                                        DOTYK_READER_BUILD "/" + name};
-  for (const std::string& place : places)
+  for (const std::string& place : places_of(name, DOTYK_READER_LIBDIR, DOTYK_READER_BUILD "/" + name))
     if (access(place.c_str(), X_OK) == 0) return place;
   const bool built = std::string(" " DOTYK_READERS " ").find(" " + name + " ") != std::string::npos;
   throw std::runtime_error(built ? "the program " + name + ", which reads such files, is not beside dotyk or in its library folder: install or build dotyk again"

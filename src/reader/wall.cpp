@@ -1,4 +1,4 @@
-#include "reader/wall.hpp"
+#include "reader/reader_main.hpp"
 
 #include <fcntl.h>
 #include <linux/audit.h>

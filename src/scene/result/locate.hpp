@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "elasticity/interpolation.hpp"
-#include "mesh/cell_grid.hpp"
+#include "mesh/box_tree.hpp"
 
 namespace dotyk::scene {
 
@@ -17,17 +17,17 @@ struct Place {
 /// Finds the cell that contains a point.
 class Locator {
  public:
-  explicit Locator(const mesh::Mesh& mesh) : mesh_(mesh), grid_(mesh) {}
+  explicit Locator(const mesh::Mesh& mesh) : mesh_(mesh), cells_(mesh::boxes_of_cells(mesh)) {}
   /// Empty outside the mesh (by more than 1e-6 of a cell).
   std::optional<Place> find(const mesh::Point& x) const {
-    for (const int cell : grid_.near(x))
+    for (const int cell : cells_.around(x))
       if (Place place{cell, {}}; elasticity::shape_at(mesh_, cell, x, 1e-6, place.shape)) return place;
     return std::nullopt;
   }
 
  private:
   const mesh::Mesh& mesh_;
-  mesh::CellGrid grid_;
+  mesh::BoxTree cells_;
 };
 
 }  // namespace dotyk::scene

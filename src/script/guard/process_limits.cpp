@@ -8,7 +8,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -21,14 +20,6 @@ namespace {
 
 constexpr double bytes_of_a_thread = 150e6;  // OpenBLAS's buffer, and a stack
 constexpr double bytes_to_begin = 8e6;       // of a script's own, above what dotyk takes before it
-
-double page() { return static_cast<double>(sysconf(_SC_PAGESIZE)); }
-
-double taken_already() {
-  std::ifstream in("/proc/self/statm");
-  double pages = 0;
-  return in >> pages ? pages * page() : 0;
-}
 
 void time_is_up(int) {
   constexpr char message[] = "dotyk: the limit of processors' time is reached (--seconds)\n";
@@ -49,7 +40,7 @@ void ProcessLimits::fill_in_for_safe() {
   if (!seconds) seconds = 600;
   if (!file) file = 1e9;
 #ifndef __SANITIZE_ADDRESS__  // which takes all of the address space
-  if (!memory) memory = std::max(2e9, 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page());
+  if (!memory) memory = std::max(2e9, 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)));
 #endif
 }
 
@@ -69,7 +60,7 @@ void set_limits(const ProcessLimits& limits) {
   std::signal(SIGXFSZ, SIG_IGN);  // of ulimit -f, too
   if (limits.file) limit(RLIMIT_FSIZE, *limits.file);
   if (limits.memory) {
-    const double least = taken_already() + bytes_to_begin;
+    const double least = address_space_taken() + bytes_to_begin;
     if (*limits.memory < least)
       throw std::runtime_error(text("--memory ", *limits.memory * 1e-6, "M is less than dotyk needs to start (about ", std::ceil(least * 1e-6), "M)"));
     limit(RLIMIT_AS, *limits.memory);

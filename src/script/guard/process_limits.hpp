@@ -4,7 +4,7 @@
 
 namespace dotyk::script {
 
-// Bytes, and seconds of processors' time, that of the programs that read files included (reader/processor_time.hpp); absent:
+// Bytes, and seconds of processors' time, that of the programs that read files included (reader/process.cpp); absent:
 // no limit.
 struct ProcessLimits {
   std::optional<double> seconds, memory, file;
