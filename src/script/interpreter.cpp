@@ -1,8 +1,5 @@
 #include "script/interpreter.hpp"
 
-#include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <new>
 #include <stdexcept>
 
@@ -41,11 +38,9 @@ void fill(lua_State* L, Library& library) {
   luaL_openlibs(L);
   guard_lua(L);
   bind_all(library);
-  lua_getglobal(L, "dotyk");
-  set_field(L, "version", DOTYK_VERSION);
-  lua_pop(L, 1);
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   lua_getglobal(L, "dotyk");
+  set_field(L, "version", DOTYK_VERSION);
   lua_setfield(L, -2, "dotyk");
   lua_pop(L, 1);
   load_lua_side(L);
@@ -68,13 +63,9 @@ Interpreter::Interpreter() : L_(luaL_newstate()) {
 Interpreter::~Interpreter() { lua_close(L_); }
 
 void Interpreter::set_arguments(const std::string& script, const std::vector<std::string>& arguments) {
-  lua_createtable(L_, static_cast<int>(arguments.size()), 1);
+  push(L_, arguments);
   push(L_, script);
   lua_rawseti(L_, -2, 0);
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    push(L_, arguments[i]);
-    lua_rawseti(L_, -2, static_cast<lua_Integer>(i) + 1);
-  }
   lua_setglobal(L_, "arg");
 }
 
@@ -90,34 +81,15 @@ std::optional<std::string> Interpreter::call(int count, int results) {
   return message;
 }
 
-std::optional<std::string> Interpreter::run_loaded(int load_status) {
-  if (load_status != LUA_OK) {
+std::optional<std::string> Interpreter::run_text(const std::string& text, const std::string& chunk) {
+  const std::string name = chunk.starts_with('@') ? chunk : "=" + chunk;
+  if (luaL_loadbufferx(L_, text.data(), text.size(), name.c_str(), "t") != LUA_OK) {
     std::string message = lua_tostring(L_, -1);
     lua_pop(L_, 1);
     return message;
   }
+  if (keep_locals_) script::keep_locals(L_, text, name);
   return call(0, 0);
-}
-
-std::string script_in(std::string text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  if (text.starts_with('#')) text.erase(0, std::min(text.find('\n'), text.size()));
-  return text;
-}
-
-std::optional<std::string> Interpreter::run_file(const std::string& path) {
-  const int status = luaL_loadfilex(L_, path == "-" ? nullptr : path.c_str(), "t");
-  if (status == LUA_OK && keep_locals_ && path != "-") {
-    std::ifstream file(path, std::ios::binary);
-    script::keep_locals(L_, script_in({std::istreambuf_iterator<char>(file), {}}), "@" + path);
-  }
-  return run_loaded(status);
-}
-
-std::optional<std::string> Interpreter::run_text(const std::string& text, const std::string& chunk) {
-  const int status = luaL_loadbufferx(L_, text.data(), text.size(), ("=" + chunk).c_str(), "t");
-  if (status == LUA_OK && keep_locals_) script::keep_locals(L_, text, "=" + chunk);
-  return run_loaded(status);
 }
 
 }  // namespace dotyk::script

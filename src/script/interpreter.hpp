@@ -11,9 +11,6 @@ namespace dotyk::script {
 
 class Library;
 
-// The Lua of a file: without what may stand before it where the system starts it, a byte order mark and a first line with '#'.
-std::string script_in(std::string text);
-
 class Interpreter {
  public:
   // Opens Lua's libraries, registers the bindings, runs lua/init.lua, makes
@@ -35,9 +32,8 @@ class Interpreter {
   // The global `arg`: [0] the script, [1] … its arguments.
   void set_arguments(const std::string& script, const std::vector<std::string>& arguments);
 
-  // Runs a file ("-" is standard input) or a text, whose name in messages is
-  // `chunk`. Returns the error message, or nothing when all went well.
-  std::optional<std::string> run_file(const std::string& path);
+  // Runs a text, whose name in messages is `chunk`, or, of a file's text, "@" and the file. Returns the error message, or
+  // nothing when all went well.
   std::optional<std::string> run_text(const std::string& text, const std::string& chunk);
 
   // Calls the function below its `count` arguments on the Lua stack, leaving its
@@ -45,8 +41,6 @@ class Interpreter {
   std::optional<std::string> call(int count, int results);
 
  private:
-  std::optional<std::string> run_loaded(int load_status);
-
   lua_State* L_;
   std::unique_ptr<Library> library_;
   bool trace_ = false, keep_locals_ = false;

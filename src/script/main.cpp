@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -13,6 +14,7 @@
 #include <new>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -93,7 +95,7 @@ std::optional<int> read_limits(const std::string& option, const std::string* nex
 // Reads the command line; returns an exit status when there is nothing to run.
 std::optional<int> read_command(const std::vector<std::string>& words, Command& command) {
   std::size_t i = 0;
-  for (; i < words.size(); ++i) {
+  for (; i < words.size() && !command.file && !command.code; ++i) {
     const auto& word = words[i];
     if (word == "--traceback") {
       command.traceback = true;
@@ -113,22 +115,18 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
       command.prompt = true;
     } else if (word == "-e") {
       if (++i == words.size()) return misuse("-e needs a text to run");
-      command.code = words[i++];
-      break;
+      command.code = words[i];
     } else if (word.size() > 1 && word[0] == '-') {
       return misuse("unknown option '" + word + "'");
     } else {
       command.file = word;
-      ++i;
-      break;
     }
   }
   if (command.prompt && !command.file && !command.code) return misuse("-i needs a file");
   if (!command.file && !command.code) command.prompt = true;
-  if (std::find(words.begin() + static_cast<std::ptrdiff_t>(std::min(i, words.size())), words.end(), "--safe") != words.end())
+  command.arguments.assign(words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
+  if (std::count(command.arguments.begin(), command.arguments.end(), "--safe"))
     std::fputs("dotyk: --safe after the script is an argument of its own; dotyk's come before it\n", stderr);
-  command.arguments.assign(words.begin() + static_cast<std::ptrdiff_t>(std::min(i, words.size())),
-                           words.end());
   return std::nullopt;
 }
 
@@ -139,19 +137,19 @@ int after_printing(int status) {
   return status == 0 ? 1 : status;
 }
 
-std::string standard_input() {
-  return {std::istreambuf_iterator<char>(std::cin), {}};
+// What a file holds; "-": standard input.
+std::string whole_text(const std::string& file) {
+  if (file == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  if (std::filesystem::is_directory(file)) throw std::runtime_error("cannot read " + file + ": Is a directory");
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// `input`: the script from standard input.
-dotyk::script::Manifest manifest_of(const Command& command, const std::optional<std::string>& input) {
-  auto text = input ? input : command.code;
-  if (command.file && !input) {
-    std::ifstream in(*command.file, std::ios::binary);
-    text = std::string{std::istreambuf_iterator<char>(in), {}};
-  }
-  const std::string name = !command.file ? (command.code ? "-e" : "prompt") : *command.file == "-" ? "standard input" : *command.file;
-  return {name, text, command.arguments};
+// The Lua of a file: without what may stand before it where the system starts it, a byte order mark and a first line with '#'.
+std::string script_in(std::string text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.starts_with('#')) text.erase(0, std::min(text.find('\n'), text.size()));
+  return text;
 }
 
 int run(const Command& command) {
@@ -164,19 +162,20 @@ int run(const Command& command) {
   interpreter.trace(command.traceback);
   interpreter.set_arguments(command.file.value_or(command.code ? "-e" : "dotyk"), command.arguments);
   dotyk::script::watch_interrupts(interpreter.state());
-  if (command.safe) dotyk::script::make_safe(interpreter.state(), dotyk::script::Folder(*command.safe));
+  if (command.safe) dotyk::script::make_safe(interpreter.state(), dotyk::Folder(*command.safe));
   else if (command.instructions) dotyk::script::close_debug(interpreter.state(), "--instructions");
   if (command.safe || command.instructions)
     dotyk::script::limit_instructions(interpreter.state(), static_cast<long long>(command.instructions.value_or(1e9)));
 
-  std::optional<std::string> input;  // read before it runs where a manifest is to have its hash
-  if (command.manifest && command.file == "-") input = standard_input();
-  if (command.manifest) interpreter.library().manifest = std::make_shared<dotyk::script::Manifest>(manifest_of(command, input));
+  const std::string file = command.file.value_or("");
+  const std::optional<std::string> text = command.file ? whole_text(file) : command.code;
+  const std::string name = command.code ? "-e" : !command.file ? "prompt" : file == "-" ? "standard input" : file;
+  if (command.manifest) interpreter.library().manifest = std::make_shared<dotyk::script::Manifest>(name, text, command.arguments);
 
   if (command.prompt) interpreter.keep_locals();
   std::optional<std::string> error;
-  if (command.code) error = interpreter.run_text(*command.code, "-e");
-  if (command.file) error = input ? interpreter.run_text(dotyk::script::script_in(*input), "stdin") : interpreter.run_file(*command.file);
+  if (command.code) error = interpreter.run_text(*text, "-e");
+  if (command.file) error = interpreter.run_text(script_in(*text), file == "-" ? "stdin" : "@" + file);
   dotyk::script::clear_interrupt();
   if (error) {
     std::fflush(stdout);

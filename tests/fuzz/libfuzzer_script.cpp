@@ -55,7 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   script::Interpreter interpreter;
   interpreter.set_arguments("fuzz", {});
   script::watch_interrupts(interpreter.state());
-  script::make_safe(interpreter.state(), script::Folder("."));
+  script::make_safe(interpreter.state(), Folder("."));
   script::limit_instructions(interpreter.state(), instructions);
   script::clear_interrupt();
   interpreter.run_text({reinterpret_cast<const char*>(data), size}, "fuzz");

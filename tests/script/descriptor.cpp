@@ -6,6 +6,42 @@
 
 using namespace dotyk::script;
 
+namespace {
+
+// What is wrong with the descriptions: one line for each missing help text,
+// example or key help. Empty when all is well.
+std::vector<std::string> missing_help(const Library& library) {
+  std::vector<std::string> missing;
+  const auto check_keys = [&](const auto& self, const std::string& owner,
+                              const std::vector<Key>& keys) -> void {
+    for (const auto& key : keys) {
+      const auto name = owner + ", '" + key.name + "'";
+      if (key.help.empty()) missing.push_back(name + ": no help");
+      self(self, name, inner_keys(key));
+    }
+  };
+  const auto check = [&](const Descriptor& one) {
+    if (one.help.empty()) missing.push_back(one.name + ": no help");
+    if (one.example.empty()) missing.push_back(one.name + ": no example");
+    check_keys(check_keys, one.name, one.keys());
+  };
+  for (const auto& one : library.functions()) check(one);
+  for (const auto& type : library.types()) {
+    if (type.help.empty()) missing.push_back(type.name + ": no help");
+    for (const auto& field : type.fields) {
+      if (field.help.empty()) missing.push_back(type.name + "." + field.name + ": no help");
+    }
+    for (const auto& method : type.methods) {
+      if (method.owner() != type.name)
+        missing.push_back(method.name + ": a method of " + type.name + " by another name");
+      check(method);
+    }
+  }
+  return missing;
+}
+
+}  // namespace
+
 TEST_CASE("everything a script sees has help") {
   Interpreter interpreter;
   for (const auto& line : missing_help(interpreter.library())) FAIL_CHECK(line);

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "base/place.hpp"
 #include "script/bridge/call.hpp"
 #include "script/bridge/descriptor.hpp"
-#include "script/guard/folder.hpp"
 #include "script/bridge/object.hpp"
 
 namespace dotyk::script {

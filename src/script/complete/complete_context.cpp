@@ -17,20 +17,23 @@ class ContextReader {
   }
 
  private:
+  // What the next word may be: a key of a table; the beginning of a key's value or of an argument.
+  struct Position {
+    bool key = false, value = false;
+  };
+
   void step() {
-    const Token token = next_token(text_, at_);
-    const auto word = text_.substr(token.begin, token.after - token.begin);
-    at_ = token.after;
-    last_name_ended_ = std::string::npos;
-    if (token.kind == Token::end) commented_ = token.open;
-    else if (token.kind == Token::number) operation();
-    else if (token.kind == Token::string) token.open ? in_string(token.begin + 1) : called();
-    else if (token.kind == Token::sign) sign(word);
-    else name(token, word);
+    token_ = next_token(text_, at_);
+    const auto word = text_.substr(token_.begin, token_.after - token_.begin);
+    at_ = token_.after;
+    if (token_.kind == Token::number) operation();
+    else if (token_.kind == Token::string) token_.open ? in_string(token_.begin + 1) : called();
+    else if (token_.kind == Token::sign) sign(word);
+    else if (token_.kind != Token::end) name(word);
   }
 
   void sign(const std::string& sign) {
-    if (sign == "." || sign == ":") join(sign[0]);
+    if (sign == "." || sign == ":") joined_ = sign == "." ? Step::field : Step::method;
     else if (sign == "(" || sign == "{" || sign == "[") open(sign[0]);
     else if (sign == ")" || sign == "}" || sign == "]") close(sign[0]);
     else if (sign == "," || sign == ";") separator();
@@ -38,20 +41,12 @@ class ContextReader {
     else operation();
   }
 
-  void name(const Token& token, const std::string& word) {
-    if (joined_) {
-      chain_.push_back({joint_, word});
-    } else if (token.kind == Token::keyword) {
-      chain_.clear();
-    } else {
-      fresh_ = after_opening_;
-      chain_ = {{Step::name, word}};
-    }
-    fresh_value_ = after_value_opening_;
-    joined_ = false;
-    after_opening_ = after_value_opening_ = false;
-    last_name_began_ = token.begin;
-    last_name_ended_ = at_;
+  void name(const std::string& word) {
+    if (joined_ != Step::name) chain_.push_back({joined_, word});
+    else if (token_.kind == Token::keyword) chain_.clear();
+    else chain_ = {{Step::name, word}};
+    began_ = next_;
+    expect({});
   }
 
   void in_string(std::size_t start) {
@@ -61,23 +56,21 @@ class ContextReader {
     context_.chain = chain_;
   }
 
-  void join(char c) {
-    joined_ = true;  // to nothing that is known, where the chain is empty
-    joint_ = c == '.' ? Step::field : Step::method;
-  }
-
   void open(char c) {
     context_.brackets.push_back({c, chain_, key_, at_, 0});
-    chain_.clear();
     key_.clear();
-    joined_ = false;
-    after_opening_ = c == '{';
-    after_value_opening_ = c == '(' && !context_.brackets.back().callee.empty();
+    chain_.clear();
+    begin_entry();
+  }
+
+  // Behind an opening bracket or a separator.
+  void begin_entry() {
+    const auto& bracket = context_.brackets.back();
+    expect({.key = bracket.sign == '{', .value = bracket.sign == '(' && !bracket.callee.empty()});
   }
 
   void close(char c) {
-    joined_ = after_opening_ = after_value_opening_ = false;
-    chain_.clear();
+    operation();
     if (context_.brackets.empty()) return;
     const auto bracket = context_.brackets.back();
     context_.brackets.pop_back();
@@ -98,72 +91,62 @@ class ContextReader {
   // A string or a closed bracket after something calls it.
   void called() {
     if (!chain_.empty()) chain_.push_back({Step::call, ""});
-    after_opening_ = after_value_opening_ = joined_ = false;
+    expect({});
   }
 
   void separator() {
     operation();
     key_.clear();
     if (context_.brackets.empty()) return;
-    auto& bracket = context_.brackets.back();
-    ++bracket.finished;
-    after_opening_ = bracket.sign == '{';
-    after_value_opening_ = bracket.sign == '(' && !bracket.callee.empty();
+    ++context_.brackets.back().finished;
+    begin_entry();
   }
 
   void equals() {
-    const bool is_key =
-        fresh_ && chain_.size() == 1 && !context_.brackets.empty() && context_.brackets.back().sign == '{';
-    const auto key = is_key ? chain_.front().text : "";
+    const bool is_key = began_.key && chain_.size() == 1 && !context_.brackets.empty() && context_.brackets.back().sign == '{';
+    key_ = is_key ? chain_.front().text : "";
     operation();
-    key_ = key;
-    after_value_opening_ = is_key;
+    next_.value = is_key;
   }
 
   void operation() {
     chain_.clear();
-    joined_ = after_opening_ = after_value_opening_ = false;
+    expect({});
+  }
+
+  void expect(Position next) {
+    next_ = next;
+    joined_ = Step::name;
   }
 
   void finish() {
-    const bool touching = last_name_ended_ == text_.size() && !text_.empty();
     context_.start = text_.size();
-    if (commented_) return;
-    if (touching && !chain_.empty()) {
-      const auto last = chain_.back();
+    if (token_.kind == Token::end && token_.open) return;  // in a comment
+    const bool touching = (token_.kind == Token::name || token_.kind == Token::keyword) && at_ == text_.size();
+    if (touching) {
+      context_.start = token_.begin;
+      context_.word = text_.substr(token_.begin);
+      if (chain_.empty()) return;  // a keyword, or the beginning of a longer name
+      joined_ = chain_.back().kind;
       chain_.pop_back();
-      context_.start = last_name_began_;
-      context_.word = last.text;
-      context_.joint = last.kind;
-      context_.chain = chain_;
-      context_.key_position = last.kind == Step::name && fresh_;
-      context_.value_position = last.kind == Step::name && fresh_value_;
-    } else if (touching) {  // a keyword, or the beginning of a longer name
-      context_.start = last_name_began_;
-      context_.word = text_.substr(last_name_began_);
-    } else if (joined_) {
-      context_.joint = joint_;
+    }
+    context_.joint = joined_;
+    if (joined_ != Step::name) {
       context_.chain = chain_;
     } else {
-      context_.key_position = after_opening_;
-      context_.value_position = after_value_opening_;
+      context_.key_position = (touching ? began_ : next_).key;
+      context_.value_position = (touching ? began_ : next_).value;
     }
   }
 
   const std::string& text_;
   Context context_;
   std::size_t at_ = 0;
+  Token token_{Token::end, 0, 0};  // the last one
   Chain chain_;
-  std::string key_;      // the key whose value is being read
-  bool joined_ = false;  // a '.' or ':' has just been read
-  Step::Kind joint_ = Step::field;
-  bool after_opening_ = false;  // a key may follow
-  bool fresh_ = false;          // the chain began where a key may stand
-  bool after_value_opening_ = false;  // a value, or an argument, begins
-  bool fresh_value_ = false;          // the chain began there
-  bool commented_ = false;
-  std::size_t last_name_began_ = 0;
-  std::size_t last_name_ended_ = std::string::npos;
+  std::string key_;                    // the key whose value is being read
+  Step::Kind joined_ = Step::name;     // field, method: a '.' or ':' has just been read, after nothing that is known where the chain is empty
+  Position next_, began_;              // of the next word; of the last one
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 // Scripts from strangers: what of Lua's own libraries they get. A script can compute, print, call dotyk
 // and use files below one folder. It cannot start programs, load machine code or compiled Lua, read the
 // environment, or reach what the interpreter keeps for itself.
-#include "script/guard/folder.hpp"
+#include "base/place.hpp"
 
 struct lua_State;
 

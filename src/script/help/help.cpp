@@ -26,10 +26,9 @@ std::string facts(const Key& key) {
 
 void list_key(std::string& out, const Key& key, const std::string& indent) {
   constexpr std::size_t column = 16;
-  const auto name = key.name.empty() ? "…" : key.name;
-  const auto pad = std::string(letters(name) < column ? column - letters(name) : 1, ' ');
+  const auto name = padded((key.name.empty() ? "…" : key.name) + " ", column);
   const auto further = indent + std::string(column, ' ');
-  out += wrapped(key.help, indent + name + pad, further) + wrapped("(" + facts(key) + ")", further);
+  out += wrapped(key.help, indent + name, further) + wrapped("(" + facts(key) + ")", further);
   for (const auto& inner : inner_keys(key)) list_key(out, inner, indent + "    ");
 }
 
@@ -125,36 +124,6 @@ std::string reference_page(const Library& library) {
     for (const auto& method : type.methods) out += entry(method);
   }
   return out;
-}
-
-std::vector<std::string> missing_help(const Library& library) {
-  std::vector<std::string> missing;
-  const auto check_keys = [&](const auto& self, const std::string& owner,
-                              const std::vector<Key>& keys) -> void {
-    for (const auto& key : keys) {
-      const auto name = owner + ", '" + key.name + "'";
-      if (key.help.empty()) missing.push_back(name + ": no help");
-      self(self, name, inner_keys(key));
-    }
-  };
-  const auto check = [&](const Descriptor& one) {
-    if (one.help.empty()) missing.push_back(one.name + ": no help");
-    if (one.example.empty()) missing.push_back(one.name + ": no example");
-    check_keys(check_keys, one.name, one.keys());
-  };
-  for (const auto& one : library.functions()) check(one);
-  for (const auto& type : library.types()) {
-    if (type.help.empty()) missing.push_back(type.name + ": no help");
-    for (const auto& field : type.fields) {
-      if (field.help.empty()) missing.push_back(type.name + "." + field.name + ": no help");
-    }
-    for (const auto& method : type.methods) {
-      if (method.owner() != type.name)
-        missing.push_back(method.name + ": a method of " + type.name + " by another name");
-      check(method);
-    }
-  }
-  return missing;
 }
 
 }  // namespace dotyk::script

@@ -22,10 +22,6 @@ std::string help_search(const Library& library, const std::string& word);
 // The whole reference as a Markdown page.
 std::string reference_page(const Library& library);
 
-// What is wrong with the descriptions: one line for each missing help text,
-// example or key help. Empty when all is well.
-std::vector<std::string> missing_help(const Library& library);
-
 // The functions help() and dotyk.reference().
 void bind_help(Library& library);
 

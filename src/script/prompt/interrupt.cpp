@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
 
-#include <link.h>
-#include <pthread.h>
-#include <setjmp.h>
 #include <sys/resource.h>
-#include <sys/time.h>
-#include <ucontext.h>
 #include <unistd.h>
 
 #include "script/bridge/lua.hpp"
@@ -89,69 +84,26 @@ void stop_here(lua_State* L, lua_Debug* event) {
   raise(L, "", "the limit of " + std::to_string(allowed) + " instructions is reached (--instructions)");
 }
 
-double now() {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-void warn() {
-  constexpr char message[] = "\ndotyk: still computing; press Ctrl-C again within 2 s to end dotyk and lose the session\n";
-  if (::write(STDERR_FILENO, message, sizeof message - 1) < 0) return;
-}
-
 // Is this one to end the program? Where there is a session to lose only after a warning.
-bool ends(double time) {
+bool ends() {
   if (!pending) return false;
-  if (!session) return true;
-  if (time - warned_at < 2) return true;
+  const double time = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  if (!session || time - warned_at < 2) return true;
   warned_at = time;
-  warn();
+  constexpr char message[] = "\ndotyk: still computing; press Ctrl-C again within 2 s to end dotyk and lose the session\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
   return false;
 }
 
-// Work that can be left: where to, on which thread, and the code of Lua's library.
-std::atomic<sigjmp_buf*> way_out{nullptr};
-pthread_t worker;
-std::uintptr_t library_begin = 0, library_end = 0;
-
-std::uintptr_t interrupted_at([[maybe_unused]] const void* context) {
-#if defined(__x86_64__)
-  return static_cast<std::uintptr_t>(static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP]);
-#elif defined(__aarch64__)
-  return static_cast<const ucontext_t*>(context)->uc_mcontext.pc;
-#else
-  return 0;
-#endif
-}
-
-// Where the work is elsewhere for a moment (the C library compares letters), again in a millisecond.
-void leave_work(const void* context) {
-  sigjmp_buf* const place = way_out;
-  if (!place) return;
-  if (!pthread_equal(pthread_self(), worker)) {
-    pthread_kill(worker, SIGALRM);
-    return;
-  }
-  const std::uintptr_t at = interrupted_at(context);
-  if (library_begin <= at && at < library_end) siglongjmp(*place, 1);
-  const itimerval soon{{0, 0}, {0, 1000}};
-  setitimer(ITIMER_REAL, &soon, nullptr);
-}
-
-void on_signal(int signal, siginfo_t*, void* context) {
-  const double time = now();
-  if (ends(time)) {
+void on_signal(int signal) {
+  if (ends()) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
     return;
   }
   pending = true;
   arm(running);
-  leave_work(context);
 }
-
-void on_alarm(int, siginfo_t*, void* context) { leave_work(context); }
 
 // The stack of the processor: where it begins, and how much of it is for one another's coroutines. Lua counts nested
 // calls of C anew in a coroutine that is being closed, so without end.
@@ -252,36 +204,6 @@ void raise_if_interrupted(lua_State* L) {
   if (pending) raise(L, "", "interrupted");
 }
 
-bool abandonable(void (*work)(void*), void* data) {
-  sigjmp_buf place;
-  worker = pthread_self();
-  if (sigsetjmp(place, 1) != 0) {
-    way_out = nullptr;
-    return false;
-  }
-  way_out = &place;
-  const bool begun = !pending;
-  if (begun) work(data);
-  way_out = nullptr;
-  return begun;
-}
-
-void let_abandon(std::uintptr_t function) {
-  library_begin = function;
-  dl_iterate_phdr(
-      [](dl_phdr_info* info, std::size_t, void*) {
-        for (int k = 0; k < info->dlpi_phnum; ++k) {
-          const auto& part = info->dlpi_phdr[k];
-          const std::uintptr_t begin = info->dlpi_addr + part.p_vaddr, end = begin + part.p_memsz;
-          if (part.p_type != PT_LOAD || library_begin < begin || library_begin >= end) continue;
-          library_begin = begin, library_end = end;
-          return 1;
-        }
-        return 0;
-      },
-      nullptr);
-}
-
 void leave_interrupts() { std::signal(SIGINT, SIG_DFL); }
 
 void keep_session() { session = true; }
@@ -308,11 +230,7 @@ void watch_interrupts(lua_State* L) {
   lua_pop(L, 1);
   struct sigaction action {};
   sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_SIGINFO | SA_RESTART;
-  action.sa_sigaction = on_alarm;
-  sigaction(SIGALRM, &action, nullptr);
-  action.sa_flags = SA_SIGINFO;
-  action.sa_sigaction = on_signal;
+  action.sa_handler = on_signal;
   sigaction(SIGINT, &action, nullptr);
 }
 

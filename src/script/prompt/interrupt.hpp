@@ -3,8 +3,6 @@
 // of the script and is seen by long computations that poll interrupted(); a
 // second, while the first is still unanswered, ends the program.
 // At the prompt a second only says that the next one will, for two seconds.
-#include <cstdint>
-
 struct lua_State;
 
 namespace dotyk::script {
@@ -23,15 +21,6 @@ bool interrupt_answered();
 
 // For what computes long without running Lua.
 void raise_if_interrupted(lua_State* L);
-
-// Work in Lua's library that can be left anywhere on Ctrl-C: does it, and true; or false where it was left, or not begun
-// because Ctrl-C came before. What it has in hand is then lost, so it may change nothing but memory that the caller gives up
-// whole: a Lua state of its own. It is left only while the processor is in the library's own code (let_abandon), never in the
-// C library, which may hold a lock, nor in dotyk; where that cannot be told (other processors), it is not left.
-bool abandonable(void (*work)(void*), void* data);
-
-// The library that has the function at this address.
-void let_abandon(std::uintptr_t function);
 
 // Ctrl-C ends the program from now on.
 void leave_interrupts();

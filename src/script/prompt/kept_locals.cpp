@@ -11,8 +11,10 @@
 namespace dotyk::script {
 namespace {
 
-constexpr char kept[] = "dotyk.kept";  // in the registry: { the function, NAME = true of what is <close> }
-constexpr char first_name[] = "__keep_locals";
+constexpr char first_name[] = "__keep_locals";  // of a variable that comes before all others: a table, NAME = true of what is <close>
+
+lua_Debug chunk;  // its frame, while it runs
+bool chunk_runs = false;
 
 // Reads Lua from left to right and blanks out <const>, wherever it stands: line for line the text stays what it was.
 class Declarations {
@@ -74,15 +76,20 @@ class Declarations {
   std::size_t at_ = 0;
 };
 
-// The frame's variables as global ones; the table of the registry is at index.
-void keep(lua_State* L, const lua_Debug& frame, int index) {
+// The chunk's variables as global ones.
+void keep(lua_State* L) {
+  chunk_runs = false;
   if (!lua_checkstack(L, 8)) return;
+  const char* first = lua_getlocal(L, &chunk, 1);
+  if (!first) return;
   lua_pushglobaltable(L);
-  for (int i = 1; const char* name = lua_getlocal(L, &frame, i); ++i) {
-    lua_getfield(L, index, name);
+  for (int i = 2; std::strcmp(first, first_name) == 0; ++i) {
+    const char* name = lua_getlocal(L, &chunk, i);
+    if (!name) break;
+    lua_getfield(L, -3, name);
     const bool closed = lua_toboolean(L, -1);
     lua_pop(L, 1);
-    if (name[0] == '(' || closed || std::strcmp(name, first_name) == 0 || std::strcmp(name, "_ENV") == 0) {
+    if (name[0] == '(' || closed || std::strcmp(name, "_ENV") == 0) {
       lua_pop(L, 1);
       continue;
     }
@@ -91,33 +98,20 @@ void keep(lua_State* L, const lua_Debug& frame, int index) {
     lua_insert(L, -2);
     lua_rawset(L, -3);
   }
-  lua_pop(L, 1);
-}
-
-// Each lua_getstack counts from the innermost: of a stack that overflows there are too many to try them all.
-bool outermost(lua_State* L, lua_Debug& frame) {
-  int known = -1, beyond = 1;
-  while (lua_getstack(L, beyond - 1, &frame)) {
-    known = beyond - 1;
-    beyond *= 2;
-  }
-  for (beyond -= 1; beyond - known > 1;) {
-    const int middle = known + (beyond - known) / 2;
-    (lua_getstack(L, middle, &frame) ? known : beyond) = middle;
-  }
-  return known >= 0 && lua_getstack(L, known, &frame);
+  lua_pop(L, 2);
 }
 
 // __close of the first variable, while the frame that ends still stands. After an error it does not.
 int keep_at_end(lua_State* L) {
   lua_Debug frame;
-  if (!lua_isnil(L, 2) || !lua_getstack(L, 1, &frame)) return 0;
-  keep(L, frame, 1);
+  if (lua_isnil(L, 2) && lua_getstack(L, 1, &frame)) keep(L);
+  chunk_runs = false;
   return 0;
 }
 
 // The first variable's value, upvalue 1. The name by which the text calls this function goes again.
 int first_value(lua_State* L) {
+  chunk_runs = lua_getstack(L, 1, &chunk);
   lua_pushglobaltable(L);
   lua_pushstring(L, first_name);
   lua_pushnil(L);
@@ -135,44 +129,29 @@ std::string as_globals(const std::string& text) {
   return global.replace(declared.first_local, std::strlen("local"), std::strlen("local"), ' ');
 }
 
-std::string keep_locals(lua_State* L, const std::string& text, const std::string& chunk) {
+std::string keep_locals(lua_State* L, const std::string& text, const std::string& name) {
   const Declarations declared(text);
   const auto whole = std::string("local ") + first_name + " <close> = " + first_name + "() " + declared.text_;
-  if (luaL_loadbufferx(L, whole.data(), whole.size(), chunk.c_str(), "t") != LUA_OK) {
+  if (luaL_loadbufferx(L, whole.data(), whole.size(), name.c_str(), "t") != LUA_OK) {
     lua_pop(L, 1);
     return text;
   }
   lua_remove(L, -2);
+  lua_pushglobaltable(L);
+  lua_pushstring(L, first_name);
   lua_newtable(L);
   lua_createtable(L, 0, 1);
   set_field(L, "__close", keep_at_end);
   lua_setmetatable(L, -2);
   for (const auto& name : declared.closing) set_field(L, name.c_str(), true);
-  lua_pushvalue(L, -2);
-  lua_rawseti(L, -2, 1);
-  lua_pushvalue(L, -1);
-  lua_setfield(L, LUA_REGISTRYINDEX, kept);
-  lua_pushglobaltable(L);
-  lua_pushstring(L, first_name);
-  lua_pushvalue(L, -3);
   lua_pushcclosure(L, first_value, 1);
   lua_rawset(L, -3);
-  lua_pop(L, 2);
+  lua_pop(L, 1);
   return whole;
 }
 
 void keep_locals_after_error(lua_State* L) {
-  if (!lua_checkstack(L, 8)) return;
-  if (lua_getfield(L, LUA_REGISTRYINDEX, kept) != LUA_TTABLE) return lua_pop(L, 1);
-  lua_rawgeti(L, -1, 1);
-  lua_Debug frame;
-  if (outermost(L, frame)) {
-    lua_getinfo(L, "f", &frame);
-    const bool same = lua_rawequal(L, -1, -2);
-    lua_pop(L, 1);
-    if (same) keep(L, frame, lua_absindex(L, -2));
-  }
-  lua_pop(L, 2);
+  if (chunk_runs) keep(L);
 }
 
 }  // namespace dotyk::script

@@ -10,7 +10,7 @@ namespace dotyk::script {
 // variables of its outermost block as global ones, whether it returns or ends with an error (see keep_locals_after_error).
 // <const> is dropped: constants are in no register, so nobody could read them. What is <close> is closed and forgotten.
 // Returns the text that it is of: the same, with the function, where there is no room for one variable more.
-std::string keep_locals(lua_State* L, const std::string& text, const std::string& chunk);
+std::string keep_locals(lua_State* L, const std::string& text, const std::string& name);
 
 // In a message handler, where the frames still stand: keeps what keep_locals' last function has so far.
 void keep_locals_after_error(lua_State* L);

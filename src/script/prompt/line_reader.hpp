@@ -1,5 +1,5 @@
 #pragma once
-// Lines from a person or from a pipe.
+// Lines from a person or from a pipe, and what was typed at earlier prompts.
 #include <functional>
 #include <string>
 
@@ -16,5 +16,12 @@ Read read_edited(const char* prompt, std::string& line,
 
 // Reads a line as it comes.
 Read read_plain(std::string& line);
+
+// Reads earlier inputs, an entry each whatever their lines, from $XDG_STATE_HOME/dotyk_history, else ~/.dotyk_history. Returns
+// why this session's will not be kept there, as "file: reason"; "" where they will, or there is no home folder.
+std::string load_history();
+
+// Adds an input, to the file as well: a crash loses nothing. Repeats are skipped; a file that cannot be written is no error.
+void add_to_history(const std::string& input);
 
 }  // namespace dotyk::script

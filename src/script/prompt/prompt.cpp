@@ -10,7 +10,6 @@
 
 #include "base/stopwatch.hpp"
 #include "script/complete/complete.hpp"
-#include "script/prompt/history.hpp"
 #include "script/interpreter.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/prompt/kept_locals.hpp"
@@ -37,8 +36,7 @@ class Prompt {
   int run() {
     if (terminal_) {
       keep_session();
-      load_history();
-      if (const auto reason = why_no_history(); !reason.empty()) std::fprintf(stderr, "dotyk: history is not kept: %s\n", reason.c_str());
+      if (const auto reason = load_history(); !reason.empty()) std::fprintf(stderr, "dotyk: history is not kept: %s\n", reason.c_str());
       std::printf("dotyk %s – help() lists what there is, Ctrl-D leaves\n", DOTYK_VERSION);
     }
     bool failed = false;
@@ -93,11 +91,7 @@ class Prompt {
     if (terminal_) add_to_history(input);
   }
 
-  static bool ends_early(const std::string& message) {
-    static const std::string mark = "<eof>";
-    return message.size() >= mark.size() &&
-           message.compare(message.size() - mark.size(), mark.size(), mark) == 0;
-  }
+  static bool ends_early(const std::string& message) { return message.ends_with("<eof>"); }
 
   // Compiles the text; the function, or else the message, is left on the stack.
   bool load(const std::string& text) {

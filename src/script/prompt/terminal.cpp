@@ -7,7 +7,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <sstream>
 
 namespace dotyk::script {
 namespace {
@@ -29,17 +28,11 @@ bool fits(const std::string& text) {
   return rows == 0 || !isatty(STDIN_FILENO) || std::count(text.begin(), text.end(), '\n') < rows;
 }
 
-bool on_path(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (access((folder + "/" + program).c_str(), X_OK) == 0) return true;
-  return false;
-}
+constexpr int not_found = 127;  // what a shell says of a program that is not there
 
 std::string pager() {
-  if (const char* wish = std::getenv("PAGER")) return wish;
-  return on_path("less") ? "less -FRX" : "";
+  const char* wish = std::getenv("PAGER");
+  return wish ? wish : "command -v less >/dev/null || exit 127; less -FRX";
 }
 
 // While it lives, Ctrl-C is the pager's, and that it has gone ends nothing.
@@ -96,7 +89,6 @@ void show_paged(const std::string& text) {
     const Ignored ignored;
     if (FILE* pipe = popen(program.c_str(), "w")) {
       std::fputs(text.c_str(), pipe);
-      constexpr int not_found = 127;
       const int status = pclose(pipe);
       if (!WIFEXITED(status) || WEXITSTATUS(status) != not_found) return;
     }
