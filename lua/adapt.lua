@@ -3,18 +3,14 @@ local core <const> = ...
 
 local adapt = {}
 
--- Every component of every node, held ones included.
-local function components(meshes)
+local function total(meshes, count)
   local sum = 0
-  for _, mesh in ipairs(meshes) do sum = sum + mesh.dimension * mesh.node_count end
+  for _, mesh in ipairs(meshes) do sum = sum + count(mesh) end
   return sum
 end
 
-local function cells(meshes)
-  local sum = 0
-  for _, mesh in ipairs(meshes) do sum = sum + mesh.cell_count end
-  return sum
-end
+local function cells(mesh) return mesh.cell_count end
+local function components(mesh) return mesh.dimension * mesh.node_count end  -- those held included
 
 local function build(o, meshes)
   local made <const> = table.pack(o.scene(table.unpack(meshes)))
@@ -53,7 +49,7 @@ function adapt.run(o)
     local s <const> = solve(o, made[1], last)
     local relative, parts
     if s.converged then relative, parts = s:error_estimate() end
-    local entry <const> = { unknowns = s.unknowns, cells = cells(meshes), estimate = relative, absolute = parts and parts.absolute,
+    local entry <const> = { unknowns = s.unknowns, cells = total(meshes, cells), estimate = relative, absolute = parts and parts.absolute,
                             iterations = s.iterations, seconds = core.clock() - begun }
     history[round], last, of_last = entry, s, made
     if core.terminal "stderr" then
@@ -65,7 +61,7 @@ function adapt.run(o)
     if not goes_on then history.reason = history.reason or "stopped by on_round" end
     if history.reason then return end
     refine(o, refinement, s)
-    if components(refinement.meshes) > (o.max_unknowns or 200000) then history.reason = "max_unknowns reached" end
+    if total(refinement.meshes, components) > (o.max_unknowns or 200000) then history.reason = "max_unknowns reached" end
   end
   local function rounds()
     repeat go_on(#history + 1) until history.reason

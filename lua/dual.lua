@@ -20,14 +20,6 @@ end
 -- What does not change (d = 0) has no part in a derivative, though the slope be infinite.
 local function times(slope, d) return (slope == 0 or d == 0) and 0.0 or slope * d end
 
--- f(x) with the derivative slope.
-local function chain(x, result, slope)
-  if not is_dual(x) then return result end
-  local g <const> = {}
-  for i, d in ipairs(x.gradient) do g[i] = times(slope, d) end
-  return make(result, g)
-end
-
 -- f(a, b) with the derivatives by_a and by_b.
 local function combine(a, b, result, by_a, by_b)
   local ga <const>, gb <const> = is_dual(a) and a.gradient, is_dual(b) and b.gradient
@@ -36,6 +28,9 @@ local function combine(a, b, result, by_a, by_b)
   for i = 1, #(ga or gb) do g[i] = (ga and times(by_a, ga[i]) or 0.0) + (gb and times(by_b, gb[i]) or 0.0) end
   return make(result, g)
 end
+
+-- f(x) with the derivative slope.
+local function chain(x, result, slope) return is_dual(x) and combine(x, 0, result, slope, 0) or result end
 
 function Dual.__add(a, b) return combine(a, b, value(a) + value(b), 1, 1) end
 function Dual.__sub(a, b) return combine(a, b, value(a) - value(b), 1, -1) end

@@ -19,14 +19,12 @@ local function scene_at(options, level)
 end
 
 local function levels_of(options)
-  local given <const> = options.levels or 4
-  if type(given) == "table" then
-    local list <const> = table.move(given, 1, #given, 1, {})
-    table.sort(list)
-    return list
+  local given <const>, list <const> = options.levels or 4, {}
+  if type(given) == "number" then
+    for level = 1, given do list[level] = level end
+  else
+    table.sort(table.move(given, 1, #given, 1, list))
   end
-  local list <const> = {}
-  for level = 1, given do list[level] = level end
   return list
 end
 
@@ -54,9 +52,7 @@ end
 
 local function solve(runner, at, budget)
   local started <const> = core.clock()
-  local solved, s
-  if at.kind ~= "scene" then solved, s = pcall(runner.solver.solve, runner.solver, at.scene)
-  else solved, s = pcall(runner.solver.solve, runner.solver, at.scene, { seconds = budget }) end
+  local solved <const>, s <const> = pcall(runner.solver.solve, runner.solver, at.scene, at.kind == "scene" and { seconds = budget } or nil)
   local seconds <const> = core.clock() - started
   if solved then return s, nil, seconds end
   return nil, refusal(s), seconds

@@ -43,18 +43,13 @@ end
 
 -- "pdas on levels 1, 2, 3; newton on level 4": the rows, by method.
 local function listed(some, tolerances)
-  local order, of = {}, {}
-  for _, row in ipairs(some) do
-    if not of[row.method] then
-      order[#order + 1] = row.method
-      of[row.method] = {}
-    end
-    table.insert(of[row.method], tolerances and ("%d (tol %.0e)"):format(row.level, row.tol) or tostring(row.level))
+  local texts <const> = {}
+  for k, group in ipairs(rows.groups(some, "method")) do
+    local levels <const> = {}
+    for i, row in ipairs(group) do levels[i] = tolerances and ("%d (tol %.0e)"):format(row.level, row.tol) or tostring(row.level) end
+    texts[k] = ("%s on level%s %s"):format(group[1].method, #levels > 1 and "s" or "", table.concat(levels, ", "))
   end
-  for k, method in ipairs(order) do
-    order[k] = ("%s on level%s %s"):format(method, #of[method] > 1 and "s" or "", table.concat(of[method], ", "))
-  end
-  return table.concat(order, "; ")
+  return table.concat(texts, "; ")
 end
 
 -- "on level 4 pdas is fastest; times as long: newton 1.5, …", by rows converged to the least of the tolerances; nil where
@@ -118,27 +113,6 @@ function report.csv(all)
   return table.concat(lines, "\n") .. "\n"
 end
 
--- Curves: a method's over the levels; with several tolerances over these, one for each level, the later ones dashed.
-local function curves_of(all, tolerances)
-  local list, of = {}, {}
-  for _, row in ipairs(all) do
-    local key <const> = (tolerances and #tolerances > 1) and ("%s\n%d"):format(row.method, row.level) or row.method
-    if not of[key] then
-      of[key] = { method = row.method, rows = {} }
-      list[#list + 1] = of[key]
-    end
-    table.insert(of[key].rows, row)
-  end
-  -- Those of a method stand together.
-  local first, position = {}, {}
-  for k, curve in ipairs(list) do first[curve.method], position[curve] = first[curve.method] or k, k end
-  table.sort(list, function(a, b)
-    if a.method ~= b.method then return first[a.method] < first[b.method] end
-    return position[a] < position[b]
-  end)
-  return list
-end
-
 local function series_of(name, some, extra)
   local out <const> = { name = name, x = {}, y = {}, x_low = {}, x_high = {} }
   for _, row in ipairs(some) do
@@ -149,20 +123,19 @@ local function series_of(name, some, extra)
   return out
 end
 
--- What the legend says of rows without a solution that counts: "not converged: level 3".
+-- What the legend says of rows without a solution that counts: "not converged: level 3"; nil where there are none.
 local function failure(some)
-  local order, of = {}, {}
-  for _, row in ipairs(some) do
-    if row.status ~= "converged" then
-      if not of[row.status] then order[#order + 1], of[row.status] = row.status, {} end
-      local levels <const> = of[row.status]
+  local texts <const> = {}
+  for _, group in ipairs(rows.groups(some, "status")) do
+    local levels <const> = {}
+    for _, row in ipairs(group) do
       if levels[#levels] ~= row.level then levels[#levels + 1] = row.level end
     end
+    if group[1].status ~= "converged" then
+      texts[#texts + 1] = ("%s on %s %s"):format(group[1].status, #levels > 1 and "levels" or "level", table.concat(levels, ", "))
+    end
   end
-  for k, status in ipairs(order) do
-    order[k] = ("%s on %s %s"):format(status, #of[status] > 1 and "levels" or "level", table.concat(of[status], ", "))
-  end
-  return #order > 0 and table.concat(order, ", ") or nil
+  return #texts > 0 and table.concat(texts, ", ") or nil
 end
 
 -- Rows that count, those that failed with an error that can be measured, and without.
@@ -177,27 +150,27 @@ local function split(some)
   return good, poor, lost
 end
 
--- The series of the chart.
+-- The series of the chart: a curve of each method over the levels; with several tolerances over these, one for each level,
+-- the later ones dashed.
 function report.series(all, tolerances)
   local out <const> = { series_of("Pareto front", rows.front(all), { front = true }) }
   out[1].x_low, out[1].x_high = nil, nil
-  local failed, known = {}, {}
-  for _, row in ipairs(all) do failed[row.method] = failed[row.method] or {}; table.insert(failed[row.method], row) end
-  for _, curve in ipairs(curves_of(all, tolerances)) do
-    local good <const>, poor <const>, lost <const> = split(curve.rows)
-    local why <const> = not known[curve.method] and failure(failed[curve.method])
-    local named <const> = not known[curve.method] and not (why and #good == 0)  -- not in the legend twice
-    out[#out + 1] = series_of(named and curve.method or nil, good, { twin = known[curve.method] })
-    if why or #poor > 0 then
-      out[#out + 1] = series_of(why and ("%s: %s"):format(curve.method, why) or nil, poor,
-        { twin = true, crossed = true, style = "points" })
+  for _, of_method in ipairs(rows.groups(all, "method")) do
+    local method <const> = of_method[1].method
+    for k, curve in ipairs((tolerances and #tolerances > 1) and rows.groups(of_method, "level") or { of_method }) do
+      local good <const>, poor <const>, lost <const> = split(curve)
+      local why <const> = k == 1 and failure(of_method)
+      local named <const> = k == 1 and not (why and #good == 0)  -- not in the legend twice
+      out[#out + 1] = series_of(named and method or nil, good, { twin = k > 1 or nil })
+      if why or #poor > 0 then
+        out[#out + 1] = series_of(why and ("%s: %s"):format(method, why) or nil, poor, { twin = true, crossed = true, style = "points" })
+      end
+      if #lost > 0 then
+        local failed <const> = series_of(nil, lost, { twin = true, crossed = true, style = "points" })
+        failed.y, failed.x_low, failed.x_high = nil, nil, nil
+        out[#out + 1] = failed
+      end
     end
-    if #lost > 0 then
-      local failed <const> = series_of(nil, lost, { twin = true, crossed = true, style = "points" })
-      failed.y, failed.x_low, failed.x_high = nil, nil, nil
-      out[#out + 1] = failed
-    end
-    known[curve.method] = true
   end
   return out
 end

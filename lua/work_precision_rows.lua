@@ -69,6 +69,17 @@ function rows.row(runner, level)
   return row
 end
 
+-- The rows in groups that have one value of a field, each group where its first row was.
+function rows.groups(some, field)
+  local out <const>, of <const> = {}, {}
+  for _, row in ipairs(some) do
+    local value <const> = row[field]
+    if not of[value] then of[value] = {}; out[#out + 1] = of[value] end
+    table.insert(of[value], row)
+  end
+  return out
+end
+
 local function counts(row) return row.status == "converged" and row.error and row.seconds end
 
 -- Errors that differ by less are equal: what tol leaves, not accuracy.
