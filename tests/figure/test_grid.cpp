@@ -15,7 +15,7 @@
 #include <csignal>
 #include <filesystem>
 
-#include "figure/compose/compose_grid.hpp"
+#include "figure/compose/compose.hpp"
 #include "mesh/generators.hpp"
 #include "pixels.hpp"
 

@@ -253,7 +253,7 @@ TEST_CASE("odd scenes are drawn all the same") {
   scene.title = "A title much longer than the picture is wide, which shall not do harm";
   scene.contacts = {ContactPicture{}, top_contact(2, {Status::open})};
   scene.contacts[1].facets.clear();
-  scene.obstacles = {RigidPicture{}, RigidPicture{{-1e6, 1, 0, 1e6, 1, 0}, {}, false, {0, 1, 0}}};
+  scene.obstacles = {RigidPicture{}, RigidPicture{{-1e6, 1, 0, 1e6, 1, 0}, {}, {0, 1, 0}}};
   scene.loads = {LoadArrow{}};
   scene.supports = {SupportSymbol{}, SupportSymbol{}};
   CHECK(message_of([&] { draw(scene); }) == "");

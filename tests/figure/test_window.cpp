@@ -41,7 +41,7 @@ ScenePicture pressed(const std::string& file, int n = 40) {
   }
   scene.bodies = {body};
   scene.contacts = {contact};
-  scene.obstacles = {RigidPicture{{-1e5, 0, 0, 1e5, 0, 0}, {}, false, {0, -1, 0}}};
+  scene.obstacles = {RigidPicture{{-1e5, 0, 0, 1e5, 0, 0}, {}, {0, -1, 0}}};
   return scene;
 }
 

@@ -1,10 +1,5 @@
 #include "figure/canvas/axes.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 namespace dotyk::figure {
 
 bool Axis::shows(double value) const { return std::isfinite(value) && (!log || value > 0); }
@@ -14,6 +9,19 @@ namespace {
 Wide place(const Axis& axis, double value) { return axis.log ? Wide{std::log10(value)} : Wide{value}; }
 
 Wide per_unit(const Axis& axis) { return (axis.to - axis.from) / (place(axis, axis.high) - place(axis, axis.low)); }
+
+double hair(double em) { return std::max(1.0, em / 24); }
+
+bool fit(const Ticks& ticks, const Axis& axis, double em) {
+  double last = -1e9;
+  for (const Tick& t : ticks.ticks) {
+    if (t.label.empty()) continue;
+    const double half = text_extent(t.label, em).x / 2;
+    if (axis.pixel(t.value) - half - last < 0.8 * em) return false;
+    last = axis.pixel(t.value) + half;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -29,16 +37,22 @@ double steepness(const Axis& x, const Axis& y, double slope) {
   return static_cast<double>(std::clamp<Wide>(slope * per_unit(y) / per_unit(x), -most_pixels, most_pixels));
 }
 
-namespace {
-double hair(double em) { return std::max(1.0, em / 24); }
-}  // namespace
+std::vector<std::vector<Point>> pieces(std::size_t count, const std::function<std::optional<Point>(std::size_t)>& at) {
+  std::vector<std::vector<Point>> out(1);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const std::optional<Point> point = at(i))
+      out.back().push_back(*point);
+    else if (!out.back().empty())
+      out.emplace_back();
+  }
+  if (out.back().empty()) out.pop_back();
+  return out;
+}
 
 void draw_grid(Canvas& canvas, const Axes& a) {
   canvas.box(a.room, {255, 255, 255});
-  for (const Tick& t : a.x_ticks.ticks)
-    if (const double x = a.x.pixel(t.value); !t.label.empty()) canvas.line({x, a.room.bottom}, {x, a.room.top}, hair(a.em), axes_grid);
-  for (const Tick& t : a.y_ticks.ticks)
-    if (const double y = a.y.pixel(t.value); !t.label.empty()) canvas.line({a.room.left, y}, {a.room.right, y}, hair(a.em), axes_grid);
+  for (const double x : a.x_ticks.labelled()) canvas.line({a.x.pixel(x), a.room.bottom}, {a.x.pixel(x), a.room.top}, hair(a.em), axes_grid);
+  for (const double y : a.y_ticks.labelled()) canvas.line({a.room.left, a.y.pixel(y)}, {a.room.right, a.y.pixel(y)}, hair(a.em), axes_grid);
 }
 
 void draw_ticks(Canvas& canvas, const Axes& a, bool x_labels) {
@@ -63,48 +77,29 @@ void draw_ticks(Canvas& canvas, const Axes& a, bool x_labels) {
 
 void draw_frame(Canvas& canvas, const Axes& a) { canvas.outline(a.room, std::max(1.2, a.em / 18), axes_ink); }
 
-namespace {
-int labels(const Ticks& ticks) {
-  return static_cast<int>(std::count_if(ticks.ticks.begin(), ticks.ticks.end(), [](const Tick& t) { return !t.label.empty(); }));
+double widest_label(const Ticks& ticks, double size) {
+  double widest = 0;
+  for (const Tick& t : ticks.ticks) widest = std::max(widest, text_extent(t.label, size).x);
+  return widest;
 }
-}  // namespace
 
 Ticks few_ticks(double low, double high, double wanted) {
   Ticks out;
-  for (int n = std::clamp(static_cast<int>(wanted), 2, 8); n <= 10 && labels(out) < 2; ++n) out = linear_ticks(low, high, n);
+  for (int n = std::clamp(static_cast<int>(wanted), 2, 8); n <= 10 && out.labelled().size() < 2; ++n) out = linear_ticks(low, high, n);
   return out;
 }
-
-namespace {
-
-bool fit(const Ticks& ticks, const Axis& axis, double em) {
-  double last = -1e9;
-  for (const Tick& t : ticks.ticks) {
-    if (t.label.empty()) continue;
-    const double half = text_extent(t.label, em).x / 2;
-    if (axis.pixel(t.value) - half - last < 0.8 * em) return false;
-    last = axis.pixel(t.value) + half;
-  }
-  return true;
-}
-
-}  // namespace
 
 Ticks spaced_ticks(const Axis& axis, double em) {
   Ticks out;
   for (int n = 8; n >= 2; --n)
     if (fit(out = few_ticks(axis.low, axis.high, n), axis, em)) return out;
   // Every second label, counted from zero.
-  double step = 0, first = std::numeric_limits<double>::quiet_NaN();
-  for (Tick& t : out.ticks) {
-    if (t.label.empty()) continue;
-    if (step == 0 && std::isfinite(first)) step = t.value - first;
-    first = t.value;
-  }
-  const auto even = [&](const Tick& t) { return step > 0 && std::lround(t.value / step) % 2 == 0; };
-  const bool enough = std::count_if(out.ticks.begin(), out.ticks.end(), [&](const Tick& t) { return !t.label.empty() && even(t); }) >= 2;
+  const std::vector<double> labelled = out.labelled();
+  const double step = labelled.size() > 1 ? labelled[1] - labelled[0] : 0;
+  const auto even = [step](double value) { return step > 0 && std::lround(value / step) % 2 == 0; };
+  const bool enough = std::count_if(labelled.begin(), labelled.end(), even) >= 2;
   for (Tick& t : out.ticks)
-    if (even(t) != enough) t.label.clear();
+    if (even(t.value) != enough) t.label.clear();
   return out;
 }
 

@@ -1,12 +1,47 @@
-// Two axes around a room, for charts and the cells of a page.
+// Axes: where they have their ticks, how numbers are written on a picture, and two axes around a room, for charts and the cells of
+// a page.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "figure/canvas/canvas.hpp"
-#include "figure/canvas/ticks.hpp"
 
 namespace dotyk::figure {
+
+// For differences and shares of any two numbers: a double would overflow, or underflow to nothing.
+using Wide = long double;
+
+struct Tick {
+  double value = 0;
+  std::string label;  // empty: a minor tick
+};
+
+struct Ticks {
+  std::vector<Tick> ticks;
+  int exponent = 0;  // labels are to be multiplied by 10^exponent
+  std::vector<double> labelled() const;  // where there are labels
+};
+
+// Ticks at 1, 2 or 5 times a power of ten in [low, high], about `wanted`; of
+// any finite ends, no more than some hundred.
+Ticks linear_ticks(double low, double high, int wanted);
+
+// Decades in [low, high], both positive; about `wanted` at most have labels,
+// and of hundreds of decades only some have ticks.
+// Ranges of about two decades and below have labels between decades too.
+Ticks log_ticks(double low, double high, int wanted);
+
+// 10 raised to k, in the script of the font: "10" with a raised exponent.
+std::string power_of_ten(int k);
+
+// A number with `digits` significant digits, without a machine's "e+05".
+std::string number(double value, int digits = 3);
+
+// The same in the unit of an axis, 10^exponent, as its labels are: no second
+// power of ten; what is nearer to zero than 0.001 is said to be so.
+std::string scaled_number(double value, int exponent);
 
 inline constexpr Colour reference_grey{90, 90, 90};
 inline constexpr double small_text = 0.85;  // in em
@@ -43,11 +78,15 @@ struct Axes {
   }
 };
 
+// The points at(0) … at(count - 1) in pieces between those that are not there.
+std::vector<std::vector<Point>> pieces(std::size_t count, const std::function<std::optional<Point>(std::size_t)>& at);
+
 // White ground and grid lines.
 void draw_grid(Canvas& canvas, const Axes& axes);
 // Ticks and their labels, never one into another.
 void draw_ticks(Canvas& canvas, const Axes& axes, bool x_labels = true);
 void draw_frame(Canvas& canvas, const Axes& axes);
+double widest_label(const Ticks& ticks, double size);
 // Ticks for so many labels, at least two of them labelled.
 Ticks few_ticks(double low, double high, double wanted);
 // Of a horizontal axis: as many as have room for their labels.

@@ -1,8 +1,5 @@
 #include "figure/canvas/canvas.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 
 #include <vtkActor2D.h>
@@ -18,13 +15,9 @@
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "figure/canvas/osmesa_window.hpp"
-
 namespace dotyk::figure {
 
 namespace {
-
-double turn(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 // Paints in order, whatever has been painted there: the mapper of VTK tests
 // depth, and of triangles in one plane keeps the first.
@@ -43,6 +36,12 @@ public:
 vtkStandardNewMacro(PaintingMapper);
 
 }  // namespace
+
+Canvas::Canvas(const Sheet& sheet) {
+  const double pixels = static_cast<double>(sheet.width) * sheet.height;
+  const int side = std::max(sheet.width, sheet.height);
+  factor_ = pixels <= 2e6 && side <= 5000 ? 3 : pixels <= 16e6 && side <= 8000 ? 2 : 1;
+}
 
 void Canvas::emit(Point p, Colour c, double opacity) {
   const auto alpha = static_cast<unsigned char>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
@@ -64,32 +63,6 @@ void Canvas::convex(std::span<const Point> corners, Colour colour, double opacit
   if (inside) return fan(corners, colour, opacity);
   const auto rest = cropped(std::vector<Point>(corners.begin(), corners.end()), clip_);
   if (rest.size() > 2) fan(rest, colour, opacity);
-}
-
-// Ear clipping: outlines of obstacles have some hundred corners at most.
-void Canvas::polygon(std::span<const Point> corners, Colour colour, double opacity) {
-  std::vector<Point> rest(corners.begin(), corners.end());
-  double area = 0;
-  for (std::size_t i = 0; i < rest.size(); ++i) area += turn({0, 0}, rest[i], rest[(i + 1) % rest.size()]);
-  if (area < 0) std::reverse(rest.begin(), rest.end());
-  while (rest.size() > 3) {
-    const std::size_t n = rest.size();
-    std::size_t ear = n;
-    for (std::size_t i = 0; i < n && ear == n; ++i) {
-      const Point a = rest[(i + n - 1) % n], b = rest[i], c = rest[(i + 1) % n];
-      if (turn(a, b, c) < 0) continue;
-      bool empty = true;
-      for (std::size_t j = 0; j < n && empty; ++j) {
-        if (j == i || j == (i + n - 1) % n || j == (i + 1) % n) continue;
-        empty = !(turn(a, b, rest[j]) > 0 && turn(b, c, rest[j]) > 0 && turn(c, a, rest[j]) > 0);
-      }
-      if (empty) ear = i;
-    }
-    if (ear == n) break;  // crosses itself: the rest is drawn as a fan
-    convex(std::array{rest[(ear + n - 1) % n], rest[ear], rest[(ear + 1) % n]}, colour, opacity);
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
-  }
-  convex(rest, colour, opacity);
 }
 
 void Canvas::box(const Box& b, Colour colour, double opacity) { convex(b.corners(), colour, opacity); }
@@ -211,10 +184,6 @@ void Canvas::arrow(Point tail, Point head, double width, double head_length, Col
   convex(std::array{neck + half * across, neck - half * across, head}, colour);
 }
 
-void Canvas::text(Point at, const std::string& text, const TextStyle& style) {
-  if (!text.empty()) texts_.push_back({{origin_.x + at.x, origin_.y + at.y}, text, style});
-}
-
 void Canvas::add_to(vtkRenderer* renderer) const {
   if (vertices_.empty()) return;
   vtkNew<vtkPoints> points;
@@ -238,14 +207,9 @@ void Canvas::add_to(vtkRenderer* renderer) const {
 }
 
 void write_canvas(const Canvas& canvas, const Sheet& sheet) {
-  OsmesaWindow window(canvas.factor() * sheet.width, canvas.factor() * sheet.height);
   vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1, 1, 1);
-  window.vtk()->AddRenderer(renderer);
   canvas.add_to(renderer);
-  Image image = reduce(window.render(), sheet.width, sheet.height, canvas.factor());
-  canvas.set_texts(image);
-  write_png(image, sheet.file);
+  write_picture(sheet, std::array{renderer.Get()}, canvas);
 }
 
 }  // namespace dotyk::figure

@@ -7,13 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "figure/canvas/image.hpp"
 #include "figure/canvas/plane.hpp"
 #include "figure/door/picture.hpp"
 
 class vtkRenderer;
 
 namespace dotyk::figure {
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgb;  // 3 width height, lowest row first
+};
 
 constexpr Colour load_colour{0, 70, 110};  // of arrows of loads
 
@@ -28,6 +32,9 @@ struct TextStyle {
   bool halo = false;  // white rim, for texts on a coloured ground
 };
 
+// Of titles: bold, centred, hanging from their place.
+TextStyle title_style();
+
 // Width and height in pixels of a line of text, not turned.
 Point text_extent(const std::string& text, double size, bool bold = false);
 
@@ -35,12 +42,25 @@ Point text_extent(const std::string& text, double size, bool bold = false);
 // less than half of it.
 double fitting_size(const std::string& text, double size, double pixels, bool bold = false);
 
+// The text, or its beginning and "…", no wider than so many pixels.
+std::string shortened(const std::string& text, double size, double pixels, bool bold = false);
+
+struct FittedText {
+  double size = 20;  // of the letters, pixels
+  std::vector<std::string> lines;
+  double depth() const;  // from the first line to the last
+};
+
+// In one line of letters down to half of `size`; else in two lines of these, broken between words, the second
+// shortened where that does not suffice either. `end` stays whatever is left out before it.
+FittedText fitted(const std::string& text, double size, double pixels, bool bold = false, const std::string& end = "");
+
 enum class Marker { disc, square, triangle, diamond, down_triangle, plus, cross, ring };
 Marker status_marker(Status status);
 
 class Canvas {
 public:
-  explicit Canvas(const Sheet& sheet) : factor_(oversampling(sheet.width, sheet.height)) {}
+  explicit Canvas(const Sheet& sheet);
 
   // Where (0, 0) of what follows is.
   void origin(Point origin) { origin_ = origin; }
@@ -49,7 +69,6 @@ public:
   void no_clip() { clipped_ = false; }
 
   void convex(std::span<const Point> corners, Colour colour, double opacity = 1);
-  void polygon(std::span<const Point> corners, Colour colour, double opacity = 1);
   void box(const Box& box, Colour colour, double opacity = 1);
   void outline(const Box& box, double width, Colour colour);
   void line(Point from, Point to, double width, Colour colour, double opacity = 1);
@@ -63,11 +82,13 @@ public:
   void crossed_marker(Marker kind, Point centre, double size, Colour colour);
   // rim: pixels of white around it.
   void arrow(Point tail, Point head, double width, double head_length, Colour colour, double rim = 0);
-  // A gradient rectangle is a row of boxes; texts need no clip.
   void text(Point at, const std::string& text, const TextStyle& style);
+  // From the place of the first line on, the others below it; of an upright text, to the right.
+  void text(Point first, const FittedText& lines, TextStyle style);
 
   void add_to(vtkRenderer* renderer) const;
   void set_texts(Image& image) const;
+  // How many times finer than the picture to render, for smooth edges; less for very large pictures.
   int factor() const { return factor_; }
 
 private:
@@ -91,7 +112,11 @@ private:
   std::vector<Text> texts_;
 };
 
-// A canvas alone on white, as PNG.
+// What layers hold on white, from the lowest to the highest, rendered off screen canvas.factor() times too large, and the texts of
+// the canvas above it as PNG, whole or not at all: beside the target first, then renamed. Throws std::runtime_error with path and
+// reason, or where no context for OpenGL can be had.
+void write_picture(const Sheet& sheet, std::span<vtkRenderer* const> layers, const Canvas& canvas);
+// A canvas alone.
 void write_canvas(const Canvas& canvas, const Sheet& sheet);
 
 }  // namespace dotyk::figure

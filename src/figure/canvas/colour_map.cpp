@@ -1,11 +1,6 @@
 #include "figure/canvas/colour_map.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <tuple>
-
-#include "figure/canvas/text_fit.hpp"
+#include "figure/canvas/axes.hpp"
 
 namespace dotyk::figure {
 
@@ -52,7 +47,7 @@ Colour ColourScale::at(double value) const {
   return mix(diverging ? blue_red : viridis, b > a ? (value - a) / (b - a) : 0.5);
 }
 
-ColourScale colour_scale(const ScenePicture& p, const std::optional<Window>& window) {
+ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window) {
   ColourScale scale;
   Seen part;
   if (window) part = seen(p, *window);
@@ -65,7 +60,7 @@ ColourScale colour_scale(const ScenePicture& p, const std::optional<Window>& win
   if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
   // A field that dips below zero by rounding only has one sign.
   const double lesser = std::min(-scale.low, scale.high), greater = std::max(-scale.low, scale.high);
-  scale.diverging = p.map == MapKind::diverging || (p.map == MapKind::automatic && lesser > 0.02 * greater);
+  scale.diverging = lesser > 0.02 * greater;
   if (!(scale.high - scale.low > 1e-12 * std::max(std::abs(scale.low), std::abs(scale.high)))) {
     // A constant field: a bar of some height around it.
     const double half = scale.low == 0 ? 1 : 0.1 * std::abs(scale.low);

@@ -5,7 +5,6 @@
 #include <vtkSmartPointer.h>
 
 #include "figure/canvas/canvas.hpp"
-#include "figure/door/picture.hpp"
 #include "figure/canvas/window.hpp"
 
 namespace dotyk::figure {
@@ -23,7 +22,7 @@ struct ColourScale {
 };
 
 // Of all the bodies, or of what the window shows of them.
-ColourScale colour_scale(const ScenePicture& picture, const std::optional<Window>& window);
+ColourScale colour_scale(const ScenePicture& picture, const std::optional<Box>& window);
 
 vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale);
 

@@ -1,7 +1,5 @@
 #include "figure/canvas/geometry.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <map>
 
@@ -17,22 +15,19 @@ Vec3 plus(const Vec3& a, const Vec3& b, double factor) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 
+Vec3 part_way(const Vec3& p, const Vec3& q, double t) { return plus(p, plus(q, p, -1), t); }
+
+double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+
 Vec3 unit(const Vec3& a) {
-  const double length = std::sqrt(dot(a, a));
-  return length > 0 ? Vec3{a[0] / length, a[1] / length, a[2] / length} : Vec3{0, 0, 0};
+  const double size = length(a);
+  return size > 0 ? Vec3{a[0] / size, a[1] / size, a[2] / size} : Vec3{0, 0, 0};
 }
 
 Point View::direction(const Vec3& d) const {
   const Point p{dot(d, right), dot(d, up)};
   const double size = length(p);
   return size > 1e-9 * std::sqrt(dot(d, d)) && size > 0 ? Point{p.x / size, p.y / size} : Point{0, 0};
-}
-
-Vec3 node(const BodyPicture& body, std::size_t i, double factor) {
-  Vec3 p{body.points[3 * i], body.points[3 * i + 1], body.points[3 * i + 2]};
-  if (!body.displacement.empty())
-    for (std::size_t c = 0; c < 3; ++c) p[c] += factor * body.displacement[3 * i + c];
-  return p;
 }
 
 namespace {

@@ -12,6 +12,8 @@ namespace dotyk::figure {
 double dot(const Vec3& a, const Vec3& b);
 Vec3 cross(const Vec3& a, const Vec3& b);
 Vec3 plus(const Vec3& a, const Vec3& b, double factor = 1);  // a + factor b
+Vec3 part_way(const Vec3& p, const Vec3& q, double t);       // p at t = 0, q at t = 1
+double length(const Vec3& a);
 Vec3 unit(const Vec3& a);                                    // 0 stays 0
 
 // Parallel projection. A point becomes pixels across and up, and pixels
@@ -27,9 +29,6 @@ struct View {
   Point flat(const Vec3& p) const { return {origin.x + scale * dot(p, right), origin.y + scale * dot(p, up)}; }
   Point direction(const Vec3& d) const;  // unit, or 0 where d points at the eye
 };
-
-// The point of node i, displaced by `factor` times its displacement.
-Vec3 node(const BodyPicture& body, std::size_t i, double factor);
 
 // Polygons of `each` corners.
 struct Facets {

@@ -1,9 +1,5 @@
 #include "figure/canvas/legend.hpp"
 
-#include <algorithm>
-
-#include "figure/canvas/text_fit.hpp"
-
 namespace dotyk::figure {
 
 namespace {

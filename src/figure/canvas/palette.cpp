@@ -1,73 +1,40 @@
-#include <array>
+#include <cstdlib>
 
 #include "figure/page/page_picture.hpp"
-#include "figure/plate/plate_picture.hpp"
 
 namespace dotyk::figure {
 
-const char* status_name(Status status) {
-  switch (status) {
-    case Status::open: return "open";
-    case Status::closed: return "closed";
-    case Status::stick: return "stick";
-    case Status::slip: return "slip";
-  }
-  return "";
+namespace {
+
+struct Named {
+  const char* name;
+  Colour colour;
+};
+
+// Okabe & Ito, Color Universal Design (2008): sky blue, vermilion, reddish purple, orange.
+constexpr Named statuses[] = {{"open", {86, 180, 233}}, {"closed", {213, 94, 0}}, {"stick", {204, 121, 167}}, {"slip", {230, 159, 0}}};
+
+const Named& named(Status status) { return statuses[static_cast<std::size_t>(status)]; }
+
+// Those of contacts that mean the same have their colours; what pulls is bluish green.
+const Named& named(SupportState state) {
+  static const Named states[] = {{"acting", {100, 100, 100}}, {"open", status_colour(Status::open)},
+                                 {"pushing", status_colour(Status::closed)}, {"pulling", {0, 158, 115}},
+                                 {"sticking", status_colour(Status::stick)}, {"slipping, at its limit", status_colour(Status::slip)},
+                                 {"broken", {0, 0, 0}}};
+  return states[static_cast<std::size_t>(state)];
 }
 
-// Okabe & Ito, Color Universal Design (2008).
-Colour status_colour(Status status) {
-  switch (status) {
-    case Status::open: return {86, 180, 233};     // sky blue
-    case Status::closed: return {213, 94, 0};     // vermilion
-    case Status::stick: return {204, 121, 167};   // reddish purple
-    case Status::slip: return {230, 159, 0};      // orange
-  }
-  return {};
-}
+}  // namespace
 
-const char* support_name(PlateSupport support) {
-  switch (support) {
-    case PlateSupport::free: return "free";
-    case PlateSupport::held: return "held";
-    case PlateSupport::one_sided: return "one-sided";
-    case PlateSupport::elastic: return "elastic";
-    case PlateSupport::friction: return "with friction";
-  }
-  return "";
-}
-
-const char* state_name(SupportState state) {
-  switch (state) {
-    case SupportState::acting: return "acting";
-    case SupportState::open: return "open";
-    case SupportState::pushing: return "pushing";
-    case SupportState::pulling: return "pulling";
-    case SupportState::stick: return "sticking";
-    case SupportState::slip: return "slipping, at its limit";
-    case SupportState::broken: return "broken";
-  }
-  return "";
-}
-
-// Those of contacts that mean the same have their colours.
-Colour state_colour(SupportState state) {
-  switch (state) {
-    case SupportState::acting: return {100, 100, 100};
-    case SupportState::open: return status_colour(Status::open);
-    case SupportState::pushing: return status_colour(Status::closed);
-    case SupportState::pulling: return {0, 158, 115};  // bluish green
-    case SupportState::stick: return status_colour(Status::stick);
-    case SupportState::slip: return status_colour(Status::slip);
-    case SupportState::broken: return {0, 0, 0};
-  }
-  return {};
-}
+const char* status_name(Status status) { return named(status).name; }
+Colour status_colour(Status status) { return named(status).colour; }
+const char* state_name(SupportState state) { return named(state).name; }
+Colour state_colour(SupportState state) { return named(state).colour; }
 
 Colour series_colour(int k) {
-  static constexpr std::array<Colour, 7> colours{{
-      {0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}, {60, 60, 60}}};
-  return colours[static_cast<std::size_t>(k < 0 ? -k : k) % colours.size()];
+  static constexpr Colour colours[] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}, {60, 60, 60}};
+  return colours[std::abs(k) % std::size(colours)];
 }
 
 }  // namespace dotyk::figure

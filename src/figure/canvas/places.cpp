@@ -1,7 +1,5 @@
 #include "figure/canvas/places.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace dotyk::figure {

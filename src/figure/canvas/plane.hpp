@@ -1,9 +1,11 @@
-// Points, boxes and polygons of a plane: pixels of a picture, or a user's coordinates.
+// Points, boxes and polygons of a plane: pixels of a picture, or a user's coordinates; with the standard headers that all who draw
+// use.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -35,6 +37,19 @@ struct Box {
   }
   bool overlaps(const Box& b) const { return left < b.right && b.left < right && bottom < b.top && b.bottom < top; }
 };
+
+// The greatest size of the values; 0 of none.
+inline double greatest(std::span<const double> values) {
+  double most = 0;
+  for (const double v : values) most = std::max(most, std::abs(v));
+  return most;
+}
+
+// The greatest of 1, 2 and 5 times a power of ten that is not above; of what is positive.
+inline double round_number_below(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  return power * (value >= 5 * power ? 5 : value >= 2 * power ? 2 : 1);
+}
 
 // The least box about points; empty at first.
 struct Bounds : Box {

@@ -1,7 +1,6 @@
-#include "figure/canvas/ticks.hpp"
+// Ticks of axes, and numbers.
+#include "figure/canvas/axes.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -32,6 +31,13 @@ std::string trimmed(std::string text) {
 }
 
 }  // namespace
+
+std::vector<double> Ticks::labelled() const {
+  std::vector<double> out;
+  for (const Tick& tick : ticks)
+    if (!tick.label.empty()) out.push_back(tick.value);
+  return out;
+}
 
 std::string power_of_ten(int k) {
   static const char* const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -119,10 +125,7 @@ Ticks log_ticks(double low, double high, int wanted) {
     }
   }
   // Next to no decade: as on a linear axis.
-  int labelled = 0;
-  for (const Tick& tick : out.ticks) labelled += !tick.label.empty();
-  if (labelled < 2 && every == 1) return linear_ticks(low, high, wanted);
-  return out;
+  return out.labelled().size() < 2 && every == 1 ? linear_ticks(low, high, wanted) : out;
 }
 
 }  // namespace dotyk::figure

@@ -1,25 +1,18 @@
 #include "figure/canvas/window.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "figure/canvas/plane.hpp"
-
 namespace dotyk::figure {
 
 namespace {
 
 struct Corner : Point {
   double value = 0;
+  friend Corner part_way(const Corner& p, const Corner& q, double t) { return {part_way(Point{p}, Point{q}, t), p.value + t * (q.value - p.value)}; }
 };
 using Polygon = std::vector<Corner>;
 
-Corner part_way(const Corner& p, const Corner& q, double t) { return {part_way(Point{p}, Point{q}, t), p.value + t * (q.value - p.value)}; }
-
 Corner corner(const BodyPicture& body, int i, double factor) {
-  Corner c{{body.points[3 * i], body.points[3 * i + 1]}, body.values.empty() ? 0 : body.values[i]};
-  if (!body.displacement.empty()) c.x += factor * body.displacement[3 * i], c.y += factor * body.displacement[3 * i + 1];
-  return c;
+  const Vec3 p = body.node(i, factor);
+  return {{p[0], p[1]}, body.values.empty() ? 0 : body.values[i]};
 }
 
 double area(const Polygon& polygon) {
@@ -33,27 +26,26 @@ double area(const Polygon& polygon) {
 
 }  // namespace
 
-std::vector<int> cells_near(const BodyPicture& body, double factor, const Window& w) {
+std::vector<int> cells_near(const BodyPicture& body, double factor, const Box& w) {
   const int each = nodes_per_cell(body.shape, 1);
   std::vector<int> near;
   for (auto cell = body.cells.begin(); body.cells.end() - cell >= each; cell += each) {
     Bounds bounds;
     std::for_each(cell, cell + each, [&](int i) { bounds.add(corner(body, i, factor)); });
-    if (bounds.left > w[2] || bounds.right < w[0] || bounds.bottom > w[3] || bounds.top < w[1]) continue;
-    near.insert(near.end(), cell, cell + each);
+    if (bounds.left <= w.right && bounds.right >= w.left && bounds.bottom <= w.top && bounds.top >= w.bottom) near.insert(near.end(), cell, cell + each);
   }
   return near;
 }
 
-Seen seen(const ScenePicture& picture, const Window& w) {
+Seen seen(const ScenePicture& picture, const Box& window) {
   Seen out;
   for (const BodyPicture& body : picture.bodies) {
     const int each = nodes_per_cell(body.shape, 1);
-    const std::vector<int> cells = cells_near(body, picture.deformation, w);
+    const std::vector<int> cells = cells_near(body, picture.deformation, window);
     for (std::size_t c = 0; c < cells.size(); c += each) {
       Polygon polygon;
       for (int k = 0; k < each; ++k) polygon.push_back(corner(body, cells[c + k], picture.deformation));
-      const Polygon part = cropped(std::move(polygon), {w[0], w[1], w[2], w[3]});
+      const Polygon part = cropped(std::move(polygon), window);
       if (!(area(part) > 0)) continue;
       out.body = true;
       if (body.values.empty()) continue;

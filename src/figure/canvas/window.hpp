@@ -1,23 +1,22 @@
 // The region of a scene in the plane that a figure shows, where it does not
-// show all of it.
+// show all of it: in the user's coordinates of the deformed picture.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
+#include "figure/canvas/plane.hpp"
 #include "figure/door/picture.hpp"
 
 namespace dotyk::figure {
 
-// Least x and y, greatest x and y, in the user's coordinates of the deformed
-// picture.
+// As ScenePicture::window has it.
 using Window = std::array<double, 4>;
+inline Box box_of(const Window& window) { return {window[0], window[1], window[2], window[3]}; }
 
 // Nodes of those cells of a body, displaced by `factor`, whose boxes meet the
 // window, flat as in BodyPicture::cells.
-std::vector<int> cells_near(const BodyPicture& body, double factor, const Window& window);
+std::vector<int> cells_near(const BodyPicture& body, double factor, const Box& window);
 
 // What the window shows of the bodies. Values are interpolated to its border,
 // so that they are known where it lies within one cell.
@@ -28,6 +27,6 @@ struct Seen {
     if (std::isfinite(value)) least = std::min(least, value), greatest = std::max(greatest, value);
   }
 };
-Seen seen(const ScenePicture& picture, const Window& window);
+Seen seen(const ScenePicture& picture, const Box& window);
 
 }  // namespace dotyk::figure

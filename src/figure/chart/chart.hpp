@@ -14,9 +14,6 @@ Axis fit_axis(const ChartPicture& chart, bool vertical);
 // A curve in pixels, in pieces between points that an axis cannot show.
 std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes);
 
-// Which of the curves has nearest to this slope, pixels over pixels: from its first to its last point.
-const std::vector<Point>* nearest_slope(const std::vector<std::vector<Point>>& curves, double slope);
-
 // A triangle whose slanted side has the slope, near the curve whose slope is most like it and clear of
 // all; smaller where there is little room. What it takes is added to `occupied`.
 void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& guide, const Axes& axes, Occupied& occupied);

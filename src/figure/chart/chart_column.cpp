@@ -1,10 +1,4 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <vector>
 
-#include "figure/canvas/text_fit.hpp"
 #include "figure/chart/chart.hpp"
 #include "figure/door/drawing.hpp"
 
@@ -14,7 +8,7 @@ namespace {
 
 // The least and greatest x of all.
 std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
-  std::array<double, 2> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::array<double, 2> range{INFINITY, -INFINITY};
   for (const ChartPicture& panel : panels) {
     const Axis axis = fit_axis(panel, false);
     range = {std::min(range[0], axis.low), std::max(range[1], axis.high)};
@@ -25,8 +19,7 @@ std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
 // Over all panels; returns the height it takes.
 double draw_title(Canvas& canvas, const ChartColumn& picture, double em) {
   if (picture.title.empty()) return 0;
-  const FittedText title = fitted(picture.title, 1.15 * em, picture.width - em, true);
-  draw_lines(canvas, {picture.width / 2.0, picture.height - 0.6 * em}, title, title_style());
+  canvas.text({picture.width / 2.0, picture.height - 0.6 * em}, fitted(picture.title, 1.15 * em, picture.width - em, true), title_style());
   return 1.9 * em;
 }
 

@@ -1,14 +1,10 @@
 // Charts, drawn by hand on the canvas: vtkChartXY places curves on a
 // logarithmic axis only at its second rendering, and knows neither markers
 // that stand off each other nor slope guides.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 
 #include "figure/canvas/legend.hpp"
-#include "figure/canvas/text_fit.hpp"
 #include "figure/chart/chart.hpp"
 #include "figure/door/drawing.hpp"
 
@@ -239,15 +235,15 @@ private:
     draw_ticks(canvas_, axes_, frame_.x_labels);
     draw_names();
     const FittedText title = fitted(picture_.title, 1.1 * em_, picture_.width - em_, true);
-    draw_lines(canvas_, {within(title, true), picture_.height - 0.6 * em_}, title, title_style());
+    canvas_.text({within(title, true), picture_.height - 0.6 * em_}, title, title_style());
   }
 
   // Lines one below the other need no more room than one: their letters are half as high.
   void draw_names() {
     const FittedText x = fitted(frame_.x_labels ? picture_.x_label : "", em_, picture_.width - em_, false, frame_.x_labels ? axis_name("", axes_.x_ticks) : "");
-    draw_lines(canvas_, {within(x), 0.4 * em_ + depth(x)}, x, {.across = Align::middle});
+    canvas_.text({within(x), 0.4 * em_ + x.depth()}, x, {.across = Align::middle});
     const FittedText y = fitted(picture_.y_label, em_, room_.height(), false, axis_name("", axes_.y_ticks));
-    draw_lines(canvas_, {indent_ + 0.45 * em_, room_.centre().y}, y, {.up = Align::middle, .upright = true});
+    canvas_.text({indent_ + 0.45 * em_, room_.centre().y}, y, {.up = Align::middle, .upright = true});
   }
 
   // The middle of the plot, unless the text is so long that the whole width is needed.

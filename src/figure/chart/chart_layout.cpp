@@ -1,7 +1,6 @@
+// Ranges of axes, curves and guides of slopes.
 #include "figure/chart/chart.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace dotyk::figure {
@@ -13,6 +12,24 @@ constexpr double least_positive = std::numeric_limits<double>::denorm_min();
 // The nearest that a double can be.
 double held(Wide value, double least = std::numeric_limits<double>::lowest()) {
   return static_cast<double>(std::clamp(value, Wide{least}, Wide{std::numeric_limits<double>::max()}));
+}
+
+// Points of the curve that has nearest to this slope, pixels over pixels, from its first to its last point; of all where there is none.
+Occupied like(const ChartPicture& picture, double slope, const Axes& axes, const Occupied& occupied) {
+  std::vector<Point> best;
+  double least = INFINITY;
+  for (const SeriesPicture& s : picture.series)
+    for (const auto& curve : curves(s.x, s.y, axes)) {
+      const Point way = curve.back() - curve.front();
+      if (s.reference || way.x == 0) continue;
+      // Between angles: steep slopes differ little.
+      const double off = std::abs(std::atan(way.y / way.x) - std::atan(slope));
+      if (off < least - 1e-9) least = off, best = curve;
+    }
+  if (best.empty()) return occupied;
+  Occupied out;
+  out.add(best, axes.room);
+  return out;
 }
 
 }  // namespace
@@ -66,27 +83,36 @@ Axis fit_axis(const ChartPicture& chart, bool vertical) {
 }
 
 std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes) {
-  std::vector<std::vector<Point>> out(1);
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    if (axes.x.shows(x[i]) && axes.y.shows(y[i]))
-      out.back().push_back(axes.at(x[i], y[i]));
-    else if (!out.back().empty())
-      out.emplace_back();
-  }
-  if (out.back().empty()) out.pop_back();
-  return out;
+  return pieces(y.size(), [&](std::size_t i) {
+    return axes.x.shows(x[i]) && axes.y.shows(y[i]) ? std::optional(axes.at(x[i], y[i])) : std::nullopt;
+  });
 }
 
-const std::vector<Point>* nearest_slope(const std::vector<std::vector<Point>>& curves, double slope) {
-  const std::vector<Point>* best = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& curve : curves) {
-    if (curve.size() < 2 || curve.back().x == curve.front().x) continue;
-    // Between angles: steep slopes differ little.
-    const double off = std::abs(std::atan((curve.back().y - curve.front().y) / (curve.back().x - curve.front().x)) - std::atan(slope));
-    if (off < least - 1e-9) least = off, best = &curve;
+void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& guide, const Axes& axes, Occupied& occupied) {
+  const double ratio = steepness(axes.x, axes.y, guide.slope), em = axes.em, size = small_text * em, pad = 0.35 * em;
+  const bool plain = guide.label.empty(), rises = ratio >= 0;
+  const std::string label = plain ? number(guide.slope) : guide.label;
+  const Point extent = text_extent(label, size);
+  for (const double share : {0.16, 0.11, 0.07}) {
+    double run = share * axes.room.width();
+    if (std::abs(ratio) * run > 1.6 * share * axes.room.height()) run = 1.6 * share * axes.room.height() / std::abs(ratio);
+    // With room for the labels on the right, and on the level side: below where the line rises, else above.
+    const double up = std::abs(ratio * run), width = run + extent.x + 2 * pad, height = up + 1.2 * em + pad;
+    const std::optional<Point> place = near_place(occupied, like(picture, ratio, axes, occupied), axes.room, {width, height}, 0.5 * em);
+    if (!place) continue;
+    const Point at = *place;
+    occupied.add(Box{at.x, at.y, at.x + width, at.y + height});
+    const double low = at.y + (rises ? 1.2 * em : pad);
+    const Point a{at.x, rises ? low : low + up}, b{at.x + run, rises ? low + up : low};
+    const std::array<Point, 3> triangle{a, Point{b.x, a.y}, b};
+    canvas.convex(triangle, {235, 235, 235});
+    canvas.polyline(triangle, std::max(1.2, em / 16), reference_grey, {}, true);
+    canvas.text({b.x + pad, low + up / 2}, label, {.size = size, .up = Align::middle, .colour = reference_grey});
+    if (plain)
+      canvas.text({at.x + run / 2, rises ? low - 0.15 * em : a.y + 0.1 * em}, "1",
+                  {.size = size, .across = Align::middle, .up = rises ? Align::high : Align::low, .colour = reference_grey});
+    return;
   }
-  return best;
 }
 
 }  // namespace dotyk::figure

@@ -1,4 +1,4 @@
-#include "figure/compose/beam_view.hpp"
+#include "figure/compose/compose_beam.hpp"
 
 #include <algorithm>
 #include <cmath>

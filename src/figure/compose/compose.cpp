@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "figure/canvas/cell_shape.hpp"
-#include "figure/compose/compose_contact.hpp"
+#include "figure/canvas/plane.hpp"
 #include "mesh/second_order.hpp"
 #include "solver/core/verdict.hpp"
 
@@ -41,12 +40,6 @@ const SceneValue& field_of(FieldChoice choice) {
 
 bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises; }
 
-Vec3 at_node(const std::vector<double>& values, int node, int dim) {
-  Vec3 v{0, 0, 0};
-  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(node) * dim, dim, v.begin());
-  return v;
-}
-
 /// The edges of cells of order 2 (in space of the facets drawn, as others are behind), cut in two at their nodes.
 std::vector<int> second_order_edges(const mesh::Mesh& mesh) {
   const mesh::ElementTopology& t = mesh.topology();
@@ -69,7 +62,7 @@ BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
   BodyPicture picture;
   picture.name = body.name;
   picture.dimension = dim;
-  picture.shape = cell_shape(mesh.element);
+  picture.shape = cell_shape(mesh);
   picture.cells = mesh.cells;
   picture.nodes_per_facet = mesh.topology().nodes_per_facet;
   if (body.mesh->topology().order == 2) picture.edges = second_order_edges(*body.mesh);
@@ -77,20 +70,14 @@ BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
     for (int k = 0; k < picture.nodes_per_facet; ++k) picture.facets.push_back(mesh.facet_node(f, k));
   const auto& u = s.displacement(index);
   for (int n = 0; n < mesh.node_count(); ++n) {
-    const Vec3 x = mesh.point(n), d = at_node(u, n, dim);
+    const Vec3 x = mesh.point(n), d = mesh::at_node(u, n, dim);
     picture.points.insert(picture.points.end(), x.begin(), x.end());
     picture.displacement.insert(picture.displacement.end(), d.begin(), d.end());
   }
   if (field == FieldChoice::none) return picture;
   for (int n = 0; n < mesh.node_count(); ++n)
-    picture.values.push_back(field_of(field).value(at_node(u, n, dim), is_stress(field) ? s.stress(index)[n] : Stress{}));
+    picture.values.push_back(field_of(field).value(mesh::at_node(u, n, dim), is_stress(field) ? s.stress(index)[n] : Stress{}));
   return picture;
-}
-
-SupportKind kind_of(scene::SupportKind kind) {
-  return kind == scene::SupportKind::fix     ? SupportKind::fix
-         : kind == scene::SupportKind::slide ? SupportKind::slide
-                                             : SupportKind::displace;
 }
 
 /// Laws, by the nearest of the known symbols: rollers for a rigid base, else springs; none where the support bears nothing.
@@ -104,7 +91,7 @@ void add_law_supports(const Solution& s, int index, ScenePicture& picture) {
     const bool rigid = normal == Kind::signorini || normal == Kind::prescribed;
     for (const scene::SupportNode& node : result.nodes)
       if (!node.broken && (node.status != problem::Status::open || on.normal.kind == Kind::free))
-        picture.supports.push_back({node.x, at_node(s.displacement(index), node.node, body.dimension()), node.normal, {true, true, true},
+        picture.supports.push_back({node.x, mesh::at_node(s.displacement(index), node.node, body.dimension()), node.normal, {true, true, true},
                                     rigid ? SupportKind::slide : SupportKind::spring});
   }
 }
@@ -115,10 +102,10 @@ void add_supports(const Solution& s, int index, ScenePicture& picture) {
   const int dim = body.dimension();
   for (const scene::Support& support : body.supports)
     for (std::size_t k = 0; k < support.nodes.size(); ++k)
-      picture.supports.push_back({body.mesh->point(support.nodes[k]), at_node(u, support.nodes[k], dim),
-                                  support.normals[k], support.components[k], kind_of(support.kind)});
+      picture.supports.push_back({body.mesh->point(support.nodes[k]), mesh::at_node(u, support.nodes[k], dim),
+                                  support.normals[k], support.components[k], static_cast<SupportKind>(support.kind)});
   for (const scene::SlideRow& slide : body.slides)
-    picture.supports.push_back({body.mesh->point(slide.node), at_node(u, slide.node, dim), slide.normal,
+    picture.supports.push_back({body.mesh->point(slide.node), mesh::at_node(u, slide.node, dim), slide.normal,
                                 {true, true, true}, SupportKind::slide});
   for (const scene::SpringPatch& patch : body.springs) {
     const mesh::Point centre = body.mesh->facet_centre(patch.spring.facet);
@@ -139,13 +126,9 @@ void add_loads(const Solution& s, int index, ScenePicture& picture) {
 }
 
 double scene_size(const Solution& s) {
-  mesh::Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  for (const auto& body : s.scene().bodies)
-    for (int n = 0; n < body->mesh->node_count(); ++n) {
-      const mesh::Point x = body->mesh->point(n);
-      for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], x[i]), high[i] = std::max(high[i], x[i]);
-    }
-  return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  mesh::Box box;
+  for (const auto& body : s.scene().bodies) box.add(body->mesh->box());
+  return std::max({box.extent(0), box.extent(1), box.extent(2)});
 }
 
 /// The greatest factor at which bodies that moved into a gap are drawn overlapping by no more than 1 % of
@@ -167,16 +150,20 @@ double gap_limit(const Solution& s, double size) {
 
 }  // namespace
 
+CellShape cell_shape(const mesh::Mesh& mesh) {
+  const mesh::ElementTopology& t = mesh.topology();
+  if (t.dimension == 2) return t.facets == 3 ? CellShape::triangle : CellShape::quad;
+  return t.facets == 4 ? CellShape::tetrahedron : CellShape::hexahedron;
+}
+
 double visible_deformation(const Solution& s) {
   double largest = 0;
   for (std::size_t b = 0; b < s.scene().bodies.size(); ++b)
-    for (double u : s.displacement(static_cast<int>(b))) largest = std::max(largest, std::abs(u));
+    largest = std::max(largest, greatest(s.displacement(static_cast<int>(b))));
   if (!(largest > 0)) return 1;
   const double size = scene_size(s), below = 1 - 1e-9;  // round numbers of a scene give round ratios, whose rounding must not decide
   const double wanted = below * std::min(0.1 * size / largest, gap_limit(s, size));
-  if (wanted <= 1) return 1;
-  const double power = std::pow(10, std::floor(std::log10(wanted)));
-  return power * (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1);
+  return wanted <= 1 ? 1 : round_number_below(wanted);
 }
 
 ScenePicture compose(const Solution& s, const SceneOptions& options) {

@@ -22,13 +22,43 @@ struct SceneOptions {
 
 // Fills bodies, contacts, obstacles, symbols, the field with its label, and the
 // deformation factor. File, size, titles and styles are the caller's. Where
-// rigid obstacles are drawn: see compose_contact.hpp. Throws InputError for a
+// rigid obstacles are drawn: see obstacle_picture(). Throws InputError for a
 // field that the dimension does not have.
 ScenePicture compose(const scene::Solution& solution, const SceneOptions& options);
+
+// Its cells look as their corners do.
+CellShape cell_shape(const mesh::Mesh& mesh);
+
+// For ParaView: all bodies of the scene at rest, one after the other, with node arrays
+//   displacement      3 components
+//   stress            recovered, 6 components in VTK's order xx yy zz xy yz xz
+//   von_mises
+//   contact_pressure  positive in compression, 0 off the contact boundary
+//   contact_gap       after deformation, positive when open; nan where there is no contact
+//   contact_status    0 open, 1 closed, 2 stick, 3 slip; -1 where there is no contact
+// The contact arrays are left out where the scene has no contact. Of several conditions at one node (a
+// corner, two contacts) the one with the greatest pressure is shown, else that with the least gap.
+GridFile compose_grid(const scene::Solution& solution, const std::string& file);
 
 // 1, 2 or 5 times a power of ten, at least 1, such that the greatest displacement comes to 4 to
 // 10 % of the scene's size; less where bodies that crossed a gap would be drawn into each other, or
 // those that an interference presses apart from each other.
 double visible_deformation(const scene::Solution& solution);
+
+ContactPicture contact_picture(const scene::Contact& contact, const scene::ContactResult& result);
+
+// The obstacle of a contact with a rigid shape, for bodies drawn at x + m u (m is `factor`). The motion d of the shape
+// (`move`) and the gap g₀ at rest are magnified as displacements are; but a plane stays one where the part is far from
+// it: of g₀ at most c = max(0, greatest w·n) is magnified, as far as some node has come towards it. Here w = u − d is a
+// node's displacement relative to the obstacle and n the direction towards that; for other shapes c = ∞. The obstacle
+// passes through
+//   x + g₀ n + m d + (m − 1)(w_t + min(g₀, c) n),
+// without w_t where no node is closed: then it does not follow the body. At m = 1 this is where the obstacle is. A closed
+// node (w·n = g₀) lies on it at any m ≥ 1, but for its way w_t along it; an open one stands off it by between its gap and
+// m times its gap.
+// Left out are nodes that do not face the obstacle, and those that would stand off it by a quarter of the scene's `size`.
+// In the plane a half-space, which ends nowhere, is drawn a little beyond the contact.
+RigidPicture obstacle_picture(const scene::Contact& contact, const scene::ContactResult& result, const Vec3& move, double factor,
+                              double size);
 
 }  // namespace dotyk::figure

@@ -1,4 +1,5 @@
-#include "figure/compose/compose_contact.hpp"
+// Contacts of a scene figure, and the rigid obstacles as their nodes see them.
+#include "figure/compose/compose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,6 @@ std::vector<int> contact_facets(const Contact& contact, const std::vector<scene:
   }
   return result;
 }
-
 
 constexpr double kBeyond = 0.06;  // of the scene's size
 constexpr double kFacing = 0.05;  // least cosine between a facet's normal and the direction to the obstacle

@@ -1,8 +1,6 @@
-#include "figure/compose/compose_grid.hpp"
-
-#include <cmath>
-
-#include "figure/canvas/cell_shape.hpp"
+// From a solution to its file for ParaView.
+#include "figure/compose/compose.hpp"
+#include "figure/compose/compose_plate.hpp"
 
 namespace dotyk::figure {
 namespace {
@@ -17,38 +15,31 @@ std::vector<std::size_t> first_nodes(const scene::Scene& scene) {
   return first;
 }
 
-void add_body(const Solution& s, int index, std::size_t first, GridFile& file) {
-  const mesh::Mesh& mesh = *s.scene().bodies[index]->mesh;
-  GridBody body{s.scene().bodies[index]->name, cell_shape(mesh.element), mesh.cells, mesh.topology().order};
-  for (int& node : body.cells) node += static_cast<int>(first);
-  file.bodies.push_back(std::move(body));
+void add_points(const mesh::Mesh& mesh, GridFile& file) {
   for (int n = 0; n < mesh.node_count(); ++n) {
     const mesh::Point x = mesh.point(n);
     file.points.insert(file.points.end(), x.begin(), x.end());
   }
 }
 
-void add_fields(const Solution& s, std::size_t nodes, GridFile& file) {
-  static const int order[6] = {0, 1, 2, 5, 3, 4};  // ours is xx yy zz yz xz xy
-  GridArray displacement{"displacement", {"x", "y", "z"}, {}};
-  GridArray stress{"stress", {"xx", "yy", "zz", "xy", "yz", "xz"}, {}};
-  GridArray von_mises{"von_mises", {""}, {}};
-  displacement.values.reserve(3 * nodes);
-  stress.values.reserve(6 * nodes);
-  von_mises.values.reserve(nodes);
-  const int dim = s.scene().dimension();
-  for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {
-    const auto& u = s.displacement(b);
-    for (std::size_t k = 0; k < u.size(); k += dim)
-      for (int i = 0; i < 3; ++i) displacement.values.push_back(i < dim ? u[k + i] : 0.0);
-    for (const elasticity::Stress& at_node : s.stress(b)) {
-      for (const int v : order) stress.values.push_back(at_node[v]);
+void add_body(const Solution& s, int index, std::size_t first, GridFile& file) {
+  const mesh::Mesh& mesh = *s.scene().bodies[index]->mesh;
+  GridBody& body = file.bodies.emplace_back(GridBody{s.scene().bodies[index]->name, cell_shape(mesh), mesh.cells, mesh.topology().order});
+  for (int& node : body.cells) node += static_cast<int>(first);
+  add_points(mesh, file);
+}
+
+void add_fields(const Solution& s, GridFile& file) {
+  GridArray displacement{"displacement", {"x", "y", "z"}, {}}, stress{"stress", {"xx", "yy", "zz", "xy", "yz", "xz"}, {}}, von_mises{"von_mises", {""}, {}};
+  for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b)
+    for (int n = 0; n < s.scene().bodies[b]->mesh->node_count(); ++n) {
+      const Vec3 u = mesh::at_node(s.displacement(b), n, s.scene().dimension());
+      const elasticity::Stress& at_node = s.stress(b)[n];
+      displacement.values.insert(displacement.values.end(), u.begin(), u.end());
+      for (const int v : {0, 1, 2, 5, 3, 4}) stress.values.push_back(at_node[v]);  // ours is xx yy zz yz xz xy
       von_mises.values.push_back(elasticity::von_mises(at_node));
     }
-  }
-  file.arrays.push_back(std::move(displacement));
-  file.arrays.push_back(std::move(stress));
-  file.arrays.push_back(std::move(von_mises));
+  file.arrays = {std::move(displacement), std::move(stress), std::move(von_mises)};
 }
 
 void add_contacts(const Solution& s, const std::vector<std::size_t>& first, GridFile& file) {
@@ -75,21 +66,17 @@ void add_contacts(const Solution& s, const std::vector<std::size_t>& first, Grid
         show(first[other] + contact->rows[k].partners.front().node, nodes[k]);
     }
   }
-  if (!any) return;
-  file.arrays.push_back(std::move(pressure));
-  file.arrays.push_back(std::move(gap));
-  file.arrays.push_back(std::move(status));
+  for (GridArray* array : {&pressure, &gap, &status})
+    if (any) file.arrays.push_back(std::move(*array));
 }
 
 }  // namespace
 
 GridFile compose_grid(const Solution& s, const std::string& name) {
-  GridFile file;
-  file.file = name;
+  GridFile file{name, {}, {}, {}};
   const auto first = first_nodes(s.scene());
-  file.points.reserve(3 * first.back());
   for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) add_body(s, b, first[b], file);
-  add_fields(s, first.back(), file);
+  add_fields(s, file);
   add_contacts(s, first, file);
   return file;
 }
@@ -98,9 +85,8 @@ GridFile compose_grid(const plate::Solution& s, const std::string& file) {
   const mesh::Mesh& mesh = *s.plate().mesh;
   GridFile grid{file, {}, {{"plate", CellShape::triangle, mesh.cells}}, {}};
   GridArray displacement{"displacement", {"x", "y", "z"}, {}}, moment{"moment", {"xx", "yy", "xy"}, {}};
+  add_points(mesh, grid);
   for (int n = 0; n < mesh.node_count(); ++n) {
-    const mesh::Point x = mesh.point(n);
-    grid.points.insert(grid.points.end(), x.begin(), x.end());
     displacement.values.insert(displacement.values.end(), {0, 0, s.vertex_deflection(n)});
     const plate::Moment& m = s.vertex_moments()[n];
     moment.values.insert(moment.values.end(), {m.xx, m.yy, m.xy});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "figure/canvas/plane.hpp"
 #include "plate/reaction.hpp"
 #include "solver/core/verdict.hpp"
 
@@ -41,23 +42,10 @@ std::optional<Status> told(PlateSupport support, problem::Status status) {
 
 using Ends = std::pair<int, int>;  // vertices of an edge of the mesh, counter-clockwise about the plate
 
-double within(const SupportLaw& law, double reaction) {
-  switch (law.kind) {
-    case Kind::signorini:
-    case Kind::one_sided_elastic:
-    case Kind::compliance: return std::max(0.0, reaction);
-    case Kind::one_sided_friction: return std::clamp(reaction, 0.0, law.value);
-    case Kind::friction: return std::clamp(reaction, -law.value, law.value);
-    case Kind::capped_elastic: return std::clamp(reaction, -law.limit, law.limit);
-    case Kind::free:
-    case Kind::prescribed:
-    case Kind::load:
-    case Kind::elastic:
-    case Kind::unequal_elastic:
-    case Kind::coulomb:
-    case Kind::breaking: break;
-  }
-  return reaction;
+// Those that the law can give, where it has a row.
+problem::Interval reactions(const SupportLaw& law) {
+  const auto row = problem::row_law(law);
+  return row ? row->multipliers(0) : problem::Interval{-INFINITY, INFINITY};
 }
 
 // A corner's own force stands for itself: beside it the strip goes on as between the next two points, as corner_forces() has it,
@@ -71,7 +59,8 @@ EdgeSample sample(const std::vector<plate::EdgePoint>& piece, std::size_t i, std
   if (!at.corner || at.status == problem::Status::open || !known) return out;
   const plate::EdgePoint &after = piece[static_cast<std::size_t>(second)], &next = piece[static_cast<std::size_t>(second - inwards)];
   const double share = (next.at - at.at) / (after.at - next.at);
-  out.reaction = within(at.deflection_law, next.per_length() + share * (next.per_length() - after.per_length()));
+  const auto [low, high] = reactions(at.deflection_law);
+  out.reaction = std::clamp(next.per_length() + share * (next.per_length() - after.per_length()), low, high);
   out.extrapolated = true;
   return out;
 }
@@ -116,11 +105,10 @@ std::vector<Ends> boundary_loops(const plate::Edges& edges) {
 }
 
 void add_boundary(PlatePicture& picture, const plate::Solution& s) {
-  const std::map<Ends, PlateEdge> supported = supported_edges(s);
+  std::map<Ends, PlateEdge> supported = supported_edges(s);
   const mesh::Mesh& mesh = *s.plate().mesh;
   for (const Ends& ends : boundary_loops(s.model().space.edges)) {
-    const auto found = supported.find(ends);
-    PlateEdge edge = found == supported.end() ? PlateEdge{} : found->second;
+    PlateEdge edge = supported[ends];
     if (edge.samples.empty()) edge.samples = {{0, s.vertex_deflection(ends.first), 0, {}}, {1, s.vertex_deflection(ends.second), 0, {}}};
     edge.from = {mesh.node(ends.first)[0], mesh.node(ends.first)[1]};
     edge.to = {mesh.node(ends.second)[0], mesh.node(ends.second)[1]};
@@ -142,10 +130,8 @@ void add_forces(PlatePicture& picture, const plate::Solution& s) {
     carried += std::abs(force);
     picture.forces.push_back({x, y, force});
     const PlateSupport support = support_of(law.kind);
-    const bool open = support == PlateSupport::one_sided && !(force > 0);
-    const bool limited = support == PlateSupport::friction && std::abs(force) >= (1 - 1e-9) * (law.kind == Kind::capped_elastic ? law.limit : law.value);
-    const problem::Status status = open ? problem::Status::open : support == PlateSupport::one_sided ? problem::Status::closed : limited ? problem::Status::slip : problem::Status::stick;
-    picture.supports.push_back({x, y, s.deflection(x, y), support, told(support, status)});
+    const bool follows = support == PlateSupport::one_sided ? force > 0 : std::abs(force) < (1 - 1e-9) * reactions(law).high;
+    picture.supports.push_back({x, y, s.deflection(x, y), support, told(support, problem::status_of(law.kind, follows, force != 0))});
   }
   for (const plate::CornerForce& corner : plate::corner_forces(s)) picture.forces.push_back({corner.x, corner.y, corner.force});
   std::erase_if(picture.forces, [&](const PlateForce& f) { return std::abs(f.force) <= 1e-3 * carried; });
@@ -200,9 +186,7 @@ double visible_deflection(const plate::Solution& s) {
   double greatest = 0;
   for (int i = 0; i < s.plate().mesh->node_count(); ++i) greatest = std::max(greatest, std::abs(s.vertex_deflection(i)));
   const double most = 0.2 * s.plate().mesh->size() / greatest;
-  if (!(greatest > 0) || !std::isfinite(most)) return 1;
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  return most >= 5 * power ? 5 * power : most >= 2 * power ? 2 * power : power;
+  return greatest > 0 && std::isfinite(most) ? round_number_below(most) : 1;
 }
 
 PlatePicture compose(const plate::Solution& s, const PlateOptions& options) {
@@ -210,12 +194,8 @@ PlatePicture compose(const plate::Solution& s, const PlateOptions& options) {
   picture.caption = solver::doubt(s.result());
   const mesh::Mesh& mesh = *s.plate().mesh;
   picture.view = options.view;
-  for (int i = 0; i < mesh.node_count(); ++i) {
-    picture.points.insert(picture.points.end(), {mesh.node(i)[0], mesh.node(i)[1]});
-    picture.deflection.push_back(s.vertex_deflection(i));
-  }
-  for (int c = 0; c < mesh.cell_count(); ++c)
-    for (int k = 0; k < 3; ++k) picture.triangles.push_back(mesh.cell(c)[k]);
+  picture.points = mesh.coordinates, picture.triangles = mesh.cells;
+  for (int i = 0; i < mesh.node_count(); ++i) picture.deflection.push_back(s.vertex_deflection(i));
   picture.deformation = options.deform.value_or(visible_deflection(s));
   picture.force_unit = options.units.force;
   picture.reaction_unit = options.units.force.empty() || options.units.length.empty() ? "" : options.units.force + "/" + options.units.length;

@@ -24,6 +24,10 @@ struct PlateOptions {
 // corners and point supports, what bears on the obstacle, and the factor. File, size and titles are the caller's.
 PlatePicture compose(const plate::Solution& solution, const PlateOptions& options);
 
+// For ParaView: a plate at rest, with node arrays displacement (3 components, along z), moment (per length, xx yy xy) and, where there is
+// one, obstacle_force.
+GridFile compose_grid(const plate::Solution& solution, const std::string& file);
+
 // 1, 2 or 5 times a power of ten, such that the greatest deflection comes to 8 to 20 % of the plate's size; 1 where there is none.
 double visible_deflection(const plate::Solution& solution);
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "base/whole_file.hpp"
 #include "figure/canvas/plane.hpp"
 #include "figure/canvas/window.hpp"
@@ -16,16 +17,15 @@ namespace dotyk::figure {
 
 namespace {
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::runtime_error(message);
+template <class... Parts>
+void require(bool holds, const Parts&... message) {
+  if (!holds) throw std::runtime_error(text(message...));
 }
 
-std::string count(std::size_t n) { return std::to_string(n); }
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+std::string box_text(const std::array<double, 4>& b) {
+  char out[128];
+  std::snprintf(out, sizeof out, "{%.4g, %.4g, %.4g, %.4g}", b[0], b[1], b[2], b[3]);
+  return out;
 }
 
 /// Without code points that stand for no character: what VTK refuses in the middle of a picture.
@@ -49,39 +49,39 @@ bool is_utf8(const std::string& words) {
 // Of every text that is drawn; `key` is what scripts call it.
 void check_text(const std::string& key, const std::string& words) {
   constexpr std::size_t most = 1000;
-  if (words.size() > most) throw InputError(key + " has " + count(words.size()) + " bytes; a text in a figure has at most " + count(most));
+  if (words.size() > most) throw InputError(text(key, " has ", words.size(), " bytes; a text in a figure has at most ", most));
   if (!is_utf8(words)) throw InputError(key + " is not valid UTF-8");
 }
 
 // `ending` with its dot.
 void check_file(const std::string& file, const std::string& ending) {
   require(!file.empty(), "a file name is needed, one that ends in " + ending);
-  require(file.size() > ending.size() && file.ends_with(ending),
-          "cannot write " + file + ": the file name must end in " + ending);
+  require(file.size() > ending.size() && file.ends_with(ending), "cannot write ", file, ": the file name must end in ", ending);
   place_to_write(file);
 }
 
 void check_sheet(const Sheet& sheet) {
   check_file(sheet.file, ".png");
   require(sheet.width >= 160 && sheet.width <= 8192 && sheet.height >= 160 && sheet.height <= 8192,
-          "the size of " + sheet.file + " is " + std::to_string(sheet.width) + " x " + std::to_string(sheet.height) +
-              ", expected 160 to 8192 pixels each way");
+          "the size of ", sheet.file, " is ", sheet.width, " x ", sheet.height, ", expected 160 to 8192 pixels each way");
   check_text("'title'", sheet.title);
 }
 
 void check_nodes(const std::vector<int>& nodes, int each, std::size_t n, const std::string& what) {
-  require(nodes.size() % each == 0,
-          what + ": " + count(nodes.size()) + " entries are not a multiple of " + std::to_string(each));
-  for (const int i : nodes)
-    require(i >= 0 && static_cast<std::size_t>(i) < n,
-            what + ": node " + std::to_string(i) + " does not exist, there are " + count(n));
+  require(nodes.size() % each == 0, what, ": ", nodes.size(), " entries are not a multiple of ", each);
+  const auto wrong = std::find_if(nodes.begin(), nodes.end(), [n](int i) { return i < 0 || static_cast<std::size_t>(i) >= n; });
+  if (wrong != nodes.end()) require(false, what, ": node ", *wrong, " does not exist, there are ", n);
 }
 
-bool finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+// Given for `each` of n nodes, or not at all.
+void check_count(const std::vector<double>& given, std::size_t n, const std::string& who, const char* what, std::size_t each = 1) {
+  require(given.empty() || given.size() == each * n, who, ": ", given.size(), " ", what, " for ", n, " nodes");
 }
 
-bool finite(std::initializer_list<double> values) { return finite(std::span(values.begin(), values.size())); }
+bool finite(double value) { return std::isfinite(value); }
+bool finite(std::span<const double> values) { return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }); }
+template <class First, class... Rest>
+bool finite(const First& first, const Rest&... rest) requires(sizeof...(Rest) > 0) { return finite(first) && (finite(rest) && ...); }
 
 // Its ends, and how far they are apart.
 bool is_range(const std::array<double, 2>& range) { return range[0] <= range[1] && std::isfinite(range[1] - range[0]); }
@@ -94,10 +94,8 @@ void check_body(const BodyPicture& body, int dimension) {
   require(solid == (dimension == 3), who + ": the cells do not fit the dimension");
   require(body.points.size() % 3 == 0, who + ": points come three coordinates each");
   const std::size_t n = body.points.size() / 3;
-  require(body.displacement.empty() || body.displacement.size() == 3 * n,
-          who + ": " + count(body.displacement.size()) + " displacement components for " + count(n) + " nodes");
-  require(body.values.empty() || body.values.size() == n,
-          who + ": " + count(body.values.size()) + " field values for " + count(n) + " nodes");
+  check_count(body.displacement, n, who, "displacement components", 3);
+  check_count(body.values, n, who, "field values");
   require(finite(body.points), who + ": a coordinate is not finite");
   require(finite(body.displacement), who + ": a displacement is not finite");
   require(dimension == 2 ? body.nodes_per_facet == 2 : body.nodes_per_facet == 3 || body.nodes_per_facet == 4,
@@ -110,19 +108,17 @@ void check_body(const BodyPicture& body, int dimension) {
 void check_window(const ScenePicture& p) {
   if (!p.window) return;
   const auto [x0, y0, x1, y1] = *p.window;
-  const std::string given = "window {" + number(x0) + ", " + number(y0) + ", " + number(x1) + ", " + number(y1) + "}";
-  const auto refuse = [&](const std::string& why) { throw InputError(given + " " + why); };
+  const auto refuse = [&](const std::string& why) { throw InputError("window " + box_text(*p.window) + " " + why); };
   if (p.bodies.front().dimension != 2) refuse("needs a scene in the plane; this one is in space");
-  if (!(finite(*p.window) && x0 < x1 && y0 < y1))
-    refuse("is empty; it must be {x0, y0, x1, y1} with x0 < x1 and y0 < y1");
-  if (seen(p, *p.window).body) return;
+  if (!(finite(*p.window) && x0 < x1 && y0 < y1)) refuse("is empty; it must be {x0, y0, x1, y1} with x0 < x1 and y0 < y1");
+  if (seen(p, box_of(*p.window)).body) return;
   Bounds all;
   for (const BodyPicture& body : p.bodies)
-    for (std::size_t i = 0; i < body.points.size(); i += 3) {
-      const auto at = [&](std::size_t c) { return body.points[i + c] + (body.displacement.empty() ? 0 : p.deformation * body.displacement[i + c]); };
-      all.add(Point{at(0), at(1)});
+    for (std::size_t i = 0; i < body.points.size() / 3; ++i) {
+      const Vec3 at = body.node(i, p.deformation);
+      all.add(Point{at[0], at[1]});
     }
-  refuse("shows no body; as drawn, they lie within {" + number(all.left) + ", " + number(all.bottom) + ", " + number(all.right) + ", " + number(all.top) + "}");
+  refuse("shows no body; as drawn, they lie within " + box_text({all.left, all.bottom, all.right, all.top}));
 }
 
 }  // namespace
@@ -144,36 +140,34 @@ void check(const ScenePicture& p) {
   for (const ContactPicture& contact : p.contacts) {
     const std::string who = "contact \"" + contact.name + "\"";
     for (const ContactNode& node : contact.nodes)
-      require(finite(node.position) && finite(node.displacement) && finite(node.normal) && finite(node.shear) && std::isfinite(node.pressure),
-              who + ": a node has a value that is not finite");
+      require(finite(node.position, node.displacement, node.normal, node.shear, node.pressure), who + ": a node has a value that is not finite");
     require(contact.nodes_per_facet >= 2 && contact.nodes_per_facet <= 4, who + ": a facet has 2, 3 or 4 nodes");
     check_nodes(contact.facets, contact.nodes_per_facet, contact.nodes.size(), who + ", facets");
   }
-  for (const SupportSymbol& s : p.supports)
-    require(finite(s.position) && finite(s.displacement) && finite(s.normal), "a support has a value that is not finite");
-  for (const LoadArrow& l : p.loads)
-    require(finite(l.position) && finite(l.displacement) && finite(l.vector), "a load has a value that is not finite");
+  for (const SupportSymbol& s : p.supports) require(finite(s.position, s.displacement, s.normal), "a support has a value that is not finite");
+  for (const LoadArrow& l : p.loads) require(finite(l.position, l.displacement, l.vector), "a load has a value that is not finite");
 }
 
 static void check_chart(const ChartPicture& p) {
   check_text("'title'", p.title);
   check_text("'x'", p.x_label);
   check_text("'y'", p.y_label);
-  for (std::size_t k = 0; k < p.series.size(); ++k) check_text("'name' of series " + count(k + 1), p.series[k].name);
+  for (std::size_t k = 0; k < p.series.size(); ++k) check_text(text("'name' of series ", k + 1), p.series[k].name);
   for (const SeriesPicture& s : p.series) {
     const std::string who = "series \"" + s.name + "\"";
-    require(s.x.size() == s.y.size() || (s.crossed && s.y.empty()), who + ": " + count(s.x.size()) + " x for " + count(s.y.size()) + " y");
+    require(s.x.size() == s.y.size() || (s.crossed && s.y.empty()), who, ": ", s.x.size(), " x for ", s.y.size(), " y");
     require(!s.y.empty() || (s.low.empty() && s.x_low.empty()), who + ": points without y have no spread and no whiskers");
-    require(s.low.size() == s.high.size() && (s.low.empty() || s.low.size() == s.x.size()),
-            who + ": the spread needs as many low and high values as points");
-    require(s.x_low.size() == s.x_high.size() && (s.x_low.empty() || s.x_low.size() == s.x.size()),
-            who + ": whiskers need as many x_low and x_high values as points");
+    const auto spread = [&](const std::vector<double>& low, const std::vector<double>& high) {
+      return low.size() == high.size() && (low.empty() || low.size() == s.x.size());
+    };
+    require(spread(s.low, s.high), who, ": the spread needs as many low and high values as points");
+    require(spread(s.x_low, s.x_high), who, ": whiskers need as many x_low and x_high values as points");
   }
   for (const SlopeGuide& guide : p.slopes) require(std::isfinite(guide.slope), "the slope of a guide is not finite");
   for (const auto& [range, log, name] : {std::tuple{p.x_range, p.log_x, "x"}, std::tuple{p.y_range, p.log_y, "y"}})
     if (range)
       require(finite(*range) && (*range)[0] < (*range)[1] && (!log || (*range)[0] > 0),
-              std::string("the range of the ") + name + " axis must be {least, greatest}" + (log ? ", both positive" : ""));
+              "the range of the ", name, " axis must be {least, greatest}", log ? ", both positive" : "");
 }
 
 void check(const ChartPicture& p) {
@@ -184,7 +178,7 @@ void check(const ChartPicture& p) {
 void check(const ChartColumn& p) {
   check_sheet(p);
   require(!p.panels.empty(), "the picture " + p.file + " has no panels");
-  require(p.columns >= 1 && p.columns <= static_cast<int>(p.panels.size()), count(p.panels.size()) + " panels in " + number(p.columns) + " columns");
+  require(p.columns >= 1 && p.columns <= static_cast<int>(p.panels.size()), p.panels.size(), " panels in ", p.columns, " columns");
   for (const ChartPicture& panel : p.panels) {
     check_chart(panel);
     require(!p.shared_x || panel.log_x == p.panels.front().log_x, "panels that share the x axis are all logarithmic in x, or none is");
@@ -195,17 +189,16 @@ void check_drawing(const BeamDrawing& b) {
   require(b.length > 0 && std::isfinite(b.length), "the length of a beam is not positive");
   require(b.x.size() >= 2 && b.x.size() == b.deflection.size() && (b.load.empty() || b.load.size() == b.x.size()),
           "a beam needs as many deflections and loads as points, two at least");
-  require(finite(b.x) && finite(b.deflection) && finite(b.load), "a beam has a value that is not finite");
+  require(finite(b.x, b.deflection, b.load), "a beam has a value that is not finite");
   for (const BeamSupport& s : b.supports)
-    require(finite({s.x, s.deflection, s.rotation, s.below.slip, s.arc.slip}), "a support of a beam has a value that is not finite");
-  for (const BeamLoad& l : b.loads)
-    require(finite({l.x, l.force, l.moment}), "a load of a beam has a value that is not finite");
+    require(finite(s.x, s.deflection, s.rotation, s.below.slip, s.arc.slip), "a support of a beam has a value that is not finite");
+  for (const BeamLoad& l : b.loads) require(finite(l.x, l.force, l.moment), "a load of a beam has a value that is not finite");
 }
 
 void check_drawing(const CurveDrawing& c) {
   require(!c.curves.empty(), "a cell without a curve");
   for (const PageCurve& curve : c.curves)
-    require(!curve.x.empty() && curve.x.size() == curve.y.size() && finite(curve.x) && finite(curve.y), "a curve needs as many finite y as x, one at least");
+    require(!curve.x.empty() && curve.x.size() == curve.y.size() && finite(curve.x, curve.y), "a curve needs as many finite y as x, one at least");
   for (const auto& range : {c.x_range, c.y_range})
     require(!range || (is_range(*range) && (*range)[0] < (*range)[1]), "the range of an axis must be {least, greatest}");
 }
@@ -226,13 +219,11 @@ void check(const PagePicture& p) {
 }
 
 void check_boundary(const PlateEdge& e) {
-  require(finite(e.from) && finite(e.to), "an edge of a plate has a coordinate that is not finite");
-  double last = 0;
-  for (const EdgeSample& s : e.samples) {
-    require(s.share >= last && s.share <= 1, "samples along an edge of a plate ascend from 0 to 1");
-    require(finite({s.deflection, s.reaction}), "an edge of a plate has a value that is not finite");
-    last = s.share;
-  }
+  require(finite(e.from, e.to), "an edge of a plate has a coordinate that is not finite");
+  const bool whole = !e.samples.empty() && e.samples.front().share == 0 && e.samples.back().share == 1;
+  require(whole && std::is_sorted(e.samples.begin(), e.samples.end(), [](const EdgeSample& a, const EdgeSample& b) { return a.share < b.share; }),
+          "samples along an edge of a plate ascend from 0 to 1");
+  for (const EdgeSample& s : e.samples) require(finite(s.deflection, s.reaction), "an edge of a plate has a value that is not finite");
 }
 
 void check(const PlatePicture& p) {
@@ -243,15 +234,15 @@ void check(const PlatePicture& p) {
   require(!p.triangles.empty(), "the picture " + p.file + " shows no triangle");
   check_nodes(p.triangles, 3, n, "plate, triangles");
   check_nodes(p.bearing, 1, n, "plate, nodes that bear");
-  require(p.deflection.size() == n, "plate: " + count(p.deflection.size()) + " deflections for " + count(n) + " nodes");
-  require(p.values.empty() || p.values.size() == n, "plate: " + count(p.values.size()) + " field values for " + count(n) + " nodes");
-  require(p.obstacle.empty() || p.obstacle.size() == n, "plate: " + count(p.obstacle.size()) + " heights of the obstacle for " + count(n) + " nodes");
-  require(finite(p.points) && finite(p.deflection) && std::isfinite(p.deformation), "a plate has a value that is not finite");
+  require(p.deflection.size() == n, "plate: ", p.deflection.size(), " deflections for ", n, " nodes");
+  check_count(p.values, n, "plate", "field values");
+  check_count(p.obstacle, n, "plate", "heights of the obstacle");
+  require(finite(p.points, p.deflection, p.deformation), "a plate has a value that is not finite");
   require(!p.field_range || is_range(*p.field_range), "the range of the field must be {least, greatest}");
   require(!p.view_from || finite(*p.view_from), "the direction towards the eye is not finite");
   for (const PlateEdge& e : p.boundary) check_boundary(e);
-  for (const PlateForce& f : p.forces) require(finite({f.x, f.y, f.force}), "a force on a plate is not finite");
-  for (const PlatePointSupport& s : p.supports) require(finite({s.x, s.y, s.deflection}), "a support of a plate has a value that is not finite");
+  for (const PlateForce& f : p.forces) require(finite(f.x, f.y, f.force), "a force on a plate is not finite");
+  for (const PlatePointSupport& s : p.supports) require(finite(s.x, s.y, s.deflection), "a support of a plate has a value that is not finite");
 }
 
 void check(const GridFile& g) {
@@ -263,8 +254,7 @@ void check(const GridFile& g) {
     check_nodes(body.cells, nodes_per_cell(body.shape, body.order), n, "body \"" + body.name + "\", cells");
   for (const GridArray& a : g.arrays)
     require(!a.components.empty() && a.values.size() == a.components.size() * n,
-            "array \"" + a.name + "\": " + count(a.values.size()) + " values for " + count(n) + " nodes of " +
-                count(a.components.size()) + " components");
+            "array \"", a.name, "\": ", a.values.size(), " values for ", n, " nodes of ", a.components.size(), " components");
 }
 
 }  // namespace dotyk::figure

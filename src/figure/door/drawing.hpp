@@ -3,7 +3,6 @@
 
 #include <variant>
 
-#include "figure/door/grid_file.hpp"
 #include "figure/door/picture.hpp"
 #include "figure/page/page_picture.hpp"
 #include "figure/plate/plate_picture.hpp"

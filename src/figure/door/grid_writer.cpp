@@ -28,13 +28,10 @@ void look_at(vtkDoubleArray* array, const std::vector<double>& values, int compo
   array->SetArray(const_cast<double*>(values.data()), static_cast<vtkIdType>(values.size()), 1);
 }
 
-int cell_type(CellShape shape, int order) {
-  switch (shape) {
-    case CellShape::triangle: return order == 1 ? VTK_TRIANGLE : VTK_QUADRATIC_TRIANGLE;
-    case CellShape::quad: return order == 1 ? VTK_QUAD : VTK_BIQUADRATIC_QUAD;
-    case CellShape::tetrahedron: return order == 1 ? VTK_TETRA : VTK_QUADRATIC_TETRA;
-    default: return order == 1 ? VTK_HEXAHEDRON : VTK_TRIQUADRATIC_HEXAHEDRON;
-  }
+unsigned char cell_type(CellShape shape, int order) {
+  static constexpr unsigned char types[][2] = {{VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE}, {VTK_QUAD, VTK_BIQUADRATIC_QUAD},
+                                               {VTK_TETRA, VTK_QUADRATIC_TETRA}, {VTK_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON}};
+  return types[static_cast<int>(shape)][order - 1];
 }
 
 void add_cells(const GridFile& file, vtkUnstructuredGrid* grid) {
@@ -50,7 +47,7 @@ void add_cells(const GridFile& file, vtkUnstructuredGrid* grid) {
     for (std::size_t k = 0; k < part.cells.size(); k += each) {
       cells->InsertNextCell(each);
       for (int i = 0; i < each; ++i) cells->InsertCellPoint(part.cells[k + i]);
-      types->InsertNextValue(static_cast<unsigned char>(cell_type(part.shape, part.order)));
+      types->InsertNextValue(cell_type(part.shape, part.order));
       body->InsertNextValue(static_cast<int>(b) + 1);
     }
     names->InsertNextValue(part.name);
@@ -61,15 +58,10 @@ void add_cells(const GridFile& file, vtkUnstructuredGrid* grid) {
 }
 
 // VTK's own complaints would go to standard error, past the script's error.
-class Quiet {
- public:
-  Quiet() : before_(vtkObject::GetGlobalWarningDisplay()) { vtkObject::GlobalWarningDisplayOff(); }
-  ~Quiet() { vtkObject::SetGlobalWarningDisplay(before_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  int before_;
+struct Quiet {
+  const int before = vtkObject::GetGlobalWarningDisplay();
+  Quiet() { vtkObject::GlobalWarningDisplayOff(); }
+  ~Quiet() { vtkObject::SetGlobalWarningDisplay(before); }
 };
 
 }  // namespace

@@ -49,12 +49,8 @@ Colour series_colour(int k);
 enum class CellShape { triangle, quad, tetrahedron, hexahedron };
 
 inline int nodes_per_cell(CellShape shape, int order) {
-  switch (shape) {
-    case CellShape::triangle: return order == 1 ? 3 : 6;
-    case CellShape::quad: return order == 1 ? 4 : 9;
-    case CellShape::tetrahedron: return order == 1 ? 4 : 10;
-    default: return order == 1 ? 8 : 27;
-  }
+  static constexpr int nodes[][2] = {{3, 6}, {4, 9}, {4, 10}, {8, 27}};
+  return nodes[static_cast<int>(shape)][order - 1];
 }
 
 // One body. Cells of higher order are given by their corner nodes, or cut
@@ -70,14 +66,20 @@ struct BodyPicture {
   std::vector<int> facets;                  // nodes of the boundary facets, flat; empty in the plane: edges of one cell only
   int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
   std::vector<int> edges;                   // mesh lines, two nodes each; empty: the edges of the cells
+
+  // Node i, displaced by `factor` times its displacement.
+  Vec3 node(std::size_t i, double factor) const {
+    Vec3 p{points[3 * i], points[3 * i + 1], points[3 * i + 2]};
+    for (std::size_t c = 0; c < 3 && !displacement.empty(); ++c) p[c] += factor * displacement[3 * i + c];
+    return p;
+  }
 };
 
 // A rigid obstacle, drawn in neutral grey, where its points are: they are not displaced.
 struct RigidPicture {
   std::vector<double> points;               // 3 n: in the plane the vertices of a polyline, in order
   std::vector<int> triangles;               // in space: 3 nodes a triangle; in the plane empty
-  bool closed = false;                      // plane: the polyline is the outline of a solid, filled
-  Vec3 into_solid = {0, -1, 0};             // plane, open polyline: the side that is hatched
+  Vec3 into_solid = {0, -1, 0};             // plane: the side that is hatched
 };
 
 struct ContactNode {
@@ -99,7 +101,7 @@ struct ContactPicture {
   int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
 };
 
-enum class SupportKind { fix, slide, displace, spring };
+enum class SupportKind { fix, slide, displace, spring };  // the first ones as scene::SupportKind has them
 
 // A symbol at a supported boundary node or facet centre. Give one per node:
 // the drawing leaves out those that would overlap.
@@ -118,12 +120,6 @@ struct LoadArrow {
   Vec3 vector = {0, 0, 0};                  // force, or force per length or area
 };
 
-enum class MapKind {
-  automatic,   // diverging when the field has both signs, else sequential
-  sequential,  // viridis
-  diverging    // blue - white - red, white at zero
-};
-
 enum class MeshEdges { automatic, on, off };           // automatic: while they can be told apart
 enum class PressureStyle { automatic, strip, arrows, none };  // automatic: strip in the plane, arrows in space
 
@@ -138,7 +134,6 @@ struct ScenePicture : Sheet {
   std::string field_label;                  // "von Mises stress"; empty: no colour bar
   std::string field_unit;                   // "MPa"; may be empty
   std::optional<std::array<double, 2>> field_range;  // {least, greatest}; values beyond keep the end colour, a triangle on the bar tells of them
-  MapKind map = MapKind::automatic;
 
   double deformation = 1;                   // factor on every displacement
   // Plane: only this region, {x0, y0, x1, y1} in the coordinates of the deformed
@@ -155,7 +150,6 @@ struct ScenePicture : Sheet {
   bool shear = true;                        // arrows of the shear, where there is any
   PressureStyle pressure = PressureStyle::automatic;
   MeshEdges edges = MeshEdges::automatic;
-  bool undeformed_outline = true;           // thin, where the deformation can be seen
   bool axes = true;                         // plane: ticks with coordinates; space: a triad
   std::optional<Vec3> view_from;            // space: direction towards the eye; default: sees the contact side
 };
@@ -204,6 +198,30 @@ struct ChartColumn : Sheet {
   std::vector<ChartPicture> panels;         // from above, within a row from the left
 };
 
+// ------------------------------------------------------ files for ParaView
+
+// Values at every node, one tuple a node.
+struct GridArray {
+  std::string name;
+  std::vector<std::string> components;  // their names, one or more; names of one are not written
+  std::vector<double> values;           // components × n, node by node; nan where there is none
+};
+
+// The cells of one body, as node numbers of the whole file.
+struct GridBody {
+  std::string name;
+  CellShape shape = CellShape::triangle;
+  std::vector<int> cells;               // 3, 4, 4 or 8 nodes each, of order 2 6, 9, 10 or 27; VTK order
+  int order = 1;
+};
+
+struct GridFile {
+  std::string file;                     // ends in .vtu; its folder must exist
+  std::vector<double> points;           // 3 n: reference coordinates, of all bodies
+  std::vector<GridBody> bodies;
+  std::vector<GridArray> arrays;
+};
+
 // ---------------------------------------------------------------- drawing
 
 // Draws the picture and writes it as PNG, whole or not at all: on an error
@@ -214,5 +232,11 @@ struct ChartColumn : Sheet {
 void draw(const ScenePicture& picture);
 void draw(const ChartPicture& picture);
 void draw(const ChartColumn& picture);
+
+// Writes VTK's XML format, the numbers compressed in binary, whole or not at
+// all: on an error grid.file is as it was. Cells carry the array "body": their
+// body's place in `bodies`, from 1; the text array "body_names" has the names.
+// Throws std::runtime_error as draw() does.
+void write(const GridFile& grid);
 
 }  // namespace dotyk::figure

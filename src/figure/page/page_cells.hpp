@@ -17,9 +17,6 @@ void fit_y(const CurveDrawing& curve, Axes& axes);
 void draw_cell(Canvas& canvas, const BeamDrawing& beam, const Axes& axes);
 void draw_cell(Canvas& canvas, const CurveDrawing& curve, const Axes& axes);
 
-// u at any x, between the points.
-double deflection_at(const BeamDrawing& beam, double x);
-
 // Symbols of supports that stand at a beam's points, and what room they need beyond the beam's ends.
 void draw_supports(Canvas& canvas, const BeamDrawing& beam, const Axes& axes);
 // Does the arc of a support stand over this pixel of the beam?
@@ -36,12 +33,5 @@ double clear_of_bar(const BeamDrawing& beam, double x, double em);
 // Pixels that a support needs above the deflection line and below the axis.
 double height_above(const BeamSupport& support, double em);
 double depth_below(const BeamDrawing& beam, const BeamSupport& support, double scale, double em);
-
-// Loads on the deflection line: heights above it, pixels, at each of the beam's points; `symbol`: the em of symbols.
-std::vector<double> load_heights(const BeamDrawing& beam, double em, double symbol);
-constexpr double moment_depth = 1.3;  // em below the line
-// Under the line those along it, over it those at points and the values of all.
-void draw_distributed_load(Canvas& canvas, const BeamDrawing& beam, const Axes& axes);
-void draw_point_loads(Canvas& canvas, const BeamDrawing& beam, const Axes& axes);
 
 }  // namespace dotyk::figure

@@ -1,8 +1,4 @@
 // The cell of a curve: a diagram of a beam, the graph of a law.
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "figure/page/page_cells.hpp"
 
 namespace dotyk::figure {

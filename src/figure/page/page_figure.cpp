@@ -1,13 +1,9 @@
 // Lays the cells of a page out in rows and columns and draws them.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
 #include <set>
 
 #include "figure/door/drawing.hpp"
 #include "figure/canvas/legend.hpp"
-#include "figure/canvas/text_fit.hpp"
 #include "figure/page/page_cells.hpp"
 
 namespace dotyk::figure {
@@ -23,8 +19,6 @@ public:
     top = draw_title(top);
     top = draw_legend(top);
     place(top);
-    for (auto& row : axes_)
-      for (Axes& axes : row) axes.em = em_;
     align();
     for (std::size_t i = 0; i < axes_.size(); ++i)
       for (std::size_t j = 0; j < columns_; ++j) draw(i, j);
@@ -78,9 +72,9 @@ private:
       const bool titled = std::any_of(picture_.rows[i].begin(), picture_.rows[i].end(), [](const PageCell& c) { return !c.title.empty(); });
       for (std::size_t j = 0; j < columns_; ++j) {
         const double wide = width * picture_.column_weights[j] / total(picture_.column_weights);
-        Axes axes;
+        Axes& axes = row.emplace_back();
+        axes.em = em_;
         axes.room = {x, y - share + (picture_.shared_x ? 0.35 * em_ : 3.1 * em_), x + wide - 1.1 * em_, y - (titled ? 1.7 : 0.45) * em_};
-        row.push_back(axes);
         x += wide;
       }
       axes_.push_back(std::move(row));

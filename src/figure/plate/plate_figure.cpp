@@ -1,7 +1,5 @@
 // A plate as a scene: a body in the plane or in space, with what plates add.
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "figure/door/drawing.hpp"
@@ -15,6 +13,15 @@ Plate::Plate(const PlatePicture& p) : picture(p), runs(edge_runs(p)) {
     for (const EdgePoint& point : run.points) greatest_reaction = std::max(greatest_reaction, std::abs(point.reaction));
   }
   for (const PlateForce& f : p.forces) greatest_force = std::max(greatest_force, std::abs(f.force));
+  const std::set<int> bears(p.bearing.begin(), p.bearing.end());
+  for (auto t = p.triangles.begin(); t != p.triangles.end(); t += 3)
+    if (std::all_of(t, t + 3, [&](int i) { return bears.contains(i); })) zone.insert(zone.end(), t, t + 3);
+}
+
+bool Plate::any(const std::function<bool(const EdgeRun&, const EdgePoint&)>& of) const {
+  return std::any_of(runs.begin(), runs.end(), [&](const EdgeRun& run) {
+    return std::any_of(run.points.begin(), run.points.end(), [&](const EdgePoint& p) { return of(run, p); });
+  });
 }
 
 Colour support_colour(PlateSupport support, const std::optional<Status>& status) {
@@ -87,7 +94,7 @@ ScenePicture scene_of(const Plate& plate) {
   ScenePicture scene;
   static_cast<Sheet&>(scene) = p;
   scene.caption = p.caption;
-  scene.field_label = p.field_label, scene.field_unit = p.field_unit, scene.field_range = p.field_range, scene.map = p.map;
+  scene.field_label = p.field_label, scene.field_unit = p.field_unit, scene.field_range = p.field_range;
   scene.edges = !space && p.edges == MeshEdges::automatic ? MeshEdges::off : p.edges;
   scene.bodies = {body_of(p, space)};
   if (!space) {
@@ -104,26 +111,40 @@ ScenePicture scene_of(const Plate& plate) {
 }  // namespace
 
 void plate_legend(const Plate& plate, double em, double width, std::vector<LegendEntry>& out) {
-  const auto occurs = [&](const auto& of) {
-    return std::any_of(plate.runs.begin(), plate.runs.end(), [&](const EdgeRun& run) {
-      return std::any_of(run.points.begin(), run.points.end(), [&](const EdgePoint& p) { return of(run, p); });
-    });
-  };
   if (plate.picture.view == PlateView::surface)
     for (const Status status : {Status::open, Status::closed, Status::stick, Status::slip})
-      if (occurs([&](const EdgeRun&, const EdgePoint& p) { return p.status == status; })) out.push_back(line_entry(status_name(status), status_colour(status), width));
-  for (const PlateSupport support : {PlateSupport::held, PlateSupport::one_sided, PlateSupport::elastic, PlateSupport::friction})
-    if (occurs([&](const EdgeRun& run, const EdgePoint& p) { return !p.status && run.support == support; }))
-      out.push_back(line_entry(std::string("edge ") + support_name(support), support_colour(support, std::nullopt), width));
+      if (plate.any([&](const EdgeRun&, const EdgePoint& p) { return p.status == status; })) out.push_back(line_entry(status_name(status), status_colour(status), width));
+  for (const auto& [support, name] : {std::pair{PlateSupport::held, "edge held"}, std::pair{PlateSupport::one_sided, "edge one-sided"},
+                                      std::pair{PlateSupport::elastic, "edge elastic"}, std::pair{PlateSupport::friction, "edge with friction"}})
+    if (plate.any([&, support = support](const EdgeRun& run, const EdgePoint& p) { return !p.status && run.support == support; }))
+      out.push_back(line_entry(name, support_colour(support, std::nullopt), width));
   if (!plate.picture.supports.empty()) out.push_back({"point support", [em](Canvas& c, const Box& b) { c.marker(Marker::triangle, b.centre(), 0.6 * em, support_ink); }});
   if (!plate.picture.bearing.empty()) out.push_back(bearing_entry(em));
 }
 
-void draw_bearing_points(Stage& stage, const Plate& plate, const std::vector<int>& zone, double factor, double size) {
-  const std::set<int> inside(zone.begin(), zone.end());
+std::vector<PlateLine> hatch(const Plate& plate, double spacing) {
+  std::vector<PlateLine> out;
+  const auto height = [](const Vec3& p) { return (p[0] - p[1]) / std::numbers::sqrt2; };
+  for (std::size_t k = 0; k + 2 < plate.zone.size(); k += 3) {
+    const Vec3 corner[3] = {plate.node(plate.zone[k], 1), plate.node(plate.zone[k + 1], 1), plate.node(plate.zone[k + 2], 1)};
+    const auto [low, high] = std::minmax({height(corner[0]), height(corner[1]), height(corner[2])});
+    for (double level = std::ceil(low / spacing); level * spacing < high; ++level) {
+      PlateLine ends;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Vec3 &p = corner[c], &q = corner[(c + 1) % 3];
+        const double a = height(p) - level * spacing, b = height(q) - level * spacing;
+        if ((a > 0) != (b > 0)) ends.push_back(part_way(p, q, a / (a - b)));
+      }
+      if (ends.size() == 2) out.push_back(std::move(ends));
+    }
+  }
+  return out;
+}
+
+void draw_bearing_points(Stage& stage, const Plate& plate, double factor, double size) {
+  const std::set<int> inside(plate.zone.begin(), plate.zone.end());
   for (const int i : plate.picture.bearing)
-    if (!inside.contains(i))
-      stage.over.marker(Marker::disc, stage.view.flat(plate.node(i, factor)), size, status_colour(Status::closed));
+    if (!inside.contains(i)) stage.over.marker(Marker::disc, stage.view.flat(plate.node(i, factor)), size, status_colour(Status::closed));
 }
 
 void draw_apex(Stage& stage, Point at, Point size, double rim, Colour colour) {

@@ -32,7 +32,7 @@ struct PlateEdge {
   std::array<double, 2> from = {0, 0}, to = {0, 0};
   PlateSupport support = PlateSupport::free;
   bool clamped = false;                     // cannot rotate
-  std::vector<EdgeSample> samples;          // ascending; what is beyond the first and the last is as there
+  std::vector<EdgeSample> samples;          // ascending, at both ends at least
 };
 
 // A concentrated reaction: at a corner, at a point support.
@@ -58,7 +58,6 @@ struct PlatePicture : Sheet {
   std::vector<double> values;               // n: the field, or empty: plain colour
   std::string field_label, field_unit;      // beside the colour bar
   std::optional<std::array<double, 2>> field_range;  // {least, greatest}
-  MapKind map = MapKind::automatic;
   MeshEdges edges = MeshEdges::automatic;   // automatic in a plan: none
 
   std::vector<PlateEdge> boundary;          // each follows the one it begins at the end of, all around
@@ -69,9 +68,6 @@ struct PlatePicture : Sheet {
   std::string reaction_unit, force_unit;    // of reactions per length, of concentrated ones; may be empty
   std::optional<Vec3> view_from;            // surface: direction towards the eye
 };
-
-// "held", "one-sided", ... as the legend has them.
-const char* support_name(PlateSupport support);
 
 // As the other pictures: see picture.hpp.
 void draw(const PlatePicture& picture);

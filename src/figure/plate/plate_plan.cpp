@@ -1,11 +1,8 @@
 // A plate from above: contour lines, what bears, supports, reactions.
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <map>
 
-#include "figure/plate/plate_lines.hpp"
+#include "figure/canvas/axes.hpp"
 #include "figure/plate/plate_stage.hpp"
-#include "figure/canvas/ticks.hpp"
 
 namespace dotyk::figure {
 
@@ -19,15 +16,43 @@ std::vector<Point> flat(const Stage& stage, const PlateLine& line) {
   return out;
 }
 
+// Where the field, linear on each triangle, has this value; closed lines end in their first point.
+std::vector<PlateLine> contour(const Plate& plate, double value) {
+  const std::vector<double>& field = plate.picture.values;
+  const std::vector<int>& t = plate.picture.triangles;
+  std::map<std::pair<int, int>, int> numbers;  // of crossings, by the sides of triangles that they are on
+  std::vector<Vec3> points;
+  std::vector<int> edges;
+  for (std::size_t k = 0; k + 2 < t.size(); k += 3) {
+    if (!std::all_of(&t[k], &t[k] + 3, [&](int i) { return std::isfinite(field[i]); })) continue;
+    std::vector<int> ends;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [i, j] = std::minmax(t[k + c], t[k + (c + 1) % 3]);
+      if ((field[i] > value) == (field[j] > value)) continue;
+      const auto [found, fresh] = numbers.try_emplace({i, j}, static_cast<int>(points.size()));
+      if (fresh) points.push_back(part_way(plate.node(i, 1), plate.node(j, 1), (value - field[i]) / (field[j] - field[i])));
+      ends.push_back(found->second);
+    }
+    if (ends.size() == 2 && ends[0] != ends[1]) edges.insert(edges.end(), ends.begin(), ends.end());
+  }
+  std::vector<PlateLine> out;
+  for (const std::vector<int>& chain : chains(edges)) {
+    out.emplace_back();
+    for (const int i : chain) out.back().push_back(points[i]);
+  }
+  return out;
+}
+
 // A place for a label on a contour line, clear of edges and other labels.
-class ContourLabels {
-public:
-  ContourLabels(Stage& stage, const Plate& plate) : stage_(stage), plate_(plate) {}
+struct ContourLabels {
+  Stage& stage;
+  const Plate& plate;
+  std::vector<Box> taken = {};
 
   void add(const std::vector<Point>& line, const std::string& text) {
     std::vector<double> way{0};
     for (std::size_t i = 1; i < line.size(); ++i) way.push_back(way.back() + length(line[i] - line[i - 1]));
-    const double em = stage_.em, size = 0.68 * em;
+    const double em = stage.em, size = 0.68 * em;
     const Point extent = text_extent(text, size);
     if (way.back() < 2.5 * extent.x + 2 * em) return;
     for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9}) {
@@ -35,27 +60,22 @@ public:
       const Point at = line[std::min(i, line.size() - 1)];
       const Box box = Box::about(at, extent).grown(0.35 * em);
       if (!free(box)) continue;
-      taken_.push_back(box);
-      return stage_.over.text(at, text, {.size = size, .across = Align::middle, .up = Align::middle, .halo = true});
+      taken.push_back(box);
+      return stage.over.text(at, text, {.size = size, .across = Align::middle, .up = Align::middle, .halo = true});
     }
   }
 
-private:
   bool free(const Box& box) const {
-    if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return box.overlaps(other); })) return false;
-    for (const EdgeRun& run : plate_.runs)
+    if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return box.overlaps(other); })) return false;
+    for (const EdgeRun& run : plate.runs)
       for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
-        Point p = stage_.view.flat(run.points[i].position), q = stage_.view.flat(run.points[i + 1].position);
+        Point p = stage.view.flat(run.points[i].position), q = stage.view.flat(run.points[i + 1].position);
         if (crop(p, q, box)) return false;
       }
-    const auto on = [&](double x, double y) { return box.holds(stage_.view.flat({x, y, 0}), stage_.em); };
-    return std::none_of(plate_.picture.forces.begin(), plate_.picture.forces.end(), [&](const PlateForce& f) { return on(f.x, f.y); }) &&
-           std::none_of(plate_.picture.supports.begin(), plate_.picture.supports.end(), [&](const PlatePointSupport& s) { return on(s.x, s.y); });
+    const auto on = [&](double x, double y) { return box.holds(stage.view.flat({x, y, 0}), stage.em); };
+    return std::none_of(plate.picture.forces.begin(), plate.picture.forces.end(), [&](const PlateForce& f) { return on(f.x, f.y); }) &&
+           std::none_of(plate.picture.supports.begin(), plate.picture.supports.end(), [&](const PlatePointSupport& s) { return on(s.x, s.y); });
   }
-
-  Stage& stage_;
-  const Plate& plate_;
-  std::vector<Box> taken_;
 };
 
 double brightness(Colour c) { return (0.3 * c.r + 0.59 * c.g + 0.11 * c.b) / 255; }
@@ -63,10 +83,10 @@ double brightness(Colour c) { return (0.3 * c.r + 0.59 * c.g + 0.11 * c.b) / 255
 // At the labelled ticks of the colour bar.
 void draw_contours(Stage& stage, const Plate& plate) {
   if (plate.picture.values.empty() || !stage.scale.shown) return;
-  ContourLabels labels(stage, plate);
+  ContourLabels labels{stage, plate};
   for (const Tick& tick : linear_ticks(stage.scale.low, stage.scale.high, 6).ticks) {
     const Colour colour = brightness(stage.scale.at(tick.value)) < 0.35 ? Colour{225, 225, 225} : Colour{55, 55, 55};
-    for (const PlateLine& line : contour(plate.picture, tick.value)) {
+    for (const PlateLine& line : contour(plate, tick.value)) {
       const std::vector<Point> points = flat(stage, line);
       stage.over.polyline(points, std::max(0.8, stage.em / (tick.label.empty() ? 40 : 22)), colour);
       if (!tick.label.empty()) labels.add(points, tick.label);
@@ -76,17 +96,16 @@ void draw_contours(Stage& stage, const Plate& plate) {
 
 void draw_bearing(Stage& stage, const Plate& plate) {
   const Colour colour = status_colour(Status::closed);
-  const std::vector<int> zone = bearing_triangles(plate.picture);
-  for (const PlateLine& line : hatch(plate.picture, zone, 0.45 * stage.em / stage.view.scale)) {
+  for (const PlateLine& line : hatch(plate, 0.45 * stage.em / stage.view.scale)) {
     const std::vector<Point> ends = flat(stage, line);
     stage.over.line(ends[0], ends[1], std::max(1.0, stage.em / 18), colour);
   }
-  for (const std::vector<int>& chain : chains(rim({zone, 3}))) {
+  for (const std::vector<int>& chain : chains(rim({plate.zone, 3}))) {
     std::vector<Point> points;
     for (const int i : chain) points.push_back(stage.view.flat(plate.node(i, 0)));
     stage.over.polyline(points, std::max(1.6, stage.em / 10), colour);
   }
-  draw_bearing_points(stage, plate, zone, 0, 0.5 * stage.em);
+  draw_bearing_points(stage, plate, 0, 0.5 * stage.em);
 }
 
 // Hatching outside an edge that cannot rotate, as of a wall.
@@ -188,10 +207,9 @@ void plan_legend(const Stage& stage, const Plate& plate, std::vector<LegendEntry
                      for (double x = b.left; x < b.right; x += 0.4 * em) c.line({x, low}, {x + 0.3 * em, low + 0.45 * em}, std::max(1.0, em / 20), support_ink);
                    }});
   for (const double sign : {1.0, -1.0}) {
-    bool strip = false, force = false;
-    for (const EdgeRun& run : plate.runs)
-      for (const EdgePoint& p : run.points) strip = strip || sign * p.reaction > 1e-6 * plate.greatest_reaction;
-    for (const PlateForce& f : plate.picture.forces) force = force || sign * f.force > 1e-6 * plate.greatest_force;
+    const auto& forces = plate.picture.forces;
+    const bool strip = plate.any([&](const EdgeRun&, const EdgePoint& p) { return sign * p.reaction > 1e-6 * plate.greatest_reaction; });
+    const bool force = std::any_of(forces.begin(), forces.end(), [&](const PlateForce& f) { return sign * f.force > 1e-6 * plate.greatest_force; });
     if (strip || force) out.push_back(reaction_entry(em, sign, strip, force));
   }
 }

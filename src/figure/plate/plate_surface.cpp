@@ -1,11 +1,7 @@
 // A deflected plate in space: statuses along its edges, the gap under those
 // that are open, the zone that bears on an obstacle.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 
-#include "figure/plate/plate_lines.hpp"
 #include "figure/plate/plate_stage.hpp"
 #include "figure/scene/shapes.hpp"
 
@@ -28,7 +24,7 @@ void add_edges(const Stage& stage, const Plate& plate, vtkRenderer* renderer) {
   for (const EdgeRun& run : plate.runs) {
     if (run.support == PlateSupport::free) continue;
     for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
-      const Vec3 p = raised(stage, run.points[i]), q = raised(stage, run.points[i + 1]), middle = plus(p, plus(q, p, -1), 0.5);
+      const Vec3 p = raised(stage, run.points[i]), q = raised(stage, run.points[i + 1]), middle = part_way(p, q, 0.5);
       for (const auto& [end, at] : {std::pair{&run.points[i], p}, std::pair{&run.points[i + 1], q}}) {
         const Colour c = support_colour(run.support, end->status);
         Shapes& shapes = lines.try_emplace({c.r, c.g, c.b}, stage, 2).first->second;
@@ -62,14 +58,13 @@ void add_gaps(const Stage& stage, const Plate& plate, vtkRenderer* renderer) {
 
 void add_zone(Stage& stage, const Plate& plate, vtkRenderer* renderer) {
   const double factor = plate.picture.deformation;
-  const std::vector<int> zone = bearing_triangles(plate.picture);
   Shapes lines(stage, 2), outline(stage, 2);
-  for (const PlateLine& line : hatch(plate.picture, zone, 0.7 * stage.em / stage.view.scale))
+  for (const PlateLine& line : hatch(plate, 0.7 * stage.em / stage.view.scale))
     for (const Vec3& end : line) lines.add({end[0], end[1], factor * end[2]}, 2);
-  for (const int i : rim({zone, 3})) outline.add(plate.node(i, factor), 3);
+  for (const int i : rim({plate.zone, 3})) outline.add(plate.node(i, factor), 3);
   lines.show(renderer, status_colour(Status::closed), std::max(1.0, stage.em / 18));
   outline.show(renderer, status_colour(Status::closed), std::max(1.6, stage.em / 10));
-  draw_bearing_points(stage, plate, zone, factor, 0.45 * stage.em);
+  draw_bearing_points(stage, plate, factor, 0.45 * stage.em);
 }
 
 // A cone below where the plate would rest, and the way the plate has gone from there.
@@ -87,10 +82,7 @@ void draw_point_supports(Stage& stage, const Plate& plate) {
 
 void surface_legend(const Stage& stage, const Plate& plate, std::vector<LegendEntry>& out) {
   plate_legend(plate, stage.em, edge_width * stage.em, out);
-  bool gap = false;
-  for (const EdgeRun& run : plate.runs)
-    for (const EdgePoint& p : run.points) gap = gap || (rests(run) && lifted(stage, p));
-  if (gap)
+  if (plate.any([&](const EdgeRun& run, const EdgePoint& p) { return rests(run) && lifted(stage, p); }))
     out.push_back({"deflection of an edge", [em = stage.em](Canvas& c, const Box& b) {
                      const double low = b.centre().y - 0.35 * em;
                      c.convex(std::array{Point{b.left, low}, Point{b.right, low}, Point{b.right, low + 0.75 * em}}, status_colour(Status::open), 0.3);

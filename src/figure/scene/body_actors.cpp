@@ -1,7 +1,4 @@
 // The bodies themselves: fields, mesh edges, outlines.
-#include <algorithm>
-#include <cmath>
-
 #include <vtkActor.h>
 #include <vtkFeatureEdges.h>
 #include <vtkFloatArray.h>
@@ -12,7 +9,7 @@
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
-#include "figure/canvas/ticks.hpp"
+#include "figure/canvas/axes.hpp"
 #include "figure/scene/shapes.hpp"
 
 namespace dotyk::figure {
@@ -27,11 +24,9 @@ constexpr std::array<Colour, 5> plain_colours{{{214, 222, 232}, {233, 224, 208},
 std::vector<Vec3> pixels(const Stage& stage, const BodyPicture& body, double factor, double lift) {
   std::vector<Vec3> out(body.points.size() / 3);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    Vec3 p = stage.view.pixel(node(body, i, factor));
+    Vec3 p = stage.view.pixel(body.node(i, factor));
     if (stage.plane) p[2] = 0;
-    p[2] += lift;
-    for (double& c : p) c *= stage.factor;
-    out[i] = p;
+    out[i] = stage.rendered(p, lift);
   }
   return out;
 }
@@ -79,9 +74,8 @@ bool edges_wanted(const Stage& stage, const std::vector<Vec3>& at, const std::ve
   return count > 0 && sum / static_cast<double>(count) > 0.4 * stage.em * stage.factor;
 }
 
-bool draws_undeformed(const Stage& stage, const BodyPicture& body) {
-  return stage.picture.undeformed_outline && stage.deformation_shows && !body.displacement.empty();
-}
+// Thin, where the deformation can be seen.
+bool draws_undeformed(const Stage& stage, const BodyPicture& body) { return stage.deformation_shows && !body.displacement.empty(); }
 
 void plane_outlines(Stage& stage, const BodyPicture& body) {
   const std::array<double, 2> dash{0.35 * stage.em, 0.22 * stage.em};
@@ -128,7 +122,7 @@ void draw_bodies(Stage& stage, vtkRenderer* renderer) {
 
 void body_legend(const Stage& stage, std::vector<LegendEntry>& out) {
   const double em = stage.em;
-  if (stage.picture.undeformed_outline && stage.deformation_shows)
+  if (stage.deformation_shows)
     out.push_back({"undeformed", [em, plane = stage.plane](Canvas& c, const Box& b) {
                      const std::array<double, 2> dash{0.35 * em, 0.22 * em};
                      c.polyline(b.midline(), std::max(1.0, em / 18), undeformed_colour, plane ? std::span<const double>(dash) : std::span<const double>());

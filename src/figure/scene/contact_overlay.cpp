@@ -1,7 +1,5 @@
-// What happens on the contact boundary: status and pressure.
-#include <algorithm>
-#include <array>
-#include <cmath>
+// What happens on the contact boundary: status, pressure and shear.
+#include <set>
 
 #include "figure/scene/stage.hpp"
 
@@ -10,7 +8,7 @@ namespace dotyk::figure {
 namespace {
 
 constexpr Colour rim_colour{255, 255, 255};
-constexpr std::array statuses{Status::open, Status::closed, Status::stick, Status::slip};
+constexpr double longest_shear = 1.5, least_share = 0.1;  // of an arrow: em, and of the greatest shear
 
 void draw_strip(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = stage.at(contact.nodes);
@@ -86,6 +84,13 @@ void draw_joint(Stage& stage, const ContactPicture& contact) {
   }
 }
 
+// The ends of the arrow of a node's shear, beside the contact line on the side of the first part, which it acts on.
+std::array<Point, 2> shear_arrow(const Stage& stage, const ContactNode& node) {
+  const double half = 0.5 * longest_shear * stage.em * length(node.shear) / stage.greatest_shear;
+  const Point middle = stage.at(node) - 0.75 * stage.em * stage.view.direction(node.normal), t = stage.view.direction(node.shear);
+  return {middle - half * t, middle + half * t};
+}
+
 LegendEntry status_entry(const Stage& stage, Status status) {
   const auto& contacts = stage.picture.contacts;
   const bool markers = std::any_of(contacts.begin(), contacts.end(), [&](const ContactPicture& c) { return !is_short(stage, c); });
@@ -130,22 +135,21 @@ LegendEntry shear_entry(double em) {
 }
 
 void contact_legend(const Stage& stage, std::vector<LegendEntry>& out) {
-  std::array<bool, 4> present{};
+  std::set<Status> present;
   for (const ContactPicture& contact : stage.picture.contacts) {
     const std::vector<bool> seen = stage.shown(contact);
     for (std::size_t i = 0; i < seen.size(); ++i)
-      if (seen[i]) present[static_cast<std::size_t>(contact.nodes[i].status)] = true;
+      if (seen[i]) present.insert(contact.nodes[i].status);
   }
-  for (const Status status : statuses)
-    if (present[static_cast<std::size_t>(status)]) out.push_back(status_entry(stage, status));
-  if (stage.greatest_pressure > 0 && (stage.strips() || stage.arrows())) out.push_back(pressure_entry(stage));
+  for (const Status status : present) out.push_back(status_entry(stage, status));
+  if (stage.greatest_pressure > 0 && stage.pressures()) out.push_back(pressure_entry(stage));
   if (stage.greatest_shear > 0) out.push_back(shear_entry(stage.em));
 }
 
 // In space the plan beside the scene says the greatest pressure.
 std::vector<Label> labels(const Stage& stage) {
   std::vector<Label> out;
-  if ((stage.strips() || stage.arrows()) && inset_width(stage) == 0)
+  if (stage.pressures() && inset_width(stage) == 0)
     for (const ContactPicture& contact : stage.picture.contacts)
       if (const std::optional<Label> label = peak_label(stage, contact)) out.push_back(*label);
   return out;
@@ -154,8 +158,8 @@ std::vector<Label> labels(const Stage& stage) {
 void contact_bounds(const Stage& stage, Bounds& bounds) {
   for (const ContactPicture& contact : stage.picture.contacts)
     for (const ContactNode& node : contact.nodes) {
-      if ((stage.strips() || stage.arrows()) && node.pressure > 0 && stage.greatest_pressure > 0) bounds.add(pressure_tip(stage, node));
-      if (stage.plane && stage.greatest_shear > 0 && dot(node.shear, node.shear) > 0)
+      if (stage.pressures() && node.pressure > 0 && stage.greatest_pressure > 0) bounds.add(pressure_tip(stage, node));
+      if (stage.plane && stage.greatest_shear > 0 && length(node.shear) > 0)
         for (const Point& end : shear_arrow(stage, node)) bounds.add(end);
     }
   for (const Label& label : labels(stage)) bounds.add(label.box);
@@ -166,8 +170,9 @@ void draw_contacts(Stage& stage, vtkRenderer* renderer) {
     if (stage.plane) {
       if (stage.strips()) draw_strip(stage, contact);
       if (contact.nodes_per_facet == 2) draw_joint(stage, contact), draw_line(stage, contact);
-      if (stage.arrows()) draw_arrows(stage, contact);
-      draw_shear(stage, contact);
+      if (stage.pressures() && !stage.strips()) draw_arrows(stage, contact);
+      draw_shear(stage, contact, stage.at(contact.nodes), [&](const std::vector<Point>& at) { return stage.spaced(at, 1.1 * longest_shear * stage.em); },
+                 [&](std::size_t i) { return shear_arrow(stage, contact.nodes[i]); });
     } else {
       add_contact_surface(stage, contact, renderer);
     }
@@ -185,6 +190,20 @@ void draw_labels(Canvas& canvas, const std::vector<Label>& labels) {
     if (label.ground > 0) canvas.box(label.box.grown(label.ground), {255, 255, 255}, 0.8);
     canvas.text(label.box.centre(), label.text,
                 {.size = label.size, .across = Align::middle, .up = Align::middle, .colour = label.colour, .halo = label.ground == 0});
+  }
+}
+
+void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
+                const std::function<std::vector<std::size_t>(const std::vector<Point>& places)>& choice,
+                const std::function<std::array<Point, 2>(std::size_t node)>& arrow) {
+  if (!(stage.greatest_shear > 0)) return;
+  std::vector<std::size_t> rubbing;
+  std::vector<Point> places;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    if (length(contact.nodes[i].shear) >= least_share * stage.greatest_shear) rubbing.push_back(i), places.push_back(at[i]);
+  for (const std::size_t k : choice(places)) {
+    const auto [tail, head] = arrow(rubbing[k]);
+    stage.over.arrow(tail, head, std::max(1.4, stage.em / 11), 0.42 * stage.em, shear_line, std::max(0.9, stage.em / 24));
   }
 }
 

@@ -1,6 +1,4 @@
 // Rigid obstacles: neutral grey, hatched on the solid side in the plane.
-#include <cmath>
-
 #include <vtkActor.h>
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
@@ -16,7 +14,11 @@ namespace {
 
 constexpr Colour body_grey{205, 205, 205}, edge_grey{95, 95, 95}, hatch_grey{140, 140, 140};
 
-Vec3 corner(const RigidPicture& rigid, std::size_t i) { return {rigid.points[3 * i], rigid.points[3 * i + 1], rigid.points[3 * i + 2]}; }
+std::vector<Vec3> corners(const RigidPicture& rigid) {
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < rigid.points.size(); i += 3) out.push_back({rigid.points[i], rigid.points[i + 1], rigid.points[i + 2]});
+  return out;
+}
 
 // On the solid side of p q, whose direction is `along`; far ends, as of a plane without end, are cut before. `walked`: the
 // length of the line up to here, so that strokes go on evenly.
@@ -37,20 +39,15 @@ void draw_hatching(Stage& stage, Point p, Point q, Point into, double& walked) {
 }
 
 void draw_in_plane(Stage& stage, const RigidPicture& rigid) {
-  std::vector<Point> at;
-  for (std::size_t i = 0; i < rigid.points.size() / 3; ++i) at.push_back(stage.view.flat(corner(rigid, i)));
-  if (rigid.closed) stage.under.polygon(at, body_grey);
+  const std::vector<Point> at = obstacle_line(stage.view, rigid);
   double walked = 0;
-  for (std::size_t i = 0; i + 1 < at.size() && !rigid.closed; ++i) draw_hatching(stage, at[i], at[i + 1], stage.view.direction(rigid.into_solid), walked);
-  stage.under.polyline(at, std::max(1.5, stage.em / 12), edge_grey, {}, rigid.closed);
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) draw_hatching(stage, at[i], at[i + 1], stage.view.direction(rigid.into_solid), walked);
+  stage.under.polyline(at, std::max(1.5, stage.em / 12), edge_grey);
 }
 
 void draw_in_space(const Stage& stage, const RigidPicture& rigid, vtkRenderer* renderer) {
   std::vector<Vec3> at;
-  for (std::size_t i = 0; i < rigid.points.size() / 3; ++i) {
-    at.push_back(stage.view.pixel(corner(rigid, i)));
-    for (double& c : at.back()) c *= stage.factor;
-  }
+  for (const Vec3& corner : corners(rigid)) at.push_back(stage.rendered(stage.view.pixel(corner), 0));
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputData(poly_data(at, {rigid.triangles, 3}));
   normals->SetFeatureAngle(40);
@@ -79,10 +76,11 @@ void add_hatching(const Stage& stage, Bounds& bounds) {
   if (!stage.plane) return;
   const double depth = hatch_depth * stage.em;
   for (const RigidPicture& rigid : stage.picture.obstacles) {
-    if (rigid.closed) continue;
     const Point d = stage.view.direction(rigid.into_solid);
     const Box near = bounds;
-    for (auto [p, q] : obstacle_line(stage, rigid)) {
+    const std::vector<Point> at = obstacle_line(stage.view, rigid);
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      Point p = at[i], q = at[i + 1];
       if (!crop(p, q, near)) continue;
       Bounds piece;
       piece.add(p), piece.add(q);
@@ -94,16 +92,13 @@ void add_hatching(const Stage& stage, Bounds& bounds) {
   }
 }
 
-bool obstacle_shows(const Stage& stage) {
-  if (!stage.window) return !stage.picture.obstacles.empty();
-  for (const RigidPicture& rigid : stage.picture.obstacles)
-    for (const auto& [p, q] : obstacle_line(stage, rigid))
-      if (stage.shows(p, q)) return true;
-  return false;
-}
-
 void obstacle_legend(const Stage& stage, std::vector<LegendEntry>& out) {
-  if (!obstacle_shows(stage)) return;
+  const auto& all = stage.picture.obstacles;
+  const bool seen = std::any_of(all.begin(), all.end(), [&](const RigidPicture& rigid) {
+    const std::vector<Point> at = obstacle_line(stage.view, rigid);
+    return !stage.window || std::adjacent_find(at.begin(), at.end(), [&](Point p, Point q) { return stage.shows(p, q); }) != at.end();
+  });
+  if (!seen) return;
   out.push_back({"rigid obstacle", [em = stage.em](Canvas& c, const Box& b) {
                    const double middle = b.centre().y, top = middle + 0.3 * em;
                    c.box({b.left, middle - 0.3 * em, b.right, top}, body_grey);
@@ -113,11 +108,9 @@ void obstacle_legend(const Stage& stage, std::vector<LegendEntry>& out) {
 
 }  // namespace
 
-std::vector<std::array<Point, 2>> obstacle_line(const Stage& stage, const RigidPicture& rigid) {
-  const std::size_t n = rigid.points.size() / 3;
-  std::vector<std::array<Point, 2>> out;
-  for (std::size_t i = 0; i + (rigid.closed ? 0 : 1) < n; ++i)
-    out.push_back({stage.view.flat(corner(rigid, i)), stage.view.flat(corner(rigid, (i + 1) % n))});
+std::vector<Point> obstacle_line(const View& view, const RigidPicture& rigid) {
+  std::vector<Point> out;
+  for (const Vec3& corner : corners(rigid)) out.push_back(view.flat(corner));
   return out;
 }
 

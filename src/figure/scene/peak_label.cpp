@@ -1,10 +1,8 @@
 // The greatest pressure in words, where it covers nothing.
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "figure/scene/stage.hpp"
-#include "figure/canvas/ticks.hpp"
+#include "figure/canvas/axes.hpp"
 
 namespace dotyk::figure {
 
@@ -21,11 +19,12 @@ public:
     for (const BodyPicture& body : p.bodies)
       for (const auto& [a, b] : pairs(body.facets)) {
         add(stage.at(body, a, p.deformation), stage.at(body, b, p.deformation));
-        if (p.undeformed_outline) add(stage.at(body, a, 0), stage.at(body, b, 0));
+        add(stage.at(body, a, 0), stage.at(body, b, 0));
       }
     for (const RigidPicture& rigid : p.obstacles) {
-      const Point depth = (rigid.closed ? 0 : hatch_depth * stage.em) * stage.view.direction(rigid.into_solid);
-      for (const auto& [from, to] : obstacle_line(stage, rigid)) add(from, to), add(from + depth, to + depth);
+      const Point depth = hatch_depth * stage.em * stage.view.direction(rigid.into_solid);
+      const std::vector<Point> at = obstacle_line(stage.view, rigid);
+      for (std::size_t i = 0; i + 1 < at.size(); ++i) add(at[i], at[i + 1]), add(at[i] + depth, at[i + 1] + depth);
     }
     for (const ContactPicture& contact : p.contacts)
       if (contact.nodes_per_facet == 2) add_tips(stage, contact);

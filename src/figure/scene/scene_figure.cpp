@@ -1,26 +1,21 @@
 // A scene figure: three layers, one above the other. Obstacles of the plane
 // below, then bodies in VTK's own renderer, then symbols, legends and texts.
-#include <algorithm>
-#include <cmath>
-
 #include <vtkCamera.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
 #include "figure/door/drawing.hpp"
-#include "figure/canvas/osmesa_window.hpp"
-#include "figure/scene/spread.hpp"
 #include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {
 
 Stage::Stage(const ScenePicture& p)
-    : picture(p), factor(oversampling(p.width, p.height)), plane(p.bodies.front().dimension == 2),
-      em(0.032 * std::min<double>(p.height, 0.8 * p.width)), scale(colour_scale(p, p.window)), window(p.window),
-      under(p), over(p),
+    : picture(p), factor(Canvas(p).factor()), plane(p.bodies.front().dimension == 2),
+      em(0.032 * std::min<double>(p.height, 0.8 * p.width)), under(p), over(p),
       layers{contact_layer(), obstacle_layer(), load_layer(), support_layer(), body_layer()} {
+  if (p.window) window = box_of(*p.window);
+  scale = colour_scale(p, window);
   set_greatest();
   for (const LoadArrow& load : p.loads) greatest_load = std::max(greatest_load, std::sqrt(dot(load.vector, load.vector)));
   for (const BodyPicture& body : p.bodies) {
@@ -36,15 +31,6 @@ Stage::Stage(const ScenePicture& p)
 double Stage::strip_height() const {
   if (window) return window_strip;
   return std::clamp(0.12 * std::min(picture.width, picture.height), 2 * em, 4.5 * em);
-}
-
-bool Stage::strips() const {
-  return plane && (picture.pressure == PressureStyle::strip || picture.pressure == PressureStyle::automatic);
-}
-
-bool Stage::arrows() const {
-  return picture.pressure == PressureStyle::arrows ||
-         (!plane && (picture.pressure == PressureStyle::automatic || picture.pressure == PressureStyle::strip));
 }
 
 std::vector<bool> Stage::shown(const ContactPicture& contact) const {
@@ -115,19 +101,8 @@ void set_camera(const Stage& stage, vtkRenderer* renderer) {
 }  // namespace
 
 void draw_stage(Stage& stage) {
-  const ScenePicture& picture = stage.picture;
-  const int factor = stage.factor;
   lay_out(stage);
-
-  OsmesaWindow window(factor * picture.width, factor * picture.height);
   vtkNew<vtkRenderer> ground, bodies, overlay;
-  int layer = 0;
-  window.vtk()->SetNumberOfLayers(3);
-  for (vtkRenderer* renderer : {ground.Get(), bodies.Get(), overlay.Get()}) {
-    renderer->SetLayer(layer++);
-    window.vtk()->AddRenderer(renderer);
-  }
-  ground->SetBackground(1, 1, 1);
   if (stage.window) stage.over.clip(stage.frame);
   std::vector<Layer> upwards = stage.layers;
   std::stable_sort(upwards.begin(), upwards.end(), [](const Layer& a, const Layer& b) { return a.height < b.height; });
@@ -139,10 +114,7 @@ void draw_stage(Stage& stage) {
   set_camera(stage, bodies);
   stage.under.add_to(ground);
   stage.over.add_to(overlay);
-
-  Image image = reduce(window.render(), picture.width, picture.height, factor);
-  stage.over.set_texts(image);
-  write_png(image, picture.file);
+  write_picture(stage.picture, std::array{ground.Get(), bodies.Get(), overlay.Get()}, stage.over);
 }
 
 void render(const ScenePicture& picture) {

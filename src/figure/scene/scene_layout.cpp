@@ -1,11 +1,7 @@
 // Where everything of a scene figure goes: the scene is fitted, with equal
 // axes, into what title, legend, axes and colour bar leave.
-#include <algorithm>
-#include <cmath>
-
-#include "figure/scene/scene_fit.hpp"
 #include "figure/scene/stage.hpp"
-#include "figure/canvas/text_fit.hpp"
+#include "figure/canvas/axes.hpp"
 
 namespace dotyk::figure {
 
@@ -13,6 +9,90 @@ namespace {
 
 constexpr Colour axis_ink{30, 30, 30};
 constexpr double legend_size = 0.88;  // in em
+
+// Of what grows with the scale and of symbols, which do not, at the present scale with origin (0, 0).
+Bounds pixel_bounds(Stage& stage, const Bounds& scaled) {
+  stage.view.origin = {0, 0};
+  const double s = stage.view.scale;
+  Bounds bounds;
+  bounds.add(Box{s * scaled.left, s * scaled.bottom, s * scaled.right, s * scaled.top});
+  std::vector<Layer> downwards = stage.layers;
+  std::stable_sort(downwards.begin(), downwards.end(), [](const Layer& a, const Layer& b) { return a.height > b.height; });
+  for (const Layer& layer : downwards)
+    if (layer.bounds) layer.bounds(stage, bounds);
+  bounds.add(bounds.grown(0.3 * stage.em));  // half a line and a marker stand beyond the body
+  return bounds;
+}
+
+// In space: looks at the contact side from above, and from the front where it can.
+void aim(Stage& stage) {
+  Vec3 eye{1, -1.6, 0.95};
+  if (stage.picture.view_from && dot(*stage.picture.view_from, *stage.picture.view_from) > 0) {
+    eye = *stage.picture.view_from;
+  } else {
+    Vec3 mean{0, 0, 0};
+    for (const ContactPicture& contact : stage.picture.contacts)
+      for (const ContactNode& node : contact.nodes) mean = plus(mean, node.normal, node.weight > 0 ? node.weight : 1);
+    mean = unit(mean);
+    double best = -1e9;
+    for (const Vec3& candidate : {Vec3{1, -1.6, 0.95}, Vec3{-1, -1.6, 0.95}, Vec3{1, 1.6, 0.95}, Vec3{-1, 1.6, 0.95}}) {
+      const double sees = dot(unit(candidate), mean);
+      if (sees > best + 0.05) best = sees, eye = candidate;
+    }
+  }
+  View& view = stage.view;
+  view.towards = unit(eye);
+  const Vec3 vertical = std::abs(view.towards[2]) > 0.999 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  view.right = unit(cross(vertical, view.towards));
+  view.up = cross(view.towards, view.right);
+}
+
+// Bounds of all that grows with the scene, at one pixel per unit of length:
+// bodies, small obstacles, and the near part of large ones.
+Bounds scaled_bounds(const Stage& stage) {
+  View unit_view = stage.view;
+  unit_view.scale = 1, unit_view.origin = {0, 0};
+  Bounds all;
+  for (const BodyPicture& body : stage.picture.bodies)
+    for (std::size_t i = 0; i < body.points.size() / 3; ++i) {
+      all.add(unit_view.flat(body.node(i, stage.picture.deformation)));
+      all.add(unit_view.flat(body.node(i, 0)));
+    }
+  if (all.empty()) all.add(Point{0, 0});
+  const double size = std::max(all.width(), all.height());
+  const Box near = all.grown(0.1 * size);
+  for (const RigidPicture& rigid : stage.picture.obstacles) {
+    const std::vector<Point> at = obstacle_line(unit_view, rigid);
+    if (at.empty()) continue;
+    Bounds own;
+    for (const Point& p : at) own.add(p);
+    if (!stage.plane && std::max(own.width(), own.height()) < 1.3 * size) all.add(own);
+    else
+      for (std::size_t i = 0; i + 1 < at.size(); ++i)
+        if (Point p = at[i], q = at[i + 1]; crop(p, q, near)) all.add(p), all.add(q);
+  }
+  return all;
+}
+
+// Finds scale and origin so that the scene with its symbols, which keep their size in pixels, fills the room; sets stage.view and
+// stage.frame.
+void fit(Stage& stage, const Bounds& scaled, const Box& room) {
+  // A scene without extent in a direction, or in any, does not ask for room.
+  const double size = std::max(scaled.width(), scaled.height());
+  const double width = scaled.width() > 1e-6 * size ? scaled.width() : 0, height = scaled.height() > 1e-6 * size ? scaled.height() : 0;
+  const auto share = [](double pixels, double length) { return length > 0 ? pixels / length : 1e300; };
+  stage.view.scale = size > 0 ? std::min(share(room.width(), width), share(room.height(), height)) : 1;
+  for (int round = 0; round < 8 && size > 0; ++round) {
+    const Bounds now = pixel_bounds(stage, scaled);
+    const double over_x = now.width() - room.width(), over_y = now.height() - room.height();
+    const double s = stage.view.scale;
+    stage.view.scale = std::max(0.2 * s, s - std::max(width > 0 ? over_x / width : -1e300, height > 0 ? over_y / height : -1e300));
+    if (std::abs(stage.view.scale - s) < 1e-6 * s) break;
+  }
+  const Bounds now = pixel_bounds(stage, scaled);
+  stage.view.origin = room.centre() - now.centre();
+  stage.frame = now.moved(stage.view.origin);
+}
 
 // The axes stand off the scene, but bound a window.
 double axis_gap(const Stage& stage) { return stage.window ? 0 : 0.45 * stage.em; }
@@ -29,10 +109,10 @@ Box measured(const Stage& stage) {
 std::array<Ticks, 2> frame_ticks(const Stage& stage) {
   const Box f = measured(stage);
   const double s = stage.view.scale, em = stage.em;
-  const Window w = stage.window.value_or(Window{(f.left - stage.view.origin.x) / s, (f.bottom - stage.view.origin.y) / s,
-                                                (f.right - stage.view.origin.x) / s, (f.top - stage.view.origin.y) / s});
+  const Point o = stage.view.origin;
+  const Box w = stage.window.value_or(Box{(f.left - o.x) / s, (f.bottom - o.y) / s, (f.right - o.x) / s, (f.top - o.y) / s});
   const int nx = std::clamp(static_cast<int>(f.width() / (4.5 * em)), 2, 8), ny = std::clamp(static_cast<int>(f.height() / (3 * em)), 2, 8);
-  return {linear_ticks(w[0], w[2], nx), linear_ticks(w[1], w[3], ny)};
+  return {linear_ticks(w.left, w.right, nx), linear_ticks(w.bottom, w.top, ny)};
 }
 
 void draw_axes(Stage& stage) {
@@ -83,25 +163,14 @@ void draw_triad(Stage& stage, Point at) {
 bool displacement_shows(const Stage& stage) {
   const double least = (stage.window ? 0.3 * stage.em : 1.5) / stage.view.scale, f = stage.picture.deformation;
   for (const BodyPicture& body : stage.picture.bodies) {
-    if (body.displacement.empty()) continue;
-    if (!stage.window) {
-      for (const double u : body.displacement)
-        if (std::abs(u * f) > least) return true;
-      continue;
-    }
+    if (!stage.window && greatest(body.displacement) * std::abs(f) > least) return true;
+    if (!stage.window || body.displacement.empty()) continue;
     for (const auto& [a, b] : pairs(outline_edges(body))) {
       const double u = std::max(std::abs(body.displacement[3 * a]), std::abs(body.displacement[3 * a + 1]));
       if (u * std::abs(f) > least && stage.shows(stage.at(body, a, 0), stage.at(body, b, 0))) return true;
     }
   }
   return false;
-}
-
-std::vector<LegendEntry> legend_entries(const Stage& stage) {
-  std::vector<LegendEntry> out;
-  for (const Layer& layer : stage.layers)
-    if (layer.legend) layer.legend(stage, out);
-  return out;
 }
 
 // What stands around the scene.
@@ -141,20 +210,14 @@ Surroundings place_scene(Stage& stage) {
     stage.deformation_shows = round > 0 && displacement_shows(stage);
     around.bar = colour_bar_width(stage.scale, p, em);
     around.column = std::max(around.bar, around.inset);
-    around.legend = Legend(legend_entries(stage), legend_size * em, p.width - 2 * em);
+    std::vector<LegendEntry> entries;
+    for (const Layer& layer : stage.layers)
+      if (layer.legend) layer.legend(stage, entries);
+    around.legend = Legend(std::move(entries), legend_size * em, p.width - 2 * em);
     around.room = room_left(stage, around, round > 0);
     stage.window ? fit_window(stage, around.room) : fit(stage, scaled, around.room);
   }
   return around;
-}
-
-void draw_titles(Stage& stage) {
-  const ScenePicture& p = stage.picture;
-  const double em = stage.em, w = p.width;
-  TextStyle title = title_style();
-  title.size = fitting_size(p.title, 1.1 * em, w - em, true);
-  stage.over.text({w / 2, p.height - 0.6 * em}, p.title, title);
-  stage.over.text({w / 2, 0.5 * em}, p.caption, {.size = fitting_size(p.caption, legend_size * em, w - em), .across = Align::middle});
 }
 
 // The bar as high as the scene, within reason, and not too far from it.
@@ -177,20 +240,20 @@ void draw_column(Stage& stage, const Surroundings& around) {
 }  // namespace
 
 void lay_out(Stage& stage) {
-  const double em = stage.em;
+  const ScenePicture& p = stage.picture;
+  const double em = stage.em, w = p.width;
   if (!stage.plane) aim(stage);
   const Surroundings around = place_scene(stage);
-  const Box& room = around.room;
-  draw_titles(stage);
-  around.legend.draw(stage.over, {(stage.picture.width - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
+  TextStyle title = title_style();
+  title.size = fitting_size(p.title, 1.1 * em, w - em, true);
+  stage.over.text({w / 2, p.height - 0.6 * em}, p.title, title);
+  stage.over.text({w / 2, 0.5 * em}, p.caption, {.size = fitting_size(p.caption, legend_size * em, w - em), .across = Align::middle});
+  around.legend.draw(stage.over, {(w - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
   draw_column(stage, around);
-  if (stage.picture.axes) {
-    if (stage.plane)
-      draw_axes(stage);
-    else
-      draw_triad(stage, {room.left + 2.2 * em, room.bottom + 1.6 * em});
-  }
-  if (!stage.plane) stage.frame = room;
+  if (p.axes && stage.plane) draw_axes(stage);
+  if (stage.plane) return;
+  if (p.axes) draw_triad(stage, {around.room.left + 2.2 * em, around.room.bottom + 1.6 * em});
+  stage.frame = around.room;
 }
 
 }  // namespace dotyk::figure

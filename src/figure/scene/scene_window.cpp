@@ -1,9 +1,6 @@
 // A window of the plane: how large it is drawn, and the room the pressure takes
 // in it.
-#include <algorithm>
-#include <cmath>
-
-#include "figure/scene/scene_fit.hpp"
+#include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {
 
@@ -11,16 +8,15 @@ namespace {
 
 // Puts the window into the middle of the room, on whole pixels.
 void place(Stage& stage, const Box& room) {
-  const Window& w = *stage.window;
-  const double width = std::max(room.width(), 10.0), height = std::max(room.height(), 10.0);
-  const double scale = std::min(width / (w[2] - w[0]), height / (w[3] - w[1]));
+  const Box& w = *stage.window;
+  const double scale = std::min(std::max(room.width(), 10.0) / w.width(), std::max(room.height(), 10.0) / w.height());
   Box& f = stage.frame;
-  f.left = std::round((room.left + room.right - scale * (w[2] - w[0])) / 2);
-  f.bottom = std::round((room.bottom + room.top - scale * (w[3] - w[1])) / 2);
-  f.right = f.left + std::max(1.0, std::round(scale * (w[2] - w[0])));
-  f.top = f.bottom + std::max(1.0, std::round(scale * (w[3] - w[1])));
+  f.left = std::round((room.left + room.right - scale * w.width()) / 2);
+  f.bottom = std::round((room.bottom + room.top - scale * w.height()) / 2);
+  f.right = f.left + std::max(1.0, std::round(scale * w.width()));
+  f.top = f.bottom + std::max(1.0, std::round(scale * w.height()));
   stage.view.scale = scale;
-  stage.view.origin = {f.left - scale * w[0], f.bottom - scale * w[1]};
+  stage.view.origin = {f.left - scale * w.left, f.bottom - scale * w.bottom};
   stage.set_greatest();
 }
 
@@ -45,7 +41,7 @@ Box crossed_sides(const Stage& stage, const ContactPicture& contact) {
 // direction they stand in.
 Bounds pressure_bounds(const Stage& stage) {
   Bounds bounds;
-  if (!(stage.strips() || stage.arrows()) || !(stage.greatest_pressure > 0)) return bounds;
+  if (!stage.pressures() || !(stage.greatest_pressure > 0)) return bounds;
   const Box& f = stage.frame;
   const double pad = 0.3 * stage.em;
   for (const ContactPicture& contact : stage.picture.contacts) {
@@ -67,18 +63,20 @@ Bounds pressure_bounds(const Stage& stage) {
   return bounds;
 }
 
+double farthest(const Box& sides) { return std::max({sides.left, sides.bottom, sides.right, sides.top}); }
+
 // The tallest drawing of the pressure that fits, or the least that will do.
 // Returns what of it lies beyond each side of the frame.
-Window settle_pressure(Stage& stage) {
-  Window beyond{0, 0, 0, 0};
+Box settle_pressure(Stage& stage) {
+  Box beyond;
   for (double share = 0.2; share > 0.149; share -= 0.01) {
     stage.window_strip = std::max(share * stage.frame.height(), 1.5 * stage.em);
     const Bounds need = pressure_bounds(stage);
-    if (need.empty()) return {0, 0, 0, 0};
+    if (need.empty()) return {};
     const Box& f = stage.frame;
     beyond = {std::max(0.0, f.left - need.left), std::max(0.0, f.bottom - need.bottom),
               std::max(0.0, need.right - f.right), std::max(0.0, need.top - f.top)};
-    if (std::all_of(beyond.begin(), beyond.end(), [](double pixels) { return pixels == 0; })) break;
+    if (farthest(beyond) == 0) break;
   }
   return beyond;
 }
@@ -86,12 +84,13 @@ Window settle_pressure(Stage& stage) {
 }  // namespace
 
 void fit_window(Stage& stage, const Box& room) {
-  stage.window = stage.picture.window;
+  Box& w = stage.window.emplace(box_of(*stage.picture.window));
   for (int round = 0; round < 20; ++round) {
     place(stage, room);
-    const Window beyond = settle_pressure(stage);
-    if (std::all_of(beyond.begin(), beyond.end(), [](double pixels) { return pixels < 0.5; })) break;
-    for (std::size_t side = 0; side < 4; ++side) (*stage.window)[side] += (side < 2 ? -1 : 1) * beyond[side] / stage.view.scale;
+    const Box beyond = settle_pressure(stage);
+    if (farthest(beyond) < 0.5) break;
+    const double s = stage.view.scale;
+    w = {w.left - beyond.left / s, w.bottom - beyond.bottom / s, w.right + beyond.right / s, w.top + beyond.top / s};
   }
   stage.scale = colour_scale(stage.picture, stage.window);
 }

@@ -23,10 +23,7 @@ vtkSmartPointer<vtkPolyData> poly_data(const std::vector<Vec3>& points, const Fa
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(vtk_points);
-  if (each == 2)
-    data->SetLines(cells);
-  else
-    data->SetPolys(cells);
+  each == 2 ? data->SetLines(cells) : data->SetPolys(cells);
   return data;
 }
 
@@ -41,10 +38,6 @@ void add_plain(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, Col
   actor->GetProperty()->SetLineWidth(static_cast<float>(width * stage.factor));
   actor->GetProperty()->SetOpacity(opacity);
   renderer->AddActor(actor);
-}
-
-void Shapes::add_pixel(const Vec3& pixel, double lift) {
-  points_.push_back({pixel[0] * stage_.factor, pixel[1] * stage_.factor, (pixel[2] + lift) * stage_.factor});
 }
 
 void Shapes::show(vtkRenderer* renderer, Colour colour, double width, double opacity) const {

@@ -1,12 +1,9 @@
 // Lines and polygons of a scene for VTK, in rendered pixels, so that bodies in front hide them.
 #pragma once
 
-#include <vector>
-
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-#include "figure/canvas/geometry.hpp"
 #include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {
@@ -24,7 +21,7 @@ public:
   bool empty() const { return points_.empty(); }
   // A corner at a place of the scene, or at a pixel, `lift` pixels nearer to the eye than that is.
   void add(const Vec3& place, double lift) { add_pixel(stage_.view.pixel(place), lift); }
-  void add_pixel(const Vec3& pixel, double lift);
+  void add_pixel(const Vec3& pixel, double lift) { points_.push_back(stage_.rendered(pixel, lift)); }
   void show(vtkRenderer* renderer, Colour colour, double width = 1, double opacity = 1) const;
 
 private:

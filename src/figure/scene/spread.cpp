@@ -1,12 +1,8 @@
-#include "figure/scene/spread.hpp"
+// Which of many places get a symbol, so that symbols stand apart and evenly.
+#include "figure/scene/stage.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
-#include <unordered_map>
-#include <utility>
 
 namespace dotyk::figure {
 
@@ -14,33 +10,14 @@ namespace {
 
 using Numbers = std::vector<std::size_t>;
 
+// In this order, those as far as `spacing` from all taken before.
 Numbers greedy(const std::vector<Point>& at, const Numbers& order, double spacing) {
-  // Kept points by squares of side `spacing`: only neighbours are compared.
-  std::unordered_map<long long, Numbers> squares;
-  const auto key = [](long long i, long long j) { return i * 1000003LL + j; };
   Numbers kept;
   for (const std::size_t i : order) {
-    if (!(std::abs(at[i].x) < 1e7 && std::abs(at[i].y) < 1e7)) continue;
-    const auto sx = static_cast<long long>(std::floor(at[i].x / spacing)), sy = static_cast<long long>(std::floor(at[i].y / spacing));
-    bool free = true;
-    for (long long dx = -1; dx <= 1 && free; ++dx)
-      for (long long dy = -1; dy <= 1 && free; ++dy) {
-        const auto found = squares.find(key(sx + dx, sy + dy));
-        if (found == squares.end()) continue;
-        for (const std::size_t j : found->second)
-          free = free && std::hypot(at[i].x - at[j].x, at[i].y - at[j].y) >= spacing;
-      }
-    if (!free) continue;
-    squares[key(sx, sy)].push_back(i);
-    kept.push_back(i);
+    const bool near = std::abs(at[i].x) < 1e7 && std::abs(at[i].y) < 1e7;
+    if (near && std::all_of(kept.rbegin(), kept.rend(), [&](std::size_t j) { return length(at[i] - at[j]) >= spacing; })) kept.push_back(i);
   }
   return kept;
-}
-
-Numbers all(const std::vector<Point>& at) {
-  Numbers out(at.size());
-  std::iota(out.begin(), out.end(), std::size_t{0});
-  return out;
 }
 
 // From `first` to `last` in steps.
@@ -50,81 +27,55 @@ Numbers steps(std::size_t first, std::size_t last, std::size_t stride) {
   return out;
 }
 
-// The lines of a grid across one of its coordinates: their places, and which of them each point is on.
-struct Lines {
-  std::vector<double> at;
-  Numbers of;
-};
-
-Lines lines(const std::vector<Point>& plan, double Point::*coordinate) {
-  std::vector<double> values;
+// Which of the lines of a grid across one of its coordinates each point is on.
+Numbers lines(const std::vector<Point>& plan, double Point::*coordinate) {
+  std::vector<double> values, at;
   for (const Point& p : plan) values.push_back(p.*coordinate);
   std::sort(values.begin(), values.end());
-  Lines out;
   const double same = 1e-6 * (values.back() - values.front());
   for (const double v : values)
-    if (out.at.empty() || v - out.at.back() > same) out.at.push_back(v);
-  for (const Point& p : plan) {
-    const auto next = std::upper_bound(out.at.begin(), out.at.end(), p.*coordinate);
-    out.of.push_back(static_cast<std::size_t>(next - out.at.begin()) - 1);
-  }
+    if (at.empty() || v - at.back() > same) at.push_back(v);
+  Numbers out;
+  for (const Point& p : plan) out.push_back(static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), p.*coordinate) - at.begin()) - 1);
   return out;
 }
 
-// Points of a grid, or of a part of it, by their lines.
-class Grid {
-public:
-  // None: the points are no grid's.
-  static std::optional<Grid> of(const std::vector<Point>& plan) {
-    if (plan.size() < 4) return std::nullopt;
-    Grid grid{lines(plan, &Point::x), lines(plan, &Point::y), {}};
-    if (grid.across_.at.size() * grid.up_.at.size() > 4 * plan.size()) return std::nullopt;
-    for (std::size_t i = 0; i < plan.size(); ++i)
-      if (!grid.points_.emplace(std::pair{grid.across_.of[i], grid.up_.of[i]}, i).second) return std::nullopt;
-    return grid;
+// The points of a grid, or of a part of it, by their two lines.
+using Grid = std::map<std::array<std::size_t, 2>, std::size_t>;
+
+// Empty: the points are no grid's.
+Grid grid_of(const std::vector<Point>& plan) {
+  if (plan.size() < 4) return {};
+  const Numbers across = lines(plan, &Point::x), up = lines(plan, &Point::y);
+  if ((*std::max_element(across.begin(), across.end()) + 1) * (*std::max_element(up.begin(), up.end()) + 1) > 4 * plan.size()) return {};
+  Grid grid;
+  for (std::size_t i = 0; i < plan.size(); ++i) grid.emplace(std::array{across[i], up[i]}, i);
+  return grid.size() == plan.size() ? grid : Grid{};
+}
+
+// Of the lines in one direction those that stand apart; two are as far from each other as their nearest points, drawn at `at`.
+std::vector<bool> lines_apart(const Grid& grid, const std::vector<Point>& at, double spacing, int direction) {
+  std::vector<double> step;  // to the next line
+  for (const auto& [place, i] : grid) {
+    const std::size_t line = place[direction];
+    step.resize(std::max(step.size(), line + 1), INFINITY);
+    auto beside = place;
+    ++beside[direction];
+    if (const auto next = grid.find(beside); next != grid.end()) step[line] = std::min(step[line], length(at[i] - at[next->second]));
   }
-
-  // The points on lines that are apart in both directions, drawn at `at`.
-  Numbers on_lines(const std::vector<Point>& at, double spacing) const {
-    const std::vector<bool> across = kept(at, spacing, true), up = kept(at, spacing, false);
-    Numbers out;
-    for (std::size_t i = 0; i < at.size(); ++i)
-      if (across[across_.of[i]] && up[up_.of[i]]) out.push_back(i);
-    return out;
-  }
-
-private:
-  Grid(Lines across, Lines up, std::map<std::pair<std::size_t, std::size_t>, std::size_t> points)
-      : across_(std::move(across)), up_(std::move(up)), points_(std::move(points)) {}
-
-  // As far from each other as their nearest points.
-  std::vector<bool> kept(const std::vector<Point>& at, double spacing, bool across) const {
-    const std::size_t n = (across ? across_ : up_).at.size();
-    std::vector<double> step(n, spacing);
-    std::vector<bool> known(n, false);
-    for (const auto& [place, i] : points_) {
-      const auto next = points_.find(across ? std::pair{place.first + 1, place.second} : std::pair{place.first, place.second + 1});
-      if (next == points_.end()) continue;
-      const std::size_t k = across ? place.first : place.second;
-      const double far = std::hypot(at[i].x - at[next->second].x, at[i].y - at[next->second].y);
-      step[k] = known[k] ? std::min(step[k], far) : far;
-      known[k] = true;
-    }
-    std::vector<Point> places(1);
-    for (std::size_t k = 0; k + 1 < n; ++k) places.push_back({places.back().x + step[k], 0});
-    std::vector<bool> out(n, false);
-    for (const std::size_t k : spread(places, spacing)) out[k] = true;
-    return out;
-  }
-
-  Lines across_, up_;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> points_;
-};
+  std::vector<Point> places(1);
+  for (std::size_t k = 0; k + 1 < step.size(); ++k) places.push_back({places.back().x + (step[k] < INFINITY ? step[k] : spacing), 0});
+  std::vector<bool> out(step.size(), false);
+  for (const std::size_t k : spread(places, spacing)) out[k] = true;
+  return out;
+}
 
 }  // namespace
 
 std::vector<std::size_t> spread(const std::vector<Point>& at, double spacing) {
-  const Numbers kept = greedy(at, all(at), spacing);
+  Numbers all(at.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const Numbers kept = greedy(at, all, spacing);
   if (kept.size() < 3 || kept.size() == at.size()) return kept;
   const auto apart = [&](const Numbers& chosen) { return greedy(at, chosen, 0.85 * spacing).size() == chosen.size(); };
   const std::size_t last = at.size() - 1, least = (last + kept.size() - 2) / (kept.size() - 1);
@@ -138,10 +89,14 @@ std::vector<std::size_t> spread(const std::vector<Point>& at, double spacing) {
 }
 
 std::vector<std::size_t> spread(const std::vector<Point>& at, const std::vector<Point>& plan, double spacing) {
-  if (const std::optional<Grid> grid = Grid::of(plan))
-    // A view may bring the diagonals of a grid nearer to each other than its lines.
+  // A view may bring the diagonals of a grid nearer to each other than its lines.
+  if (const Grid grid = grid_of(plan); !grid.empty())
     for (const double wider : {1.0, 1.3, 1.7, 2.2}) {
-      const Numbers chosen = grid->on_lines(at, wider * spacing);
+      const std::vector<bool> across = lines_apart(grid, at, wider * spacing, 0), up = lines_apart(grid, at, wider * spacing, 1);
+      Numbers chosen;
+      for (const auto& [place, i] : grid)
+        if (across[place[0]] && up[place[1]]) chosen.push_back(i);
+      std::sort(chosen.begin(), chosen.end());
       if (greedy(at, chosen, 0.8 * spacing).size() == chosen.size()) return chosen;
     }
   return spread(at, spacing);

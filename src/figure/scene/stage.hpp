@@ -11,7 +11,6 @@
 #include "figure/canvas/colour_map.hpp"
 #include "figure/canvas/geometry.hpp"
 #include "figure/canvas/legend.hpp"
-#include "figure/door/picture.hpp"
 
 class vtkRenderer;
 
@@ -40,7 +39,7 @@ struct Stage {
   View view;
   Box frame;                  // pixels within which the scene is drawn
   std::vector<std::array<Vec3, 2>> body_boxes;  // least and greatest reference corner of each body
-  std::optional<Window> window;  // what the figure shows, where that is not all; at least the picture's
+  std::optional<Box> window;  // what the figure shows, where that is not all; at least the picture's
   double window_strip = 0;    // pixels of the greatest pressure in a window
   double greatest_pressure = 0, greatest_shear = 0, greatest_load = 0;  // the first two of what is seen
   bool deformation_shows = false;
@@ -49,8 +48,8 @@ struct Stage {
   bool axes_of_bodies = false;  // plane: axes along the bodies, not all that stands around them
 
   double strip_height() const;                    // pixels of the greatest pressure
-  bool strips() const;                            // pressure as strips, not arrows
-  bool arrows() const;
+  bool pressures() const { return picture.pressure != PressureStyle::none; }
+  bool strips() const { return plane && pressures() && picture.pressure != PressureStyle::arrows; }  // else arrows
   // Where a contact's node, a support or a load is drawn: in space, and on the picture.
   template <class Thing>
   Vec3 place(const Thing& thing) const { return plus(thing.position, thing.displacement, picture.deformation); }
@@ -62,7 +61,9 @@ struct Stage {
     for (const Thing& thing : things) out.push_back(at(thing));
     return out;
   }
-  Point at(const BodyPicture& body, int node, double factor) const { return view.flat(figure::node(body, node, factor)); }
+  Point at(const BodyPicture& body, int node, double factor) const { return view.flat(body.node(node, factor)); }
+  // In rendered pixels, `lift` pixels nearer to the eye.
+  Vec3 rendered(const Vec3& pixel, double lift) const { return {factor * pixel[0], factor * pixel[1], factor * (pixel[2] + lift)}; }
   // In a window: the point lies in the frame, and `within` pixels off its rim.
   bool shows(Point p, double within = 0) const { return !window || frame.holds(p, -within); }
   bool shows(Point p, Point q) const { return !window || crop(p, q, frame); }
@@ -74,6 +75,15 @@ struct Stage {
   std::vector<std::size_t> spaced(const std::vector<Point>& at, double spacing, double within = 0) const;
 };
 
+// Numbers of places at least `spacing` pixels apart. Along an edge whose nodes
+// are even: evenly, from end to end where their number allows it, else with
+// equal steps all the same, as a gap would look like one of what is shown.
+std::vector<std::size_t> spread(const std::vector<Point>& at, double spacing);
+
+// The same on a surface: `plan` are the places' coordinates across its normal.
+// Where these are those of a grid, whole lines of it are left out.
+std::vector<std::size_t> spread(const std::vector<Point>& at, const std::vector<Point>& plan, double spacing);
+
 // Lays out, draws, and writes the file.
 void draw_stage(Stage& stage);
 
@@ -81,10 +91,15 @@ void draw_stage(Stage& stage);
 // and colour bar; draws these.
 void lay_out(Stage& stage);
 
+// Fits the picture's window into the room. The greatest pressure comes to a fifth of its height, less where it would not fit; from
+// three quarters of that on the window grows. Sets stage.view, frame, window, and what depends on what is seen: greatest pressure,
+// colours.
+void fit_window(Stage& stage, const Box& room);
+
 // Rigid obstacles: filled and hatched in the plane, surfaces in space.
 Layer obstacle_layer();
-// The pieces of an obstacle's line in the plane, in pixels.
-std::vector<std::array<Point, 2>> obstacle_line(const Stage& stage, const RigidPicture& rigid);
+// Its points; in the plane those of a line.
+std::vector<Point> obstacle_line(const View& view, const RigidPicture& rigid);
 // Surfaces, mesh edges and outlines of the bodies.
 Layer body_layer();
 // The outline of a body in the plane, two nodes an edge.
@@ -98,20 +113,11 @@ Layer load_layer();
 // A plan of the contact of a scene in space: the width it wants (0: none),
 // and its drawing in the room given to it.
 double inset_width(const Stage& stage);
-// The coordinates that span the plan: those across the normal, never mirrored.
-struct Plan {
-  std::size_t across, up;
-  Point operator()(const Vec3& p) const { return {p[across], p[up]}; }
-};
-Plan plan_of(const ContactPicture& contact);
 void draw_inset(Stage& stage, const Box& room);
-// Arrows of the shear, in the plane beside the contact line on the side of the
-// first part, which they act on; on the plan of a contact in space, whose
-// nodes are drawn at `at`.
-void draw_shear(Stage& stage, const ContactPicture& contact);
-void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, const Plan& plan);
-// The ends of a node's arrow in the plane.
-std::array<Point, 2> shear_arrow(const Stage& stage, const ContactNode& node);
+// Arrows of the shear at some of the nodes that rub, those that `choice` takes of their places; where a node's arrow begins and ends.
+void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
+                const std::function<std::vector<std::size_t>(const std::vector<Point>& places)>& choice,
+                const std::function<std::array<Point, 2>(std::size_t node)>& arrow);
 // Of one contact in space: statuses and arrows of the pressure.
 void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer);
 

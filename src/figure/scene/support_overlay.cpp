@@ -1,8 +1,4 @@
 // Symbols of supports and arrows of loads.
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {

@@ -1,5 +1,4 @@
 // Solved plates and their figures.
-#include "figure/compose/compose_grid.hpp"
 #include "figure/compose/compose_plate.hpp"
 #include "plate/distance.hpp"
 #include "plate/reaction.hpp"

@@ -1,7 +1,6 @@
 #include <cstdio>
 
 #include "figure/compose/compose.hpp"
-#include "figure/compose/compose_grid.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
 
