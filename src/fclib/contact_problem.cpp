@@ -1,6 +1,9 @@
 #include "fclib/contact_problem.hpp"
 
 #include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <numeric>
 
 #include "algebra/direct/cholesky.hpp"
@@ -8,6 +11,7 @@
 #include "algebra/direct/sparse_lu.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/readable_file.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::fclib {
@@ -51,30 +55,45 @@ DenseMatrix solve(const SparseMatrix& M, const DenseMatrix& b) {
 
 }  // namespace
 
+ContactProblem read(const std::string& file, Monitor& monitor) {
+  char start[8] = {};
+  require_readable(file);
+  std::ifstream(file, std::ios::binary).read(start, sizeof start);
+  const bool hdf5 = std::memcmp(start, "\x89HDF\r\n\x1a\n", sizeof start) == 0;
+  ContactProblem problem = hdf5 ? read_hdf5(file, monitor) : read_text(file);
+  problem.name = std::filesystem::path(file).filename();
+  check(problem);
+  if (problem.kind == ContactProblem::Kind::global) condense(problem, monitor);
+  return problem;
+}
+
 void check(const ContactProblem& p) {
   const auto fail = [&](const std::string& what) { throw InputError(text("'", p.name, "': ", what)); };
-  const auto size = [&](const char* name, const Vector& v, Eigen::Index expected) {
+  const auto finite = [&](const char* name, const auto& numbers) {
+    if (numbers.size() && !numbers.allFinite()) fail(text(name, " holds a number that is not finite"));
+  };
+  const auto vector = [&](const char* name, const Vector& v, Eigen::Index expected) {
     if (v.size() != expected) fail(text(name, " has ", v.size(), " entries; ", expected, " are expected"));
-    if (!v.allFinite()) fail(text(name, " holds a number that is not finite"));
+    finite(name, v);
+  };
+  const auto shape = [&](const char* name, const auto& A, Eigen::Index r, Eigen::Index c) {
+    if (A.rows() != r || A.cols() != c) fail(text(name, " is ", A.rows(), " x ", A.cols(), "; ", r, " x ", c, " is expected"));
   };
   if (p.dimension != 2 && p.dimension != 3) fail(text("the dimension is ", p.dimension, "; it must be 2 or 3"));
   for (Eigen::Index k = 0; k < p.mu.size(); ++k)
     if (!(p.mu[k] >= 0) || !std::isfinite(p.mu[k]))
       fail(text("the friction coefficient of contact ", k + 1, " is ", p.mu[k], "; it must be zero or positive"));
-  const auto shape = [&](const char* name, Eigen::Index rows, Eigen::Index columns, Eigen::Index r, Eigen::Index c) {
-    if (rows != r || columns != c) fail(text(name, " is ", rows, " x ", columns, "; ", r, " x ", c, " is expected"));
-  };
   if (p.kind == ContactProblem::Kind::local) {
-    shape("W", p.W.rows(), p.W.cols(), p.rows(), p.rows());
-    if (!p.W.allFinite()) fail("W holds a number that is not finite");
-    size("q", p.q, p.rows());
+    shape("W", p.W, p.rows(), p.rows());
+    finite("W", p.W);
+    vector("q", p.q, p.rows());
   } else {
-    shape("M", p.M.rows(), p.M.cols(), p.f.size(), p.f.size());
-    shape("H", p.H.rows(), p.H.cols(), p.f.size(), p.rows());
-    if (p.M.nonZeros() && !p.M.coeffs().allFinite()) fail("M holds a number that is not finite");
-    if (p.H.nonZeros() && !p.H.coeffs().allFinite()) fail("H holds a number that is not finite");
-    size("f", p.f, p.f.size());
-    size("w", p.w, p.rows());
+    shape("M", p.M, p.f.size(), p.f.size());
+    shape("H", p.H, p.f.size(), p.rows());
+    finite("M", p.M.coeffs());
+    finite("H", p.H.coeffs());
+    vector("f", p.f, p.f.size());
+    vector("w", p.w, p.rows());
   }
 }
 

@@ -33,6 +33,19 @@ struct ContactProblem {
   int unknowns() const { return kind == Kind::global ? static_cast<int>(f.size()) : rows(); }
 };
 
+/// The frictional contact problem in a file: HDF5 as FCLIB writes it (groups fclib_local and fclib_global), or the
+/// plain text that siconos prints (FC2D, FC3D, GFC2D, GFC3D). Which it is, is seen from its content. A global
+/// problem comes condensed. Throws InputError naming the file and what is wrong with it, or why its problem is
+/// not treated (rolling friction; equations beside the contacts); std::runtime_error for HDF5 where dotyk was built
+/// without it.
+ContactProblem read(const std::string& file, Monitor& monitor);
+
+constexpr int kMost = 10'000'000;  ///< rows, columns, entries: beyond it a count is a mistake
+
+/// One format each, neither checked nor condensed.
+ContactProblem read_hdf5(const std::string& file, Monitor& monitor);
+ContactProblem read_text(const std::string& file);
+
 /// Throws InputError naming the problem where sizes do not fit together, a number is not finite, or a μ is
 /// negative.
 void check(const ContactProblem& problem);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -6,8 +7,8 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "fclib/contact_problem.hpp"
 #include "fclib/hdf5_object.hpp"
-#include "fclib/read.hpp"
 #include "reader/process.hpp"
 
 namespace dotyk::fclib {
@@ -80,14 +81,10 @@ class File {
 std::vector<int> expand(const File& file, const std::string& path, const std::vector<int>& p, int outer, std::size_t entries) {
   if (p.size() != static_cast<std::size_t>(outer) + 1)
     file.fail(text(path, "/p has ", p.size(), " entries; ", outer + 1, " are expected"));
-  std::vector<int> index(entries);
-  for (int o = 0; o < outer; ++o) {
-    if (p[o] < 0 || p[o] > p[o + 1] || p[o + 1] > static_cast<int>(entries))
-      file.fail(text(path, "/p does not ascend from 0 to the number of entries"));
-    std::fill(index.begin() + p[o], index.begin() + p[o + 1], o);
-  }
-  if (p.front() != 0 || p.back() != static_cast<int>(entries))
+  if (p.front() != 0 || p.back() != static_cast<int>(entries) || !std::is_sorted(p.begin(), p.end()))
     file.fail(text(path, "/p does not ascend from 0 to the number of entries"));
+  std::vector<int> index(entries);
+  for (int o = 0; o < outer; ++o) std::fill(index.begin() + p[o], index.begin() + p[o + 1], o);
   return index;
 }
 

@@ -1,24 +1,31 @@
 #pragma once
 
-#include "fclib/cone.hpp"
+#include "fclib/contact_problem.hpp"
 #include "solver/core/method.hpp"
 
 namespace dotyk::fclib {
 
-/// The problem as rows under laws, for the methods of the solver room: λ = r, x = −u = x₀ − Wλ, x₀ = −q; first
-/// the normal rows of all contacts (unilateral), then their tangential ones (Coulomb).
-struct Rows {
-  problem::Problem problem;              ///< without blocks: B is rows × 0
-  problem::CondensedProblem condensed;   ///< W and x₀ in that order
-  std::vector<int> place;                ///< row of the contact problem → row here
+/// The point of the cone {‖r_T‖ ≤ μ r_N} nearest to y = (y_N, y_T), 2 or 3 components.
+Eigen::VectorXd project_cone(const Eigen::Ref<const Eigen::VectorXd>& y, double mu);
+
+/// What a contact force r says of the problem.
+struct Measure {
+  algebra::Vector u;      ///< W r + q
+  /// ‖r − P_K(r − ρ û)‖ / ‖r‖ (the numerator alone where r = 0), ρ = 1/max W_ii: the natural map with û = u + μ‖u_T‖ e_N.
+  double residual = 0;
+  /// Where r − ρ û lies: with u and r exact, open is r = 0; stick is u = 0; slip the rest.
+  int open = 0, stick = 0, slip = 0;
 };
-Rows rows_of(const ContactProblem& problem);
+Measure measure(const ContactProblem& problem, const algebra::Vector& r);
 
 struct Result {
-  solver::Result iteration;  ///< as the method ended: its own residual, reason, history; rows in the order of Rows
-  algebra::Vector r;         ///< rows of the contact problem
-  Measure measure;           ///< of r
+  /// As the method ended, its own residual, reason and history; first the normal rows of all contacts, then their
+  /// tangential ones.
+  solver::Result iteration;
+  algebra::Vector r;  ///< rows of the contact problem
+  Measure measure;    ///< of r
 };
+/// As rows under laws, unilateral and Coulomb's: λ = r, x = −u = x₀ − Wλ, x₀ = −q.
 Result solve(const ContactProblem& problem, const solver::Method& method, Monitor& monitor);
 
 }  // namespace dotyk::fclib

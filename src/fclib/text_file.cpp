@@ -10,7 +10,7 @@
 #include "base/in_quotes.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
-#include "fclib/read.hpp"
+#include "fclib/contact_problem.hpp"
 
 namespace dotyk::fclib {
 namespace {

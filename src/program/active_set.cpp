@@ -17,21 +17,15 @@ constexpr double kStationary = 1e-6;  ///< gradient left at a solution, beside t
 constexpr double kFeasible = 1e-7;    ///< relative violation with which a solution is still one
 constexpr double kBroken = 0.01;      ///< one with which a point is none, whatever its units
 
-/// A first working set, point and multipliers, in the scaled program.
-struct Guess {
-  std::vector<Side> working;
-  Vector x, y;
-};
-
-Guess equalities(const QuadraticProgram& p) {
-  Guess g{std::vector<Side>(p.rows(), Side::free), Vector::Zero(p.unknowns()), Vector::Zero(p.rows())};
+ActiveSetStart equalities(const QuadraticProgram& p) {
+  ActiveSetStart start{std::vector<Side>(p.rows(), Side::free), Vector::Zero(p.unknowns()), Vector::Zero(p.rows())};
   for (int r = 0; r < p.rows(); ++r)
-    if (p.equality(r)) g.working[r] = Side::equal;
-  return g;
+    if (p.equality(r)) start.working[r] = Side::equal;
+  return start;
 }
 
-Guess guess(const QuadraticProgram& p, const Scaled& scaled, const ActiveSet& settings, Monitor& monitor, Result& predicted) {
-  Guess g = equalities(p);
+ActiveSetStart guess(const QuadraticProgram& p, const Scaled& scaled, const ActiveSet& settings, Monitor& monitor, Result& predicted) {
+  ActiveSetStart g = equalities(p);
   const bool small = p.unknowns() + p.rows() <= 200;
   if (!settings.working.empty()) g.working = settings.working;
   else if (settings.start == ActiveSet::Start::interior_point || (settings.start == ActiveSet::Start::automatic && !small)) {
@@ -62,16 +56,12 @@ void doubt(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monito
   if (violated && solved_by_zeros(p, settings, result)) return;
   if (!violated && result.status != Status::unbounded) return;
   const QuadraticProgram nearest = nearest_point(p);
-  const Guess start = equalities(p);
   ActiveSet one_by_one = settings;
   one_by_one.change = ActiveSet::Change::one;
-  const Result point = ActiveSetIteration(nearest, one_by_one, monitor).run(start.working, start.x, start.y);
+  const Result point = iterate(nearest, one_by_one, equalities(p), monitor);
   result.iterations += point.iterations, result.singular += point.singular, result.survived += point.survived;
-  if (point.status == Status::infeasible) {
-    result.status = point.status, result.reason = point.reason, result.direction = point.direction;
-  } else if (violated) {
-    result.status = Status::stopped, result.reason = "rows stay violated: the working set is too ill-conditioned";
-  }
+  if (point.status == Status::infeasible) result.end(point.status, point.reason, point.direction);
+  else if (violated) result.end(Status::stopped, "rows stay violated: the working set is too ill-conditioned");
 }
 
 /// Far away rounding hides the gradient as well: beside the terms Px of a huge x nothing is left of q. The objective
@@ -82,12 +72,8 @@ void doubt_stationarity(const QuadraticProgram& p, Result& result) {
   const double left = peak(times(p.P, result.x) + p.q + pull);
   if (left <= kStationary * (1 + peak(p.q) + peak(p.A.cwiseAbs().transpose() * result.y.cwiseAbs()))) return;
   const Vector along = result.x / peak(result.x);
-  if (proves_unbounded(p, along)) {
-    result.status = Status::unbounded, result.direction = along;
-    result.reason = "the objective falls for ever along a direction that meets no row";
-  } else {
-    result.status = Status::stopped, result.reason = "the unknowns have grown beyond the digits of the gradient";
-  }
+  if (proves_unbounded(p, along)) result.end(Status::unbounded, kFallsForEver, along);
+  else result.end(Status::stopped, "the unknowns have grown beyond the digits of the gradient");
 }
 
 /// ": rows 1, 4 and 7" of a proof of infeasibility.
@@ -114,17 +100,12 @@ void put_on_bounds(const QuadraticProgram& p, Result& result) {
 /// In units of its own.
 Result attempt(const QuadraticProgram& program, const Scaled& scaled, const ActiveSet& settings, Monitor& monitor) {
   Result predicted;
-  const Guess start = guess(program, scaled, settings, monitor, predicted);
-  Result result = ActiveSetIteration(scaled.program, settings, monitor).run(start.working, start.x, start.y);
+  const ActiveSetStart start = guess(program, scaled, settings, monitor, predicted);
+  Result result = iterate(scaled.program, settings, start, monitor);
   doubt_stationarity(scaled.program, result);
   doubt(scaled.program, settings, monitor, result);
-  result.x = scaled.x(result.x);
-  result.y = scaled.y(result.y);
-  if (result.status == Status::unbounded) result.direction = scaled.x(result.direction).normalized();
-  if (result.status == Status::infeasible) {
-    result.direction = scaled.row.cwiseProduct(result.direction);
-    result.reason += name_rows(result.direction);
-  }
+  scaled.take_back(result);
+  if (result.status == Status::infeasible) result.reason += name_rows(result.direction);
   if (result.status == Status::solved) put_on_bounds(program, result);
   result.predictor_iterations = predicted.iterations;
   result.factorisations += predicted.factorisations;
@@ -151,12 +132,12 @@ Result solve(const QuadraticProgram& program, const ActiveSet& settings, Monitor
         if (other = attempt(program, *units, predicted, monitor); off(other) < off(result)) result = std::move(other);
       }
     }
-  if (result.status == Status::solved && off(result) > kHidden) result.status = Status::stopped, result.reason = kHiddenReason;
+  if (result.status == Status::solved && off(result) > kHidden) result.end(Status::stopped, kHiddenReason);
   measure(program, result);
   // Units in which a row is kept may differ from its own by the range of numbers; but x may be nothing but rounding.
   const Residuals& at = result.residual;
   if (result.status == Status::solved && at.feasibility > kBroken && at.feasibility_scale > settings.tol * (1 + peak(result.x)))
-    result.status = Status::stopped, result.reason = "rows stay violated: units of unknowns are too far apart";
+    result.end(Status::stopped, "rows stay violated: units of unknowns are too far apart");
   result.seconds = clock.seconds();
   return result;
 }

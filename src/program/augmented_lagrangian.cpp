@@ -34,8 +34,7 @@ class Iteration {
       monitor_.iteration({.iteration = k + 1, .changed = result_.cg, .residual = gap_.norm(), .seconds = clock_.seconds()});
       if (result_.status != Status::stopped) break;
       if (optimal) {
-        result_.status = Status::solved;
-        result_.reason = "gradient and feasibility are below their tolerances";
+        result_.end(Status::solved, "gradient and feasibility are below their tolerances");
         mu_ = exact;
         break;
       }
@@ -99,9 +98,8 @@ class Iteration {
 
   bool stop_flat(const Vector& v, double curvature) {
     const bool negative = curvature < -1e-12 * v.squaredNorm();
-    result_.status = negative ? Status::not_convex : Status::unbounded;
-    result_.reason = negative ? "CG met negative curvature" : "the objective falls for ever along a direction of no curvature";
-    result_.direction = v.normalized();
+    if (negative) result_.end(Status::not_convex, "CG met negative curvature", v.normalized());
+    else result_.end(Status::unbounded, "the objective falls for ever along a direction of no curvature", v.normalized());
     return false;
   }
 

@@ -7,16 +7,18 @@
 namespace dotyk::program {
 
 /// Mehrotra's predictor–corrector method (1992) with Gondzio's centrality corrections (1996), whatever linear algebra solves
-/// for its steps. Unknowns w have limits low ≤ w ≤ high, each finite one a slack s and a multiplier z > 0,
-///   w − low = s_l,   high − w = s_u,   s z = μ → 0,   y = z_u − z_l;
+/// for its steps. Unknowns w have limits low ≤ w ≤ high. Each finite one has a sign σ, 1 if low and −1 if high, a slack s
+/// and a multiplier z > 0,
+///   s = σ(w − limit),   s z = μ → 0,   y = −Σ σz;
 /// what derives knows the equations that bind w and y to each other, and to other unknowns x. Slacks are unknowns of their own: w − low
 /// would lose its digits. Once s and z are eliminated, a step has
-///   dy = θ dw + κ,   θ = z_l/s_l + z_u/s_u,
+///   dy = θ dw + κ,   θ = Σ z/s,
 /// where w has limits. Where low = high or both are infinite there is no pair s, z, and y is for the equations to say.
 class Barrier {
  public:
   struct Point {
-    Vector w, y, sl, su, zl, zu;  ///< m
+    Vector w, y;  ///< m
+    Vector s, z;  ///< one a limit
     Vector x;
   };
   virtual ~Barrier() = default;
@@ -33,8 +35,13 @@ class Barrier {
   double gap() const { return mu_; }
   /// Has one of s and z ceased to fall in every pair in the last step, while the other falls on?
   bool decided() const;
-  /// Which limit w ends at: where s fell by more in the last step than z, whatever their units.
-  Side end(int row) const;
+  /// Which limit w ends at: where s fell by more in the last step than z, whatever their units. `y`: what its multiplier
+  /// adds to y.
+  struct End {
+    Side side = Side::free;
+    double y = 0;
+  };
+  std::vector<End> ends() const;
 
  protected:
   Barrier(Vector low, Vector high);
@@ -45,22 +52,22 @@ class Barrier {
   virtual bool factor(const Vector& theta) = 0;
   /// dw, dx, and dy where w has no limits, for κ (m) and the θ before.
   virtual void solve(const Vector& kappa, Point& step) = 0;
-  bool limited(int row) const { return has_low_[row] || has_high_[row]; }
+  /// Sets y by z where w has limits.
+  void take_multipliers(Point& at) const;
   int rows() const { return static_cast<int>(low_.size()); }
 
   const Vector low_, high_;
-  std::vector<char> has_low_, has_high_;
-  Vector rl_, ru_;            ///< residuals of the slacks
-  double complementary_ = 0;  ///< the sum of s z
+  std::vector<char> limited_;  ///< m: has w limits?
+  std::vector<int> row_;       ///< of each limit, ascending; low before high
+  Vector sign_, limit_;        ///< of each limit
+  Vector rs_;                  ///< residuals of the slacks
+  double complementary_ = 0;   ///< the sum of s z
   Point at_;
 
  private:
-  Point direction(Vector cl, Vector cu);
+  Point direction(Vector c);
   double longest(const Point& d) const;
-  double complementary(const Point& d, double length) const;
-  void centre(const Point& d, double reach, double aim, Vector& cl, Vector& cu) const;
 
-  int limits_ = 0;
   double mu_ = 0, unit_ = 1;
   Point last_, before_;  ///< the last direction, and where it began
 };

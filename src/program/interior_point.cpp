@@ -10,7 +10,6 @@
 #include "program/barrier.hpp"
 #include "program/certificate.hpp"
 #include "program/kkt.hpp"
-#include "program/refine.hpp"
 #include "program/scaling.hpp"
 
 namespace dotyk::program {
@@ -32,137 +31,108 @@ constexpr double kBarrierRegularisation = 1e-12;
 class ProgramBarrier final : public Barrier {
  public:
   /// Multipliers start `far` inside: too near zero they shrink the first steps.
-  ProgramBarrier(const QuadraticProgram& program, double far);
+  ProgramBarrier(const QuadraticProgram& p, double far)
+      : Barrier(p.low, p.high), p_(p), n_(p.unknowns()), kkt_(p), taken_(rows(), 0), theta_inverse_(Vector::Ones(rows())) {
+    Vector b(n_ + rows());
+    b << -p.q, Vector::Zero(rows());
+    for (int r = 0; r < rows(); ++r) {
+      taken_[r] = std::isfinite(p.low[r]) || std::isfinite(p.high[r]);
+      if (p.equality(r)) size_b_ = std::max(size_b_, std::abs(p.low[r])), theta_inverse_[r] = 0;
+      if (taken_[r]) b[n_ + r] = std::clamp(0.0, p.low[r], p.high[r]);
+    }
+    Vector z = Vector::Zero(n_ + rows());
+    if (factor_from(1)) {
+      regular_ = kBarrierRegularisation;
+      z = kkt_.solve(b);
+    }
+    at_.x = z.head(n_);
+    const Vector Ax = p.A * at_.x, y = z.tail(rows());
+    const Vector out = sign_.cwiseProduct(limit_ - Ax(row_)).cwiseMax(0), pull = -sign_.cwiseProduct(y(row_));
+    place(Ax, std::max(1.0, 1.5 * peak(out)), 1);
+    at_.z = far * std::max(1.0, 0.5 * peak(pull)) + pull.array().max(0);
+    for (int r = 0; r < rows(); ++r) at_.y[r] = taken_[r] ? y[r] : 0;
+    take_multipliers(at_);
+  }
 
-  void evaluate() override;
+  void evaluate() override {
+    Barrier::evaluate();
+    const Vector Px = times(p_.P, at_.x);
+    rd_ = Px + p_.q + p_.A.transpose() * at_.y;
+    rp_ = p_.A * at_.x;
+    for (int r = 0; r < rows(); ++r) rp_[r] = !taken_[r] ? 0 : rp_[r] - (p_.equality(r) ? p_.low[r] : at_.w[r]);
+    primal_ = std::max(peak(rp_), peak(rs_));
+    // Residuals count by what they may change of the objective, too: multipliers can be huge.
+    gap_ = complementary_ + std::abs(rd_.dot(at_.x)) + rp_.cwiseAbs().dot(at_.y.cwiseAbs()) + rs_.cwiseAbs().dot(at_.z);
+    gap_ /= 1 + std::abs(0.5 * at_.x.dot(Px) + p_.q.dot(at_.x));
+  }
+
   /// The largest of the residuals, relative, and of the gap.
-  double merit() const { return std::max({primal_ / (1 + size_b_), dual_ / (1 + peak(p_.q)), gap_}); }
+  double merit() const { return std::max({primal_ / (1 + size_b_), peak(rd_) / (1 + peak(p_.q)), gap_}); }
+
   /// Rows whose multiplier exceeds their slack at a point: the active set it predicts.
-  std::vector<Side> active(const Point& at) const;
+  std::vector<Side> active(const Point& at) const {
+    std::vector<Side> side(rows(), Side::free);
+    for (int r = 0; r < rows(); ++r)
+      if (p_.equality(r)) side[r] = Side::equal;
+    for (std::size_t k = 0; k < row_.size(); ++k)
+      if (side[row_[k]] == Side::free && at.z[k] > at.s[k]) side[row_[k]] = sign_[k] > 0 ? Side::low : Side::high;
+    return side;
+  }
+
   int factorisations() const { return factorisations_; }
 
  private:
-  bool factor(const Vector& theta) override;
-  bool factor(const Vector& theta_inverse, double least);
-  void solve(const Vector& kappa, Point& step) override;
+  /// Regularised no more than the pivots ask for: as many of them must be negative as there are rows.
+  bool factor_from(double least) {
+    for (regular_ = least; regular_ <= 1; regular_ *= 10) {
+      ++factorisations_;
+      if (kkt_.factor(regular_, (regular_ + theta_inverse_.array()).matrix(), taken_)) return true;
+    }
+    return false;
+  }
+
+  bool factor(const Vector& theta) override {
+    for (int r = 0; r < rows(); ++r) theta_inverse_[r] = limited_[r] ? 1 / theta[r] : 0;
+    return factor_from(std::max(kBarrierRegularisation, 0.1 * regular_));
+  }
+
+  /// Solves [P Aᵀ; A −Θ⁻¹] (dx, dy) = (−r_d, −r_p − Θ⁻¹κ), refined; dw = Θ⁻¹(dy − κ).
+  void solve(const Vector& kappa, Point& d) override {
+    Vector b(n_ + rows());
+    b << -rd_, -rp_ - kappa.cwiseProduct(theta_inverse_);
+    for (int r = 0; r < rows(); ++r)
+      if (!taken_[r]) b[n_ + r] = 0;
+    const auto K = [&](const Vector& z) {
+      Vector out = kkt_times(p_, taken_, z);
+      for (int r = 0; r < rows(); ++r) out[n_ + r] = taken_[r] ? out[n_ + r] - theta_inverse_[r] * z[n_ + r] : -z[n_ + r];
+      return out;
+    };
+    const Vector z = refine(K, [&](const Vector& v) { return kkt_.solve(v); }, b, 1e-12 * peak(b), 4).z;
+    d.x = z.head(n_), d.y = z.tail(rows());
+    d.w = (d.y - kappa).cwiseProduct(theta_inverse_);
+  }
 
   const QuadraticProgram& p_;
   int n_, factorisations_ = 0;
   Kkt kkt_;
   std::vector<char> taken_;
-  Vector theta_inverse_, D_, rd_, rp_;  ///< residuals: stationarity, Ax = w
-  double regular_ = 0, primal_ = 0, dual_ = 0, gap_ = 0, size_b_ = 0;
+  Vector theta_inverse_, rd_, rp_;  ///< rd_, rp_: residuals of stationarity and of Ax = w
+  double regular_ = 0, primal_ = 0, gap_ = 0, size_b_ = 0;
 };
-
-ProgramBarrier::ProgramBarrier(const QuadraticProgram& p, double far)
-    : Barrier(p.low, p.high), p_(p), n_(p.unknowns()), kkt_(p), taken_(rows(), 0), theta_inverse_(Vector::Ones(rows())), D_(rows()) {
-  Vector b(n_ + rows());
-  b << -p.q, Vector::Zero(rows());
-  for (int r = 0; r < rows(); ++r) {
-    taken_[r] = std::isfinite(p.low[r]) || std::isfinite(p.high[r]);
-    if (p.equality(r)) size_b_ = std::max(size_b_, std::abs(p.low[r])), theta_inverse_[r] = 0;
-    if (taken_[r]) b[n_ + r] = std::clamp(0.0, p.low[r], p.high[r]);
-  }
-  Vector z = Vector::Zero(n_ + rows());
-  if (factor(theta_inverse_, 1)) {
-    regular_ = kBarrierRegularisation;
-    z = kkt_.solve(b);
-  }
-  at_.x = z.head(n_);
-  const Vector Ax = p.A * at_.x, y = z.tail(rows());
-  double out = 0, force = 0;
-  for (int r = 0; r < rows(); ++r) {
-    if (has_low_[r]) out = std::max(out, p.low[r] - Ax[r]);
-    if (has_high_[r]) out = std::max(out, Ax[r] - p.high[r]);
-    if (limited(r)) force = std::max(force, std::abs(y[r]));
-  }
-  place(Ax, std::max(1.0, 1.5 * out), 1);
-  const double push = far * std::max(1.0, 0.5 * force);
-  for (int r = 0; r < rows(); ++r) {
-    if (has_low_[r]) at_.zl[r] = push + std::max(0.0, -y[r]);
-    if (has_high_[r]) at_.zu[r] = push + std::max(0.0, y[r]);
-    at_.y[r] = limited(r) ? at_.zu[r] - at_.zl[r] : taken_[r] ? y[r] : 0;
-  }
-}
-
-/// Regularised no more than the pivots ask for: as many of them must be negative as there are rows.
-bool ProgramBarrier::factor(const Vector& theta_inverse, double least) {
-  for (regular_ = least; regular_ <= 1; regular_ *= 10) {
-    ++factorisations_;
-    for (int r = 0; r < rows(); ++r) D_[r] = regular_ + theta_inverse[r];
-    if (kkt_.factor(regular_, D_, taken_)) return true;
-  }
-  return false;
-}
-
-bool ProgramBarrier::factor(const Vector& theta) {
-  for (int r = 0; r < rows(); ++r) theta_inverse_[r] = limited(r) ? 1 / theta[r] : 0;
-  return factor(theta_inverse_, std::max(kBarrierRegularisation, 0.1 * regular_));
-}
-
-/// Solves [P Aᵀ; A −Θ⁻¹] (dx, dy) = (−r_d, −r_p − Θ⁻¹κ), refined; dw = Θ⁻¹(dy − κ).
-void ProgramBarrier::solve(const Vector& kappa, Point& d) {
-  Vector b(n_ + rows());
-  b << -rd_, -rp_ - kappa.cwiseProduct(theta_inverse_);
-  for (int r = 0; r < rows(); ++r)
-    if (!taken_[r]) b[n_ + r] = 0;
-  const auto K = [&](const Vector& z) {
-    Vector out = kkt_times(p_, taken_, z);
-    for (int r = 0; r < rows(); ++r) out[n_ + r] = taken_[r] ? out[n_ + r] - theta_inverse_[r] * z[n_ + r] : -z[n_ + r];
-    return out;
-  };
-  const Vector z = refine(K, [&](const Vector& v) { return kkt_.solve(v); }, b, 1e-12 * peak(b), 4).z;
-  d.x = z.head(n_), d.y = z.tail(rows());
-  for (int r = 0; r < rows(); ++r)
-    if (limited(r)) d.w[r] = (d.y[r] - kappa[r]) * theta_inverse_[r];
-}
-
-void ProgramBarrier::evaluate() {
-  Barrier::evaluate();
-  const Vector Px = times(p_.P, at_.x);
-  rd_ = Px + p_.q + p_.A.transpose() * at_.y;
-  rp_ = p_.A * at_.x;
-  for (int r = 0; r < rows(); ++r) rp_[r] = !taken_[r] ? 0 : rp_[r] - (p_.equality(r) ? p_.low[r] : at_.w[r]);
-  primal_ = std::max({peak(rp_), peak(rl_), peak(ru_)});
-  dual_ = peak(rd_);
-  // Residuals count by what they may change of the objective, too: multipliers can be huge.
-  gap_ = complementary_ + std::abs(rd_.dot(at_.x)) + rp_.cwiseAbs().dot(at_.y.cwiseAbs()) +
-         rl_.cwiseAbs().dot(at_.zl) + ru_.cwiseAbs().dot(at_.zu);
-  gap_ /= 1 + std::abs(0.5 * at_.x.dot(Px) + p_.q.dot(at_.x));
-}
-
-std::vector<Side> ProgramBarrier::active(const Point& at) const {
-  std::vector<Side> side(rows(), Side::free);
-  for (int r = 0; r < rows(); ++r) {
-    if (p_.equality(r)) side[r] = Side::equal;
-    else if (has_low_[r] && at.zl[r] > at.sl[r]) side[r] = Side::low;
-    else if (has_high_[r] && at.zu[r] > at.su[r]) side[r] = Side::high;
-  }
-  return side;
-}
 
 /// Iterates that go to infinity show a direction that proves why.
 bool diverged(const QuadraticProgram& p, const Barrier& barrier, Result& result) {
   for (const Vector* y : {&barrier.point().y, &barrier.last().y})
     if (proves_infeasible(p, *y)) {
-      result.status = Status::infeasible;
-      result.reason = "the rows contradict one another";
-      result.direction = *y / y->lpNorm<Eigen::Infinity>();
+      result.end(Status::infeasible, "the rows contradict one another", *y / peak(*y));
       return true;
     }
   for (const Vector* x : {&barrier.point().x, &barrier.last().x})
     if (proves_unbounded(p, *x)) {
-      result.status = Status::unbounded;
-      result.reason = "the objective falls for ever along a direction that meets no row";
-      result.direction = *x / x->lpNorm<Eigen::Infinity>();
+      result.end(Status::unbounded, kFallsForEver, *x / peak(*x));
       return true;
     }
   return false;
-}
-
-/// What rounding of Aᵀy leaves of stationarity, in the measure of the merit.
-double rounding(const QuadraticProgram& p, const Vector& y) {
-  return std::numeric_limits<double>::epsilon() * peak(p.A.cwiseAbs().transpose() * y.cwiseAbs()) / (1 + peak(p.q));
 }
 
 /// One run from a start with multipliers `far` inside; iterations are counted on from those `done`.
@@ -191,8 +161,7 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
     if (within && settings.fine && since_best >= kFinerPatience) break;  // as fine as it gets
     if (merit <= settings.tol && (!settings.fine || settings.fine(barrier.point().x, barrier.point().y))) {
       best = barrier.point();
-      result.status = Status::solved;
-      result.reason = text("residuals and gap are below ", settings.tol);
+      result.end(Status::solved, text("residuals and gap are below ", settings.tol));
       break;
     }
     if (k - done > 2 && diverged(p, barrier, result)) break;
@@ -205,15 +174,15 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
       break;
     }
   }
-  if (result.status == Status::stopped && least <= kEnough * settings.tol) {
-    result.status = Status::solved;
-    result.reason = text("residuals and gap have stopped falling at ", least);
-  }
-  // Rows without an interior (an equality that another implies as an inequality) have multipliers without bound.
-  if (const double lost = rounding(p, best.y); result.status == Status::solved && lost > kEnough * settings.tol) {
-    result.status = Status::stopped;
-    result.reason = text("the multipliers have grown until their rounding leaves a residual of ", lost, ": the rows have no interior");
-  }
+  if (result.status == Status::stopped && least <= kEnough * settings.tol)
+    result.end(Status::solved, text("residuals and gap have stopped falling at ", least));
+  // Rows without an interior (an equality that another implies as an inequality) have multipliers without bound. What
+  // rounding of Aᵀy leaves of stationarity, in the measure of the merit:
+  const double terms = peak(p.A.cwiseAbs().transpose() * best.y.cwiseAbs());
+  const double lost = std::numeric_limits<double>::epsilon() * terms / (1 + peak(p.q));
+  if (result.status == Status::solved && lost > kEnough * settings.tol)
+    result.end(Status::stopped, text("the multipliers have grown until their rounding leaves a residual of ", lost,
+                                     ": the rows have no interior"));
   result.factorisations = barrier.factorisations();
   result.x = best.x;
   result.y = best.y;
@@ -234,14 +203,9 @@ Result attempt(const Scaled& scaled, const InteriorPoint& settings, Monitor& mon
     inner.fine = nullptr;
     const Result nearest = run(nearest_point(scaled.program), inner, 30, result.iterations, monitor);
     result.iterations = nearest.iterations;
-    if (nearest.status == Status::infeasible) {
-      result.status = nearest.status, result.reason = nearest.reason, result.direction = nearest.direction;
-    }
+    if (nearest.status == Status::infeasible) result.end(nearest.status, nearest.reason, nearest.direction);
   }
-  result.x = scaled.x(result.x);
-  result.y = scaled.y(result.y);
-  if (result.status == Status::unbounded) result.direction = scaled.x(result.direction).normalized();
-  if (result.status == Status::infeasible) result.direction = scaled.row.cwiseProduct(result.direction);
+  scaled.take_back(result);
   return result;
 }
 
@@ -267,10 +231,9 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
   Result result;
   const Vector curved = negative_curvature(program.P);
   if (curved.size()) {
-    result.status = Status::not_convex;
-    result.reason = text("the quadratic matrix has negative curvature: v'Pv = ", curved.dot(times(program.P, curved)),
-                         " for a v of length 1");
-    result.direction = curved;
+    const double curvature = curved.dot(times(program.P, curved));
+    result.end(Status::not_convex,
+               text("the quadratic matrix has negative curvature: v'Pv = ", curvature, " for a v of length 1"), curved);
     result.x = Vector::Zero(program.unknowns()), result.y = Vector::Zero(program.rows());
   } else {
     result = attempt(scale(program), settings, monitor);
@@ -290,7 +253,7 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
     }
     const bool few = !settings.fine && !monitor.stop() && program.unknowns() + program.rows() <= kEndsExactly;
     if (hidden || (few && (result.status == Status::solved || result.status == Status::stopped))) result = by_active_sets(program, result, monitor);
-    if (hidden && off(result, Rounding::of_greatest) > kHidden) result.status = Status::stopped, result.reason = kHiddenReason;
+    if (hidden && off(result, Rounding::of_greatest) > kHidden) result.end(Status::stopped, kHiddenReason);
   }
   measure(program, result);
   result.seconds = clock.seconds();

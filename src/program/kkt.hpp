@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "algebra/direct/quasi_definite.hpp"
@@ -12,8 +13,8 @@ namespace dotyk::program {
 ///   [P + δI   A_Wᵀ]
 ///   [A_W       −D ],  δ > 0, D > 0 diagonal; rows not taken become −y_r = ….
 /// It plays the part of the modified Cholesky factorisation of algorithm 3.1 (Netuka, ODAM 2001,
-/// (83)): a matrix that is safely regular is changed by δ ≪ its eigenvalues only, and the refinement of
-/// refine() takes that change back. One symbolic analysis serves every choice of rows.
+/// (83)): a matrix that is safely regular is changed by δ ≪ its eigenvalues only, and refine() takes that change back.
+/// One symbolic analysis serves every choice of rows.
 class Kkt {
  public:
   explicit Kkt(const QuadraticProgram& program);
@@ -24,17 +25,25 @@ class Kkt {
   /// z (n + m) with the regularised matrix times z = b.
   Vector solve(const Vector& b) const { return factor_.solve(b); }
 
-  const QuadraticProgram& program() const { return *program_; }
-
  private:
-  const QuadraticProgram* program_;
-  SparseMatrix matrix_;  ///< lower triangle
-  std::vector<int> diagonal_, row_entry_, row_of_;  ///< places in matrix_: diagonal (n + m), entries of A and their rows
-  std::vector<int> P_entry_;                        ///< places of P's entries
+  const QuadraticProgram& program_;
   algebra::QuasiDefinite factor_;
 };
 
 /// [P A_Wᵀ; A_W 0] z for z (n + m); entries of rows not in W are zero.
 Vector kkt_times(const QuadraticProgram& program, const std::vector<char>& taken, const Vector& z);
+
+struct Refined {
+  Vector z;         ///< the best found
+  Vector residual;  ///< b − K z
+};
+
+using Apply = std::function<Vector(const Vector&)>;
+
+/// Iterative refinement of K z = b, until no entry of the residual exceeds `target`, with at most so many solves of a
+/// regularised, nearby matrix, accelerated by GMRES (Saad and Schultz 1986; for refinement with a regularised factor
+/// Arioli, Duff, Gratton and Pralet 2007). A consistent singular system is solved; for an inconsistent symmetric one the
+/// residual tends to the part of b in K's kernel.
+Refined refine(const Apply& K, const Apply& regularised, const Vector& b, double target, int most_steps);
 
 }  // namespace dotyk::program

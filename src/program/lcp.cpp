@@ -6,11 +6,11 @@
 #include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "program/active_set.hpp"
 
 namespace dotyk::program {
 
 using algebra::DenseMatrix;
-using algebra::Vector;
 
 namespace {
 
@@ -33,6 +33,23 @@ bool semidefinite(const DenseMatrix& M) {
   const DenseMatrix symmetric = 0.5 * (M + M.transpose());
   const Vector values = algebra::eigenvalues(symmetric);
   return values.minCoeff() >= -1e-12 * std::max(1.0, values.cwiseAbs().maxCoeff());
+}
+
+/// Linear program over the solutions that belong to a set: w = 0 and z ≥ 0 on it, z = 0 and w ≥ 0 off it.
+QuadraticProgram over_set(const Lcp& lcp, const FreeSet& free, const Vector& cost) {
+  const int n = lcp.size();
+  QuadraticProgram p;
+  p.P = SparseMatrix(n, n);
+  p.q = cost;
+  DenseMatrix a(2 * n, n);
+  a << lcp.M, DenseMatrix::Identity(n, n);
+  p.A = a.sparseView(0, 0);
+  p.low.resize(2 * n), p.high.resize(2 * n);
+  for (int i = 0; i < n; ++i) {
+    p.low[i] = -lcp.q[i], p.high[i] = free[i] ? -lcp.q[i] : INFINITY;
+    p.low[n + i] = 0, p.high[n + i] = free[i] ? INFINITY : 0;
+  }
+  return p;
 }
 
 class Solver {
@@ -181,14 +198,47 @@ NewtonMin newton_min(const Lcp& lcp, FreeSet free, int max_solves) {
   }
 }
 
-const char* text_of(LcpStatus status) {
-  switch (status) {
-    case LcpStatus::solved: return "solved";
-    case LcpStatus::several: return "several";
-    case LcpStatus::none: return "none";
-    case LcpStatus::stopped: return "stopped";
+Enumeration enumerate(const Lcp& lcp, int most, Monitor& monitor) {
+  const int n = lcp.size();
+  Enumeration out;
+  const auto add = [&](const Vector& z) {
+    const double size = 1 + z.lpNorm<Eigen::Infinity>();
+    if (z.minCoeff() < -1e-10 * size || residual(lcp, z) > 1e-9) return;
+    for (const Vector& known : out.solutions)
+      if ((known - z).lpNorm<Eigen::Infinity>() <= 1e-7 * size) return;
+    if (static_cast<int>(out.solutions.size()) < most) out.solutions.push_back(z);
+  };
+  // Where M is singular on a set there may be a segment of solutions: its ends in two opposite directions.
+  const auto add_segment = [&](const FreeSet& free) {
+    Monitor quiet;
+    Vector cost(n);
+    for (int i = 0; i < n; ++i) cost[i] = 1 + 0.37 * std::sin(1.0 + 7.0 * i);  // positive: z ≥ 0 keeps it bounded
+    ActiveSet settings;
+    settings.start = ActiveSet::Start::cold;
+    const Result least = solve(over_set(lcp, free, cost), settings, quiet);
+    if (least.status != Status::solved) return;
+    const std::size_t before = out.solutions.size();
+    add(least.x);
+    const Result greatest = solve(over_set(lcp, free, -cost), settings, quiet);
+    if (greatest.status == Status::solved) add(greatest.x);
+    if (greatest.status == Status::unbounded) add(least.x + (1 + least.x.norm()) * greatest.direction);
+    out.continuum = out.continuum || greatest.status == Status::unbounded || out.solutions.size() >= before + 2;
+  };
+  for (unsigned long set = 0; set < (1ul << n) && static_cast<int>(out.solutions.size()) < most; ++set) {
+    out.complete = !monitor.stop();  // a singular set may take milliseconds
+    if (!out.complete) break;
+    FreeSet free(n);
+    for (int i = 0; i < n; ++i) free[i] = set >> i & 1;
+    const Vector z = on_set(lcp, free);
+    if (z.size()) add(z);
+    else add_segment(free);
   }
-  return "";
+  return out;
+}
+
+const char* text_of(LcpStatus status) {
+  constexpr const char* kNames[] = {"solved", "several", "none", "stopped"};
+  return kNames[static_cast<int>(status)];
 }
 
 LcpResult solve(const Lcp& lcp, const LcpSettings& settings, Monitor& monitor) {

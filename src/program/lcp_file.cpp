@@ -31,8 +31,7 @@ class LcpReader {
     else blocks(lcp);
     lcp.q.resize(n);
     for (double& x : lcp.q) x = number("q");
-    const auto slash = file_.find_last_of('/');
-    lcp.name = file_.substr(slash == std::string::npos ? 0 : slash + 1);
+    lcp.name = std::filesystem::path(file_).filename();
     check(lcp);
     return lcp;
   }

@@ -1,6 +1,7 @@
-#include "program/mat_file.hpp"
+#include "program/program_file.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include "base/error.hpp"
@@ -29,13 +30,6 @@ Vector vector_of(const MatVariable& v) {
   Vector x = Vector::Zero(static_cast<Eigen::Index>(v.rows) * v.columns);
   for (std::size_t k = 0; k < v.value.size(); ++k) x[v.row[k] + v.column[k]] = v.value[k];
   return x;
-}
-
-/// "HUES-MOD" of "folder/HUES-MOD.mat".
-std::string stem(const std::string& file) {
-  const auto slash = file.find_last_of('/');
-  const std::string name = file.substr(slash == std::string::npos ? 0 : slash + 1);
-  return name.substr(0, name.find_last_of('.'));
 }
 
 }  // namespace
@@ -74,7 +68,7 @@ QuadraticProgram read_mat(const std::string& file, Monitor& monitor) {
   p.low = vector_of(l), p.high = vector_of(u);
   for (double& x : p.low) x = x <= -kInfinite ? -INFINITY : x;
   for (double& x : p.high) x = x >= kInfinite ? INFINITY : x;
-  p.name = stem(file);
+  p.name = std::filesystem::path(file).stem();
   check(p);
   return p;
 }

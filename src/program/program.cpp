@@ -39,22 +39,14 @@ double objective(const QuadraticProgram& p, const Vector& x) {
   return 0.5 * x.dot(times(p.P, x)) + p.q.dot(x) + p.r;
 }
 
-namespace {
-
-/// max |y_r| Σ A_rj²/P_jj over rows r, those j left out that nothing holds.
-double moved(const QuadraticProgram& p, const Vector& y) {
+Vector row_compliance(const QuadraticProgram& p) {
   const Vector stiffness = p.P.diagonal();
-  double most = 0;
-  for (int r = 0; r < p.rows(); ++r) {
-    double by = 0;
+  Vector compliance = Vector::Zero(p.rows());
+  for (int r = 0; r < p.rows(); ++r)
     for (SparseRows::InnerIterator it(p.A, r); it; ++it)
-      if (stiffness[it.col()] > 0) by += it.value() * it.value() / stiffness[it.col()];
-    most = std::max(most, std::abs(y[r]) * by);
-  }
-  return most;
+      if (stiffness[it.col()] > 0) compliance[r] += it.value() * it.value() / stiffness[it.col()];
+  return compliance;
 }
-
-}  // namespace
 
 Residuals residuals(const QuadraticProgram& p, const Vector& x, const Vector& y) {
   Residuals out;
@@ -75,7 +67,7 @@ Residuals residuals(const QuadraticProgram& p, const Vector& x, const Vector& y)
       complementary += y[r] * (std::isfinite(limit) ? limit : Ax[r] + (y[r] > 0 ? 1 : -1) * (1 + std::abs(Ax[r])));
     }
   }
-  out.feasibility_scale = std::max({peak(size), limits, 1e-6 * moved(p, y)});
+  out.feasibility_scale = std::max({peak(size), limits, 1e-6 * peak(y.cwiseProduct(row_compliance(p)))});
   out.complementarity = std::abs(complementary);
   out.complementarity_scale = 1 + std::abs(objective(p, x));
   if (out.stationarity > 0) out.stationarity /= out.stationarity_scale;
@@ -86,14 +78,8 @@ Residuals residuals(const QuadraticProgram& p, const Vector& x, const Vector& y)
 }
 
 const char* text_of(Status status) {
-  switch (status) {
-    case Status::solved: return "solved";
-    case Status::infeasible: return "infeasible";
-    case Status::unbounded: return "unbounded";
-    case Status::not_convex: return "not_convex";
-    case Status::stopped: return "stopped";
-  }
-  return "";
+  constexpr const char* kNames[] = {"solved", "infeasible", "unbounded", "not_convex", "stopped"};
+  return kNames[static_cast<int>(status)];
 }
 
 void measure(const QuadraticProgram& program, Result& result) {
@@ -102,8 +88,7 @@ void measure(const QuadraticProgram& program, Result& result) {
   const double sum = result.objective + r.stationarity + r.feasibility + r.complementarity + r.stationarity_scale +
                      r.feasibility_scale + r.complementarity_scale;
   if (result.status != Status::solved || (result.x.allFinite() && result.y.allFinite() && std::isfinite(sum))) return;
-  result.status = Status::stopped;
-  result.reason = "values beyond the range of numbers: what was found cannot be measured; choose units in which the numbers are moderate";
+  result.end(Status::stopped, "values beyond the range of numbers: what was found cannot be measured; choose units in which the numbers are moderate");
 }
 
 Vector negative_curvature(const SparseMatrix& lower, double tolerance) {

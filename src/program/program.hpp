@@ -41,6 +41,9 @@ inline double peak(const Vector& v) { return v.lpNorm<Eigen::Infinity>(); }
 inline double peak(const SparseMatrix& a) { return a.coeffs().matrix().lpNorm<Eigen::Infinity>(); }
 inline double peak(const SparseRows& a) { return a.coeffs().matrix().lpNorm<Eigen::Infinity>(); }
 
+/// Σ_j A_rj²/P_jj of each row, those j left out that nothing holds: how far a unit of its force moves it, or less.
+Vector row_compliance(const QuadraticProgram& program);
+
 /// How far x (n) and the multipliers y (m; positive at high, negative at low) are from optimal.
 struct Residuals {
   double stationarity = 0;     ///< max |Px + q + Aᵀy| over max(|P||x|, |q|, |A|ᵀ|y|)
@@ -77,6 +80,9 @@ struct Result {
   int cg = 0;                    ///< CG iterations of the augmented Lagrangian
   double penalty = 0;            ///< its last penalty
   double seconds = 0;
+
+  void end(Status how, std::string why) { status = how, reason = std::move(why); }
+  void end(Status how, std::string why, Vector along) { end(how, std::move(why)), direction = std::move(along); }
 };
 
 /// Fills objective and residual of a result from its x and y. Nothing is solved of which one of these numbers is not finite: status is then

@@ -1,4 +1,4 @@
-#include "program/qps_file.hpp"
+#include "program/program_file.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -43,12 +43,15 @@ class QpsReader {
   [[noreturn]] void fail(const std::string& what) const { throw InputError(text(name_, ":", number_, ": ", what)); }
 
   void header() {
+    using R = QpsReader;
+    static const std::map<std::string, void (R::*)()> sections = {
+        {"NAME", nullptr}, {"OBJSENSE", &R::objective_sense}, {"ROWS", &R::row}, {"COLUMNS", &R::column},
+        {"RHS", &R::right_hand_side}, {"RANGES", &R::right_hand_side}, {"BOUNDS", &R::bound}, {"QUADOBJ", &R::quadratic},
+        {"QSECTION", &R::quadratic}, {"QMATRIX", &R::quadratic}, {"ENDATA", nullptr}};
     section_ = fields_[0];
-    static const char* known[] = {"NAME", "OBJSENSE", "ROWS", "COLUMNS", "RHS", "RANGES", "BOUNDS",
-                                  "QUADOBJ", "QSECTION", "QMATRIX", "ENDATA"};
-    bool found = false;
-    for (const char* one : known) found = found || section_ == one;
-    if (!found) fail("unknown section " + in_quotes(section_));
+    const auto found = sections.find(section_);
+    if (found == sections.end()) fail("unknown section " + in_quotes(section_));
+    take_entry_ = found->second;
     set_.clear();
     if (section_ == "NAME" && fields_.size() > 1) out_.name = fields_[1];
     if (section_ == "OBJSENSE" && fields_.size() > 1) sense(fields_[1]);
@@ -56,14 +59,11 @@ class QpsReader {
   }
 
   void entry() {
-    if (section_ == "OBJSENSE") sense(fields_[0]);
-    else if (section_ == "ROWS") row();
-    else if (section_ == "COLUMNS") column();
-    else if (section_ == "RHS" || section_ == "RANGES") right_hand_side();
-    else if (section_ == "BOUNDS") bound();
-    else if (section_ == "QUADOBJ" || section_ == "QSECTION" || section_ == "QMATRIX") quadratic();
-    else fail(section_.empty() ? "an entry before the first section" : "section " + section_ + " takes no entries");
+    if (!take_entry_) fail(section_.empty() ? "an entry before the first section" : "section " + section_ + " takes no entries");
+    (this->*take_entry_)();
   }
+
+  void objective_sense() { sense(fields_[0]); }
 
   void sense(const std::string& word) {
     if (word == "MAX" || word == "MAXIMIZE") maximise_ = true;
@@ -80,26 +80,19 @@ class QpsReader {
       has_objective_ = true;
       return;
     }
-    rows_[fields_[1]] = static_cast<int>(types_.size());
-    types_.push_back(type[0]);
-    rhs_.push_back(0);
-    range_.push_back(NAN);
+    rows_[fields_[1]] = static_cast<int>(row_.size());
+    row_.push_back({type[0]});
   }
 
   void column() {
     if (fields_.size() > 1 && fields_[1] == "'MARKER'") fail("integer variables are not supported");
     if (fields_.size() != 3 && fields_.size() != 5) fail("a column needs its name and one or two pairs of row and value");
     const auto [place, added] = columns_.try_emplace(fields_[0], static_cast<int>(columns_.size()));
-    if (added) {
-      q_.push_back(0);
-      low_.push_back(0);
-      high_.push_back(INFINITY);
-      low_given_.push_back(false);
-    }
+    if (added) column_.emplace_back();
     for (std::size_t k = 1; k < fields_.size(); k += 2) {
       const int r = row_named(fields_[k]);
       const double value = number(fields_[k + 1]);
-      if (r == kObjective) q_[place->second] += value;
+      if (r == kObjective) column_[place->second].q += value;
       else if (r != kLeftOut) A_.emplace_back(r, place->second, value);
     }
   }
@@ -113,7 +106,7 @@ class QpsReader {
       const double value = number(fields_[k + 1]);
       if (r == kObjective && std::isinf(value)) fail("the constant of the objective is not finite");
       if (r == kObjective && section_ == "RHS") constant_ = -value;
-      else if (r >= 0) (section_ == "RHS" ? rhs_ : range_)[r] = value;
+      else if (r >= 0) (section_ == "RHS" ? row_[r].rhs : row_[r].range) = value;
     }
   }
 
@@ -128,13 +121,13 @@ class QpsReader {
     const bool named = valued ? fields_.size() > 3 : !columns_.count(fields_[1]) || (fields_.size() > 2 && columns_.count(fields_[2]));
     if (named && fields_.size() < least + 1) fail("unknown column " + in_quotes(fields_[1]));
     if (named && !in_set(fields_[1])) return;
-    const int j = column_named(fields_[named ? 2 : 1]);
+    Column& column = column_[column_named(fields_[named ? 2 : 1])];
     const double value = valued ? number(fields_[named ? 3 : 2]) : 0;
-    if (type == "LO" || type == "FX") low_[j] = value, low_given_[j] = true;
-    if (type == "UP" || type == "FX") high_[j] = value;
-    if (type == "FR" || type == "MI") low_[j] = -INFINITY, low_given_[j] = true;
-    if (type == "FR" || type == "PL") high_[j] = INFINITY;
-    if (type == "UP" && value < 0 && !low_given_[j]) low_[j] = -INFINITY;
+    if (type == "LO" || type == "FX") column.low = value, column.low_given = true;
+    if (type == "UP" || type == "FX") column.high = value;
+    if (type == "FR" || type == "MI") column.low = -INFINITY, column.low_given = true;
+    if (type == "FR" || type == "PL") column.high = INFINITY;
+    if (type == "UP" && value < 0 && !column.low_given) column.low = -INFINITY;
   }
 
   void quadratic() {
@@ -155,14 +148,11 @@ class QpsReader {
     return set_ == name;
   }
 
-  int row_named(const std::string& name) const {
-    const auto found = rows_.find(name);
-    if (found == rows_.end()) fail("unknown row " + in_quotes(name));
-    return found->second;
-  }
-  int column_named(const std::string& name) const {
-    const auto found = columns_.find(name);
-    if (found == columns_.end()) fail("unknown column " + in_quotes(name));
+  int row_named(const std::string& name) const { return named(rows_, "row", name); }
+  int column_named(const std::string& name) const { return named(columns_, "column", name); }
+  int named(const std::map<std::string, int>& all, const char* kind, const std::string& name) const {
+    const auto found = all.find(name);
+    if (found == all.end()) fail(text("unknown ", kind, " ", in_quotes(name)));
     return found->second;
   }
   double number(const std::string& field) const {
@@ -175,49 +165,60 @@ class QpsReader {
 
   QuadraticProgram program() {
     const int n = static_cast<int>(columns_.size());
-    int m = static_cast<int>(types_.size());
     if (!has_objective_) fail("no row of type N: there is no objective");
     for (const auto& [pair, difference] : both_)
       if (difference != 0) fail("QMATRIX is not symmetric: give both triangles, or QUADOBJ and one");
-    for (int r = 0; r < m; ++r) {
-      const double b = rhs_[r], width = std::isnan(range_[r]) ? 0 : range_[r];
-      const bool ranged = !std::isnan(range_[r]);
-      double low = types_[r] == 'L' ? -INFINITY : b, high = types_[r] == 'G' ? INFINITY : b;
-      if (ranged && types_[r] == 'L') low = b - std::abs(width);
-      if (ranged && types_[r] == 'G') high = b + std::abs(width);
-      if (ranged && types_[r] == 'E') (width < 0 ? low : high) += width;
-      lows_.push_back(low), highs_.push_back(high);
-    }
-    for (int j = 0; j < n; ++j) {
-      if (std::isinf(low_[j]) && std::isinf(high_[j])) continue;
-      A_.emplace_back(m++, j, 1.0);
-      lows_.push_back(low_[j]), highs_.push_back(high_[j]);
-    }
     const double sign = maximise_ ? -1 : 1;
+    std::vector<double> lows, highs;
+    for (const Row& row : row_) {
+      double low = row.type == 'L' ? -INFINITY : row.rhs, high = row.type == 'G' ? INFINITY : row.rhs;
+      const bool ranged = !std::isnan(row.range);
+      if (ranged && row.type == 'L') low = row.rhs - std::abs(row.range);
+      if (ranged && row.type == 'G') high = row.rhs + std::abs(row.range);
+      if (ranged && row.type == 'E') (row.range < 0 ? low : high) += row.range;
+      lows.push_back(low), highs.push_back(high);
+    }
+    out_.q.resize(n);
+    for (int j = 0; j < n; ++j) {
+      const Column& column = column_[j];
+      out_.q[j] = sign * column.q;
+      if (std::isinf(column.low) && std::isinf(column.high)) continue;
+      A_.emplace_back(static_cast<int>(lows.size()), j, 1.0);
+      lows.push_back(column.low), highs.push_back(column.high);
+    }
+    const auto m = static_cast<int>(lows.size());
     out_.P = SparseMatrix(n, n);
     out_.P.setFromTriplets(P_.begin(), P_.end());
     out_.P *= sign;
-    out_.q = sign * Eigen::Map<Vector>(q_.data(), n);
     out_.r = sign * constant_;
     out_.A = SparseRows(m, n);
     out_.A.setFromTriplets(A_.begin(), A_.end());
-    out_.low = Eigen::Map<Vector>(lows_.data(), m);
-    out_.high = Eigen::Map<Vector>(highs_.data(), m);
+    out_.low = Eigen::Map<Vector>(lows.data(), m);
+    out_.high = Eigen::Map<Vector>(highs.data(), m);
     check(out_);
     return out_;
   }
+
+  struct Row {
+    char type;
+    double rhs = 0, range = NAN;
+  };
+  struct Column {
+    double q = 0, low = 0, high = INFINITY;
+    bool low_given = false;
+  };
 
   static constexpr int kObjective = -1, kLeftOut = -2;
   static constexpr std::size_t kMostFields = 20;
   std::istream& in_;
   std::string name_, section_, set_;
+  void (QpsReader::*take_entry_)() = nullptr;  ///< of the section
   int number_ = 0;
   bool ended_ = false, has_objective_ = false, maximise_ = false;
   std::vector<std::string> fields_;
   std::map<std::string, int> rows_, columns_;
-  std::string types_;
-  std::vector<double> rhs_, range_, q_, low_, high_, lows_, highs_;
-  std::vector<bool> low_given_;
+  std::vector<Row> row_;
+  std::vector<Column> column_;
   double constant_ = 0;
   Entries A_, P_;
   std::map<std::pair<int, int>, double> both_;  ///< of QMATRIX: lower less upper entries

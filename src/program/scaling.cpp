@@ -8,6 +8,13 @@
 namespace dotyk::program {
 namespace {
 
+/// visit(row, column, value) of every entry, whose value it may change.
+template <class Matrix, class Visit>
+void visit_entries(Matrix& a, const Visit& visit) {
+  for (Eigen::Index k = 0; k < a.outerSize(); ++k)
+    for (typename Matrix::InnerIterator it(a, k); it; ++it) visit(it.row(), it.col(), it.valueRef());
+}
+
 /// Divides by the root of what is not zero.
 void divide(Vector& factor, const Vector& largest) {
   for (int i = 0; i < factor.size(); ++i)
@@ -15,6 +22,13 @@ void divide(Vector& factor, const Vector& largest) {
 }
 
 }  // namespace
+
+void Scaled::take_back(Result& result) const {
+  result.x = x(result.x);
+  result.y = y(result.y);
+  if (result.status == Status::unbounded) result.direction = x(result.direction).normalized();
+  if (result.status == Status::infeasible) result.direction = row.cwiseProduct(result.direction);
+}
 
 double objective_unit(const QuadraticProgram& p) {
   constexpr double kLikeOne = 1e6;
@@ -27,26 +41,16 @@ Scaled scale(const QuadraticProgram& p) {
   Scaled s{p, Vector::Ones(n), Vector::Ones(m), 1 / objective_unit(p)};
   QuadraticProgram& t = s.program;
   const auto apply = [&] {
-    for (int j = 0; j < n; ++j)
-      for (SparseMatrix::InnerIterator it(p.P, j); it; ++it)
-        t.P.valuePtr()[&it.value() - p.P.valuePtr()] = it.value() * s.cost * s.column[j] * s.column[it.row()];
-    for (int i = 0; i < m; ++i)
-      for (SparseRows::InnerIterator it(p.A, i); it; ++it)
-        t.A.valuePtr()[&it.value() - p.A.valuePtr()] = it.value() * s.row[i] * s.column[it.col()];
+    t.P = p.P, t.A = p.A;
+    visit_entries(t.P, [&](auto i, auto j, double& value) { value = value * s.cost * s.column[j] * s.column[i]; });
+    visit_entries(t.A, [&](auto i, auto j, double& value) { value = value * s.row[i] * s.column[j]; });
   };
+  const auto raise = [](double& most, double value) { most = std::max(most, std::abs(value)); };
   apply();
   for (int round = 0; round < 10; ++round) {
     Vector columns = Vector::Zero(n), rows = Vector::Zero(m);
-    for (int j = 0; j < n; ++j)
-      for (SparseMatrix::InnerIterator it(t.P, j); it; ++it) {
-        columns[j] = std::max(columns[j], std::abs(it.value()));
-        columns[it.row()] = std::max(columns[it.row()], std::abs(it.value()));
-      }
-    for (int i = 0; i < m; ++i)
-      for (SparseRows::InnerIterator it(t.A, i); it; ++it) {
-        columns[it.col()] = std::max(columns[it.col()], std::abs(it.value()));
-        rows[i] = std::max(rows[i], std::abs(it.value()));
-      }
+    visit_entries(t.P, [&](auto i, auto j, double value) { raise(columns[i], value), raise(columns[j], value); });
+    visit_entries(t.A, [&](auto i, auto j, double value) { raise(rows[i], value), raise(columns[j], value); });
     divide(s.column, columns);
     divide(s.row, rows);
     apply();

@@ -14,6 +14,8 @@ struct Scaled {
 
   Vector x(const Vector& scaled) const { return column.cwiseProduct(scaled); }
   Vector y(const Vector& scaled) const { return row.cwiseProduct(scaled) / cost; }
+  /// Turns a result of the program into one of the program that it was made of.
+  void take_back(Result& result) const;
 };
 
 /// The greatest entry of P and q where that is beyond 1e±6, else 1: divided by it, an objective is of numbers like 1.

@@ -3,7 +3,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "program/refine.hpp"
+#include "program/certificate.hpp"
 
 namespace dotyk::program {
 namespace {
@@ -18,33 +18,31 @@ constexpr double kRefined = 1e-13, kConsistent = 1e-8;
 }  // namespace
 
 WorkingKkt::WorkingKkt(const QuadraticProgram& program)
-    : p_(program), n_(program.unknowns()), m_(program.rows()), kkt_(program), taken_(m_, 0), base_(m_, 0), random_(n_ + m_) {
+    : p_(program), n_(program.unknowns()), m_(program.rows()), kkt_(program), taken_(m_, 0), random_(n_ + m_) {
   std::mt19937 engine(1);
   for (double& x : random_) x = engine() / 4294967296.0 - 0.5;
-}
-
-void WorkingKkt::set(const std::vector<char>& taken) {
-  taken_ = taken;
-  stale_ = true;
 }
 
 void WorkingKkt::change(int row, bool in) {
   if (taken_[row] == static_cast<char>(in)) return;
   taken_[row] = in;
   if (stale_) return;
-  for (std::size_t k = 0; k < border_.size(); ++k)
-    if (border_[k].row == row) return drop(k);
-  if (border_.size() == kBorders) stale_ = true;
-  else append(row, in);
+  if (std::erase_if(border_, [row](const Border& b) { return b.row == row; }) == 0) {
+    stale_ = border_.size() == kBorders;
+    if (stale_) return;
+    Vector column = Vector::Zero(n_ + m_);
+    if (in) column.head(n_) = p_.A.row(row).transpose();
+    else column[n_ + row] = 1;
+    border_.push_back({row, in, kkt_.solve(column)});
+  }
+  form_schur();
 }
 
 void WorkingKkt::factor(double least) {
   for (delta_ = least; delta_ <= 1; delta_ *= 10) {
     ++factorisations_;
     if (!kkt_.factor(delta_, Vector::Constant(m_, delta_), taken_)) continue;
-    base_ = taken_;
     border_.clear();
-    columns_.clear();
     least_ = delta_ >= kSafe ? kSafe : std::max(kLeastRegularisation, 0.1 * delta_);
     stale_ = false;
     return;
@@ -52,33 +50,14 @@ void WorkingKkt::factor(double least) {
   throw std::runtime_error("active set: the KKT matrix cannot be factored");
 }
 
-void WorkingKkt::append(int row, bool in) {
-  Vector column = Vector::Zero(n_ + m_);
-  if (in)
-    for (SparseRows::InnerIterator it(p_.A, row); it; ++it) column[it.col()] = it.value();
-  else
-    column[n_ + row] = 1;
-  border_.push_back({row, in});
-  columns_.push_back(kkt_.solve(column));
-  drop(border_.size());
-}
-
-/// Takes a border away (none for k past the end) and forms the Schur complement of the others.
-void WorkingKkt::drop(std::size_t k) {
-  if (k < border_.size()) {
-    border_.erase(border_.begin() + static_cast<std::ptrdiff_t>(k));
-    columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(k));
-  }
+void WorkingKkt::form_schur() {
   const auto size = static_cast<Eigen::Index>(border_.size());
-  if (size == 0) return;
   algebra::DenseMatrix s(size, size);
   for (Eigen::Index i = 0; i < size; ++i) {
-    const Border& b = border_[i];
-    for (Eigen::Index j = 0; j < size; ++j)
-      s(i, j) = b.in ? p_.A.row(b.row).dot(columns_[j].head(n_)) : columns_[j][n_ + b.row];
-    if (b.in) s(i, i) += delta_;
+    for (Eigen::Index j = 0; j < size; ++j) s(i, j) = border_[i].times(p_, border_[j].column);
+    if (border_[i].in) s(i, i) += delta_;
   }
-  schur_ = algebra::Lu(std::move(s));
+  if (size > 0) schur_ = algebra::Lu(std::move(s));
 }
 
 /// (p, y) of the regularised system; y of rows outside W is zero.
@@ -88,12 +67,10 @@ Vector WorkingKkt::regularised(const Vector& b) const {
   Vector z = kkt_.solve(base);
   if (!border_.empty()) {
     Vector t(static_cast<Eigen::Index>(border_.size()));
-    for (std::size_t i = 0; i < border_.size(); ++i) {
-      const Border& k = border_[i];
-      t[i] = k.in ? p_.A.row(k.row).dot(z.head(n_)) - b[n_ + k.row] : z[n_ + k.row];
-    }
+    for (std::size_t i = 0; i < border_.size(); ++i)
+      t[i] = border_[i].times(p_, z) - (border_[i].in ? b[n_ + border_[i].row] : 0);
     t = schur_.solve(t);
-    for (std::size_t i = 0; i < border_.size(); ++i) z -= t[i] * columns_[i];
+    for (std::size_t i = 0; i < border_.size(); ++i) z -= t[i] * border_[i].column;
     for (std::size_t i = 0; i < border_.size(); ++i) z[n_ + border_[i].row] = border_[i].in ? t[i] : 0;
   }
   for (int r = 0; r < m_; ++r)
@@ -154,10 +131,7 @@ WorkingKkt::Solution WorkingKkt::solve(const Vector& f, const Vector& h, const V
 }
 
 Vector WorkingKkt::restore(const Vector& h) {
-  SparseMatrix unit(n_, n_);
-  unit.setIdentity();
-  QuadraticProgram nearest = p_;
-  nearest.P = unit;
+  const QuadraticProgram nearest = nearest_point(p_);
   Kkt kkt(nearest);
   const double delta = 1e-8;
   if (!kkt.factor(delta, Vector::Constant(m_, delta), taken_)) return Vector::Zero(n_);

@@ -18,9 +18,9 @@ class WorkingKkt {
     bool singular;    ///< the KKT matrix has an eigenvalue of 1e-9 or less
   };
 
-  void set(const std::vector<char>& taken);  ///< m flags; factored anew at the next solve
+  /// m flags; factored anew at the next solve.
+  void set(const std::vector<char>& taken) { taken_ = taken, stale_ = true; }
   void change(int row, bool in);
-  const std::vector<char>& taken() const { return taken_; }
 
   /// Corrects multipliers: [P A_Wᵀ; A_W 0] (p, y) = (f, h), y as near to `y0` (m) as the rows allow; f: n,
   /// h: m (entries outside W are ignored). Where the system is inconsistent, p is the solution of the
@@ -35,10 +35,14 @@ class WorkingKkt {
   struct Border {
     int row;
     bool in;
+    Vector column;  ///< factor⁻¹ border
+    /// The border's row times z (n + m).
+    double times(const QuadraticProgram& p, const Vector& z) const {
+      return in ? p.A.row(row).dot(z.head(p.unknowns())) : z[p.unknowns() + row];
+    }
   };
   void factor(double least);
-  void append(int row, bool in);
-  void drop(std::size_t k);
+  void form_schur();
   Vector regularised(const Vector& b) const;
   Vector rhs(const Vector& f, const Vector& h) const;
   bool probe() const;
@@ -46,9 +50,8 @@ class WorkingKkt {
   const QuadraticProgram& p_;
   int n_, m_;
   Kkt kkt_;
-  std::vector<char> taken_, base_;  ///< W now, and when last factored
-  std::vector<Border> border_;
-  std::vector<Vector> columns_;     ///< factor⁻¹ border
+  std::vector<char> taken_;
+  std::vector<Border> border_;  ///< rows that came or went since the matrix was factored
   algebra::Lu schur_;
   bool stale_ = true;
   double delta_ = 0, least_ = 0;  ///< regularisation of the factor, and where to begin the next time

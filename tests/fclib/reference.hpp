@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fclib/read.hpp"
+#include "fclib/contact_problem.hpp"
 
 // Problems of ../shared/reference/fclib, read where they lie; tests skip, saying so, where they are absent.
 

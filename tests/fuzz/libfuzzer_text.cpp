@@ -13,11 +13,11 @@
 #include <string_view>
 
 #include "base/monitor.hpp"
-#include "fclib/read.hpp"
+#include "fclib/contact_problem.hpp"
 #include "meshfile/contents.hpp"
 #include "meshfile/mfem.hpp"
 #include "program/lcp.hpp"
-#include "program/qps_file.hpp"
+#include "program/program_file.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "program/bracket.hpp"
+#include "program/certificate.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "program/bracket.hpp"
-#include "program/mat_file.hpp"
+#include "program/certificate.hpp"
+#include "program/program_file.hpp"
 #include "programs.hpp"
 
 using namespace dotyk;

@@ -9,8 +9,7 @@
 #include "../support/file.hpp"
 #include "base/error.hpp"
 #include "program/lcp.hpp"
-#include "program/mat_file.hpp"
-#include "program/qps_file.hpp"
+#include "program/program_file.hpp"
 #include "programs.hpp"
 
 using namespace dotyk;

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "program/qps_file.hpp"
+#include "program/program_file.hpp"
 #include "programs.hpp"
 
 using namespace dotyk;

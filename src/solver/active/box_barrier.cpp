@@ -134,10 +134,11 @@ BoxSolution solve_by_barrier(const BoxProgram& program, double tol) {
   out.lambda = program.low;
   out.alpha = barrier.point().x.cwiseProduct(scaled.motion_unit);
   out.side.assign(program.g.size(), 0);
+  const auto ends = barrier.ends();
   for (int k = 0; k < scaled.size(); ++k) {
     const int i = scaled.rows[k];
     out.lambda[i] = std::clamp(barrier.point().w[k] * scaled.unit[k] * scaled.force, program.low[i], program.high[i]);
-    out.side[i] = static_cast<signed char>(barrier.end(k));
+    out.side[i] = static_cast<signed char>(ends[k].side);
   }
   return out;
 }

@@ -88,10 +88,10 @@ class InteriorBarrier final : public program::Barrier {
   void round(InteriorPointState& out) const {
     out.lambda = at_.w;
     out.x = Vector::Zero(rows());
+    const std::vector<End> all = ends();
     for (int r = 0; r < rows(); ++r) {
-      const Side side = end(r);
-      if (side != Side::free) out.lambda[r] = side == Side::low ? low_[r] : high_[r];
-      out.x[r] = compliance(r) * out.lambda[r] + (side == Side::low ? -at_.zl[r] : side == Side::high ? at_.zu[r] : 0);
+      if (all[r].side != Side::free) out.lambda[r] = all[r].side == Side::low ? low_[r] : high_[r];
+      out.x[r] = compliance(r) * out.lambda[r] + all[r].y;
     }
   }
 

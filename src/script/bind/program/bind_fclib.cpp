@@ -1,7 +1,6 @@
 #include "script/bind/program/bind_fclib.hpp"
 
 #include "base/stopwatch.hpp"
-#include "fclib/read.hpp"
 #include "script/bind/bind.hpp"
 
 namespace dotyk::script {

@@ -2,7 +2,7 @@
 
 #include "program/active_set.hpp"
 #include "program/augmented_lagrangian.hpp"
-#include "program/bracket.hpp"
+#include "program/certificate.hpp"
 #include "program/interior_point.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/program/program_input.hpp"

@@ -1,7 +1,6 @@
 #include "script/bind/program/program_input.hpp"
 
-#include "program/mat_file.hpp"
-#include "program/qps_file.hpp"
+#include "program/program_file.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bridge/position.hpp"
 #include "script/bind/scene/space.hpp"
