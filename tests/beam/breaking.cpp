@@ -5,7 +5,7 @@
 
 #include "../support/exact_beam.hpp"
 #include "base/error.hpp"
-#include "solver/programs/interior_point.hpp"
+#include "solver/programs/program_methods.hpp"
 
 using namespace dotyk;
 using beam::Beam;

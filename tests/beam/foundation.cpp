@@ -5,7 +5,7 @@
 
 #include "../support/exact_beam.hpp"
 #include "base/error.hpp"
-#include "solver/programs/interior_point.hpp"
+#include "solver/programs/program_methods.hpp"
 #include "solver/rows/newton.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/rows/proximal.hpp"

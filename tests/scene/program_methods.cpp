@@ -8,10 +8,8 @@
 #include "program/active_set.hpp"
 #include "program/interior_point.hpp"
 #include "punch.hpp"
-#include "solver/programs/active_set.hpp"
-#include "solver/programs/interior_point.hpp"
+#include "solver/programs/program_methods.hpp"
 #include "solver/programs/penalty.hpp"
-#include "solver/programs/primal_program.hpp"
 
 // The solution of a frictionless scene is unique (up to motions that no row notices, where all methods take the
 // least), so methods that have nothing in common but the problem have to agree.

@@ -5,8 +5,7 @@
 
 #include "../support/laws.hpp"
 #include "base/error.hpp"
-#include "solver/programs/active_set.hpp"
-#include "solver/programs/interior_point.hpp"
+#include "solver/programs/program_methods.hpp"
 #include "solver/programs/penalty.hpp"
 #include "solver/rows/projected_cg.hpp"
 #include "solver/rows/uzawa.hpp"

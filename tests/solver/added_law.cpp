@@ -5,7 +5,7 @@
 
 #include "../support/programs.hpp"
 #include "problem/residual.hpp"
-#include "solver/programs/active_set.hpp"
+#include "solver/programs/program_methods.hpp"
 #include "solver/core/default_method.hpp"
 #include "solver/feti/feti.hpp"
 #include "solver/rows/newton.hpp"

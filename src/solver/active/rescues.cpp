@@ -9,7 +9,7 @@
 #include "solver/active/interior_start.hpp"
 #include "solver/active/refine.hpp"
 #include "solver/core/treatable.hpp"
-#include "solver/programs/active_set.hpp"
+#include "solver/programs/program_methods.hpp"
 #include "solver/rows/proximal.hpp"
 
 namespace dotyk::solver {

@@ -60,17 +60,15 @@ class SpringStep final : public Step {
   }
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
-    Vector k = Vector::Zero(problem_.rows()), pull = k;
+    Vector k = k_;
     for (int r = 0; r < problem_.rows(); ++r)
-      if (l.active[r]) k[r] = k_[r], pull[r] = k_[r] * problem_.c[r];
+      if (!l.active[r]) k[r] = 0;
     if (!cholesky_.factor(matrix(k))) return false;
-    u_ = cholesky_.solve(f_ + problem_.B.transpose() * pull);
+    u_ = cholesky_.solve(f_ + problem_.B.transpose() * k.cwiseProduct(problem_.c));
     if (!u_.allFinite()) return false;
     u_ = problem::least(unnoticed_, std::move(u_));
     x = problem_.B * u_ - problem_.c;
-    lambda = Vector::Zero(problem_.rows());
-    for (int r = 0; r < problem_.rows(); ++r)
-      if (l.active[r]) lambda[r] = k_[r] * x[r];
+    lambda = k.cwiseProduct(x);
     return true;
   }
 

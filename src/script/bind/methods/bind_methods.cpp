@@ -1,8 +1,7 @@
 #include "script/bind/bind.hpp"
 #include "script/bind/methods/method_keys.hpp"
 #include "solver/active/pdas.hpp"
-#include "solver/programs/active_set.hpp"
-#include "solver/programs/interior_point.hpp"
+#include "solver/programs/program_methods.hpp"
 #include "solver/programs/penalty.hpp"
 #include "solver/rows/newton.hpp"
 
