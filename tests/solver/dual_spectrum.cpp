@@ -1,4 +1,4 @@
-#include "solver/feti/dual_spectrum.hpp"
+#include "solver/feti/coarse_space.hpp"
 
 #include <doctest/doctest.h>
 

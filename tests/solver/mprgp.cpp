@@ -99,7 +99,7 @@ TEST_CASE("products with A grow no faster than the square root of the condition 
       const KnownMinimum known = test::known_minimum(random, n, shape);
       const Vector b = A * known.x - known.g;
       Mprgp method(map(A), 1, b, known.set, Vector::Zero(n));
-      method.minimise(below(1e-8 * b.norm()));
+      test::minimise(method, below(1e-8 * b.norm()));
       CHECK(method.halt() == Halt::none);
       const double theory = 0.5 * std::sqrt(kappa) * std::log(2e8 * std::sqrt(kappa));
       CHECK(method.products() <= (shape == Shape::discs || shape == Shape::mixed ? 1.3 : 1.02) * theory + 10);
@@ -115,7 +115,7 @@ TEST_CASE("box-constrained programs: the same minimum as by the active-set and t
     const Vector high = low + Vector(random.vector(n).cwiseAbs());
     const SeparableSet set(low, high);
     Mprgp method(map(A), 1, b, set, low);
-    method.minimise(below(1e-12 * b.norm()));
+    test::minimise(method, below(1e-12 * b.norm()));
     CHECK(method.halt() == Halt::none);
 
     program::QuadraticProgram qp;

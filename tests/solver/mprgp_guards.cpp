@@ -37,7 +37,7 @@ TEST_CASE("A with a kernel: a minimum is found, where bounds hold the kernel's p
       const KnownMinimum known = test::known_minimum(random, n, shape);
       const Vector b = A * known.x - known.g;  // a part of g is in the kernel
       Mprgp method(map(A), 1, b, known.set, Vector::Zero(n));
-      method.minimise(below(1e-10 * b.norm()));
+      test::minimise(method, below(1e-10 * b.norm()));
       CHECK(method.halt() == Halt::none);
       CHECK(method.steps() < 10000);
       CHECK(known.set.contains(method.x()));
@@ -55,7 +55,7 @@ TEST_CASE("zero curvature and nothing in the way: unbounded, along a direction t
   const Vector b = random.vector(n);  // not in the range of A
   const SeparableSet all = everything(n);
   Mprgp endless(map(A), 1, b, all, Vector::Zero(n));
-  endless.minimise(below(0));
+  test::minimise(endless, below(0));
   REQUIRE(endless.halt() == Halt::unbounded);
   const Vector p = endless.direction() / endless.direction().norm();
   CHECK((A * p).norm() <= 1e-6);
@@ -73,9 +73,9 @@ TEST_CASE("rounding ends what asks for more than there is, soon and at its level
       const KnownMinimum known = test::known_minimum(random, n, shape, 0.3);
       const Vector b = A * known.x - known.g;
       Mprgp to_twelve(map(A), 1, b, known.set, Vector::Zero(n)), to_end(map(A), 1, b, known.set, Vector::Zero(n));
-      to_twelve.minimise(below(1e-12 * b.norm()));
+      test::minimise(to_twelve, below(1e-12 * b.norm()));
       CHECK(to_twelve.halt() == Halt::none);
-      to_end.minimise(below(0));
+      test::minimise(to_end, below(0));
       CHECK((to_end.halt() == Halt::rounding || to_end.halt() == Halt::solved));
       CHECK(to_end.projected_gradient_norm() <= 1e-14 * b.norm());
       CHECK(to_end.products() <= 2 * to_twelve.products() + 20);
@@ -93,7 +93,7 @@ TEST_CASE("a product with noise of 1e-8 ends at that level") {
     const Vector b = A * known.x - known.g;
     const auto noisy = [&](const Vector& v) -> Vector { return A * v + 1e-8 * v.norm() / std::sqrt(n) * noise.vector(n); };
     Mprgp method(noisy, 1, b, known.set, Vector::Zero(n));
-    method.minimise(below(1e-12, 20000));
+    test::minimise(method, below(1e-12, 20000));
     CHECK(method.halt() == Halt::rounding);
     CHECK(method.projected_gradient_norm() <= 1e-6);
   }
@@ -106,7 +106,7 @@ TEST_CASE("numbers that are not finite end it at the last good x") {
     int calls = 0;
     const auto bad = [&](const Vector& v) -> Vector { return calls++ < good ? v : Vector(std::nan("") * v); };
     Mprgp method(bad, 1, Vector{{0.9, 0.5, 7}}, set, Vector::Constant(3, 0.1));
-    method.minimise(below(0));
+    test::minimise(method, below(0));
     CHECK(method.halt() == Halt::not_finite);
     CHECK(set.contains(method.x()));
     CHECK(method.step() == Mprgp::Step::none);
@@ -122,7 +122,7 @@ TEST_CASE("a norm that is too small is noticed and raised") {
       const KnownMinimum known = test::known_minimum(random, 90, shape);
       const Vector b = A * known.x - known.g;
       Mprgp method(map(A), 1e-3, b, known.set, Vector::Zero(90), {.expansion = expansion});
-      method.minimise(below(1e-10 * b.norm()));
+      test::minimise(method, below(1e-10 * b.norm()));
       CHECK(method.halt() == Halt::none);
       CHECK((method.x() - known.x).norm() <= 1.5e-10 * b.norm() / 1e-2);
       CHECK(method.norm() > 0.1);
@@ -145,8 +145,8 @@ TEST_CASE("a preconditioner is applied in the face") {
     const Vector b = A * known.x - (known.set.has_discs() ? 1e-5 : 1) * known.g;
     const auto M = [&](const Vector& v, const Vector&, const SeparableSet::Gradients&) -> Vector { return weight.cwiseProduct(v); };
     Mprgp plain(map(A), 1, b, known.set, Vector::Zero(n)), better(map(A), 1, b, known.set, Vector::Zero(n), {.preconditioner = M});
-    plain.minimise(below(1e-9 * b.norm()));
-    better.minimise(below(1e-9 * b.norm()));
+    test::minimise(plain, below(1e-9 * b.norm()));
+    test::minimise(better, below(1e-9 * b.norm()));
     CHECK(better.halt() == Halt::none);
     CHECK((better.x() - known.x).norm() <= 1.5e-9 * b.norm() / (1e-4 * 0.05));
     CHECK(2 * better.products() <= plain.products());
@@ -157,19 +157,19 @@ TEST_CASE("nothing to minimise over: empty, all fixed, zero matrix") {
   const DenseMatrix none(0, 0);
   const SeparableSet empty(Vector(0), Vector(0));
   Mprgp nothing(map(none), 0, Vector(0), empty, Vector(0));
-  nothing.minimise(below(-1));
+  test::minimise(nothing, below(-1));
   CHECK(nothing.halt() == Halt::solved);
 
   const DenseMatrix one = DenseMatrix::Identity(4, 4), zero = DenseMatrix::Zero(4, 4);
   const SeparableSet fixed(Vector{{1, 2, -test::kNoEnd, -test::kNoEnd}}, Vector{{1, 2, test::kNoEnd, test::kNoEnd}}, {{2, 3, {3, 4}, 0}});
   Mprgp held(map(one), 1, Vector::Ones(4), fixed, Vector::Zero(4));
-  held.minimise(below(-1));
+  test::minimise(held, below(-1));
   CHECK(held.halt() == Halt::solved);
   CHECK(held.x() == Vector{{1, 2, 3, 4}});
 
   const SeparableSet box(Vector::Constant(4, -1), Vector::Constant(4, 2));
   Mprgp linear(map(zero), 0, Vector{{1, -1, 0, 3}}, box, Vector::Zero(4));
-  linear.minimise(below(-1));
+  test::minimise(linear, below(-1));
   CHECK(linear.halt() == Halt::solved);
   CHECK(linear.x() == Vector{{2, -1, 0, 2}});
 }
@@ -181,11 +181,11 @@ TEST_CASE("it goes on from x with another b, the gradient changed by hand") {
   const KnownMinimum known = test::known_minimum(random, n, Shape::mixed);
   const Vector b = A * known.x - known.g, change = random.vector(n);
   Mprgp method(map(A), 1, b + change, known.set, Vector::Zero(n));
-  method.minimise(below(1e-3));
+  test::minimise(method, below(1e-3));
   const int products = method.products();
   method.restart(b, 1, method.g() + change);
   CHECK(method.products() == products);
   CHECK((A * method.x() - b - method.g()).norm() <= 1e-13 * b.norm());
-  method.minimise(below(1e-11));
+  test::minimise(method, below(1e-11));
   CHECK((method.x() - known.x).norm() <= 2e-9);
 }

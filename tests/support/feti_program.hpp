@@ -7,9 +7,9 @@
 
 #include "scene/model/model.hpp"
 #include "scenes.hpp"
-#include "solver/bounded/dual_bounds.hpp"
-#include "solver/feti/dual_spectrum.hpp"
-#include "solver/feti/face_coarse.hpp"
+#include "solver/bounded/dual_laws.hpp"
+#include "solver/feti/coarse_space.hpp"
+#include "solver/feti/feti_preconditioner.hpp"
 #include "solver/rows/projection.hpp"
 #include "solver/bounded/smalbe.hpp"
 

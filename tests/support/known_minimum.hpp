@@ -39,9 +39,20 @@ inline solver::LinearMap map(const DenseMatrix& A) {
 enum class Shape { none, low, box, discs, mixed };
 inline constexpr Shape kShapes[] = {Shape::none, Shape::low, Shape::box, Shape::discs, Shape::mixed};
 
-/// Ends Mprgp::minimise where ‖g^P‖ ≤ tol, or after `most` steps.
+/// Ends minimise() where ‖g^P‖ ≤ tol, or after `most` steps.
 inline std::function<bool(const solver::Mprgp&)> below(double tol, int most = 10000) {
   return [=](const solver::Mprgp& method) { return method.projected_gradient_norm() <= tol || method.steps() >= most; };
+}
+
+/// Steps until until(method), confirmed with g computed anew, or a halt.
+inline void minimise(solver::Mprgp& method, const std::function<bool(const solver::Mprgp&)>& until) {
+  for (;;) {
+    if (until(method)) {
+      method.refresh();
+      if (until(method)) return;
+    }
+    if (method.step() == solver::Mprgp::Step::none) return;
+  }
 }
 
 struct KnownMinimum {

@@ -36,10 +36,14 @@ constexpr double kHardly = 0.05;
 Mprgp::Mprgp(LinearMap A, double norm, Vector b, const SeparableSet& set, Vector x, MprgpSettings settings)
     : A_(std::move(A)), norm_(norm), b_(std::move(b)), set_(set), settings_(std::move(settings)),
       x_(set.project(std::move(x))) {
-  set_gradient(x_.isZero(0) ? Vector(-b_) : Vector(times(x_) - b_));
+  begin(x_.isZero(0) ? Vector(-b_) : Vector(times(x_) - b_));
+}
+
+void Mprgp::begin(Vector g) {
+  set_gradient(std::move(g));
   q_ = 0.5 * x_.dot(g_ - b_);
   least_ = projected_gradient_norm();
-  if (!std::isfinite(q_) || !g_.allFinite()) halt_ = Halt::not_finite;
+  halt_ = std::isfinite(q_) && g_.allFinite() ? Halt::none : Halt::not_finite;
 }
 
 Vector Mprgp::times(const Vector& v) {
@@ -104,13 +108,10 @@ void Mprgp::measure_noise(double difference) {
 void Mprgp::restart(Vector b, double norm, Vector g) {
   b_ = std::move(b);
   norm_ = norm;
-  set_gradient(std::move(g));
-  q_ = 0.5 * x_.dot(g_ - b_);
   direction_.resize(0);
-  least_ = projected_gradient_norm();
   noisy_ = failed_ = since_least_ = 0;
   ++recurrences_;
-  halt_ = std::isfinite(q_) && g_.allFinite() ? Halt::none : Halt::not_finite;
+  begin(std::move(g));
 }
 
 Mprgp::Step Mprgp::step() {
@@ -122,16 +123,6 @@ Mprgp::Step Mprgp::step() {
   ++steps_;
   watch();
   return made;
-}
-
-void Mprgp::minimise(const std::function<bool(const Mprgp&)>& until) {
-  for (;;) {
-    if (until(*this)) {
-      refresh();
-      if (until(*this)) return;
-    }
-    if (step() == Step::none) return;
-  }
 }
 
 /// Keeps g true, and notices where there is nothing more to win.

@@ -60,9 +60,6 @@ class Mprgp {
 
   /// Makes one step; `none` where halt() says why there is none.
   Step step();
-  /// Steps until until(*this), confirmed with g computed anew, or a halt. Nothing else ends it: until may count
-  /// steps() as well.
-  void minimise(const std::function<bool(const Mprgp&)>& until);
   /// Computes g = Ax − b anew, unless it is.
   void refresh();
   /// The same where the bends of circles are left out of g and q so far (see above).
@@ -72,8 +69,6 @@ class Mprgp {
 
   const algebra::Vector& x() const { return x_; }
   const algebra::Vector& g() const { return g_; }
-  const algebra::Vector& free_gradient() const { return gradients_.free; }
-  const algebra::Vector& chopped_gradient() const { return gradients_.chopped; }
   const std::vector<SeparableSet::Place>& face() const { return gradients_.face; }
   double projected_gradient_norm() const;
   double q() const { return q_; }
@@ -101,6 +96,7 @@ class Mprgp {
   void advance(double alpha, const algebra::Vector& p, const algebra::Vector& Ap);
   void raise_norm(double quotient);
   void set_gradient(algebra::Vector g);
+  void begin(algebra::Vector g);
   Step stop(Halt why);
   Step unbounded(algebra::Vector direction);
   bool at_rounding() const;

@@ -29,7 +29,7 @@ void check_discs(const Vector& low, const Vector& high, const std::vector<Separa
   for (const auto& disc : discs) {
     if (!(disc.radius >= 0 && std::isfinite(disc.radius)) || !disc.centre.allFinite())
       throw InputError(text("separable set: a disc of radius ", disc.radius, " about ", disc.centre.transpose()));
-    for (const int i : {disc.first, disc.second}) {
+    for (const int i : disc.both()) {
       if (i < 0 || i >= low.size() || taken[i]++)
         throw InputError(text("separable set: component ", i, " of a disc is not one of ", low.size(), " or has another"));
       if (low[i] != -kInfinity || high[i] != kInfinity)
@@ -71,11 +71,7 @@ SeparableSet::SeparableSet(Vector low, Vector high, std::vector<Disc> discs)
 
 Vector SeparableSet::project(Vector x) const {
   x = x.cwiseMax(low_).cwiseMin(high_);
-  for (const Disc& disc : discs_) {
-    const Eigen::Vector2d point = nearest(disc, {x[disc.first], x[disc.second]});
-    x[disc.first] = point[0];
-    x[disc.second] = point[1];
-  }
+  for (const Disc& disc : discs_) x(disc.both()) = nearest(disc, x(disc.both()));
   return x;
 }
 
@@ -102,7 +98,7 @@ SeparableSet::Gradients SeparableSet::gradients(const Vector& x, const Vector& g
 
 void SeparableSet::classify(std::size_t k, const Vector& x, const Vector& g, Gradients& out) const {
   const Disc& disc = discs_[k];
-  const Eigen::Vector2d u = offset(disc, x), own(g[disc.first], g[disc.second]);
+  const Eigen::Vector2d u = offset(disc, x), own = g(disc.both());
   const double length = u.norm();
   if (length < edge_[k]) return;
   const bool slides = disc.radius > 0 && length > 0;
@@ -110,7 +106,7 @@ void SeparableSet::classify(std::size_t k, const Vector& x, const Vector& g, Gra
   const double inward = std::max(0.0, n.dot(own));
   out.slides = out.slides || slides;
   for (const int c : {0, 1}) {
-    const int i = c ? disc.second : disc.first;
+    const int i = disc.both()[c];
     out.face[i] = slides ? Place::sliding : Place::active;
     out.free[i] = slides ? own[c] - n.dot(own) * n[c] : 0;
     out.chopped[i] = inward * n[c];
@@ -124,9 +120,7 @@ Vector SeparableSet::tangential(const Vector& x, const Gradients& gradients, Vec
   for (const Disc& disc : discs_) {
     if (gradients.face[disc.first] != Place::sliding) continue;
     const Eigen::Vector2d n = offset(disc, x).normalized();
-    const double off = n[0] * v[disc.first] + n[1] * v[disc.second];
-    v[disc.first] -= off * n[0];
-    v[disc.second] -= off * n[1];
+    v(disc.both()) -= n.dot(v(disc.both())) * n;
   }
   return v;
 }
@@ -151,12 +145,8 @@ Vector SeparableSet::reduced_free(const Vector& x, const Vector& free, double al
   // (x − low)/α rather than a difference of points: exact far from the ends.
   Vector reduced = free.cwiseMin((x - low_) / alpha).cwiseMax((x - high_) / alpha);
   for (const Disc& disc : discs_) {
-    const Eigen::Vector2d own(x[disc.first], x[disc.second]);
-    const Eigen::Vector2d moved = own - alpha * Eigen::Vector2d(free[disc.first], free[disc.second]);
-    const Eigen::Vector2d point = nearest(disc, moved);
-    if (point == moved) continue;
-    reduced[disc.first] = (own[0] - point[0]) / alpha;
-    reduced[disc.second] = (own[1] - point[1]) / alpha;
+    const Eigen::Vector2d own = x(disc.both()), moved = own - alpha * free(disc.both()), point = nearest(disc, moved);
+    if (point != moved) reduced(disc.both()) = (own - point) / alpha;
   }
   return reduced;
 }
@@ -166,7 +156,7 @@ double SeparableSet::longest_step(const Vector& x, const Vector& p) const {
   for (Eigen::Index i = 0; i < size(); ++i)
     if (p[i] != 0) step = std::min(step, (x[i] - (p[i] > 0 ? low_[i] : high_[i])) / p[i]);
   for (std::size_t k = 0; k < discs_.size(); ++k) {
-    const Eigen::Vector2d own(p[discs_[k].first], p[discs_[k].second]), u = offset(discs_[k], x);
+    const Eigen::Vector2d own = p(discs_[k].both()), u = offset(discs_[k], x);
     if (own.isZero(0)) continue;
     const bool slides = u.norm() >= edge_[k] && u.dot(own) <= 0.5 * u.norm() * own.norm();
     step = std::min(step, slides ? discs_[k].radius / own.norm() : room_in_disc(u, -own, discs_[k].radius));
@@ -177,12 +167,12 @@ double SeparableSet::longest_step(const Vector& x, const Vector& p) const {
 double SeparableSet::infimum(const Vector& w) const {
   const double nothing = 1e-10 * w.norm();
   double sum = 0;
-  for (const Disc& disc : discs_) {
-    const Eigen::Vector2d own(w[disc.first], w[disc.second]);
-    sum += own.dot(disc.centre) - own.norm() * disc.radius;
-  }
   std::vector<char> in_disc(size(), 0);
-  for (const Disc& disc : discs_) in_disc[disc.first] = in_disc[disc.second] = 1;
+  for (const Disc& disc : discs_) {
+    const Eigen::Vector2d own = w(disc.both());
+    sum += own.dot(disc.centre) - own.norm() * disc.radius;
+    in_disc[disc.first] = in_disc[disc.second] = 1;
+  }
   for (Eigen::Index i = 0; i < size(); ++i) {
     const double end = w[i] > 0 ? low_[i] : high_[i];
     if (in_disc[i] || w[i] == 0 || (std::isinf(end) && std::abs(w[i]) <= nothing)) continue;
@@ -193,8 +183,7 @@ double SeparableSet::infimum(const Vector& w) const {
 
 double SeparableSet::rounding(const Vector& g) const {
   double sum = 0;
-  for (std::size_t k = 0; k < discs_.size(); ++k)
-    sum += (discs_[k].radius - edge_[k]) * std::hypot(g[discs_[k].first], g[discs_[k].second]);
+  for (std::size_t k = 0; k < discs_.size(); ++k) sum += (discs_[k].radius - edge_[k]) * g(discs_[k].both()).norm();
   return sum;
 }
 

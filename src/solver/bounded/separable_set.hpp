@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "algebra/types.hpp"
@@ -26,6 +27,7 @@ class SeparableSet {
     int first, second;          ///< the components i ≠ j
     Eigen::Vector2d centre;
     double radius;              ///< ≥ 0, finite
+    std::array<int, 2> both() const { return {first, second}; }
   };
   enum class Place : char { active, free, sliding };
   struct Gradients {
@@ -72,7 +74,7 @@ class SeparableSet {
  private:
   void classify(std::size_t disc, const algebra::Vector& x, const algebra::Vector& g, Gradients& out) const;
   Eigen::Vector2d offset(const Disc& disc, const algebra::Vector& x) const {
-    return Eigen::Vector2d(x[disc.first], x[disc.second]) - disc.centre;
+    return Eigen::Vector2d(x(disc.both())) - disc.centre;
   }
 
   algebra::Vector low_, high_;

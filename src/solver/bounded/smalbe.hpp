@@ -14,6 +14,10 @@ struct EqualityProgram {
   const SeparableSet* set = nullptr;
 };
 
+/// A FaceMap that depends on ρ.
+using PenaltyFaceMap = std::function<algebra::Vector(const algebra::Vector& v, const algebra::Vector& x,
+                                                     const SeparableSet::Gradients& at, double rho)>;
+
 /// Semimonotonic augmented Lagrangians (SMALBE): Mprgp minimises
 ///   L(x, ν, ρ) = ½xᵀHx − bᵀx + νᵀx + ½ρ‖Qx‖²   over Ω,
 /// ν in the range of Q being Gᵀμ, μ the multiplier of Gx = 0, where Q = GᵀG with orthonormal rows of G. An
@@ -41,8 +45,7 @@ struct Smalbe {
   int max_outer = 1000;
   int max_inner = 100000;  ///< inner steps, all outer ones together
   /// ≈ (H + ρQ)⁻¹ on a face, as MprgpSettings::preconditioner; or none.
-  std::function<algebra::Vector(const algebra::Vector& v, const algebra::Vector& x, const SeparableSet::Gradients& at, double rho)>
-      preconditioner = {};
+  PenaltyFaceMap preconditioner = {};
   /// Of the inner minimisation; without the preconditioner.
   MprgpSettings inner;
 };

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "algebra/dense/decompositions.hpp"
+#include "algebra/dense/generalised_inverse.hpp"
 
 namespace dotyk::solver {
 
@@ -27,6 +29,16 @@ constexpr double kUnnoticed = 1e-9;
 constexpr double kBalancedMotions = 1e-14, kWorthwhile = 0.1;
 /// The jump of one mode, of norm one as the rows are, that is rounding: no row notices it.
 constexpr double kNoJump = 1e-13;
+
+constexpr int kLanczosSteps = 60;
+/// A part of a unit vector in im P below it is rounding.
+constexpr double kNoPart = 1e-10;
+
+algebra::Cholesky analysed(const SparseMatrix& lower) {
+  std::vector<int> node(lower.rows());
+  std::iota(node.begin(), node.end(), 0);
+  return {lower, node, {}};
+}
 
 /// Factors C with modes held, and with further ones where it is singular still.
 void factor_held(HeldFactor& factor, const SparseMatrix& C, std::vector<int>& held) {
@@ -72,6 +84,18 @@ std::vector<int> unnoticed(const DenseMatrix& jumps, const std::vector<int>& mod
 }
 
 }  // namespace
+
+HeldFactor::HeldFactor(const SparseMatrix& lower) : factor_(analysed(lower)) {}
+
+bool HeldFactor::factor(const SparseMatrix& lower, const std::vector<int>& held) {
+  held_ = held;
+  return factor_.factor(algebra::hold(lower, held));
+}
+
+DenseMatrix HeldFactor::solve(DenseMatrix right) const {
+  right(held_, Eigen::all).setZero();
+  return factor_.solve(right);
+}
 
 CoarseSpace::CoarseSpace(const SparseMatrix& G, Vector e) : G_(G), scale_(Vector::Zero(G.rows())), e_(std::move(e)) {
   particular_ = Vector::Zero(G.cols());
@@ -130,6 +154,20 @@ Vector CoarseSpace::P(const Vector& v) const { return v - Q(v); }
 Vector CoarseSpace::amounts(const Vector& v) const {
   if (modes() == 0) return {};
   return scale_.cwiseProduct(factor_->solve(G_ * v).col(0));
+}
+
+algebra::SpectrumEnds dual_spectrum(const DualProblem& dual, const CoarseSpace& coarse, algebra::Ends ends,
+                                    Monitor& monitor) {
+  const Vector start = coarse.P(coarse.P(algebra::lanczos_start(dual.rows())));
+  if (!(start.norm() > kNoPart)) return {};
+  // What rounding brings in of im Q shall have an eigenvalue amid the others, not 0.
+  const double middle = start.dot(dual.apply(start)) / start.squaredNorm();
+  const auto PFP = [&](const Vector& v) -> Vector {
+    monitor.check();
+    const Vector Pv = coarse.P(v);
+    return coarse.P(dual.apply(Pv)) + middle * (v - Pv);
+  };
+  return algebra::lanczos(PFP, start, kLanczosSteps, ends);
 }
 
 }  // namespace dotyk::solver

@@ -3,9 +3,29 @@
 #include <optional>
 #include <vector>
 
-#include "solver/feti/held_factor.hpp"
+#include "algebra/direct/cholesky.hpp"
+#include "algebra/krylov/lanczos.hpp"
+#include "solver/feti/dual_problem.hpp"
 
 namespace dotyk::solver {
+
+/// A positive semidefinite matrix of which some unknowns are held at zero, so many that the rest of it has an inverse.
+class HeldFactor {
+ public:
+  /// Orders and analyses. `lower`: lower triangle, of the pattern of all that are to be factored.
+  explicit HeldFactor(const algebra::SparseMatrix& lower);
+  /// Factors the rest. False where it is not positive definite to working precision; failed_unknown() then tells where
+  /// (-1: nowhere in particular).
+  bool factor(const algebra::SparseMatrix& lower, const std::vector<int>& held);
+  int failed_unknown() const { return factor_.failed_unknown(); }
+  algebra::Vector pivots() const { return factor_.pivots(); }
+  /// The inverse of the rest times what the right-hand sides are there; zero where held.
+  algebra::DenseMatrix solve(algebra::DenseMatrix right) const;
+
+ private:
+  std::vector<int> held_;
+  algebra::Cholesky factor_;
+};
 
 /// The balance of rigid motions, G̃λ = ẽ, and the projectors that it splits the multipliers by (P2 (3.1)–(3.4)): with
 /// C = G̃G̃ᵀ,
@@ -46,5 +66,11 @@ class CoarseSpace {
   std::vector<int> held_;
   std::optional<HeldFactor> factor_;  ///< of C
 };
+
+/// The ends of the spectrum of PFP on the balanced multipliers im P, by at most 60 Lanczos steps there, one application
+/// of F each (see algebra::lanczos): bound() is one of ‖PFP‖ from above, greatest/least with both ends asked for of
+/// its condition number from below, which exceeds it by little where both have settled. Zeros where P is zero.
+algebra::SpectrumEnds dual_spectrum(const DualProblem& dual, const CoarseSpace& coarse, algebra::Ends ends,
+                                    Monitor& monitor);
 
 }  // namespace dotyk::solver

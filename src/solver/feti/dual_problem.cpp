@@ -5,8 +5,6 @@
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
-#include "solver/feti/equal_pieces.hpp"
-#include "solver/feti/factor_pieces.hpp"
 
 namespace dotyk::solver {
 
@@ -14,35 +12,14 @@ using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::Vector;
 
-namespace {
-
-/// Entries of all copies that rows touch.
-Vector touched(const TornProblem& torn, const Vector& v) {
-  Vector result(torn.B.cols());
-  for (const Piece& p : torn.pieces)
-    for (std::size_t i = 0; i < p.touched.size(); ++i) result[p.first_touched + i] = v[p.first + p.touched[i]];
-  return result;
-}
-
-/// The other way round: zero where no row touches.
-Vector spread(const TornProblem& torn, const Vector& t) {
-  Vector result = Vector::Zero(torn.copies());
-  for (const Piece& p : torn.pieces)
-    for (std::size_t i = 0; i < p.touched.size(); ++i) result[p.first + p.touched[i]] = t[p.first_touched + i];
-  return result;
-}
-
-}  // namespace
-
 DualProblem::DualProblem(const problem::Problem& problem, algebra::Ordering ordering, problem::Clock& clock,
                          Monitor& monitor) {
   Stopwatch watch;
   monitor.phase("tearing the problem into pieces");
   torn_ = tear(problem);
   kinds_ = equal_pieces(torn_.pieces);
-  kind_of_.resize(torn_.pieces.size());
   for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
-    for (int p : kinds_[kind]) kind_of_[p] = static_cast<int>(kind);
+    for (int p : kinds_[kind]) torn_.pieces[p].kind = static_cast<int>(kind);
   batches_ = batches(kinds_, torn_.pieces);
   clock.assembly += watch.lap();
   analyse(ordering, monitor);
@@ -77,20 +54,19 @@ void DualProblem::factor(Monitor& monitor) {
 void DualProblem::add_modes() {
   load_.resize(torn_.copies());
   int modes = 0;
-  for (std::size_t p = 0; p < torn_.pieces.size(); ++p) {
-    load_.segment(torn_.pieces[p].first, torn_.pieces[p].size()) = *torn_.pieces[p].f;
-    first_mode_.push_back(modes);
-    modes += static_cast<int>(basis(p).cols());
+  for (Piece& piece : torn_.pieces) {
+    load_.segment(piece.first, piece.size()) = *piece.f;
+    piece.first_mode = modes;
+    modes += static_cast<int>(basis(piece).cols());
   }
   e_.resize(modes);
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t p = 0; p < torn_.pieces.size(); ++p) {
-    const Piece& piece = torn_.pieces[p];
-    const DenseMatrix& R = basis(p);
-    e_.segment(first_mode_[p], R.cols()) = R.transpose() * *piece.f;
+  for (const Piece& piece : torn_.pieces) {
+    const DenseMatrix& R = basis(piece);
+    e_.segment(piece.first_mode, R.cols()) = R.transpose() * *piece.f;
     for (Eigen::Index j = 0; j < R.cols(); ++j)
       for (std::size_t i = 0; i < piece.touched.size(); ++i)
-        entries.emplace_back(first_mode_[p] + j, piece.first_touched + i, R(piece.touched[i], j));
+        entries.emplace_back(piece.first_mode + j, piece.first_touched + i, R(piece.touched[i], j));
   }
   SparseMatrix on_touched(modes, torn_.B.cols());
   on_touched.setFromTriplets(entries.begin(), entries.end());
@@ -98,7 +74,8 @@ void DualProblem::add_modes() {
 }
 
 Vector DualProblem::apply(const Vector& lambda) const {
-  return torn_.B * touched(torn_, inverse(spread(torn_, torn_.Bt * lambda))) + torn_.compliance.cwiseProduct(lambda);
+  const Vector moved = inverse(force(lambda));
+  return torn_.B * moved(torn_.touched) + torn_.compliance.cwiseProduct(lambda);
 }
 
 Vector DualProblem::inverse(const Vector& f) const {
@@ -107,23 +84,29 @@ Vector DualProblem::inverse(const Vector& f) const {
   });
 }
 
+/// B̂ᵀλ on all copies.
+Vector DualProblem::force(const Vector& lambda) const {
+  Vector result = Vector::Zero(torn_.copies());
+  result(torn_.touched) = torn_.Bt * lambda;
+  return result;
+}
+
 Vector DualProblem::elastic(const Vector& lambda) const {
-  Vector force = load_ - spread(torn_, torn_.Bt * lambda);
-  for (std::size_t p = 0; p < torn_.pieces.size(); ++p) {
-    auto own = force.segment(torn_.pieces[p].first, torn_.pieces[p].size());
-    own -= basis(p) * (basis(p).transpose() * own);
+  Vector left = load_ - force(lambda);
+  for (const Piece& piece : torn_.pieces) {
+    auto own = left.segment(piece.first, piece.size());
+    own -= basis(piece) * (basis(piece).transpose() * own);
   }
-  return inverse(force);
+  return inverse(left);
 }
 
 Vector DualProblem::moved(Vector v, const Vector& alpha) const {
-  for (std::size_t p = 0; p < torn_.pieces.size(); ++p)
-    v.segment(torn_.pieces[p].first, torn_.pieces[p].size()) +=
-        basis(p) * alpha.segment(first_mode_[p], basis(p).cols());
+  for (const Piece& piece : torn_.pieces)
+    v.segment(piece.first, piece.size()) += basis(piece) * alpha.segment(piece.first_mode, basis(piece).cols());
   return v;
 }
 
-Vector DualProblem::jump(const Vector& v) const { return torn_.B * touched(torn_, v) - torn_.c; }
+Vector DualProblem::jump(const Vector& v) const { return torn_.B * v(torn_.touched) - torn_.c; }
 
 Vector DualProblem::on_blocks(const problem::Problem& problem, const Vector& resultants) const {
   const Vector force = moved(Vector::Zero(torn_.copies()), resultants);  // has these resultants, R̂ being orthonormal

@@ -5,7 +5,7 @@
 
 #include "algebra/dense/generalised_inverse.hpp"
 #include "problem/condensed_block.hpp"
-#include "solver/feti/piece_batches.hpp"
+#include "solver/feti/piece_kinds.hpp"
 #include "solver/feti/torn_problem.hpp"
 
 namespace dotyk::solver {
@@ -26,8 +26,6 @@ class DualProblem {
   DualProblem(const problem::Problem& problem, algebra::Ordering ordering, problem::Clock& clock, Monitor& monitor);
 
   int rows() const { return torn_.rows(); }
-  /// The first rows are those of the problem, scaled.
-  int problem_rows() const { return torn_.problem_rows(); }
   /// D, one a row of the problem: λ of the problem = D λ', its gap Dc, a bound on λ over D.
   const algebra::Vector& scale() const { return torn_.scale; }
   const TornProblem& torn() const { return torn_; }
@@ -36,6 +34,7 @@ class DualProblem {
   const algebra::Vector& d() const { return d_; }                    ///< d̃, a length a row
   const algebra::SparseMatrix& G() const { return G_; }              ///< G̃: modes × rows
   const algebra::Vector& e() const { return e_; }                    ///< ẽ, one a mode
+  const algebra::Vector& load() const { return load_; }              ///< f, one a copy
   /// All copies but for their rigid motions, v = K⁺(I − R̂R̂ᵀ)(f − B̂ᵀλ): what λ leaves unbalanced is spread over the
   /// piece and not left to the unknowns that K⁺ fixes.
   algebra::Vector elastic(const algebra::Vector& lambda) const;
@@ -50,7 +49,7 @@ class DualProblem {
   /// The pieces by kind; a kind's first stands for all of it.
   const std::vector<std::vector<int>>& kinds() const { return kinds_; }
   /// R̂ of a piece: own unknowns × modes.
-  const algebra::DenseMatrix& basis(int piece) const { return inverses_[kind_of_[piece]].basis(); }
+  const algebra::DenseMatrix& basis(const Piece& piece) const { return inverses_[piece.kind].basis(); }
   double factor_bytes() const;          ///< of all kinds' factors
   const std::string& ordering() const;  ///< that of the greatest piece; empty without pieces
 
@@ -59,12 +58,12 @@ class DualProblem {
   void factor(Monitor& monitor);
   void add_modes();
   algebra::Vector inverse(const algebra::Vector& f) const;  ///< K⁺ f on all copies
+  algebra::Vector force(const algebra::Vector& lambda) const;
 
   TornProblem torn_;
   std::vector<std::vector<int>> kinds_;
   std::vector<Batch> batches_;
   std::vector<algebra::GeneralisedInverse> inverses_;  ///< one a kind
-  std::vector<int> kind_of_, first_mode_;              ///< of each piece
   algebra::SparseMatrix G_;
   algebra::Vector d_, e_, load_;
 };

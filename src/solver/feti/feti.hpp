@@ -9,11 +9,9 @@ namespace dotyk::solver {
 /// bodies cut into many subdomains; with supports as dual rows total FETI (Dostál, Horák, Kučera 2006).
 ///
 /// The problem is solved on the pieces of Problem::subdomains, each on its own copies of its unknowns, joined by
-/// gluing rows (DualProblem). Its dual,
-///   minimise ½λᵀFλ − λᵀd̃  subject to  G̃λ = ẽ, λ what the laws can carry,   F = BK⁺Bᵀ + C,
-/// C the compliance of rows with springs (TornProblem),
-/// is homogenised by λ = λ̄ + x with G̃λ̄ = ẽ and decomposed by the projectors P = I − Q and Q onto im G̃ᵀ; with
-/// the gradients divided by an upper bound of ‖PFP‖ it is solved by augmented Lagrangians (Smalbe) with Mprgp within.
+/// gluing rows. Its dual (DualProblem) is homogenised by λ = λ̄ + x with G̃λ̄ = ẽ and decomposed by the projectors
+/// P = I − Q and Q onto im G̃ᵀ; with the gradients divided by an upper bound of ‖PFP‖ it is solved by augmented
+/// Lagrangians (Smalbe) with Mprgp within.
 /// It stops where
 ///   ‖g^P‖ ≤ tol ‖Pd‖,  d = d̃ − Fλ̄,  and  ‖Gλ − e‖ = ‖Qx‖ ≤ tol ‖f‖        (‖λ‖ in place of ‖f‖ where there is no load)
 /// (P2, §5, but for ‖d̃‖ there, which depends on what the generalised inverse fixes: Stop::d), rows scaled by the stiffness of what they

@@ -1,11 +1,11 @@
 #include "solver/feti/piece_stiffness.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "algebra/dense/decompositions.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
-#include "solver/feti/equal_pieces.hpp"
-#include "solver/feti/factor_pieces.hpp"
-#include "solver/feti/submatrix.hpp"
 
 namespace dotyk::solver {
 
@@ -19,12 +19,25 @@ namespace {
 constexpr double kVanishes = 1e-7;
 
 std::vector<int> others(const Piece& piece) {
-  std::vector<char> is_touched(piece.size(), 0);
-  for (int i : piece.touched) is_touched[i] = 1;
-  std::vector<int> result;
-  for (int i = 0; i < piece.size(); ++i)
-    if (!is_touched[i]) result.push_back(i);
+  std::vector<int> all(piece.size()), result;
+  std::iota(all.begin(), all.end(), 0);
+  std::set_difference(all.begin(), all.end(), piece.touched.begin(), piece.touched.end(), std::back_inserter(result));
   return result;
+}
+
+/// The unit vectors of the unknowns picked, as columns.
+SparseMatrix unit_vectors(int size, const std::vector<int>& picked) {
+  SparseMatrix S(size, static_cast<Eigen::Index>(picked.size()));
+  S.reserve(S.cols());
+  for (int k = 0; k < S.cols(); ++k) S.insert(picked[k], k) = 1;
+  S.makeCompressed();
+  return S;
+}
+
+/// The rows and columns `picked` (ascending) of a symmetric matrix, lower triangles both.
+SparseMatrix principal(const SparseMatrix& lower, const std::vector<int>& picked) {
+  const SparseMatrix S = unit_vectors(static_cast<int>(lower.rows()), picked);
+  return S.transpose() * SparseMatrix(lower * S);
 }
 
 /// The motions that vanish on the touched unknowns, on the others: the kernel of K_ii.
@@ -54,22 +67,20 @@ PieceStiffness::PieceStiffness(const DualProblem& dual, algebra::Ordering orderi
     const std::vector<int> inside = others(piece);
     std::vector<int> node;
     for (int i : inside) node.push_back((*piece.node)[i]);
-    insides_.push_back({coupling(*piece.K, inside, piece.touched),
-                        {principal(*piece.K, inside), node, kernel_inside(dual.basis(same.front()), piece.touched, inside), ordering}});
+    const SparseMatrix K = piece.K->selfadjointView<Eigen::Lower>();
+    const SparseMatrix K_b = K * unit_vectors(piece.size(), piece.touched);
+    insides_.push_back({inside, unit_vectors(piece.size(), inside).transpose() * K_b,
+                        {principal(*piece.K, inside), node, kernel_inside(dual.basis(piece), piece.touched, inside), ordering}});
   }
-  factor(monitor);
-}
-
-void PieceStiffness::factor(Monitor& monitor) {
   require_memory(factor_bytes(), text("the factors of the insides of ", insides_.size(), " pieces"));
   std::vector<double> flops;
   for (const Inside& inside : insides_) flops.push_back(inside.inverse.cholesky().flops());
   factor_in_threads(flops, "factoring the inside of piece", monitor, [&](int k) {
-    const Piece& piece = dual_.torn().pieces[alike_[k].front()];
-    const std::vector<int> inside = others(piece);
-    if (insides_[k].inverse.factor(principal(*piece.K, inside))) return;
-    const int failed = insides_[k].inverse.failed_unknown();
-    refuse_singular(piece, failed < 0 ? -1 : inside[failed]);
+    const Piece& piece = dual.torn().pieces[alike_[k].front()];
+    Inside& inside = insides_[k];
+    if (inside.inverse.factor(principal(*piece.K, inside.unknowns))) return;
+    const int failed = inside.inverse.failed_unknown();
+    refuse_singular(piece, failed < 0 ? -1 : inside.unknowns[failed]);
   });
 }
 

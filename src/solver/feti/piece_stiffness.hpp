@@ -14,10 +14,8 @@ namespace dotyk::solver {
 ///
 /// Dirichlet, B̂W [0 0; 0 S] WB̂ᵀ (Farhat, Mandel and Roux 1994): with
 ///   S = K_bb − K_bi K_ii⁺ K_ib,
-/// the stiffness of the piece felt on b. B̂ᵀB̂W takes the mean of its copies, weighted by their stiffness, from each unknown, which
-/// is what the ρ-scaling is for (Klawonn and Widlund 2001). On im P the
-/// eigenvalues of what it makes of F go from 1 to C(1 + log H/h)²: 2.9, 4.0, 4.9 for cubes with H/h = 4, 6, 8, where F
-/// itself has κ = 19, 28, 38.
+/// the stiffness of the piece felt on b. On im P the eigenvalues of what it makes of F go from 1 to C(1 + log H/h)²: 2.9,
+/// 4.0, 4.9 for cubes with H/h = 4, 6, 8, where F itself has κ = 19, 28, 38.
 class PieceStiffness {
  public:
   /// Lumped. `dual` must outlive the object.
@@ -31,10 +29,10 @@ class PieceStiffness {
 
  private:
   struct Inside {
+    std::vector<int> unknowns;            ///< i
     algebra::SparseMatrix coupling;       ///< K_ib
     algebra::GeneralisedInverse inverse;  ///< K_ii⁺
   };
-  void factor(Monitor& monitor);
 
   const DualProblem& dual_;
   std::vector<std::vector<int>> alike_;           ///< equal pieces that rows touch alike

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "base/text.hpp"
-#include "solver/bounded/dual_bounds.hpp"
+#include "solver/bounded/dual_laws.hpp"
 
 namespace dotyk::solver {
 
@@ -22,24 +22,13 @@ constexpr double kNoStiffness = 1e-14;
 
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-/// The copies of every unknown, ascending: those of unknown j are copy[first[j]], …, copy[first[j + 1] − 1].
-struct Copies {
-  std::vector<int> first, copy;
-  std::span<const int> of(int unknown) const {
-    return std::span(copy).subspan(first[unknown], first[unknown + 1] - first[unknown]);
-  }
-};
+/// The copies of every unknown, ascending.
+using Copies = std::vector<std::vector<int>>;
 
 Copies copies_of(const TornProblem& torn) {
-  Copies copies;
-  copies.first.assign(torn.unknowns + 1, 0);
-  for (int j : torn.unknown)
-    if (j >= 0) ++copies.first[j + 1];
-  std::partial_sum(copies.first.begin(), copies.first.end(), copies.first.begin());
-  copies.copy.resize(copies.first.back());
-  std::vector<int> next(copies.first.begin(), copies.first.end() - 1);
+  Copies copies(torn.unknowns);
   for (int v = 0; v < torn.copies(); ++v)
-    if (torn.unknown[v] >= 0) copies.copy[next[torn.unknown[v]]++] = v;
+    if (torn.unknown[v] >= 0) copies[torn.unknown[v]].push_back(v);
   return copies;
 }
 
@@ -82,17 +71,15 @@ void take_stiffness(TornProblem& torn) {
 /// Rows of the problem on all copies, not yet scaled.
 SparseRows spread(const Problem& problem, const TornProblem& torn, const Copies& copies) {
   Entries entries;
-  for (int r = 0; r < problem.rows(); ++r)
-    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
-      const auto all = copies.of(static_cast<int>(it.col()));
-      if (all.empty()) throw std::logic_error(text("unknown ", it.col(), " belongs to no piece"));
-      double sum = 0;
-      for (int v : all) sum += torn.stiffness[v];
-      for (int v : all) entries.emplace_back(r, v, it.value() * (torn.stiffness[v] / sum));
-    }
-  SparseRows rows(problem.rows(), torn.copies());
-  rows.setFromTriplets(entries.begin(), entries.end());
-  return rows;
+  for (int j = 0; j < torn.unknowns; ++j) {
+    if (copies[j].empty()) throw std::logic_error(text("unknown ", j, " belongs to no piece"));
+    double sum = 0;
+    for (int v : copies[j]) sum += torn.stiffness[v];
+    for (int v : copies[j]) entries.emplace_back(j, v, torn.stiffness[v] / sum);
+  }
+  SparseRows shares(torn.unknowns, torn.copies());
+  shares.setFromTriplets(entries.begin(), entries.end());
+  return problem.B * shares;
 }
 
 /// A row's norm in k⁻¹, `first` being the first copy of its columns, its spring's compliance included.
@@ -116,12 +103,11 @@ Vector scale_of(const Problem& problem, const TornProblem& torn, const SparseRow
 }
 
 void add_gluing(const TornProblem& torn, const Copies& copies, int& row, Entries& entries) {
-  for (int j = 0; j < torn.unknowns; ++j) {
-    const auto all = copies.of(j);
-    double before = all.empty() ? 0 : torn.stiffness[all[0]];
+  for (const std::vector<int>& all : copies) {
+    double before = torn.stiffness[all[0]];
     for (std::size_t next = 1; next < all.size(); ++next, ++row) {
       const double k = torn.stiffness[all[next]], s = std::sqrt(before / (before + k) * k);
-      for (int v : all.first(next)) entries.emplace_back(row, v, s * (torn.stiffness[v] / before));
+      for (int v : std::span(all).first(next)) entries.emplace_back(row, v, s * (torn.stiffness[v] / before));
       entries.emplace_back(row, all[next], -s);
       before += k;
     }
@@ -145,20 +131,18 @@ void add_springs(const Problem& problem, TornProblem& torn, int row, Entries& en
 void number_touched(TornProblem& torn, Entries& entries) {
   std::vector<int> place(torn.copies(), -1);
   for (const auto& e : entries) place[e.col()] = 0;
-  int next = 0;
   for (Piece& piece : torn.pieces) {
-    piece.first_touched = next;
+    piece.first_touched = static_cast<int>(torn.touched.size());
     for (int i = 0; i < piece.size(); ++i)
-      if (place[piece.first + i] == 0) {
+      if (int& number = place[piece.first + i]; number == 0) {
         piece.touched.push_back(i);
-        place[piece.first + i] = next++;
+        number = static_cast<int>(torn.touched.size());
+        torn.touched.push_back(piece.first + i);
       }
   }
-  torn.touched_weight.resize(next);
-  for (int v = 0; v < torn.copies(); ++v)
-    if (place[v] >= 0) torn.touched_weight[place[v]] = 1 / torn.stiffness[v];
+  torn.touched_weight = torn.stiffness(torn.touched).cwiseInverse();
   for (auto& e : entries) e = {e.row(), place[e.col()], e.value()};
-  torn.B.resize(torn.rows(), next);
+  torn.B.resize(torn.rows(), static_cast<Eigen::Index>(torn.touched.size()));
   torn.B.setFromTriplets(entries.begin(), entries.end());
   torn.Bt = torn.B.transpose();
 }

@@ -18,6 +18,8 @@ struct Piece {
   int first = 0;             ///< of its unknowns among all copies
   std::vector<int> touched;  ///< its own unknowns that some row acts on, ascending
   int first_touched = 0;     ///< of them among all touched copies
+  int kind = 0;              ///< one factor serves all pieces of a kind (DualProblem)
+  int first_mode = 0;        ///< of its kernel's among all pieces'
   int size() const { return static_cast<int>(f->size()); }
 };
 
@@ -51,7 +53,8 @@ struct TornProblem {
   algebra::Vector scale;     ///< D, one a row of the problem
   double stiffest = 1;             ///< the greatest diagonal entry of any K
   algebra::Vector stiffness;       ///< k, one a copy
-  algebra::Vector touched_weight;  ///< 1/k, one a touched copy
+  std::vector<int> touched;        ///< which copies are touched, ascending
+  algebra::Vector touched_weight;  ///< 1/k of them
   int gluing_rows = 0, support_rows = 0;
   /// What ½λ²/k_q of springs adds to the dual problem's matrix, one a row: their squared scale over k_q; 0 of rows without
   /// springs, and of laws where k_q = 0, for such a row carries nothing. Of laws with one spring (see opposed_springs).

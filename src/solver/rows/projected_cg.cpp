@@ -4,9 +4,8 @@
 
 #include "base/text.hpp"
 #include "problem/uniqueness.hpp"
-#include "solver/bounded/dual_bounds.hpp"
+#include "solver/bounded/dual_laws.hpp"
 #include "solver/bounded/mprgp.hpp"
-#include "solver/bounded/opposed_springs.hpp"
 #include "solver/core/treatable.hpp"
 #include "solver/rows/equilibrium.hpp"
 #include "solver/rows/projection.hpp"

@@ -1,11 +1,21 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "solver/feti/torn_problem.hpp"
 
 namespace dotyk::solver {
+
+/// The pieces sorted into kinds, in the order of their first members. Two are of one kind where one factor serves
+/// both: same pattern of K, same unknowns at one node, entries that differ by at most 1e-12 of the lesser diagonal
+/// entry of their row and column (a shift of a mesh leaves less), and kernels of the same span.
+std::vector<std::vector<int>> equal_pieces(const std::vector<Piece>& pieces);
+
+/// The kinds divided further: equal pieces that rows touch alike.
+std::vector<std::vector<int>> alike_pieces(const std::vector<std::vector<int>>& kinds, const std::vector<Piece>& pieces);
 
 /// Pieces of one kind that are treated together, each a column: a factor is read once for all of them.
 struct Batch {
@@ -28,5 +38,13 @@ algebra::Vector through_touched(const TornProblem& torn, const std::vector<Batch
 /// A f for all of f: copies → copies.
 algebra::Vector on_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const algebra::Vector& f,
                           const OnColumns& A);
+
+/// factor(k) for every k, the greatest first, in threads (a single one with all threads for its products). Between them
+/// the monitor is told "what 3 of 64" and asked whether to stop. `flops`: of each.
+void factor_in_threads(const std::vector<double>& flops, const std::string& what, Monitor& monitor,
+                       const std::function<void(int)>& factor);
+
+/// Throws the InputError that K of a piece has more motions for kernel than said. `unknown`: where, or -1.
+[[noreturn]] void refuse_singular(const Piece& piece, int unknown);
 
 }  // namespace dotyk::solver
