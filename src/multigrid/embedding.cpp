@@ -6,12 +6,29 @@
 
 namespace dotyk::multigrid {
 
+namespace {
+
+/// Sum of the diagonal; NaN where an entry is not positive.
+double positive_trace(const algebra::SparseMatrix& lower) {
+  const int* begin = lower.outerIndexPtr();
+  double sum = 0;
+  for (int j = 0; j < lower.cols(); ++j) {
+    const bool has = begin[j] < begin[j + 1] && lower.innerIndexPtr()[begin[j]] == j;
+    if (!has || !(lower.valuePtr()[begin[j]] > 0)) return std::nan("");
+    sum += lower.valuePtr()[begin[j]];
+  }
+  return sum;
+}
+
+}  // namespace
+
 Embedding::Embedding(const algebra::SparseMatrix& lower, const std::vector<int>& node) {
   if (!lower.isCompressed() || static_cast<std::size_t>(lower.rows()) != node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
   number(node);
   lay_out(lower);
-  fill_idle(lower);
+  const double trace = positive_trace(lower);
+  for (const int i : idle_) values_[starts_[i]] = std::isfinite(trace) ? trace / static_cast<double>(slot_.size()) : 1.0;
 }
 
 void Embedding::number(const std::vector<int>& node) {
@@ -57,27 +74,6 @@ void Embedding::lay_out(const algebra::SparseMatrix& lower) {
       mirror_[k] = inner[k] == j ? at_[k] : put(slot_[j], slot_[inner[k]]);
     }
   for (const int i : idle_) put(i, i);
-}
-
-namespace {
-
-/// Sum of the diagonal; NaN where an entry is not positive.
-double positive_trace(const algebra::SparseMatrix& lower) {
-  const int* begin = lower.outerIndexPtr();
-  double sum = 0;
-  for (int j = 0; j < lower.cols(); ++j) {
-    const bool has = begin[j] < begin[j + 1] && lower.innerIndexPtr()[begin[j]] == j;
-    if (!has || !(lower.valuePtr()[begin[j]] > 0)) return std::nan("");
-    sum += lower.valuePtr()[begin[j]];
-  }
-  return sum;
-}
-
-}  // namespace
-
-void Embedding::fill_idle(const algebra::SparseMatrix& lower) {
-  const double trace = positive_trace(lower);
-  for (const int i : idle_) values_[starts_[i]] = std::isfinite(trace) ? trace / static_cast<double>(slot_.size()) : 1.0;
 }
 
 bool Embedding::fill(const algebra::SparseMatrix& lower, std::vector<char>& changed) {

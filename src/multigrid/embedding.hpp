@@ -29,7 +29,6 @@ class Embedding {
  private:
   void number(const std::vector<int>& node);
   void lay_out(const algebra::SparseMatrix& lower);
-  void fill_idle(const algebra::SparseMatrix& lower);
 
   int block_ = 1;
   std::vector<int> slot_, idle_;

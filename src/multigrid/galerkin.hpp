@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "multigrid/rows_view.hpp"
+#include "multigrid/petsc_session.hpp"
 
 namespace dotyk::multigrid {
 

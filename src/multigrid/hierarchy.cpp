@@ -5,8 +5,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "multigrid/near_kernel.hpp"
-
 namespace dotyk::multigrid {
 
 namespace {
@@ -67,6 +65,34 @@ OwnedMat view(Embedding& e) {
   check(MatSetBlockSize(m, e.block()));
   check(MatSetOption(m, MAT_SPD, PETSC_TRUE));
   return m;
+}
+
+/// Tells `finest` the motions that take little energy: the modes, made orthonormal by Gram and Schmidt, twice, as rotations about a distant
+/// point are almost translations, and dependent ones left out.
+void attach_near_kernel(Mat finest, const Embedding& e, const algebra::DenseMatrix& modes) {
+  constexpr double kDependent = 1e-10;
+  std::vector<algebra::Vector> basis;
+  for (Eigen::Index k = 0; k < modes.cols(); ++k) {
+    algebra::Vector v = modes.col(k);
+    const double before = v.norm();
+    for (int pass = 0; pass < 2; ++pass)
+      for (const algebra::Vector& q : basis) v -= q.dot(v) * q;
+    if (v.norm() > kDependent * before) basis.push_back(v.normalized());
+  }
+  if (basis.empty()) return;
+  std::vector<OwnedVec> vecs;
+  for (const algebra::Vector& mode : basis) {
+    PetscScalar* values = nullptr;
+    check(MatCreateVecs(finest, vecs.emplace_back().put(), nullptr));
+    check(VecGetArrayWrite(vecs.back(), &values));
+    std::fill(values, values + e.rows(), 0.0);
+    for (std::size_t i = 0; i < e.slot().size(); ++i) values[e.slot()[i]] = mode[static_cast<Eigen::Index>(i)];
+    check(VecRestoreArrayWrite(vecs.back(), &values));
+  }
+  const std::vector<Vec> plain(vecs.begin(), vecs.end());
+  Owned<MatNullSpace, MatNullSpaceDestroy> space;
+  check(MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, static_cast<PetscInt>(plain.size()), plain.data(), space.put()));
+  check(MatSetNearNullSpace(finest, space));
 }
 
 /// S between slots, idle ones as they are.
