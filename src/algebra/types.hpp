@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <vector>
 
 namespace dotyk::algebra {
 
@@ -14,5 +15,27 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 /// Row-major sparse matrix: interface rows (B).
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
+/// Entries of a sparse matrix; those at one place add up.
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+template <class Matrix = SparseMatrix>
+Matrix from_triplets(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
+  Matrix matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// The rows `picked` of a matrix, in this order.
+inline SparseRows pick_rows(const SparseRows& rows, const std::vector<int>& picked) {
+  SparseRows result(static_cast<Eigen::Index>(picked.size()), rows.cols());
+  for (std::size_t k = 0; k < picked.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    result.startVec(row);
+    for (SparseRows::InnerIterator it(rows, picked[k]); it; ++it) result.insertBack(row, it.col()) = it.value();
+  }
+  result.finalize();
+  return result;
+}
 
 }  // namespace dotyk::algebra

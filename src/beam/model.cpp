@@ -7,7 +7,6 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "beam/element.hpp"
-#include "problem/range.hpp"
 #include "problem/rows.hpp"
 
 namespace dotyk::beam {

@@ -11,7 +11,6 @@
 #include "plate/loads.hpp"
 #include "plate/rows.hpp"
 #include "plate/element/stiffness.hpp"
-#include "problem/range.hpp"
 
 namespace dotyk::plate {
 

@@ -3,24 +3,52 @@
 #include <optional>
 #include <vector>
 
+#include "algebra/direct/condensation.hpp"
 #include "base/monitor.hpp"
-#include "problem/condensed_block.hpp"
 #include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
 
-/// The problem on its rows alone. With the unknowns off the contact boundary
-/// eliminated (TR965 (1.52)–(1.69)),
+/// Seconds of the steps of a solve; `motions`: rigid motions, whether the load is carried, and which of them the solution leaves free.
+/// `total` is set by the caller that owns the whole.
+struct Clock {
+  double assembly = 0, motions = 0, ordering = 0, factor = 0, iterate = 0, recover = 0, total = 0;
+  /// Adds what another solve took, from motions to recover.
+  void add_solve(const Clock& other) {
+    motions += other.motions, ordering += other.ordering, factor += other.factor, iterate += other.iterate, recover += other.recover;
+  }
+};
+
+/// Bytes of the dense matrices of so many rows that are held at a time: W, a block's share, its factor.
+inline double dense_bytes(double rows) { return 3 * 8 * rows * rows; }
+
+/// One block condensed onto the unknowns Γ that rows act on.
+struct CondensedBlock {
+  algebra::Condensation condensation;
+  algebra::SparseRows rows;  ///< B on Γ, rows × |Γ|
+  algebra::Vector load;      ///< condensed, once taken
+  int first_unknown, size;
+  void take_load(const algebra::Vector& f) { load = condensation.condense(f); }
+};
+
+/// Orders, factors and condenses a block, without its load; adds its times to `clock`. Throws InputError where it is not held.
+CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
+                        Monitor& monitor);
+
+/// What condensing takes, as the orderings predict; `bytes` with those of dense_bytes().
+struct CondensingWork {
+  double flops = 0, bytes = 0;
+};
+CondensingWork work_of_condensing(const Problem& problem);
+
+/// The problem on its rows alone. With the unknowns off the contact boundary eliminated (TR965 (1.52)–(1.69)),
 ///   x = Bu − c = x₀ − W λ + N α,     Nᵀ λ = e,
-/// W = Σ_b B M⁻¹ Bᵀ dense, N = B R (R: rigid modes of every block, α their
-/// amounts), e = Rᵀ f. Without a kernel W is the Delassus operator B K⁻¹ Bᵀ and
-/// x₀ the jump of the unconstrained solution. Motions that no row notices are
-/// left out of N, α and e: recover() gives the displacement of least norm among
-/// those that differ by them.
+/// W = Σ_b B M⁻¹ Bᵀ dense, N = B R (R: rigid modes of every block, α their amounts), e = Rᵀ f. Without a kernel W is the Delassus operator
+/// B K⁻¹ Bᵀ and x₀ the jump of the unconstrained solution. Motions that no row notices are left out of N, α and e: recover() gives the
+/// displacement of least norm among those that differ by them.
 class CondensedProblem {
  public:
-  /// Orders, factors and condenses every block once; adds its times to `clock`.
-  /// Throws InputError where a block is not held (its name, a node).
+  /// Orders, factors and condenses every block once; adds its times to `clock`. Throws InputError where a block is not held.
   CondensedProblem(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering,
                    Clock& clock, Monitor& monitor);
   /// Takes another f and c, of a problem with the same K and B; `rigid` are its motions. What was factored stays.
@@ -60,6 +88,9 @@ class CondensedProblem {
   };
   void add(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
            Monitor& monitor);
+  /// Puts together what `of` makes of each part and its rigid motion on Γ.
+  template <class Of>
+  algebra::Vector together(const algebra::Vector& alpha, const Of& of) const;
 
   std::vector<Part> parts_;
   algebra::DenseMatrix W_, N_;

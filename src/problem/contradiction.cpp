@@ -18,15 +18,6 @@ namespace {
 /// Relative tolerance for one row to be a combination of others.
 constexpr double kMadeUp = 1e-9;
 
-/// One-sided rows that are violated at rest by more than `tol`.
-std::vector<int> violated_rows(const Problem& problem, double tol) {
-  std::vector<int> rows;
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
-      if (problem.c[r] < -tol) rows.push_back(r);
-  return rows;
-}
-
 /// The bilateral rows that act on each unknown.
 std::map<int, std::set<int>> bilateral_rows(const Problem& problem) {
   std::map<int, std::set<int>> rows;
@@ -62,7 +53,10 @@ std::optional<double> held(const Problem& problem, int r, const std::set<int>& a
 }  // namespace
 
 std::optional<Contradiction> contradiction(const Problem& problem, double tol) {
-  const std::vector<int> violated = violated_rows(problem, tol);
+  std::vector<int> violated;
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
+      if (problem.c[r] < -tol) violated.push_back(r);
   if (violated.empty()) return std::nullopt;  // mostly
   const std::map<int, std::set<int>> bilateral = bilateral_rows(problem);
   for (const int r : violated) {

@@ -18,9 +18,8 @@ using algebra::Vector;
 namespace {
 
 double greatest_force(const Problem& problem, const Vector& lambda) {
-  double most = lambda.size() > 0 ? lambda.lpNorm<Eigen::Infinity>() : 0;
-  for (const Block& block : problem.blocks)
-    if (block.f.size() > 0) most = std::max(most, block.f.lpNorm<Eigen::Infinity>());
+  double most = lambda.lpNorm<Eigen::Infinity>();
+  for (const Block& block : problem.blocks) most = std::max(most, block.f.lpNorm<Eigen::Infinity>());
   return most;
 }
 
@@ -36,13 +35,11 @@ class Conditions {
     for (const FrictionGroup& group : problem.friction)
       for (int k = 0; k < group.points(); ++k) add(group, k);
   }
-  SparseMatrix held(const SparseMatrix& N) const { return combined(held_, held_count_, N); }
-  SparseMatrix limited(const SparseMatrix& N) const { return combined(limited_, static_cast<int>(slack_.size()), N); }
-  double slack(Eigen::Index k) const { return slack_[static_cast<std::size_t>(k)]; }
+  SparseMatrix held(const SparseMatrix& N) const { return algebra::from_triplets(held_count_, N.rows(), held_) * N; }
+  SparseMatrix limited(const SparseMatrix& N) const { return algebra::from_triplets(slack().size(), N.rows(), limited_) * N; }
+  Eigen::Map<const Vector> slack() const { return {slack_.data(), static_cast<Eigen::Index>(slack_.size())}; }
 
  private:
-  using Triplets = std::vector<Eigen::Triplet<double>>;
-
   void add(const Law& law, int row, int k) {
     const auto [low, high] = law.multipliers(k);
     if (low == high) return;  // it bears the same wherever it is
@@ -71,10 +68,8 @@ class Conditions {
       return;
     }
     const Vector along = own.normalized();  // slips this way, or sticks at the bound
-    double slip = 0;
-    for (int i = 0; i < d; ++i) slip += along[i] * x_[first + i];
     for (int i = 0; i < d; ++i) limited_.emplace_back(static_cast<int>(slack_.size()), first + i, -along[i]);
-    slack_.push_back(std::max(slip, 0.0));
+    slack_.push_back(std::max(along.dot(x_.segment(first, d)), 0.0));
     if (d < 2) return;
     held_.emplace_back(held_count_, first, -along[1]);
     held_.emplace_back(held_count_++, first + 1, along[0]);
@@ -86,35 +81,21 @@ class Conditions {
     slack_.push_back(std::max(slack, 0.0));
   }
 
-  static SparseMatrix combined(const Triplets& entries, int count, const SparseMatrix& N) {
-    SparseMatrix C(count, N.rows());
-    C.setFromTriplets(entries.begin(), entries.end());
-    return C * N;
-  }
-
   Vector x_;
   const Vector& lambda_;
   Vector small_, compliance_;  ///< by row: forces that are none; see Problem::row_compliance()
   double left_;                ///< what a method may leave of a force
-  Triplets held_, limited_;
+  algebra::Triplets held_, limited_;
   int held_count_ = 0;
   std::vector<double> slack_;
 };
-
-/// Forces below this fraction of the greatest one are rounding of the solve.
-constexpr double kOfAll = 1e-12;
-
-/// Greatest amount 1.
-void normalise(SparseMatrix& motions) {
-  for (int k = 0; k < motions.cols(); ++k) motions.col(k) /= Vector(motions.col(k)).lpNorm<Eigen::Infinity>();
-}
 
 /// The greatest multiplier of each part; where nothing loads it, of all parts.
 std::vector<double> greatest_of_loaded(const Problem& problem, const Parts& parts, const Vector& lambda) {
   std::vector<double> greatest = parts.greatest(lambda);
   std::vector<char> loaded(greatest.size(), 0);
   for (std::size_t b = 0; b < problem.blocks.size(); ++b)
-    if (!problem.blocks[b].f.isZero(0)) loaded[static_cast<std::size_t>(parts.of_block[b])] = 1;
+    if (!problem.blocks[b].f.isZero(0)) loaded[parts.of_block[b]] = 1;
   for (std::size_t p = 0; p < greatest.size(); ++p)
     if (!loaded[p]) greatest[p] = lambda.lpNorm<Eigen::Infinity>();
   return greatest;
@@ -123,14 +104,15 @@ std::vector<double> greatest_of_loaded(const Problem& problem, const Parts& part
 }  // namespace
 
 Vector small_forces(const Problem& problem, const Vector& lambda, double tolerance) {
+  constexpr double kOfAll = 1e-12;  // forces below this fraction of the greatest one are rounding of the solve
   if (lambda.size() == 0) return lambda;
   const Parts parts = problem::parts(problem);
   const std::vector<double> greatest = greatest_of_loaded(problem, parts, lambda);
   std::vector<double> of_body(problem.blocks.size(), 0);
   std::vector<double> of_rounding;  // by block: of its load, without one of the greatest force of its part
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
-    const double load = problem.blocks[b].f.size() > 0 ? problem.blocks[b].f.lpNorm<Eigen::Infinity>() : 0;
-    of_rounding.push_back(kOfAll * (load > 0 ? load : greatest[static_cast<std::size_t>(parts.of_block[b])]));
+    const double load = problem.blocks[b].f.lpNorm<Eigen::Infinity>();
+    of_rounding.push_back(kOfAll * (load > 0 ? load : greatest[parts.of_block[b]]));
   }
   const auto each = [&](const auto& visit) {
     for (int r = 0; r < problem.rows(); ++r)
@@ -170,11 +152,10 @@ FreeMotions free_motions(const Problem& problem, const State& state, double tole
   free.unnoticed = basis * jumps.unseen;
   free.count = static_cast<int>(free.motions.cols());
   if (free.count == 0) return free;
-  normalise(free.motions);
+  for (int k = 0; k < free.count; ++k) free.motions.col(k) /= Vector(free.motions.col(k)).lpNorm<Eigen::Infinity>();
   if (free.count > kMostModes) return free;
   free.limits = algebra::SparseRows(conditions.limited(N) * free.motions).pruned(1, kNotAtAll);
-  free.slack.resize(free.limits.rows());
-  for (Eigen::Index k = 0; k < free.slack.size(); ++k) free.slack[k] = conditions.slack(k);
+  free.slack = conditions.slack();
   return free;
 }
 

@@ -9,44 +9,32 @@
 namespace dotyk::problem {
 namespace {
 
-void require_bounds(const std::vector<double>& values, const char* what) {
-  for (double v : values)
-    if (!(v >= 0) || !std::isfinite(v))
-      throw InputError(text(what, " is ", v, "; it must be zero or positive"));
-}
-
-class Tresca final : public Friction {
+/// b = g, or, where it `follows` the normal force, μ λ_n.
+class Bounded final : public Friction {
  public:
-  explicit Tresca(std::vector<double> bounds) : bounds_(std::move(bounds)) {}
-  std::string name() const override { return "given friction"; }
-  double bound(int point, double) const override { return bounds_[point]; }
-  double bound_slope(int) const override { return 0; }
+  Bounded(std::string name, std::vector<double> values, bool follows) : name_(std::move(name)), values_(std::move(values)), follows_(follows) {
+    for (double v : values_)
+      if (!(v >= 0) || !std::isfinite(v))
+        throw InputError(text("the friction ", follows_ ? "coefficient" : "bound", " is ", v, "; it must be zero or positive"));
+  }
+  std::string name() const override { return name_; }
+  double bound(int point, double normal) const override { return follows_ ? values_[point] * std::max(normal, 0.0) : values_[point]; }
+  double bound_slope(int point) const override { return follows_ ? values_[point] : 0; }
 
  private:
-  std::vector<double> bounds_;
-};
-
-class Coulomb final : public Friction {
- public:
-  explicit Coulomb(std::vector<double> coefficients) : mu_(std::move(coefficients)) {}
-  std::string name() const override { return "Coulomb friction"; }
-  double bound(int point, double normal) const override { return mu_[point] * std::max(normal, 0.0); }
-  double bound_slope(int point) const override { return mu_[point]; }
-
- private:
-  std::vector<double> mu_;
+  std::string name_;
+  std::vector<double> values_;
+  bool follows_;
 };
 
 }  // namespace
 
 std::shared_ptr<const Friction> tresca(std::vector<double> bounds) {
-  require_bounds(bounds, "the friction bound");
-  return std::make_shared<Tresca>(std::move(bounds));
+  return std::make_shared<Bounded>("given friction", std::move(bounds), false);
 }
 
 std::shared_ptr<const Friction> coulomb(std::vector<double> coefficients) {
-  require_bounds(coefficients, "the friction coefficient");
-  return std::make_shared<Coulomb>(std::move(coefficients));
+  return std::make_shared<Bounded>("Coulomb friction", std::move(coefficients), true);
 }
 
 DiscProjection project_disc(const Eigen::Ref<const Eigen::VectorXd>& y, double bound) {

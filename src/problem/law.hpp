@@ -73,6 +73,25 @@ std::shared_ptr<const Law> elastic(std::vector<double> stiffness);
 /// `stiffness[row]` in force per displacement; throws InputError unless each is ≥ 0 and finite.
 std::shared_ptr<const Law> unequal_elastic(std::vector<Springs> stiffness);
 
+/// The force of a spring, cut off at two limits.
+struct Limits {
+  double stiffness = 0;  ///< k ≥ 0, force per displacement; infinite: rigid until a limit is reached
+  double low = 0;        ///< ≤ 0, force; may be −∞
+  double high = 0;       ///< ≥ 0, force; may be ∞
+};
+
+/// λ = kx where that lies between low and high, else the nearer of them (rigid: any λ between them at x = 0):
+///   φ(x) = max over low ≤ λ ≤ high of λx − λ²/2k,   φ*(λ) = λ²/2k,   P(y) = y k/(k + ρ) cut off at low and high.
+/// Of supports of beams (P4, figures 10 to 14) those with a branch of their own: one-sided elastic (0 and ∞), rigid
+/// friction (k infinite, −g and g), one-sided rigid friction (k infinite, 0 and g), capped elastic (−g and g).
+/// `name`: for messages. Throws InputError where a stiffness is negative or nan, low > 0 or high < 0.
+std::shared_ptr<const Law> limited(std::string name, std::vector<Limits> limits);
+
+/// Normal compliance, φ = c x⁺^(m+1)/(m+1), λ = c x⁺^m (Martins and Oden 1987; Kikuchi and Oden 1988, chapter 11): asperities that are pressed
+/// flat. P(y) = y − ρx with x ≥ 0 from c x^m + ρx = y; φ*(λ) = m/(m+1) λ (λ/c)^(1/m). λ(x) is no line: Law::springs is absent.
+/// `factors[row]`: c in force per displacement to the power m; throws InputError unless each is finite and ≥ 0, and m ≥ 1.
+std::shared_ptr<const Law> power_law(std::vector<double> factors, double power);
+
 /// Is φ* known to be two parabolas, so that λ(x) has a kink at λ = 0?
 bool kinked_at_zero(const Law& law, int row);
 

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "algebra/dense/generalised_inverse.hpp"
+#include "algebra/dense/null_space.hpp"
 
 namespace dotyk::problem {
-namespace {
 
-int root_of(std::vector<int>& parent, int b) {
-  while (parent[b] != b) b = parent[b] = parent[parent[b]];
-  return b;
-}
+using algebra::Vector;
 
-}  // namespace
-
-std::vector<double> Parts::greatest(const algebra::Vector& v) const {
+std::vector<double> Parts::greatest(const Vector& v) const {
   std::vector<double> most(count, 0);
   for (Eigen::Index r = 0; r < v.size(); ++r) most[of_row[r]] = std::max(most[of_row[r]], std::abs(v[r]));
   return most;
@@ -31,28 +29,89 @@ std::vector<double> least_beside_others(const std::vector<double>& of_part, bool
 }
 
 Parts parts(const Problem& problem) {
-  const int blocks = static_cast<int>(problem.blocks.size());
-  std::vector<int> parent(blocks), first(problem.rows(), 0);
-  for (int b = 0; b < blocks; ++b) parent[b] = b;
-  for (int r = 0; r < problem.rows(); ++r) {
-    int joined = -1;
-    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) {
-      if (it.value() == 0) continue;
-      const int b = root_of(parent, static_cast<int>(problem.block_of(it.col())));
-      if (joined >= 0) parent[b] = joined;
-      else joined = b;
-    }
-    if (joined >= 0) first[r] = joined;
+  algebra::Triplets joins;
+  for (int r = 0; r < problem.rows(); ++r)
+    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it)
+      if (it.value() != 0) joins.emplace_back(r, static_cast<int>(problem.block_of(it.col())), 1);
+  const auto pieces = algebra::pieces(algebra::from_triplets(problem.rows(), static_cast<Eigen::Index>(problem.blocks.size()), joins));
+  Parts result{std::max(1, static_cast<int>(pieces.size())), std::vector<int>(problem.blocks.size()), std::vector<int>(problem.rows())};
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    for (const int b : pieces[p].columns) result.of_block[b] = static_cast<int>(p);
+    for (const int r : pieces[p].rows) result.of_row[r] = static_cast<int>(p);
   }
-  Parts result;
-  std::vector<int> number(blocks, -1);
-  for (int b = 0; b < blocks; ++b) {
-    int& part = number[root_of(parent, b)];
-    if (part < 0) part = result.count++;
-    result.of_block.push_back(part);
+  return result;
+}
+
+Forces external_forces(const Problem& problem, const State& state) {
+  Forces all{{}, problem.B.transpose() * state.lambda, Vector(problem.unknowns())};
+  for (const Block& block : problem.blocks) all.load.segment(block.first, block.size()) = block.f;
+  return all;
+}
+
+Forces forces(const Problem& problem, const State& state) {
+  Forces all = external_forces(problem, state);
+  all.internal = stiffness_times(problem, state.u);
+  return all;
+}
+
+bool any_loaded(const std::vector<Sizes>& parts) {
+  return std::any_of(parts.begin(), parts.end(), [](const Sizes& part) { return part.load > 0; });
+}
+
+void add(double& norm, const Eigen::Ref<const Vector>& v) { norm = std::hypot(norm, v.stableNorm()); }
+
+namespace {
+
+/// About ‖|K||w|‖ and rarely less, without a pass over K: no entry is greater than the greatest on the diagonal.
+double size_of_gross_forces(const Block& block, const Vector& w) {
+  double greatest = 0;
+  int entries = 0;
+  for (int j = 0; j < block.size(); ++j) {
+    const int* outer = block.K.outerIndexPtr() + j;
+    greatest = std::max(greatest, block.K.valuePtr()[*outer]);
+    entries = std::max(entries, 2 * (outer[1] - outer[0]));
   }
-  for (const int b : first) result.of_row.push_back(blocks > 0 ? result.of_block[b] : 0);
-  result.count = std::max(result.count, 1);
+  return greatest * entries * w.stableNorm();
+}
+
+void add_scales_of_others(std::vector<Sizes>& parts) {
+  std::vector<double> force, length;
+  for (const Sizes& part : parts) force.push_back(part.external()), length.push_back(part.greatest_displacement);
+  const bool loaded = any_loaded(parts);
+  force = least_beside_others(force, loaded), length = least_beside_others(length, loaded);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].load > 0) continue;
+    parts[p].least_force = std::max(parts[p].least_force, force[p]);
+    parts[p].least_length = length[p];
+  }
+}
+
+}  // namespace
+
+std::vector<Sizes> sizes(const Problem& problem, const State& state, const Forces& all, const Parts& parts) {
+  std::vector<Sizes> result(static_cast<std::size_t>(parts.count));
+  const auto each_block = [&](const auto& visit) {
+    for (std::size_t b = 0; b < problem.blocks.size(); ++b) visit(problem.blocks[b], result[static_cast<std::size_t>(parts.of_block[b])]);
+  };
+  each_block([&](const Block& block, Sizes& part) {
+    const auto own = [&](const Vector& v) { return v.segment(block.first, block.size()); };
+    if (all.internal.size() > 0) add(part.internal, own(all.internal));
+    add(part.contact, own(all.contact)), add(part.load, block.f);
+    part.greatest_load = std::max(part.greatest_load, block.f.lpNorm<Eigen::Infinity>());
+    part.greatest_displacement = std::max(part.greatest_displacement, own(state.u).lpNorm<Eigen::Infinity>());
+  });
+  // Where half of the digits of K|u| are below this part of the forces of contact they need not be known.
+  constexpr double kBelowForces = 0.01;
+  const double half = std::sqrt(std::numeric_limits<double>::epsilon());
+  each_block([&](const Block& block, Sizes& part) {
+    if (part.load > 0) return;
+    const Vector u = state.u.segment(block.first, block.size());
+    if (half * size_of_gross_forces(block, u) < kBelowForces * part.contact) return;
+    const Vector gross = algebra::gross_product(block.K, u);
+    add(part.least_force, half * gross);
+    part.least_work += half * gross.dot(u.cwiseAbs());
+  });
+  add_scales_of_others(result);
   return result;
 }
 

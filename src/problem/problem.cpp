@@ -1,11 +1,12 @@
 #include "problem/problem.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "algebra/dense/generalised_inverse.hpp"
 #include "base/error.hpp"
+#include "base/moderate.hpp"
 #include "base/text.hpp"
-#include "problem/precise.hpp"
 
 namespace dotyk::problem {
 
@@ -56,36 +57,15 @@ Vector over_diagonal(const Problem& problem, const Term& term) {
 
 }  // namespace
 
-Vector Problem::row_stiffness() const {
-  return over_diagonal(*this, [](double k) { return k; });
-}
+Vector Problem::row_stiffness() const { return over_diagonal(*this, [](double k) { return k; }); }
+Vector Problem::row_compliance() const { return over_diagonal(*this, [](double k) { return 1 / k; }); }
 
-Vector Problem::row_compliance() const {
-  return over_diagonal(*this, [](double k) { return 1 / k; });
-}
-
-SparseRows Problem::rows_of(const Block& block) const {
-  SparseRows part(rows(), block.size());
-  for (int r = 0; r < rows(); ++r) {
-    part.startVec(r);
-    for (SparseRows::InnerIterator it(B, r); it; ++it)
-      if (it.col() >= block.first && it.col() < block.first + block.size())
-        part.insertBack(r, it.col() - block.first) = it.value();
-  }
-  part.finalize();
-  return part;
-}
-
-namespace {
-
-/// Between rounding (a few 1e-16, flat cells, great distances and near incompressibility included) and
-/// whatever holds a body.
-constexpr double kResists = 1e-12;
-
-}  // namespace
+SparseRows Problem::rows_of(const Block& block) const { return B.middleCols(block.first, block.size()); }
 
 void require_kernel(const SparseMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
                     const std::vector<Motion>& motions) {
+  // Between rounding (a few 1e-16, flat cells, great distances and near incompressibility included) and whatever holds a body.
+  constexpr double kResists = 1e-12;
   if (kernel.cols() == 0) return;
   Eigen::Index worst;
   const double most = algebra::kernel_residual(K, kernel).maxCoeff(&worst);
@@ -97,6 +77,36 @@ void require_kernel(const SparseMatrix& K, const algebra::DenseMatrix& kernel, c
                         "billionth of its size apart: hold it on more than that, or let it free"));
 }
 
+namespace {
+
+constexpr double kMostStiffness = 1e120, kMostDisplacement = 1e175;
+
+void require_within(double size, double most, const char* what) {
+  if (!moderate(size, most))
+    throw InputError(text("values beyond the range of numbers: ", what, " are about ", size, ", and what is beyond ", most, " or below ", 1 / most,
+                          " is lost where it is squared; choose units in which stiffness, loads and sizes are moderate"));
+}
+
+}  // namespace
+
+void require_moderate(const Problem& problem, double most_force) {
+  double stiffness = 0, force = 0, gap = 0;
+  const auto grow = [](double& greatest, double value) { greatest = std::isnan(value) ? INFINITY : std::max(greatest, std::abs(value)); };
+  for (const Block& block : problem.blocks) {
+    const Vector diagonal = block.K.diagonal();
+    for (const double k : diagonal) grow(stiffness, k);
+    for (const double f : block.f) grow(force, f);
+  }
+  for (const double c : problem.c)
+    if (!std::isinf(c)) grow(gap, c);
+  require_within(stiffness, kMostStiffness, "stiffnesses");
+  require_within(force, most_force, "loads");
+  require_within(gap, kMostDisplacement, "gaps and prescribed displacements");
+  grow(force, gap * stiffness);
+  require_within(force, most_force, "forces");
+  require_within(stiffness > 0 ? force / stiffness : 0, kMostDisplacement, "displacements");
+}
+
 void add(Problem& problem, Block block) {
   require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
   block.first = problem.unknowns();
@@ -105,13 +115,11 @@ void add(Problem& problem, Block block) {
 
 SparseMatrix lower_stiffness(const Problem& problem) {
   if (problem.blocks.size() == 1) return problem.blocks.front().K;
-  std::vector<Eigen::Triplet<double>> entries;
+  algebra::Triplets entries;
   for (const Block& block : problem.blocks)
     for (int j = 0; j < block.size(); ++j)
       for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, it.value());
-  SparseMatrix K(problem.unknowns(), problem.unknowns());
-  K.setFromTriplets(entries.begin(), entries.end());
-  return K;
+  return algebra::from_triplets(problem.unknowns(), problem.unknowns(), entries);
 }
 
 std::vector<int> nodes(const Problem& problem) {

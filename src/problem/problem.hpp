@@ -88,6 +88,16 @@ struct Problem {
 void require_kernel(const algebra::SparseMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
                     const std::vector<Motion>& motions);
 
+/// Throws InputError where stiffnesses, forces (loads, and what gaps and moves make of the stiffness) or displacements are so large or
+/// small that methods on rows, which compare squares and products of them, leave the range of numbers: to inf, to nan or, with a
+/// wrong solution that looks right, to 0. One linear solve needs no squares. Forces: beyond `most_force` or below its inverse.
+void require_moderate(const Problem& problem, double most_force);
+
+/// For methods on rows: squares stay within 1e±240, and leave room for sums and for what is small beside the greatest.
+inline constexpr double kMostForceOnRows = 1e120;
+/// For methods on subdomains, which bring loads to 1 before they square them.
+inline constexpr double kMostForceOnSubdomains = 1e175;
+
 /// Adds a block, setting its `first`. Throws as require_kernel().
 void add(Problem& problem, Block block);
 
@@ -102,5 +112,9 @@ algebra::SparseMatrix lower_stiffness(const Problem& problem);
 std::vector<int> nodes(const Problem& problem);
 /// K u, block by block.
 algebra::Vector stiffness_times(const Problem& problem, const algebra::Vector& u);
+/// The same in extended precision. Forces of neighbouring cells are differences of terms that are greater by (size/cell)² in a solid, and by its
+/// square in a beam or a plate.
+using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+LongVector precise_stiffness_times(const Problem& problem, const LongVector& u);
 
 }  // namespace dotyk::problem

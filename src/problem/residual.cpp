@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "algebra/dense/decompositions.hpp"
+#include "algebra/dense/generalised_inverse.hpp"
 #include "base/text.hpp"
 #include "problem/parts.hpp"
-#include "problem/sizes.hpp"
 
 namespace dotyk::problem {
 
@@ -75,6 +75,33 @@ double friction_energy(const Problem& problem, const State& state) {
 
 namespace {
 
+/// Forces of a state, and what the parts are measured by.
+struct Measured {
+  Measured(const Problem& problem, const State& state, Forces all)
+      : forces(std::move(all)), parts(problem::parts(problem)), sizes(problem::sizes(problem, state, forces, parts)) {}
+
+  Forces forces;
+  Parts parts;
+  std::vector<Sizes> sizes;  ///< by part
+};
+
+/// The greatest of all parts' numbers relative to their scales, of those that have one.
+template <class Scale>
+double greatest_ratio(const std::vector<double>& of_part, const Scale& scale) {
+  double most = 0;
+  for (std::size_t p = 0; p < of_part.size(); ++p)
+    if (const double size = scale(p); size > 0) most = std::max(most, of_part[p] / size);
+  return most;
+}
+
+/// By part the norm of what `of` makes of its blocks.
+template <class Of>
+std::vector<double> norms(const Problem& problem, const Parts& parts, const Of& of) {
+  std::vector<double> norm(parts.count, 0);
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) add(norm[parts.of_block[b]], of(problem.blocks[b]));
+  return norm;
+}
+
 /// Of each part the greatest excess of a friction force over its bound, relative to the greatest bound; the greatest of all parts.
 double friction_violation(const Problem& problem, const State& state, const Parts& parts) {
   std::vector<double> excess(parts.count, 0), largest(parts.count, 0);
@@ -85,15 +112,13 @@ double friction_violation(const Problem& problem, const State& state, const Part
       excess[part] = std::max(excess[part], state.lambda.segment(group.row(k), group.components).norm() - bound);
       largest[part] = std::max(largest[part], bound);
     }
-  double most = 0;
-  for (int p = 0; p < parts.count; ++p) most = std::max(most, largest[p] > 0 ? excess[p] / largest[p] : excess[p]);
-  return most;
+  return greatest_ratio(excess, [&](std::size_t p) { return largest[p] > 0 ? largest[p] : 1; });
 }
 
 /// ‖|K||w|‖, w the part of u in the block's kernel.
 double moved_forces(const Block& block, const Vector& u) {
   const algebra::DenseMatrix& R = block.kernel;
-  return gross_forces(block, R * algebra::least_squares(R, u)).stableNorm();
+  return algebra::gross_product(block.K, R * algebra::least_squares(R, u)).stableNorm();
 }
 
 /// Greatest resultant of the forces on the block that is not balanced, relative to all of them (`gross`) at the longest lever.
@@ -108,29 +133,26 @@ double unbalanced(const Block& block, const Vector& force, double gross) {
 
 MotionResidual motion_residual(const Problem& problem, const State& state) {
   constexpr double kRoundings = 4;  // of u itself and of the sums in Ku
-  const Forces all = forces(problem, state);
-  const Vector gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + all.load.cwiseAbs();
-  const Parts parts = problem::parts(problem);
-  const std::vector<Sizes> sizes = problem::sizes(problem, state, all, parts);
-  std::vector<double> beyond(sizes.size(), 0);
+  const Measured m(problem, state, forces(problem, state));
+  const Vector gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + m.forces.load.cwiseAbs();
+  std::vector<double> beyond(m.sizes.size(), 0);
   MotionResidual result;
   double greatest = 0;
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const Block& block = problem.blocks[b];
-    const auto part = static_cast<std::size_t>(parts.of_block[b]);
+    const int part = m.parts.of_block[b];
     const auto own = [&](const Vector& v) { return v.segment(block.first, block.size()); };
-    const Vector force = own(all.contact) - own(all.load);
-    const double left = (own(all.internal) + force).stableNorm();
+    const Vector force = own(m.forces.contact) - own(m.forces.load);
+    const double left = (own(m.forces.internal) + force).stableNorm();
     double granted = 0;
     if (block.kernel.cols() > 0) {
       granted = kRoundings * std::numeric_limits<double>::epsilon() * moved_forces(block, own(state.u));
-      result.resultants = std::max(result.resultants, unbalanced(block, force, std::max(own(gross).sum(), sizes[part].least_force)));
+      result.resultants = std::max(result.resultants, unbalanced(block, force, std::max(own(gross).sum(), m.sizes[part].least_force)));
     }
     if (std::min(left, granted) > greatest) greatest = std::min(left, granted), result.most = static_cast<int>(b);
     beyond[part] = std::hypot(beyond[part], std::max(0.0, left - granted));
   }
-  for (std::size_t p = 0; p < sizes.size(); ++p)
-    if (const double scale = sizes[p].force(); scale > 0) result.beyond = std::max(result.beyond, beyond[p] / scale);
+  result.beyond = greatest_ratio(beyond, [&](std::size_t p) { return m.sizes[p].force(); });
   return result;
 }
 
@@ -145,37 +167,26 @@ std::vector<double> yielding(const Problem& problem, const State& state, const P
   return force;
 }
 
-std::vector<Scales> scales(const Problem& problem, const State& state, const Parts& parts, const std::vector<Sizes>& sizes) {
-  std::vector<Scales> of_part(sizes.size());
-  const std::vector<double> forces = parts.greatest(state.lambda), jumps = parts.greatest(problem.B * state.u),
-                            least = yielding(problem, state, parts);
-  for (std::size_t p = 0; p < sizes.size(); ++p) {
-    if (const double force = std::max({forces[p], sizes[p].greatest_load, sizes[p].least_force}); force > 0) of_part[p].force = force;
-    if (const double length = std::max({jumps[p], sizes[p].greatest_displacement, sizes[p].least_length, least[p]}); length > 0) of_part[p].length = length;
+std::vector<Scales> scales(const Problem& problem, const State& state, const Measured& m) {
+  std::vector<Scales> of_part(m.sizes.size());
+  const std::vector<double> forces = m.parts.greatest(state.lambda), jumps = m.parts.greatest(problem.B * state.u),
+                            least = yielding(problem, state, m.parts);
+  for (std::size_t p = 0; p < of_part.size(); ++p) {
+    const Sizes& part = m.sizes[p];
+    if (const double force = std::max({forces[p], part.greatest_load, part.least_force}); force > 0) of_part[p].force = force;
+    if (const double length = std::max({jumps[p], part.greatest_displacement, part.least_length, least[p]}); length > 0) of_part[p].length = length;
   }
   std::vector<Scales> of_row;
-  for (const int p : parts.of_row) of_row.push_back(of_part[static_cast<std::size_t>(p)]);
+  for (const int p : m.parts.of_row) of_row.push_back(of_part[p]);
   return of_row;
 }
 
-/// Greatest ‖Ku + Bᵀλ − f‖ of a part, relative to its forces.
-double equilibrium(const Problem& problem, const Forces& all, const Parts& parts, const std::vector<Sizes>& sizes) {
-  const Vector left = all.internal + all.contact - all.load;
-  std::vector<double> norm(sizes.size(), 0);
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
-    add(norm[static_cast<std::size_t>(parts.of_block[b])], left.segment(problem.blocks[b].first, problem.blocks[b].size()));
-  double most = 0;
-  for (std::size_t p = 0; p < sizes.size(); ++p)
-    if (const double scale = sizes[p].force(); scale > 0) most = std::max(most, norm[p] / scale);
-  return most;
-}
-
 /// Σ|λ x| over the unilateral rows of a part against its work; the greatest of all parts.
-double complementarity(const Problem& problem, const State& state, const Vector& x, const Forces& all, const Parts& parts,
-                       const std::vector<Sizes>& sizes) {
+double complementarity(const Problem& problem, const State& state, const Vector& x, const Measured& m) {
+  const Parts& parts = m.parts;
   const std::vector<double> least = yielding(problem, state, parts);
-  std::vector<double> product(sizes.size(), 0), work = product, internal = product, external = product;
-  for (std::size_t p = 0; p < sizes.size(); ++p) work[p] = sizes[p].least_work;
+  std::vector<double> product(m.sizes.size(), 0), work = product, internal = product, external = product;
+  for (std::size_t p = 0; p < work.size(); ++p) work[p] = m.sizes[p].least_work;
   for (int r = 0; r < problem.rows(); ++r) work[parts.of_row[r]] += std::abs(state.lambda[r]) * least[parts.of_row[r]];
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
@@ -184,55 +195,46 @@ double complementarity(const Problem& problem, const State& state, const Vector&
     }
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const auto own = [&](const Vector& v) { return v.segment(problem.blocks[b].first, problem.blocks[b].size()); };
-    internal[parts.of_block[b]] += 0.5 * own(state.u).dot(own(all.internal));
-    external[parts.of_block[b]] += own(state.u).dot(own(all.load));
+    internal[parts.of_block[b]] += 0.5 * own(state.u).dot(own(m.forces.internal));
+    external[parts.of_block[b]] += own(state.u).dot(own(m.forces.load));
   }
-  for (std::size_t p = 0; p < sizes.size(); ++p) work[p] += std::abs(internal[p]) + std::abs(external[p]);
-  const std::vector<double> beside_others = least_beside_others(work, any_loaded(sizes));
-  double most = 0;
-  for (std::size_t p = 0; p < sizes.size(); ++p)
-    if (const double scale = sizes[p].load > 0 ? work[p] : std::max(work[p], beside_others[p]); scale > 0) most = std::max(most, product[p] / scale);
-  return most;
+  for (std::size_t p = 0; p < work.size(); ++p) work[p] += std::abs(internal[p]) + std::abs(external[p]);
+  const std::vector<double> beside_others = least_beside_others(work, any_loaded(m.sizes));
+  return greatest_ratio(product, [&](std::size_t p) { return m.sizes[p].load > 0 ? work[p] : std::max(work[p], beside_others[p]); });
 }
-
-}  // namespace
-
-std::vector<Scales> scales(const Problem& problem, const State& state) {
-  const Parts parts = problem::parts(problem);
-  return scales(problem, state, parts, sizes(problem, state, external_forces(problem, state), parts));
-}
-
-namespace {
 
 /// Sets Residual::penetration and law.
-void add_laws(const Problem& problem, const State& state, const Vector& x, const std::vector<Scales>& of_row, Residual& result) {
-  const auto scale = [&](int r) { return of_row[static_cast<std::size_t>(r)]; };
+void add_laws(const Problem& problem, const State& state, const Vector& x, const std::vector<Scales>& scale, Residual& result) {
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
-      result.penetration = std::max(result.penetration, x[r] / std::max(scale(r).length, std::abs(problem.c[r])));
-  const auto rho = [&](int r, double gap) { return scale(r).force / std::max(scale(r).length, gap); };
+      result.penetration = std::max(result.penetration, x[r] / std::max(scale[r].length, std::abs(problem.c[r])));
+  const auto rho = [&](int r, double gap) { return scale[r].force / std::max(scale[r].length, gap); };
   const Vector off = distances(
       problem, x, state.lambda, [&](int r) { return rho(r, std::abs(problem.c[r])); },
       [&](const FrictionGroup& group, int k) {
         return rho(group.row(k), problem.c.segment(group.row(k), group.components).lpNorm<Eigen::Infinity>());
       });
-  for (int r = 0; r < problem.rows(); ++r) result.law = std::max(result.law, off[r] / scale(r).force);
+  for (int r = 0; r < problem.rows(); ++r) result.law = std::max(result.law, off[r] / scale[r].force);
 }
 
 }  // namespace
 
+std::vector<Scales> scales(const Problem& problem, const State& state) {
+  return scales(problem, state, Measured(problem, state, external_forces(problem, state)));
+}
+
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
-  const Forces all = forces(problem, state);
-  const Parts parts = problem::parts(problem);
-  const std::vector<Sizes> sizes = problem::sizes(problem, state, all, parts);
-  result.energy = energy(problem, state, all.internal);
-  result.equilibrium = equilibrium(problem, all, parts, sizes);
+  const Measured m(problem, state, forces(problem, state));
+  result.energy = energy(problem, state, m.forces.internal);
+  const Vector left = m.forces.internal + m.forces.contact - m.forces.load;
+  result.equilibrium = greatest_ratio(norms(problem, m.parts, [&](const Block& block) { return left.segment(block.first, block.size()); }),
+                                      [&](std::size_t p) { return m.sizes[p].force(); });
   if (problem.rows() == 0) return result;
   const Vector x = problem.B * state.u - problem.c;
-  add_laws(problem, state, x, scales(problem, state, parts, sizes), result);
-  result.complementarity = complementarity(problem, state, x, all, parts, sizes);
-  result.friction = friction_violation(problem, state, parts);
+  add_laws(problem, state, x, scales(problem, state, m), result);
+  result.complementarity = complementarity(problem, state, x, m);
+  result.friction = friction_violation(problem, state, m.parts);
   return result;
 }
 
@@ -243,30 +245,24 @@ double distance_from_laws(const Problem& problem, const State& state) {
 }
 
 double rounding_of_equilibrium(const Problem& problem, const State& state) {
-  const Parts parts = problem::parts(problem);
-  const std::vector<Sizes> sizes = problem::sizes(problem, state, forces(problem, state), parts);
-  std::vector<double> gross(sizes.size(), 0);
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
-    add(gross[static_cast<std::size_t>(parts.of_block[b])],
-        gross_forces(problem.blocks[b], state.u.segment(problem.blocks[b].first, problem.blocks[b].size())));
-  double most = 0;
-  for (std::size_t p = 0; p < sizes.size(); ++p)
-    if (const double size = sizes[p].internal + sizes[p].contact + sizes[p].load; size > 0) most = std::max(most, gross[p] / size);
-  return std::numeric_limits<double>::epsilon() * most;
+  const Measured m(problem, state, forces(problem, state));
+  const auto gross = norms(problem, m.parts, [&](const Block& block) { return algebra::gross_product(block.K, state.u.segment(block.first, block.size())); });
+  return std::numeric_limits<double>::epsilon() *
+         greatest_ratio(gross, [&](std::size_t p) { return m.sizes[p].internal + m.sizes[p].contact + m.sizes[p].load; });
 }
 
 Vector rounding_of_forces(const Problem& problem, const State& state) {
   if (problem.rows() == 0) return {};
   Vector gross(state.u.size());
-  for (const Block& block : problem.blocks) gross.segment(block.first, block.size()) = gross_forces(block, state.u.segment(block.first, block.size()));
+  for (const Block& block : problem.blocks) gross.segment(block.first, block.size()) = algebra::gross_product(block.K, state.u.segment(block.first, block.size()));
   Vector rounding = std::numeric_limits<double>::epsilon() * (algebra::SparseRows(problem.B.cwiseAbs()) * gross);
   for (int r = 0; r < problem.rows(); ++r)
     if (const double square = problem.B.row(r).squaredNorm(); square > 0) rounding[r] /= square;
   const Vector x = problem.B * state.u - problem.c;
-  const std::vector<Scales> of_row = scales(problem, state);
+  const std::vector<Scales> scale = scales(problem, state);
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
-      if (-x[r] > 1e-6 * of_row[static_cast<std::size_t>(r)].length) rounding[r] = 0;
+      if (-x[r] > 1e-6 * scale[r].length) rounding[r] = 0;
   return rounding;
 }
 

@@ -50,11 +50,10 @@ std::vector<Scales> scales(const Problem& problem, const State& state);
 /// "equilibrium 1e-16, penetration 0, complementarity 0, friction 0, law 2e-16".
 std::string describe(const Residual& residual);
 
-/// The equilibrium residual told apart from the rounding of motions as a whole. A block that is free but for its rows
-/// moves by w = the part of u in its kernel, R; Kw = 0, but of a w that is rounded, to Kw about ε|K||w|, however small the
-/// forces are: where the block is C times as stiff as what carries it, ε C of them. Such a residual says nothing
-/// against u and λ. It is granted to a block up to 4ε‖|K||w|‖, and its resultants are asked for instead, which no rounding
-/// of w enters as RᵀK = 0: Rᵀ(Bᵀλ − f) = 0. Where f = 0, forces below √ε‖|K||u|‖ are no scale here either.
+/// The equilibrium residual told apart from the rounding of motions as a whole. A block that is free but for its rows moves by w, the part of
+/// u in its kernel R: Kw = 0, but of a rounded w about ε|K||w|, however small the forces are. Such a residual says nothing against u and λ: it is
+/// granted up to 4ε‖|K||w|‖, and the resultants are asked for instead, Rᵀ(Bᵀλ − f) = 0, which no rounding of w enters as RᵀK = 0. Where f = 0,
+/// forces below √ε‖|K||u|‖ are no scale here either.
 struct MotionResidual {
   double beyond = 0;      ///< √Σ (‖Ku + Bᵀλ − f‖ − 4ε‖|K||w|‖)⁺², norms of each block / (‖Ku‖ + ‖Bᵀλ‖ + ‖f‖) of the part
   /// Greatest |rᵀ(Bᵀλ − f)| / (max|r| Σ(|Bᵀ||λ| + |f|)) of all columns r of all R, sums over its block.

@@ -13,15 +13,6 @@ using algebra::Vector;
 
 namespace {
 
-/// Splits the motions into those that rows notice and the null space of N.
-void split(RigidMotions& rigid) {
-  // Modes have greatest displacement 1: 1e-9 of that is "not at all".
-  algebra::RangeAndNull two = algebra::range_and_null(rigid.N, 1e-9);
-  rigid.noticed = std::move(two.seen);
-  rigid.unnoticed = std::move(two.unseen);
-  if (rigid.unnoticed.cols() == 0) rigid.noticed.setIdentity();  // the modes as they are named
-}
-
 /// Loads that cancel to this part of what they are without their signs are balanced: the rest is rounding.
 constexpr double kCancelled = 1e-13;
 
@@ -35,7 +26,7 @@ Vector resultants(const Block& block) {
 }  // namespace
 
 SparseMatrix jumps_of_modes(const Problem& problem) {
-  std::vector<Eigen::Triplet<double>> entries;
+  algebra::Triplets entries;
   std::vector<int> first_mode{0};
   for (const Block& block : problem.blocks) first_mode.push_back(first_mode.back() + static_cast<int>(block.kernel.cols()));
   for (int r = 0; r < problem.rows(); ++r)
@@ -44,8 +35,7 @@ SparseMatrix jumps_of_modes(const Problem& problem) {
       const Block& block = problem.blocks[b];
       for (int k = 0; k < block.kernel.cols(); ++k) entries.emplace_back(r, first_mode[b] + k, it.value() * block.kernel(it.col() - block.first, k));
     }
-  SparseMatrix N(problem.rows(), first_mode.back());
-  N.setFromTriplets(entries.begin(), entries.end());
+  SparseMatrix N = algebra::from_triplets(problem.rows(), first_mode.back(), entries);
   N.prune([](int, int, double value) { return value != 0; });
   return N;
 }
@@ -55,7 +45,10 @@ RigidMotions rigid_motions(const Problem& problem) {
   rigid.N = jumps_of_modes(problem);
   rigid.e = Vector::Zero(rigid.N.cols());
   rigid.motions = body_motions(problem);
-  split(rigid);
+  algebra::RangeAndNull two = algebra::range_and_null(rigid.N, kNotAtAll);
+  rigid.noticed = std::move(two.seen);
+  rigid.unnoticed = std::move(two.unseen);
+  if (rigid.unnoticed.cols() == 0) rigid.noticed.setIdentity();  // the modes as they are named
   rigid.noticed_N = rigid.N * rigid.noticed;
   take_load(problem, rigid);
   return rigid;
@@ -102,7 +95,7 @@ SparseMatrix displacement(const Problem& problem, const SparseMatrix& motions) {
   std::vector<int> mode_of;
   for (const Block& block : problem.blocks)
     for (int k = 0; k < block.kernel.cols(); ++k) block_of.push_back(&block), mode_of.push_back(k);
-  std::vector<Eigen::Triplet<double>> entries;
+  algebra::Triplets entries;
   for (int j = 0; j < motions.cols(); ++j)
     for (SparseMatrix::InnerIterator it(motions, j); it; ++it) {
       const Block& block = *block_of[static_cast<std::size_t>(it.row())];
@@ -110,9 +103,7 @@ SparseMatrix displacement(const Problem& problem, const SparseMatrix& motions) {
       for (int i = 0; i < block.size(); ++i)
         if (mode[i] != 0) entries.emplace_back(block.first + i, j, mode[i] * it.value());
     }
-  SparseMatrix u(problem.unknowns(), motions.cols());
-  u.setFromTriplets(entries.begin(), entries.end());
-  return u;
+  return algebra::from_triplets(problem.unknowns(), motions.cols(), entries);
 }
 
 SparseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid) {

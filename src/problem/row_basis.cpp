@@ -35,13 +35,12 @@ class Elimination {
   RowBasis operator()() {
     RowBasis basis;
     for (int r = 0; r < problem_.rows(); ++r) basis.unknown.push_back(eliminate(r));
-    std::vector<Eigen::Triplet<double>> entries;
+    algebra::Triplets entries;
     for (int j = 0; j < n_; ++j) {
       if (solved_[j].empty()) entries.emplace_back(j, j, 1);
       for (const auto& [index, value] : solved_[j]) entries.emplace_back(j, index < n_ ? index : basis.unknown[index - n_], value);
     }
-    basis.T.resize(n_, n_);
-    basis.T.setFromTriplets(entries.begin(), entries.end());
+    basis.T = algebra::from_triplets(n_, n_, entries);
     return basis;
   }
 
@@ -138,7 +137,7 @@ bool RowBasis::trivial() const {
 
 SparseMatrix RowBasis::of_displacements(const Problem& problem) const {
   std::vector<char> own(T.cols(), 0);
-  std::vector<Eigen::Triplet<double>> entries;
+  algebra::Triplets entries;
   for (std::size_t r = 0; r < unknown.size(); ++r) {
     if (unknown[r] < 0) continue;
     own[unknown[r]] = 1;
@@ -146,9 +145,7 @@ SparseMatrix RowBasis::of_displacements(const Problem& problem) const {
   }
   for (int i = 0; i < T.cols(); ++i)
     if (!own[i]) entries.emplace_back(i, i, 1);
-  SparseMatrix S(T.rows(), T.cols());
-  S.setFromTriplets(entries.begin(), entries.end());
-  return S;
+  return algebra::from_triplets(T.rows(), T.cols(), entries);
 }
 
 }  // namespace dotyk::problem

@@ -39,8 +39,7 @@ void Rows::close_group() {
 
 void Rows::finish(std::function<std::string(int)> row_name) {
   close_group();
-  problem_.B = algebra::SparseRows(count(), problem_.unknowns());
-  problem_.B.setFromTriplets(entries_.begin(), entries_.end());
+  problem_.B = algebra::from_triplets<algebra::SparseRows>(count(), problem_.unknowns(), entries_);
   problem_.c = Eigen::Map<const algebra::Vector>(c_.data(), count());
   problem_.row_name = std::move(row_name);
 }

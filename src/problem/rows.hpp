@@ -46,7 +46,7 @@ class Rows {
   SupportLaw law_;
   double unit_ = 1;
   std::vector<double> shares_, c_;
-  std::vector<Eigen::Triplet<double>> entries_;
+  algebra::Triplets entries_;
 };
 
 }  // namespace dotyk::problem

@@ -8,7 +8,6 @@
 
 #include "algebra/dense/bounded_least_squares.hpp"
 #include "algebra/dense/cone_least_squares.hpp"
-#include "algebra/pick_rows.hpp"
 #include "problem/parts.hpp"
 
 namespace dotyk::problem {
@@ -25,16 +24,13 @@ struct Units {
 
 Units units(const RigidMotions& rigid, const Problem& problem) {
   const Parts parts = problem::parts(problem);
-  std::vector<double> size(static_cast<std::size_t>(parts.count), 0);
-  std::vector<std::size_t> part_of_mode;
+  Vector size = Vector::Zero(parts.count);
+  std::vector<int> part_of_mode;
   for (std::size_t b = 0; b < problem.blocks.size(); ++b)
-    part_of_mode.insert(part_of_mode.end(), static_cast<std::size_t>(problem.blocks[b].kernel.cols()), static_cast<std::size_t>(parts.of_block[b]));
-  for (std::size_t k = 0; k < part_of_mode.size(); ++k) size[part_of_mode[k]] = std::hypot(size[part_of_mode[k]], rigid.e[static_cast<Eigen::Index>(k)]);
-  const auto of = [&](std::size_t part) { return size[part] > 0 && std::isfinite(size[part]) ? size[part] : 1; };
-  Units result{Vector(problem.rows()), Vector(rigid.count())};
-  for (int r = 0; r < problem.rows(); ++r) result.of_row[r] = of(static_cast<std::size_t>(parts.of_row[static_cast<std::size_t>(r)]));
-  for (std::size_t k = 0; k < part_of_mode.size(); ++k) result.of_mode[static_cast<Eigen::Index>(k)] = of(part_of_mode[k]);
-  return result;
+    part_of_mode.insert(part_of_mode.end(), static_cast<std::size_t>(problem.blocks[b].kernel.cols()), parts.of_block[b]);
+  for (int k = 0; k < rigid.count(); ++k) size[part_of_mode[k]] = std::hypot(size[part_of_mode[k]], rigid.e[k]);
+  size = size.unaryExpr([](double s) { return s > 0 && std::isfinite(s) ? s : 1; }).eval();
+  return {size(parts.of_row), size(part_of_mode)};
 }
 
 /// Work below this part of the load's size counts as none: rounding of Rᵀf and of the modes.

@@ -2,33 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "problem/law/limited.hpp"
-#include "problem/law/power_law.hpp"
 
 namespace dotyk::problem {
 
 using Kind = SupportLaw::Kind;
 
 const char* support_name(Kind kind) {
-  switch (kind) {
-    case Kind::free: return "free";
-    case Kind::prescribed: return "prescribed";
-    case Kind::load: return "load";
-    case Kind::elastic: return "elastic";
-    case Kind::one_sided_elastic: return "one-sided elastic";
-    case Kind::signorini: return "Signorini";
-    case Kind::friction: return "friction";
-    case Kind::one_sided_friction: return "one-sided friction";
-    case Kind::capped_elastic: return "capped elastic";
-    case Kind::unequal_elastic: return "unequal elastic";
-    case Kind::compliance: return "compliance";
-    case Kind::coulomb: return "Coulomb friction";
-    case Kind::breaking: return "breaking";
-  }
-  return "";
+  constexpr const char* kNames[] = {"free",        "prescribed",         "load",           "elastic",         "one-sided elastic", "Signorini", "friction",
+                                    "one-sided friction", "capped elastic", "unequal elastic", "compliance", "Coulomb friction", "breaking"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Kind::breaking) + 1);
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string describe(const SupportLaw& law) {
@@ -103,11 +90,14 @@ void require_valid(const SupportLaw& law) {
 std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit, const std::vector<double>& shares) {
   const double k = law.value / (unit * unit), bound = law.value / unit, limit = law.limit / unit;
   constexpr double rigid = Law::kUnbounded;
+  const auto each = [&](const auto& of) {  // what it makes of every share
+    std::vector<decltype(of(1.0))> rows;
+    for (const double share : shares) rows.push_back(of(share));
+    return rows;
+  };
   const auto cut_off = [&](double stiffness, double low, double high) {
-    std::vector<Limits> rows;
-    const auto of = [](double number, double share) { return std::isfinite(number) ? number * share : number; };
-    for (const double share : shares) rows.push_back({of(stiffness, share), of(low, share), of(high, share)});
-    return limited(support_name(law.kind), std::move(rows));
+    const auto part = [](double number, double share) { return std::isfinite(number) ? number * share : number; };
+    return limited(support_name(law.kind), each([&](double share) { return Limits{part(stiffness, share), part(low, share), part(high, share)}; }));
   };
   switch (law.kind) {
     case Kind::free:
@@ -117,24 +107,14 @@ std::shared_ptr<const Law> row_law(const SupportLaw& law, double unit, const std
     case Kind::signorini: return unilateral();
     case Kind::breaking:
     case Kind::one_sided_elastic: return cut_off(k, 0, rigid);
-    case Kind::compliance: {
-      std::vector<double> factors;
-      for (const double share : shares) factors.push_back(law.value / std::pow(unit, law.power + 1) * share);
-      return power_law(std::move(factors), law.power);
-    }
+    case Kind::compliance:
+      return power_law(each([&](double share) { return law.value / std::pow(unit, law.power + 1) * share; }), law.power);
     case Kind::friction: return cut_off(rigid, -bound, bound);
     case Kind::one_sided_friction: return cut_off(rigid, 0, bound);
     case Kind::capped_elastic: return cut_off(k, -limit, limit);
-    case Kind::unequal_elastic: {
-      std::vector<Springs> springs;
-      for (const double share : shares) springs.push_back({law.pull / (unit * unit) * share, k * share});
-      return unequal_elastic(std::move(springs));
-    }
-    case Kind::elastic: {
-      std::vector<double> stiffness;
-      for (const double share : shares) stiffness.push_back(k * share);
-      return elastic(std::move(stiffness));
-    }
+    case Kind::unequal_elastic:
+      return unequal_elastic(each([&](double share) { return Springs{law.pull / (unit * unit) * share, k * share}; }));
+    case Kind::elastic: return elastic(each([&](double share) { return k * share; }));
   }
   return nullptr;
 }

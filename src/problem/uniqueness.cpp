@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "algebra/dense/dense.hpp"
-#include "algebra/krylov/largest_eigenvalue.hpp"
+#include "algebra/krylov/lanczos.hpp"
 #include "algebra/dense/null_space.hpp"
 #include "problem/rigid_motions.hpp"
 
@@ -109,29 +109,24 @@ Uniqueness uniqueness(const RigidMotions& rigid, const Problem& problem) {
 }
 
 std::optional<double> uniqueness_factor(const Problem& problem, const CondensedProblem& condensed) {
-  struct Point {
-    int normal, first, components;
-    double coefficient, scale;
-  };
-  std::vector<Point> points;
+  std::vector<int> normals, rows;
+  std::vector<double> weights, scales;  // s^½ μ of points, s^-½ of rows
   const DenseMatrix& W = condensed.W();
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k)
-      if (const double mu = group.law->bound_slope(k); mu > 0)
-        points.push_back({group.normal[k], group.row(k), group.components, mu, W.diagonal().segment(group.row(k), group.components).mean()});
-  if (points.empty()) return std::numeric_limits<double>::infinity();
+      if (const double mu = group.law->bound_slope(k); mu > 0) {
+        const double root = std::sqrt(W.diagonal().segment(group.row(k), group.components).mean());
+        normals.push_back(group.normal[k]), weights.push_back(root * mu);
+        for (int i = 0; i < group.components; ++i) rows.push_back(group.row(k) + i), scales.push_back(1 / root);
+      }
+  if (normals.empty()) return std::numeric_limits<double>::infinity();
   if (condensed.kernel_size() > 0) return std::nullopt;
   DenseMatrix L = W;
   if (!(W.diagonal().minCoeff() > 0)) return std::nullopt;
   if (!algebra::cholesky(L) || !(L.diagonal().minCoeff() > 1e-7 * std::sqrt(W.diagonal().maxCoeff()))) return std::nullopt;
-  const Eigen::Index count = static_cast<Eigen::Index>(points.size());
-  DenseMatrix columns = DenseMatrix::Zero(W.rows(), count);  // s^½ μ L⁻¹ P_nᵀ
-  for (Eigen::Index i = 0; i < count; ++i) columns(points[i].normal, i) = std::sqrt(points[i].scale) * points[i].coefficient;
+  DenseMatrix columns = DenseMatrix::Zero(W.rows(), static_cast<Eigen::Index>(normals.size()));  // s^½ μ L⁻¹ P_nᵀ
+  for (std::size_t i = 0; i < normals.size(); ++i) columns(normals[i], static_cast<Eigen::Index>(i)) = weights[i];
   algebra::solve_lower(L, columns);
-  std::vector<int> rows;
-  std::vector<double> scales;
-  for (const Point& point : points)
-    for (int i = 0; i < point.components; ++i) rows.push_back(point.first + i), scales.push_back(1 / std::sqrt(point.scale));
   DenseMatrix tangential = W(rows, rows);
   const Eigen::Map<const Vector> s(scales.data(), static_cast<Eigen::Index>(scales.size()));
   tangential = s.asDiagonal() * tangential * s.asDiagonal();

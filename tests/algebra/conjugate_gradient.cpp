@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "algebra/dense/decompositions.hpp"
-#include "algebra/dense/tridiagonal.hpp"
 #include "base/error.hpp"
 #include "iterations.hpp"
 #include "spd_matrices.hpp"

@@ -1,4 +1,4 @@
-#include "algebra/krylov/largest_eigenvalue.hpp"
+#include "algebra/krylov/lanczos.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,6 @@
 
 #include "../support/random.hpp"
 #include "algebra/dense/decompositions.hpp"
-#include "algebra/krylov/lanczos.hpp"
 #include "algebra/direct/stop_factoring.hpp"
 
 using namespace dotyk;

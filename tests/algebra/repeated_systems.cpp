@@ -7,8 +7,7 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/krylov/block_cg.hpp"
-#include "algebra/krylov/cglan.hpp"
-#include "algebra/krylov/successive_cg.hpp"
+#include "algebra/krylov/recycling.hpp"
 #include "base/error.hpp"
 #include "iterations.hpp"
 #include "spd_matrices.hpp"

@@ -5,7 +5,6 @@
 
 #include "base/error.hpp"
 #include "problem/law.hpp"
-#include "problem/law/limited.hpp"
 
 using namespace dotyk;
 using namespace dotyk::problem;

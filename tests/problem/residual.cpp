@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "../support/chain.hpp"
-#include "problem/law/limited.hpp"
 
 using namespace dotyk;
 using namespace dotyk::problem;

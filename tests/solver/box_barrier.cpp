@@ -4,7 +4,6 @@
 
 #include "../support/programs.hpp"
 #include "../support/random.hpp"
-#include "problem/law/limited.hpp"
 #include "solver/active/box_barrier.hpp"
 
 using namespace dotyk;

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include "../support/programs.hpp"
-#include "problem/law/limited.hpp"
 #include "problem/residual.hpp"
 #include "solver/rows/newton.hpp"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "../support/programs.hpp"
-#include "problem/law/limited.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

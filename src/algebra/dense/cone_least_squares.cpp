@@ -122,13 +122,12 @@ class Minimisation {
   }
 
   void make_pattern(const std::vector<std::vector<int>>& columns) {
-    std::vector<Eigen::Triplet<double>> entries;
+    Triplets entries;
     for (int j = 0; j < A_.cols(); ++j) entries.emplace_back(j, j, 1.0);
     for (const auto& own : columns)
       for (std::size_t j = 0; j < own.size(); ++j)
         for (std::size_t i = j; i < own.size(); ++i) entries.emplace_back(own[i], own[j], 0.0);
-    H_.resize(A_.cols(), A_.cols());
-    H_.setFromTriplets(entries.begin(), entries.end());
+    H_ = from_triplets(A_.cols(), A_.cols(), entries);
     const int *start = H_.outerIndexPtr(), *row = H_.innerIndexPtr();
     for (std::size_t f = 0; f < columns.size(); ++f)
       for (std::size_t j = 0; j < columns[f].size(); ++j)

@@ -1,16 +1,23 @@
 #include "algebra/dense/decompositions.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <stdexcept>
+
+extern "C" void dstevr_(const char* jobz, const char* range, const int* n, double* d, double* e, const double* vl,
+                        const double* vu, const int* il, const int* iu, const double* abstol, int* m, double* w,
+                        double* z, const int* ldz, int* isuppz, double* work, const int* lwork, int* iwork,
+                        const int* liwork, int* info);
 
 namespace dotyk::algebra {
 namespace {
 
 /// A decomposition of A that takes pivots below `threshold` of the greatest for zero.
 template <class Decomposition>
-Decomposition pivoted(const DenseMatrix& A, std::optional<double> threshold) {
-  Decomposition d;
-  if (threshold) d.setThreshold(*threshold);
-  d.compute(A);
+std::shared_ptr<const Decomposition> pivoted(const DenseMatrix& A, std::optional<double> threshold) {
+  const auto d = std::make_shared<Decomposition>();
+  if (threshold) d->setThreshold(*threshold);
+  d->compute(A);
   return d;
 }
 
@@ -22,6 +29,31 @@ Eigenpairs eigenpairs(const DenseMatrix& A) {
 }
 
 Vector eigenvalues(const DenseMatrix& A) { return Eigen::SelfAdjointEigenSolver<DenseMatrix>(A, Eigen::EigenvaluesOnly).eigenvalues(); }
+
+Eigenpairs tridiagonal_eigenpairs(const Vector& diagonal, const Vector& off_diagonal) {
+  Eigen::SelfAdjointEigenSolver<DenseMatrix> e;
+  e.computeFromTridiagonal(diagonal, off_diagonal);
+  return {e.eigenvalues(), e.eigenvectors()};
+}
+
+Eigenpairs lowest_eigenpairs(Vector diagonal, Vector off_diagonal, int count) {
+  const int n = static_cast<int>(diagonal.size());
+  count = std::min(count, n);
+  if (count <= 0) return {};
+  if (!diagonal.allFinite() || !off_diagonal.allFinite()) throw std::runtime_error("tridiagonal eigenvalues: not finite");
+  off_diagonal.conservativeResize(n);  // dstevr uses one more for itself
+  off_diagonal[n - 1] = 0;
+  Vector values(n), work(20 * n);
+  DenseMatrix vectors(n, count);
+  std::vector<int> support(2 * static_cast<std::size_t>(count)), integers(10 * static_cast<std::size_t>(n));
+  const int first = 1, lwork = 20 * n, liwork = 10 * n;
+  const double unused = 0;
+  int found = 0, info = 0;
+  dstevr_("V", "I", &n, diagonal.data(), off_diagonal.data(), &unused, &unused, &first, &count, &unused, &found,
+          values.data(), vectors.data(), &n, support.data(), work.data(), &lwork, integers.data(), &liwork, &info);
+  if (info != 0 || found < count) throw std::runtime_error("tridiagonal eigenvalues: dstevr failed");
+  return {values.head(count), vectors};
+}
 
 Eigenpairs3 eigenpairs3(const Eigen::Matrix3d& A) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> e(A);
@@ -47,7 +79,7 @@ PivotedFactors pivoted_factors(const DenseMatrix& A) {
 
 DenseMatrix span(const DenseMatrix& A, double threshold) {
   const auto qr = pivoted<Eigen::ColPivHouseholderQR<DenseMatrix>>(A, threshold);
-  return qr.householderQ() * DenseMatrix::Identity(A.rows(), qr.rank());
+  return qr->householderQ() * DenseMatrix::Identity(A.rows(), qr->rank());
 }
 
 DenseMatrix complement(const Vector& e) {
@@ -59,31 +91,21 @@ DenseMatrix least_squares(const DenseMatrix& A, const DenseMatrix& B) { return E
 
 Vector least_squares(const DenseMatrix& A, const Vector& b) { return Eigen::ColPivHouseholderQR<DenseMatrix>(A).solve(b); }
 
-struct MinimumNorm::Factor {
-  Eigen::CompleteOrthogonalDecomposition<DenseMatrix> cod;
-};
 MinimumNorm::MinimumNorm(const DenseMatrix& A, std::optional<double> threshold)
-    : factor_(std::make_shared<Factor>(Factor{pivoted<decltype(Factor::cod)>(A, threshold)})) {}
-Vector MinimumNorm::solve(const Vector& b) const { return factor_->cod.solve(b); }
-DenseMatrix MinimumNorm::solve(const DenseMatrix& B) const { return factor_->cod.solve(B); }
-Vector MinimumNorm::solve_transposed(const Vector& b) const { return factor_->cod.transpose().solve(b); }
+    : factor_(pivoted<Eigen::CompleteOrthogonalDecomposition<DenseMatrix>>(A, threshold)) {}
+Vector MinimumNorm::solve(const Vector& b) const { return factor_->solve(b); }
+DenseMatrix MinimumNorm::solve(const DenseMatrix& B) const { return factor_->solve(B); }
+Vector MinimumNorm::solve_transposed(const Vector& b) const { return factor_->transpose().solve(b); }
 
-struct Ldlt::Factor {
-  Eigen::LDLT<DenseMatrix> ldlt;
-};
-Ldlt::Ldlt(const DenseMatrix& A) : factor_(std::make_shared<Factor>(Factor{Eigen::LDLT<DenseMatrix>(A)})) {}
-bool Ldlt::factored() const { return factor_->ldlt.info() == Eigen::Success; }
-double Ldlt::rcond() const { return factor_->ldlt.rcond(); }
-Vector Ldlt::solve(const Vector& b) const { return factor_->ldlt.solve(b); }
-DenseMatrix Ldlt::solve(const DenseMatrix& B) const { return factor_->ldlt.solve(B); }
+Ldlt::Ldlt(const DenseMatrix& A) : factor_(std::make_shared<Eigen::LDLT<DenseMatrix>>(A)) {}
+double Ldlt::rcond() const { return factor_->rcond(); }
+Vector Ldlt::solve(const Vector& b) const { return factor_->solve(b); }
+DenseMatrix Ldlt::solve(const DenseMatrix& B) const { return factor_->solve(B); }
 
-struct PivotedLu::Factor {
-  Eigen::FullPivLU<DenseMatrix> lu;
-};
-PivotedLu::PivotedLu(const DenseMatrix& A, std::optional<double> threshold)
-    : factor_(std::make_shared<Factor>(Factor{pivoted<decltype(Factor::lu)>(A, threshold)})), size_(static_cast<int>(A.cols())) {}
-int PivotedLu::rank() const { return static_cast<int>(factor_->lu.rank()); }
-Vector PivotedLu::solve(const Vector& b) const { return factor_->lu.solve(b); }
-DenseMatrix PivotedLu::kernel() const { return factor_->lu.kernel(); }
+PivotedLu::PivotedLu(const DenseMatrix& A, std::optional<double> threshold) : factor_(pivoted<Eigen::FullPivLU<DenseMatrix>>(A, threshold)) {}
+bool PivotedLu::regular() const { return rank() == factor_->cols(); }
+int PivotedLu::rank() const { return static_cast<int>(factor_->rank()); }
+Vector PivotedLu::solve(const Vector& b) const { return factor_->solve(b); }
+DenseMatrix PivotedLu::kernel() const { return factor_->kernel(); }
 
 }  // namespace dotyk::algebra

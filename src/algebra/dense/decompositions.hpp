@@ -17,6 +17,10 @@ struct Eigenpairs {
 };
 Eigenpairs eigenpairs(const DenseMatrix& A);
 Vector eigenvalues(const DenseMatrix& A);
+/// Of the symmetric tridiagonal matrix, by QR steps; `off_diagonal` is shorter by one.
+Eigenpairs tridiagonal_eigenpairs(const Vector& diagonal, const Vector& off_diagonal);
+/// Its `count` least ones, all where there are fewer, by LAPACK's dstevr (multiple relatively robust representations).
+Eigenpairs lowest_eigenpairs(Vector diagonal, Vector off_diagonal, int count);
 
 /// The same of a 3×3 matrix.
 struct Eigenpairs3 {
@@ -66,24 +70,20 @@ class MinimumNorm {
   Vector solve_transposed(const Vector& b) const;
 
  private:
-  struct Factor;
-  std::shared_ptr<const Factor> factor_;
+  std::shared_ptr<const Eigen::CompleteOrthogonalDecomposition<DenseMatrix>> factor_;
 };
 
 /// A = Pᵀ L D Lᵀ P of a symmetric semidefinite A, whose lower triangle is read.
 class Ldlt {
  public:
   explicit Ldlt(const DenseMatrix& A);
-  /// Could A be factored?
-  bool factored() const;
   /// An estimate of 1/(‖A‖₁‖A⁻¹‖₁).
   double rcond() const;
   Vector solve(const Vector& b) const;
   DenseMatrix solve(const DenseMatrix& B) const;
 
  private:
-  struct Factor;
-  std::shared_ptr<const Factor> factor_;
+  std::shared_ptr<const Eigen::LDLT<DenseMatrix>> factor_;
 };
 
 /// P A Q = L U with rows and columns exchanged for the greatest pivot, which tells the rank.
@@ -91,7 +91,7 @@ class PivotedLu {
  public:
   /// Pivots below `threshold` of the greatest are taken for zero; without one, those that rounding makes.
   explicit PivotedLu(const DenseMatrix& A, std::optional<double> threshold = {});
-  bool regular() const { return rank() == size_; }
+  bool regular() const;
   int rank() const;
   /// A solution, if A x = b has one.
   Vector solve(const Vector& b) const;
@@ -99,9 +99,7 @@ class PivotedLu {
   DenseMatrix kernel() const;
 
  private:
-  struct Factor;
-  std::shared_ptr<const Factor> factor_;
-  int size_;
+  std::shared_ptr<const Eigen::FullPivLU<DenseMatrix>> factor_;
 };
 
 }  // namespace dotyk::algebra

@@ -33,10 +33,8 @@ void triangular_solve(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x, const cha
   if (l.rows() != x.rows()) throw std::logic_error("triangular solve: sizes differ");
   if (m == 0 || n == 0) return;
   const BlasThreads threads(1.0 * m * m * n);
-  const StoppableFactoring sweeping;
   const double one = 1;
-  dtrsm_("L", "L", transposed, "N", &m, &n, &one, l.data(), &lda, x.data(), &ldb);
-  if (sweeping.stopped()) throw Interrupted();
+  stoppable([&] { dtrsm_("L", "L", transposed, "N", &m, &n, &one, l.data(), &lda, x.data(), &ldb); });
 }
 
 /// alpha: X Xᵀ ("N") or XᵀX ("T").
@@ -47,10 +45,8 @@ DenseMatrix rank_update(const DenseMatrix& x, const char* transposed) {
   DenseMatrix c = DenseMatrix::Zero(n, n);
   if (n == 0 || k == 0) return c;
   const BlasThreads threads(1.0 * n * n * k);
-  const StoppableFactoring multiplying;
   const double one = 1, zero = 0;
-  dsyrk_("L", transposed, &n, &k, &one, x.data(), &lda, &zero, c.data(), &n);
-  if (multiplying.stopped()) throw Interrupted();
+  stoppable([&] { dsyrk_("L", transposed, &n, &k, &one, x.data(), &lda, &zero, c.data(), &n); });
   c.triangularView<Eigen::StrictlyUpper>() = c.transpose();
   return c;
 }
@@ -61,20 +57,15 @@ bool cholesky(DenseMatrix& a) {
   const int n = static_cast<int>(a.rows());
   if (n == 0) return true;
   const BlasThreads threads(1.0 / 3 * n * n * n);
-  const StoppableFactoring factoring;
   int info = 0;
-  dpotrf_("L", &n, a.data(), &n, &info);
-  if (factoring.stopped()) throw Interrupted();
+  stoppable([&] { dpotrf_("L", &n, a.data(), &n, &info); });
   if (info != 0) return false;
   a.triangularView<Eigen::StrictlyUpper>().setZero();
   return true;
 }
 
 void solve_lower(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) { triangular_solve(l, x, "N"); }
-
-void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) {
-  triangular_solve(l, x, "T");
-}
+void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) { triangular_solve(l, x, "T"); }
 
 DenseMatrix gram(const DenseMatrix& x) { return rank_update(x, "T"); }
 DenseMatrix square(const DenseMatrix& l) { return rank_update(l, "N"); }
@@ -88,12 +79,9 @@ OrthogonalFactors orthogonal_factors(DenseMatrix x) {
   Vector tau(n), work(length);
   const auto reflect = [&](const char* transposed, int j, DenseMatrix& columns, int first) {
     ask_to_stop();
-    const StoppableFactoring reflecting;
     const int below = m - j, width = std::min(kPanel, n - j), count = n - first;
     int info = 0;
-    if (count > 0)
-      dormqr_("L", transposed, &below, &count, &width, &x(j, j), &m, tau.data() + j, &columns(j, first), &m, work.data(), &length, &info);
-    if (reflecting.stopped()) throw Interrupted();
+    stoppable([&] { dormqr_("L", transposed, &below, &count, &width, &x(j, j), &m, tau.data() + j, &columns(j, first), &m, work.data(), &length, &info); });
   };
   for (int j = 0; j < n; j += kPanel) {
     const int below = m - j, width = std::min(kPanel, n - j);

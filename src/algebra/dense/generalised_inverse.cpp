@@ -26,11 +26,6 @@ void exchange(const DenseMatrix& kernel, std::vector<int>& unknowns) {
   }
 }
 
-double least_singular_value(const DenseMatrix& square) {
-  if (square.size() == 0) return 1;
-  return smallest_singular_value(square);
-}
-
 }  // namespace
 
 std::vector<int> fixing_unknowns(const DenseMatrix& kernel) {
@@ -49,14 +44,20 @@ std::vector<int> fixing_unknowns(const SparseMatrix& kernel) {
   return unknowns;
 }
 
-Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R) {
-  Vector rows = Vector::Zero(lower.rows());
-  for (int j = 0; R.cols() > 0 && j < lower.cols(); ++j)
+Vector gross_product(const SparseMatrix& lower, const Vector& w) {
+  Vector sum = Vector::Zero(w.size());
+  for (int j = 0; j < lower.cols(); ++j)
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      rows[it.row()] += std::abs(it.value());
-      if (it.row() != j) rows[j] += std::abs(it.value());
+      sum[it.row()] += std::abs(it.value() * w[j]);
+      if (it.row() != j) sum[j] += std::abs(it.value() * w[it.row()]);
     }
+  return sum;
+}
+
+Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R) {
   Vector result = Vector::Zero(R.cols());
+  if (R.cols() == 0) return result;
+  const Vector rows = gross_product(lower, Vector::Ones(lower.rows()));
   for (Eigen::Index k = 0; rows.size() > 0 && k < R.cols(); ++k) {
     const Vector force = lower.selfadjointView<Eigen::Lower>() * R.col(k);
     for (Eigen::Index i = 0; i < rows.size(); ++i)
@@ -69,10 +70,7 @@ Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R) {
 SparseMatrix hold(SparseMatrix lower, const std::vector<int>& unknowns) {
   std::vector<char> is_fixed(lower.rows(), 0);
   for (int unknown : unknowns) is_fixed[unknown] = 1;
-  double largest = 0;
-  for (int j = 0; j < lower.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
-      if (it.row() == j) largest = std::max(largest, it.value());
+  const double largest = lower.rows() > 0 ? Vector(lower.diagonal()).maxCoeff() : 0;
   for (int j = 0; j < lower.cols(); ++j)
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
       if (is_fixed[it.row()] || is_fixed[j]) it.valueRef() = it.row() != j ? 0 : largest > 0 ? largest : 1;
@@ -84,7 +82,7 @@ GeneralisedInverse::GeneralisedInverse(const SparseMatrix& lower, const std::vec
     : fixed_(std::move(fixed)), basis_(orthonormal(kernel)), factor_(lower, node, {}, ordering) {
   if (static_cast<Eigen::Index>(fixed_.size()) != basis_.cols())
     throw InputError(text(fixed_.size(), " unknowns are fixed; the kernel has ", basis_.cols(), " motions"));
-  regularity_ = least_singular_value(basis_(fixed_, Eigen::all));
+  regularity_ = fixed_.empty() ? 1 : smallest_singular_value(basis_(fixed_, Eigen::all));
   // Of ‖K⁺‖'s bound 1/regularity² no digit would be left.
   if (!(regularity_ > 1e-8)) throw InputError("the unknowns fixed do not hold every motion of the kernel");
 }

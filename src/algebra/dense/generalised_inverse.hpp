@@ -17,6 +17,9 @@ std::vector<int> fixing_unknowns(const DenseMatrix& kernel);
 /// Of every piece of it, see pieces().
 std::vector<int> fixing_unknowns(const SparseMatrix& kernel);
 
+/// |K||w|. `lower`: K's lower triangle.
+Vector gross_product(const SparseMatrix& lower, const Vector& w);
+
 /// How far K R is from zero: for each column r of R the greatest |K r|_i / Σ_j |K_ij|, relative to r's
 /// greatest entry. Row by row, so that soft parts of a body count as stiff ones do. Rounding leaves a few
 /// 1e-16 for rigid modes; one product with K a column. `lower`: K's lower triangle.

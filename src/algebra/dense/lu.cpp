@@ -42,11 +42,11 @@ Lu::Lu(DenseMatrix a) : lu_(std::move(a)), exchanged_(static_cast<std::size_t>(l
     for (int k = j; k < last; ++k) exchanged_[static_cast<std::size_t>(k)] += j;
     if (j > 0) dlaswp_(&j, left, &n, &first, &last, exchanged_.data(), &step);
     if (after == 0) break;
-    const StoppableFactoring eliminating;
-    dlaswp_(&after, left + std::ptrdiff_t(last) * n, &n, &first, &last, exchanged_.data(), &step);
-    dtrsm_("L", "L", "N", "U", &columns, &after, &one, corner, &n, right, &n);
-    dgemm_("N", "N", &after, &after, &columns, &minus_one, corner + columns, &n, right, &n, &one, right + columns, &n);
-    if (eliminating.stopped()) throw Interrupted();
+    stoppable([&] {
+      dlaswp_(&after, left + std::ptrdiff_t(last) * n, &n, &first, &last, exchanged_.data(), &step);
+      dtrsm_("L", "L", "N", "U", &columns, &after, &one, corner, &n, right, &n);
+      dgemm_("N", "N", &after, &after, &columns, &minus_one, corner + columns, &n, right, &n, &one, right + columns, &n);
+    });
   }
 }
 

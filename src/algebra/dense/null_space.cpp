@@ -15,8 +15,6 @@
 namespace dotyk::algebra {
 namespace {
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
 constexpr Eigen::Index kDense = 40;  ///< columns up to which singular values cost nothing
 
 /// Of a piece: how its columns combine.
@@ -184,10 +182,7 @@ RangeAndNull range_and_null(const SparseMatrix& A, double tolerance) {
         if (own.unseen(i, j) != 0) unseen.emplace_back(piece.columns[i], rest + j, own.unseen(i, j));
     rank += static_cast<int>(own.seen.cols()), rest += static_cast<int>(own.unseen.cols());
   });
-  RangeAndNull result{SparseMatrix(A.cols(), rank), SparseMatrix(A.cols(), rest)};
-  result.seen.setFromTriplets(seen.begin(), seen.end());
-  result.unseen.setFromTriplets(unseen.begin(), unseen.end());
-  return result;
+  return {from_triplets(A.cols(), rank, seen), from_triplets(A.cols(), rest, unseen)};
 }
 
 int rank(const SparseMatrix& A, double tolerance) {
@@ -204,9 +199,7 @@ SparseMatrix orthonormal(const SparseMatrix& columns) {
       for (int i = 0; i < own.rows(); ++i)
         if (own(i, j) != 0) entries.emplace_back(piece.rows[i], piece.columns[j], own(i, j));
   }
-  SparseMatrix result(columns.rows(), columns.cols());
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
+  return from_triplets(columns.rows(), columns.cols(), entries);
 }
 
 }  // namespace dotyk::algebra

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "algebra/dense/tridiagonal.hpp"
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::algebra {
 
@@ -13,7 +13,7 @@ Quadrature gauss(int count, double power) {
     diagonal(n) = n == 0 ? power / (power + 2) : power * power / (m * (m + 2));
     if (n > 0) off(n - 1) = 2.0 * n * (n + power) / (m * std::sqrt(m * m - 1));
   }
-  const Eigenpairs jacobi = all_eigenpairs(diagonal, off);
+  const Eigenpairs jacobi = tridiagonal_eigenpairs(diagonal, off);
   return {(jacobi.values.array() + 1) / 2,
           jacobi.vectors.row(0).transpose().array().square() / (power + 1)};
 }

@@ -6,14 +6,10 @@ namespace dotyk::algebra {
 /// (ulimit -v): they are taken here, once, or InputError is thrown. The classes below call it.
 void reserve_blas_buffer();
 
-/// While it lives, BLAS calls use all threads it started with (OPENBLAS_NUM_THREADS, else the cores)
-/// if the work ahead is worth it, else one; afterwards one again. The many small products of a plane
-/// mesh's factorisation run slower on two threads than on one (measured: 1.3 s against 0.85 s for
-/// 262 656 unknowns on a busy two-core machine), since the threads wait for each other actively.
-///
-/// CHOLMOD's own loops, which ask OpenMP for threads in every supernode, run on one thread from here on: waiting costs half of a plane
-/// mesh's factorisation (measured: 0.52 s against 0.30 s, 100 000 unknowns of a plate), and asking ends the program where there is no room
-/// for the threads' stacks (a limit of the address space).
+/// While it lives, BLAS calls use all threads it started with (OPENBLAS_NUM_THREADS, else the cores) if the work ahead is worth it, else
+/// one; afterwards one again. In many small products threads wait for each other (measured: 1.3 s on two against 0.85 s on one, a plane mesh of
+/// 262 656 unknowns). CHOLMOD's own loops run on one thread from here on: threads would take half more time (0.52 s against 0.30 s, 100 000 unknowns
+/// of a plate), and end the program where a limit of the address space leaves no room for their stacks.
 class BlasThreads {
  public:
   explicit BlasThreads(double flops);

@@ -91,9 +91,7 @@ bool Cholesky::factor(const SparseMatrix& lower) {
   require_memory(bytes(), text("the factor of ", lower.rows(), " unknowns"));
   const BlasThreads threads(it_->flops);
   cholmod_sparse a = view(lower);
-  const StoppableFactoring factoring;
-  cholmod_factorize(&a, it_->factor, it_->common.get());
-  if (factoring.stopped()) throw Interrupted();
+  stoppable([&] { cholmod_factorize(&a, it_->factor, it_->common.get()); });
   if (it_->common.get()->status == CHOLMOD_NOT_POSDEF) return false;
   it_->common.check("factorisation");
   return it_->factor->minor == it_->factor->n;
@@ -104,69 +102,52 @@ int Cholesky::failed_unknown() const {
   return static_cast<int*>(it_->factor->Perm)[it_->factor->minor];
 }
 
-Vector Cholesky::pivots() const {
-  if (!it_->factor) return {};
-  const cholmod_factor& f = *it_->factor;
-  if (!f.is_super) throw std::runtime_error("pivots: the factor is not supernodal");
-  const int *super = static_cast<int*>(f.super), *pi = static_cast<int*>(f.pi), *px = static_cast<int*>(f.px);
+namespace {
+
+/// Calls visit(column, rows, values, count) for every column of a supernodal factor: its entries from the diagonal down.
+template <class Visit>
+void each_column(const cholmod_factor& f, const Visit& visit) {
+  if (!f.is_super) throw std::runtime_error("the factor is not supernodal");
+  const int *super = static_cast<int*>(f.super), *pi = static_cast<int*>(f.pi), *px = static_cast<int*>(f.px), *rows = static_cast<int*>(f.s);
   const double* x = static_cast<double*>(f.x);
-  Vector result(f.n);
   for (std::size_t s = 0; s < f.nsuper; ++s)
     for (int column = super[s]; column < super[s + 1]; ++column) {
-      const std::ptrdiff_t k = column - super[s], height = pi[s + 1] - pi[s];
-      result[static_cast<int*>(f.Perm)[column]] = std::pow(x[px[s] + k * (height + 1)], 2);
+      const int first = column - super[s], height = pi[s + 1] - pi[s];
+      visit(column, rows + pi[s] + first, x + px[s] + static_cast<std::ptrdiff_t>(first) * (height + 1), height - first);
     }
+}
+
+}  // namespace
+
+Vector Cholesky::pivots() const {
+  if (!it_->factor) return {};
+  Vector result(it_->factor->n);
+  each_column(*it_->factor, [&](int column, const int*, const double* values, int) {
+    result[static_cast<int*>(it_->factor->Perm)[column]] = std::pow(values[0], 2);
+  });
   return result;
 }
 
 DenseMatrix Cholesky::solve(const DenseMatrix& b) const { return it_->sweep(CHOLMOD_A, b); }
-
 const std::vector<int>& Cholesky::boundary() const { return it_->boundary; }
 
 DenseMatrix Cholesky::boundary_factor() const {
   const int m = static_cast<int>(it_->position.size());
   DenseMatrix l = DenseMatrix::Zero(m, m);
   if (m == 0) return l;
-  const cholmod_factor& f = *it_->factor;
-  std::vector<int> rank(f.n, -1);
+  std::vector<int> rank(it_->factor->n, -1);
   for (int k = 0; k < m; ++k) rank[it_->position[k]] = k;
-  if (!f.is_super) throw std::runtime_error("Schur complement: the factor is not supernodal");
-  const int *super = static_cast<int*>(f.super), *pi = static_cast<int*>(f.pi),
-            *px = static_cast<int*>(f.px), *rows = static_cast<int*>(f.s);
-  const double* x = static_cast<double*>(f.x);
-  for (std::size_t s = 0; s < f.nsuper; ++s) {
-    const int height = pi[s + 1] - pi[s];
-    for (int column = super[s]; column < super[s + 1]; ++column) {
-      if (rank[column] < 0) continue;
-      const double* values = x + px[s] + static_cast<std::ptrdiff_t>(column - super[s]) * height;
-      for (int k = column - super[s]; k < height; ++k) {
-        const int row = rank[rows[pi[s] + k]];
-        if (row >= 0) l(row, rank[column]) = values[k];
-      }
-    }
-  }
+  each_column(*it_->factor, [&](int column, const int* rows, const double* values, int count) {
+    for (int k = 0; rank[column] >= 0 && k < count; ++k)
+      if (rank[rows[k]] >= 0) l(rank[rows[k]], rank[column]) = values[k];
+  });
   return l;
 }
 
-Vector Cholesky::forward(const Vector& b) const {
-  const Vector permuted = it_->sweep(CHOLMOD_P, b);
-  return it_->sweep(CHOLMOD_L, permuted);
-}
-
-Vector Cholesky::boundary_part(const Vector& swept) const {
-  Vector part(it_->position.size());
-  for (std::size_t k = 0; k < it_->position.size(); ++k) part[k] = swept[it_->position[k]];
-  return part;
-}
-
-void Cholesky::set_boundary_part(Vector& swept, const Vector& part) const {
-  for (std::size_t k = 0; k < it_->position.size(); ++k) swept[it_->position[k]] = part[k];
-}
-
-Vector Cholesky::backward(const Vector& swept) const {
-  const Vector permuted = it_->sweep(CHOLMOD_Lt, swept);
-  return it_->sweep(CHOLMOD_Pt, permuted);
-}
+Vector Cholesky::forward(const Vector& b) const { return it_->sweep(CHOLMOD_L, it_->sweep(CHOLMOD_P, b)); }
+Vector Cholesky::boundary_part(const Vector& swept) const { return swept(it_->position); }
+void Cholesky::set_boundary_part(Vector& swept, const Vector& part) const { swept(it_->position) = part; }
+Vector Cholesky::backward(const Vector& swept) const { return it_->sweep(CHOLMOD_Pt, it_->sweep(CHOLMOD_Lt, swept)); }
 
 double Cholesky::flops() const { return it_->flops; }
 double Cholesky::bytes() const { return it_->factor ? 8.0 * it_->factor->xsize : 0; }

@@ -13,11 +13,9 @@ namespace dotyk::algebra {
 /// Lower triangles: the matrix with entry(i, j) added at (unknowns[i], unknowns[j]), i ≥ j. `unknowns`: ascending.
 SparseMatrix with_block(const SparseMatrix& lower, const std::vector<int>& unknowns, const std::function<double(int i, int j)>& entry);
 
-/// Sparse Cholesky factorisation A = Pᵀ L Lᵀ P of a symmetric positive definite
-/// matrix, with an optional set Γ of unknowns eliminated last. The trailing
-/// block L_Γ of the factor then gives the Schur complement onto Γ,
-///   S = A_ΓΓ − A_ΓI A_II⁻¹ A_IΓ = L_Γ L_Γᵀ,
-/// and one forward and one backward sweep around a problem on Γ solve the whole.
+/// Sparse Cholesky factorisation A = Pᵀ L Lᵀ P of a symmetric positive definite matrix, with an optional set Γ of unknowns eliminated
+/// last. The trailing block L_Γ of the factor then gives the Schur complement onto Γ, S = A_ΓΓ − A_ΓI A_II⁻¹ A_IΓ = L_Γ L_Γᵀ, and one
+/// forward and one backward sweep around a problem on Γ solve the whole.
 class Cholesky {
  public:
   /// Orders and analyses. `lower`: lower triangle; `node`, `last` as in order(). `full_boundary`: what is factored will have

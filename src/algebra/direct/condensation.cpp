@@ -9,21 +9,12 @@
 
 namespace dotyk::algebra {
 
-namespace {
-
-double& diagonal(SparseMatrix& lower, int unknown) {
-  return lower.valuePtr()[lower.outerIndexPtr()[unknown]];  // the first entry of its column
-}
-
-}  // namespace
-
 Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
                            const std::vector<int>& last, const DenseMatrix& kernel,
                            Ordering ordering)
     : factor_(K, node, last, ordering, kernel.cols() > 0) {
-  const Eigen::Index n = static_cast<Eigen::Index>(boundary().size()), modes = kernel.cols();
-  kernel_.resize(n, modes);
-  for (Eigen::Index k = 0; k < n; ++k) kernel_.row(k) = kernel.row(boundary()[k]);
+  const Eigen::Index modes = kernel.cols();
+  kernel_ = kernel(boundary(), Eigen::all);
   if (modes == 0) return;
   const SingularFactors svd = singular_factors(kernel_);
   const Eigen::Index rank = svd.rank(1e-9 * kernel.lpNorm<Eigen::Infinity>());
@@ -44,7 +35,7 @@ bool Condensation::factor(const SparseMatrix& K) {
     for (const int unknown : unknowns) tau_ += K.coeff(unknown, unknown) / static_cast<double>(unknowns.size());
     const DenseMatrix R = basis_(place, Eigen::all).transpose();
     SparseMatrix held = with_block(K, unknowns, [&](int i, int j) { return tau_ * R.col(i).dot(R.col(j)); });
-    for (const int unknown : pinned_) diagonal(held, unknown) *= 2;
+    for (const int unknown : pinned_) held.coeffRef(unknown, unknown) *= 2;
     if (!factor_.factor(held)) return false;
   }
   l_gamma_ = factor_.boundary_factor();

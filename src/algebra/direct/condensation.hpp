@@ -8,11 +8,8 @@
 
 namespace dotyk::algebra {
 
-/// A symmetric positive semidefinite K condensed onto the unknowns Γ of some
-/// nodes: the Schur complement S from the trailing block of one factor, and
-/// what is needed to work with it.
-///
-/// A kernel R of K (rigid modes) is allowed: with R̂ an orthonormal basis of R on Γ, K + τ R̂R̂ᵀ is factored, so that
+/// A symmetric positive semidefinite K condensed onto the unknowns Γ of some nodes: the Schur complement S from the trailing block of one
+/// factor, and what is needed to work with it. A kernel R of K (rigid modes) is allowed: with R̂ an orthonormal basis of R on Γ, K + τ R̂R̂ᵀ is factored, so that
 /// M = S + τ R̂R̂ᵀ = L_Γ L_Γᵀ is positive definite and M⁻¹ a generalised inverse of S. Motions in the kernel that vanish on Γ
 /// are held by a diagonal added at as many well-chosen unknowns (fixing_unknowns): it carries nothing for loads in
 /// equilibrium, so S is as it would be.
@@ -38,8 +35,7 @@ class Condensation {
   DenseMatrix schur() const;
   /// M⁻¹ b, b on Γ (S⁻¹ b without a kernel).
   Vector solve(const Vector& b) const;
-  /// X = L_Γ⁻¹ Bᵀ for a sparse B (rows × |Γ|, columns in boundary() order), so that
-  /// XᵀX = B M⁻¹ Bᵀ.
+  /// X = L_Γ⁻¹ Bᵀ for a sparse B (rows × |Γ|, columns in boundary() order), so that XᵀX = B M⁻¹ Bᵀ.
   DenseMatrix half_compliance(const SparseRows& B) const;
   /// The whole u from u_Γ, for the f of the last condense(): one backward sweep.
   Vector recover(const Vector& boundary_values) const;

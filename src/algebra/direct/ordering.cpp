@@ -84,8 +84,8 @@ double predict(cholmod_sparse& graph, std::vector<int>& order, CholmodCommon& co
   return flops;
 }
 
-std::vector<int> minimum_degree(cholmod_sparse& graph, std::vector<int>& member,
-                                CholmodCommon& common) {
+/// Those of `member`, where there are some, last.
+std::vector<int> minimum_degree(cholmod_sparse& graph, std::vector<int>& member, CholmodCommon& common) {
   std::vector<int> order(graph.nrow);
   if (graph.nrow == 1) return order;  // CAMD writes out of bounds
   if (member.empty())
@@ -96,15 +96,16 @@ std::vector<int> minimum_degree(cholmod_sparse& graph, std::vector<int>& member,
   return order;
 }
 
-/// The order without constraint, those of `member` then moved to its end.
-void move_last(const std::vector<int>& member, std::vector<int>& order) {
-  if (!member.empty())
-    std::stable_partition(order.begin(), order.end(), [&](int k) { return member[k] == 0; });
+std::vector<int> nested_dissection(cholmod_sparse& graph, CholmodCommon& common) {
+  std::vector<int> order(graph.nrow);
+  cholmod_metis(&graph, nullptr, 0, true, order.data(), common.get());
+  common.check("nested dissection");
+  return order;
 }
 
-/// Of the graph without those of `member`, which then follow.
+/// Of the graph without those of `member`.
 std::vector<int> interior_minimum_degree(const NodeGraph& graph, const std::vector<int>& member, CholmodCommon& common) {
-  std::vector<int> inner, index(graph.size(), -1), none;
+  std::vector<int> order, inner, index(graph.size(), -1), none;
   NodeGraph interior;
   for (int k = 0; k < graph.size(); ++k)
     if (member[k] == 0) index[k] = static_cast<int>(inner.size()), inner.push_back(k);
@@ -115,28 +116,9 @@ std::vector<int> interior_minimum_degree(const NodeGraph& graph, const std::vect
       if (index[graph.neighbour[p]] >= 0) interior.neighbour.push_back(index[graph.neighbour[p]]);
     interior.start.push_back(static_cast<int>(interior.neighbour.size()));
   }
-  std::vector<int> order;
-  if (!inner.empty()) {
-    cholmod_sparse view = interior.view();
-    for (const int k : minimum_degree(view, none, common)) order.push_back(inner[k]);
-  }
-  for (int k = 0; k < graph.size(); ++k)
-    if (member[k] != 0) order.push_back(k);
-  return order;
-}
-
-std::vector<int> unconstrained_minimum_degree(cholmod_sparse& graph, const std::vector<int>& member, CholmodCommon& common) {
-  std::vector<int> none, order = minimum_degree(graph, none, common);
-  move_last(member, order);
-  return order;
-}
-
-std::vector<int> nested_dissection(cholmod_sparse& graph, const std::vector<int>& member,
-                                   CholmodCommon& common) {
-  std::vector<int> order(graph.nrow);
-  cholmod_metis(&graph, nullptr, 0, true, order.data(), common.get());
-  common.check("nested dissection");
-  move_last(member, order);
+  if (inner.empty()) return order;
+  cholmod_sparse view = interior.view();
+  for (const int k : minimum_degree(view, none, common)) order.push_back(inner[k]);
   return order;
 }
 
@@ -148,7 +130,7 @@ Permutation order(const SparseMatrix& lower, const std::vector<int>& node,
   CholmodCommon common;
   NodeGraph graph = node_graph(lower, node);
   cholmod_sparse view = graph.view();
-  std::vector<int> member;
+  std::vector<int> member, none;
   if (!last.empty()) {
     member.assign(graph.size(), 0);
     for (int n : last)
@@ -158,7 +140,10 @@ Permutation order(const SparseMatrix& lower, const std::vector<int>& node,
   const double block = graph.size() ? static_cast<double>(node.size()) / graph.size() : 1;
   Permutation result;
   std::vector<int> nodes;
-  const auto take_if_better = [&](std::vector<int> other, const char* method) {
+  const auto take_if_better = [&](std::vector<int> other, const char* method) {  // without constraint: those of `member` are moved to its end
+    if (!member.empty()) std::stable_partition(other.begin(), other.end(), [&](int k) { return member[k] == 0; });
+    for (int k = 0; other.size() < member.size(); ++k)
+      if (member[k] != 0) other.push_back(k);
     const double flops = block * block * block * predict(view, other, common);
     if (!nodes.empty() && flops >= result.flops) return;
     nodes = std::move(other);
@@ -171,11 +156,11 @@ Permutation order(const SparseMatrix& lower, const std::vector<int>& node,
     if (!member.empty() && result.flops > kSecondFlopsPerNode * graph.size())
       take_if_better(interior_minimum_degree(graph, member, common), "AMD");
     if (!member.empty() && result.flops > kThirdFlopsPerNode * graph.size())
-      take_if_better(unconstrained_minimum_degree(view, member, common), "AMD");
+      take_if_better(minimum_degree(view, none, common), "AMD");
   }
   if (choice == Ordering::nested_dissection ||
       (choice == Ordering::automatic && result.flops > kDissectionFlopsPerNode * graph.size()))
-    take_if_better(nested_dissection(view, member, common), "METIS");
+    take_if_better(nested_dissection(view, common), "METIS");
   result.order.reserve(node.size());
   for (int k : nodes)
     for (int i = graph.first[k]; i < graph.first[k + 1]; ++i) result.order.push_back(i);

@@ -10,13 +10,6 @@
 
 namespace dotyk::algebra {
 
-struct SparseLu::Implementation {
-  const SparseMatrix& a;
-  void* numeric = nullptr;
-  bool singular = false;
-  ~Implementation() { umfpack_di_free_numeric(&numeric); }
-};
-
 namespace {
 
 void check(int status, const char* step) {
@@ -28,33 +21,27 @@ void check(int status, const char* step) {
 
 }  // namespace
 
-SparseLu::SparseLu(const SparseMatrix& a) : it_(new Implementation{a}) {
+SparseLu::SparseLu(const SparseMatrix& a) : a_(a) {
   const int n = static_cast<int>(a.rows());
   if (n == 0) return;
   reserve_blas_buffer();
-  void* symbolic = nullptr;
-  int status = umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(),
-                                   &symbolic, nullptr, nullptr);
+  void *symbolic = nullptr, *numeric = nullptr;
+  int status = umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), &symbolic, nullptr, nullptr);
   check(status, "LU analysis");
   double info[UMFPACK_INFO];
-  status = umfpack_di_numeric(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), symbolic,
-                              &it_->numeric, nullptr, info);
+  status = umfpack_di_numeric(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), symbolic, &numeric, nullptr, info);
   umfpack_di_free_symbolic(&symbolic);
+  numeric_ = std::shared_ptr<void>(numeric, [](void* factors) { umfpack_di_free_numeric(&factors); });
   check(status, "LU factorisation");
   // The ratio of least to greatest pivot: rounding leaves a dependent row some 1e-16.
-  it_->singular = status == UMFPACK_WARNING_singular_matrix || info[UMFPACK_RCOND] < 1e-14;
+  singular_ = status == UMFPACK_WARNING_singular_matrix || info[UMFPACK_RCOND] < 1e-14;
 }
-
-SparseLu::~SparseLu() = default;
-
-bool SparseLu::singular() const { return it_->singular; }
 
 Vector SparseLu::solve(const Vector& b) const {
   Vector x(b.size());
   if (x.size() == 0) return x;
-  const SparseMatrix& a = it_->a;
-  const int status = umfpack_di_solve(UMFPACK_A, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(),
-                                      x.data(), b.data(), it_->numeric, nullptr, nullptr);
+  const int status = umfpack_di_solve(UMFPACK_A, a_.outerIndexPtr(), a_.innerIndexPtr(), a_.valuePtr(), x.data(), b.data(), numeric_.get(),
+                                      nullptr, nullptr);
   check(status, "LU solve");
   return x;
 }

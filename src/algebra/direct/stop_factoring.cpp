@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace dotyk::algebra {
 namespace {
@@ -43,15 +44,12 @@ void ask_to_stop() {
   if (watcher) watcher->check();
 }
 
-StoppableFactoring::StoppableFactoring() : within_(factoring) {
-  if (!within_) ended = false;
+void stoppable(const std::function<void()>& work) {
   factoring = true;
+  work();
+  factoring = false;
+  if (std::exchange(ended, false)) throw Interrupted();
 }
-StoppableFactoring::~StoppableFactoring() {
-  factoring = within_;
-  if (!within_) ended = false;
-}
-bool StoppableFactoring::stopped() const { return ended; }
 
 }  // namespace dotyk::algebra
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "base/monitor.hpp"
 
 namespace dotyk::algebra {
@@ -23,19 +25,7 @@ class StopFactoring {
 /// Throws Interrupted where the monitor of the StopFactoring that lives on this thread asks to stop: for loops of this program's own.
 void ask_to_stop();
 
-/// For those functions: lives while such a library is at work.
-class StoppableFactoring {
- public:
-  StoppableFactoring();
-  ~StoppableFactoring();
-  StoppableFactoring(const StoppableFactoring&) = delete;
-  StoppableFactoring& operator=(const StoppableFactoring&) = delete;
-
-  /// Was it ended early? Its numbers mean nothing then.
-  bool stopped() const;
-
- private:
-  bool within_;  ///< another that lives
-};
+/// For those functions: such a library is at work in `work`, which throws nothing. Throws Interrupted where it was ended early.
+void stoppable(const std::function<void()>& work);
 
 }  // namespace dotyk::algebra

@@ -13,10 +13,9 @@
 namespace dotyk::algebra {
 namespace {
 
-constexpr double kDependent = 1e-10;
-
 /// An orthonormal basis of the span of the columns, dependent ones left out; none for zero columns.
 DenseMatrix orth(const DenseMatrix& columns) {
+  constexpr double kDependent = 1e-10;
   if (columns.size() == 0 || !(columns.cwiseAbs().maxCoeff() > 0)) return DenseMatrix(columns.rows(), 0);
   return span(columns, kDependent);
 }

@@ -3,8 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "algebra/krylov/conjugate_basis.hpp"
-#include "algebra/krylov/lanczos_record.hpp"
+#include "algebra/krylov/kept_vectors.hpp"
 #include "algebra/krylov/preconditioner.hpp"
 #include "base/monitor.hpp"
 

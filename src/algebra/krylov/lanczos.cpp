@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/dense/tridiagonal.hpp"
+#include "algebra/dense/decompositions.hpp"
+#include "algebra/dense/dense.hpp"
 
 namespace dotyk::algebra {
 namespace {
@@ -13,7 +14,7 @@ constexpr double kSettled = 1e-3;
 constexpr double kExhausted = 1e-14;
 
 SpectrumEnds ends_of(const Vector& diagonal, const Vector& below, Eigen::Index steps) {
-  const Eigenpairs ritz = all_eigenpairs(diagonal.head(steps), below.head(steps - 1));
+  const Eigenpairs ritz = tridiagonal_eigenpairs(diagonal.head(steps), below.head(steps - 1));
   const auto last = ritz.vectors.row(steps - 1);
   return {ritz.values[0], ritz.values[steps - 1], below[steps - 1] * std::abs(last[0]),
           below[steps - 1] * std::abs(last[steps - 1]), static_cast<int>(steps)};
@@ -48,6 +49,27 @@ Vector lanczos_start(Eigen::Index n) {
   Vector v(n);
   for (Eigen::Index i = 0; i < n; ++i) v[i] = 1.5 + std::sin(1.0 + 1.7 * static_cast<double>(i * i % 1009));
   return v.normalized();
+}
+
+double largest_eigenvalue(const DenseMatrix& A, const Vector& scale) {
+  constexpr int kSteps = 60;
+  if (A.size() == 0) return 0;
+  const Vector s = scale.size() ? scale : Vector::Ones(A.rows());
+  const double always = s.cwiseProduct(A.cwiseAbs() * s).maxCoeff();  // the greatest row sum
+  if (!(always > 0)) return 0;
+  // Rounding of the Ritz value itself is allowed for.
+  const auto scaled = [&](const Vector& v) -> Vector { return s.cwiseProduct(A * s.cwiseProduct(v)); };
+  return std::min(always, (1 + 1e-12) * lanczos(scaled, lanczos_start(s.size()), kSteps, Ends::greatest).bound());
+}
+
+double proved_largest_eigenvalue(const DenseMatrix& A) {
+  double bound = largest_eigenvalue(A);
+  for (; bound > 0; bound *= 1.01) {
+    DenseMatrix above = -A;
+    above.diagonal().array() += bound;
+    if (cholesky(above)) break;
+  }
+  return bound;
 }
 
 }  // namespace dotyk::algebra

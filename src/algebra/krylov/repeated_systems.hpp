@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "algebra/krylov/conjugate_gradient.hpp"
+#include "algebra/direct/cholesky.hpp"
+#include "algebra/krylov/recycling.hpp"
 
 namespace dotyk::algebra {
 
@@ -34,22 +36,31 @@ class RepeatedSystems {
   /// Factors K, or makes the preconditioner. `lower`: K's lower triangle, which must live as long; `node[i]`: node of
   /// unknown i, ascending, for the elimination order. Throws InputError where K is seen not to be positive definite.
   RepeatedSystems(const SparseMatrix& lower, const std::vector<int>& node, const RepeatedSettings& settings);
-  ~RepeatedSystems();
 
   /// The solutions for the columns of B; each one's result is added to results(). A stop (Monitor) leaves the columns
   /// not reached at 0, not converged.
   DenseMatrix solve(const DenseMatrix& B, Monitor& monitor);
 
-  const std::vector<SystemResult>& results() const;
-  double setup_seconds() const;  ///< of the factor or the preconditioner
+  const std::vector<SystemResult>& results() const { return results_; }
+  double setup_seconds() const { return setup_; }  ///< of the factor or the preconditioner
   /// Memory beside K and the solutions: factor or preconditioner, and the vectors kept; at its greatest.
   double bytes() const;
   /// Vectors kept for the next system.
   int kept() const;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> it_;
+  DenseMatrix in_turn(const DenseMatrix& B, Monitor& monitor);
+  DenseMatrix as_block(const DenseMatrix& B, Monitor& monitor);
+  DenseMatrix directly(const DenseMatrix& B);
+
+  const SparseMatrix& K_;
+  RepeatedSettings settings_;
+  std::optional<Cholesky> cholesky_;
+  std::unique_ptr<Preconditioner> preconditioner_;
+  std::optional<SuccessiveCg> scg_;
+  std::optional<Cglan> cglan_;
+  std::vector<SystemResult> results_;
+  double setup_ = 0;
 };
 
 }  // namespace dotyk::algebra

@@ -1,10 +1,9 @@
-#include "problem/law/power_law.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "problem/law.hpp"
 
 namespace dotyk::problem {
 namespace {

@@ -11,7 +11,6 @@
 #include "elasticity/rigid_modes.hpp"
 #include "elasticity/weak_motions.hpp"
 #include "problem/contradiction.hpp"
-#include "problem/range.hpp"
 #include "scene/model/row_builder.hpp"
 #include "scene/model/subdomains.hpp"
 

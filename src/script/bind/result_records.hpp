@@ -1,6 +1,6 @@
 #pragma once
 // Tables that solutions of several models have in common.
-#include "problem/condensed_block.hpp"
+#include "problem/condensed.hpp"
 #include "problem/residual.hpp"
 #include "script/bridge/push.hpp"
 #include "script/prompt/watch.hpp"

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "problem/precise.hpp"
 #include "solver/active/held_stiffness.hpp"
 #include "solver/active/step.hpp"
 

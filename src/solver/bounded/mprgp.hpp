@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "algebra/linear_map.hpp"
+#include "algebra/krylov/lanczos.hpp"
 #include "solver/bounded/separable_set.hpp"
 
 namespace dotyk::solver {

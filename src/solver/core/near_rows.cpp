@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "algebra/pick_rows.hpp"
 #include "solver/core/settled_overlap.hpp"
 
 namespace dotyk::solver {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/monitor.hpp"
-#include "problem/condensed_block.hpp"
+#include "problem/condensed.hpp"
 #include "problem/solvability.hpp"
 #include "solver/core/friction_bound.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "algebra/dense/generalised_inverse.hpp"
-#include "problem/condensed_block.hpp"
+#include "problem/condensed.hpp"
 #include "solver/feti/piece_kinds.hpp"
 #include "solver/feti/torn_problem.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "algebra/dense/generalised_inverse.hpp"
 #include "base/text.hpp"
-#include "problem/law/limited.hpp"
+#include "problem/law.hpp"
 #include "problem/residual.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/core/treatable.hpp"

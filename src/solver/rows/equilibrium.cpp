@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "algebra/dense/dense.hpp"
-#include "algebra/krylov/largest_eigenvalue.hpp"
+#include "algebra/krylov/lanczos.hpp"
 
 namespace dotyk::solver {
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "algebra/dense/dense.hpp"
-#include "algebra/pick_rows.hpp"
 #include "solver/active/linearisation.hpp"
 
 namespace dotyk::solver {

@@ -1,15 +1,12 @@
-#include "algebra/krylov/cglan.hpp"
+#include "algebra/krylov/recycling.hpp"
 
 #include <algorithm>
 
-#include "algebra/dense/tridiagonal.hpp"
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::algebra {
-namespace {
 
 constexpr int kFewestPairs = 10, kMostPairs = 30;
-
-}  // namespace
 
 int number_by_gap(const Vector& values) {
   const int n = static_cast<int>(values.size());
@@ -36,7 +33,6 @@ void Cglan::keep_lowest(const LanczosRecord& record) {
   const Eigenpairs lowest = lowest_eigenpairs(record.diagonal(), record.off_diagonal(), kMostPairs + 1);
   const int count = number_by_gap(lowest.values);
   values_ = lowest.values.head(count);
-  residuals_ = (record.last_coupling() * lowest.vectors.row(record.steps() - 1).head(count)).cwiseAbs();
   const DenseMatrix ritz = record.vectors() * lowest.vectors.leftCols(count);
   for (int i = 0; i < count; ++i) {
     Vector y = ritz.col(i);
