@@ -1,10 +1,10 @@
 #include "elasticity/assembly.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "base/error.hpp"
 #include "elasticity/kernel.hpp"
-#include "elasticity/load.hpp"
-#include "elasticity/pattern.hpp"
 
 namespace dotyk::elasticity {
 namespace {
@@ -12,126 +12,105 @@ namespace {
 using algebra::Vector;
 using mesh::Mesh;
 
-/// Adds dense blocks between nodes into the system, eliminating prescribed components.
-class Scatter {
+/// Adds dense blocks between nodes into a system whose pattern is made first, from the mesh; prescribed components are eliminated.
+class Assembly {
  public:
-  Scatter(const Mesh& mesh, const Numbering& numbering, Pattern& pattern, System& system)
-      : dim_(mesh.dimension()), numbering_(numbering), pattern_(pattern), system_(system),
-        values_(system.K.valuePtr()), outer_(system.K.outerIndexPtr()),
-        whole_(mesh.node_count()), pulls_(mesh.node_count()) {
-    for (int n = 0; n < mesh.node_count(); ++n) {
-      whole_[n] = true;
-      for (int i = 0; i < dim_; ++i) {
-        const std::size_t k = static_cast<std::size_t>(n) * dim_ + i;
-        whole_[n] = whole_[n] && numbering.unknown[k] >= 0;
-        pulls_[n] = pulls_[n] || numbering.prescribed[k] != 0;
-      }
-    }
+  Assembly(const Mesh& mesh, const Numbering& numbering)
+      : dim_(mesh.dimension()), numbering_(numbering), first_(mesh.node_count(), 0), count_(mesh.node_count(), 0) {
+    for (int u = numbering.count() - 1; u >= 0; --u) first_[numbering.node[u]] = u, ++count_[numbering.node[u]];
+    const std::size_t entries = find_neighbours(mesh);
+    if (entries > 2'000'000'000)
+      throw InputError("the stiffness matrix would have more than 2e9 entries; use a coarser mesh");
+    system.K.resize(numbering.count(), numbering.count());
+    system.K.resizeNonZeros(static_cast<Eigen::Index>(entries));
+    std::fill_n(system.K.valuePtr(), entries, 0.0);
+    number_entries();
+    system.f = Vector::Zero(numbering.count());
   }
 
   /// block(i, j) couples component i of node a to component j of node b; for a ≠ b it stands
   /// for both triangles, for a = b it is a full symmetric block.
   template <class Block>
   void add(int a, int b, Block&& block) {
-    if (whole_[a] && whole_[b]) {
-      if (a >= b)
-        add_whole(a, b, [&](int i, int j) { return block(i, j); });
-      else
-        add_whole(b, a, [&](int i, int j) { return block(j, i); });
-    } else {
-      add_reduced(a, b, block);
-    }
-    if (pulls_[a] || pulls_[b]) add_prescribed(a, b, block);
+    const int high = std::max(a, b), low = std::min(a, b);
+    int place = start_[low];
+    while (neighbour_[place] != high) ++place;
+    for (int i = 0; i < dim_; ++i)
+      for (int j = 0; j < dim_; ++j) {
+        const double k = block(i, j);
+        const int r = unknown(a, i), c = unknown(b, j);
+        if (r < 0 || c < 0) {  // f −= K_fp u_p and offset += ½ u_p K_pp u_p
+          if (r >= 0) system.f[r] -= k * prescribed(b, j);
+          if (a != b && c >= 0) system.f[c] -= k * prescribed(a, i);
+          system.offset += (a == b ? 0.5 : 1.0) * prescribed(a, i) * k * prescribed(b, j);
+        } else if (a != b || i >= j) {
+          const int row = std::max(r, c), column = std::min(r, c);
+          const int rank = row - first_[high] - (column - first_[low]);
+          system.K.valuePtr()[system.K.outerIndexPtr()[column] + offset_[place] + rank] += k;
+        }
+      }
   }
+
+  System system;
 
  private:
   int unknown(int node, int i) const { return numbering_.unknown[static_cast<std::size_t>(node) * dim_ + i]; }
   double prescribed(int node, int i) const { return numbering_.prescribed[static_cast<std::size_t>(node) * dim_ + i]; }
 
-  template <class Block>
-  void add_whole(int a, int b, Block&& block) {
-    const int place = pattern_.find(a, b);
-    for (int j = 0; j < dim_; ++j) {
-      const int start = outer_[unknown(b, 0) + j];
-      for (int i = a == b ? j : 0; i < dim_; ++i)
-        values_[pattern_.position(place, i, j, start)] += block(i, j);
+  /// The number of entries.
+  std::size_t find_neighbours(const Mesh& mesh) {
+    const int nodes = mesh.node_count(), per_cell = mesh.topology().nodes;
+    const mesh::Buckets around = mesh::cells_of_nodes(mesh);
+    std::vector<int> mark(nodes, -1);
+    neighbour_.reserve(static_cast<std::size_t>(nodes) * (dim_ == 2 ? 4 : 14));
+    std::size_t entries = 0;
+    for (int b = 0; b < nodes; ++b) {
+      const auto first = static_cast<std::ptrdiff_t>(neighbour_.size());
+      start_.push_back(static_cast<int>(first));
+      neighbour_.push_back(b);
+      for (const int c : around[b])
+        for (int l = 0; l < per_cell; ++l) {
+          const int a = mesh.cell(c)[l];
+          if (a > b && mark[a] != b) mark[a] = b, neighbour_.push_back(a);
+        }
+      std::sort(neighbour_.begin() + first + 1, neighbour_.end());
+      int rows = 0;
+      for (std::size_t k = first; k < neighbour_.size(); ++k) offset_.push_back(rows), rows += count_[neighbour_[k]];
+      entries += static_cast<std::size_t>(rows) * count_[b] - count_[b] * (count_[b] - 1) / 2;
     }
+    start_.push_back(static_cast<int>(neighbour_.size()));
+    return entries;
   }
 
-  template <class Block>
-  void add_reduced(int a, int b, Block&& block) {
-    const int row = a >= b ? a : b, column = a >= b ? b : a;
-    const int place = pattern_.find(row, column);
-    int column_rank = 0;
-    for (int j = 0; j < dim_; ++j) {
-      if (unknown(column, j) < 0) continue;
-      const int start = outer_[unknown(column, j)];
-      int row_rank = 0;
-      for (int i = 0; i < dim_; ++i) {
-        if (unknown(row, i) < 0) continue;
-        if (a != b || i >= j)
-          values_[pattern_.position(place, row_rank, column_rank, start)] +=
-              a >= b ? block(i, j) : block(j, i);
-        ++row_rank;
+  void number_entries() {
+    int *outer = system.K.outerIndexPtr(), *inner = system.K.innerIndexPtr(), at = 0;
+    for (std::size_t b = 0; b < count_.size(); ++b)
+      for (int rank = 0; rank < count_[b]; ++rank) {
+        outer[first_[b] + rank] = at;
+        for (int k = start_[b]; k < start_[b + 1]; ++k) {
+          const int a = neighbour_[k];
+          for (int r = k == start_[b] ? rank : 0; r < count_[a]; ++r) inner[at++] = first_[a] + r;
+        }
       }
-      ++column_rank;
-    }
-  }
-
-  /// f −= K_fp u_p and offset += ½ u_p K_pp u_p.
-  template <class Block>
-  void add_prescribed(int a, int b, Block&& block) {
-    for (int i = 0; i < dim_; ++i)
-      for (int j = 0; j < dim_; ++j) {
-        const double k = block(i, j);
-        if (unknown(a, i) >= 0) system_.f[unknown(a, i)] -= k * prescribed(b, j);
-        if (a != b && unknown(b, j) >= 0) system_.f[unknown(b, j)] -= k * prescribed(a, i);
-        system_.offset += (a == b ? 0.5 : 1.0) * prescribed(a, i) * k * prescribed(b, j);
-      }
+    outer[numbering_.count()] = at;
   }
 
   int dim_;
   const Numbering& numbering_;
-  const Pattern& pattern_;
-  System& system_;
-  double* values_;
-  const int* outer_;
-  std::vector<char> whole_;  ///< all components unknown
-  std::vector<char> pulls_;  ///< some component prescribed and not zero
+  std::vector<int> first_, count_;      ///< of a node's unknowns
+  std::vector<int> start_, neighbour_;  ///< node → its neighbours ≥ itself, ascending, itself first
+  std::vector<int> offset_;             ///< unknowns of the neighbours before
 };
 
 /// Calls visit(nodes of the cell, k) for every cell; k[a][b][i][j] couples component i of its node a
 /// to component j of its node b ≤ a.
 template <class E, class Visit>
 void for_each_stiffness(const Mesh& mesh, const MaterialField& material, Visit&& visit) {
-  double x[E::nodes][E::dim], k[E::nodes][E::nodes][E::dim][E::dim];
-  Hooke hooke = material.at(0);
-  for (int c = 0; c < mesh.cell_count(); ++c) {
-    if (material.varies()) hooke = material.at(c);
-    cell_coordinates<E>(mesh, c, x);
+  double k[E::nodes][E::nodes][E::dim][E::dim];
+  for_each_cell<E>(mesh, material, [&](int c, const auto& x, const Hooke& hooke) {
     stiffness<E>(x, hooke, k);
     visit(mesh.cell(c), k);
-  }
-}
-
-template <class E>
-void add_cells(const Mesh& mesh, const MaterialField& material, Scatter& scatter) {
-  for_each_stiffness<E>(mesh, material, [&](const int* n, const auto& k) {
-    for (int a = 0; a < E::nodes; ++a)
-      for (int b = 0; b <= a; ++b)
-        scatter.add(n[a], n[b], [&](int i, int j) { return k[a][b][i][j]; });
   });
-}
-
-void add_springs(const Mesh& mesh, const std::vector<FacetSpring>& springs, Scatter& scatter) {
-  for (const FacetSpring& spring : springs)
-    for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
-      const auto& k = spring.stiffness[p.index];
-      for (int a = 0; a < p.nodes; ++a)
-        for (int b = 0; b <= a; ++b)
-          scatter.add(mesh.facet_node(spring.facet, a), mesh.facet_node(spring.facet, b),
-                      [&](int i, int j) { return i == j ? k[i] * p.shape[a] * p.shape[b] * p.measure : 0.0; });
-    });
 }
 
 }  // namespace
@@ -157,20 +136,46 @@ double matrix_bytes(const Mesh& mesh) {
 System assemble(const Mesh& mesh, const MaterialField& material,
                 const std::vector<FacetSpring>& springs, const std::vector<double>& force,
                 const Numbering& numbering) {
-  System system;
-  Pattern pattern(mesh, numbering);
-  system.K = pattern.take_matrix();
-  system.f = Vector::Zero(numbering.count());
+  Assembly assembly(mesh, numbering);
+  System& system = assembly.system;
   for (std::size_t k = 0; k < force.size(); ++k) {
     if (numbering.unknown[k] >= 0)
       system.f[numbering.unknown[k]] += force[k];
     else
       system.offset -= force[k] * numbering.prescribed[k];
   }
-  Scatter scatter(mesh, numbering, pattern, system);
-  dispatch(mesh.element, [&]<class E>() { add_cells<E>(mesh, material, scatter); });
-  add_springs(mesh, springs, scatter);
-  return system;
+  dispatch(mesh.element, [&]<class E>() {
+    for_each_stiffness<E>(mesh, material, [&](const int* n, const auto& k) {
+      for (int a = 0; a < E::nodes; ++a)
+        for (int b = 0; b <= a; ++b)
+          assembly.add(n[a], n[b], [&](int i, int j) { return k[a][b][i][j]; });
+    });
+  });
+  for (const FacetSpring& spring : springs)
+    for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
+      const auto& k = spring.stiffness[p.index];
+      for (int a = 0; a < p.nodes; ++a)
+        for (int b = 0; b <= a; ++b)
+          assembly.add(mesh.facet_node(spring.facet, a), mesh.facet_node(spring.facet, b),
+                       [&](int i, int j) { return i == j ? k[i] * p.shape[a] * p.shape[b] * p.measure : 0.0; });
+    });
+  return std::move(system);
+}
+
+algebra::SparseMatrix h1_gram(const Mesh& mesh, const Numbering& numbering, double length) {
+  Assembly assembly(mesh, numbering);
+  dispatch(mesh.element, [&]<class E>() {
+    for_each_load_point<E>(mesh, [&](const CellPoint& p, double w, const auto& shape, const auto& g) {
+      const int* n = mesh.cell(p.cell);
+      for (int a = 0; a < E::nodes; ++a)
+        for (int b = 0; b <= a; ++b) {
+          double k = shape[a] * shape[b] / (length * length);
+          for (int i = 0; i < E::dim; ++i) k += g[a][i] * g[b][i];
+          assembly.add(n[a], n[b], [&](int i, int j) { return i == j ? w * k : 0.0; });
+        }
+    });
+  });
+  return assembly.system.K.pruned();  // components are not coupled
 }
 
 SpringRows spring_rows(const mesh::Mesh& mesh, const std::vector<FacetSpring>& springs, const Numbering& numbering) {
@@ -212,16 +217,16 @@ std::vector<double> internal_force(const Mesh& mesh, const MaterialField& materi
     });
   });
   for (const FacetSpring& spring : springs)
-    for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
-      for (int i = 0; i < dim; ++i) {
-        double value = 0;
-        for (int b = 0; b < p.nodes; ++b)
-          value += p.shape[b] * u[static_cast<std::size_t>(mesh.facet_node(spring.facet, b)) * dim + i];
-        for (int a = 0; a < p.nodes; ++a)
-          force[static_cast<std::size_t>(mesh.facet_node(spring.facet, a)) * dim + i] +=
-              spring.stiffness[p.index][i] * value * p.shape[a] * p.measure;
-      }
-    });
+    for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) { add_at(mesh, spring.facet, p, spring_force(mesh, spring, p, u), force); });
+  return force;
+}
+
+mesh::Point spring_force(const Mesh& mesh, const FacetSpring& spring, const FacetPoint& p, const std::vector<double>& u) {
+  mesh::Point force{0, 0, 0};
+  for (int a = 0; a < p.nodes; ++a) {
+    const mesh::Point at = mesh::at_node(u, mesh.facet_node(spring.facet, a), mesh.dimension());
+    for (int i = 0; i < mesh.dimension(); ++i) force[i] += spring.stiffness[p.index][i] * p.shape[a] * at[i];
+  }
   return force;
 }
 

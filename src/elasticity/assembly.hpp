@@ -4,11 +4,34 @@
 #include <vector>
 
 #include "algebra/types.hpp"
+#include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
-#include "elasticity/numbering.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::elasticity {
+
+/// Which displacement components of a body are unknown, and the values of the rest.
+struct Numbering {
+  std::vector<int> unknown;        ///< node × dimension + component → unknown, or -1 where prescribed
+  std::vector<double> prescribed;  ///< the same index → value (0 where unknown)
+  std::vector<int> node;           ///< unknown → node; ascending
+  int count() const { return static_cast<int>(node.size()); }
+};
+
+/// Numbers the components not marked in `fixed` (node × dimension flags), node by node.
+inline Numbering number(const mesh::Mesh& mesh, const std::vector<char>& fixed,
+                        std::vector<double> prescribed) {
+  Numbering n;
+  n.unknown.assign(fixed.size(), -1);
+  n.prescribed = std::move(prescribed);
+  const int dim = mesh.dimension();
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (!fixed[i]) {
+      n.unknown[i] = static_cast<int>(n.node.size());
+      n.node.push_back(static_cast<int>(i) / dim);
+    }
+  return n;
+}
 
 /// An elastic support on one facet: stiffness per length (2-D) or area (3-D)
 /// for each component, at the facet's quadrature points (see load.hpp).
@@ -48,5 +71,13 @@ SpringRows spring_rows(const mesh::Mesh& mesh, const std::vector<FacetSpring>& s
 std::vector<double> internal_force(const mesh::Mesh& mesh, const MaterialField& material,
                                    const std::vector<FacetSpring>& springs,
                                    const std::vector<double>& u);
+
+/// What a spring adds to it at a point of its facet: force per length or area.
+mesh::Point spring_force(const mesh::Mesh& mesh, const FacetSpring& spring, const FacetPoint& point, const std::vector<double>& u);
+
+/// The Gram matrix (lower triangle) of the vector Sobolev norm on a body's unknown components,
+///   ‖u‖₁² = ∫ ∇u:∇u + u·u/ℓ²,
+/// ℓ a length of the problem, so that both terms have one unit. Positive definite without any support.
+algebra::SparseMatrix h1_gram(const mesh::Mesh& mesh, const Numbering& numbering, double length);
 
 }  // namespace dotyk::elasticity

@@ -7,8 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "elasticity/load.hpp"
-#include "elasticity/strain.hpp"
+#include "elasticity/kernel.hpp"
 #include "mesh/submesh.hpp"
 
 namespace dotyk::elasticity {
@@ -20,6 +19,25 @@ using mesh::Point;
 using mesh::dot;
 using mesh::length;
 using mesh::minus;
+
+/// The inverse of Hooke's law in Voigt form (engineering shear), over the components of the dimension.
+Eigen::MatrixXd compliance(const Hooke& h) {
+  const std::vector<int> component = voigt_components(h.dimension);
+  const auto n = static_cast<int>(component.size());
+  Eigen::MatrixXd c(n, n);
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b) {
+      const auto& [i, j] = kVoigt[component[a]];
+      const auto& [k, l] = kVoigt[component[b]];
+      c(a, b) = h.c[i][j][k][l];
+    }
+  return c.inverse();
+}
+
+/// xx yy xy or xx yy zz yz xz xy.
+Eigen::VectorXd voigt(const Stress& s, int dimension) {
+  return Eigen::Map<const Eigen::Matrix<double, 6, 1>>(s.data())(voigt_components(dimension));
+}
 
 /// Greatest difference of two tensors of Hooke, relative to the greater one's greatest entry.
 double difference(const Hooke& a, const Hooke& b) {
@@ -129,12 +147,10 @@ template <class E>
 void inside(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u,
             const std::vector<Point>& force, const Regions& regions, const std::vector<Recovered>& recovered,
             ErrorEstimate& estimate) {
-  double x[E::nodes][E::dim], measure, g[E::nodes][E::dim];
-  Hooke hooke = material.at(0);
-  Eigen::MatrixXd inverse = compliance(hooke);
-  for (int c = 0; c < mesh.cell_count(); ++c) {
-    if (material.varies()) inverse = compliance(hooke = material.at(c));
-    cell_coordinates<E>(mesh, c, x);
+  double measure, g[E::nodes][E::dim];
+  Eigen::MatrixXd inverse = compliance(material.at(0));
+  for_each_cell<E>(mesh, material, [&](int c, const auto& x, const Hooke& hooke) {
+    if (material.varies()) inverse = compliance(hooke);
     std::array<Stress, E::nodes> corner;
     for (int a = 0; a < E::nodes; ++a) corner[a] = recovered[regions.of_cell[c]].at(mesh.cell(c)[a]);
     const double reach = longest_edge(mesh, c) / std::numbers::pi, weight = reach * reach / wave_stiffness(hooke);
@@ -149,7 +165,7 @@ void inside(const Mesh& mesh, const MaterialField& material, const std::vector<d
       for (int a = 0; a < E::nodes; ++a)
         for (int v = 0; v < 6; ++v) {
           smooth[v] += shape[a] * corner[a][v];
-          const int i = kPair[v][0], j = kPair[v][1];
+          const auto& [i, j] = kVoigt[v];
           if (i >= E::dim || j >= E::dim) continue;
           lacking[i] += g[a][j] * corner[a][v];
           if (i != j) lacking[j] += g[a][i] * corner[a][v];
@@ -160,7 +176,7 @@ void inside(const Mesh& mesh, const MaterialField& material, const std::vector<d
       for (int i = 0; i < E::dim; ++i) estimate.cells[c].bulk += w * weight * lacking[i] * lacking[i];
       estimate.solution_squared += w * raw.dot(inverse * raw);
     }
-  }
+  });
 }
 
 Point traction_of(const Stress& s, const Point& n) {

@@ -1,19 +1,78 @@
 #pragma once
 
-// Element matrices. Used inside this room only.
+// From a mesh's cell type to its reference element, at compile time; element matrices and stresses. Used inside this room only.
+
+#include <Eigen/Core>
 
 #include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
-#include "elasticity/dispatch.hpp"
+#include "elasticity/reference_element.hpp"
+#include "elasticity/stress.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::elasticity {
+
+/// Gradients in the cell's own coordinates at `xi`, and the Jacobian there.
+/// x: nodes × dim coordinates of the cell. Only their differences enter: far from the origin, too,
+/// rigid motions then strain nothing.
+template <class E>
+double physical_gradient(const double x[][E::dim], const std::array<double, E::dim>& xi,
+                         double g[][E::dim]) {
+  double r[E::nodes][E::dim], j[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  E::gradient(xi, r);
+  for (int i = 0; i < E::dim; ++i)
+    for (int k = 0; k < E::dim; ++k) {
+      j[i][k] = 0;
+      for (int a = 1; a < E::nodes; ++a) j[i][k] += (x[a][i] - x[0][i]) * r[a][k];
+    }
+  double inverse[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {  // cofactors; in the plane j[2][2] = 1
+      const int p = (i + 1) % 3, q = (i + 2) % 3, s = (k + 1) % 3, t = (k + 2) % 3;
+      inverse[k][i] = j[p][s] * j[q][t] - j[p][t] * j[q][s];
+    }
+  const double det = j[0][0] * inverse[0][0] + j[0][1] * inverse[1][0] + j[0][2] * inverse[2][0];
+  for (int a = 0; a < E::nodes; ++a)
+    for (int i = 0; i < E::dim; ++i) {
+      g[a][i] = 0;
+      for (int k = 0; k < E::dim; ++k) g[a][i] += r[a][k] * inverse[k][i] / det;
+    }
+  return det;
+}
+
+/// Calls `body.template operator()<E>()` with the reference element of `element`.
+template <class Body>
+auto dispatch(mesh::Element element, Body&& body) {
+  switch (element) {
+    case mesh::Element::triangle_p1: return body.template operator()<TriangleP1>();
+    case mesh::Element::quadrilateral_q1: return body.template operator()<QuadrilateralQ1>();
+    case mesh::Element::tetrahedron_p1: return body.template operator()<TetrahedronP1>();
+    case mesh::Element::hexahedron_q1: return body.template operator()<HexahedronQ1>();
+    case mesh::Element::triangle_p2: return body.template operator()<TriangleP2>();
+    case mesh::Element::quadrilateral_q2: return body.template operator()<QuadrilateralQ2>();
+    case mesh::Element::tetrahedron_p2: return body.template operator()<TetrahedronP2>();
+    case mesh::Element::hexahedron_q2: break;
+  }
+  return body.template operator()<HexahedronQ2>();
+}
 
 template <class E>
 void cell_coordinates(const mesh::Mesh& mesh, int cell, double x[][E::dim]) {
   const int* n = mesh.cell(cell);
   for (int a = 0; a < E::nodes; ++a)
     for (int i = 0; i < E::dim; ++i) x[a][i] = mesh.node(n[a])[i];
+}
+
+/// Calls visit(cell, coordinates, its material) for each cell.
+template <class E, class Visit>
+void for_each_cell(const mesh::Mesh& mesh, const MaterialField& material, Visit&& visit) {
+  double x[E::nodes][E::dim];
+  Hooke hooke = material.at(0);
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    if (material.varies()) hooke = material.at(c);
+    cell_coordinates<E>(mesh, c, x);
+    visit(c, x, hooke);
+  }
 }
 
 /// Calls visit(point, weight × measure, shape functions, their gradients) for each point of the cells' load rule.
@@ -60,6 +119,46 @@ void stiffness(const double x[][E::dim], const Hooke& h, double k[][E::nodes][E:
             for (int m = 0; m < d; ++m) k[a][b][i][j] += g[a][m] * t[i][m][j];
     }
   }
+}
+
+/// Nodal values (node × dimension) of a cell, a row each.
+template <class E>
+Eigen::Matrix<double, E::nodes, E::dim> values_of(const mesh::Mesh& mesh, int cell, const std::vector<double>& nodal) {
+  Eigen::Matrix<double, E::nodes, E::dim> at;
+  for (int a = 0; a < E::nodes; ++a)
+    for (int i = 0; i < E::dim; ++i) at(a, i) = nodal[static_cast<std::size_t>(mesh.cell(cell)[a]) * E::dim + i];
+  return at;
+}
+
+/// Gradients of the shape functions, a row each.
+template <class E>
+auto matrix(const double g[][E::dim]) {
+  return Eigen::Map<const Eigen::Matrix<double, E::nodes, E::dim, Eigen::RowMajor>>(&g[0][0]);
+}
+
+/// σ_ij = c_ijkl ∂_l u_k.
+template <int d>
+Eigen::Matrix<double, d, d> stress_of(const Hooke& h, const Eigen::Matrix<double, d, d>& gradient) {
+  Eigen::Matrix<double, d, d> s = Eigen::Matrix<double, d, d>::Zero();
+  for (int i = 0; i < d; ++i)
+    for (int j = 0; j < d; ++j)
+      for (int k = 0; k < d; ++k)
+        for (int l = 0; l < d; ++l) s(i, j) += h.c[i][j][k][l] * gradient(k, l);
+  return s;
+}
+
+/// σ at the reference point xi of a cell, and the Jacobian there.
+template <class E>
+Stress stress_at(const mesh::Mesh& mesh, const Hooke& hooke, const std::vector<double>& u, int cell,
+                 const double x[][E::dim], const std::array<double, E::dim>& xi, double* measure) {
+  double g[E::nodes][E::dim];
+  *measure = physical_gradient<E>(x, xi, g);
+  const auto sigma = stress_of<E::dim>(hooke, values_of<E>(mesh, cell, u).transpose() * matrix<E>(g));
+  Stress s{};
+  for (int v = 0; v < 6; ++v)
+    if (const int i = kVoigt[v][0], j = kVoigt[v][1]; i < E::dim && j < E::dim) s[v] = sigma(i, j);
+  if (E::dim == 2) s[2] = hooke.zz_factor * (s[0] + s[1]);
+  return s;
 }
 
 }  // namespace dotyk::elasticity

@@ -13,29 +13,24 @@ using mesh::Point;
 using mesh::cross;
 using mesh::length;
 
-/// Shape functions of a facet and their derivatives by its two reference coordinates.
-struct FacetShape {
-  double n[mesh::kMostFacetNodes], du[mesh::kMostFacetNodes], dv[mesh::kMostFacetNodes];
-};
-
-/// Point q of a facet, which is a line or a cell of the plane; its weight returned.
+/// Shape functions at point q of a facet, which is a line or a cell of the plane; its weight returned.
 template <class E>
-double rule(int q, FacetShape& f) {
+double rule(int q, FacetPoint& p) {
   const auto x = E::load_point(q);
   const auto shape = E::shape(x);
   double g[E::nodes][E::dim];
   E::gradient(x, g);
-  for (int a = 0; a < E::nodes; ++a) f.n[a] = shape[a], f.du[a] = g[a][0], f.dv[a] = E::dim == 2 ? g[a][E::dim - 1] : 0;
+  for (int a = 0; a < E::nodes; ++a) p.shape[a] = shape[a], p.du[a] = g[a][0], p.dv[a] = E::dim == 2 ? g[a][E::dim - 1] : 0;
   return E::load_weight(q);
 }
 
-double facet_rule(const mesh::ElementTopology& t, int q, FacetShape& f) {
+double facet_rule(const mesh::ElementTopology& t, int q, FacetPoint& p) {
   switch (t.nodes_per_facet) {
-    case 3: return t.dimension == 2 ? rule<Tensor<1, 2>>(q, f) : rule<TriangleP1>(q, f);
-    case 4: return rule<QuadrilateralQ1>(q, f);
-    case 6: return rule<TriangleP2>(q, f);
-    case 9: return rule<QuadrilateralQ2>(q, f);
-    default: return rule<Tensor<1, 1>>(q, f);
+    case 3: return t.dimension == 2 ? rule<Tensor<1, 2>>(q, p) : rule<TriangleP1>(q, p);
+    case 4: return rule<QuadrilateralQ1>(q, p);
+    case 6: return rule<TriangleP2>(q, p);
+    case 9: return rule<QuadrilateralQ2>(q, p);
+    default: return rule<Tensor<1, 1>>(q, p);
   }
 }
 
@@ -51,9 +46,7 @@ void for_each_facet_point(const Mesh& mesh, Facet facet,
   FacetPoint p;
   p.nodes = mesh.topology().nodes_per_facet;
   for (p.index = 0; p.index < facet_points(mesh); ++p.index) {
-    FacetShape f;
-    const double weight = facet_rule(mesh.topology(), p.index, f);
-    std::copy_n(f.n, p.nodes, p.shape);
+    const double weight = facet_rule(mesh.topology(), p.index, p);
     Point tu{0, 0, 0}, tv{0, 0, 0};
     p.x = {0, 0, 0};
     const Point first = mesh.point(mesh.facet_node(facet, 0));
@@ -61,8 +54,8 @@ void for_each_facet_point(const Mesh& mesh, Facet facet,
       const Point x = mesh.point(mesh.facet_node(facet, a));
       for (int i = 0; i < 3; ++i) {
         p.x[i] += p.shape[a] * x[i];
-        tu[i] += f.du[a] * (x[i] - first[i]);
-        tv[i] += f.dv[a] * (x[i] - first[i]);
+        tu[i] += p.du[a] * (x[i] - first[i]);
+        tv[i] += p.dv[a] * (x[i] - first[i]);
       }
     }
     p.normal = mesh.dimension() == 2 ? Point{tu[1], -tu[0], 0} : cross(tu, tv);
@@ -91,17 +84,16 @@ void add_body_force(const Mesh& mesh, const VectorField& f, std::vector<double>&
   add_body_force(mesh, CellField([&](const CellPoint& p) { return f(p.x); }), nodal);
 }
 
+void add_at(const Mesh& mesh, Facet facet, const FacetPoint& p, const Point& t, std::vector<double>& nodal) {
+  const int dim = mesh.dimension();
+  for (int a = 0; a < p.nodes; ++a)
+    for (int i = 0; i < dim; ++i) nodal[static_cast<std::size_t>(mesh.facet_node(facet, a)) * dim + i] += p.measure * p.shape[a] * t[i];
+}
+
 void add_traction(const Mesh& mesh, const std::vector<Facet>& facets,
                   const std::function<Point(const FacetPoint&)>& t, std::vector<double>& nodal) {
-  const int dim = mesh.dimension();
   for (const Facet facet : facets)
-    for_each_facet_point(mesh, facet, [&](const FacetPoint& p) {
-      const Point value = t(p);
-      for (int a = 0; a < p.nodes; ++a)
-        for (int i = 0; i < dim; ++i)
-          nodal[static_cast<std::size_t>(mesh.facet_node(facet, a)) * dim + i] +=
-              p.measure * p.shape[a] * value[i];
-    });
+    for_each_facet_point(mesh, facet, [&](const FacetPoint& p) { add_at(mesh, facet, p, t(p), nodal); });
 }
 
 }  // namespace dotyk::elasticity

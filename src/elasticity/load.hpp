@@ -17,6 +17,7 @@ struct FacetPoint {
   int index;           ///< 0 … facet_points − 1
   int nodes;           ///< nodes of the facet
   double shape[mesh::kMostFacetNodes];  ///< their shape functions
+  double du[mesh::kMostFacetNodes], dv[mesh::kMostFacetNodes];  ///< the derivatives of these by the facet's coordinates; dv 0 in the plane
   double measure;      ///< weight × length (2-D) or area (3-D)
   mesh::Point x;       ///< where it is
   mesh::Point normal;  ///< unit, outward
@@ -40,6 +41,9 @@ using CellField = std::function<mesh::Point(const CellPoint&)>;
 /// Adds ∫ φ f over all cells to `nodal` (node × dimension); f is force per volume, asked for cell by cell, point by point.
 void add_body_force(const mesh::Mesh& mesh, const CellField& f, std::vector<double>& nodal);
 void add_body_force(const mesh::Mesh& mesh, const VectorField& f, std::vector<double>& nodal);
+
+/// Adds φ t of a facet's point, times its measure, to `nodal`.
+void add_at(const mesh::Mesh& mesh, mesh::Facet facet, const FacetPoint& point, const mesh::Point& t, std::vector<double>& nodal);
 
 /// Adds ∫ φ t over the facets; t is force per length (2-D) or area (3-D), asked for at each point.
 void add_traction(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,

@@ -56,14 +56,13 @@ Hooke from_voigt(const algebra::DenseMatrix& v) {
   // Below that the eigenvalue is rounding: a strain that costs no energy, though no rigid motion.
   if (!(least > 1e-15 * greatest))
     throw InputError(text("stiffness must be positive definite; its least eigenvalue is ", least, ", its greatest ", greatest));
-  static const int plane[3][2] = {{0, 0}, {1, 1}, {0, 1}};
-  static const int space[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-  const auto* pair = v.rows() == 3 ? plane : space;
   Hooke h;
   h.dimension = v.rows() == 3 ? 2 : 3;
+  const std::vector<int> component = voigt_components(h.dimension);
   for (int a = 0; a < v.rows(); ++a)
     for (int b = 0; b < v.cols(); ++b) {
-      const int i = pair[a][0], j = pair[a][1], k = pair[b][0], l = pair[b][1];
+      const auto& [i, j] = kVoigt[component[a]];
+      const auto& [k, l] = kVoigt[component[b]];
       h.c[i][j][k][l] = h.c[j][i][k][l] = h.c[i][j][l][k] = h.c[j][i][l][k] = v(a, b);
     }
   return h;

@@ -22,6 +22,10 @@ struct Hooke {
 /// Isotropic material with Young's modulus E and Poisson's ratio nu.
 Hooke isotropic(double E, double nu, int dimension, Plane plane);
 
+/// Voigt's order of pairs: xx yy zz yz xz xy, and which of these a dimension has.
+inline constexpr int kVoigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+inline std::vector<int> voigt_components(int dimension) { return dimension == 2 ? std::vector{0, 1, 5} : std::vector{0, 1, 2, 3, 4, 5}; }
+
 /// From the Voigt matrix (3×3 in 2-D, order xx yy xy; 6×6 in 3-D, order
 /// xx yy zz yz xz xy; engineering shear). Throws InputError unless it is
 /// square of that size, symmetric and positive definite.

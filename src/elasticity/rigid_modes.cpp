@@ -1,15 +1,58 @@
 #include "elasticity/rigid_modes.hpp"
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "algebra/dense/decompositions.hpp"
-#include "elasticity/load.hpp"
 #include "algebra/dense/dense.hpp"
-#include "elasticity/rigid_frame.hpp"
 
 namespace dotyk::elasticity {
-namespace {
 
 using algebra::DenseMatrix;
+using algebra::Vector;
 using mesh::Mesh;
+
+RigidFrame::RigidFrame(const mesh::Mesh& mesh) : dimension(mesh.dimension()), size(mesh.size()) {
+  for (int n = 0; n < mesh.node_count(); ++n)
+    for (int i = 0; i < dimension; ++i) centre[i] += mesh.node(n)[i] / mesh.node_count();
+}
+
+Eigen::RowVectorXd RigidFrame::row(const double* x, int i) const {
+  Eigen::RowVectorXd r = Eigen::RowVectorXd::Zero(count());
+  double d[3] = {0, 0, 0};
+  for (int k = 0; k < dimension; ++k) d[k] = (x[k] - centre[k]) / size;
+  r[i] = 1;
+  if (dimension == 2) {
+    r[2] = i == 0 ? -d[1] : d[0];
+  } else {  // (ω × d)_i = ω_j d_k − ω_k d_j
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    r[3 + j] = d[k];
+    r[3 + k] = -d[j];
+  }
+  return r;
+}
+
+namespace {
+
+/// To the nearest multiple of 10^k ≤ noise · scale, so that no digit of noise is printed.
+double rounded(double v, double scale, double noise) {
+  if (std::abs(v) < noise * scale) return 0;
+  const double step = std::pow(10, std::floor(std::log10(noise * scale)));
+  return std::round(v / step) * step;
+}
+
+/// Unit, without noise; (0, 0, 1), not (0, 0, -1), where `sense` is of no matter.
+std::vector<double> unit(const Vector& d, double noise, bool sense) {
+  Eigen::Index largest;
+  d.cwiseAbs().maxCoeff(&largest);
+  Vector rest = d, only = Vector::Zero(d.size());
+  rest[largest] = 0;
+  only[largest] = sense && d[largest] < 0 ? -1 : 1;
+  if (rest.norm() < noise * d.norm()) return {only.begin(), only.end()};
+  std::vector<double> out;
+  for (const double v : d) out.push_back(rounded(v / d.norm(), 1, noise));
+  return out;
+}
 
 /// Basis of the null space of the stacked rows, reduced so that each vector is as pure as can be.
 DenseMatrix null_space(const DenseMatrix& rows, int count) {
@@ -23,17 +66,31 @@ DenseMatrix null_space(const DenseMatrix& rows, int count) {
 
 }  // namespace
 
+Motion RigidFrame::motion(const Vector& c, double noise) const {
+  const Vector t = c.head(dimension), omega = c.tail(c.size() - dimension) / size;
+  if (omega.norm() * size < noise * std::max(1.0, t.norm()))
+    return {Motion::Kind::translation, unit(t, noise, true)};
+  if (dimension == 2)  // the point that stays: t + ω e_z × (x − centre) = 0
+    return {Motion::Kind::rotation, {},
+            {rounded(centre[0] - t[1] / omega[0], size, noise), rounded(centre[1] + t[0] / omega[0], size, noise)}};
+  const Eigen::Vector3d w = omega, v = t;
+  const Eigen::Vector3d foot = w.cross(v) / w.squaredNorm();
+  Motion motion{Motion::Kind::rotation, unit(w, noise, false), {}};
+  for (int i = 0; i < 3; ++i) motion.centre.push_back(rounded(centre[i] + foot[i], size, noise));
+  motion.slides = std::abs(w.dot(v)) > noise * w.norm() * std::max(1.0, v.norm());
+  return motion;
+}
+
 RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering,
                        const std::vector<FacetSpring>& springs) {
   const RigidFrame frame(mesh);
-  const int dim = mesh.dimension();
   std::vector<Eigen::RowVectorXd> held;
   for (std::size_t k = 0; k < numbering.unknown.size(); ++k)
     if (numbering.unknown[k] < 0)
-      held.push_back(frame.row(mesh.node(static_cast<int>(k) / dim), static_cast<int>(k) % dim));
+      held.push_back(frame.row(mesh, k));
   for (const FacetSpring& spring : springs)
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
-      for (int i = 0; i < dim; ++i)
+      for (int i = 0; i < frame.dimension; ++i)
         if (spring.stiffness[p.index][i] > 0) held.push_back(frame.row(p.x.data(), i));
     });
   DenseMatrix rows(static_cast<Eigen::Index>(held.size()), frame.count());
@@ -45,9 +102,7 @@ RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering,
   for (int m = 0; m < basis.cols(); ++m) result.motions.push_back(frame.motion(basis.col(m)));
   if (basis.cols() == 0) return result;
   for (std::size_t k = 0; k < numbering.unknown.size(); ++k)
-    if (numbering.unknown[k] >= 0)
-      result.modes.row(numbering.unknown[k]) =
-          frame.row(mesh.node(static_cast<int>(k) / dim), static_cast<int>(k) % dim) * basis;
+    if (numbering.unknown[k] >= 0) result.modes.row(numbering.unknown[k]) = frame.row(mesh, k) * basis;
   for (int m = 0; m < basis.cols(); ++m)
     result.modes.col(m) /= result.modes.col(m).lpNorm<Eigen::Infinity>();
   return result;
@@ -55,10 +110,9 @@ RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering,
 
 DenseMatrix all_rigid_motions(const Mesh& mesh, const std::vector<int>& unknown, int count) {
   const RigidFrame frame(mesh);
-  const int dim = mesh.dimension();
   DenseMatrix motions(count, frame.count());
   for (std::size_t k = 0; k < unknown.size(); ++k)
-    if (unknown[k] >= 0) motions.row(unknown[k]) = frame.row(mesh.node(static_cast<int>(k) / dim), static_cast<int>(k) % dim);
+    if (unknown[k] >= 0) motions.row(unknown[k]) = frame.row(mesh, k);
   return motions;
 }
 

@@ -8,6 +8,24 @@
 
 namespace dotyk::elasticity {
 
+/// A rigid motion t + ω × (x − centre)/size, as coefficients: (tx, ty, ω) or (tx, ty, tz, ωx, ωy, ωz).
+struct RigidFrame {
+  int dimension;
+  mesh::Point centre{0, 0, 0};  ///< mean of the nodes
+  double size;
+
+  explicit RigidFrame(const mesh::Mesh& mesh);
+  int count() const { return dimension == 2 ? 3 : 6; }
+  /// Component i of every motion at x; component k of all (node × dimension) of a mesh.
+  Eigen::RowVectorXd row(const double* x, int i) const;
+  Eigen::RowVectorXd row(const mesh::Mesh& mesh, std::size_t k) const {
+    return row(mesh.node(static_cast<int>(k) / dimension), static_cast<int>(k) % dimension);
+  }
+  /// What motion that is; coefficients below `noise` of the motion, and places below `noise` of the size, are
+  /// taken as nothing.
+  Motion motion(const algebra::Vector& coefficients, double noise = 1e-9) const;
+};
+
 /// The rigid motions that a body's supports leave free.
 struct RigidModes {
   algebra::DenseMatrix modes;   ///< unknowns × count; greatest nodal component of each is 1

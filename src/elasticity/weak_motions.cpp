@@ -7,7 +7,7 @@
 #include "algebra/dense/generalised_inverse.hpp"
 #include "elasticity/kernel.hpp"
 #include "algebra/dense/dense.hpp"
-#include "elasticity/rigid_frame.hpp"
+#include "elasticity/rigid_modes.hpp"
 
 namespace dotyk::elasticity {
 namespace {
@@ -65,14 +65,12 @@ struct Motions {
   Vector dilatation;
 
   Motions(const mesh::Mesh& mesh, const Numbering& numbering, const DenseMatrix& kernel)
-      : frame(mesh), w(lumped_volumes(mesh, numbering)), F(numbering.count(), frame.count()),
+      : frame(mesh), w(lumped_volumes(mesh, numbering)), F(all_rigid_motions(mesh, numbering.unknown, numbering.count())),
         dilatation(numbering.count()) {
     for (std::size_t k = 0; k < numbering.unknown.size(); ++k) {
-      const int unknown = numbering.unknown[k], i = static_cast<int>(k) % frame.dimension;
-      if (unknown < 0) continue;
-      const double* x = mesh.node(static_cast<int>(k) / frame.dimension);
-      F.row(unknown) = frame.row(x, i);
-      dilatation[unknown] = (x[i] - frame.centre[i]) / frame.size;
+      const int i = static_cast<int>(k) % frame.dimension;
+      if (numbering.unknown[k] >= 0)
+        dilatation[numbering.unknown[k]] = (mesh.node(static_cast<int>(k) / frame.dimension)[i] - frame.centre[i]) / frame.size;
     }
     Q = orthonormal_in(w, without(kernel, F), 1e-12);  // less what is in the kernel, or nothing on these unknowns
   }
@@ -144,8 +142,7 @@ DenseMatrix lost_in_rounding(const Motions& motions, const mesh::Mesh& mesh, con
     double held = 0;  // what prescribed components stop
     for (std::size_t k = 0; k < numbering.unknown.size(); ++k)
       if (numbering.unknown[k] < 0)
-        held = std::max(held, std::abs(motions.frame.row(mesh.node(static_cast<int>(k) / motions.frame.dimension),
-                                                         static_cast<int>(k) % motions.frame.dimension).dot(c)));
+        held = std::max(held, std::abs(motions.frame.row(mesh, k).dot(c)));
     if (held < 1e-6 * c.norm()) lost.push_back(m);
   }
   return tried(Eigen::all, lost);

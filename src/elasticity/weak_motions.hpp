@@ -4,7 +4,7 @@
 
 #include "algebra/types.hpp"
 #include "base/motion.hpp"
-#include "elasticity/numbering.hpp"
+#include "elasticity/assembly.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::elasticity {

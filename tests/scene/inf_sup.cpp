@@ -7,7 +7,6 @@
 
 #include "../support/scenes.hpp"
 #include "base/error.hpp"
-#include "elasticity/h1_norm.hpp"
 
 using namespace dotyk;
 using contact::Multipliers;

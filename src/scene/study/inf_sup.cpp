@@ -7,7 +7,6 @@
 #include "algebra/dense/dense.hpp"
 #include "base/error.hpp"
 #include "contact/trace_norm.hpp"
-#include "elasticity/h1_norm.hpp"
 #include "scene/model/model.hpp"
 
 namespace dotyk::scene {

@@ -1,7 +1,11 @@
+#include "elasticity/stress.hpp"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
-#include "elasticity/strain.hpp"
+#include "algebra/dense/decompositions.hpp"
+#include "elasticity/kernel.hpp"
 
 namespace dotyk::elasticity {
 namespace {
@@ -57,41 +61,29 @@ Stress fit(const std::vector<int>& patch, const std::vector<std::array<double, 3
     b += p * Eigen::Map<const Eigen::Matrix<double, 1, 6>>(value[patch[k]].data());
   }
   const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> llt(A);
-  Eigen::Matrix<double, 1, 6> at_origin;
   // Samples on one line (plane) leave a pivot near zero: no fit then.
   const auto pivots = llt.matrixLLT().diagonal();
-  if (llt.info() == Eigen::Success && pivots.minCoeff() > 0.03 * pivots.maxCoeff())
-    at_origin = llt.solve(b).row(0);
-  else
-    at_origin = b.row(0) / A(0, 0);
+  const bool fits = llt.info() == Eigen::Success && pivots.minCoeff() > 0.03 * pivots.maxCoeff();
   Stress s;
-  Eigen::Map<Eigen::Matrix<double, 1, 6>>(s.data()) = at_origin;
+  Eigen::Map<Eigen::Matrix<double, 1, 6>>(s.data()) = (fits ? llt.solve(b).eval() : (b / A(0, 0)).eval()).row(0);
   return s;
 }
-
-}  // namespace
-
-namespace {
 
 /// Of cells of order 2: the mean of the stresses that a node's cells have there, by their Jacobians.
 std::vector<Stress> mean_stress(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u) {
   std::vector<Stress> sum(mesh.node_count(), Stress{});
   std::vector<double> weight(mesh.node_count(), 0);
   dispatch(mesh.element, [&]<class E>() {
-    if constexpr (E::order == 2) {
-      double x[E::nodes][E::dim], measure;
-      Hooke hooke = material.at(0);
-      for (int c = 0; c < mesh.cell_count(); ++c) {
-        if (material.varies()) hooke = material.at(c);
-        cell_coordinates<E>(mesh, c, x);
+    if constexpr (E::order == 2)
+      for_each_cell<E>(mesh, material, [&](int c, const auto& x, const Hooke& hooke) {
         for (int a = 0; a < E::nodes; ++a) {
+          double measure;
           const Stress s = stress_at<E>(mesh, hooke, u, c, x, E::node(a), &measure);
           const int n = mesh.cell(c)[a];
           weight[n] += measure;
           for (int v = 0; v < 6; ++v) sum[n][v] += measure * s[v];
         }
-      }
-    }
+      });
   });
   for (int n = 0; n < mesh.node_count(); ++n)
     for (double& v : sum[n]) v /= weight[n];
@@ -99,6 +91,37 @@ std::vector<Stress> mean_stress(const Mesh& mesh, const MaterialField& material,
 }
 
 }  // namespace
+
+double von_mises(const Stress& s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  const double q = 0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+  if (q > 1e-280 && q < 1e280) return std::sqrt(q);
+  // Far from 1 the squares leave the range of numbers: once more relative to the greatest component.
+  double largest = 0;
+  for (const double v : s) largest = std::max(largest, std::abs(v));
+  if (!(largest > 0) || !std::isfinite(largest) || (largest > 1e-130 && largest < 1e130)) return std::sqrt(q);
+  Stress scaled = s;
+  for (double& v : scaled) v /= largest;
+  return largest * von_mises(scaled);
+}
+
+std::array<double, 3> principal(const Stress& s) {
+  Eigen::Matrix3d m;
+  m << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+  const Eigen::Vector3d e = algebra::eigenvalues3(m);
+  return {e[2], e[1], e[0]};
+}
+
+std::vector<Stress> cell_stress(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u) {
+  std::vector<Stress> result(mesh.cell_count());
+  dispatch(mesh.element, [&]<class E>() {
+    for_each_cell<E>(mesh, material, [&](int c, const auto& x, const Hooke& hooke) {
+      double measure;
+      result[c] = stress_at<E>(mesh, hooke, u, c, x, E::centre(), &measure);
+    });
+  });
+  return result;
+}
 
 std::vector<Stress> nodal_stress(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u) {
   return mesh.topology().order == 2 ? mean_stress(mesh, material, u) : recover_stress(mesh, cell_stress(mesh, material, u));
