@@ -121,14 +121,13 @@ double Curvatures::width(const NodeSide& side) const {
 }
 
 std::unordered_map<int, NodeSide> smooth_sides(const Face& face) {
+  const std::vector<NodeSide> all = sides(face.mesh, face.facets);  // by node
   std::unordered_map<int, NodeSide> result;
-  std::unordered_map<int, int> count;
-  for (NodeSide& side : sides(face.mesh, face.facets)) {
-    const int node = side.node;
-    ++count[node];
-    result.insert_or_assign(node, std::move(side));
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const int node = all[k].node;
+    const bool sole = (k == 0 || all[k - 1].node != node) && (k + 1 == all.size() || all[k + 1].node != node);
+    if (sole) result.emplace(node, all[k]);
   }
-  std::erase_if(result, [&](const auto& entry) { return count.at(entry.first) > 1; });
   return result;
 }
 
@@ -150,15 +149,14 @@ Point inward_across(const Point& n1, const std::vector<NodeWeight>& partners, co
   return mesh::unit(sum);
 }
 
-namespace {
-
-Point apply(const std::array<Point, 3>& m, const Point& d) { return {dot(m[0], d), dot(m[1], d), dot(m[2], d)}; }
-
-/// d/dt of v/|v|.
 Point unit_derivative(const Point& v, const Point& dv) {
   const Point n = mesh::unit(v);
   return mesh::times(1 / mesh::length(v), mesh::minus(dv, mesh::times(dot(n, dv), n)));
 }
+
+namespace {
+
+Point apply(const std::array<Point, 3>& m, const Point& d) { return {dot(m[0], d), dot(m[1], d), dot(m[2], d)}; }
 
 }  // namespace
 

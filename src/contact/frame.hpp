@@ -55,6 +55,9 @@ std::array<mesh::Point, 3> mix_of_moving(const ContactRow& row, bool first_rests
 mesh::Point mixed_normal_derivative(const mesh::Point& n1, const mesh::Point& d1, const mesh::Point& inward, const mesh::Point& d2,
                                     const std::array<mesh::Point, 3>& mix);
 
+/// d/dt of v/|v|.
+mesh::Point unit_derivative(const mesh::Point& v, const mesh::Point& dv);
+
 /// |K| of a part at its facets: normals of the facets that share a node with one, but for those across a corner (kCornerAngle), against
 /// the places where they are, least squares.
 class Curvatures {

@@ -3,12 +3,75 @@
 #include <map>
 
 #include "contact/multipliers.hpp"
-#include "contact/partition.hpp"
 
 namespace dotyk::contact {
 namespace {
 
+using mesh::Box;
 using mesh::Point;
+
+class Cutter {
+ public:
+  Cutter(const std::vector<Piece>& pieces, double size) : pieces_(pieces), size_(size), cell_(pieces.size(), -1) {}
+
+  /// Cuts what of these pieces lies in `within`.
+  void cut(const std::vector<int>& list, const Box& within) {
+    const Box box = around(list, within);
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+      if (box.extent(i) > (1 + 1e-9) * box.extent(axis)) axis = i;
+    const double extent = box.extent(axis);
+    const int slabs = std::min(static_cast<int>(list.size()), static_cast<int>(std::ceil(extent / size_ - 1e-6)));
+    if (slabs <= 1) {
+      for (const int p : list) cell_[p] = count_;
+      ++count_;
+      return;
+    }
+    std::vector<std::vector<int>> slab(slabs);
+    for (const int p : list) {
+      const int k = static_cast<int>(std::floor((pieces_[p].centre[axis] - box.low[axis]) / extent * slabs));
+      slab[std::clamp(k, 0, slabs - 1)].push_back(p);
+    }
+    for (int k = 0; k < slabs; ++k) {
+      if (slab[k].empty()) continue;
+      Box part = box;
+      part.low[axis] = box.low[axis] + extent * k / slabs;
+      part.high[axis] = box.low[axis] + extent * (k + 1) / slabs;
+      cut(slab[k], part);
+    }
+  }
+
+  std::vector<int> take() { return std::move(cell_); }
+
+ private:
+  Box around(const std::vector<int>& list, const Box& within) const {
+    Box box;
+    for (const int p : list) box.add(pieces_[p].box);
+    for (int i = 0; i < 3; ++i) {
+      box.low[i] = std::max(box.low[i], within.low[i]);
+      box.high[i] = std::max(box.low[i], std::min(box.high[i], within.high[i]));
+    }
+    return box;
+  }
+
+  const std::vector<Piece>& pieces_;
+  double size_;
+  std::vector<int> cell_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+std::vector<int> partition(const std::vector<Piece>& pieces, double size) {
+  std::map<int, std::vector<int>> by_component;
+  for (std::size_t p = 0; p < pieces.size(); ++p) by_component[pieces[p].component].push_back(static_cast<int>(p));
+  Cutter cutter(pieces, size);
+  constexpr Box kSpace{{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+  for (const auto& [component, list] : by_component) cutter.cut(list, kSpace);
+  return cutter.take();
+}
+
+namespace {
 
 /// A facet or half an edge, and the cell it belongs to.
 struct CellShare {
@@ -19,18 +82,12 @@ struct CellShare {
   int cell;
 };
 
-/// ∫ φ_a φ_b over the half of an edge next to corner c, by Simpson's rule (exact).
+/// ∫ φ_a φ_b over the half of an edge next to corner c.
 Gram half_gram(double length, int c) {
   Gram g{};
-  const int other = 1 - c;
-  const double near[3] = {1, 0.75, 0.5}, weight[3] = {1, 4, 1};
-  for (int q = 0; q < 3; ++q) {
-    double phi[2];
-    phi[c] = near[q];
-    phi[other] = 1 - near[q];
-    for (int a = 0; a < 2; ++a)
-      for (int b = 0; b < 2; ++b) g[a][b] += length / 12 * weight[q] * phi[a] * phi[b];
-  }
+  g[c][c] = length * 7 / 24;
+  g[c][1 - c] = g[1 - c][c] = length / 12;
+  g[1 - c][1 - c] = length / 24;
   return g;
 }
 
@@ -132,10 +189,8 @@ void add(const CellShare& share, const std::vector<double>& g, Sum& sum) {
     if (share.corner < 0) sum.nodes[f.row[a]] += measure;
   }
   if (share.corner < 0 || f.row[share.corner] < 0) return;
-  double whole = 0;  // half an edge surrounds one node
-  for (int a = 0; a < 2; ++a)
-    for (int b = 0; b < 2; ++b) whole += share.gram[a][b];
-  sum.nodes[f.row[share.corner]] += whole;
+  for (int a = 0; a < 2; ++a)  // half an edge surrounds one node
+    for (int b = 0; b < 2; ++b) sum.nodes[f.row[share.corner]] += share.gram[a][b];
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "contact/friction_shares.hpp"
+#include "contact/multipliers.hpp"
 
 #include <algorithm>
 #include <map>

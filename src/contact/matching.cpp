@@ -9,7 +9,6 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "contact/corner_means.hpp"
 #include "contact/frame.hpp"
 #include "contact/second_facets.hpp"
 
@@ -126,23 +125,13 @@ std::vector<int> partners(const Nodes& from, const Nodes& to, const Tolerance& t
 
 /// Does a node at x project into the facet, no further away than the facet is wide, normals opposed?
 bool faces(const Mesh& mesh, mesh::Facet f, const Point& x, const Point& x_normal, double tolerance) {
-  Point normal = mesh.facet_area_vector(f);
-  const double area = length(normal);
-  for (double& v : normal) v /= area;
+  const Point area = mesh.facet_area_vector(f), normal = mesh::unit(area);
   if (dot(normal, x_normal) > -0.8) return false;
-  const int corners = mesh.topology().facet_corners;
-  const double width = mesh.dimension() == 2 ? area : std::sqrt(area);
-  for (int k = 0; k < corners; ++k) {
-    const Point a = mesh.point(mesh.facet_node(f, k)), b = mesh.point(mesh.facet_node(f, (k + 1) % corners));
-    const Point edge = minus(b, a), d = minus(x, a);
-    if (std::abs(dot(d, normal)) > width || mesh::off_line(d, normal) <= tolerance) return false;
-    if (mesh.dimension() == 2) {
-      if (dot(edge, d) < 0) return false;  // both ends are seen as a: the foot lies between them
-    } else {
-      if (dot(mesh::cross(normal, edge), d) < -tolerance * length(edge)) return false;
-    }
-  }
-  return true;
+  const double width = mesh.dimension() == 2 ? length(area) : std::sqrt(length(area));
+  const Shadow shadow(mesh, f, View(x, normal, mesh.dimension()));
+  for (int k = 0; k < shadow.corners; ++k)
+    if (std::abs(shadow.height[k]) > width || shadow.at[k].norm() <= tolerance) return false;
+  return shadow.holds({0, 0}, tolerance / width);
 }
 
 /// Says which node without partner nevertheless faces the other part; empty: none.
@@ -163,10 +152,6 @@ std::string mismatch(const Face& face, const std::vector<NodeSide>& lonely, cons
   }
   return "";
 }
-
-}  // namespace
-
-namespace {
 
 /// Of order 2 the facets' functions must be the same, too: of triangles and quadrilaterals, or of order 1 and 2, with common
 /// nodes, they are not, and forces that one side has from a uniform pressure are not the other's.

@@ -44,9 +44,9 @@ ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double
 /// Overlap at rest that is rounding of coordinates, where these facets of the part are; `size`: its mesh's.
 double touching(const Face& face, double size, const std::vector<int>& facets);
 
-/// Rows of a first part of order 2, one a side at each corner, each the mean of its own nodes' conditions; `partner`: what lies across
-/// from a node. Facets that have a node without are left out.
-std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,
+/// Rows where it is known what lies across from nodes, `partner`. Order 1: one a side at each node that has one. Order 2: one a side at each
+/// corner, the mean of its own nodes' conditions; facets that have a node without are left out.
+std::vector<ContactRow> node_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,
                                   const elasticity::ScalarField& added);
 /// Throws InputError where rows overlap at rest by more than kTouching; a negative `added` is no overlap.
 void refuse_overlap(const std::vector<ContactRow>& rows, const Face& first, const Face& second);

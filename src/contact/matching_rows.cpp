@@ -5,7 +5,6 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "contact/corner_means.hpp"
 #include "contact/frame.hpp"
 #include "contact/matching.hpp"
 
@@ -31,9 +30,10 @@ ContactRow row_of(const NodeSide& side, std::vector<NodeWeight> partners, double
           .facets = side.facets, .added = added, .mix = frame.mix, .turn = frame.turn};
 }
 
-std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,
+std::vector<ContactRow> node_rows(const Face& first, const Face& second, std::unordered_map<int, std::vector<NodeWeight>> partner,
                                   const elasticity::ScalarField& added) {
-  if (&first.mesh == &second.mesh)  // a crack's tip is its own partner: no jump there
+  const bool means = first.mesh.topology().order == 2;
+  if (means && &first.mesh == &second.mesh)  // a crack's tip is its own partner: no jump there
     for (const NodeSide& n : nodes(second.mesh, second.facets)) partner.emplace(n.node, std::vector<NodeWeight>{{n.node, 1}});
   std::vector<char> used;
   for (const mesh::Facet f : first.facets) {
@@ -45,6 +45,7 @@ std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::un
   std::vector<ContactRow> rows;
   const double size = first.mesh.size();
   for (const NodeSide& side : corner_sides(first.mesh, first.facets, used)) {
+    if (!means && !partner.contains(side.node)) continue;
     double more = 0, least = INFINITY;
     std::map<int, double> across;
     for (const NodeWeight& own : side.own) {
@@ -54,6 +55,7 @@ std::vector<ContactRow> mean_rows(const Face& first, const Face& second, std::un
     std::vector<NodeWeight> partners;
     for (const auto& [node, weight] : across) partners.push_back({node, weight});
     rows.push_back(row_of(side, std::move(partners), more, frames));
+    if (!means) continue;
     ContactRow& row = rows.back();
     for (const NodeWeight& own : side.own) {
       double gap = -dot(first.mesh.point(own.node), row.normal);
@@ -69,17 +71,7 @@ std::vector<ContactRow> matching_rows(const std::vector<NodePair>& pairs, const 
                                       const elasticity::ScalarField& added, bool interference) {
   std::unordered_map<int, std::vector<NodeWeight>> partner;
   for (const NodePair& p : pairs) partner.emplace(p.first, std::vector<NodeWeight>{{p.second, 1}});
-  std::vector<ContactRow> rows;
-  if (first.mesh.topology().order == 2) {
-    rows = mean_rows(first, second, std::move(partner), added);
-  } else {
-    const Frames frames(first, second);
-    for (const NodeSide& side : sides(first.mesh, first.facets)) {
-      const auto found = partner.find(side.node);
-      if (found == partner.end()) continue;
-      rows.push_back(row_of(side, found->second, added ? added(first.mesh.point(side.node)) : 0, frames));
-    }
-  }
+  std::vector<ContactRow> rows = node_rows(first, second, std::move(partner), added);
   if (!interference) refuse_overlap(rows, first, second);
   return rows;
 }

@@ -3,8 +3,8 @@
 #include <map>
 #include <numeric>
 
-#include "contact/across.hpp"
 #include "contact/dual_hats.hpp"
+#include "contact/pairing.hpp"
 #include "contact/second_facets.hpp"
 
 namespace dotyk::contact {
@@ -63,7 +63,7 @@ class Mortar {
  private:
   std::vector<Cut> cut(const View& view, const Shadow& own, double& widest) const {
     double radius = 0;
-    for (int a = 0; a < corners_; ++a) radius = std::max(radius, std::hypot(own.at[a][0], own.at[a][1]));
+    for (int a = 0; a < corners_; ++a) radius = std::max(radius, own.at[a].norm());
     widest = std::max(widest, 2 * radius);
     std::vector<Cut> cuts;
     all_.for_each_near(view, radius, [&](int f, double width) {

@@ -1,8 +1,40 @@
 #pragma once
 
-#include "contact/surface.hpp"
+#include <array>
+
+#include "contact/contact_row.hpp"
 
 namespace dotyk::contact {
+
+/// A facet of the contact boundary with the contact row at each of its corners.
+struct SurfaceFacet {
+  mesh::Facet facet;
+  int corners;
+  int row[4];  ///< -1 at the tip of a crack, where one node lies on both sides: no jump there
+};
+
+/// Γ_c: the facets of the (first) part all of whose corners have a contact row, or lie on both parts. What of
+/// a part overhangs the other one is left out.
+struct Surface {
+  const mesh::Mesh& mesh;
+  std::vector<SurfaceFacet> facets;
+  int rows;  ///< how many contact rows there are; some may touch no facet
+};
+
+/// `facets` are the first part's, `second` those of a second part on the same mesh (else empty).
+Surface surface(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const std::vector<ContactRow>& rows,
+                const std::vector<mesh::Facet>& second);
+
+/// ∫ φ_a φ_b over a facet of order 1; exact for segments, triangles and parallelograms.
+using Gram = std::array<std::array<double, 4>, 4>;
+Gram gram(const mesh::Mesh& mesh, mesh::Facet facet);
+
+/// ∫ φ over the surface of order 1, a contact row each: κ of TR965 (2.16); 0 where a row touches no facet.
+std::vector<double> measures(const Surface& surface);
+
+/// Which pieces of the surface hang together, one number a contact row (-1 off the surface). Rows of different
+/// sides of an edge are different, so that the surface falls apart at its edges.
+std::vector<int> components(const Surface& surface);
 
 /// What the multipliers of a contact are.
 /// nodal: a normal and a tangential force at each contact node (b(μ, v) by the trapezoidal rule throughout).
@@ -68,5 +100,28 @@ double facet_width(const Surface& surface);
 /// dual cells of the plane are (0.83; quadrilaterals 1.10). H = 3h and 4h gain little more (1.00 and 1.21 at
 /// h = 1/16) and lose friction's detail.
 inline constexpr double kCellWidth = 2;
+
+/// One flag a row: its node has rows of several sides, as the tip of a wedge (TR965 (1.23)). Their normals span the jump, so that tangential
+/// rows there are combinations of the normal ones: B loses rank, and forces of contact are not unique.
+std::vector<char> at_corners(const std::vector<ContactRow>& rows);
+
+/// One flag a row, in the plane: it ends a contact line.
+std::vector<char> at_ends(const std::vector<ContactRow>& rows);
+
+/// By row, the rows whose surroundings its friction stands for: itself, and shares of those `aside` (one flag each) that are nearest to it by
+/// facets of the same side. Empty for those. Rows that cannot slip (`slides` false) take nothing; where nobody takes it, a row keeps its own.
+std::vector<std::vector<Term>> friction_shares(const std::vector<ContactRow>& rows, const std::vector<char>& aside, const std::vector<char>& slides);
+
+/// A small piece of a surface, to be joined with its neighbours.
+struct Piece {
+  mesh::Point centre;
+  mesh::Box box;  ///< around it
+  int component;  ///< pieces of different components are not joined
+};
+
+/// Joins pieces into cells of extent `size` along the coordinate axes: each component is cut into
+/// ⌈extent/size⌉ equal slabs across its longest extent, and these likewise, until none is longer. A piece belongs
+/// to the slab its centre is in. Returns the cell of each piece, numbered from 0.
+std::vector<int> partition(const std::vector<Piece>& pieces, double size);
 
 }  // namespace dotyk::contact

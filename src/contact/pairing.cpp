@@ -8,10 +8,36 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "contact/corner_means.hpp"
 #include "contact/frame.hpp"
+#include "contact/second_facets.hpp"
 
 namespace dotyk::contact {
+
+std::vector<Across> node_to_segment(const Face& first, const Face& second, const std::vector<NodeSide>& sides) {
+  constexpr double kRim = 1e-6;  // of a facet's width: a node on the rim is inside
+  const SecondFacets all(second);
+  const int dim = first.mesh.dimension();
+  std::vector<Across> result(sides.size());
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const View view(first.mesh.point(sides[k].node), sides[k].normal, dim);
+    double nearest = INFINITY, furthest = 0, widest = 0;
+    all.for_each_near(view, 0, [&](int f, double width) {
+      const Shadow shadow(second.mesh, second.facets[f], view);
+      if (!shadow.holds({0, 0}, kRim)) return;
+      const double distance = std::abs(shadow.height_at({0, 0}));
+      furthest = std::max(furthest, distance), widest = std::max(widest, width);
+      if (distance >= nearest) return;
+      nearest = distance;
+      const auto shape = shadow.shape({0, 0});
+      result[k] = {{}, sides[k].weight, width};
+      for (int a = 0; a < shadow.nodes; ++a)
+        if (std::abs(shape[a]) > 1e-14) result[k].partners.push_back({second.mesh.facet_node(second.facets[f], a), shape[a]});
+    });
+    result[k].folded = furthest > nearest + 0.1 * widest;
+  }
+  return result;
+}
+
 namespace {
 
 using mesh::Point;
@@ -67,7 +93,7 @@ Rows paired(const Face& first, const Face& second, Pairing pairing, const elasti
     std::unordered_map<int, std::vector<NodeWeight>> feet;
     for (std::size_t k = 0; k < list.size(); ++k)
       if (!all[k].partners.empty()) feet.emplace(list[k].node, std::move(all[k].partners));
-    rows = mean_rows(first, second, std::move(feet), added);
+    rows = node_rows(first, second, std::move(feet), added);
   } else {
     const double size = first.mesh.size();
     for (std::size_t k = 0; k < list.size(); ++k) {
@@ -150,12 +176,8 @@ class Apart {
   /// `widest`: of the facets met; `chords`: their height. Chords of curved parts lie apart by their height, and by four times
   /// that where a facet is covered at its end alone and the other side's line is drawn out; a tenth of a facet is a layer of glue.
   void see(const Tie& tie, double widest, double chords) {
-    Point d{0, 0, 0};
-    for (const NodeWeight& own : tie.own)
-      for (int i = 0; i < 3; ++i) d[i] -= own.weight * first_.mesh.point(own.node)[i];
-    for (const NodeWeight& partner : tie.partners)
-      for (int i = 0; i < 3; ++i) d[i] += partner.weight * second_.mesh.point(partner.node)[i];
-    const double distance = mesh::length(d), allowed = 0.1 * widest + 4 * chords;
+    const double distance = mesh::length(mesh::minus(mean_place(tie.partners, second_.mesh), mean_place(tie.own, first_.mesh)));
+    const double allowed = 0.1 * widest + 4 * chords;
     if (distance > allowed && distance > greatest_) greatest_ = distance, node_ = tie.node;
   }
 

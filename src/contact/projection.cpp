@@ -12,21 +12,15 @@ using mesh::Point;
 using mesh::dot;
 using mesh::minus;
 
-Flat minus(const Flat& a, const Flat& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double cross(const Flat& a, const Flat& b) { return a[0] * b[1] - a[1] * b[0]; }
-double length(const Flat& a) { return std::hypot(a[0], a[1]); }
 
 /// (ξ, η) in [0, 1]² of the bilinear map of four corners at x, by Newton's method; one step for a parallelogram.
 Flat bilinear_inverse(const std::array<Flat, 4>& at, const Flat& x) {
   Flat r{0.5, 0.5};
   for (int step = 0; step < 30; ++step) {
-    Flat value{0, 0}, along{0, 0}, up{0, 0};
-    for (int i = 0; i < 2; ++i) {
-      const double bottom = at[1][i] - at[0][i], top = at[2][i] - at[3][i], left = at[3][i] - at[0][i], right = at[2][i] - at[1][i];
-      value[i] = at[0][i] + r[0] * bottom + r[1] * left + r[0] * r[1] * (top - bottom) - x[i];
-      along[i] = bottom + r[1] * (top - bottom);
-      up[i] = left + r[0] * (right - left);
-    }
+    const Flat bottom = at[1] - at[0], top = at[2] - at[3], left = at[3] - at[0], right = at[2] - at[1];
+    const Flat value = at[0] + r[0] * bottom + r[1] * left + r[0] * r[1] * (top - bottom) - x;
+    const Flat along = bottom + r[1] * (top - bottom), up = left + r[0] * (right - left);
     const double determinant = cross(along, up);
     if (determinant == 0) break;
     const double d0 = cross(value, up) / determinant, d1 = cross(along, value) / determinant;
@@ -83,9 +77,9 @@ std::array<double, 4> Shadow::hats(const Flat& x) const {
     return s;
   }
   if (corners == 3) {
-    const double whole = cross(minus(at[1], at[0]), minus(at[2], at[0]));
-    s[1] = cross(minus(x, at[0]), minus(at[2], at[0])) / whole;
-    s[2] = cross(minus(at[1], at[0]), minus(x, at[0])) / whole;
+    const double whole = cross(at[1] - at[0], at[2] - at[0]);
+    s[1] = cross(x - at[0], at[2] - at[0]) / whole;
+    s[2] = cross(at[1] - at[0], x - at[0]) / whole;
     s[0] = 1 - s[1] - s[2];
   } else {
     const Flat r = bilinear_inverse(at, x);
@@ -120,8 +114,8 @@ bool Shadow::holds(const Flat& x, double tolerance) const {
   }
   const double width = std::sqrt(size());
   for (int a = 0; a < corners; ++a) {
-    const Flat edge = minus(at[(a + 1) % corners], at[a]);
-    if (cross(edge, minus(x, at[a])) < -tolerance * width * length(edge)) return false;
+    const Flat edge = at[(a + 1) % corners] - at[a];
+    if (cross(edge, x - at[a]) < -tolerance * width * edge.norm()) return false;
   }
   return true;
 }
@@ -137,23 +131,22 @@ double Shadow::size() const { return contact::size({at.begin(), at.begin() + cor
 
 bool Shadow::polynomial() const {
   if (corners != 4) return true;
-  const Flat off{at[0][0] - at[1][0] + at[2][0] - at[3][0], at[0][1] - at[1][1] + at[2][1] - at[3][1]};
-  return length(off) < 1e-12 * std::sqrt(size());
+  return (at[0] - at[1] + at[2] - at[3]).norm() < 1e-12 * std::sqrt(size());
 }
 
 std::vector<Flat> common(const Shadow& a, const Shadow& b) {
   if (a.corners == 2) return common_segment(a, b);
   std::vector<Flat> polygon(a.at.begin(), a.at.begin() + a.corners);
   for (int k = 0; k < b.corners && !polygon.empty(); ++k) {
-    const Flat from = b.at[k], edge = minus(b.at[(k + 1) % b.corners], from);
+    const Flat from = b.at[k], edge = b.at[(k + 1) % b.corners] - from;
     std::vector<Flat> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Flat p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-      const double inside_p = cross(edge, minus(p, from)), inside_q = cross(edge, minus(q, from));
+      const double inside_p = cross(edge, p - from), inside_q = cross(edge, q - from);
       if (inside_p >= 0) kept.push_back(p);
       if ((inside_p >= 0) == (inside_q >= 0)) continue;
       const double t = inside_p / (inside_p - inside_q);
-      kept.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+      kept.push_back(p + t * (q - p));
     }
     polygon = std::move(kept);
   }
@@ -161,17 +154,16 @@ std::vector<Flat> common(const Shadow& a, const Shadow& b) {
 }
 
 double size(const std::vector<Flat>& polygon) {
-  if (polygon.size() == 2) return length(minus(polygon[1], polygon[0]));
+  if (polygon.size() == 2) return (polygon[1] - polygon[0]).norm();
   double twice = 0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-    twice += cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0]));
+    twice += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
   return twice / 2;
 }
 
 Flat centre(const std::vector<Flat>& polygon) {
   Flat sum{0, 0};
-  for (const Flat& p : polygon)
-    for (int i = 0; i < 2; ++i) sum[i] += p[i] / static_cast<double>(polygon.size());
+  for (const Flat& p : polygon) sum += p / static_cast<double>(polygon.size());
   return sum;
 }
 
@@ -179,14 +171,14 @@ FlatQuadrature::FlatQuadrature(int count) : rule_(algebra::gauss(count)), collap
 
 std::vector<FlatQuadrature::At> FlatQuadrature::points(const std::vector<Flat>& polygon) const {
   std::vector<At> points;
-  const auto at = [](const Flat& p, const Flat& q, double t) { return Flat{p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])}; };
+  const auto at = [](const Flat& p, const Flat& q, double t) -> Flat { return p + t * (q - p); };
   if (polygon.size() == 2) {
     for (Eigen::Index i = 0; i < rule_.points.size(); ++i)
       points.push_back({at(polygon[0], polygon[1], rule_.points[i]), size(polygon) * rule_.weights[i]});
     return points;
   }
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-    const double twice = cross(minus(polygon[k], polygon[0]), minus(polygon[k + 1], polygon[0]));
+    const double twice = cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
     for (Eigen::Index i = 0; i < rule_.points.size(); ++i)
       for (Eigen::Index j = 0; j < rule_.points.size(); ++j)
         points.push_back({at(polygon[0], at(polygon[k], polygon[k + 1], rule_.points[j]), collapsed_.points[i]),

@@ -3,13 +3,15 @@
 #include <array>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "algebra/dense/quadrature.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::contact {
 
 /// A point of a plane in its own coordinates; in a 2-D scene of a line, the second coordinate 0.
-using Flat = std::array<double, 2>;
+using Flat = Eigen::Vector2d;
 
 /// The plane (2-D: line) through `origin` across the unit `normal`, its axes right-handed with it.
 struct View {

@@ -7,14 +7,14 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "contact/ball_gap.hpp"
-#include "contact/corner_means.hpp"
 #include "contact/frame.hpp"
 
 namespace dotyk::contact {
 namespace {
 
 using mesh::Point;
+using mesh::dot;
+using mesh::minus;
 
 /// The way (unit, towards the shape) and the distance of a node at x from where the shape is nearest; of a RigidGap what it says.
 struct Distance {
@@ -25,11 +25,11 @@ struct Distance {
 Distance distance(const RigidGap& shape, const Point& x) { return {shape.normal, shape.gap(x)}; }
 
 Distance distance(const RigidPlane& shape, const Point& x) {
-  return {mesh::times(-1, shape.normal), mesh::dot(mesh::minus(x, shape.point), shape.normal)};
+  return {mesh::times(-1, shape.normal), dot(minus(x, shape.point), shape.normal)};
 }
 
 Distance distance(const RigidBall& shape, const Point& x) {
-  Point n = mesh::minus(shape.center, x);
+  Point n = minus(shape.center, x);
   const double r = mesh::length(n);
   if (!(r > 1e-9 * shape.radius))
     throw InputError("the centre of the rigid ball lies on the contact part; move the ball out of the body");
@@ -37,7 +37,48 @@ Distance distance(const RigidBall& shape, const Point& x) {
   return {n, r - shape.radius};
 }
 
+constexpr double kSteep = 0.8 * 0.8;  ///< (ρ/R)² up to which s is the circle's
+
+/// s(ρ²) of a unit ball, and its derivative.
+struct Height {
+  double s, ds;
+};
+
+Height height(double q) {
+  if (q <= kSteep) {
+    const double s = std::sqrt(1 - q);
+    return {s, -0.5 / s};
+  }
+  const double decay = 0.5 / (1 - kSteep), s = std::sqrt(1 - kSteep) * std::exp(-decay * (q - kSteep));
+  return {s, -decay * s};
+}
+
+/// What the formula is made of.
+struct Parts {
+  Parts(const RigidBall& ball, const Point& x, const Point& n) : w(minus(ball.center, x)), c(dot(w, n)), far(mesh::length(w)) {
+    const Point off = minus(w, mesh::times(c, n));
+    of_unit = height(dot(off, off) / (ball.radius * ball.radius));
+    below = c + ball.radius * of_unit.s;
+  }
+  Point w;
+  double c, far, below;
+  Height of_unit;
+};
+
 }  // namespace
+
+double ball_gap(const RigidBall& ball, const Point& x, const Point& n) {
+  const Parts p(ball, x, n);
+  return p.c > 0 ? (p.far - ball.radius) * (p.far + ball.radius) / p.below : p.far - ball.radius;
+}
+
+double ball_gap_derivative(const RigidBall& ball, const Point& x, const Point& n, const Point& v, const Point& dn) {
+  const Parts p(ball, x, n);
+  const double dsquare = -2 * dot(p.w, v), dc = dot(p.w, dn) - dot(v, n);
+  if (!(p.c > 0)) return dsquare / (2 * p.far);
+  const double gap = (p.far - ball.radius) * (p.far + ball.radius) / p.below;
+  return (dsquare - gap * (dc + p.of_unit.ds / ball.radius * (dsquare - 2 * p.c * dc))) / p.below;
+}
 
 const char* name(const RigidShape& shape) {
   static const char* names[] = {"rigid gap", "rigid plane", "rigid ball"};
@@ -60,7 +101,7 @@ struct Nearest {
 /// it is a corner of the body, which may touch.
 bool reaches_beyond(const mesh::Mesh& mesh, const RigidPlane& plane, const Point& from, double rounding) {
   for (int i = 0; i < mesh.node_count(); ++i)
-    if (mesh::dot(mesh::minus(mesh.point(i), from), plane.normal) < -rounding) return true;
+    if (dot(minus(mesh.point(i), from), plane.normal) < -rounding) return true;
   return false;
 }
 
@@ -94,8 +135,8 @@ class RigidFrames {
 
   Frame of(const NodeSide& side, const Point& inward) const {
     const Frame shapes{inward, kSecondDecides, 0};
-    if (!ball_ || !smooth_.contains(side.node) || mesh::dot(side.normal, inward) < kAcross) return shapes;
-    const double flat = kFlat / mesh_.size(), distance = mesh::length(mesh::minus(ball_->center, mesh_.point(side.node)));
+    if (!ball_ || !smooth_.contains(side.node) || dot(side.normal, inward) < kAcross) return shapes;
+    const double flat = kFlat / mesh_.size(), distance = mesh::length(minus(ball_->center, mesh_.point(side.node)));
     if (1 / distance < flat) return shapes;
     const Eigen::Matrix3d K1 = curvatures_->at(side);
     if (K1.norm() < flat) return {side.normal, kFirstDecides, turn(side)};
@@ -147,7 +188,7 @@ std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh
       throw InputError(text("the gap is ", gap, " at ", point_text(x.data(), mesh.dimension()),
                             "; it must be a finite number"));
     if (gap < deepest) deepest = gap, where = x;
-    const double facing = mesh::dot(d.inward, side.normal);
+    const double facing = dot(d.inward, side.normal);
     most_facing = std::max(most_facing, facing);
     const bool level = std::abs(gap - nearest.gap) <= rounding;  // of those equally near one that faces the shape counts
     if (level ? facing > nearest.facing : gap < nearest.gap) nearest = {gap, facing, x};

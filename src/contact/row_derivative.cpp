@@ -5,7 +5,6 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "contact/ball_gap.hpp"
 #include "contact/frame.hpp"
 #include "contact/tangents.hpp"
 #include "elasticity/shape_derivative.hpp"
@@ -18,21 +17,10 @@ using mesh::Mesh;
 using mesh::Point;
 using mesh::cross;
 using mesh::dot;
-using mesh::length;
 using mesh::minus;
-
-bool none(const Point& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
 Point velocity(const Mesh& mesh, const std::vector<double>& V, int node) {
   return V.empty() ? Point{0, 0, 0} : mesh::at_node(V, node, mesh.dimension());
-}
-
-/// d/dt of m/|m|.
-Point unit_derivative(const Point& m, const Point& dm) {
-  const double size = length(m), along = dot(m, dm) / (size * size);
-  Point out;
-  for (int i = 0; i < 3; ++i) out[i] = (dm[i] - along * m[i]) / size;
-  return out;
 }
 
 /// What a facet gives to the sides at its nodes, and how that changes.
@@ -44,8 +32,7 @@ struct MovingShare {
 MovingShare share(const Mesh& mesh, Facet f, const std::vector<double>& V) {
   MovingShare s;
   const Point area = mesh.facet_area_vector(f);
-  const double size = length(area);
-  for (int i = 0; i < 3; ++i) s.normal[i] = area[i] / size;
+  s.normal = mesh::unit(area);
   s.dnormal = unit_derivative(area, mesh::facet_area_derivative(mesh, V, f));
   elasticity::for_each_facet_point(mesh, f, [&](const elasticity::FacetPoint& p) {
     for (int a = 0; a < p.nodes; ++a) s.weight[a] += p.measure * p.shape[a];
@@ -94,7 +81,7 @@ struct Moving {
 
 /// d/dt of (normal, gap); the weight is left as it is.
 void set_distance(const RigidGap&, const ContactRow&, const Moving& at, RowDerivative& out) {
-  if (!none(at.v))
+  if (at.v != Point{})
     throw InputError(text("the node at ", point_text(at.x.data(), 3), " moves before a rigid obstacle that is given by a gap function, whose "
                           "slope is not known; take a rigid plane or ball"));
   out.normal = {0, 0, 0};
@@ -165,12 +152,9 @@ std::vector<Point> tangent_derivatives(const Point& n, const Point& dn, int dime
   if (dimension == 2) return {{-dn[1], dn[0], 0}};
   const Point t = tangents(n, dimension).front();  // w/|w|, w = e − n (n·e) with e along the axis
   const int axis = tangent_axis(n);
-  Point w{0, 0, 0}, dw;
-  w[axis] = 1;
-  for (int i = 0; i < 3; ++i) {
-    w[i] -= n[axis] * n[i];
-    dw[i] = -dn[axis] * n[i] - n[axis] * dn[i];
-  }
+  Point w = mesh::times(-n[axis], n);
+  w[axis] += 1;
+  const Point dw = minus(mesh::times(-dn[axis], n), mesh::times(n[axis], dn));
   const Point first = unit_derivative(w, dw);
   return {first, mesh::plus(cross(dn, t), cross(n, first))};
 }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "contact/matching.hpp"
+#include "contact/multipliers.hpp"
 #include "contact/rigid.hpp"
-#include "contact/surface.hpp"
 
 namespace dotyk::contact {
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/contact_row.hpp"
+#include "elasticity/load.hpp"
 
 namespace dotyk::contact {
 
@@ -13,7 +14,7 @@ struct NodeSide {
   mesh::Point normal;  ///< unit, outward: of the side's facets, weighted by their measure
   double weight;       ///< ∫ φ over the side's facets: length (2-D) or area; of corners of order 2 ∫ of the linear hat
   std::vector<int> facets;  ///< the side's facets at the node, as indices into the part's
-  std::vector<NodeWeight> own;  ///< the nodes whose mean the side stands for, `node` first: itself alone, but see corner_means.hpp
+  std::vector<NodeWeight> own;  ///< the nodes whose mean the side stands for, `node` first: itself alone, but see corner_sides()
 };
 
 /// Facets whose normals differ by more than this meet in an edge; below it the surface is taken
@@ -31,5 +32,14 @@ std::vector<NodeSide> nodes(const mesh::Mesh& mesh, const std::vector<mesh::Face
 /// where they are not, one for one, of the facets they were of: a corner has appeared, or gone.
 std::vector<NodeSide> moved_sides(const mesh::Mesh& before, const mesh::Mesh& after, const std::vector<mesh::Facet>& facets,
                                   const std::string& part);
+
+/// The sides that have multipliers. Order 1: sides() and nodes(). Order 2: those at the facets' corners, each standing for the mean
+/// with the corner's dual hat, see ContactRow and dual_hats.hpp, over those facets of the part that are `used` (one flag each; none
+/// given: all); their weight is ∫ψ there, and corners of no such facet are left out.
+std::vector<NodeSide> corner_sides(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets, const std::vector<char>& used = {});
+std::vector<NodeSide> corner_nodes(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets);
+
+/// The linear (bilinear) hat of a corner at a facet's point; of order 1 the shape function itself.
+double linear_hat(const mesh::ElementTopology& topology, const elasticity::FacetPoint& point, int corner);
 
 }  // namespace dotyk::contact

@@ -77,25 +77,21 @@ class Refined {
         for (int i = 0; i < 3; ++i) x[v][i] += s.shape[v][a] * corner[i];
       }
     }
-    places.size() == 2 ? measure_segment(x, s) : measure_triangle(x, s);
+    measure(x, static_cast<int>(places.size()) - 1, s);
     simplices_.push_back(s);
   }
 
-  static void measure_segment(const Point x[3], Simplex& s) {
-    const Point e = minus(x[1], x[0]);
-    s.measure = std::sqrt(dot(e, e));
-    for (int a = 0; a < 2; ++a)
-      for (int b = 0; b < 2; ++b) s.stiffness[a][b] = (a == b ? 1 : -1) / s.measure;
-  }
-
-  /// ∇φ_a·∇φ_b = e_a·e_b / 4 area², e the edges opposite.
-  static void measure_triangle(const Point x[3], Simplex& s) {
-    Point e[3];
-    for (int a = 0; a < 3; ++a) e[a] = minus(x[(a + 2) % 3], x[(a + 1) % 3]);
-    const double c = dot(e[0], e[1]);
-    s.measure = 0.5 * std::sqrt(dot(e[0], e[0]) * dot(e[1], e[1]) - c * c);
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) s.stiffness[a][b] = dot(e[a], e[b]) / (4 * s.measure);
+  /// With the edges E from its first node: measure² = det EᵀE/(d!)², ∇φ_a·∇φ_b the entries of (EᵀE)⁻¹; ∇φ_0 = −Σ of the others.
+  static void measure(const Point x[3], int d, Simplex& s) {
+    const Point e = minus(x[1], x[0]), f = d == 2 ? minus(x[2], x[0]) : Point{};
+    const double ee = dot(e, e), ef = dot(e, f), ff = d == 2 ? dot(f, f) : 1, determinant = ee * ff - ef * ef;
+    s.measure = std::sqrt(determinant) / d;
+    const double inverse[2][2] = {{ff / determinant, -ef / determinant}, {-ef / determinant, ee / determinant}};
+    for (int a = 1; a <= d; ++a)
+      for (int b = 1; b <= d; ++b) {
+        const double k = s.measure * inverse[a - 1][b - 1];
+        s.stiffness[a][b] += k, s.stiffness[0][b] -= k, s.stiffness[a][0] -= k, s.stiffness[0][0] += k;
+      }
   }
 
   void cut(int facet) {

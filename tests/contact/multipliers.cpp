@@ -5,7 +5,6 @@
 #include "../support/meshes.hpp"
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
-#include "contact/partition.hpp"
 #include "contact/rigid.hpp"
 
 using namespace dotyk;

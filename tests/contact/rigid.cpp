@@ -4,7 +4,6 @@
 
 #include "../support/meshes.hpp"
 #include "base/error.hpp"
-#include "contact/ball_gap.hpp"
 
 using namespace dotyk;
 using mesh::Family;

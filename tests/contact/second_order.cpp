@@ -6,7 +6,6 @@
 
 #include "../support/block_pair.hpp"
 #include "../support/elastic.hpp"
-#include "contact/corner_means.hpp"
 #include "contact/pairing.hpp"
 #include "contact/rigid.hpp"
 #include "contact/sides.hpp"

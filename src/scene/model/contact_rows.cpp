@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "contact/friction_shares.hpp"
+#include "contact/multipliers.hpp"
 #include "contact/tangents.hpp"
 
 namespace dotyk::scene {

@@ -18,7 +18,7 @@ namespace dotyk::scene {
 /// One contact node after the solve; at a corner there is one for each adjoining side.
 struct ContactNode {
   int node = 0;                ///< of the first body's mesh
-  mesh::Point x{};             ///< at rest; beside an edge of the second part, where the row is a mean over nodes (contact/across.hpp), where its force acts
+  mesh::Point x{};             ///< at rest; beside an edge of the second part, where the row is a mean over nodes (contact/pairing.hpp), where its force acts
   mesh::Point displacement{};
   mesh::Point normal{};        ///< unit, out of the first body
   double gap = 0;              ///< after deformation, positive when open

@@ -4,7 +4,6 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "contact/corner_means.hpp"
 #include "contact/tangents.hpp"
 #include "scene/statement/body.hpp"
 
