@@ -1,8 +1,7 @@
-#include "plate/distance.hpp"
-
 #include <cmath>
 
 #include "base/error.hpp"
+#include "plate/solution.hpp"
 
 namespace dotyk::plate {
 
@@ -12,7 +11,7 @@ using Eigen::Vector3d;
 namespace {
 
 /// At a point.
-struct Values {
+struct Sampled {
   double u;
   Vector3d curvature;  ///< ∂xx u, ∂yy u, 2∂xy u of its cell
   double D;            ///< mean of its cell
@@ -24,15 +23,15 @@ class Sampler {
   explicit Sampler(const Solution& solution) : solution_(solution) {}
 
   /// Nothing where x is not on the plate.
-  std::optional<Values> at(const Vector2d& x) {
+  std::optional<Sampled> at(const Vector2d& x) {
     if (cell_ < 0 || !inside(barycentric(triangle_, x))) {
       const std::optional<Place> place = solution_.find(x);
       if (!place) return std::nullopt;
       if (place->cell != cell_) enter(place->cell);
     }
     const Barycentric b = barycentric(triangle_, x);
-    const Vector3d curvature = basis_->curvature_at(b).curvature * coefficients_;
-    return Values{basis_->value_at(b).dot(coefficients_), curvature, D_};
+    const Vector3d curvature = basis_->curvature(b) * coefficients_;
+    return Sampled{basis_->value(b).dot(coefficients_), curvature, D_};
   }
 
  private:
@@ -70,7 +69,7 @@ Distance distance(const Solution& solution, const Solution& other) {
     const Triangle t = triangle(*fine.plate().mesh, fine.model().space.edges, c);
     for (std::size_t i = 0; i < rule.points.size(); ++i) {
       const Vector2d x = t.point(rule.points[i]);
-      const std::optional<Values> a = ours.at(x), b = theirs.at(x);
+      const std::optional<Sampled> a = ours.at(x), b = theirs.at(x);
       if (!a || !b) continue;
       const double weight = rule.weights[i] * t.area;
       const Vector3d k = a->curvature - b->curvature;

@@ -1,7 +1,6 @@
 #include "plate/held.hpp"
 
 #include <cmath>
-#include <map>
 
 #include <Eigen/LU>
 
@@ -67,14 +66,8 @@ class Holder {
       slopes_[s.place].push_back({t, derivative(plate_.edges[s.support].deflection, s, t)});
     };
     if (node.smooth) return along(node.normal);
-    for (const int e : node.edges)
-      if (of_support(e, s.support)) along(space_.edges.edges[e].normal);
-  }
-
-  bool of_support(int edge, int support) const {
-    for (const mesh::Facet f : plate_.edges[support].facets)
-      if (space_.edges.of_cell[f.cell][f.local] == edge) return true;
-    return false;
+    for (const int e : s.edges)
+      if (e >= 0) along(space_.edges.edges[e].normal);
   }
 
   /// Of the prescribed deflection along t: five points, exact for polynomials of degree 4; on one side of the end of what is
@@ -97,11 +90,14 @@ class Holder {
 
   /// One direction: it becomes the frame's first; two: the gradient is known.
   void hold_slopes(int vertex, const std::vector<HeldSlope>& slopes) {
-    const Vector2d x(space_.mesh->node(vertex)[0], space_.mesh->node(vertex)[1]);
+    const Vector2d x = node_position(*space_.mesh, vertex);
     const Vector2d first = slopes.front().direction;
     const HeldSlope* other = nullptr;
-    for (const HeldSlope& s : slopes)
+    Eigen::Matrix2d& directions = held_.directions.emplace(vertex, Eigen::Matrix2d::Zero()).first->second;
+    for (const HeldSlope& s : slopes) {
+      directions += s.direction * s.direction.transpose();
       if (std::abs(first[0] * s.direction[1] - first[1] * s.direction[0]) > kSame && !other) other = &s;
+    }
     space_.frame[vertex] = first;
     const int freedom = space_.of_vertex(vertex) + 1;
     held_.is[freedom] = 1;

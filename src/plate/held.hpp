@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "plate/samples.hpp"
 
 namespace dotyk::plate {
@@ -8,6 +10,7 @@ namespace dotyk::plate {
 struct Held {
   std::vector<char> is;    ///< one a freedom
   algebra::Vector value;   ///< 0 where free
+  std::map<int, Eigen::Matrix2d> directions;  ///< HCT: Σ ddᵀ over the directions d that laws hold a vertex's gradient in
 };
 
 /// Holds what the prescribed ones of the samples say, and marks these `held`: u of a vertex (HCT: and the slope along the edge, at a

@@ -51,7 +51,7 @@ void add_distributed(const Plate& plate, const Space& space, Vector& load) {
   for (int c = 0; c < space.mesh->cell_count(); ++c) {
     const Triangle t = triangle(*space.mesh, space.edges, c);
     const auto functions = basis(space.element, t);
-    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12> local = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12>::Zero(functions->size());
+    Values local = Values::Zero(functions->size());
     for (std::size_t i = 0; i < rule.points.size(); ++i) {
       double f = plate.f;
       if (plate.f_of) {
@@ -59,7 +59,7 @@ void add_distributed(const Plate& plate, const Space& space, Vector& load) {
         f = plate.f_of(x[0], x[1]);
         if (!std::isfinite(f)) throw InputError(text("the load is ", f, " at (", x[0], ", ", x[1], "); it must be finite"));
       }
-      local += rule.weights[i] * t.area * f * functions->value_at(rule.points[i]);
+      local += rule.weights[i] * t.area * f * functions->value(rule.points[i]);
     }
     space.to_freedoms(c, local);
     const auto freedom = space.freedoms(c);

@@ -7,9 +7,7 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
-#include "plate/chains.hpp"
 #include "plate/loads.hpp"
-#include "plate/rows.hpp"
 #include "plate/element/stiffness.hpp"
 
 namespace dotyk::plate {
@@ -135,8 +133,8 @@ Model build(Plate plate) {
   require_valid(plate);
   mesh::check(*plate.mesh, "the plate's mesh");
   Model model{without_functions(plate), bending_stiffness(plate), Space(plate.element, *plate.mesh), {}, {}, {}, {}, {}, {}, {}, {}, 0};
-  model.deflections = deflection_samples(plate, model.space);
-  model.rotations = rotation_samples(plate, model.space);
+  model.deflections = samples(plate, model.space, false);
+  model.rotations = samples(plate, model.space, true);
   model.held = hold(plate, model.space, model.deflections, model.rotations);
   model.unknown.assign(model.space.count(), -1);
   int count = 0;

@@ -30,4 +30,18 @@ struct Model {
 /// or support is off the plate.
 Model build(Plate plate);
 
+/// Adds the rows of the samples, point supports and obstacle to the model's problem. Where parts of the edge meet at a vertex, laws of one
+/// kind act there together; a prescribed deflection outweighs all others, Signorini's law friction, which one point more or less
+/// does not change. Throws InputError where what is held contradicts a one-sided law or the obstacle.
+void add_rows(const Plate& plate, Model& model);
+
+/// Which unknowns some row acts on.
+std::vector<char> touched_by_rows(const problem::Problem& problem);
+
+/// The nodes of a place in Plate::edges in order, counter-clockwise about the plate; of a closed line the first one comes again at the end.
+std::vector<std::vector<int>> node_chains(const Model& model, int edge);
+
+/// Rows of the samples in order along their edges: see Problem::chains.
+std::vector<std::vector<int>> row_chains(const Model& model, const std::vector<Sample>& samples);
+
 }  // namespace dotyk::plate

@@ -55,9 +55,7 @@ struct LineLoad {
 /// A thin plate under Kirchhoff's hypothesis (P5 2.2): minimise
 ///   ∫ ½D [(1 − ν)|∇²u|² + ν(Δu)²] − fu dx − loads + the supports' energies over u ∈ H²(Ω),
 /// where u ≥ obstacle. Deflection u, forces and loads positive upwards.
-///
-/// P5 as printed and as taken here: the traces of u and ∂ₙu are in H^3/2 and H^1/2 (2.1 has them the other way round); friction opposes
-/// the deflection, uTₙu + κ|u| = 0 (as lemma 13; (52) has −κ|u|); the spring's energy is ½ku⁺² ((72) has no ½). In section 6 u counts downwards.
+/// Friction opposes the deflection (misprint 89 in scripts/papers/README.md, with others of P5). In its section 6 u counts downwards.
 struct Plate {
   std::shared_ptr<const mesh::Mesh> mesh;  ///< triangles in the plane
   Element element = Element::morley;

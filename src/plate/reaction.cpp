@@ -5,7 +5,6 @@
 #include <map>
 
 #include "algebra/dense/decompositions.hpp"
-#include "plate/chains.hpp"
 #include "plate/element/stiffness.hpp"
 
 namespace dotyk::plate {
@@ -50,7 +49,6 @@ class ReactionCollector {
   /// What holds the held freedoms, less what rows of laws and of point supports beside them do to them.
   void find_holding_forces() {
     holding_ = holding_forces(model_.D, s_.plate().nu, model_.space, model_.held, model_.load, s_.freedoms());
-    find_held_directions();
     const auto take_off = [&](const Functional& v, double force) {
       for (const Term& term : v)
         if (model_.held.is[term.freedom]) holding_[term.freedom] -= force * term.factor;
@@ -94,34 +92,18 @@ class ReactionCollector {
     for (const int n : model_.space.edges.edges[sample.place].node) add(n, 0.5);
   }
 
-  /// HCT: of each vertex whose gradient is held Σ ddᵀ over the directions d that laws hold it in.
-  void find_held_directions() {
-    const auto add = [&](int vertex, const Vector2d& d) { held_directions_.emplace(vertex, Eigen::Matrix2d::Zero()).first->second += d * d.transpose(); };
-    for (const Sample& r : model_.rotations)
-      if (r.held && r.at_vertex) add(r.place, slope_direction(model_.space, r));
-    const auto along = [](const Vector2d& normal) { return Vector2d(-normal[1], normal[0]); };
-    for (const Sample& d : model_.deflections) {
-      const BoundaryNode& node = model_.space.boundary[d.place];
-      if (!d.held || model_.space.element != Element::hct) continue;
-      if (node.smooth) add(d.place, along(node.normal));
-      for (const int e : d.edges)
-        if (!node.smooth && e >= 0) add(d.place, along(model_.space.edges.edges[e].normal));
-    }
-  }
-
   /// HCT: what this law has of the moment that holds a vertex's gradient, the least that laws can share it as.
   double held_moment(const Sample& sample) const {
     const int first = model_.space.of_vertex(sample.place) + 1;
     const Vector2d a = model_.space.frame[sample.place], b(-a[1], a[0]);
     const Vector2d moment = (holding_[first] * a + holding_[first + 1] * b) * model_.space.unit;
-    return slope_direction(model_.space, sample).dot(algebra::MinimumNorm(held_directions_.at(sample.place)).solve(algebra::Vector(moment)));
+    return slope_direction(model_.space, sample).dot(algebra::MinimumNorm(model_.held.directions.at(sample.place)).solve(algebra::Vector(moment)));
   }
 
   const Solution& s_;
   const Model& model_;
   int support_;
   Vector holding_;                    ///< of every freedom
-  std::map<int, Eigen::Matrix2d> held_directions_;
   std::map<int, double> shares_;      ///< lengths that held vertices stand for
 };
 

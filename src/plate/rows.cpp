@@ -1,4 +1,4 @@
-#include "plate/rows.hpp"
+#include "plate/model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,22 +18,9 @@ namespace {
 
 /// Which of the laws that hold a point rigidly prevails: the greater.
 int rigidity(Kind kind) {
-  switch (kind) {
-    case Kind::prescribed: return 4;
-    case Kind::signorini: return 3;
-    case Kind::friction: return 2;
-    case Kind::one_sided_friction: return 1;
-    case Kind::free:
-    case Kind::load:
-    case Kind::elastic:
-    case Kind::one_sided_elastic:
-    case Kind::capped_elastic:
-    case Kind::unequal_elastic:
-    case Kind::compliance:
-    case Kind::coulomb:
-    case Kind::breaking: break;
-  }
-  return 0;
+  static constexpr std::array rising{Kind::one_sided_friction, Kind::friction, Kind::signorini, Kind::prescribed};
+  const auto at = std::find(rising.begin(), rising.end(), kind);
+  return at == rising.end() ? 0 : static_cast<int>(at - rising.begin()) + 1;
 }
 
 /// What laws of edges are about.

@@ -4,18 +4,11 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "plate/element/edges.hpp"
 
 namespace dotyk::plate {
 
 using Eigen::Vector2d;
 using problem::SupportLaw;
-
-namespace {
-
-int edge_of(const Space& space, const mesh::Facet& facet) { return space.edges.of_cell[facet.cell][facet.local]; }
-
-}  // namespace
 
 SupportLaw law_at(const LawField& law, const std::string& part, const Vector2d& x) {
   const SupportLaw at = law(x[0], x[1]);
@@ -28,68 +21,31 @@ SupportLaw law_at(const LawField& law, const std::string& part, const Vector2d& 
   return at;
 }
 
-namespace {
-
-/// Samples of one support, those of a vertex together where `same` says so.
-class SampleCollector {
- public:
-  SampleCollector(const Space& space, const std::string& part, const LawField& law, int support, std::vector<Sample>& out)
-      : space_(space), part_(part), law_(law), support_(support), out_(out) {}
-
-  void middle(int edge, double share) {
-    const Vector2d x = space_.edges.edges[edge].middle;
-    out_.push_back({support_, false, edge, {edge, -1}, false, share, x, law_at(law_, part_, x)});
-  }
-  /// `apart`: of this edge alone.
-  void vertex(int node, int edge, double share, bool apart, bool along_node) {
-    const auto [place, fresh] = seen_.emplace(std::pair(node, apart ? edge : -1), out_.size());
-    if (fresh) {
-      const Vector2d x = node_position(*space_.mesh, node);
-      out_.push_back({support_, true, node, {edge, -1}, along_node, share, x, law_at(law_, part_, x)});
-    } else {
-      out_[place->second].share += share;
-      out_[place->second].edges[1] = edge;
-    }
-  }
-
- private:
-  const Space& space_;
-  const std::string& part_;
-  const LawField& law_;
-  int support_;
-  std::vector<Sample>& out_;
-  std::map<std::pair<int, int>, std::size_t> seen_;
-};
-
-}  // namespace
-
-std::vector<Sample> deflection_samples(const Plate& plate, const Space& space) {
-  std::vector<Sample> out;
-  for (std::size_t s = 0; s < plate.edges.size(); ++s) {
-    if (!plate.edges[s].deflection) continue;
-    SampleCollector collect(space, plate.edges[s].part, plate.edges[s].deflection, static_cast<int>(s), out);
-    for (const mesh::Facet f : plate.edges[s].facets) {
-      const int e = edge_of(space, f);
-      for (const int node : space.edges.edges[e].node) collect.vertex(node, e, space.edges.edges[e].length / 2, false, false);
-    }
-  }
-  return out;
-}
-
-std::vector<Sample> rotation_samples(const Plate& plate, const Space& space) {
-  std::vector<Sample> out;
+std::vector<Sample> samples(const Plate& plate, const Space& space, bool rotation) {
   const bool morley = space.element == Element::morley;
-  for (std::size_t s = 0; s < plate.edges.size(); ++s) {
-    if (!plate.edges[s].rotation) continue;
-    SampleCollector collect(space, plate.edges[s].part, plate.edges[s].rotation, static_cast<int>(s), out);
-    for (const mesh::Facet f : plate.edges[s].facets) {
-      const int e = edge_of(space, f);
+  std::vector<Sample> out;
+  for (int support = 0; support < static_cast<int>(plate.edges.size()); ++support) {
+    const EdgeSupport& on = plate.edges[support];
+    const LawField& law = rotation ? on.rotation : on.deflection;
+    if (!law) continue;
+    std::map<std::pair<int, int>, std::size_t> seen;  // samples of vertices; where two edges act on slopes of their own, by edge
+    for (const mesh::Facet f : on.facets) {
+      const int e = space.edges.of_cell[f.cell][f.local];
       const Edge& edge = space.edges.edges[e];
-      collect.middle(e, edge.length * (morley ? 1 : 2. / 3));
-      if (morley) continue;
+      if (rotation)
+        out.push_back({support, false, e, {e, -1}, false, edge.length * (morley ? 1 : 2. / 3), edge.middle, law_at(law, on.part, edge.middle)});
+      if (rotation && morley) continue;
       for (const int node : edge.node) {
-        const bool smooth = space.boundary[node].smooth;
-        collect.vertex(node, e, edge.length / 6, !smooth, smooth);
+        const bool along_node = rotation && space.boundary[node].smooth;
+        const double share = edge.length / (rotation ? 6 : 2);
+        const auto [place, fresh] = seen.emplace(std::pair(node, rotation && !along_node ? e : -1), out.size());
+        if (fresh) {
+          const Vector2d x = node_position(*space.mesh, node);
+          out.push_back({support, true, node, {e, -1}, along_node, share, x, law_at(law, on.part, x)});
+        } else {
+          out[place->second].share += share;
+          out[place->second].edges[1] = e;
+        }
       }
     }
   }

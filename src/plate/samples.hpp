@@ -24,13 +24,11 @@ struct Sample {
 /// The law of an edge's part at a point. Throws InputError, naming both, where it is not valid there or one that plates do not have.
 problem::SupportLaw law_at(const LawField& law, const std::string& part, const Eigen::Vector2d& x);
 
-/// Where the laws of the deflection act, for half of either edge: the vertices. What they act on is with Morley's element the deflection there; with HCT its
+/// Where laws act. Those of the deflection, for half of either edge: the vertices. What they act on is with Morley's element the deflection there; with HCT its
 /// mean about the vertex, weighted by the hat function, so that reactions are linear along an edge and the forces on the slopes are theirs, too:
 /// forces at vertices alone would let edges sag between them, and leave of the order h² in energy h^1.5.
-std::vector<Sample> deflection_samples(const Plate& plate, const Space& space);
-
-/// Where those of the rotation do. Morley: the edge middles; HCT: these and the vertices, by Simpson's rule.
-std::vector<Sample> rotation_samples(const Plate& plate, const Space& space);
+/// Those of the rotation: Morley: the edge middles; HCT: these and the vertices, by Simpson's rule.
+std::vector<Sample> samples(const Plate& plate, const Space& space, bool rotation);
 
 /// Along which a rotation's slope is: the normal of its edge, or of a smooth node.
 Eigen::Vector2d slope_direction(const Space& space, const Sample& sample);

@@ -3,10 +3,11 @@
 #include <memory>
 #include <optional>
 
-#include "plate/family.hpp"
+#include "base/monitor.hpp"
 #include "plate/loads.hpp"
-#include "plate/model.hpp"
+#include "plate/solvable.hpp"
 #include "problem/residual.hpp"
+#include "solver/core/method.hpp"
 #include "solver/core/solver.hpp"
 
 namespace dotyk::plate {
@@ -53,5 +54,19 @@ class Solution {
   Finder finder_;
   mutable std::vector<Moment> moments_;  ///< of vertices, once asked for
 };
+
+/// How far one solution is from another, relative to the other.
+struct Distance {
+  double energy = 0;        ///< √∫ D (κ − κ')ᵀC(κ − κ') / √∫ D κ'ᵀCκ', curvatures cell by cell, D and ν of the other
+  double displacement = 0;  ///< ‖u − u'‖ / ‖u'‖ in L²
+};
+
+/// By the load rule of whichever mesh has more cells; points that are not on both plates are left out. Throws InputError where no point is, or the other is zero.
+Distance distance(const Solution& solution, const Solution& other);
+
+/// Solves; see run() for the method where none is named. Where the solution is unique up to one motion, one is given, and with it the family of
+/// all (see solve_limit_case()); of the free plate that with (u, 1) = (u, x) = (u, y) = 0 (P5, lemma 1).
+/// Throws InputError where there is no solution (see require_solvable), and where the method cannot treat a law.
+std::shared_ptr<const Solution> solve(std::shared_ptr<const Model> model, const solver::Method& method, Monitor& monitor);
 
 }  // namespace dotyk::plate

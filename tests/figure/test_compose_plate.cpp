@@ -8,7 +8,7 @@
 #include "mesh/generators.hpp"
 #include "pixels.hpp"
 #include "plate/reaction.hpp"
-#include "plate/solve.hpp"
+#include "plate/solution.hpp"
 
 using namespace dotyk;
 using namespace dotyk::figure;

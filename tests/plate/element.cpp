@@ -96,7 +96,7 @@ TEST_CASE("quadratics by Morley, cubics by HCT, with gradients and curvatures") 
             const Barycentric b = inner(random);
             const Shape shape = functions->at(b);
             CHECK((rows(shape) * values - monomial(m, n, t.point(b))).lpNorm<Eigen::Infinity>() < 1e-11);
-            CHECK(functions->curvature_at(b).curvature == shape.curvature);
+            CHECK(functions->curvature(b) == shape.curvature);
           }
         }
     });

@@ -5,7 +5,7 @@
 #include "meshes.hpp"
 #include "plain_laws.hpp"
 #include "plate/reaction.hpp"
-#include "plate/solve.hpp"
+#include "plate/solution.hpp"
 
 namespace dotyk::test {
 

@@ -1,13 +1,67 @@
 #include "plate/element/element.hpp"
 
 #include <cmath>
+#include <unordered_map>
 
-#include "plate/element/hct.hpp"
-#include "plate/element/morley.hpp"
+#include "mesh/edge_key.hpp"
 
 namespace dotyk::plate {
 
 using Eigen::Vector2d;
+
+namespace {
+
+const double kCorner = std::cos(35 * M_PI / 180);
+
+double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+}  // namespace
+
+Edges find_edges(const mesh::Mesh& mesh) {
+  Edges out;
+  out.of_cell.resize(mesh.cell_count());
+  std::unordered_map<std::uint64_t, int> place;
+  place.reserve(static_cast<std::size_t>(mesh.cell_count()) * 2);
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.cell(c)[k], b = mesh.cell(c)[(k + 1) % 3];
+      const auto [found, fresh] = place.emplace(mesh::edge_key(a, b), static_cast<int>(out.edges.size()));
+      out.of_cell[c][k] = found->second;
+      if (!fresh) {
+        out.edges[found->second].boundary = false;
+        continue;
+      }
+      Edge edge{{a, b}, c, true, 0, {}, {}, {}};
+      const Vector2d along = node_position(mesh, b) - node_position(mesh, a);
+      edge.length = along.norm();
+      edge.middle = (node_position(mesh, a) + node_position(mesh, b)) / 2;
+      edge.tangent = along / edge.length;
+      edge.normal = {edge.tangent[1], -edge.tangent[0]};
+      out.edges.push_back(edge);
+    }
+  return out;
+}
+
+std::vector<BoundaryNode> find_boundary_nodes(const mesh::Mesh& mesh, const Edges& edges) {
+  std::vector<BoundaryNode> nodes(mesh.node_count());
+  for (std::size_t e = 0; e < edges.edges.size(); ++e)
+    if (edges.edges[e].boundary)
+      for (const int n : edges.edges[e].node) nodes[n].edges.push_back(static_cast<int>(e));
+  for (BoundaryNode& node : nodes) {
+    if (node.edges.size() != 2) continue;
+    const Vector2d a = edges.edges[node.edges[0]].normal, b = edges.edges[node.edges[1]].normal;
+    node.smooth = a.dot(b) > kCorner;
+    if (node.smooth) node.normal = (a + b).normalized();
+  }
+  return nodes;
+}
+
+double sagitta(const Edge& edge, const std::vector<BoundaryNode>& nodes) {
+  const BoundaryNode &a = nodes[edge.node[0]], &b = nodes[edge.node[1]];
+  if (!a.smooth && !b.smooth) return 0;
+  const double at_a = cross(a.normal, edge.normal), at_b = cross(edge.normal, b.normal);
+  return edge.length / 8 * (a.smooth && b.smooth ? at_a + at_b : 2 * (at_a + at_b));
+}
 
 Triangle triangle(const mesh::Mesh& mesh, const Edges& edges, int cell) {
   Triangle t;
@@ -23,11 +77,6 @@ Triangle triangle(const mesh::Mesh& mesh, const Edges& edges, int cell) {
   t.area = (a[0] * b[1] - a[1] * b[0]) / 2;
   for (int k = 0; k < 3; ++k) t.barycentric_gradient.col((k + 2) % 3) = -t.normal[k] * t.length[k] / (2 * t.area);
   return t;
-}
-
-std::unique_ptr<const Basis> basis(Element element, const Triangle& triangle) {
-  if (element == Element::morley) return std::make_unique<Morley>(triangle);
-  return std::make_unique<Hct>(triangle);
 }
 
 namespace {
@@ -82,8 +131,8 @@ LocalMatrix stiffness(const Basis& basis, const Rule& rule, const Triangle& t, d
   const Eigen::Matrix3d C = bending(nu);
   LocalMatrix K = LocalMatrix::Zero(basis.size(), basis.size());
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
-    const auto curvature = basis.curvature_at(rule.points[i]).curvature;
-    const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 12> moment = (rule.weights[i] * t.area * D[i]) * C * curvature;
+    const auto curvature = basis.curvature(rule.points[i]);
+    const Curvatures moment = (rule.weights[i] * t.area * D[i]) * C * curvature;
     K.noalias() += curvature.transpose() * moment;
   }
   return K;

@@ -2,21 +2,61 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "plate/plate.hpp"
-#include "plate/element/edges.hpp"
 
 namespace dotyk::plate {
 
+/// An edge of the mesh, from node[0] to node[1] counter-clockwise about its first cell.
+struct Edge {
+  std::array<int, 2> node;
+  int cell;                ///< its first, on the boundary its only one
+  bool boundary = false;
+  double length = 0;
+  Eigen::Vector2d middle, tangent, normal;  ///< units; the normal out of its first cell
+};
+
+struct Edges {
+  std::vector<Edge> edges;
+  std::vector<std::array<int, 3>> of_cell;   ///< edge of each facet of a cell
+  /// 1, or −1 where the edge's normal points into the cell.
+  double sign(int cell, int local) const { return edges[of_cell[cell][local]].cell == cell ? 1 : -1; }
+};
+
+/// The node in the plane.
+inline Eigen::Vector2d node_position(const mesh::Mesh& mesh, int node) { return {mesh.node(node)[0], mesh.node(node)[1]}; }
+
+Edges find_edges(const mesh::Mesh& mesh);
+
+/// The boundary at a node where it turns by less than 35° counts as smooth: as that of a curve that the mesh approximates. There
+/// laws act along the curve's own normal and tangent, not the edges', lest a polygon's solution be taken for the
+/// curve's: Babuška's paradox (Bartels and Tscherner 2023).
+struct BoundaryNode {
+  std::vector<int> edges;           ///< of the boundary, that meet here
+  bool smooth = false;
+  Eigen::Vector2d normal{0, 0};     ///< mean of the edges', a unit; where smooth
+};
+
+/// One a node of the mesh; those within have no edges.
+std::vector<BoundaryNode> find_boundary_nodes(const mesh::Mesh& mesh, const Edges& edges);
+
+/// How far the curve through the ends of a boundary edge, with the nodes' normals, stands out of the edge's middle: length
+/// × (angle of the normals)/8, which is right for a circle to its third power.
+double sagitta(const Edge& edge, const std::vector<BoundaryNode>& nodes);
+
 using Barycentric = Eigen::Vector3d;
 
-/// Shape functions at a point, a column each.
+/// Of shape functions at a point, a column each; curvatures ∂xx, ∂yy, 2∂xy.
+using Values = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12>;
+using Gradients = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 12>;
+using Curvatures = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 12>;
 struct Shape {
-  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12> value;
-  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 12> gradient;
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 12> curvature;  ///< ∂xx, ∂yy, 2∂xy
+  Values value;
+  Gradients gradient;
+  Curvatures curvature;
 };
 
 using LocalMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 12, 12>;
@@ -40,13 +80,14 @@ class Basis {
   virtual ~Basis() = default;
   virtual int size() const = 0;
   /// On the line between two pieces of a cell: of one of them.
-  virtual Shape at(const Barycentric& point) const = 0;
-  /// The same, without the value and the gradient.
-  virtual Shape curvature_at(const Barycentric& point) const = 0;
-  /// The values alone.
-  virtual Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 12> value_at(const Barycentric& point) const { return at(point).value; }
+  virtual Values value(const Barycentric& point) const = 0;
+  virtual Gradients gradient(const Barycentric& point) const = 0;
+  virtual Curvatures curvature(const Barycentric& point) const = 0;
+  Shape at(const Barycentric& point) const { return {value(point), gradient(point), curvature(point)}; }
 };
-std::unique_ptr<const Basis> basis(Element element, const Triangle& triangle);
+std::unique_ptr<const Basis> morley(const Triangle& triangle);
+std::unique_ptr<const Basis> hct(const Triangle& triangle);
+inline std::unique_ptr<const Basis> basis(Element element, const Triangle& triangle) { return element == Element::morley ? morley(triangle) : hct(triangle); }
 
 /// A rule on a triangle: points, and weights that sum to 1.
 struct Rule {

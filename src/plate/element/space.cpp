@@ -63,7 +63,7 @@ Functional Space::mean_deflection(int number, int vertex) const {
 
 Functional Space::deflection_at(int cell, const Barycentric& point) const {
   const Triangle t = triangle(*mesh, edges, cell);
-  auto value = basis(element, t)->at(point).value;
+  Values value = basis(element, t)->value(point);
   to_freedoms(cell, value);
   const auto freedom = freedoms(cell);
   Functional out;

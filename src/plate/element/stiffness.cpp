@@ -25,56 +25,6 @@ LocalMatrix cell_stiffness(const std::vector<double>& D, double nu, const Space&
   return K;
 }
 
-/// Where the unknowns of a cell stand in a lower triangle: pattern first, then values, without a list of all entries.
-class Assembly {
- public:
-  Assembly(const Space& space, const std::vector<int>& unknown) : space_(space), unknown_(unknown) {
-    const int n = static_cast<int>(unknown.size() - std::count(unknown.begin(), unknown.end(), -1));
-    std::vector<std::vector<int>> below(n);
-    each_cell([&](int, const std::array<int, 12>& at) {
-      for (int i = 0; i < space.local_size(); ++i)
-        for (int j = 0; j < space.local_size(); ++j)
-          if (at[j] >= 0 && at[i] >= at[j]) below[at[j]].push_back(at[i]);
-    });
-    std::vector<int> sizes(n);
-    for (int j = 0; j < n; ++j) {
-      std::sort(below[j].begin(), below[j].end());
-      below[j].erase(std::unique(below[j].begin(), below[j].end()), below[j].end());
-      sizes[j] = static_cast<int>(below[j].size());
-    }
-    K.resize(n, n);
-    K.reserve(sizes);
-    for (int j = 0; j < n; ++j)
-      for (const int i : below[j]) K.insert(i, j) = 0;
-    K.makeCompressed();
-  }
-
-  template <class Visit>
-  void each_cell(const Visit& visit) const {
-    for (int c = 0; c < space_.mesh->cell_count(); ++c) {
-      std::array<int, 12> at = space_.freedoms(c);
-      for (int i = 0; i < space_.local_size(); ++i) at[i] = unknown_[at[i]];
-      visit(c, at);
-    }
-  }
-
-  void add(const std::array<int, 12>& at, const LocalMatrix& local) {
-    for (int j = 0; j < local.cols(); ++j) {
-      if (at[j] < 0) continue;
-      const int* begin = K.innerIndexPtr() + K.outerIndexPtr()[at[j]];
-      const int* end = K.innerIndexPtr() + K.outerIndexPtr()[at[j] + 1];
-      for (int i = 0; i < local.rows(); ++i)
-        if (at[i] >= at[j]) K.valuePtr()[std::lower_bound(begin, end, at[i]) - K.innerIndexPtr()] += local(i, j);
-    }
-  }
-
-  SparseMatrix K;
-
- private:
-  const Space& space_;
-  const std::vector<int>& unknown_;
-};
-
 }  // namespace
 
 std::vector<double> bending_stiffness(const Plate& plate) {
@@ -94,20 +44,25 @@ std::vector<double> bending_stiffness(const Plate& plate) {
 }
 
 Stiffness stiffness(const std::vector<double>& D, double nu, const Space& space, const Held& held, const std::vector<int>& unknown) {
-  Assembly assembly(space, unknown);
-  Stiffness out;
-  out.force_of_held = Vector::Zero(assembly.K.rows());
-  assembly.each_cell([&](int c, const std::array<int, 12>& at) {
+  const auto n = static_cast<Eigen::Index>(unknown.size() - std::count(unknown.begin(), unknown.end(), -1));
+  Stiffness out{SparseMatrix(n, n), Vector::Zero(n)};
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(space.mesh->cell_count()) * space.local_size() * (space.local_size() + 1) / 2);
+  for (int c = 0; c < space.mesh->cell_count(); ++c) {
+    std::array<int, 12> at = space.freedoms(c);
+    for (int& i : at) i = unknown[i];
     const LocalMatrix K = cell_stiffness(D, nu, space, c);
-    assembly.add(at, K);
+    for (int j = 0; j < K.cols(); ++j)
+      for (int i = 0; i < K.rows(); ++i)
+        if (at[j] >= 0 && at[i] >= at[j]) entries.emplace_back(at[i], at[j], K(i, j));
     const LocalVector v = space.of_cell(c, held.value);
-    if (v.isZero(0)) return;
+    if (v.isZero(0)) continue;
     const LocalVector force = K * v;
     out.energy_of_held += 0.5 * v.dot(force);
     for (int i = 0; i < v.size(); ++i)
       if (at[i] >= 0) out.force_of_held[at[i]] += force[i];
-  });
-  out.on_free = std::move(assembly.K);
+  }
+  out.on_free.setFromTriplets(entries.begin(), entries.end());
   return out;
 }
 

@@ -1,6 +1,5 @@
 // Solved plates and their figures.
 #include "figure/compose/compose_plate.hpp"
-#include "plate/distance.hpp"
 #include "plate/reaction.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Beams, thermoelastic ones and plates for scripts, and for the calls that solve and draw them.
 #include "beam/solve.hpp"
-#include "plate/solve.hpp"
+#include "plate/solution.hpp"
 #include "script/bridge/library.hpp"
 #include "script/bridge/wrapped.hpp"
 #include "thermoelastic/stepping.hpp"
