@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -30,5 +31,9 @@ Four load(const std::function<double(double)>& q, double x0, double h);
 
 /// ∫ f over the interval by the same rule.
 double integral(const std::function<double(double)>& f, double from, double to);
+
+/// A function on the cells between ascending nodes as the polynomial of degree 7 in each that has its values at eight
+/// Chebyshev points: f is called here and never again.
+std::function<double(double)> sampled(const std::function<double(double)>& f, std::vector<double> nodes);
 
 }  // namespace dotyk::beam

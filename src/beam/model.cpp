@@ -103,11 +103,8 @@ class Builder {
   }
 
   void add_load(const PointLoad& load) {
-    const auto last = model_.nodes.size() - 2;
-    std::size_t cell = 0;
-    while (cell < last && load.x > model_.nodes[cell + 1]) ++cell;
-    const double h = model_.nodes[cell + 1] - model_.nodes[cell];
-    const Hermite at((load.x - model_.nodes[cell]) / h, h);
+    const auto [cell, s] = place(model_.nodes, load.x);
+    const Hermite at(s, model_.nodes[cell + 1] - model_.nodes[cell]);
     f_.segment<4>(2 * cell) += scale_.cwiseProduct(Four(load.force * at.value + load.moment * at.slope));
   }
 

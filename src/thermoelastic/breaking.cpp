@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "thermoelastic/group.hpp"
+#include "thermoelastic/stepping.hpp"
 
 namespace dotyk::thermoelastic {
 
@@ -20,13 +20,13 @@ double share_of_limit(const Held& held, double reaction) {
 
 }  // namespace
 
-void telling(const std::vector<Broken>& broken, std::size_t first, const std::function<void()>& run) {
+void Stepping::telling(std::size_t first, const std::function<void()>& run) const {
   try {
     run();
   } catch (const InputError& error) {
     std::string names;
-    for (std::size_t i = first; i < broken.size(); ++i) names += (names.empty() ? "" : ", ") + broken[i].name;
-    throw InputError(text("after a support broke at t = ", broken.back().time, " (", names, "): ", error.what()));
+    for (std::size_t i = first; i < broken_.size(); ++i) names += (names.empty() ? "" : ", ") + broken_[i].name;
+    throw InputError(text("after a support broke at t = ", broken_.back().time, " (", names, "): ", error.what()));
   }
 }
 
@@ -79,7 +79,7 @@ void Stepping::break_within(double tau, const Loads& loads, Monitor& monitor) {
     (overload(trial(middle, loads, work, monitor)) > kBears ? breaks : bears) = middle;
   }
   accept(trial(breaks, loads, work, monitor), breaks, work);
-  telling(broken_, broken_.size(), [&] {
+  telling(broken_.size(), [&] {
     for (Group& group : groups_) break_supports(group, monitor);
     if (breaks < tau) advance(tau - breaks, loads, monitor);
   });

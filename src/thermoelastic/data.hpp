@@ -29,9 +29,7 @@ struct HeldHeat {
 ///   a₁ ∂ₜϑ₂ = D²ϑ₂ − a₂₂ϑ₂ − a₂₁ϑ₁ + a₂ ∂ₜD²u₂ + r₂,    D²(EJ (D²u₂ + αϑ₂)) = q
 /// N = EF (Du₁ − αϑ₁) pulls where positive (P4 has the other sign), M = −EJ (D²u₂ + αϑ₂), T = DM.
 ///
-/// Misprints of P4: (1) and (P_v) have +a₁₂ϑ₂, the form B_C has −a₁₂ beside +a₂₁; exchange of heat damps, which
-/// asks for F a₁₂ = J a₂₁ with one sign. Its q₁ is −p/EF. After theorem 5 it says that ℳ₁ < |∫ q x| makes a support with
-/// friction against rotation slip: the other supports bear a part of that moment, and it need not.
+/// Exchange of heat damps, which asks for F a₁₂ = J a₂₁ with one sign; for this and other misprints of P4 see scripts/papers/README.md, 60 to 79.
 ///
 /// A support with a breaking law breaks when its reaction reaches the limit, and bears nothing from then on (P4, section 4,
 /// figures 16 and 17; there without a memory). The beam jumps without exchanging heat: Cϑ − Gᵀu stays.

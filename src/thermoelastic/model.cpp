@@ -109,7 +109,7 @@ void Model::add_part(Effect::Kind kind, const std::vector<double>& nodes) {
     if (bending ? data.heat_ends[end].gradient : data.heat_ends[end].mean)
       held_heat.push_back({part.first_heat + (end == 0 ? 0 : heat.unknowns() - 2), static_cast<int>(parts.size()), end});
   DenseMatrix unit(effect.cell_unknowns(), effect.cells());
-  for (int cell = 0; cell < effect.cells(); ++cell) unit.col(cell) = effect.cell_load(cell, 1.0);
+  for (int cell = 0; cell < effect.cells(); ++cell) unit.col(cell) = effect.cell_load(cell, [](double) { return 1.0; });
   unit_loads_.push_back(unit);
   parts.push_back(std::move(part));
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "thermoelastic/data.hpp"
-#include "thermoelastic/heat.hpp"
+#include "thermoelastic/elements.hpp"
 
 namespace dotyk::thermoelastic {
 

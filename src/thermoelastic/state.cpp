@@ -1,8 +1,7 @@
 // What a thermoelastic beam does at its present time.
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "beam/element.hpp"
-#include "thermoelastic/group.hpp"
+#include "thermoelastic/stepping.hpp"
 
 namespace dotyk::thermoelastic {
 

@@ -4,7 +4,6 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "thermoelastic/group.hpp"
 
 namespace dotyk::thermoelastic {
 
@@ -59,10 +58,6 @@ double Stepping::Group::work_of_places(const Fields& to, const Forces& loads, bo
   return sum;
 }
 
-Stepping::~Stepping() = default;
-Stepping::Stepping(const Stepping&) = default;
-Stepping& Stepping::operator=(Stepping&&) = default;
-
 Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor)
     : scheme_(scheme) {
   require_valid(data);
@@ -81,7 +76,7 @@ Stepping::Stepping(const Data& data, const Initial& initial, const Scheme& schem
     rest();
     while (group.overload(group.now.reactions) > kBears) {
       for (const std::string& name : group.break_worst(scheme.decompose)) broken_.push_back({name, 0});
-      telling(broken_, 0, rest);
+      telling(0, rest);
     }
     group.entropy = group.model->entropy(group.now.u, group.now.theta);
     const double stored = group.stored(group.now, group.forces);

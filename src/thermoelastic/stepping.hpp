@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "beam/element.hpp"
 #include "thermoelastic/system.hpp"
 
 namespace dotyk::thermoelastic {
@@ -53,9 +54,6 @@ class Stepping {
   /// At t = 0, at rest under the loads and temperatures of that time. Throws InputError as require_valid() and
   /// Interface::solve().
   Stepping(const Data& data, const Initial& initial, const Scheme& scheme, const Loads& loads, Monitor& monitor);
-  Stepping(const Stepping&);
-  Stepping& operator=(Stepping&&);
-  ~Stepping();
 
   void step(const Loads& loads, Monitor& monitor) { advance(scheme_.step, loads, monitor); }
   /// To the time t ≥ time(), by equal steps none longer than the scheme's.
@@ -82,9 +80,57 @@ class Stepping {
   Reaction reaction(int support) const;
 
  private:
-  struct Group;
-  struct Stage;
-  struct Place;
+  /// What a stage is known by in the sums over a step.
+  struct Rates {
+    algebra::Vector entropy;              ///< its derivative by time
+    double dissipated = 0, supplied = 0;  ///< power
+  };
+
+  /// Effects that are coupled.
+  struct Group {
+    void take(Model with, bool decompose);
+    std::shared_ptr<const Model> model;
+    std::vector<char> decomposed;           ///< of each part
+    bool always_decomposed = true;          ///< since the model was taken
+    std::shared_ptr<System> system, whole;  ///< as `decomposed` says; coupled, where statics did not do
+    Fields now;
+    Forces forces;
+    algebra::Vector entropy;
+    std::optional<Rates> rates;  ///< at the end of the last step
+
+    double stored(const Fields& fields, const Forces& loads) const;
+    double work_of_places(const Fields& to, const Forces& loads, bool trapezoidal) const;  ///< since `now`
+    /// The greatest ratio of a breaking support's reaction to its limit.
+    double overload(const std::vector<algebra::Vector>& reactions) const;
+    /// Takes the breaking supports with this ratio out of the model; gives their names.
+    std::vector<std::string> break_worst(bool decompose);
+  };
+
+  /// The end of a step, and what it put in and dissipated.
+  struct Stage {
+    Fields fields;
+    Forces forces;
+    algebra::Vector entropy;
+    Rates rates;
+    double put_in = 0, dissipated = 0;
+  };
+
+  struct Place {
+    const Group& group;
+    const Part& part;
+    int cell;
+    double s;                     ///< 0 ≤ s ≤ 1
+    beam::Hermite shape() const;  ///< the cubic functions there
+    CellVector u() const;         ///< the cell's unknowns
+    Eigen::Vector4d theta() const;
+    CellVector end_forces() const;  ///< on the cell, for its unknowns: the stress's less the load's
+  };
+
+  /// A breaking support bears so much of its limit; beyond it is not rounding.
+  static constexpr double kBears = 1 + 1e-9;
+
+  /// Runs it; an InputError tells which supports broke before, those from `first` on.
+  void telling(std::size_t first, const std::function<void()>& run) const;
   void advance(double tau, const Loads& loads, Monitor& monitor);
   std::vector<Stage> trial(double tau, const Loads& loads, Work& work, Monitor& monitor);
   double overload(const std::vector<Stage>& ends) const;

@@ -1,6 +1,6 @@
 #include "script/bind/models/models.hpp"
 
-#include "beam/sampled.hpp"
+#include "beam/element.hpp"
 #include "script/bind/bind.hpp"
 #include "solver/core/verdict.hpp"
 

@@ -39,7 +39,6 @@ class Effect {
   const CellStrain& strain_matrix(int cell) const { return strain_[cell]; }
   /// ∫ f v for a cell's shape functions v.
   CellVector cell_load(int cell, const std::function<double(double)>& f) const;
-  CellVector cell_load(int cell, double f) const;
   /// The motions without strain: 1, and for bending x/ℓ − ½.
   algebra::DenseMatrix kernel() const;
 
@@ -56,6 +55,33 @@ class Effect {
   std::vector<CellStrain> strain_;
   std::vector<Eigen::Matrix2d> from_forces_;  ///< a cell's stress from the forces on its first two unknowns
   std::vector<Eigen::Matrix2d> from_strain_;  ///< its last two unknowns from its strain, the first ones zero
+};
+
+/// The elements of ϑ₁ and ϑ₂: cubic Hermite functions, unknowns (ϑ, ℓϑ') node by node. A cell's begin at twice its number.
+class HeatElements {
+ public:
+  explicit HeatElements(std::vector<double> nodes);
+  const std::vector<double>& nodes() const { return nodes_; }
+  int cells() const { return static_cast<int>(nodes_.size()) - 1; }
+  int unknowns() const { return 2 * static_cast<int>(nodes_.size()); }
+  double h(int cell) const { return nodes_[cell + 1] - nodes_[cell]; }
+
+  /// ∫ ηη and ∫ DηDη on a cell.
+  Eigen::Matrix4d mass(int cell) const;
+  Eigen::Matrix4d conduction(int cell) const;
+  /// The part of a cell's functions among the polynomials of degree 1: its coefficients, as OnCells.
+  const Eigen::Matrix<double, 2, 4>& projection(int cell) const { return projection_[cell]; }
+
+  /// ∫ r η for all η.
+  algebra::Vector load(const std::function<double(double)>& r) const;
+  /// ∫ Σ η for Σ on cells, and ϑ's part among the polynomials of degree 1.
+  algebra::Vector product(const OnCells& on_cells) const;
+  OnCells projected(const algebra::Vector& theta) const;
+
+ private:
+  Eigen::Vector4d scale() const { return {1, 1 / nodes_.back(), 1, 1 / nodes_.back()}; }
+  std::vector<double> nodes_;
+  std::vector<Eigen::Matrix<double, 2, 4>> projection_;
 };
 
 }  // namespace dotyk::thermoelastic
