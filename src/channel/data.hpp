@@ -20,29 +20,8 @@ namespace dotyk::channel {
 /// Initial profile (36), (37): u0 (1 - (|y|/y0)^p), p = log10(Re + 1), Re = sqrt(2) y0 rho |u0|/eta.
 /// The logarithm is the decadic one, as Czech texts write it (the natural one is ln there).
 ///
-/// What the print has, and what was computed with here:
-///   (7)    -p delta_ij is counted again in (5), (6)      tau without the pressure
-///   (12)   rho v_t - lap v = ...                         rho v_t - eta lap v = ...
-///   (14)   -sigma E_z B_y drives w                       j x B has no such z component: E_x stands there;
-///                                                        for E along z nothing drives w
-///   (15)   d = p_x/(E0 B0)                               d = -p_x/(sigma E0 B0): p_x changes sides in (13),
-///                                                        and a, b hold sigma while d does not (units)
-///   (15)   + cos wt with E = E0 cos wt                   + cos wt belongs to E = -E0 cos wt; with E as printed
-///                                                        it is - cos wt (a phase of half a period)
-///   (17)   u(+-y0, 0) = 0                                u(+-y0, t) = 0
-///   (38)   solves (15), but not from rest as promised:   - exp(-lambda_k t) (lambda_k/(w^2 + lambda_k^2) + d/lambda_k)
-///          at t = 0 the sum of (30) and (38) is not v     is missing in its bracket. Its factor 4/(a pi) is right.
-///   (39)   u(y), profile of the steady channel            its value on the axis; the profile has
-///                                                        cosh(M y/y0)/cosh M in place of 1/cosh M. Its signs are
-///                                                        those of (13) and contradict (15) as printed.
-///   M (31) called the magnetic Mach number               the Hartmann number
-///   text   u is the sum of (19) and (38)                  of (30) and (38)
-///   text   (13), (14) divided by E0 B0                    by sigma E0 B0, as a and b have it
-///   text   sigma >> eps mu; Ohm's law (11)                sigma >> w eps, as (4) has it (units); Ohm's law is (10)
-///   text   amplitude falls "w times" against steady E    (38) has 1/(a sqrt(w^2 + lambda_k^2)) against 1/(a lambda_k):
-///                                                        a factor lambda_k/w, a number, for w >> lambda_k; on the
-///                                                        axis of the channel the amplitude tends to 1/(a w)
-/// Checked and right as printed: (13), (18), (20), (28)-(32), (34), (35), phases of (38).
+/// Where the paper is printed otherwise see misprints 48 to 58 in scripts/papers/README.md; (13), (18), (20), (28)-(32), (34),
+/// (35) and the phases of (38) are right as printed.
 
 enum class Oscillating { electric, magnetic };  ///< first, second combination of fields
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "algebra/dense/quadrature.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "channel/initial_profile.hpp"
 
 namespace dotyk::channel {
 namespace {
@@ -20,7 +20,66 @@ double in_range(double u) {
   return u;
 }
 
+Complex sinhc(Complex x) { return std::abs(x) < 1e-4 ? 1.0 + x * x / 6.0 : std::sinh(x) / x; }
+
+/// Im A: the terms (p-1)...(p-n) (i/alpha)^n of odd n.
+double imaginary_part(double p, double alpha) {
+  double term = 1, sum = 0;
+  for (int n = 1; n <= 60; ++n) {
+    const double next = term * (p - n) / alpha;
+    if (n > p && std::abs(next) > std::abs(term)) break;  // past the least term
+    term = next;
+    if (n % 4 == 1) sum += term;
+    if (n % 4 == 3) sum -= term;
+    if (std::abs(term) < 1e-18 * std::abs(sum)) break;
+  }
+  return sum;
+}
+
+/// sin(p pi/2), exactly 0 for even p.
+double cusp_factor(double p) { return std::fmod(p, 2.0) == 0 ? 0 : std::sin(std::fmod(p, 4.0) * pi / 2); }
+
 }  // namespace
+
+Complex forced_profile(double y, double y0, double b, Complex gamma) {
+  y = std::abs(y);
+  const Complex m = std::sqrt(gamma / b);
+  const double distance = y0 - y, sum = y0 + y;
+  if (std::abs(m) * y0 < 2)  // cosh(m y0) - cosh(m y) as a product
+    return distance * sum / (2 * b) * sinhc(m * distance / 2.0) * sinhc(m * sum / 2.0) / std::cosh(m * y0);
+  // (1 - e^{-m distance}) (1 - e^{-m sum})/(1 + e^{-2 m y0}) is the same quotient
+  const auto one_minus_exp = [](Complex x) { return std::abs(x) < 1 ? 2.0 * std::sinh(x / 2.0) * std::exp(-x / 2.0) : 1.0 - std::exp(-x); };
+  return one_minus_exp(m * distance) * one_minus_exp(m * sum) / (1.0 + std::exp(-2.0 * m * y0)) / gamma;
+}
+
+Eigen::ArrayXd wave_numbers(int count) {
+  return (Eigen::ArrayXd::LinSpaced(count, 0, count - 1) * 2 + 1) * (pi / 2);
+}
+
+double asymptotic_limit(double p) { return std::max(40.0, 2 * p); }
+
+Eigen::ArrayXd initial_coefficients(double p, int count) {
+  const Eigen::ArrayXd alpha = wave_numbers(count);
+  const double limit = asymptotic_limit(p);
+  const algebra::Quadrature rule = algebra::gauss(40 + static_cast<int>(limit), p);
+  Eigen::ArrayXd coefficients(count);
+  for (int k = 0; k < count; ++k) {
+    double J;
+    if (alpha(k) < limit) {
+      J = (rule.weights.array() * (alpha(k) * rule.points.array()).sin() / rule.points.array()).sum();
+    } else {
+      const double far = (k % 2 == 0 ? 1 : -1) * imaginary_part(p, alpha(k)) / alpha(k);
+      const double cusp = p > 0 ? std::exp(std::lgamma(p) - p * std::log(alpha(k))) * cusp_factor(p) : pi / 2;
+      J = cusp + far;
+    }
+    coefficients(k) = 2 * p / alpha(k) * J;
+  }
+  return coefficients;
+}
+
+CoefficientBound coefficient_bound(double p) {
+  return {4 * p * std::abs(p - 1), 2 * std::tgamma(p + 1) * std::abs(cusp_factor(p))};
+}
 
 Series::Series(const Data& data, int terms) : data_(data) {
   channel::check(data);

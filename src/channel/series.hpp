@@ -1,12 +1,46 @@
 #pragma once
 
+#include <complex>
 #include <vector>
 
-#include "channel/closed_form.hpp"
 #include "channel/data.hpp"
 #include "algebra/types.hpp"
 
 namespace dotyk::channel {
+
+using Complex = std::complex<double>;
+
+/// h(y) of gamma h - b h'' = 1, h(+-y0) = 0, |y| <= y0, b > 0, Re gamma >= 0:
+///
+///   h = (1 - cosh(m y)/cosh(m y0))/gamma,  m^2 = gamma/b;   (y0^2 - y^2)/(2b) for gamma = 0.
+///
+/// gamma = c: the profile of the steady channel for a unit force, (39) off the axis.
+/// gamma = c + i a w: Re(h e^{iwt}) is the periodic solution for the force cos wt, the closed sum of (38).
+/// Computed without cancellation for small m and without overflow for large.
+Complex forced_profile(double y, double y0, double b, Complex gamma);
+
+/// alpha_k = (2k + 1) pi/2, k = 0 ... count - 1; the eigenfunctions (28) are cos(alpha_k y/y0).
+Eigen::ArrayXd wave_numbers(int count);
+
+/// Coefficients (35) of 1 - |s|^p, s = y/y0, p >= 0, in cos(alpha_k s):
+///
+///   C_k = 2 p/alpha_k J_k,   J_k = int_0^1 s^{p-1} sin(alpha_k s) ds.
+///
+/// For alpha_k < limit J_k comes from Gauss-Jacobi quadrature with weight s^p; beyond, from turning the
+/// path of integration into the complex plane,
+///   J_k = Gamma(p) sin(p pi/2)/alpha^p + (-1)^k Im A/alpha,  A = int_0^oo (1 + i r/alpha)^{p-1} e^{-r} dr,
+/// and A from its asymptotic series, of which terms down to e^{-alpha} can be used.
+Eigen::ArrayXd initial_coefficients(double p, int count);
+
+/// The least alpha beyond which coefficient_bound holds: max(40, 2p).
+double asymptotic_limit(double p);
+
+/// |C_k| <= smooth/alpha^3 + cusp/alpha^{p+1} for alpha >= asymptotic_limit(p): smooth = 4 p |p - 1|
+/// (as |Im A| <= 2 |p - 1|/alpha there), cusp = 2 Gamma(p + 1) |sin(p pi/2)|.
+struct CoefficientBound {
+  double smooth = 0, cusp = 0;
+};
+CoefficientBound coefficient_bound(double p);
 
 /// u(y, t) of the modified Hartmann problem: the periodic state in closed form and the transient as a
 /// series in cos(alpha_k y/y0) (28), (30), (35), so that only what dies out is ever truncated.

@@ -1,4 +1,4 @@
-#include "channel/initial_profile.hpp"
+#include "channel/series.hpp"
 
 #include <doctest/doctest.h>
 
