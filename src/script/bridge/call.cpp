@@ -11,18 +11,14 @@ Call::Call(lua_State* L, const Descriptor& descriptor)
     : Arguments(L, descriptor.short_name()), descriptor_(descriptor) {
   check_self();
   const int first = descriptor.owner().empty() ? 1 : 2;
-  if (descriptor.takes_table()) {
-    open_table(first);
-  } else {
-    open_positional(first);
-  }
+  if (descriptor.takes_table()) open_table(first);
+  else open_positional(first);
 }
 
 void Call::open_table(int first) {
   lua_State* L = L_;
   if (lua_gettop(L) > first)
-    throw ArgumentError("takes one table of keys, got " + std::to_string(lua_gettop(L) - first + 1) +
-                        " arguments");
+    throw ArgumentError("takes one table of keys, got " + std::to_string(lua_gettop(L) - first + 1) + " arguments");
   if (lua_gettop(L) < first) lua_newtable(L);
   if (const auto* key = meant(first)) {
     lua_createtable(L, 0, 1);
@@ -30,13 +26,9 @@ void Call::open_table(int first) {
     lua_setfield(L, first, key->name.c_str());
   }
   if (lua_type(L, first) != LUA_TTABLE) {
-    const auto& keys = descriptor_.arguments[0].keys;
-    std::vector<std::string> names;
-    for (const auto& key : keys) names.push_back(key.name);
-    const auto& items = descriptor_.arguments[0].items;
-    const auto wanted = names.empty() && !items.empty()
-                            ? "a table of " + (items[0].type.empty() ? "items" : plural(items[0].type))
-                            : "a table of keys (" + join(names, "and", "") + ")";
+    const auto &keys = descriptor_.arguments[0].keys, &items = descriptor_.arguments[0].items;
+    const auto wanted = keys.empty() && !items.empty() ? "a table of " + (items[0].type.empty() ? "items" : plural(items[0].type))
+                                                       : "a table of keys (" + join(names_of(keys), "and", "") + ")";
     throw ArgumentError("expected " + wanted + ", got " + describe_value(L, first));
   }
   static_cast<Arguments&>(*this) = Arguments(L, first, descriptor_.arguments[0], callee_);
@@ -55,10 +47,9 @@ void Call::check_self() const {
   const auto owner = descriptor_.owner();
   if (!owner.empty()) {
     const auto* holder = object_at(L_, 1, owner.c_str());
-    if (!holder) {
+    if (!holder)
       throw ArgumentError("expected " + with_article(owner) + " before it, got " + describe_value(L_, 1) +
                           " (write " + owner + ":" + callee_ + " with a colon, not a dot)");
-    }
     if (!holder->pointer) throw ArgumentError("this " + owner + " was released");
   } else if (descriptor_.name.find('.') != std::string::npos && lua_istable(L_, 1) && luaL_getmetafield(L_, 1, "__module") != LUA_TNIL) {
     throw ArgumentError("write " + descriptor_.name + " with a dot, not a colon");
@@ -70,23 +61,16 @@ void Call::open_positional(int first) {
   const int given = lua_gettop(L_) - first + 1;
   keys_ = &arguments;
   luaL_checkstack(L_, static_cast<int>(arguments.size()) + 8, nullptr);
-  if (given > static_cast<int>(arguments.size())) {
-    const auto count = arguments.size();
-    const auto takes = count == 0   ? std::string("no argument")
-                       : count == 1 ? "1 argument"
-                                    : std::to_string(count) + " arguments";
-    throw ArgumentError("takes " + takes + ", got " + std::to_string(given));
-  }
+  if (const auto count = arguments.size(); given > static_cast<int>(count))
+    throw ArgumentError("takes " + (count == 0 ? "no argument" : counted(count, "argument")) + ", got " + std::to_string(given));
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const int index = first + static_cast<int>(i);
-    const auto what = "argument " + std::to_string(i + 1) +
-                      (arguments[i].name.empty() ? "" : " '" + arguments[i].name + "'");
+    const auto what = "argument " + std::to_string(i + 1) + (arguments[i].name.empty() ? "" : " '" + arguments[i].name + "'");
     if (lua_isnoneornil(L_, index)) {
       if (arguments[i].needed) {
         const bool passed = static_cast<int>(i) < given;
-        throw ArgumentError(what +
-                            (passed ? " is nil (a variable misspelt or not yet set?)" : " is missing") +
-                            ", expected " + arguments[i].expected());
+        throw ArgumentError(what + (passed ? " is nil (a variable misspelt or not yet set?)" : " is missing") + ", expected " +
+                            arguments[i].expected());
       }
       slots_.push_back(0);
       continue;
@@ -123,12 +107,8 @@ void Call::keep(int object_index, const std::string& name, int slot) const {
 
 int Call::kept(int object_index, const std::string& name) const {
   luaL_checkstack(L_, 4, nullptr);
-  if (lua_getiuservalue(L_, object_index, 1) == LUA_TTABLE &&
-      lua_getfield(L_, -1, name.c_str()) != LUA_TNIL) {
-    lua_remove(L_, -2);
-    return lua_gettop(L_);
-  }
-  return 0;
+  const bool found = lua_getiuservalue(L_, object_index, 1) == LUA_TTABLE && lua_getfield(L_, -1, name.c_str()) != LUA_TNIL;
+  return found ? lua_gettop(L_) : 0;
 }
 
 std::vector<Function> Call::kept_function(int object_index, const std::string& name) const {

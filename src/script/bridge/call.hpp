@@ -50,8 +50,6 @@ class Call : public Arguments {
   // A function kept with an object; empty or one.
   std::vector<Function> kept_function(int object_index, const std::string& name) const;
 
-  const Descriptor& descriptor() const { return descriptor_; }
-
  private:
   void check_self() const;
   void open_table(int first);

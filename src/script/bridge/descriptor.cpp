@@ -25,6 +25,10 @@ std::string plural(const std::string& noun) {
   return noun.ends_with("dy") ? noun.substr(0, noun.size() - 1) + "ies" : noun + "s";
 }
 
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + (count == 1 ? noun : plural(noun));
+}
+
 std::string with_article(const std::string& noun) {
   const bool vowel = !noun.empty() && std::string("aeiou").find(noun[0]) != std::string::npos;
   return (vowel ? "an " : "a ") + noun;
@@ -38,12 +42,10 @@ Key& Key::choice_fallback(int value) { return fallback(choices.at(std::find(valu
 namespace {
 
 std::string count_text(const Key& key, const std::string& noun) {
-  const auto counted = [&](std::size_t n) { return std::to_string(n) + " " + (n == 1 ? noun : plural(noun)); };
   const bool bounded = key.most != std::numeric_limits<std::size_t>::max();
-  if (key.fewest == key.most) return counted(key.fewest);
-  if (bounded && key.fewest + 1 == key.most) return std::to_string(key.fewest) + " or " + counted(key.most);
-  if (bounded) return std::to_string(key.fewest) + " to " + counted(key.most);
-  if (key.fewest > 0) return "at least " + counted(key.fewest);
+  if (key.fewest == key.most) return counted(key.fewest, noun);
+  if (bounded) return std::to_string(key.fewest) + (key.fewest + 1 == key.most ? " or " : " to ") + counted(key.most, noun);
+  if (key.fewest > 0) return "at least " + counted(key.fewest, noun);
   return plural(noun);
 }
 
@@ -86,6 +88,12 @@ std::string Key::expected() const {
 std::vector<Key> joined(std::vector<Key> these, const std::vector<Key>& those) {
   these.insert(these.end(), those.begin(), those.end());
   return these;
+}
+
+std::vector<std::string> names_of(const std::vector<Key>& keys) {
+  std::vector<std::string> names;
+  for (const auto& key : keys) names.push_back(key.name);
+  return names;
 }
 
 std::vector<Key> named_keys(const Key& key) {
@@ -149,11 +157,6 @@ Key positive(std::string name, std::string help) { return number(std::move(name)
 Key choice(std::string name, std::vector<std::string> choices, std::string help) {
   auto key = plain<Kind::choice>(std::move(name), std::move(help));
   key.choices = std::move(choices);
-  return key;
-}
-Key object(std::string name, std::string type, std::string help) {
-  auto key = plain<Kind::object>(std::move(name), std::move(help));
-  key.type = std::move(type);
   return key;
 }
 Key list(std::string name, Key item, std::string help) {

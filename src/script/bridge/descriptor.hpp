@@ -91,7 +91,7 @@ struct Key {
   Key& with(Key item) { return set(items, {std::move(item)}); }                                 // a table that takes items as well as keys
   // A member of a struct that takes the value (Arguments::fill), or a function of the struct that gives a reference. What no
   // value is given for stays as the struct has it, which is the default that help shows, unless the key is required, says
-  // otherwise before, or would refuse it. Defined in bound.hpp.
+  // otherwise before, or would refuse it. Defined in arguments.hpp.
   template <class Struct, class Value>
   Key& into(Value Struct::* member) {
     return into<Struct>([member](Struct& all) -> Value& { return all.*member; });
@@ -129,7 +129,7 @@ struct Key {
 
 // These keys, then those.
 std::vector<Key> joined(std::vector<Key> these, const std::vector<Key>& those);
-
+std::vector<std::string> names_of(const std::vector<Key>& keys);
 // The named keys of a table, or of the tables among the kinds of an either.
 std::vector<Key> named_keys(const Key& key);
 // These, and those of its items.
@@ -185,7 +185,7 @@ struct Descriptor {
 };
 
 template <class T>
-struct Wrapped;  // see object.hpp
+struct Wrapped;  // see push.hpp
 
 namespace key {
 template <Kind kind>
@@ -209,7 +209,6 @@ Key choice(std::string name, const std::vector<std::pair<const char*, Enum>>& ch
   for (const auto& [text, value] : choices) key.choices.push_back(text), key.values.push_back(static_cast<int>(value));
   return key;
 }
-Key object(std::string name, std::string type, std::string help);
 Key list(std::string name, Key item, std::string help);
 Key table(std::string name, std::vector<Key> keys, std::string help);
 Key table(std::vector<Key> keys);  // the single table argument of a call
@@ -223,17 +222,18 @@ Key plain(std::string name, std::string help) {
 }
 template <class T>
 Key object(std::string name, std::string help) {
-  return object(std::move(name), Wrapped<T>::name, std::move(help));
+  Key key = plain<Kind::object>(std::move(name), std::move(help));
+  key.type = Wrapped<T>::name;
+  return key;
 }
 }  // namespace key
 
 // A number as a person would write it: "0.3", "1e-10", "5".
 std::string number_text(double value);
 
-// "body" → "bodies".
+// "bodies", "1 body" or "2 bodies", "a body" or "an element".
 std::string plural(const std::string& noun);
-
-// "a body", "an element".
+std::string counted(std::size_t count, const std::string& noun);
 std::string with_article(const std::string& noun);
 
 }  // namespace dotyk::script

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "script/bridge/descriptor.hpp"
+#include "script/bridge/arguments.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/position.hpp"
 
@@ -18,10 +18,6 @@ std::string point_text(std::span<const double> point) {
   std::string text;
   for (const double x : point) text += (text.empty() ? "" : ", ") + dotyk::text(x);  // six digits: a place, not a value
   return "(" + text + ")";
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -40,8 +36,7 @@ void Function::call(int count, int results) const {
   if (lua_type(L_, -1) == LUA_TSTRING) {
     auto place = position(L_);
     if (!place.empty()) place = " at " + place.substr(0, place.size() - 2);
-    const auto what =
-        key_.empty() ? "in the function given to " + callee_ : "in '" + key_ + "' of " + callee_;
+    const auto what = key_.empty() ? "in the function given to " + callee_ : "in '" + key_ + "' of " + callee_;
     const std::string message = lua_tostring(L_, -1), where = " (" + what + place + ")";
     if (message.find(where) == std::string::npos) lua_pushstring(L_, (message + where).c_str());  // nested ones say it once
   }
@@ -101,9 +96,7 @@ std::string Function::text() const {
   begin(0);
   call(0, 1);
   if (lua_type(L_, -1) != LUA_TSTRING) throw std::runtime_error("function '" + key_ + "' returned " + describe_value(L_, -1) + ", expected a string");
-  std::size_t length = 0;
-  const char* start = lua_tolstring(L_, -1, &length);
-  std::string text(start, length);
+  const auto text = read_value<std::string>(L_, -1);
   lua_pop(L_, 1);
   return text;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "script/bridge/lua.hpp"
-#include "script/bridge/object.hpp"
+#include "script/bridge/push.hpp"
 
 namespace dotyk::script {
 

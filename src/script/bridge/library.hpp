@@ -1,6 +1,5 @@
 #pragma once
-// Everything a script can call, by name: the source of help, completion and the
-// reference page.
+// Everything a script can call, by name: the source of help, completion and the reference page.
 #include <deque>
 #include <functional>
 #include <memory>
@@ -11,7 +10,6 @@
 #include "base/place.hpp"
 #include "script/bridge/call.hpp"
 #include "script/bridge/descriptor.hpp"
-#include "script/bridge/object.hpp"
 
 namespace dotyk::script {
 
@@ -38,6 +36,9 @@ struct Type {
 struct Module {
   std::string name, help;
 };
+
+// The descriptor behind the function at index, or null.
+const Descriptor* descriptor_at(lua_State* L, int index);
 
 class Manifest;
 
@@ -112,10 +113,12 @@ class TypeOf {
  public:
   TypeOf(Library& library, Type& type) : library_(library), type_(type) {}
 
-  // `get` takes a const T& and returns anything push() knows.
+  // `get` takes a const T& and returns anything push() knows; or is a member.
   template <class Get>
   TypeOf& field(std::string name, std::string help, Get get, std::string units = "") {
-    const auto read = [get](lua_State* L, const std::shared_ptr<void>& object) { push(L, get(*static_cast<const T*>(object.get()))); };
+    const auto read = [get](lua_State* L, const std::shared_ptr<void>& object) {
+      push(L, std::invoke(get, *static_cast<const T*>(object.get())));
+    };
     type_.fields.push_back({std::move(name), std::move(help), std::move(units), read});
     return *this;
   }

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "base/whole_file.hpp"
-#include "script/bridge/enter.hpp"
+#include "script/bridge/library.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/library.hpp"
 #include "script/guard/manifest.hpp"

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "script/bridge/descriptor.hpp"
-#include "script/bridge/lua.hpp"
+#include "script/bridge/push.hpp"
 
 namespace dotyk::script {
 
@@ -58,11 +58,8 @@ std::string describe_value(lua_State* L, int index) {
     default:
       break;
   }
-  std::string name = luaL_typename(L, index);
-  const int kind = luaL_getmetafield(L, index, "__name");
-  if (kind == LUA_TSTRING) name = lua_tostring(L, -1);
-  if (kind != LUA_TNIL) lua_pop(L, 1);
-  return with_article(name);
+  const auto name = meta_text(L, index, "__name");
+  return with_article(name.empty() ? luaL_typename(L, index) : name);
 }
 
 void raise(lua_State* L, const std::string& callee, const std::string& message) {

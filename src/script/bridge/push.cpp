@@ -1,29 +1,47 @@
 #include "script/bridge/push.hpp"
 
 #include <algorithm>
+#include <new>
+#include <stdexcept>
 
-#include "script/bridge/position.hpp"
+#include "script/bridge/descriptor.hpp"
 #include "script/bridge/lua_side.hpp"
+#include "script/bridge/position.hpp"
 #include "script/help/nearest.hpp"
 
 namespace dotyk::script {
 namespace {
 
+// The metatable was checked by whoever calls these only in the usual case: a
+// script may reach them by getmetatable, so they check for themselves that the
+// value is a userdata with a metatable that has this very function.
+Holder* holder_of(lua_State* L, int index, const char* event, lua_CFunction self) {
+  if (lua_type(L, index) != LUA_TUSERDATA || luaL_getmetafield(L, index, event) == LUA_TNIL) return nullptr;
+  const bool ours = lua_tocfunction(L, -1) == self;
+  lua_pop(L, 1);
+  return ours ? static_cast<Holder*>(lua_touserdata(L, index)) : nullptr;
+}
+
+int release(lua_State* L) {
+  if (auto* holder = holder_of(L, 1, "__gc", release)) holder->pointer.reset();
+  return 0;
+}
+
+int equal(lua_State* L) {
+  const auto* a = holder_of(L, 1, "__eq", equal);
+  const auto* b = holder_of(L, 2, "__eq", equal);
+  lua_pushboolean(L, a && b && a->pointer == b->pointer);
+  return 1;
+}
+
+// Gives nothing, which is nil, where there is no error.
 int unknown_field(lua_State* L) {
-  const std::string name = lua_tostring(L, lua_upvalueindex(1));
-  if (lua_type(L, 2) != LUA_TSTRING) {
-    lua_pushnil(L);
-    return 1;
-  }
+  if (lua_type(L, 2) != LUA_TSTRING) return 0;
   if (luaL_getmetafield(L, 1, "__absent") != LUA_TNIL) {
     lua_pushvalue(L, 2);
-    if (lua_rawget(L, -2) != LUA_TNIL) {
-      lua_pushnil(L);
-      return 1;
-    }
+    if (lua_rawget(L, -2) != LUA_TNIL) return 0;
   }
-  const auto known = string_keys(L, 1);
-  raise(L, name, unknown_name("field", lua_tostring(L, 2), known));
+  raise(L, lua_tostring(L, lua_upvalueindex(1)), unknown_name("field", lua_tostring(L, 2), string_keys(L, 1)));
 }
 
 int show_table(lua_State* L) {
@@ -35,6 +53,42 @@ int show_table(lua_State* L) {
 }
 
 }  // namespace
+
+void push_object(lua_State* L, std::shared_ptr<void> pointer, const char* type) {
+  luaL_checkstack(L, 4, nullptr);
+  auto* place = lua_newuserdatauv(L, sizeof(Holder), 1);
+  new (place) Holder{std::move(pointer)};
+  if (luaL_getmetatable(L, type) == LUA_TNIL) {
+    static_cast<Holder*>(place)->~Holder();
+    throw std::logic_error(std::string("type '") + type + "' was never registered");
+  }
+  lua_setmetatable(L, -2);
+}
+
+Holder* object_at(lua_State* L, int index, const char* type) {
+  return static_cast<Holder*>(luaL_testudata(L, index, type));
+}
+
+std::shared_ptr<void> checked_object(lua_State* L, int index, const char* type) {
+  const auto* holder = object_at(L, index, type);
+  if (!holder) throw std::runtime_error("expected " + with_article(type) + ", got " + describe_value(L, index));
+  if (!holder->pointer) throw std::runtime_error(std::string("this ") + type + " was released");
+  return holder->pointer;
+}
+
+void add_object_metamethods(lua_State* L) {
+  set_field(L, "__gc", release);
+  set_field(L, "__close", release);
+  set_field(L, "__eq", equal);
+  set_field(L, "__metatable", "an object of dotyk");
+}
+
+std::string meta_text(lua_State* L, int index, const char* field) {
+  if (luaL_getmetafield(L, index, field) == LUA_TNIL) return "";
+  const std::string text = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
+  lua_pop(L, 1);
+  return text;
+}
 
 std::vector<std::string> string_keys(lua_State* L, int index) {
   std::vector<std::string> names;
@@ -68,14 +122,16 @@ Record& Record::add(const std::vector<Entry>& more) {
 void push(lua_State* L, const Record& record) {
   luaL_checkstack(L, 6, nullptr);
   lua_createtable(L, 0, static_cast<int>(record.entries.size()));
-  for (const auto& entry : record.entries)
-    std::visit([&](const auto& value) { set_field(L, entry.name.c_str(), value); }, entry.value);
+  for (const auto& entry : record.entries) {
+    entry.push_value(L);
+    lua_setfield(L, -2, entry.name.c_str());
+  }
   if (record.name.empty()) return;
   make_strict(L, record.name);
   lua_getmetatable(L, -1);  // of all records of this name
   luaL_getsubtable(L, -1, "__absent");
   for (const auto& entry : record.entries)
-    if (entry.value.index() == 0) set_field(L, entry.name.c_str(), true);
+    if (entry.absent) set_field(L, entry.name.c_str(), true);
   lua_pop(L, 2);
 }
 

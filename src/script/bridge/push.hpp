@@ -1,7 +1,8 @@
 #pragma once
-// C++ values to Lua.
+// C++ values to Lua, and C++ objects owned by Lua values: a shared pointer in a userdata.
 #include <algorithm>
 #include <concepts>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,40 +26,33 @@ struct Called {
   static constexpr const char* name = word.letters;
 };
 
-// The word a class goes by in scripts, messages and help. Specialise it beside
-// the binding:
+// The word a class goes by in scripts, messages and help. Specialise it beside the binding:
 //   template <> struct Wrapped<mesh::Mesh> : Called<"mesh"> {};
 template <class T>
 struct Wrapped;
 
-struct Entry;
-
-// A small table of named values. A record with a name answers an unknown field
-// with an error and the nearest name; one without is a plain table.
-struct Record {
-  std::string name;
-  std::vector<Entry> entries;
-  Record& add(const std::vector<Entry>& more);  // gives the record again
+// What the userdata holds. Empty after release.
+struct Holder {
+  std::shared_ptr<void> pointer;
 };
 
-// Empty: a field that records of the kind have, but this one does not; nil, and no error.
-using Value =
-    std::variant<std::monostate, double, long long, bool, std::string, std::vector<double>, Record, std::vector<Record>>;
+// Pushes a new userdata of the named type; its one user value is a table for the Lua values that must live as long (see Call::keep).
+void push_object(lua_State* L, std::shared_ptr<void> pointer, const char* type);
 
-struct Entry {
-  template <class T>
-  Entry(std::string called, const T& given) : name(std::move(called)) {
-    if constexpr (std::is_same_v<T, bool> || !std::is_integral_v<T>) value = given;
-    else value = static_cast<long long>(given);
-  }
-  Entry(std::string called, const char* text) : name(std::move(called)), value(std::string(text)) {}
-  template <class T>
-  Entry(std::string called, const std::optional<T>& given) : name(std::move(called)) {
-    if (given) value = *given;
-  }
-  std::string name;
-  Value value;
-};
+// The holder at index if the value there is an object of that type, else null.
+Holder* object_at(lua_State* L, int index, const char* type);
+
+// The object at index. Throws std::runtime_error when the value is of another type or was released.
+std::shared_ptr<void> checked_object(lua_State* L, int index, const char* type);
+template <class T>
+std::shared_ptr<T> object(lua_State* L, int index) {
+  return std::static_pointer_cast<T>(checked_object(L, index, Wrapped<std::remove_const_t<T>>::name));
+}
+
+// Adds the metamethods every object has (__gc, __close, __eq) to the metatable on top of the stack.
+void add_object_metamethods(lua_State* L);
+
+struct Record;
 
 inline void push(lua_State* L, std::monostate) { lua_pushnil(L); }
 inline void push(lua_State* L, bool value) { lua_pushboolean(L, value); }
@@ -72,16 +66,11 @@ inline void push(lua_State* L, const std::string& value) { lua_pushlstring(L, va
 inline void push(lua_State* L, lua_CFunction function) { lua_pushcfunction(L, function); }
 void push(lua_State* L, const Record& record);
 
-// An object; see object.hpp.
 template <class T>
 requires requires { Wrapped<std::remove_const_t<T>>::name; }
-void push(lua_State* L, const std::shared_ptr<T>& pointer);
-
-// A value or nil.
-template <class T>
-void push(lua_State* L, const std::optional<T>& value) {
-  if (value) push(L, *value);
-  else lua_pushnil(L);
+void push(lua_State* L, const std::shared_ptr<T>& pointer) {
+  using Plain = std::remove_const_t<T>;
+  push_object(L, std::const_pointer_cast<Plain>(pointer), Wrapped<Plain>::name);
 }
 
 // A list.
@@ -94,6 +83,33 @@ void push(lua_State* L, const std::vector<T>& values) {
   }
 }
 
+// A value or nil.
+template <class T>
+void push(lua_State* L, const std::optional<T>& value) {
+  if (value) push(L, *value);
+  else lua_pushnil(L);
+}
+
+// A name with anything push() knows. Of an empty optional the field is nil, and no error.
+struct Entry {
+  template <class T>
+  Entry(std::string called, const T& given) : name(std::move(called)), push_value([given](lua_State* L) { push(L, given); }) {
+    if constexpr (requires { given.has_value(); }) absent = !given;
+  }
+  Entry(std::string called, const char* text) : Entry(std::move(called), std::string(text)) {}
+  std::string name;
+  std::function<void(lua_State*)> push_value;
+  bool absent = false;
+};
+
+// A small table of named values. A record with a name answers an unknown field
+// with an error and the nearest name; one without is a plain table.
+struct Record {
+  std::string name;
+  std::vector<Entry> entries;
+  Record& add(const std::vector<Entry>& more);  // gives the record again
+};
+
 // As field `name` of the table on top of the stack.
 template <class T>
 void set_field(lua_State* L, const char* name, const T& value) {
@@ -104,6 +120,9 @@ void set_field(lua_State* L, const char* name, const T& value) {
 // Makes the table on top of the stack answer an unknown field with an error
 // that names the nearest one, and print what it holds; `name` says what the table is.
 void make_strict(lua_State* L, const std::string& name);
+
+// The text of a metafield of the value at index, empty where it has none.
+std::string meta_text(lua_State* L, int index, const char* field);
 
 // The string keys of the table at index, sorted.
 std::vector<std::string> string_keys(lua_State* L, int index);

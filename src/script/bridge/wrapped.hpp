@@ -15,11 +15,9 @@
 
 namespace dotyk::script {
 
-// Values of a material; E and nu are taken from functions kept with the object
-// where these vary in space.
+// Values of a material: E and nu, which are taken from functions kept with the object where these vary in space; or a stiffness.
 struct Material {
-  double E = 0, nu = 0;
-  bool E_varies = false, nu_varies = false;
+  std::optional<double> E, nu;
   elasticity::Plane plane = elasticity::Plane::strain;
   std::optional<elasticity::Hooke> stiffness;
   std::optional<double> density;
@@ -31,17 +29,10 @@ struct MeshHandle {
   std::vector<std::string> regions = {}, notes = {};  // of one from a file, see meshfile::Loaded
 };
 
-// A rigid shape; the function of a rigid gap is kept with the object.
+// A rigid shape. A gap without a value has a function, kept with the object.
 struct Rigid {
   contact::RigidShape shape;
   int dimension;
-};
-
-// A friction law; a function that it was made with is kept with the object.
-struct FrictionLaw {
-  scene::Friction::Kind kind;
-  double value = 0;
-  bool varies = false;
 };
 
 // A method with its options; on_iteration is kept with the object.
@@ -61,7 +52,7 @@ template <> struct Wrapped<scene::Part> : Called<"part"> {};
 template <> struct Wrapped<scene::Scene> : Called<"scene"> {};
 template <> struct Wrapped<scene::Contact> : Called<"contact"> {};
 template <> struct Wrapped<Rigid> : Called<"rigid"> {};
-template <> struct Wrapped<FrictionLaw> : Called<"friction"> {};
+template <> struct Wrapped<scene::Friction> : Called<"friction"> {};  // without a value: a function, kept with the object
 template <> struct Wrapped<Solver> : Called<"solver"> {};
 template <> struct Wrapped<scene::Solution> : Called<"solution"> {};
 

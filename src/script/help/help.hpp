@@ -22,7 +22,5 @@ std::string help_search(const Library& library, const std::string& word);
 // The whole reference as a Markdown page.
 std::string reference_page(const Library& library);
 
-// The functions help() and dotyk.reference().
-void bind_help(Library& library);
 
 }  // namespace dotyk::script

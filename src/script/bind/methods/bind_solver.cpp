@@ -1,8 +1,6 @@
 #include "scene/solve/all_solutions.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/models/models.hpp"
-#include "script/bind/program/bind_fclib.hpp"
-#include "script/bind/methods/method_keys.hpp"
 #include "script/bind/scene/space.hpp"
 #include "script/help/nearest.hpp"
 
@@ -12,21 +10,11 @@ namespace {
 using scene::Scene;
 using scene::Solution;
 
-/// Calls read() for every entry of the table at index, its key at -2 and its value at -1.
-template <class Read>
-void for_each_entry(lua_State* L, int index, Read&& read) {
-  lua_pushnil(L);
-  while (lua_next(L, index)) {
-    read();
-    lua_pop(L, 1);
-  }
-}
-
 void require_case(const scene::Scene& scene, const std::string& name) {
   const auto known = load_cases(scene);
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
   const std::string near = nearest(name, known);
-  if (!near.empty()) throw InputError(text("'load': no load case '", name, "', did you mean '", near, "'?"));
+  if (!near.empty() && std::find(known.begin(), known.end(), name) == known.end())
+    throw InputError(text("'load': no load case '", name, "', did you mean '", near, "'?"));
 }
 
 /// load = factor, or load = { case = factor, … }.
@@ -37,7 +25,7 @@ void read_load(const Arguments& given, const scene::Scene& scene, scene::Step& s
     step.all = lua_tonumber(L, at);
     return;
   }
-  for_each_entry(L, at, [&] {
+  for (lua_pushnil(L); lua_next(L, at); lua_pop(L, 1)) {
     if (lua_type(L, -2) != LUA_TSTRING)
       throw InputError("'load' must be a factor, or a table of factors by the names of load cases: { shear = 0.5 }");
     const std::string name = lua_tostring(L, -2);
@@ -45,29 +33,26 @@ void read_load(const Arguments& given, const scene::Scene& scene, scene::Step& s
       throw InputError(text("'load': the factor of '", name, "' must be a finite number"));
     require_case(scene, name);
     step.factor[name] = lua_tonumber(L, -1);
-  });
+  }
 }
 
 /// move = { [contact] = { dx, dy }, … }.
 void read_move(const Arguments& given, const scene::Scene& scene, scene::Step& step) {
   lua_State* L = given.state();
-  for_each_entry(L, given.slot("move"), [&] {
+  for (lua_pushnil(L); lua_next(L, given.slot("move")); lua_pop(L, 1)) {
     if (!object_at(L, -2, Wrapped<scene::Contact>::name))
       throw InputError("'move' must be a table of displacements by contact: { [contact] = { 0.1, 0 } }");
-    std::vector<double> by;
     const int value = lua_gettop(L);
     bool numbers = lua_type(L, value) == LUA_TTABLE;
-    for (lua_Integer i = 1; numbers && i <= static_cast<lua_Integer>(lua_rawlen(L, value)); ++i) {
-      lua_rawgeti(L, value, i);
-      numbers = lua_type(L, -1) == LUA_TNUMBER && std::isfinite(lua_tonumber(L, -1));
-      by.push_back(lua_tonumber(L, -1));
-      lua_pop(L, 1);
-    }
+    const auto number = [&](int at) {
+      numbers = numbers && lua_type(L, at) == LUA_TNUMBER && std::isfinite(lua_tonumber(L, at));
+      return lua_tonumber(L, at);
+    };
+    const auto by = numbers ? read_list(L, value, number) : std::vector<double>();
     if (!numbers || static_cast<int>(by.size()) != scene.dimension())
-      throw InputError(text("'move': the displacement of a contact's rigid shape must be a table of ",
-                            scene.dimension(), " finite numbers"));
+      throw InputError(text("'move': the displacement of a contact's rigid shape must be a table of ", scene.dimension(), " finite numbers"));
     step.move.emplace_back(object<scene::Contact>(L, value - 1), point_of(by));
-  });
+  }
 }
 
 Key steps_key() {
@@ -118,91 +103,86 @@ int count_rows(const Scene& scene) {
   return static_cast<int>(rows);
 }
 
-/// Solves and answers Ctrl-C.
-int run_solve(Call& call, const std::shared_ptr<Scene>& scene, const solver::Method& method,
-        std::vector<Function> on_iteration, bool verbose) {
+void read_start(const Arguments& options, const Scene& scene, scene::Start& start) {
+  if (options.has("after")) start.after = options.object<Solution>("after");
+  if (options.holds<Solution>("start")) {
+    start.coarse = options.object<Solution>("start");
+  } else if (options.has("start")) {
+    start.closed.emplace();
+    for (const long long row : options.integers("start")) {
+      if (row < 1 || row > count_rows(scene)) throw InputError(text("start names row ", row, "; the scene has rows 1 to ", count_rows(scene)));
+      start.closed->push_back(static_cast<int>(row - 1));
+    }
+  }
+}
+
+std::shared_ptr<Solution> solve_scene(const Call& call, const solver::Method& method, Watch& watch) {
+  const auto scene = call.object<Scene>("scene");
   scene::Start start;
   std::vector<scene::Step> steps;
   if (call.has("options")) {
     const Arguments options = call.table("options");
-    if (options.has("after")) start.after = options.object<Solution>("after");
     if (options.has("steps")) steps = read_steps(options, *scene);
-    if (options.holds<Solution>("start")) {
-      start.coarse = options.object<Solution>("start");
-    } else if (options.has("start")) {
-      start.closed.emplace();
-      for (long long row : options.integers("start")) {
-        if (row < 1 || row > count_rows(*scene))
-          throw InputError(text("start names row ", row, "; the scene has rows 1 to ", count_rows(*scene)));
-        start.closed->push_back(static_cast<int>(row - 1));
-      }
-    }
+    read_start(options, *scene, start);
+    if (options.has("seconds")) watch.limit(options.number("seconds"));
   }
-  Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
-  if (call.has("options") && call.table("options").has("seconds")) watch.limit(call.table("options").number("seconds"));
-  const auto solution = scene::solve(scene, method, start, watch, steps);
-  watch.judge(solution->result());
-  watch.answer(method.begins_anew() ? "look at it or leave it (this method begins anew, whatever start says)"
-                                    : "look at it, go on from it (start = that result), or leave it");
-  return call.give(solution);
+  return scene::solve(scene, method, start, watch, steps);
 }
 
-void require_no_options(const Call& call) {
-  if (call.has("options")) throw InputError("options are for scenes; other problems take none");
+/// Solves and answers Ctrl-C.
+int solve_any(Call& call, const solver::Method& method, std::vector<Function> on_iteration, bool verbose) {
+  if (call.has("options") && !call.holds<Scene>("scene")) throw InputError("options are for scenes; other problems take none");
+  Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
+  const auto give = [&](const auto& solution, const solver::Result& result, const char* advice = "look at it or leave it") {
+    watch.judge(result);
+    watch.answer(advice);
+    return call.give(solution);
+  };
+  if (call.holds<fclib::ContactProblem>("scene")) {
+    const auto result = solve_contact_problem(call.object<fclib::ContactProblem>("scene"), method, watch);
+    return give(result, result->result.iteration);
+  }
+  if (call.holds<plate::Model>("scene")) {
+    const auto solution = plate::solve(call.object<plate::Model>("scene"), method, watch);
+    return give(solution, solution->result());
+  }
+  if (call.holds<beam::Beam>("scene")) {
+    const auto result = std::make_shared<BeamResult>(BeamResult{beam::solve(*call.object<beam::Beam>("scene"), method, watch)});
+    return give(result, result->solution().result());
+  }
+  const auto solution = solve_scene(call, method, watch);
+  return give(solution, solution->result(),
+              method.begins_anew() ? "look at it or leave it (this method begins anew, whatever start says)"
+                                   : "look at it, go on from it (start = that result), or leave it");
 }
 
 Given<Solver> with_tol(Call& call) {
-  const auto solver = call.self<Solver>();
-  auto other = std::make_shared<Solver>(*solver);
+  auto other = std::make_shared<Solver>(*call.self<Solver>());
   other->tol = call.number("tol");
-  other->method = solver->method.with_tol(other->tol);
+  other->method = other->method.with_tol(other->tol);
   const int kept = call.kept(1, "on_iteration");
   const auto given = call.give_keeping(other, {});
   if (kept) call.keep(lua_gettop(call.state()), "on_iteration", kept);
   return given;
 }
 
-int solve_any(Call& call, const solver::Method& method, std::vector<Function> on_iteration, bool verbose) {
-  if (call.holds<Scene>("scene")) return run_solve(call, call.object<Scene>("scene"), method, std::move(on_iteration), verbose);
-  require_no_options(call);
-  if (call.holds<plate::Model>("scene")) return solve_plate(call, call.object<plate::Model>("scene"), method, std::move(on_iteration), verbose);
-  return solve_beam(call, *call.object<beam::Beam>("scene"), method, std::move(on_iteration), verbose);
-}
-
-int solve_with(Call& call) {
-  const auto solver = call.self<Solver>();
-  const auto on_iteration = call.kept_function(1, "on_iteration");
-  if (!call.holds<fclib::ContactProblem>("scene")) return solve_any(call, solver->method, on_iteration, solver->verbose);
-  require_no_options(call);
-  return call.give(solve_contact_problem(call, call.object<fclib::ContactProblem>("scene"), *solver, on_iteration));
-}
-
 // The result knows the method and its options.
 int solve_and_tell(Call& call) {
-  const int results = solve_with(call);
+  const auto solver = call.self<Solver>();
+  const int results = solve_any(call, solver->method, call.kept_function(1, "on_iteration"), solver->verbose);
   call.keep(lua_gettop(call.state()), "solver", 1);
   return results;
 }
-
-int solve_scene(Call& call) { return solve_any(call, {}, {}, false); }
 
 constexpr const char* kSteps =
     "With steps, quasi-statically one load after the other: friction opposes the slip since the last step, and all "
     "steps share one factorisation. The result is the last step; all of them are in s.steps.";
 
-std::vector<Key> solvable() {
-  return {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam"), key::object<plate::Model>("", "a plate")};
-}
-
-Key scene_or_beam_key() { return key::either("scene", solvable(), "what to solve: a scene, a beam or a plate").required(); }
-
-Key scene_or_problem_key() {
-  return key::either("scene", joined(solvable(), {key::object<fclib::ContactProblem>("", "a problem from a file")}),
-                     "what to solve: a scene, a beam, a plate, or a problem that dotyk.fclib read").required();
-}
-
-std::vector<Key> solve_keys(Key what) {
-  return {std::move(what),
+std::vector<Key> solve_keys(bool from_files) {
+  std::vector<Key> kinds = {key::object<Scene>("", "a scene"), key::object<beam::Beam>("", "a beam"), key::object<plate::Model>("", "a plate")};
+  if (from_files) kinds.push_back(key::object<fclib::ContactProblem>("", "a problem from a file"));
+  return {key::either("scene", std::move(kinds), from_files ? "what to solve: a scene, a beam, a plate, or a problem that dotyk.fclib read"
+                                                            : "what to solve: a scene, a beam or a plate").required(),
           key::table("options",
                      {start_key(), steps_key(),
                       key::object<Solution>("after", "the solution that this one follows in a quasi-static history: slip is "
@@ -227,38 +207,6 @@ int all_solutions(Call& call) {
   return call.give(all.solutions, all.summary, families);
 }
 
-}  // namespace
-
-void bind_solver(Library& library) {
-  library.module("dotyk.solver", "Methods. Each is made with its options and then solves scenes.");
-  bind_methods(library);
-  library.function({.name = "dotyk.solve",
-                    .help = std::string("Solves a scene by the method its plan names, without contact by one linear solve, or a beam. ") + kSteps,
-                    .setup = setup::pressed_block(),
-                    .example = "local s = dotyk.solve(scene)\nlocal again = dotyk.solve(scene, { start = s })\n"
-                               "local h = dotyk.solve(scene, { steps = { { load = 0.5 }, { load = 1 } } })\nprint(s)",
-                    .arguments = solve_keys(scene_or_beam_key()),
-                    .returns = "solution",
-                    .run = solve_scene});
-  library.type<Solver>("A method with its options.")
-      .setup(setup::pressed_block() + "local solver = dotyk.solver.pdas{}\n")
-      .method({.name = "solver:solve",
-               .help = std::string("Solves a scene, or a frictional contact problem from a file (see dotyk.fclib): then a "
-                                   "contact_problem_result is returned. ") + kSteps,
-               .example = "local s = solver:solve(scene)\n"
-                          "local h = solver:solve(scene, { steps = { { load = 1 }, { load = 0 } } })",
-               .arguments = solve_keys(scene_or_problem_key()),
-               .returns = "solution",
-               .run = solve_and_tell})
-      .method({.name = "solver:with",
-               .help = "The same method with another tol; this one stays as it is.",
-               .example = "local rough = solver:with{ tol = 1e-3 }:solve(scene)",
-               .arguments = {key::table({key::positive("tol", "relative natural residual at which it stops").required()})},
-               .run = with_tol})
-      .field("tol", "relative natural residual at which it stops", [](const Solver& s) { return s.tol; })
-      .text([](const Solver& s) { return s.text(); });
-}
-
 void bind_all_solutions(Library& library) {
   library.function(
       {.name = "dotyk.all_solutions",
@@ -276,6 +224,39 @@ void bind_all_solutions(Library& library) {
                   "for _, f in ipairs(families) do print(f.dimension, all[f.ends[1]].energy) end",
        .arguments = {key::object<scene::Scene>("scene", "what to solve").required()},
        .run = all_solutions});
+}
+
+}  // namespace
+
+void bind_solver(Library& library) {
+  library.module("dotyk.solver", "Methods. Each is made with its options and then solves scenes.");
+  bind_methods(library);
+  library.function({.name = "dotyk.solve",
+                    .help = std::string("Solves a scene by the method its plan names, without contact by one linear solve, or a beam. ") + kSteps,
+                    .setup = setup::pressed_block(),
+                    .example = "local s = dotyk.solve(scene)\nlocal again = dotyk.solve(scene, { start = s })\n"
+                               "local h = dotyk.solve(scene, { steps = { { load = 0.5 }, { load = 1 } } })\nprint(s)",
+                    .arguments = solve_keys(false),
+                    .returns = "solution",
+                    .run = [](Call& call) { return solve_any(call, {}, {}, false); }});
+  library.type<Solver>("A method with its options.")
+      .setup(setup::pressed_block() + "local solver = dotyk.solver.pdas{}\n")
+      .method({.name = "solver:solve",
+               .help = std::string("Solves a scene, or a frictional contact problem from a file (see dotyk.fclib): then a "
+                                   "contact_problem_result is returned. ") + kSteps,
+               .example = "local s = solver:solve(scene)\n"
+                          "local h = solver:solve(scene, { steps = { { load = 1 }, { load = 0 } } })",
+               .arguments = solve_keys(true),
+               .returns = "solution",
+               .run = solve_and_tell})
+      .method({.name = "solver:with",
+               .help = "The same method with another tol; this one stays as it is.",
+               .example = "local rough = solver:with{ tol = 1e-3 }:solve(scene)",
+               .arguments = {key::table({key::positive("tol", "relative natural residual at which it stops").required()})},
+               .run = with_tol})
+      .field("tol", "relative natural residual at which it stops", [](const Solver& s) { return s.tol; })
+      .text(&Solver::text);
+  bind_all_solutions(library);
 }
 
 }  // namespace dotyk::script

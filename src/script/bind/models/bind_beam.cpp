@@ -58,14 +58,6 @@ void add_end(Call& call, const char* name, double x, Beam& beam) {
   else beam.supports.push_back({name, x, {}, {}});
 }
 
-/// A constant, or a function taken at points of every cell.
-void take(Call& call, const char* name, const Beam& beam, double& constant, std::function<double(double)>& function) {
-  if (!call.has(name)) return;
-  const Field field = call.field(name);
-  if (field.constant()) constant = field({})[0];
-  else function = beam::sampled([&](double x) { return field(std::vector<double>{x})[0]; }, beam::nodes(beam));
-}
-
 std::shared_ptr<Beam> make_beam(Call& call) {
   const auto beam = std::make_shared<Beam>(call.filled<Beam>());
   add_end(call, "left", 0, *beam);
@@ -74,8 +66,11 @@ std::shared_ptr<Beam> make_beam(Call& call) {
   std::stable_sort(beam->supports.begin(), beam->supports.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   for (const Arguments& load : call.tables("loads")) beam->loads.push_back(load.filled<PointLoad>());
   require_valid(*beam);
-  take(call, "EJ", *beam, beam->EJ, beam->EJ_of);
-  take(call, "load", *beam, beam->q, beam->q_of);
+  const auto sampled = [&](const Field& field) {  // at points of every cell
+    return beam::sampled([&](double x) { return field(std::vector<double>{x})[0]; }, beam::nodes(*beam));
+  };
+  take_field(call, "EJ", beam->EJ, beam->EJ_of, sampled);
+  take_field(call, "load", beam->q, beam->q_of, sampled);
   take_foundation(call, *beam);
   beam::build(*beam);  // refuses at once what cannot be solved
   return beam;
@@ -179,15 +174,6 @@ int find_support(const Beam& beam, const Arguments& from, const std::string& nam
     known += (known.empty() ? "" : ", ") + supports[i].name;
   }
   throw InputError(text("no support there; the supports are ", known));
-}
-
-int solve_beam(Call& call, const Beam& beam, const solver::Method& method, std::vector<Function> on_iteration, bool verbose) {
-  Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
-  auto result = std::make_shared<BeamResult>();
-  result->branches = beam::solve(beam, method, watch);
-  watch.judge(result->solution().result());
-  watch.answer();
-  return call.give(result);
 }
 
 void bind_beam(Library& library) {

@@ -7,10 +7,9 @@
 namespace dotyk::script {
 namespace {
 
+using figure::BeamPanel;
 using figure::LawSide;
 using problem::SupportLaw;
-
-using figure::BeamPanel;
 
 template <class Enum>
 using Names = std::vector<std::pair<const char*, Enum>>;
@@ -23,16 +22,8 @@ const Names<LawSide> kSides = {{"deflection", LawSide::deflection}, {"rotation",
 template <class Enum>
 Names<Enum> first(const Names<Enum>& names, int count) { return {names.begin(), names.begin() + count}; }
 
-std::vector<Key> page_keys(std::vector<Key> keys, const char* size, bool heat = false) {
-  keys.insert(keys.begin(), picture_key());
-  keys.insert(keys.end(), {title_key(), units_key(heat), size_key(size)});
-  return keys;
-}
-
-std::string draw(Call& call, figure::PagePicture picture) {
-  read_page(call, picture);
-  figure::draw(picture);
-  return picture.file;
+std::vector<Key> page_keys(const std::vector<Key>& keys, const char* size, bool heat = false) {
+  return joined(joined({picture_key()}, keys), {title_key(), units_key(heat), size_key(size)});
 }
 
 std::vector<BeamPanel> panels(const Arguments& call, std::vector<BeamPanel> otherwise) {
@@ -54,31 +45,27 @@ std::string render_law(Call& call) {
 std::string render_support_law(Call& call) { return draw(call, figure::compose(*call.self<SupportLaw>(), side(call), read_units(call))); }
 
 // As it is now, with the load along it.
-figure::BeamView view_now(const ThermoelasticBeam& beam, const thermoelastic::Loads& loads) {
-  const thermoelastic::Source& q = loads.transverse;
+figure::BeamView view_now(const CalledLoads& called) {
+  const thermoelastic::Source& q = called.loads.transverse;
   std::function<double(double)> load;
-  if (q.of) load = [&q, t = beam.stepping->time()](double x) { return q.of(x, t); };
+  if (q.of) load = [&q, t = called.beam->stepping->time()](double x) { return q.of(x, t); };
   else if (q.constant != 0) load = [&q](double) { return q.constant; };
-  return figure::view(*beam.stepping, std::move(load));
+  return figure::view(*called.beam->stepping, std::move(load));
 }
 
 std::string render_thermoelastic(Call& call) {
-  const auto beam = call.self<ThermoelasticBeam>();
-  const LoadsCalled called(*beam, "draw it");
-  const thermoelastic::Loads loads = kept_loads(call, *beam);
+  const CalledLoads called(call, "draw it");
   const auto chosen = panels(call, {BeamPanel::deflection, BeamPanel::moment, BeamPanel::temperature, BeamPanel::gradient});
-  return draw(call, figure::compose(view_now(*beam, loads), chosen, read_units(call)));
+  return draw(call, figure::compose(view_now(called), chosen, read_units(call)));
 }
 
 std::string render_thermoelastic_law(Call& call) {
-  const auto beam = call.self<ThermoelasticBeam>();
-  const LoadsCalled called(*beam, "draw it");
-  const thermoelastic::Loads loads = kept_loads(call, *beam);
-  const thermoelastic::Data& data = beam->stepping->data();
+  const CalledLoads called(call, "draw it");
+  const thermoelastic::Data& data = called.beam->stepping->data();
   const int support = find_support(thermoelastic::plain(data), call, "support");
   const bool end = support == 0 || support + 1 == static_cast<int>(data.supports.size());
   if (side(call) == LawSide::displacement && !end) throw InputError("supports within the beam have no law about the displacement along it; \"left\" and \"right\" have");
-  return draw(call, figure::compose(view_now(*beam, loads), support, side(call), read_units(call)));
+  return draw(call, figure::compose(view_now(called), support, side(call), read_units(call)));
 }
 
 std::string gallery(Call& call) {

@@ -18,9 +18,8 @@ namespace {
 
 using channel::Data;
 using channel::Oscillating;
-using channel::Stepping;
-
 using channel::Physical;
+using channel::Stepping;
 
 std::vector<Key> physical_keys() {
   return {key::positive("density", "of the liquid").unit("kg/m^3").into(&Physical::density), key::positive("viscosity", "dynamic").unit("Pa s").into(&Physical::viscosity),
@@ -90,29 +89,9 @@ const char* kFlow =
     "local c = dotyk.channel{ half_width = 1e-3, density = 13546, viscosity = 1.55e-3, conductivity = 1.04e6,\n"
     "                         E0 = 0.1, B0 = 0.2, pressure_gradient = -2e4, omega = 6.28, u0 = 1 }\n";
 
-Key y_key() { return key::number("y", "distance from the axis, |y| <= half_width").required().unit("length"); }
 Key y_key_or_axis() { return key::number("y", "distance from the axis, |y| <= half_width").fallback(0.0).unit("length"); }
+Key y_key() { return key::number("y", "distance from the axis, |y| <= half_width").required().unit("length"); }
 Key t_key() { return key::number("t", "time, not negative").required().unit("time"); }
-
-Descriptor constructor() {
-  auto keys = joined(joined({half_width_key()}, physical_keys()), joined(reduced_keys(), common_keys()));
-  keys.push_back(key::integer("terms", "most terms of the transient's series").within(64, 1 << 20).fallback(4096.0));
-  return {
-      .name = "dotyk.channel",
-      .help =
-          "Oscillating flow of a conducting liquid between walls y = -half_width and half_width, across a magnetic field B "
-          "along y, driven by an electric field E along z and a pressure gradient: the modified Hartmann problem\n"
-          "  a u_t - b u_yy + c u = d + drive cos(omega t),   u = 0 at the walls,\n"
-          "with c cos(omega t)^2 in place of c where the magnetic field oscillates. Physical data, E = -E0 cos(omega t) and "
-          "B = B0, or E = -E0 and B = B0 cos(omega t): a = density/s, b = viscosity/s, c = conductivity B0^2/s, "
-          "d = -pressure_gradient/s, s = conductivity E0 B0, drive = 1 (s = 1 and drive = 0 where E0 or B0 is 0). Or the reduced "
-          "data a, b, c, d, drive themselves. It starts from u0 (1 - (|y|/half_width)^p), p = log10(Re + 1), "
-          "Re = sqrt(2) half_width u0 a/b.",
-      .setup = kFlow,
-      .example = "print(c:velocity(0, 0.5), c:stationary(0), c:amplitude())",
-      .arguments = {key::table(std::move(keys))},
-      .run = make_channel};
-}
 
 void add_fields(TypeOf<ChannelFlow>& type) {
   using F = ChannelFlow;
@@ -164,7 +143,18 @@ void add_states(TypeOf<ChannelFlow>& type) {
                        "for times so short that all the terms do not suffice.",
                .example = "print(c:error_bound(1e-6), c:error_bound(1e-2))",
                .arguments = {key::positive("t", "time; at 0 velocity is the profile it starts from, and no series").required().unit("time")},
-               .run = [at](Call& call) { return call.give(at(call).truncation_bound(call.number("t"))); }});
+               .run = [at](Call& call) { return call.give(at(call).truncation_bound(call.number("t"))); }})
+      .method({.name = "channel:stepping",
+               .help = "The same flow from t = 0 on, stepped in time independently of the series: finite elements of any degree on half the "
+                       "channel, cells crowded at the wall, and Radau IIA of order 5.",
+               .example = "local s = c:stepping{ step = 0.01 }:run(0.5)\nprint(s:velocity(0) - c:velocity(0, 0.5))",
+               .arguments = {key::table({key::positive("step", "longest step").required().unit("time"),
+                                         key::integer("cells", "on half the channel").within(1, 4096).fallback(16.0),
+                                         key::integer("degree", "of the elements").within(1, 16).fallback(8.0)})},
+               .run = [](Call& call) {
+                 return std::make_shared<Stepping>(call.self<ChannelFlow>()->data, call.number("step"), static_cast<int>(call.integer("cells")),
+                                                   static_cast<int>(call.integer("degree")));
+               }});
 }
 
 Self advance(Call& call) {
@@ -199,28 +189,29 @@ void bind_stepping(Library& library) {
       .text([](const Stepping& s) { return text("channel_stepping: time ", s.time(), " after ", s.steps(), " steps"); });
 }
 
-Descriptor stepping() {
-  return {.name = "channel:stepping",
-          .help = "The same flow from t = 0 on, stepped in time independently of the series: finite elements of any degree on half the "
-                  "channel, cells crowded at the wall, and Radau IIA of order 5.",
-          .example = "local s = c:stepping{ step = 0.01 }:run(0.5)\nprint(s:velocity(0) - c:velocity(0, 0.5))",
-          .arguments = {key::table({key::positive("step", "longest step").required().unit("time"),
-                                    key::integer("cells", "on half the channel").within(1, 4096).fallback(16.0),
-                                    key::integer("degree", "of the elements").within(1, 16).fallback(8.0)})},
-          .run = [](Call& call) {
-            return std::make_shared<Stepping>(call.self<ChannelFlow>()->data, call.number("step"), static_cast<int>(call.integer("cells")),
-                                              static_cast<int>(call.integer("degree")));
-          }};
-}
-
 }  // namespace
 
 void bind_channel(Library& library) {
-  library.function(constructor());
+  auto keys = joined(joined({half_width_key()}, physical_keys()), joined(reduced_keys(), common_keys()));
+  keys.push_back(key::integer("terms", "most terms of the transient's series").within(64, 1 << 20).fallback(4096.0));
+  library.function({
+      .name = "dotyk.channel",
+      .help =
+          "Oscillating flow of a conducting liquid between walls y = -half_width and half_width, across a magnetic field B "
+          "along y, driven by an electric field E along z and a pressure gradient: the modified Hartmann problem\n"
+          "  a u_t - b u_yy + c u = d + drive cos(omega t),   u = 0 at the walls,\n"
+          "with c cos(omega t)^2 in place of c where the magnetic field oscillates. Physical data, E = -E0 cos(omega t) and "
+          "B = B0, or E = -E0 and B = B0 cos(omega t): a = density/s, b = viscosity/s, c = conductivity B0^2/s, "
+          "d = -pressure_gradient/s, s = conductivity E0 B0, drive = 1 (s = 1 and drive = 0 where E0 or B0 is 0). Or the reduced "
+          "data a, b, c, d, drive themselves. It starts from u0 (1 - (|y|/half_width)^p), p = log10(Re + 1), "
+          "Re = sqrt(2) half_width u0 a/b.",
+      .setup = kFlow,
+      .example = "print(c:velocity(0, 0.5), c:stationary(0), c:amplitude())",
+      .arguments = {key::table(std::move(keys))},
+      .run = make_channel});
   auto type = library.type<ChannelFlow>("Oscillating flow in a magnetohydrodynamic channel.").setup(kFlow);
   add_fields(type);
   add_states(type);
-  type.method(stepping());
   bind_stepping(library);
 }
 

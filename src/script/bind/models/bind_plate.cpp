@@ -11,15 +11,8 @@ namespace {
 using plate::Plate;
 using problem::SupportLaw;
 
-plate::Field scalar(const script::Field& field) {
+plate::Field in_the_plane(const script::Field& field) {
   return [field](double x, double y) { return field(std::vector<double>{x, y})[0]; };
-}
-
-void take(Call& call, const char* name, double& constant, plate::Field& function) {
-  if (!call.has(name)) return;
-  const script::Field field = call.field(name);
-  if (field.constant()) constant = field({})[0];
-  else function = scalar(field);
 }
 
 Key edge_law_key(const char* name, const char* help) {
@@ -61,9 +54,8 @@ void take_edges(Call& call, Plate& plate) {
   if (call.has("edge")) plate.edges.push_back(edge(call.table("edge"), "edge", mesh::boundary(*plate.mesh)));
   if (!call.has("edges")) return;
   if (call.has("edge")) throw InputError("give edge, for all of the boundary, or edges, part by part; not both");
-  std::vector<Key> keys = edge_keys();
-  keys.push_back(key::function("where", "f(x, y, nx, ny) of edge middles and normals → which edges are this part"));
-  const Key table = key::table("", keys, "");
+  const Key where = key::function("where", "f(x, y, nx, ny) of edge middles and normals → which edges are this part");
+  const Key table = key::table("", joined(edge_keys(), {where}), "");
   lua_State* L = call.state();
   const auto require_table = [L](int index, const std::string& what, const char* expected) {
     if (lua_type(L, index) != LUA_TTABLE) throw InputError(text(what, ": expected ", expected, ", got ", describe_value(L, index)));
@@ -96,11 +88,9 @@ std::shared_ptr<plate::Model> make_plate(Call& call) {
   Plate plate;
   plate.mesh = std::make_shared<const mesh::Mesh>(*call.object<MeshHandle>("mesh")->mesh);
   call.fill(plate);
-  take(call, "D", plate.D, plate.D_of);
-  take(call, "load", plate.f, plate.f_of);
-  double floor = 0;
-  take(call, "obstacle", floor, plate.obstacle);
-  if (call.has("obstacle") && !plate.obstacle) plate.obstacle = [floor](double, double) { return floor; };
+  take_field(call, "D", plate.D, plate.D_of, in_the_plane);
+  take_field(call, "load", plate.f, plate.f_of, in_the_plane);
+  if (call.has("obstacle")) plate.obstacle = in_the_plane(call.field("obstacle"));
   require_valid(plate);
   take_edges(call, plate);
   take_points(call, plate);
@@ -135,14 +125,6 @@ int find_edge(const Plate& plate, const std::string& part) {
   }
   if (names.empty()) throw InputError("no part of this plate's edge has laws");
   throw InputError(unknown_name("part", part, names));
-}
-
-int solve_plate(Call& call, const std::shared_ptr<const plate::Model>& model, const solver::Method& method, std::vector<Function> on_iteration, bool verbose) {
-  Watch watch(call.state(), "solving", std::move(on_iteration), verbose);
-  const auto result = plate::solve(model, method, watch);
-  watch.judge(result->result());
-  watch.answer();
-  return call.give(result);
 }
 
 void bind_plate(Library& library) {

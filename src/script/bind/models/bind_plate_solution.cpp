@@ -9,19 +9,19 @@
 namespace dotyk::script {
 namespace {
 
-using plate::Solution;
+using PlateSolution = plate::Solution;
 
 std::vector<Key> plane_point_keys() { return {key::number("x", "where").unit("length").required(), key::number("y", "where").unit("length").required()}; }
 
-int deflection(Call& call) { return call.give(call.self<Solution>()->deflection(call.number("x"), call.number("y"))); }
+int deflection(Call& call) { return call.give(call.self<PlateSolution>()->deflection(call.number("x"), call.number("y"))); }
 
 int slope(Call& call) {
-  const Eigen::Vector2d at = call.self<Solution>()->slope(call.number("x"), call.number("y"));
+  const Eigen::Vector2d at = call.self<PlateSolution>()->slope(call.number("x"), call.number("y"));
   return call.give(at[0], at[1]);
 }
 
 int moment(Call& call) {
-  const plate::Moment m = call.self<Solution>()->moment(call.number("x"), call.number("y"));
+  const plate::Moment m = call.self<PlateSolution>()->moment(call.number("x"), call.number("y"));
   const double mean = (m.xx + m.yy) / 2, radius = std::hypot((m.xx - m.yy) / 2, m.xy);
   return call.give(Record{"moment", {{"xx", m.xx}, {"yy", m.yy}, {"xy", m.xy}, {"principal", std::vector<double>{mean + radius, mean - radius}}}});
 }
@@ -32,13 +32,13 @@ Record point_record(const plate::EdgePoint& p, std::size_t piece) {
                          {"corner", p.corner}}};
 }
 
-std::vector<std::string> edge_names(const Solution& s) {
+std::vector<std::string> edge_names(const PlateSolution& s) {
   std::vector<std::string> names;
   for (const auto& edge : s.plate().edges) names.push_back(edge.part);
   return names;
 }
 
-int edge_reaction(Call& call, const Solution& s, const std::string& part) {
+int edge_reaction(Call& call, const PlateSolution& s, const std::string& part) {
   const plate::EdgeReaction r = plate::reaction(s, find_edge(s.plate(), part));
   std::vector<Record> points;
   for (std::size_t piece = 0; piece < r.pieces.size(); ++piece)
@@ -47,7 +47,7 @@ int edge_reaction(Call& call, const Solution& s, const std::string& part) {
 }
 
 int plate_reaction(Call& call) {
-  const auto s = call.self<Solution>();
+  const auto s = call.self<PlateSolution>();
   if (call.is("part", LUA_TSTRING)) return edge_reaction(call, *s, call.text("part"));
   const auto number = static_cast<int>(call.number("part"));
   const int count = static_cast<int>(s->plate().supports.size());
@@ -56,32 +56,31 @@ int plate_reaction(Call& call) {
   return call.give(Record{"reaction", {{"force", plate::point_reaction(*s, number - 1)}}});
 }
 
-int distance(Call& call) {
-  const plate::Distance d = plate::distance(*call.self<Solution>(), *call.object<Solution>("other"));
+int plate_distance(Call& call) {
+  const plate::Distance d = plate::distance(*call.self<PlateSolution>(), *call.object<PlateSolution>("other"));
   return call.give(Record{"distance", {{"energy", d.energy}, {"displacement", d.displacement}}});
 }
 
 int corners(Call& call) {
   std::vector<Record> out;
-  for (const plate::CornerForce& c : plate::corner_forces(*call.self<Solution>())) out.push_back({"corner", {{"x", c.x}, {"y", c.y}, {"force", c.force}}});
+  for (const plate::CornerForce& c : plate::corner_forces(*call.self<PlateSolution>())) out.push_back({"corner", {{"x", c.x}, {"y", c.y}, {"force", c.force}}});
   return call.give(out);
 }
 
 /// All solutions, where there are many.
-std::optional<Record> solution_family(const Solution& s) {
+std::optional<Record> solution_family(const PlateSolution& s) {
   if (!s.family()) return std::nullopt;
   return Record{"family", {{"from", s.family()->from}, {"to", s.family()->to}}};
 }
 
 int motion(Call& call) {
-  const auto s = call.self<Solution>();
+  const auto s = call.self<PlateSolution>();
   if (!s->family()) return call.give(0.0);
   return call.give(s->motion(call.number("x"), call.number("y")));
 }
 
-/// Vertices that lie on the obstacle, and what it bears.
-std::optional<Record> obstacle_contact(const Solution& s) {
-  if (s.model().obstacle_row.empty()) return std::nullopt;
+/// What the obstacle bears, and vertices that lie on it.
+std::pair<double, std::vector<Record>> on_obstacle(const PlateSolution& s) {
   const auto& lambda = s.result().state.lambda;
   const double noise = 1e-9 * (lambda.size() ? lambda.lpNorm<Eigen::Infinity>() : 0);
   double force = 0;
@@ -93,10 +92,16 @@ std::optional<Record> obstacle_contact(const Solution& s) {
     const double* x = s.plate().mesh->node(static_cast<int>(n));
     nodes.push_back({"node", {{"x", x[0]}, {"y", x[1]}, {"force", lambda[row]}}});
   }
+  return {force, nodes};
+}
+
+std::optional<Record> obstacle_contact(const PlateSolution& s) {
+  if (s.model().obstacle_row.empty()) return std::nullopt;
+  const auto [force, nodes] = on_obstacle(s);
   return Record{"contact", {{"force", force}, {"nodes", nodes}}};
 }
 
-std::string plate_solution_text(const Solution& s) {
+std::string plate_solution_text(const PlateSolution& s) {
   const solver::Result& r = s.result();
   std::string out = text("plate solution: ", solver::ending(r), "\n  energy ", s.energy(), ", ", s.model().problem.unknowns(), " unknowns, ", s.model().problem.rows(), " rows, ", r.clock.total, " s\n  residual: ",
                          problem::describe(s.residual()));
@@ -107,7 +112,7 @@ std::string plate_solution_text(const Solution& s) {
   }
   for (std::size_t k = 0; k < s.plate().supports.size(); ++k)
     out += text("\n  support at (", s.plate().supports[k].x, ", ", s.plate().supports[k].y, "): force ", plate::point_reaction(s, static_cast<int>(k)));
-  if (const auto c = obstacle_contact(s)) out += text("\n  obstacle: force ", std::get<double>(c->entries[0].value));
+  if (!s.model().obstacle_row.empty()) out += text("\n  obstacle: force ", on_obstacle(s).first);
   if (s.family()) out += text("\n  not the only solution: all are u + t motion, ", s.family()->from, " <= t <= ", s.family()->to);
   return out;
 }
@@ -121,29 +126,27 @@ std::string render_plate(Call& call) {
   chosen.units = read_units(call);
   figure::PlatePicture picture = figure::compose(*call.self<plate::Solution>(), chosen);
   if (picture.view == PlateView::surface) picture.height = 800;
-  read_page(call, picture);
   picture.edges = read_edges(call, picture.edges);
   call.fill(picture);
   if (call.has("eye") && picture.view == PlateView::plan) throw InputError("'eye' is for view = \"surface\"; a plan is seen from above");
   picture.view_from = read_direction(call, "eye");
-  figure::draw(picture);
-  return picture.file;
+  return draw(call, std::move(picture));
 }
 
 }  // namespace
 
 void bind_plate_solution(Library& library) {
-  library.type<Solution>("A solved plate: what it does, and how it ended.").setup(setup::solved_plate())
-      .field("converged", "did the method end as it should", [](const Solution& s) { return s.result().converged; })
-      .field("method", "which method", [](const Solution& s) { return s.result().method; })
-      .field("iterations", "how many", [](const Solution& s) { return s.result().iterations; })
-      .field("reason", "why it ended, and up to what the solution is unique", [](const Solution& s) { return s.result().reason; })
-      .field("energy", "with the supports'", [](const Solution& s) { return s.energy(); }, "force·length")
-      .field("unknowns", "free deflections and slopes", [](const Solution& s) { return s.model().problem.unknowns(); })
-      .field("rows", "conditions of laws, point supports and the obstacle", [](const Solution& s) { return s.model().problem.rows(); })
-      .field("time", "seconds: total assembly motions ordering factor iterate recover", [](const Solution& s) { return time_record(s.result().clock); }, "s")
-      .field("residual", "relative: equilibrium penetration complementarity law", [](const Solution& s) { return residual_record(s.residual()); })
-      .field("history", "one entry an iteration: active changed residual time", [](const Solution& s) { return history_records(s.result()); })
+  library.type<PlateSolution>("A solved plate: what it does, and how it ended.").setup(setup::solved_plate())
+      .field("converged", "did the method end as it should", [](const PlateSolution& s) { return s.result().converged; })
+      .field("method", "which method", [](const PlateSolution& s) { return s.result().method; })
+      .field("iterations", "how many", [](const PlateSolution& s) { return s.result().iterations; })
+      .field("reason", "why it ended, and up to what the solution is unique", [](const PlateSolution& s) { return s.result().reason; })
+      .field("energy", "with the supports'", [](const PlateSolution& s) { return s.energy(); }, "force·length")
+      .field("unknowns", "free deflections and slopes", [](const PlateSolution& s) { return s.model().problem.unknowns(); })
+      .field("rows", "conditions of laws, point supports and the obstacle", [](const PlateSolution& s) { return s.model().problem.rows(); })
+      .field("time", "seconds: total assembly motions ordering factor iterate recover", [](const PlateSolution& s) { return time_record(s.result().clock); }, "s")
+      .field("residual", "relative: equilibrium penetration complementarity law", [](const PlateSolution& s) { return residual_record(s.residual()); })
+      .field("history", "one entry an iteration: active changed residual time", [](const PlateSolution& s) { return history_records(s.result()); })
       .field("family", "where the solution is not the only one: all are u + t motion, from <= t <= to, motion as plate_solution:motion gives it; else nil", solution_family)
       .field("contact", "of the plate with its obstacle: force upwards, and nodes (x, y, force) that bear; nil without one", obstacle_contact)
       .method({.name = "plate_solution:deflection", .help = "The deflection at a point, positive upwards.", .example = "print(s:deflection(0.5, 0.5))", .arguments = plane_point_keys(), .run = deflection})
@@ -157,14 +160,14 @@ void bind_plate_solution(Library& library) {
                .help = "What a part of the edge does to the plate: force (upwards), length, how much of it is open, and points in order along the edge: x, y, at (along the edge), piece, "
                        "length, deflection, slope (outwards), force, reaction (per length), moment (per length), status (open, closed, stick, slip), corner. Of a point support, by its number: force.",
                .example = "print(s:reaction(\"edge\").force)",
-               .arguments = {key::either("part", {key::string("", "a part of the edge that has laws; \"edge\" where all has the same").of<Solution>(edge_names),
+               .arguments = {key::either("part", {key::string("", "a part of the edge that has laws; \"edge\" where all has the same").of<PlateSolution>(edge_names),
                                                 key::integer("", "which of the point supports")}, "which support").required()},
                .run = plate_reaction})
       .method({.name = "plate_solution:distance",
                .help = "How far this solution is from another one of the same plate, on another mesh or with the other element, relative to the other: energy, of the curvatures, weighted "
                        "by the bending stiffness; displacement, of the deflection in L2.",
                .example = "print(s:distance(dotyk.solve(plate(24))).energy)",
-               .arguments = {key::object<Solution>("other", "a solution, as a rule a finer one").required()}, .run = distance})
+               .arguments = {key::object<PlateSolution>("other", "a solution, as a rule a finer one").required()}, .run = plate_distance})
       .method({.name = "plate_solution:corners",
                .help = "The forces that the supports concentrate at the corners of the edge (x, y, force, upwards): what a corner bears beyond the reaction per length of the nodes next to it.",
                .example = "for _, c in ipairs(s:corners()) do print(c.x, c.y, c.force) end", .arguments = {}, .run = corners})
@@ -175,7 +178,7 @@ void bind_plate_solution(Library& library) {
        .example = "s:write \"a.vtu\"",
        .arguments = {key::file("file", "where to; ends in .vtu, its folder must exist").written().required()},
        .run = [](Call& call) {
-         figure::write(figure::compose_grid(*call.self<Solution>(), call.text("file")));
+         figure::write(figure::compose_grid(*call.self<PlateSolution>(), call.text("file")));
          return call.text("file");
        }})
       .method(

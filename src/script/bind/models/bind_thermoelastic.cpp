@@ -109,13 +109,9 @@ void add_end(Call& call, int end, Data& data) {
 }
 
 // A constant, or a function of x; of a function the value in the middle is the constant.
-void take_along(Call& call, const char* name, double length, double& constant, std::function<double(double)>& of) {
-  if (call.is(name, LUA_TNUMBER)) {
-    constant = call.number(name);
-    return;
-  }
-  of = [f = call.function(name)](double x) { return f.number(std::vector<double>{x}); };
-  constant = of(length / 2);
+void take_along(const Call& call, const char* name, double length, double& constant, std::function<double(double)>& of) {
+  if (call.is(name, LUA_TFUNCTION)) of = [f = call.function(name)](double x) { return f.number(std::vector<double>{x}); };
+  constant = of ? of(length / 2) : call.number(name);
 }
 
 Data given_data(Call& call, const std::vector<Arguments>& supports) {
@@ -151,23 +147,18 @@ Given<ThermoelasticBeam> make_thermoelastic_beam(Call& call) {
   return given;
 }
 
-// Steps the object before the colon; its own functions are refused that.
-template <class Advance>
-Self stepped(Call& call, Advance advance) {
-  const auto beam = call.self<ThermoelasticBeam>();
-  const LoadsCalled called(*beam, "step it");
-  const Loads loads = kept_loads(call, *beam);
+Self run_to_time(Call& call) {
+  const CalledLoads called(call, "step it");
   Watch watch(call.state(), "stepping");
-  advance(*beam->stepping, loads, watch);
+  called.beam->stepping->run(call.number("time"), called.loads, watch);
   return call.give_self();
 }
 
-Self run_to_time(Call& call) {
-  return stepped(call, [&](Stepping& s, const Loads& loads, Watch& watch) { s.run(call.number("time"), loads, watch); });
-}
-
 Self one_step(Call& call) {
-  return stepped(call, [](Stepping& s, const Loads& loads, Watch& watch) { s.step(loads, watch); });
+  const CalledLoads called(call, "step it");
+  Watch watch(call.state(), "stepping");
+  called.beam->stepping->step(called.loads, watch);
+  return call.give_self();
 }
 
 template <double (Stepping::*value)(double) const>
@@ -277,33 +268,13 @@ std::vector<Key> thermoelastic_beam_keys() {
           key::object<Solver>("solver", "the method of the steps' contact problems").otherwise("pdas")};
 }
 
-void add_values(TypeOf<ThermoelasticBeam>& type) {
-  add_value(type, "deflection", "The deflection now, positive upwards.", value_now<&Stepping::deflection>, "print(b:run(60):deflection(0.5))");
-  add_value(type, "rotation", "The slope of the deflection now.", value_now<&Stepping::rotation>, "print(b:run(60):rotation(0))");
-  add_value(type, "displacement", "The displacement along the axis now.", value_now<&Stepping::displacement>, "print(b:run(60):displacement(1))");
-  add_value(type, "gradient", "The slope of the temperature over the height, now.", value_now<&Stepping::gradient>, "print(b:run(60):gradient(0.5))");
-  add_value(type, "moment", "The bending moment -EJ (u'' + expansion gradient) now, by equilibrium.", value_now<&Stepping::moment>, "print(b:run(60):moment(0.5))");
-  add_value(type, "shear", "The shear force now, the derivative of the moment.", value_now<&Stepping::shear>, "print(b:run(60):shear(0))");
-  add_value(type, "normal", "The normal force now; a pull is positive.", value_now<&Stepping::normal>, "print(b:run(60):normal(0.5))");
-  type.method({.name = "thermoelastic_beam:temperature", .help = "The temperature now, over the reference, at x and the height z over the axis.",
-               .example = "print(b:run(60):temperature(0.5), b:temperature(0.5, 0.01))",
-               .arguments = {x_key()[0], key::number("z", "over the axis").unit("length").fallback(0.0)},
-               .run = [](Call& call) { return call.give(call.self<ThermoelasticBeam>()->stepping->temperature(call.number("x"), call.number("z"))); }});
-  type.method({.name = "thermoelastic_beam:reaction",
-               .help = "What a support does now: force (up), moment (anticlockwise) and axial force on the beam, and the deflection, rotation and displacement there.",
-               .example = "print(b:run(60):reaction(\"left\").force)",
-               .arguments = {support_key("at").required()},
-               .run = thermoelastic_reaction});
-}
-
 }  // namespace
 
-LoadsCalled::LoadsCalled(ThermoelasticBeam& beam, const char* what) : on_(beam.loads_called) {
-  if (on_) throw InputError(text("it is being stepped or drawn: a function of its loads cannot ", what));
-  on_ = true;
+CalledLoads::CalledLoads(const Call& call, const char* what) : beam(call.self<ThermoelasticBeam>()) {
+  if (beam->loads_called) throw InputError(text("it is being stepped or drawn: a function of its loads cannot ", what));
+  loads = with_functions(call, 1, beam->constants);
+  beam->loads_called = true;
 }
-
-Loads kept_loads(Call& call, const ThermoelasticBeam& beam) { return with_functions(call, 1, beam.constants); }
 
 void bind_thermoelastic(Library& library) {
   library.function({.name = "dotyk.thermoelastic_beam", .help = kHelp, .setup = kBeam, .example = "print(b:run(60):deflection(0.5))", .arguments = {key::table(thermoelastic_beam_keys())},
@@ -323,7 +294,22 @@ void bind_thermoelastic(Library& library) {
   type.method({.name = "thermoelastic_beam:step", .help = "One step; gives the beam again.", .example = "print(b:step().time)", .run = one_step})
       .method({.name = "thermoelastic_beam:run", .help = "To a time by equal steps, none longer than the step; gives the beam again.", .example = "print(b:run(60).steps)",
                .arguments = {key::number("time", "the time to reach, not before now").required().unit("time")}, .run = run_to_time});
-  add_values(type);
+  add_value(type, "deflection", "The deflection now, positive upwards.", value_now<&Stepping::deflection>, "print(b:run(60):deflection(0.5))");
+  add_value(type, "rotation", "The slope of the deflection now.", value_now<&Stepping::rotation>, "print(b:run(60):rotation(0))");
+  add_value(type, "displacement", "The displacement along the axis now.", value_now<&Stepping::displacement>, "print(b:run(60):displacement(1))");
+  add_value(type, "gradient", "The slope of the temperature over the height, now.", value_now<&Stepping::gradient>, "print(b:run(60):gradient(0.5))");
+  add_value(type, "moment", "The bending moment -EJ (u'' + expansion gradient) now, by equilibrium.", value_now<&Stepping::moment>, "print(b:run(60):moment(0.5))");
+  add_value(type, "shear", "The shear force now, the derivative of the moment.", value_now<&Stepping::shear>, "print(b:run(60):shear(0))");
+  add_value(type, "normal", "The normal force now; a pull is positive.", value_now<&Stepping::normal>, "print(b:run(60):normal(0.5))");
+  type.method({.name = "thermoelastic_beam:temperature", .help = "The temperature now, over the reference, at x and the height z over the axis.",
+               .example = "print(b:run(60):temperature(0.5), b:temperature(0.5, 0.01))",
+               .arguments = {x_key()[0], key::number("z", "over the axis").unit("length").fallback(0.0)},
+               .run = [](Call& call) { return call.give(call.self<ThermoelasticBeam>()->stepping->temperature(call.number("x"), call.number("z"))); }});
+  type.method({.name = "thermoelastic_beam:reaction",
+               .help = "What a support does now: force (up), moment (anticlockwise) and axial force on the beam, and the deflection, rotation and displacement there.",
+               .example = "print(b:run(60):reaction(\"left\").force)",
+               .arguments = {support_key("at").required()},
+               .run = thermoelastic_reaction});
 }
 
 }  // namespace dotyk::script

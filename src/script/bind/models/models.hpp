@@ -1,6 +1,7 @@
 #pragma once
-// Beams, thermoelastic ones and plates for scripts, and for the calls that solve and draw them.
+// Beams, thermoelastic ones, plates and contact problems of files for scripts, and for the calls that solve and draw them.
 #include "beam/solve.hpp"
+#include "fclib/solve.hpp"
 #include "plate/solution.hpp"
 #include "script/bridge/library.hpp"
 #include "script/bridge/wrapped.hpp"
@@ -24,6 +25,14 @@ Key law_key(const char* name, const char* help);
 problem::SupportLaw law(const Arguments& from, const char* name);
 // Is the key for where the law `name` stands given? Throws InputError where there is no such law that could be there.
 bool stands_somewhere(const Arguments& from, const char* name);
+// A constant, or a function, which of(its field) makes of it; as they are where the key is not given.
+template <class Function, class Of>
+void take_field(const Arguments& from, const char* name, double& constant, Function& function, Of of) {
+  if (!from.has(name)) return;
+  const Field field = from.field(name);
+  if (field.constant()) constant = field({})[0];
+  else function = of(field);
+}
 // The keys for the laws of a support, and for where on a beam a value is asked.
 inline std::vector<Key> support_law_keys() { return {law_key("deflection", "a law of dotyk.law"), law_key("rotation", "a law of dotyk.law")}; }
 inline std::vector<Key> x_key() { return {key::number("x", "from the left end").unit("length").required()}; }
@@ -33,9 +42,6 @@ template <class T>
 void add_value(TypeOf<T>& type, const char* name, const char* help, int (*run)(Call&), const char* example) {
   type.method({.name = std::string(Wrapped<T>::name) + ":" + name, .help = help, .example = example, .arguments = x_key(), .run = run});
 }
-
-// Solves; gives a beam_solution.
-int solve_beam(Call& call, const beam::Beam& beam, const solver::Method& method, std::vector<Function> on_iteration, bool verbose);
 
 // A support told by "left", "right" or its x, and its place in Beam::supports; throws InputError where there is none.
 Key support_key(std::string name);
@@ -49,28 +55,34 @@ struct ThermoelasticBeam {
 };
 template <> struct Wrapped<ThermoelasticBeam> : Called<"thermoelastic_beam"> {};
 
-// While it is there the object's functions may be called, and a second one is refused with InputError, `what` they cannot do.
-class LoadsCalled {
- public:
-  LoadsCalled(ThermoelasticBeam& beam, const char* what);
-  ~LoadsCalled() { on_ = false; }
-  LoadsCalled(const LoadsCalled&) = delete;
-  LoadsCalled& operator=(const LoadsCalled&) = delete;
-
- private:
-  bool& on_;
+// The object before the colon and its loads. While this is there their functions may be called, and a second one is refused with
+// InputError, `what` they cannot do.
+struct CalledLoads {
+  std::shared_ptr<ThermoelasticBeam> beam;
+  thermoelastic::Loads loads;
+  CalledLoads(const Call& call, const char* what);
+  ~CalledLoads() { beam->loads_called = false; }
+  CalledLoads(const CalledLoads&) = delete;
+  CalledLoads& operator=(const CalledLoads&) = delete;
 };
-
-// Constants and kept functions of the object before the colon.
-thermoelastic::Loads kept_loads(Call& call, const ThermoelasticBeam& beam);
 
 template <> struct Wrapped<plate::Model> : Called<"plate"> {};
 template <> struct Wrapped<plate::Solution> : Called<"plate_solution"> {};
 
-// Solves; gives a plate_solution.
-int solve_plate(Call& call, const std::shared_ptr<const plate::Model>& plate, const solver::Method& method, std::vector<Function> on_iteration, bool verbose);
-
 // The place in Plate::edges of a part that has laws; throws InputError where there is none of that name.
 int find_edge(const plate::Plate& plate, const std::string& part);
+
+// Frictional contact problems from files; a result remembers its problem.
+template <> struct Wrapped<fclib::ContactProblem> : Called<"contact_problem"> {};
+
+struct ContactProblemResult {
+  std::shared_ptr<fclib::ContactProblem> problem;
+  fclib::Result result;
+  double seconds = 0;
+};
+template <> struct Wrapped<ContactProblemResult> : Called<"contact_problem_result"> {};
+
+std::shared_ptr<ContactProblemResult> solve_contact_problem(const std::shared_ptr<fclib::ContactProblem>& problem,
+                                                            const solver::Method& method, Monitor& monitor);
 
 }  // namespace dotyk::script

@@ -1,4 +1,4 @@
-#include "script/bind/program/bind_fclib.hpp"
+#include "script/bind/models/models.hpp"
 
 #include "base/stopwatch.hpp"
 #include "script/bind/bind.hpp"
@@ -7,16 +7,11 @@ namespace dotyk::script {
 
 using fclib::ContactProblem;
 
-std::shared_ptr<ContactProblemResult> solve_contact_problem(Call& call, const std::shared_ptr<ContactProblem>& problem, const Solver& solver,
-                          std::vector<Function> on_iteration) {
-  Watch watch(call.state(), "solving", std::move(on_iteration), solver.verbose);
-  auto result = std::make_shared<ContactProblemResult>();
-  result->problem = problem;
-  Stopwatch clock;
-  result->result = fclib::solve(*problem, solver.method, watch);
+std::shared_ptr<ContactProblemResult> solve_contact_problem(const std::shared_ptr<ContactProblem>& problem, const solver::Method& method,
+                                                            Monitor& monitor) {
+  const Stopwatch clock;
+  auto result = std::make_shared<ContactProblemResult>(ContactProblemResult{problem, fclib::solve(*problem, method, monitor)});
   result->seconds = clock.seconds();
-  watch.judge(result->result.iteration);
-  watch.answer();
   return result;
 }
 
@@ -25,6 +20,15 @@ namespace {
 std::shared_ptr<ContactProblem> read_problem(Call& call) {
   Watch watch(call.state(), "reading");
   return std::make_shared<ContactProblem>(fclib::read(call.text("file"), watch));
+}
+
+std::shared_ptr<ContactProblemResult> solve_problem(Call& call) {
+  const auto solver = call.object<Solver>("solver");
+  Watch watch(call.state(), "solving", call.kept_function(2, "on_iteration"), solver->verbose);
+  const auto result = solve_contact_problem(call.self<ContactProblem>(), solver->method, watch);
+  watch.judge(result->result.iteration);
+  watch.answer();
+  return result;
 }
 
 std::vector<std::vector<double>> rows_of_W(const ContactProblem& p) {
@@ -39,19 +43,17 @@ void bind_problem(Library& library) {
   using P = ContactProblem;
   library.type<P>("A frictional contact problem from a file: u = Wr + q, with contact and Coulomb's law between u and r. "
                   "Components of a contact: normal, then one or two tangential ones.")
-      .field("name", "the file's, without its folder", [](const P& p) { return p.name; })
-      .field("title", "as the file gives it, or empty", [](const P& p) { return p.title; })
-      .field("description", "as the file gives it, or empty", [](const P& p) { return p.description; })
+      .field("name", "the file's, without its folder", &P::name)
+      .field("title", "as the file gives it, or empty", &P::title)
+      .field("description", "as the file gives it, or empty", &P::description)
       .field("kind", "\"local\": the file gives W; \"global\": it gives M, H, f, w, and W = H'M^-1 H", kind)
-      .field("dimension", "of space, and components a contact: 2 or 3", [](const P& p) { return p.dimension; })
-      .field("contacts", "how many", [](const P& p) { return p.contacts(); })
-      .field("rows", "contacts times dimension", [](const P& p) { return p.rows(); })
-      .field("unknowns", "local: rows; global: velocities of the bodies", [](const P& p) { return p.unknowns(); })
+      .field("dimension", "of space, and components a contact: 2 or 3", &P::dimension)
+      .field("contacts", "how many", &P::contacts)
+      .field("rows", "contacts times dimension", &P::rows)
+      .field("unknowns", "local: rows; global: velocities of the bodies", &P::unknowns)
       .field("rank_W", "singular values of W above 1e-10 of the greatest; below rows, r need not be unique", fclib::rank_of_W)
-      .field("unsymmetry", "largest |A - A'| over largest |A| of the matrix stored, W or M",
-             [](const P& p) { return fclib::unsymmetry(p); })
-      .field("symmetrised", "W was made of the symmetric part of M, which is unsymmetric by its rounding",
-             [](const P& p) { return p.symmetrised; })
+      .field("unsymmetry", "largest |A - A'| over largest |A| of the matrix stored, W or M", fclib::unsymmetry)
+      .field("symmetrised", "W was made of the symmetric part of M, which is unsymmetric by its rounding", &P::symmetrised)
       .field("mu", "friction coefficients, one a contact", [](const P& p) { return list(p.mu); })
       .field("q", "velocities without contact forces, contact by contact", [](const P& p) { return list(p.q); })
       .field("W", "a table of its rows, computed when read", rows_of_W)
@@ -60,10 +62,7 @@ void bind_problem(Library& library) {
                .setup = setup::contact_problem(),
                .example = "local r = p:solve(dotyk.solver.newton{ tol = 1e-12 })\nprint(r.residual, r.stick)",
                .arguments = {key::object<Solver>("solver", "the method").required()},
-               .run = [](Call& call) {
-                 const auto solver = call.object<Solver>("solver");
-                 return solve_contact_problem(call, call.self<ContactProblem>(), *solver, call.kept_function(2, "on_iteration"));
-               }})
+               .run = solve_problem})
       .text([](const P& p) {
         return text("contact_problem ", p.name, ": ", kind(p), ", ", p.contacts(), " contacts in ", p.dimension, "-D, ",
                     p.unknowns(), " unknowns", p.symmetrised ? ", M symmetrised" : "");
@@ -79,14 +78,14 @@ void bind_result(Library& library) {
       .field("reason", "why it ended, a sentence", [](const R& r) { return r.result.iteration.reason; })
       .field("method", "the method", [](const R& r) { return r.result.iteration.method; })
       .field("iterations", "how many", [](const R& r) { return r.result.iteration.iterations; })
-      .field("seconds", "time taken", [](const R& r) { return r.seconds; }, "s")
+      .field("seconds", "time taken", &R::seconds, "s")
       .field("r", "contact forces, contact by contact", [](const R& r) { return list(r.result.r); })
       .field("u", "relative velocities Wr + q", [](const R& r) { return list(r.result.measure.u); })
       .field("open", "contacts without force", [](const R& r) { return r.result.measure.open; })
       .field("stick", "contacts that stick", [](const R& r) { return r.result.measure.stick; })
       .field("slip", "contacts that slip", [](const R& r) { return r.result.measure.slip; })
       .field("history", "one entry an iteration: active stick slip changed residual time", [](const R& r) { return history_records(r.result.iteration); })
-      .field("problem", "what was solved", [](const R& r) { return r.problem; })
+      .field("problem", "what was solved", &R::problem)
       .text([](const R& r) {
         const auto& m = r.result.measure;
         return text("contact_problem_result (", r.result.iteration.method, "): ",

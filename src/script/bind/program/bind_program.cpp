@@ -6,6 +6,7 @@
 #include "program/interior_point.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/program/program_input.hpp"
+#include "script/bind/scene/space.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -68,10 +69,9 @@ std::shared_ptr<ProgramResult> solve_with(Call& call, const std::shared_ptr<Quad
 }
 
 int make_program(Call& call) {
-  const auto p = [&] {
-    Watch watch(call.state(), "reading");
-    return read_program(call, watch);
-  }();
+  std::optional<Watch> watch(std::in_place, call.state(), "reading");
+  const auto p = read_program(call, *watch);
+  watch.reset();  // the solve has one of its own
   return call.has("method") ? call.give(solve_with(call, p)) : call.give(p);
 }
 
@@ -98,9 +98,9 @@ std::vector<std::string> working(const ProgramResult& r) {
 
 Record program_residual_record(const ProgramResult& result) {
   const program::Residuals& r = result.result.residual;
-  return {"residual", {{"stationarity", r.stationarity}, {"feasibility", r.feasibility},
-                       {"complementarity", r.complementarity}, {"stationarity_scale", r.stationarity_scale},
-                       {"feasibility_scale", r.feasibility_scale}, {"complementarity_scale", r.complementarity_scale}}};
+  return {"residual", {{"stationarity", r.stationarity}, {"feasibility", r.feasibility}, {"complementarity", r.complementarity},
+                       {"stationarity_scale", r.stationarity_scale}, {"feasibility_scale", r.feasibility_scale},
+                       {"complementarity_scale", r.complementarity_scale}}};
 }
 
 Record bracket_record(const ProgramResult& r) {
@@ -128,15 +128,8 @@ Lcp given_lcp(const Call& call) {
   }
   if (!call.has("M") || !call.has("q")) throw InputError("M and q are needed, or a file");
   Lcp lcp;
-  const auto rows = call.matrix("M");
-  const auto q = call.vector("q");
-  lcp.q = Eigen::Map<const algebra::Vector>(q.data(), static_cast<Eigen::Index>(q.size()));
-  lcp.M.resize(static_cast<Eigen::Index>(rows.size()), lcp.q.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].size() != q.size())
-      throw InputError(text("row ", i + 1, " of M has ", rows[i].size(), " numbers; q has ", q.size()));
-    for (std::size_t j = 0; j < q.size(); ++j) lcp.M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
-  }
+  lcp.q = vector_of(call.vector("q"));
+  lcp.M = dense_matrix(call.matrix("M"), lcp.q.size(), "M", text("q has ", lcp.q.size()));
   return lcp;
 }
 
@@ -166,73 +159,6 @@ std::vector<std::vector<int>> cycle(const LcpResult& r) {
   return out;
 }
 
-}  // namespace
-
-void bind_program(Library& library) {
-  library.function(
-      {.name = "dotyk.qp",
-       .help = "A convex quadratic program: minimise 1/2 x'Bx - c'x subject to Dx = d, low <= Ax <= high and "
-               "x_low <= x <= x_high; or one from a file, dotyk.qp \"name.qps\". Returns the program, to be solved by "
-               "its method solve; with the key method, solves at once and returns the result.",
-       .example = "local r = dotyk.qp{ B = {{2, 0}, {0, 2}}, c = {2, 5}, D = {{1, 1}}, d = {1}, x_low = 0, method = "
-                  "\"active_set\" }\nprint(r)\nio.open(\"small.qps\", \"w\"):write(\n"
-                  "  \"NAME small\\nROWS\\n N cost\\n G sum\\nCOLUMNS\\n x cost 1 sum 1\\n y cost 2 sum 1\\n\",\n"
-                  "  \"RHS\\n rhs sum 1\\nQUADOBJ\\n x x 2\\n y y 2\\nENDATA\\n\"):close()\nprint(dotyk.qp \"small.qps\":solve{ change = \"many\" })",
-       .arguments = {key::table(joined(program_keys(), solve_keys()))},
-       .returns = "program",
-       .run = make_program});
-  library.type<QuadraticProgram>("A quadratic program: minimise 1/2 x'Px + q'x + r, low <= Ax <= high.")
-      .setup("local program = dotyk.qp{ B = {{2, 0}, {0, 2}}, c = {2, 5}, D = {{1, 1}}, d = {1}, x_low = 0 }\n")
-      .field("name", "its name, from a file", [](const QuadraticProgram& p) { return p.name; })
-      .field("unknowns", "how many x there are", [](const QuadraticProgram& p) { return p.unknowns(); })
-      .field("rows", "of A, bounds included", [](const QuadraticProgram& p) { return p.rows(); })
-      .field("equalities", "rows with low = high", equalities)
-      .field("bounds", "rows with a single entry", bounds)
-      .method({.name = "program:solve",
-               .help = "Solves the program. A program without a solution, or not convex, gives a result whose status says so.",
-               .example = "local r = program:solve{ method = \"active_set\", change = \"many\" }\nprint(r)",
-               .arguments = {key::table(solve_keys())},
-               .run = [](Call& call) { return solve_with(call, call.self<QuadraticProgram>()); }})
-      .text([](const QuadraticProgram& p) {
-        return text("program", p.name.empty() ? "" : " " + p.name, ": ", p.unknowns(), " unknowns, ", p.rows(), " rows (",
-                    equalities(p), " equalities, ", bounds(p), " with a single entry)");
-      });
-  using R = ProgramResult;
-  library.type<R>("The result of solving a quadratic program.")
-      .field("status", "\"solved\", \"infeasible\", \"unbounded\", \"not_convex\" or \"stopped\"",
-             [](const R& r) { return program::text_of(r.result.status); })
-      .field("converged", "status is \"solved\"", [](const R& r) { return r.result.status == program::Status::solved; })
-      .field("reason", "why it ended, a sentence", [](const R& r) { return r.result.reason; })
-      .field("method", "the method", [](const R& r) { return r.method; })
-      .field("x", "the unknowns", [](const R& r) { return list(r.result.x); })
-      .field("y", "multipliers of the rows (D, A, bounds): positive at high, negative at low; Px + q + A'y = 0",
-             [](const R& r) { return list(r.result.y); })
-      .field("working", "active_set: each row's place, \"low\", \"high\", \"equal\" or \"free\"", working)
-      .field("direction", "unbounded: along it the objective falls for ever; infeasible: weights of the rows that "
-                          "contradict one another; not convex: of negative curvature",
-             [](const R& r) { return list(r.result.direction); })
-      .field("objective", "its value at x", [](const R& r) { return r.result.objective; })
-      .field("residual", "stationarity, feasibility, complementarity, relative to the scales given beside them", program_residual_record)
-      .field("bracket", "where the optimum lies, from x and y alone in extended precision: primal (the objective at x), "
-                        "dual (no feasible point falls below it), gap between them and slack (what violated rows may "
-                        "hide), both relative, violation", bracket_record)
-      .field("iterations", "KKT systems solved for a step (active_set), or outer iterations",
-             [](const R& r) { return r.result.iterations; })
-      .field("predictor_iterations", "interior-point iterations that chose the first working set",
-             [](const R& r) { return r.result.predictor_iterations; })
-      .field("added", "rows that entered the working set", [](const R& r) { return r.result.added; })
-      .field("dropped", "rows that left it", [](const R& r) { return r.result.dropped; })
-      .field("singular", "singular KKT systems met", [](const R& r) { return r.result.singular; })
-      .field("survived", "of these, the ones that still gave a step", [](const R& r) { return r.result.survived; })
-      .field("factorisations", "of sparse KKT matrices", [](const R& r) { return r.result.factorisations; })
-      .field("repeats", "times zigzagging was noticed, and the rule changed", [](const R& r) { return r.result.repeats; })
-      .field("cg", "CG iterations of an augmented Lagrangian", [](const R& r) { return r.result.cg; })
-      .field("penalty", "its last penalty", [](const R& r) { return r.result.penalty; })
-      .field("seconds", "time taken", [](const R& r) { return r.result.seconds; }, "s")
-      .field("program", "what was solved", [](const R& r) { return r.program; })
-      .text(program_result_text);
-}
-
 void bind_lcp(Library& library) {
   using Method = LcpSettings::Method;
   library.function(
@@ -254,17 +180,85 @@ void bind_lcp(Library& library) {
   library.type<LcpResult>("The result of a linear complementarity problem.")
       .field("status", "\"solved\", \"several\" (more than one solution), \"none\" (there is no solution) or \"stopped\"",
              [](const LcpResult& r) { return program::text_of(r.status); })
-      .field("reason", "how it ended, in words", [](const LcpResult& r) { return r.reason; })
-      .field("method", "the method that found z", [](const LcpResult& r) { return r.method; })
+      .field("reason", "how it ended, in words", &LcpResult::reason)
+      .field("method", "the method that found z", &LcpResult::method)
       .field("z", "the solution", [](const LcpResult& r) { return list(r.z); })
       .field("w", "Mz + q", [](const LcpResult& r) { return list(r.w); })
       .field("other", "a second solution; empty where none is known", [](const LcpResult& r) { return list(r.other); })
       .field("cycle", "the sets of free unknowns among which newton_min went round, in order; empty where it did not", cycle)
-      .field("solves", "linear systems newton_min solved", [](const LcpResult& r) { return r.solves; })
-      .field("pivots", "of Lemke's method", [](const LcpResult& r) { return r.pivots; })
-      .field("counted", "was it decided whether there are further solutions?", [](const LcpResult& r) { return r.counted; })
-      .field("residual", "largest min(z, w), relative row by row", [](const LcpResult& r) { return r.residual; })
+      .field("solves", "linear systems newton_min solved", &LcpResult::solves)
+      .field("pivots", "of Lemke's method", &LcpResult::pivots)
+      .field("counted", "was it decided whether there are further solutions?", &LcpResult::counted)
+      .field("residual", "largest min(z, w), relative row by row", &LcpResult::residual)
       .text([](const LcpResult& r) { return text("lcp_result: ", program::text_of(r.status), ", ", r.reason); });
+}
+
+}  // namespace
+
+void bind_program(Library& library) {
+  library.function(
+      {.name = "dotyk.qp",
+       .help = "A convex quadratic program: minimise 1/2 x'Bx - c'x subject to Dx = d, low <= Ax <= high and "
+               "x_low <= x <= x_high; or one from a file, dotyk.qp \"name.qps\". Returns the program, to be solved by "
+               "its method solve; with the key method, solves at once and returns the result.",
+       .example = "local r = dotyk.qp{ B = {{2, 0}, {0, 2}}, c = {2, 5}, D = {{1, 1}}, d = {1}, x_low = 0, method = "
+                  "\"active_set\" }\nprint(r)\nio.open(\"small.qps\", \"w\"):write(\n"
+                  "  \"NAME small\\nROWS\\n N cost\\n G sum\\nCOLUMNS\\n x cost 1 sum 1\\n y cost 2 sum 1\\n\",\n"
+                  "  \"RHS\\n rhs sum 1\\nQUADOBJ\\n x x 2\\n y y 2\\nENDATA\\n\"):close()\nprint(dotyk.qp \"small.qps\":solve{ change = \"many\" })",
+       .arguments = {key::table(joined(program_keys(), solve_keys()))},
+       .returns = "program",
+       .run = make_program});
+  library.type<QuadraticProgram>("A quadratic program: minimise 1/2 x'Px + q'x + r, low <= Ax <= high.")
+      .setup("local program = dotyk.qp{ B = {{2, 0}, {0, 2}}, c = {2, 5}, D = {{1, 1}}, d = {1}, x_low = 0 }\n")
+      .field("name", "its name, from a file", &QuadraticProgram::name)
+      .field("unknowns", "how many x there are", &QuadraticProgram::unknowns)
+      .field("rows", "of A, bounds included", &QuadraticProgram::rows)
+      .field("equalities", "rows with low = high", equalities)
+      .field("bounds", "rows with a single entry", bounds)
+      .method({.name = "program:solve",
+               .help = "Solves the program. A program without a solution, or not convex, gives a result whose status says so.",
+               .example = "local r = program:solve{ method = \"active_set\", change = \"many\" }\nprint(r)",
+               .arguments = {key::table(solve_keys())},
+               .run = [](Call& call) { return solve_with(call, call.self<QuadraticProgram>()); }})
+      .text([](const QuadraticProgram& p) {
+        return text("program", p.name.empty() ? "" : " " + p.name, ": ", p.unknowns(), " unknowns, ", p.rows(), " rows (",
+                    equalities(p), " equalities, ", bounds(p), " with a single entry)");
+      });
+  using R = ProgramResult;
+  const auto of = [](const auto& member) { return [member](const R& r) { return std::invoke(member, r.result); }; };
+  using Run = program::Result;
+  library.type<R>("The result of solving a quadratic program.")
+      .field("status", "\"solved\", \"infeasible\", \"unbounded\", \"not_convex\" or \"stopped\"",
+             [](const R& r) { return program::text_of(r.result.status); })
+      .field("converged", "status is \"solved\"", [](const R& r) { return r.result.status == program::Status::solved; })
+      .field("reason", "why it ended, a sentence", of(&Run::reason))
+      .field("method", "the method", &R::method)
+      .field("x", "the unknowns", [](const R& r) { return list(r.result.x); })
+      .field("y", "multipliers of the rows (D, A, bounds): positive at high, negative at low; Px + q + A'y = 0",
+             [](const R& r) { return list(r.result.y); })
+      .field("working", "active_set: each row's place, \"low\", \"high\", \"equal\" or \"free\"", working)
+      .field("direction", "unbounded: along it the objective falls for ever; infeasible: weights of the rows that "
+                          "contradict one another; not convex: of negative curvature",
+             [](const R& r) { return list(r.result.direction); })
+      .field("objective", "its value at x", of(&Run::objective))
+      .field("residual", "stationarity, feasibility, complementarity, relative to the scales given beside them", program_residual_record)
+      .field("bracket", "where the optimum lies, from x and y alone in extended precision: primal (the objective at x), "
+                        "dual (no feasible point falls below it), gap between them and slack (what violated rows may "
+                        "hide), both relative, violation", bracket_record)
+      .field("iterations", "KKT systems solved for a step (active_set), or outer iterations", of(&Run::iterations))
+      .field("predictor_iterations", "interior-point iterations that chose the first working set", of(&Run::predictor_iterations))
+      .field("added", "rows that entered the working set", of(&Run::added))
+      .field("dropped", "rows that left it", of(&Run::dropped))
+      .field("singular", "singular KKT systems met", of(&Run::singular))
+      .field("survived", "of these, the ones that still gave a step", of(&Run::survived))
+      .field("factorisations", "of sparse KKT matrices", of(&Run::factorisations))
+      .field("repeats", "times zigzagging was noticed, and the rule changed", of(&Run::repeats))
+      .field("cg", "CG iterations of an augmented Lagrangian", of(&Run::cg))
+      .field("penalty", "its last penalty", of(&Run::penalty))
+      .field("seconds", "time taken", of(&Run::seconds), "s")
+      .field("program", "what was solved", &R::program)
+      .text(program_result_text);
+  bind_lcp(library);
 }
 
 }  // namespace dotyk::script

@@ -25,21 +25,19 @@ Matrix matrix_of(const Arguments& given, const std::string& name, int columns) {
   Matrix out;
   if (triplets) {
     if (table.item_count() > 0) throw InputError(text("'", name, "' has rows and triplets; give one of them"));
-    if (!table.has("i") || !table.has("j") || !table.has("value"))
-      throw InputError(text("'", name, "' needs i, j and value together"));
+    if (!table.has("i") || !table.has("j") || !table.has("value")) throw InputError(text("'", name, "' needs i, j and value together"));
     const auto i = table.integers("i"), j = table.integers("j");
     const auto value = table.vector("value");
     if (i.size() != j.size() || i.size() != value.size())
       throw InputError(text("'", name, "' has ", i.size(), " i, ", j.size(), " j and ", value.size(), " values"));
     for (std::size_t k = 0; k < i.size(); ++k) {
-      if (j[k] > columns)
-        throw InputError(text("'", name, "': entry ", k + 1, " is in column ", j[k], "; there are ", columns));
+      if (j[k] > columns) throw InputError(text("'", name, "': entry ", k + 1, " is in column ", j[k], "; there are ", columns));
       out.rows = std::max(out.rows, static_cast<int>(i[k]));
       out.entries.emplace_back(static_cast<int>(i[k] - 1), static_cast<int>(j[k] - 1), value[k]);
     }
     return out;
   }
-  const auto rows = read_list(given.state(), given.slot(name), [L = given.state()](int at) { return read_vector(L, at); });
+  const auto rows = read_value<std::vector<std::vector<double>>>(given.state(), given.slot(name));
   out.rows = static_cast<int>(rows.size());
   for (int r = 0; r < out.rows; ++r) {
     const auto& row = rows[r];
@@ -82,20 +80,17 @@ class Rows {
 /// A vector of limits: a number for all or one each. Infinite where it is not given.
 Vector limits(const Arguments& given, const std::string& name, int count, double otherwise) {
   if (!given.has(name)) return Vector::Constant(count, otherwise);
-  if (given.is(name, LUA_TNUMBER)) return Vector::Constant(count, lua_tonumber(given.state(), given.slot(name)));
-  if (!given.is(name, LUA_TTABLE))
-    throw InputError(text("'", name, "' must be a number or a table of numbers, got ", describe_value(given.state(), given.slot(name))));
-  const int table = given.slot(name);
-  const auto size = static_cast<int>(lua_rawlen(given.state(), table));
-  if (size != count) throw InputError(text("'", name, "' has ", size, " entries; it must have ", count));
-  Vector out(count);
-  for (int k = 0; k < count; ++k) {
-    lua_rawgeti(given.state(), table, k + 1);
-    if (lua_type(given.state(), -1) != LUA_TNUMBER) throw InputError(text("entry ", k + 1, " of '", name, "' is no number"));
-    out[k] = lua_tonumber(given.state(), -1);
-    lua_pop(given.state(), 1);
-  }
-  return out;
+  lua_State* L = given.state();
+  const int at = given.slot(name);
+  if (given.is(name, LUA_TNUMBER)) return Vector::Constant(count, lua_tonumber(L, at));
+  if (!given.is(name, LUA_TTABLE)) throw InputError(text("'", name, "' must be a number or a table of numbers, got ", describe_value(L, at)));
+  if (const auto size = static_cast<int>(lua_rawlen(L, at)); size != count)
+    throw InputError(text("'", name, "' has ", size, " entries; it must have ", count));
+  int k = 0;
+  return vector_of(read_list(L, at, [&](int entry) {
+    if (++k; lua_type(L, entry) != LUA_TNUMBER) throw InputError(text("entry ", k, " of '", name, "' is no number"));
+    return lua_tonumber(L, entry);
+  }));
 }
 
 Key limits_key(std::string name, std::string help, std::string otherwise) {
@@ -127,15 +122,11 @@ void read_rows(const Arguments& given, program::QuadraticProgram& p, int n) {
 
 // By its ending: .qps, .mps or .mat.
 program::QuadraticProgram read_program_file(const std::string& file, Monitor& monitor) {
-  const auto ends = [&](const std::string& ending) {
-    return file.size() >= ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
-  };
-  if (ends(".mat")) return program::read_mat(file, monitor);
-  if (ends(".qps") || ends(".QPS") || ends(".mps") || ends(".MPS")) return program::read_qps(file);
+  if (file.ends_with(".mat")) return program::read_mat(file, monitor);
+  for (const char* ending : {".qps", ".QPS", ".mps", ".MPS"})
+    if (file.ends_with(ending)) return program::read_qps(file);
   throw InputError("'" + file + "' ends neither in .qps or .mps nor in .mat");
 }
-
-}  // namespace
 
 Key matrix_key(std::string name, std::string help) {
   return key::table(std::move(name),
@@ -145,6 +136,8 @@ Key matrix_key(std::string name, std::string help) {
                     std::move(help) + "; rows of numbers, or triplets { i = {…}, j = {…}, value = {…} }")
       .with(key::vector("row", "the numbers of a row"));
 }
+
+}  // namespace
 
 std::vector<Key> program_keys() {
   return {key::file("file", "a program in a .qps, .mps or .mat file, instead of the matrices").otherwise("none"),

@@ -17,9 +17,6 @@ struct ProgramResult {
 template <> struct Wrapped<ProgramResult> : Called<"program_result"> {};
 template <> struct Wrapped<program::LcpResult> : Called<"lcp_result"> {};
 
-// A sparse matrix: rows of numbers, or { i = {…}, j = {…}, value = {…} }.
-Key matrix_key(std::string name, std::string help);
-
 // The keys of dotyk.qp that say what the program is.
 std::vector<Key> program_keys();
 // The program they describe. Throws InputError.

@@ -8,18 +8,41 @@ namespace {
 using scene::Body;
 using scene::Part;
 
+Given<Material> make_material(Call& call) {
+  auto material = std::make_shared<Material>(call.filled<Material>());
+  if (call.has("stiffness")) {
+    if (call.has("E") || call.has("nu")) throw InputError("give either E and nu, or stiffness, not both");
+    const auto rows = call.matrix("stiffness");
+    material->stiffness = elasticity::from_voigt(dense_matrix(rows, static_cast<Eigen::Index>(rows.size()), "stiffness",
+                                                              "the matrix must be 3x3 (plane) or 6x6 (space)"));
+    return call.give_keeping(material, {});
+  }
+  if (!call.has("E")) throw InputError("E is missing: give E and nu, or a stiffness matrix");
+  if (!call.is("E", LUA_TFUNCTION)) material->E = call.field("E")({})[0];
+  if (!call.is("nu", LUA_TFUNCTION)) material->nu = call.has("nu") ? call.field("nu")({})[0] : 0.3;
+  elasticity::check_isotropic(material->E.value_or(1), material->nu.value_or(0), material->plane == elasticity::Plane::stress);
+  return call.give_keeping(material, {"E", "nu"});
+}
+
+std::string material_text(const Material& m) {
+  if (m.stiffness) return text("material: general stiffness, ", m.stiffness->dimension, "-D");
+  const auto shown = [](const std::optional<double>& value) { return value ? text(*value) : "function"; };
+  return "material: E = " + shown(m.E) + ", nu = " + shown(m.nu) + ", plane " +
+         (m.plane == elasticity::Plane::strain ? "strain" : "stress");
+}
+
 /// The material on a mesh, cell by cell where E or nu is a function.
 elasticity::MaterialField material_field(const Call& call, const Material& material, const mesh::Mesh& mesh) {
   if (material.stiffness) return elasticity::MaterialField(*material.stiffness);
   const int dim = mesh.dimension();
   const bool plane_stress = dim == 2 && material.plane == elasticity::Plane::stress;
-  if (!material.E_varies && !material.nu_varies) {
-    elasticity::check_isotropic(material.E, material.nu, plane_stress);  // in space "plane" says nothing
-    return elasticity::MaterialField(elasticity::isotropic(material.E, material.nu, dim, material.plane));
+  if (material.E && material.nu) {
+    elasticity::check_isotropic(*material.E, *material.nu, plane_stress);  // in space "plane" says nothing
+    return elasticity::MaterialField(elasticity::isotropic(*material.E, *material.nu, dim, material.plane));
   }
-  const auto sample = [&](bool varies, double constant, const char* name) {
-    std::vector<double> values(mesh.cell_count(), constant);
-    if (!varies) return values;
+  const auto sample = [&](const std::optional<double>& constant, const char* name) {
+    std::vector<double> values(mesh.cell_count(), constant.value_or(0));
+    if (constant) return values;
     const Function f = call.kept_function(call.slot("material"), name).at(0);
     for (int c = 0; c < mesh.cell_count(); ++c) {
       const mesh::Point x = mesh.cell_centre(c);
@@ -27,7 +50,7 @@ elasticity::MaterialField material_field(const Call& call, const Material& mater
     }
     return values;
   };
-  auto E = sample(material.E_varies, material.E, "E"), nu = sample(material.nu_varies, material.nu, "nu");
+  auto E = sample(material.E, "E"), nu = sample(material.nu, "nu");
   for (int c = 0; c < mesh.cell_count(); ++c) try {
       elasticity::check_isotropic(E[c], nu[c], plane_stress);
     } catch (const InputError& error) {
@@ -40,11 +63,7 @@ std::shared_ptr<Body> make_body(Call& call) {
   const auto mesh = call.object<MeshHandle>("mesh")->mesh;
   const auto material = call.object<Material>("material");
   elasticity::VectorField force;
-  std::optional<Field> field;
-  if (call.has("force")) {
-    field = call.field("force", mesh->dimension());
-    force = vector_field(*field, mesh->dimension());
-  }
+  if (call.has("force")) force = vector_field(call.field("force", mesh->dimension()), mesh->dimension());
   return scene::make_body(call.text("name"), mesh, material_field(call, *material, *mesh), force);
 }
 
@@ -55,8 +74,7 @@ std::shared_ptr<Part> make_part(Call& call) {
     const auto known = scene::part_names(*body);
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       const std::string near = nearest(name, known);
-      if (!near.empty())
-        throw InputError(text("'", body->name, "' has no part '", name, "', did you mean '", near, "'?"));
+      if (!near.empty()) throw InputError(text("'", body->name, "' has no part '", name, "', did you mean '", near, "'?"));
     }
     return std::make_shared<Part>(scene::named_part(body, name));
   }
@@ -96,63 +114,59 @@ Self slide(Call& call) {
 }
 
 Self part_support(Call& call) {
-  const auto law = [&](const char* name) { return call.has(name) ? *call.object<problem::SupportLaw>(name) : problem::SupportLaw{}; };
   if (!call.has("normal") && !call.has("tangential")) throw InputError("name at least one law: normal or tangential");
   const auto part = call.self<Part>();
-  if (!call.holds<FrictionLaw>("tangential")) {
-    scene::support(*part, law("normal"), law("tangential"));
+  if (!call.holds<scene::Friction>("tangential")) {
+    scene::support(*part, law(call, "normal"), law(call, "tangential"));
     return call.give_self();
   }
-  std::optional<Field> field;
-  const scene::Friction rubbing = friction(call, "tangential", part->body->dimension(), field);
+  const bool varies = !call.object<scene::Friction>("tangential")->value;
+  const scene::Friction rubbing = friction(call, "tangential", part->body->dimension());
   using Kind = problem::SupportLaw::Kind;
   problem::SupportLaw tangential{rubbing.kind == scene::Friction::Kind::tresca ? Kind::friction : Kind::coulomb};
-  if (!field) tangential.value = rubbing.value({});
+  if (!varies) tangential.value = rubbing.value({});
   if (std::isinf(tangential.value)) tangential = {Kind::prescribed};
-  scene::support(*part, law("normal"), tangential, field ? rubbing.value : elasticity::ScalarField());
+  scene::support(*part, law(call, "normal"), tangential, varies ? rubbing.value : elasticity::ScalarField());
   return call.give_self();
 }
 
-/// The fields given under x, y, z; `kept` owns them during the call.
-std::array<elasticity::ScalarField, 3> components(const Call& call, const Part& part, std::vector<Field>& kept) {
+/// The fields given under x, y, z.
+std::array<elasticity::ScalarField, 3> components(const Call& call, const Part& part) {
   std::array<elasticity::ScalarField, 3> result;
-  static const char* axis[] = {"x", "y", "z"};
-  kept.reserve(3);
+  const char* const axis[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i)
     if (call.has(axis[i])) {
       require_axis(part, i);
-      kept.push_back(call.field(axis[i]));
-      result[i] = scalar_field(kept.back(), part.body->dimension());
+      result[i] = scalar_field(call.field(axis[i]), part.body->dimension());
     }
-  if (kept.empty()) throw InputError("name at least one component: x, y or z");
+  if (!result[0] && !result[1] && !result[2]) throw InputError("name at least one component: x, y or z");
   return result;
 }
 
+std::string load_case_of(const Call& call) { return call.has("case") ? call.text("case") : ""; }
+
 Self displace(Call& call) {
   auto part = call.self<Part>();
-  std::vector<Field> kept;
-  scene::displace(*part, components(call, *part, kept), call.has("case") ? call.text("case") : "");
+  scene::displace(*part, components(call, *part), load_case_of(call));
   return call.give_self();
 }
 
 Self spring(Call& call) {
   auto part = call.self<Part>();
-  std::vector<Field> kept;
-  scene::spring(*part, components(call, *part, kept));
+  scene::spring(*part, components(call, *part));
   return call.give_self();
 }
 
 Self load_part(Call& call) {
   auto part = call.self<Part>();
-  const Field traction = call.field("traction", part->body->dimension());
-  scene::load(*part, vector_field(traction, part->body->dimension()), call.has("case") ? call.text("case") : "");
+  const int dimension = part->body->dimension();
+  scene::load(*part, vector_field(call.field("traction", dimension), dimension), load_case_of(call));
   return call.give_self();
 }
 
 Self pressure(Call& call) {
   auto part = call.self<Part>();
-  const Field value = call.field("value");
-  scene::pressure(*part, scalar_field(value, part->body->dimension()), call.has("case") ? call.text("case") : "");
+  scene::pressure(*part, scalar_field(call.field("value"), part->body->dimension()), load_case_of(call));
   return call.give_self();
 }
 
@@ -167,22 +181,16 @@ Key load_case() {
   return key::string("case", "a name by which the steps of a history scale it apart from others (dotyk.solve, steps)");
 }
 
-Key components_table(const std::string& help, const std::string& unit) {
+std::vector<Key> component_keys(const std::string& help, const std::string& unit) {
   const auto one = [&](const char* name) { return key::field(name, help).unit(unit); };
-  return key::table({one("x"), one("y"), one("z")});
-}
-
-Key displacement_table() {
-  Key table = components_table("displacement, a number or a function of the coordinates", "length");
-  table.keys.push_back(load_case());
-  return table;
+  return {one("x"), one("y"), one("z")};
 }
 
 void bind_part(Library& library) {
   library.type<Part>("Some boundary facets of a body, to hold, load or put in contact.")
       .setup(setup::block() + "local top = block:part \"top\"\n")
-      .field("name", "its name", [](const Part& p) { return p.name; })
-      .field("body", "the body it is of", [](const Part& p) { return p.body; })
+      .field("name", "its name", &Part::name)
+      .field("body", "the body it is of", &Part::body)
       .field("facet_count", "number of facets", [](const Part& p) { return p.facets.size(); })
       .method({.name = "part:fix",
                .help = "Holds the displacement at zero: all components, or those named.",
@@ -197,7 +205,7 @@ void bind_part(Library& library) {
       .method({.name = "part:displace",
                .help = "Prescribes displacement components; those not named stay free.",
                .example = "block:part\"right\":displace{ x = 0.01 }\nblock:part\"top\":displace{ y = -0.1, case = \"press\" }",
-               .arguments = {displacement_table()},
+               .arguments = {key::table(joined(component_keys("displacement, a number or a function of the coordinates", "length"), {load_case()}))},
                .run = displace})
       .method({.name = "part:load",
                .help = "A load per length (2-D) or area (3-D), constant or a function of the coordinates that returns "
@@ -213,7 +221,7 @@ void bind_part(Library& library) {
       .method({.name = "part:spring",
                .help = "An elastic support (Newton's condition): a force against the displacement.",
                .example = "top:spring{ x = 1e3, y = 1e3 }",
-               .arguments = {components_table("stiffness per length (2-D) or area (3-D), zero or positive", "stress/length")},
+               .arguments = {key::table(component_keys("stiffness per length (2-D) or area (3-D), zero or positive", "stress/length"))},
                .run = spring})
       .method({.name = "part:support",
                .help = "A support by laws of dotyk.law along the normal and along the tangents, at each node for its share of "
@@ -236,6 +244,29 @@ void bind_part(Library& library) {
 }
 
 }  // namespace
+
+void bind_material(Library& library) {
+  using elasticity::Plane;
+  library.function(
+      {.name = "dotyk.material",
+       .help = "A linearly elastic material: isotropic with E and nu, or general with a stiffness matrix in "
+               "Voigt's order (xx yy xy; xx yy zz yz xz xy; engineering shear). E and nu may be functions "
+               "of the coordinates; they are evaluated at the cells' centres when a body is made.",
+       .example = "local steel = dotyk.material{ E = 210e3, nu = 0.3 }",
+       .arguments = {key::table(
+           {key::field("E", "Young's modulus").unit("stress"),
+            key::field("nu", "Poisson's ratio, above -1 and below 0.5").otherwise("0.3"),
+            key::choice<Plane>("plane", {{"strain", Plane::strain}, {"stress", Plane::stress}},
+                               "what a plane body assumes of the third direction").into(&Material::plane),
+            key::matrix("stiffness", "3x3 in the plane, 6x6 in space, instead of E and nu").unit("stress"),
+            key::number("density", "mass per volume, for scripts to use").unit("mass/volume").above(0).into(&Material::density)})},
+       .run = make_material});
+  library.type<Material>("An elastic material.")
+      .field("E", "Young's modulus; nil where it is a function or the material is general", &Material::E, "stress")
+      .field("nu", "Poisson's ratio; nil where it is a function or the material is general", &Material::nu)
+      .field("density", "mass per volume, 0 if none was given", [](const Material& m) { return m.density.value_or(0); }, "mass/volume")
+      .text(material_text);
+}
 
 void bind_body(Library& library) {
   library.function({.name = "dotyk.body",

@@ -18,7 +18,7 @@ figure::SceneOptions scene_options(const Call& call, int dimension) {
   options.obstacle = dimension == 2;
   call.fill(options);
   if (call.is("deform", LUA_TNUMBER)) {
-    lua_Number factor = lua_tonumber(call.state(), call.slot("deform"));
+    const double factor = call.number("deform");
     if (factor < 0) throw InputError(text("deform is ", factor, "; it must be zero, positive or \"auto\""));
     options.deform = factor;
   } else if (!call.has("deform") && call.has("window")) {
@@ -30,14 +30,12 @@ figure::SceneOptions scene_options(const Call& call, int dimension) {
 std::string render_scene(Call& call) {
   const auto s = call.self<Solution>();
   figure::ScenePicture picture = figure::compose(*s, scene_options(call, s->scene().dimension()));
-  read_page(call, picture);
   call.fill(picture);
   picture.pressure_unit = picture.field_unit;
   picture.edges = read_edges(call, figure::MeshEdges::automatic);
   if (call.has("view") && s->scene().dimension() == 2) throw InputError("'view' is for scenes in space; this one is 2-D (try 'window')");
-  if (call.has("view")) picture.view_from = read_direction(call, "view");
-  figure::draw(picture);
-  return picture.file;
+  picture.view_from = read_direction(call, "view");
+  return draw(call, std::move(picture));
 }
 
 std::vector<Key> series_keys() {
@@ -66,8 +64,8 @@ SeriesPicture series_of(const Arguments& given) {
   return series;
 }
 
-/// What logarithmic axes cannot show, in words: "2 of 5 points of 'error'"; empty where they show all.
-std::string not_shown(const figure::ChartPicture& picture) {
+/// Says on standard error what logarithmic axes cannot show: "2 of 5 points of 'error'".
+void tell_not_shown(const figure::ChartPicture& picture, const std::string& file) {
   std::string out;
   for (std::size_t k = 0; k < picture.series.size(); ++k) {
     const figure::SeriesPicture& series = picture.series[k];
@@ -78,7 +76,8 @@ std::string not_shown(const figure::ChartPicture& picture) {
     out += text(out.empty() ? "" : ", ", lost, " of ", series.x.size(), " points of ");
     out += series.name.empty() ? text("series ", k + 1) : "'" + series.name + "'";
   }
-  return out;
+  if (!out.empty())
+    std::fprintf(stderr, "dotyk: %s: zero and negative values have no place on a logarithmic axis; left out: %s\n", file.c_str(), out.c_str());
 }
 
 std::array<double, 2> range_of(const Arguments& given, const char* name) {
@@ -102,11 +101,6 @@ void read_chart(const Arguments& given, figure::ChartPicture& chart) {
     for (const double slope : given.vector("slopes")) chart.slopes.push_back({slope, ""});
 }
 
-void tell_not_shown(const figure::ChartPicture& chart, const std::string& file) {
-  if (const std::string lost = not_shown(chart); !lost.empty())
-    std::fprintf(stderr, "dotyk: %s: zero and negative values have no place on a logarithmic axis; left out: %s\n", file.c_str(), lost.c_str());
-}
-
 // Panels one below the other; x given for all is one axis.
 std::string chart_column(Call& call) {
   for (const char* name : {"series", "slopes", "y", "log"})
@@ -124,10 +118,9 @@ std::string chart_column(Call& call) {
   if (call.has("columns")) column.columns = static_cast<int>(std::min<long long>(call.integer("columns"), column.panels.size() + 1));
   const int rows = (static_cast<int>(column.panels.size()) + column.columns - 1) / column.columns;
   column.height = 60 + 260 * rows;
-  read_page(call, column);
-  figure::draw(column);
-  for (const figure::ChartPicture& chart : column.panels) tell_not_shown(chart, column.file);
-  return column.file;
+  const std::string file = draw(call, column);
+  for (const figure::ChartPicture& chart : column.panels) tell_not_shown(chart, file);
+  return file;
 }
 
 std::string chart(Call& call) {
@@ -136,10 +129,9 @@ std::string chart(Call& call) {
   if (call.has("columns")) throw InputError("'columns' without 'panels'");
   figure::ChartPicture picture;
   read_chart(call, picture);
-  read_page(call, picture);
-  figure::draw(picture);
-  tell_not_shown(picture, picture.file);
-  return picture.file;
+  const std::string file = draw(call, picture);
+  tell_not_shown(picture, file);
+  return file;
 }
 
 Key series_key() {
@@ -160,13 +152,11 @@ std::vector<Key> chart_keys(Key series) {
 }
 
 std::vector<Key> figure_keys() {
-  std::vector<Key> keys = chart_keys(series_key());
-  keys.insert(keys.begin(), picture_key());
-  keys.push_back(key::list("panels", key::table("", chart_keys(series_key().required()), ""),
-                           "instead of series, y, log and slopes: charts one below the other; an x beside them is one axis for all").count(1, 12));
-  keys.push_back(key::integer("columns", "of the panels, which follow row by row").at_least(1).otherwise("1"));
-  keys.push_back(size_key("{1000, 750}; with panels {1000, 60 and 260 for each row}"));
-  return keys;
+  const Key panel = key::table("", chart_keys(series_key().required()), "");
+  return joined(joined({picture_key()}, chart_keys(series_key())),
+                {key::list("panels", panel, "instead of series, y, log and slopes: charts one below the other; an x beside them is one axis for all").count(1, 12),
+                 key::integer("columns", "of the panels, which follow row by row").at_least(1).otherwise("1"),
+                 size_key("{1000, 750}; with panels {1000, 60 and 260 for each row}")});
 }
 
 }  // namespace

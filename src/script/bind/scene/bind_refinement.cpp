@@ -54,8 +54,7 @@ std::vector<std::string> refinement_part_names(const Adaptive& refinement) {
 
 Self project(Call& call) {
   const auto refinement = call.self<Adaptive>();
-  const Function map = call.function("map");
-  refinement->project(call.text("part"), point_map(map, refinement->mesh(0)->dimension()));
+  refinement->project(call.text("part"), point_map(call.function("map"), refinement->mesh(0)->dimension()));
   return call.give_self();
 }
 

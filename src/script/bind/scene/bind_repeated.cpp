@@ -36,8 +36,7 @@ std::shared_ptr<RepeatedSolution> solve_repeated_systems(Call& call) {
   if (call.has("loads") == call.has("velocities"))
     throw InputError("give either loads, names of load cases, or velocities, functions by which design variables move the nodes");
   const RepeatedSettings chosen = settings(call);
-  std::vector<std::vector<double>> moves;
-  if (call.has("velocities")) moves = velocities(call, *scene);
+  const auto moves = call.has("velocities") ? velocities(call, *scene) : std::vector<std::vector<double>>();
   Watch watch(call.state(), "solving");
   const auto solution = std::make_shared<RepeatedSolution>(
       call.has("loads") ? scene::solve_load_cases(*scene, call.texts("loads"), chosen, watch)
@@ -50,9 +49,8 @@ std::vector<Record> systems(const RepeatedSolution& s) {
   std::vector<Record> all;
   for (std::size_t k = 0; k < s.systems.size(); ++k) {
     const auto& one = s.systems[k];
-    all.push_back({"system",
-                   {{"name", s.names[k]}, {"iterations", one.iterations}, {"seconds", one.seconds},
-                    {"residual", one.residual}, {"converged", one.converged}, {"reason", one.reason}, {"energy", s.energies[k]}}});
+    all.push_back({"system", {{"name", s.names[k]}, {"iterations", one.iterations}, {"seconds", one.seconds}, {"residual", one.residual},
+                              {"converged", one.converged}, {"reason", one.reason}, {"energy", s.energies[k]}}});
   }
   return all;
 }
@@ -114,10 +112,10 @@ void bind_repeated(Library& library) {
       .field("systems", "of each system, in order: name, iterations (0 of cholesky), seconds (an equal share where several are solved "
                         "at once), residual |b - Kx|/|b|, converged, reason, energy x'b", systems)
       .field("converged", "have all?", [](const RepeatedSolution& s) { return s.converged(); })
-      .field("unknowns", "of each system", [](const RepeatedSolution& s) { return s.unknowns; })
-      .field("setup_seconds", "of the factor or the preconditioner", [](const RepeatedSolution& s) { return s.setup_seconds; }, "s")
-      .field("bytes", "of the factor, or of the preconditioner and the vectors kept; at their greatest", [](const RepeatedSolution& s) { return s.bytes; })
-      .field("kept", "vectors kept for a next system", [](const RepeatedSolution& s) { return s.kept; })
+      .field("unknowns", "of each system", &RepeatedSolution::unknowns)
+      .field("setup_seconds", "of the factor or the preconditioner", &RepeatedSolution::setup_seconds, "s")
+      .field("bytes", "of the factor, or of the preconditioner and the vectors kept; at their greatest", &RepeatedSolution::bytes)
+      .field("kept", "vectors kept for a next system", &RepeatedSolution::kept)
       .method({.name = "repeated_systems:nodes",
                .help = "The solution of one system: for every node its coordinates and its displacement, or the displacement's derivative.",
                .setup = setup::block() + "block:part \"bottom\":fix()\n"

@@ -1,4 +1,5 @@
 #include "algebra/direct/stop_factoring.hpp"
+#include "scene/study/inf_sup.hpp"
 #include "problem/solvability.hpp"
 #include "problem/uniqueness.hpp"
 #include "scene/model/model.hpp"
@@ -13,25 +14,18 @@ using scene::Contact;
 using scene::Discretisation;
 using scene::Part;
 using scene::Scene;
+using scene::InfSupSettings;
+using scene::MultiplierPart;
 using contact::Multipliers;
 
-std::shared_ptr<Scene> make_scene(Call& call) {
-  return scene::make_scene(call.items<scene::Body>());
-}
+std::shared_ptr<Scene> make_scene(Call& call) { return scene::make_scene(call.items<scene::Body>()); }
 
-void require_rigid_dimension(const Rigid& rigid, const Scene& scene) {
-  if (rigid.dimension != scene.dimension())
-    throw InputError(text("the ", contact::name(rigid.shape), " has ", rigid.dimension,
-                          " components, the scene is ", scene.dimension(), "-D"));
-}
-
-/// The laws given; `field` owns a function of friction during the call.
-scene::InterfaceLaws laws(Call& call, const Scene& scene, std::optional<Field>& field) {
+scene::InterfaceLaws laws(const Call& call, const Scene& scene) {
   if (call.has("friction") && call.has("tangential")) throw InputError("'friction' is a tangential law; it is given with 'tangential'");
   scene::InterfaceLaws laws;
   if (call.has("normal")) laws.normal = *call.object<problem::SupportLaw>("normal");
   if (call.holds<problem::SupportLaw>("tangential")) laws.tangential = *call.object<problem::SupportLaw>("tangential");
-  laws.friction = friction(call, call.has("friction") ? "friction" : "tangential", scene.dimension(), field);
+  laws.friction = friction(call, call.has("friction") ? "friction" : "tangential", scene.dimension());
   return laws;
 }
 
@@ -42,45 +36,31 @@ std::optional<contact::Pairing> pairing(Call& call) {
   return given;
 }
 
-std::shared_ptr<const Contact> against_rigid(Call& call, Scene& scene, const Part& part, const elasticity::ScalarField& added,
-                  const scene::InterfaceLaws& laws) {
+contact::RigidShape rigid_shape(const Call& call, int dimension) {
   const auto rigid = call.object<Rigid>("rigid");
-  require_rigid_dimension(*rigid, scene);
+  if (rigid->dimension != dimension)
+    throw InputError(text("the ", contact::name(rigid->shape), " has ", rigid->dimension, " components, the scene is ", dimension, "-D"));
   contact::RigidShape shape = rigid->shape;
-  std::optional<Field> gap;
-  if (auto* given = std::get_if<contact::RigidGap>(&shape)) {
-    const auto function = call.kept_function(call.slot("rigid"), "gap");
-    if (!function.empty()) {
-      gap.emplace(function.front(), 1);
-      given->gap = scalar_field(*gap, scene.dimension());
-    }
-  }
-  return scene::add_contact(scene, part, shape, added, call.boolean("interference"), laws,
-                                      call.filled<Discretisation>());
+  if (auto* given = std::get_if<contact::RigidGap>(&shape); given && !given->gap) given->gap = kept_field(call, "rigid", "gap", dimension);
+  return shape;
 }
 
 std::shared_ptr<const Contact> add_contact(Call& call) {
   const auto scene = call.self<Scene>();
   const auto parts = call.items<Part>();
-  std::optional<Field> gap;
   elasticity::ScalarField added;
-  if (call.has("gap")) {
-    gap = call.field("gap");
-    added = scalar_field(*gap, scene->dimension());
-  }
-  std::optional<Field> bound;
-  const scene::InterfaceLaws given = laws(call, *scene, bound);
+  if (call.has("gap")) added = scalar_field(call.field("gap"), scene->dimension());
+  const scene::InterfaceLaws given = laws(call, *scene);
+  const bool interference = call.boolean("interference");
+  const auto discretisation = call.filled<Discretisation>();
   if (call.has("rigid")) {
-    if (parts.size() != 1)
-      throw InputError("give one part with 'rigid', or two parts without it");
+    if (parts.size() != 1) throw InputError("give one part with 'rigid', or two parts without it");
     if (call.has("pairing")) throw InputError("'pairing' is for two parts; it is given with 'rigid'");
-    return against_rigid(call, *scene, *parts[0], added, given);
+    return scene::add_contact(*scene, *parts[0], rigid_shape(call, scene->dimension()), added, interference, given, discretisation);
   }
-  if (parts.size() != 2)
-    throw InputError("give two parts, or one part and 'rigid'");
+  if (parts.size() != 2) throw InputError("give two parts, or one part and 'rigid'");
   Watch watch(call.state(), "pairing");
-  return scene::add_contact(*scene, *parts[0], *parts[1], added, given, call.boolean("interference"),
-                                      call.filled<Discretisation>(), pairing(call), &watch);
+  return scene::add_contact(*scene, *parts[0], *parts[1], added, given, interference, discretisation, pairing(call), &watch);
 }
 
 std::shared_ptr<const Contact> add_glue(Call& call) {
@@ -114,28 +94,24 @@ Record uniqueness(Call& call) {
 
 Given<Rigid> rigid_gap(Call& call) {
   contact::RigidGap shape{unit_vector(call.vector("normal"), "normal"), nullptr};
-  if (!call.is("gap", LUA_TFUNCTION))
-    shape.gap = [value = call.field("gap")({})[0]](const mesh::Point&) { return value; };
+  if (!call.is("gap", LUA_TFUNCTION)) shape.gap = scalar_field(call.field("gap"), 0);
   return call.give_keeping(std::make_shared<Rigid>(Rigid{shape, static_cast<int>(call.vector("normal").size())}), {"gap"});
 }
 
 std::shared_ptr<Rigid> rigid_plane(Call& call) {
   const auto normal = call.vector("normal");
   const int dim = static_cast<int>(normal.size());
-  return std::make_shared<Rigid>(
-      Rigid{contact::RigidPlane{point_of(call.vector("point"), dim, "point"), unit_vector(normal, "normal")}, dim});
+  return std::make_shared<Rigid>(Rigid{contact::RigidPlane{point_of(call.vector("point"), dim, "point"), unit_vector(normal, "normal")}, dim});
 }
 
 std::shared_ptr<Rigid> rigid_ball(Call& call) {
   const auto center = call.vector("center");
-  return std::make_shared<Rigid>(
-      Rigid{contact::RigidBall{point_of(center), call.number("radius")}, static_cast<int>(center.size())});
+  return std::make_shared<Rigid>(Rigid{contact::RigidBall{point_of(center), call.number("radius")}, static_cast<int>(center.size())});
 }
 
-Given<FrictionLaw> make_friction(Call& call, scene::Friction::Kind kind) {
-  auto law = std::make_shared<FrictionLaw>(FrictionLaw{kind});
-  law->varies = call.is("value", LUA_TFUNCTION);
-  if (!law->varies) law->value = lua_tonumber(call.state(), call.slot("value"));
+Given<scene::Friction> make_friction(Call& call, scene::Friction::Kind kind) {
+  auto law = std::make_shared<scene::Friction>(scene::Friction{kind, {}});
+  if (!call.is("value", LUA_TFUNCTION)) law->value = [value = call.number("value")](const mesh::Point&) { return value; };
   return call.give_keeping(law, {"value"});
 }
 
@@ -155,9 +131,9 @@ void bind_friction(Library& library) {
                     .arguments = {key::either("value", {key::number("", "").at_least(0), key::function("", "")},
                                               "coefficient, a number or a function of the coordinates").required()},
                     .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::coulomb); }});
-  library.type<FrictionLaw>("A friction law.").text([](const FrictionLaw& f) {
+  library.type<scene::Friction>("A friction law.").text([](const scene::Friction& f) {
     return text(f.kind == scene::Friction::Kind::tresca ? "given friction, bound " : "Coulomb friction, coefficient ",
-                f.varies ? std::string("a function") : text(f.value));
+                f.value ? text(f.value({})) : "a function");
   });
 }
 
@@ -184,9 +160,37 @@ void bind_rigid(Library& library) {
                     .arguments = {key::table({key::vector("center", "centre").count(2, 3).unit("length").required(),
                                               key::positive("radius", "radius").unit("length").required()})},
                     .run = rigid_ball});
-  library.type<Rigid>("A rigid obstacle.").text([](const Rigid& r) {
-    return text(contact::name(r.shape), ", ", r.dimension, "-D");
-  });
+  library.type<Rigid>("A rigid obstacle.").text([](const Rigid& r) { return text(contact::name(r.shape), ", ", r.dimension, "-D"); });
+}
+
+Record inf_sup(Call& call) {
+  const auto settings = call.filled<InfSupSettings>();
+  Watch watch(call.state(), "inf-sup constants");
+  const scene::InfSup s = scene::inf_sup(*call.self<Contact>(), settings, watch);
+  return {"inf-sup", {{"constant", s.constant}, {"above_kernel", s.above_kernel}, {"kernel", s.kernel}, {"multipliers", s.multipliers},
+                      {"h", s.h}, {"H", s.H}, {"cone", s.cone}}};
+}
+
+void bind_contact(Library& library) {
+  library.type<Contact>("A contact or a glue of a scene.")
+      .setup(setup::pressed_block())
+      .field("name", "what messages call it", [](const Contact& c) { return c.name; })
+      .field("rows", "number of contact conditions", [](const Contact& c) { return c.rows.size(); })
+      .method({.name = "contact:inf_sup",
+               .help = "The stability constant of the contact's multipliers against the displacements of its bodies "
+                       "(inf-sup, Babuška–Brezzi): constant, the least b(mu, v)/(|v|_1 |mu|_-1/2) over multipliers, greatest over "
+                       "displacements; 0 where multipliers form a kernel that no displacement notices (kernel, its dimension; "
+                       "above_kernel, the least constant but 0); multipliers, h, H. About 1 is as good as it "
+                       "gets. Supports, meshes and multipliers enter, the material does not.",
+               .example = "print(contact:inf_sup{ part = \"normal\" }.constant)",
+               .arguments = {key::table({key::choice<MultiplierPart>("part", {{"tangential", MultiplierPart::tangential}, {"normal", MultiplierPart::normal},
+                                                                                {"both", MultiplierPart::both}}, "which multipliers").into(&InfSupSettings::part),
+                                         key::choice<bool>("fixed_nodes", {{"shared", true}, {"kept", false}},
+                                                     "multipliers of nodes held on both sides, and those of friction at corners of the part: shared out among their neighbours, as in a solve, or kept").into(&InfSupSettings::share_fixed),
+                                         key::choice<bool>("norm", {{"shear", false}, {"multiplier", true}}, "of friction: of the shear g mu, or of mu itself, as TR965 (3.16) has it").into(&InfSupSettings::own_norm),
+                                         key::boolean("cone", "also .cone: the least constant found over pressures that are not negative").into(&InfSupSettings::cone)})},
+               .run = inf_sup})
+      .text([](const Contact& c) { return c.name; });
 }
 
 Key pairing_key() {
@@ -209,9 +213,9 @@ void bind_scene(Library& library) {
                     .run = make_scene});
   library.type<Scene>("Bodies and what joins them.")
       .setup(setup::two_blocks())
-      .field("bodies", "its bodies", [](const Scene& s) { return s.bodies; })
-      .field("contacts", "its contacts and glues, in order", [](const Scene& s) { return s.contacts; })
-      .field("dimension", "2 or 3", [](const Scene& s) { return s.dimension(); })
+      .field("bodies", "its bodies", &Scene::bodies)
+      .field("contacts", "its contacts and glues, in order", &Scene::contacts)
+      .field("dimension", "2 or 3", &Scene::dimension)
       .method({.name = "scene:contact",
                .help = "Contact of two parts, or of a part with a rigid obstacle: unilateral and frictionless unless laws are given. These are told per length (2-D) "
                        "or area (3-D) of the first part: along the normal of the gap as the bodies are deformed (compliance: asperities, one_sided_elastic: a "
@@ -224,7 +228,7 @@ void bind_scene(Library& library) {
                           "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }",
                .arguments = {key::table({key::object<problem::SupportLaw>("normal", "a law of dotyk.law but load and breaking").otherwise("signorini"),
                                          tangential_key("a law of dotyk.friction, or of dotyk.law: free, prescribed(0), elastic, friction, in 2-D capped_elastic"),
-                                         key::object<FrictionLaw>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu), short for tangential").otherwise("none"),
+                                         key::object<scene::Friction>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu), short for tangential").otherwise("none"),
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
                                          key::field("gap", "added to the geometric gap, less than 0 for an interference (a press fit, a bolt that is tightened); a number or a function of the coordinates").unit("length").otherwise("0"),
                                          pairing_key(),

@@ -10,20 +10,18 @@ using scene::Body;
 using scene::Contact;
 using scene::Solution;
 
-std::vector<double> components(const mesh::Point& p, int dimension) {
-  return {p.begin(), p.begin() + dimension};
-}
+std::vector<double> components(const mesh::Point& p, int dimension) { return {p.begin(), p.begin() + dimension}; }
 
-Record distance_record(const scene::Distance& d) {
+Record distance(Call& call) {
+  const scene::Distance d = scene::distance(*call.self<Solution>(), *call.object<Solution>("reference"));
   return {"distance", {{"energy", d.energy}, {"displacement", d.displacement}, {"pressure", d.pressure}, {"peak_pressure", d.peak_pressure}}};
 }
 
 std::optional<Record> working_set_record(const Solution& s) {
   const auto& w = s.result().working_set;
   if (!w) return std::nullopt;
-  return Record{"working set", {{"added", w->added}, {"dropped", w->dropped}, {"singular", w->singular},
-                                {"survived", w->survived}, {"factorisations", w->factorisations},
-                                {"repeats", w->repeats}}};
+  return Record{"working set", {{"added", w->added}, {"dropped", w->dropped}, {"singular", w->singular}, {"survived", w->survived},
+                                {"factorisations", w->factorisations}, {"repeats", w->repeats}}};
 }
 
 std::optional<Record> penalty_record(const Solution& s) {
@@ -35,10 +33,9 @@ std::optional<Record> penalty_record(const Solution& s) {
 std::optional<Record> feti_record(const Solution& s) {
   const auto& f = s.result().feti;
   if (!f) return std::nullopt;
-  return Record{"feti", {{"subdomains", f->subdomains}, {"factors", f->factors}, {"rows", f->rows},
-                    {"kernel", f->kernel}, {"inner", f->inner}, {"products", f->products},
-                    {"loops", f->loops}, {"norm", f->norm}, {"rho", f->rho},
-                        {"condition", f->condition > 0 ? std::optional(f->condition) : std::nullopt}}};
+  return Record{"feti", {{"subdomains", f->subdomains}, {"factors", f->factors}, {"rows", f->rows}, {"kernel", f->kernel}, {"inner", f->inner},
+                         {"products", f->products}, {"loops", f->loops}, {"norm", f->norm}, {"rho", f->rho},
+                         {"condition", f->condition > 0 ? std::optional(f->condition) : std::nullopt}}};
 }
 
 std::vector<Record> screws(const Solution& s) {
@@ -111,21 +108,6 @@ Record node_record(const scene::ContactNode& n, int dimension) {
             {"status", problem::status_name(n.status)}, {"force", n.force}, {"weight", n.weight}, {"normal", components(n.normal, dimension)}});
 }
 
-Record solution_contact(Call& call) {
-  const auto s = call.self<Solution>();
-  const auto asked = call.object<Contact>("contact");
-  const auto c = scene::as_given(*asked, s->contact(*asked));
-  std::vector<Record> nodes;
-  for (const auto& n : c.nodes) nodes.push_back(node_record(n, s->scene().dimension()));
-  return Record{"contact result",
-                          {{"force", components(c.force, s->scene().dimension())}, {"area", c.area},
-                           {"friction_force", components(c.friction_force, s->scene().dimension())},
-                           {"dissipated", c.dissipated},
-                           {"max_pressure", c.max_pressure}, {"open", c.open},
-                           {"closed", c.closed}, {"stick", c.stick},
-                           {"slip", c.slip}, {"nodes", nodes}}};
-}
-
 Record node_record(const scene::SupportNode& n, int dimension) {
   return place_record("support node", n.x, dimension)
       .add({{"away", n.away}, {"pressure", n.pressure}, {"slip", components(n.slip, dimension)}, {"shear", components(n.shear, dimension)},
@@ -133,16 +115,32 @@ Record node_record(const scene::SupportNode& n, int dimension) {
             {"weight", n.weight}, {"normal", components(n.normal, dimension)}});
 }
 
+template <class Node>
+std::vector<Record> node_records(const std::vector<Node>& nodes, int dimension) {
+  std::vector<Record> records;
+  for (const Node& n : nodes) records.push_back(node_record(n, dimension));
+  return records;
+}
+
+Record solution_contact(Call& call) {
+  const auto s = call.self<Solution>();
+  const auto asked = call.object<Contact>("contact");
+  const auto c = scene::as_given(*asked, s->contact(*asked));
+  const int dim = s->scene().dimension();
+  return {"contact result",
+          {{"force", components(c.force, dim)}, {"area", c.area}, {"friction_force", components(c.friction_force, dim)},
+           {"dissipated", c.dissipated}, {"max_pressure", c.max_pressure}, {"open", c.open}, {"closed", c.closed},
+           {"stick", c.stick}, {"slip", c.slip}, {"nodes", node_records(c.nodes, dim)}}};
+}
+
 Record solution_support(Call& call) {
   const auto s = call.self<Solution>();
   const auto r = s->support(*call.object<scene::Part>("part"));
-  std::vector<Record> nodes;
-  for (const auto& n : r.nodes) nodes.push_back(node_record(n, s->scene().dimension()));
-  return Record{"support result",
-                          {{"force", components(r.force, s->scene().dimension())}, {"area", r.area}, {"max_pressure", r.max_pressure},
-                           {"open", r.open}, {"closed", r.closed}, {"stick", r.stick}, {"slip", r.slip},
-                           {"tangential_stick", r.tangential_stick}, {"tangential_slip", r.tangential_slip},
-                           {"broken", r.broken}, {"dissipated", r.dissipated}, {"nodes", nodes}}};
+  const int dim = s->scene().dimension();
+  return {"support result",
+          {{"force", components(r.force, dim)}, {"area", r.area}, {"max_pressure", r.max_pressure}, {"open", r.open}, {"closed", r.closed},
+           {"stick", r.stick}, {"slip", r.slip}, {"tangential_stick", r.tangential_stick}, {"tangential_slip", r.tangential_slip},
+           {"broken", r.broken}, {"dissipated", r.dissipated}, {"nodes", node_records(r.nodes, dim)}}};
 }
 
 int solution_reaction(Call& call) {
@@ -154,19 +152,16 @@ int error_estimate(Call& call) {
   const auto s = call.self<Solution>();
   const scene::ErrorEstimate& e = s->error_estimate();
   const elasticity::ErrorParts& p = e.parts;
-  Record record{"error estimate", {{"absolute", e.absolute}, {"relative", e.relative}, {"recovery", std::sqrt(p.recovery)},
-                                   {"bulk", std::sqrt(p.bulk)}, {"jump", std::sqrt(p.jump)}, {"boundary", std::sqrt(p.boundary)},
-                                   {"contact_pressure", std::sqrt(p.contact_pressure)},
-                                   {"complementarity", std::sqrt(p.complementarity)}, {"friction", std::sqrt(p.friction)},
-                                   {"laws", std::sqrt(p.laws)}}};
-  call.give(e.relative, record);
   std::vector<std::vector<double>> cells;
   for (const auto& of_body : e.cells) {
     cells.emplace_back();
     for (const auto& cell : of_body) cells.back().push_back(std::sqrt(cell.sum()));
   }
-  set_field(call.state(), "cells", cells);
-  return 2;
+  return call.give(e.relative, Record{"error estimate",
+                                      {{"absolute", e.absolute}, {"relative", e.relative}, {"recovery", std::sqrt(p.recovery)},
+                                       {"bulk", std::sqrt(p.bulk)}, {"jump", std::sqrt(p.jump)}, {"boundary", std::sqrt(p.boundary)},
+                                       {"contact_pressure", std::sqrt(p.contact_pressure)}, {"complementarity", std::sqrt(p.complementarity)},
+                                       {"friction", std::sqrt(p.friction)}, {"laws", std::sqrt(p.laws)}, {"cells", cells}}});
 }
 
 Record times(const Solution& s) {
@@ -277,7 +272,7 @@ void bind_solution(Library& library) {
                        "contact pressure (L2 over the contacts, at this solution's nodes) and peak_pressure.",
                .example = "local soft = dotyk.solver.penalty{ factor = 100 }:solve(scene)\nprint(soft:distance(s).energy)",
                .arguments = {key::object<Solution>("reference", "what is taken for exact").required()},
-               .run = [](Call& call) { return call.give(distance_record(scene::distance(*call.self<Solution>(), *call.object<Solution>("reference")))); }})
+               .run = distance})
       .method({.name = "solution:write_contact",
                .help = "Writes the contact nodes of all contacts as comma-separated values: contact, node, coordinates, gap, "
                        "pressure, force, weight, components of shear and slip, status.",

@@ -18,6 +18,17 @@ namespace dotyk::script {
 
 inline algebra::Vector vector_of(const std::vector<double>& v) { return Eigen::Map<const algebra::Vector>(v.data(), static_cast<Eigen::Index>(v.size())); }
 
+// From its rows; throws InputError, which ends as said, where one of them has not so many numbers.
+inline algebra::DenseMatrix dense_matrix(const std::vector<std::vector<double>>& rows, Eigen::Index columns, const char* what, const std::string& end) {
+  algebra::DenseMatrix m(static_cast<Eigen::Index>(rows.size()), columns);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (static_cast<Eigen::Index>(rows[i].size()) != columns)
+      throw InputError(text("row ", i + 1, " of ", what, " has ", rows[i].size(), " numbers; ", end));
+    m.row(static_cast<Eigen::Index>(i)) = vector_of(rows[i]);
+  }
+  return m;
+}
+
 inline mesh::Point point_of(const std::vector<double>& v) {
   mesh::Point p{0, 0, 0};
   for (std::size_t i = 0; i < v.size() && i < 3; ++i) p[i] = v[i];
@@ -27,8 +38,7 @@ inline mesh::Point point_of(const std::vector<double>& v) {
 // Throws InputError unless the vector has as many components as the thing it belongs to has dimensions.
 inline mesh::Point point_of(const std::vector<double>& v, int dimension, const std::string& what) {
   if (static_cast<int>(v.size()) != dimension)
-    throw InputError(text("'", what, "' has ", v.size(), " components; it must have ", dimension, " here (",
-                          dimension, "-D)"));
+    throw InputError(text("'", what, "' has ", v.size(), " components; it must have ", dimension, " here (", dimension, "-D)"));
   return point_of(v);
 }
 
@@ -52,45 +62,47 @@ inline mesh::Point point_of(const Call& call, int dimension) {
   return {call.number("x"), call.number("y"), space ? call.number("z") : 0};
 }
 
-// A function of the coordinates to new ones, for use during the call only.
-inline auto point_map(const Function& map, int dimension) {
-  return [&map, n = static_cast<std::size_t>(dimension)](const mesh::Point& x) {
+// The functions below refer to Lua values: they are for use during the call only. Coordinates to new ones, to a number, to components:
+inline auto point_map(Function map, int dimension) {
+  return [map = std::move(map), n = static_cast<std::size_t>(dimension)](const mesh::Point& x) {
     mesh::Point y{0, 0, 0};
     map.numbers({x.data(), n}, {y.data(), n});
     return y;
   };
 }
 
-// The fields below refer to Lua values: they are for use during the call only.
-inline elasticity::ScalarField scalar_field(const Field& field, int dimension) {
-  return [&field, dimension](const mesh::Point& x) {
+inline elasticity::ScalarField scalar_field(Field field, int dimension) {
+  return [field = std::move(field), dimension](const mesh::Point& x) {
     double value;
     field.at({x.data(), static_cast<std::size_t>(dimension)}, {&value, 1});
     return value;
   };
 }
 
-inline elasticity::VectorField vector_field(const Field& field, int dimension) {
-  return [&field, dimension](const mesh::Point& x) {
+inline elasticity::VectorField vector_field(Field field, int dimension) {
+  return [field = std::move(field), n = static_cast<std::size_t>(dimension)](const mesh::Point& x) {
     mesh::Point value{0, 0, 0};
-    const auto n = static_cast<std::size_t>(dimension);
     field.at({x.data(), n}, {value.data(), n});
     return value;
   };
 }
 
-// The law of dotyk.friction given as `name`; `field` owns a function of it during the call.
-inline scene::Friction friction(Call& call, const char* name, int dimension, std::optional<Field>& field) {
-  if (!call.holds<FrictionLaw>(name)) return {};
-  const auto law = call.object<FrictionLaw>(name);
-  if (!law->varies) return {law->kind, [value = law->value](const mesh::Point&) { return value; }};
-  field.emplace(call.kept_function(call.slot(name), "value").at(0), 1);
-  return {law->kind, scalar_field(*field, dimension)};
+// The function `kept` with the object given as `name`.
+inline elasticity::ScalarField kept_field(const Call& call, const char* name, const char* kept, int dimension) {
+  return scalar_field(Field(call.kept_function(call.slot(name), kept).at(0), 1), dimension);
+}
+
+// The law of dotyk.friction given as `name`.
+inline scene::Friction friction(const Call& call, const char* name, int dimension) {
+  if (!call.holds<scene::Friction>(name)) return {};
+  scene::Friction law = *call.object<scene::Friction>(name);
+  if (!law.value) law.value = kept_field(call, name, "value", dimension);
+  return law;
 }
 
 // A key for a law along the tangents.
 inline Key tangential_key(const char* help) {
-  return key::either("tangential", {key::object<problem::SupportLaw>("", ""), key::object<FrictionLaw>("", "")}, help).otherwise("free");
+  return key::either("tangential", {key::object<problem::SupportLaw>("", ""), key::object<scene::Friction>("", "")}, help).otherwise("free");
 }
 
 // The field at every node: node × dimension.

@@ -2,15 +2,54 @@
 #include "script/bind/bind.hpp"
 #include "script/bind/shape/bind_shape.hpp"
 #include "script/bind/scene/space.hpp"
+#include "script/bridge/lua_side.hpp"
+#include "script/bridge/position.hpp"
 
 namespace dotyk::script {
+
+void push(lua_State* L, const Dual& dual) {
+  luaL_checkstack(L, 8, nullptr);
+  push_own_function(L, "dual", "make");
+  push(L, dual.value);
+  push(L, std::vector<double>(dual.gradient.begin(), dual.gradient.end()));
+  lua_call(L, 2, 1);
+}
+
+Dual take_dual(lua_State* L, Eigen::Index size, const std::string& what) {
+  if (size > 0 && lua_type(L, -1) == LUA_TNUMBER && std::isfinite(lua_tonumber(L, -1)))
+    throw std::runtime_error(what + " returned the number " + number_text(lua_tonumber(L, -1)) + ", which has no derivatives: compute with the design's dual numbers, "
+                             "not with what .value and design.solution give, or let dotyk.shape take differences");
+  const auto fail = [&](const std::string& why) { throw std::runtime_error(what + why); };
+  Dual dual{0, algebra::Vector::Zero(size)};
+  if (lua_type(L, -1) == LUA_TNUMBER) {
+    dual.value = lua_tonumber(L, -1);
+  } else if (meta_text(L, -1, "__name") == "dual number") {
+    lua_pushliteral(L, "value");
+    lua_rawget(L, -2);
+    lua_pushliteral(L, "gradient");
+    lua_rawget(L, -3);
+    dual.value = lua_tonumber(L, -2);
+    if (lua_type(L, -1) != LUA_TTABLE || static_cast<Eigen::Index>(lua_rawlen(L, -1)) != size)
+      fail(text(" returned a dual number with another number of derivatives than ", size));
+    dual.gradient = vector_of(read_value<std::vector<double>>(L, lua_gettop(L)));
+    lua_pop(L, 2);
+  } else {
+    fail(" returned " + describe_value(L, -1) + ", expected a number or a dual number (what the design's fields and methods give)");
+  }
+  if (!std::isfinite(dual.value)) fail(std::isnan(dual.value) ? std::string(" returned nan (not a number)") : text(" returned ", dual.value, "; it must be finite"));
+  for (Eigen::Index i = 0; i < size; ++i)
+    if (!std::isfinite(dual.gradient[i]))
+      fail(text(" returned ", dual.value, ", whose derivative by design variable ", i + 1, " is ", std::isnan(dual.gradient[i]) ? "not a number" : "infinite"));
+  lua_pop(L, 1);
+  return dual;
+}
 
 scene::Place Places::find(int body, const mesh::Point& x) {
   auto& locator = locators_[static_cast<std::size_t>(body)];
   const scene::Body& of = *scene_.bodies[static_cast<std::size_t>(body)];
   if (!locator) locator = std::make_unique<scene::Locator>(*of.mesh);
   const auto place = locator->find(x);
-  if (!place) throw InputError(text("(", x[0], ", ", x[1], of.dimension() == 3 ? text(", ", x[2]) : "", ") is outside '", of.name, "' as it was first designed"));
+  if (!place) throw InputError(text(point_text(x.data(), of.dimension()), " is outside '", of.name, "' as it was first designed"));
   return *place;
 }
 
@@ -31,6 +70,14 @@ int body_index(const Design& d, const scene::Body& body) {
   return index;
 }
 
+/// With derivatives of(variable).
+template <class Of>
+Dual dual(const Design& d, double value, Of&& of) {
+  Dual result{value, algebra::Vector(size(d))};
+  for (int i = 0; i < result.gradient.size(); ++i) result.gradient[i] = of(i);
+  return result;
+}
+
 /// Σ φ_a v_a, v node × dimension, empty: zero.
 double interpolated(const mesh::Mesh& mesh, const scene::Place& at, const std::vector<double>& v, int component) {
   double sum = 0;
@@ -45,11 +92,8 @@ template <class Get>
 int give_at_point(Call& call, const Design& d, int body, const std::vector<double>& values, Get&& get) {
   const mesh::Mesh& mesh = *d.state->scene().bodies[static_cast<std::size_t>(body)]->mesh;
   const scene::Place at = d.places->find(body, point_of(call, d.state->scene().dimension()));
-  for (int k = 0; k < mesh.dimension(); ++k) {
-    Dual dual{interpolated(mesh, at, values, k), algebra::Vector::Zero(size(d))};
-    for (int i = 0; i < dual.gradient.size(); ++i) dual.gradient[i] = interpolated(mesh, at, get(i), k);
-    push(call.state(), dual);
-  }
+  for (int k = 0; k < mesh.dimension(); ++k)
+    push(call.state(), dual(d, interpolated(mesh, at, values, k), [&](int i) { return interpolated(mesh, at, get(i), k); }));
   return mesh.dimension();
 }
 
@@ -68,54 +112,35 @@ int design_position(Call& call) {
                        [&](int i) -> const std::vector<double>& { return d->state->space().variable(i)[static_cast<std::size_t>(body)]; });
 }
 
-int contact_index(const Design& d, const scene::Contact& contact) {
-  const int index = d.state->scene().index_of(contact);
-  if (index < 0) throw InputError(text(contact.name, " is not of the scene that is designed"));
-  return index;
-}
-
-int design_contact(Call& call) {
+std::vector<Record> design_contact(Call& call) {
   const auto d = call.self<Design>();
-  lua_State* L = call.state();
+  const auto contact = call.object<scene::Contact>("contact");
   const DesignState& state = *d->state;
-  const int index = contact_index(*d, *call.object<scene::Contact>("contact"));
+  const int index = state.scene().index_of(*contact);
+  if (index < 0) throw InputError(text(contact->name, " is not of the scene that is designed"));
   const scene::Contact& of = *state.scene().contacts[static_cast<std::size_t>(index)];
   if (of.kind != scene::Contact::Kind::contact) throw InputError("glued parts have no contact nodes");
   const auto nodes = state.solution()->contact(of).nodes;
   const int body = state.scene().index_of(of.first.body.get());
   const int dimension = state.scene().dimension();
-  std::vector<std::vector<shape::ContactValue>> derivatives;
+  std::vector<std::vector<shape::ContactValue>> derivatives;  // by variable and node
   for (int i = 0; i < size(*d); ++i) derivatives.push_back(contact_derivatives(*state.solution(), index, state.space().variable(i), state.derivative(i)));
-  const auto dual = [&](double value, auto&& of_variable) {
-    Dual result{value, algebra::Vector(size(*d))};
-    for (int i = 0; i < result.gradient.size(); ++i) result.gradient[i] = of_variable(i);
-    return result;
-  };
-  lua_createtable(L, static_cast<int>(nodes.size()), 0);
+  std::vector<Record> records;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const scene::ContactNode& n = nodes[k];
-    lua_createtable(L, 0, 8);
-    const auto set = [&](const char* name, const auto& value) {
-      push(L, value);
-      lua_setfield(L, -2, name);
-    };
+    const auto with = [&](double value, auto&& of_node) { return dual(*d, value, [&](int i) { return of_node(derivatives[static_cast<std::size_t>(i)][k]); }); };
+    Record& record = records.emplace_back(Record{"contact node of a design", {}});
     for (int c = 0; c < dimension; ++c)
-      set(c == 0 ? "x" : c == 1 ? "y" : "z", dual(n.x[static_cast<std::size_t>(c)], [&](int i) {
-            const std::vector<double>& V = state.space().variable(i)[static_cast<std::size_t>(body)];
-            return V.empty() ? 0.0 : V[static_cast<std::size_t>(n.node) * dimension + c];
-          }));
-    set("force", dual(n.force, [&](int i) { return derivatives[static_cast<std::size_t>(i)][k].force; }));
-    set("gap", dual(n.gap, [&](int i) { return derivatives[static_cast<std::size_t>(i)][k].gap; }));
-    set("weight", dual(n.weight, [&](int i) { return derivatives[static_cast<std::size_t>(i)][k].weight; }));
-    set("pressure", dual(n.pressure, [&](int i) {
-          const shape::ContactValue& v = derivatives[static_cast<std::size_t>(i)][k];
-          return n.weight > 0 ? (v.force - n.pressure * v.weight) / n.weight : 0.0;
-        }));
-    set("status", std::string(problem::status_name(n.status)));
-    make_strict(L, "contact node of a design");
-    lua_rawseti(L, -2, static_cast<lua_Integer>(k) + 1);
+      record.add({{std::string(1, "xyz"[c]), dual(*d, n.x[static_cast<std::size_t>(c)], [&](int i) {
+                     const std::vector<double>& V = state.space().variable(i)[static_cast<std::size_t>(body)];
+                     return V.empty() ? 0.0 : V[static_cast<std::size_t>(n.node) * dimension + c];
+                   })}});
+    record.add({{"force", with(n.force, std::mem_fn(&shape::ContactValue::force))}, {"gap", with(n.gap, std::mem_fn(&shape::ContactValue::gap))},
+                {"weight", with(n.weight, std::mem_fn(&shape::ContactValue::weight))},
+                {"pressure", with(n.pressure, [&](const shape::ContactValue& v) { return n.weight > 0 ? (v.force - n.pressure * v.weight) / n.weight : 0.0; })},
+                {"status", problem::status_name(n.status)}});
   }
-  return 1;
+  return records;
 }
 
 std::shared_ptr<Design> along(Call& call) {

@@ -1,5 +1,7 @@
 // shape:optimise and what it returns.
 #include <cstdio>
+#include <iomanip>
+#include <sstream>
 
 #include "base/whole_file.hpp"
 #include "script/bind/bind.hpp"
@@ -13,7 +15,6 @@ struct OptimumHandle {
   shape::EvaluatorCost cost;
   std::vector<std::string> refusals;  // of each design of the history
   std::shared_ptr<Design> design;  // the best one
-  double seconds = 0;
   std::size_t method = 0;
 };
 template <> struct Wrapped<OptimumHandle> : Called<"optimum"> {};
@@ -83,45 +84,35 @@ class Run {
     const shape::DesignProblem problem{shape_->lower, shape_->upper, [this](const Vector& alpha) { return evaluated(alpha); },
                                        [this](const DesignRecord& record) { tell(record); }};
     auto handle = std::make_shared<OptimumHandle>();
-    handle->optimum = method_ == 0 ? minimise(problem, start, slp(), stopping_) : minimise(problem, start, mma(), stopping_);
+    if (method_ == 0) {
+      auto slp = settings<shape::Slp>();
+      slp.radius = radius_;
+      handle->optimum = minimise(problem, start, slp, stopping_);
+    } else {
+      auto mma = settings<shape::Mma>();
+      mma.method = static_cast<shape::Mma::Method>(method_ - 1);
+      handle->optimum = minimise(problem, start, mma, stopping_);
+    }
     handle->refusals = refusals_;
     handle->method = method_;
     handle->cost = evaluator_.cost();
-    handle->design = wrapped(best_);
-    handle->seconds = handle->optimum.history.empty() ? 0 : handle->optimum.history.back().seconds;
+    handle->design = std::make_shared<Design>(best_, *shape_);
     return handle;
   }
 
  private:
   /// Stops where the user or on_design wants it.
-  class Stopping final : public Monitor {
-   public:
-    explicit Stopping(Run& run) : run_(run) {}
-    bool stop() override { return run_.refused_ || run_.watch_.stop(); }
-
-   private:
-    Run& run_;
+  struct Stopping final : Monitor {
+    explicit Stopping(Run& of) : run(of) {}
+    bool stop() override { return run.refused_ || run.watch_.stop(); }
+    Run& run;
   };
 
-  shape::Slp slp() const {
-    shape::Slp settings;
-    call_.fill<shape::Stopping>(settings);
-    settings.radius = radius_;
-    return settings;
-  }
-  shape::Mma mma() const {
-    shape::Mma settings;
-    call_.fill<shape::Stopping>(settings);
-    settings.method = static_cast<shape::Mma::Method>(method_ - 1);
-    return settings;
-  }
-
-  std::shared_ptr<Design> wrapped(std::shared_ptr<const shape::DesignState> state) const {
-    auto design = std::make_shared<Design>();
-    design->state = std::move(state);
-    design->places = shape_->places;
-    design->exponent = shape_->exponent;
-    return design;
+  template <class Method>
+  Method settings() const {
+    Method all;
+    call_.fill<shape::Stopping>(all);
+    return all;
   }
 
   std::optional<shape::Evaluation> evaluated(const Vector& alpha) {
@@ -139,20 +130,17 @@ class Run {
     if (record.admissible && call_.has("figures")) draw(call_.state(), evaluator_.last()->solution(), file_of(call_.text("figures"), record.design));
     if (on_design_.empty()) return;
     const Record told = design_record(record, evaluator_.refusal());
-    const bool goes_on = record.admissible ? on_design_.front()(record.design, told, wrapped(evaluator_.last())) : on_design_.front()(record.design, told);
+    const bool goes_on = record.admissible ? on_design_.front()(record.design, told, std::make_shared<Design>(evaluator_.last(), *shape_)) : on_design_.front()(record.design, told);
     refused_ = refused_ || !goes_on;
   }
 
   void save(const DesignRecord& record) const {
-    std::string start;
-    char number[40];
-    for (const double a : record.alpha) {
-      std::snprintf(number, sizeof number, "%.17g", a);
-      start += (start.empty() ? "" : ", ") + std::string(number);
-    }
-    std::snprintf(number, sizeof number, "%.17g", record.radius);
-    write_whole_file(call_.text("file"), text("-- design ", record.design, "; shape:optimise(dofile(this file)) goes on\nreturn { method = \"", kOptimisers[method_], "\", start = { ", start, " }",
-                                              record.radius > 0 ? text(", radius = ", number) : "", " }\n"));
+    std::ostringstream out;
+    out << std::setprecision(17) << "-- design " << record.design << "; shape:optimise(dofile(this file)) goes on\nreturn { method = \"" << kOptimisers[method_];
+    for (Eigen::Index i = 0; i < record.alpha.size(); ++i) out << (i == 0 ? "\", start = { " : ", ") << record.alpha[i];
+    out << " }";
+    if (record.radius > 0) out << ", radius = " << record.radius;
+    write_whole_file(call_.text("file"), out.str() + " }\n");
   }
 
   Call& call_;
@@ -187,7 +175,7 @@ std::vector<Record> history(const OptimumHandle& o) {
 Record cost(const OptimumHandle& o) {
   const shape::EvaluatorCost& c = o.cost;
   return {"cost",
-          {{"designs", o.optimum.history.size()}, {"seconds", o.seconds},
+          {{"designs", o.optimum.history.size()}, {"seconds", o.optimum.history.empty() ? 0 : o.optimum.history.back().seconds},
            {"analyses", c.designs.analyses}, {"analysis_seconds", c.analysis_seconds}, {"iterations", c.designs.iterations},
            {"derivatives", c.designs.derivatives + c.beside.analyses}, {"derivative_seconds", c.derivative_seconds},
            {"derivative_iterations", c.beside.iterations}}};

@@ -38,15 +38,6 @@ class Places {
   std::vector<std::unique_ptr<scene::Locator>> locators_;
 };
 
-// A design as a script sees it; its numbers are duals unless derivatives are not wanted.
-struct Design {
-  std::shared_ptr<const shape::DesignState> state;
-  std::shared_ptr<Places> places;
-  double exponent = 8;  // of peak_pressure
-  bool derivatives = true;
-  Dual dual(const shape::Quantity& quantity) const;
-};
-
 // What is minimised or kept below a bound: one of the quantities, or a function kept with the object under this name.
 struct QuantityChoice {
   std::string kept;  // empty: not a function
@@ -66,16 +57,18 @@ struct Shape {
   solver::Method method;
 };
 
+// A design as a script sees it; its numbers are duals unless derivatives are not wanted.
+struct Design {
+  std::shared_ptr<const shape::DesignState> state;
+  std::shared_ptr<Places> places;
+  double exponent;  // of peak_pressure
+  bool derivatives = true;
+  Design(std::shared_ptr<const shape::DesignState> of, const Shape& shape) : state(std::move(of)), places(shape.places), exponent(shape.exponent) {}
+  Dual dual(const shape::Quantity& quantity) const;
+};
+
 template <> struct Wrapped<Design> : Called<"design"> {};
 template <> struct Wrapped<Shape> : Called<"shape"> {};
-
-// The keys of dotyk.shape that move parts, and the variables they make.
-Key moves_key();
-struct Variables {
-  std::vector<shape::Velocities> velocities;
-  std::vector<double> lower, upper, start;
-};
-Variables read_moves(const Call& call, const scene::Scene& scene);
 
 // As many numbers as there are design variables; throws InputError, which calls them `what`, where there are more or fewer.
 algebra::Vector variables_of(const std::vector<double>& values, const shape::DesignSpace& space, const char* what);
