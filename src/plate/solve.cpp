@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "algebra/dense/lu.hpp"
-#include "algebra/pick_rows.hpp"
+#include "algebra/types.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "plate/solution.hpp"

@@ -31,7 +31,7 @@ std::shared_ptr<const Solution> with(plate::Element element, SupportLaw deflecti
 }
 
 /// Of the vertices' deflections: the frames of their gradients are not the same where other ones are held.
-double distance(const Solution& a, const Solution& b) {
+double apart(const Solution& a, const Solution& b) {
   double off = 0, size = 0;
   for (int n = 0; n < a.plate().mesh->node_count(); ++n) {
     off += std::pow(a.vertex_deflection(n) - b.vertex_deflection(n), 2);
@@ -62,12 +62,12 @@ TEST_CASE("elastic supports: of stiffness k → ∞ what is held with 1/k, of k 
     const auto held = with_law(kHeld), none = with_law(kFree);
     // What is held and what an infinitely stiff spring holds are the same but where HCT's corners are held in their slopes, too.
     double last = 0, now = 0;
-    for (const double k : {1e-4, 1e-5}) last = now, now = distance(*with_law({Kind::elastic, k}), *none);
+    for (const double k : {1e-4, 1e-5}) last = now, now = apart(*with_law({Kind::elastic, k}), *none);
     CHECK(last / now == doctest::Approx(10).epsilon(0.02));
     double stiff = 0, stiffer = 0;
-    for (const double k : {1e6, 1e7}) stiff = stiffer, stiffer = distance(*with_law({Kind::elastic, k}), *with_law({Kind::friction, 1e9}));
+    for (const double k : {1e6, 1e7}) stiff = stiffer, stiffer = apart(*with_law({Kind::elastic, k}), *with_law({Kind::friction, 1e9}));
     CHECK(stiff / stiffer == doctest::Approx(10).epsilon(0.05));
-    CHECK(distance(*with_law({Kind::elastic, 1e8}), *held) < 0.02);
+    CHECK(apart(*with_law({Kind::elastic, 1e8}), *held) < 0.02);
   });
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("one-sided elastic supports tend to Signorini's with 1/k") {
     const auto rigid = with_law({Kind::signorini});
     CHECK(rigid->result().state.lambda.minCoeff() >= 0);
     double last = 0, now = 0;
-    for (const double k : {1e7, 1e8}) last = now, now = distance(*with_law({Kind::one_sided_elastic, k}), *rigid);
+    for (const double k : {1e7, 1e8}) last = now, now = apart(*with_law({Kind::one_sided_elastic, k}), *rigid);
     CHECK(last / now == doctest::Approx(10).epsilon(0.05));
   });
 }
@@ -84,25 +84,25 @@ TEST_CASE("one-sided elastic supports tend to Signorini's with 1/k") {
 TEST_CASE("friction of a bound beyond all reactions holds as what is prescribed does") {
   each([](const auto& with_law) {
     const auto a = with_law({Kind::friction, 1e4}), b = with_law({Kind::friction, 1e8});
-    CHECK(distance(*a, *b) < 1e-9);
-    CHECK(distance(*a, *with_law(kHeld)) < 0.02);
+    CHECK(apart(*a, *b) < 1e-9);
+    CHECK(apart(*a, *with_law(kHeld)) < 0.02);
   });
   // Morley's freedoms are what laws act on: exactly.
   for (const bool deflection : {true, false})
-    CHECK(distance(*of(plate::Element::morley, deflection, {Kind::friction, 1e4}), *of(plate::Element::morley, deflection, kHeld)) < 1e-9);
+    CHECK(apart(*of(plate::Element::morley, deflection, {Kind::friction, 1e4}), *of(plate::Element::morley, deflection, kHeld)) < 1e-9);
 }
 
 TEST_CASE("laws that are the same in other words") {
   each([](const auto& with_law) {
     const auto elastic = with_law({Kind::elastic, 7});
-    CHECK(distance(*with_law({Kind::unequal_elastic, 7, 0, 7}), *elastic) < 1e-9);
-    CHECK(distance(*with_law({Kind::capped_elastic, 7, 1e6}), *elastic) < 1e-9);
-    CHECK(distance(*with_law({Kind::unequal_elastic, 7, 0, 0}), *with_law({Kind::one_sided_elastic, 7})) < 1e-9);
-    CHECK(distance(*with_law({Kind::one_sided_friction, 1e6}), *with_law({Kind::signorini})) < 1e-9);
-    CHECK(distance(*with_law({Kind::capped_elastic, 1e9, 0.02}), *with_law({Kind::friction, 0.02})) < 1e-4);
-    CHECK(distance(*with_law({Kind::friction, 0}), *with_law(kFree)) < 1e-9);
-    CHECK(distance(*with_law({Kind::elastic, 0}), *with_law(kFree)) < 1e-9);
-    CHECK(distance(*with_law({Kind::prescribed, 0}), *with_law(kHeld)) < 1e-15);
+    CHECK(apart(*with_law({Kind::unequal_elastic, 7, 0, 7}), *elastic) < 1e-9);
+    CHECK(apart(*with_law({Kind::capped_elastic, 7, 1e6}), *elastic) < 1e-9);
+    CHECK(apart(*with_law({Kind::unequal_elastic, 7, 0, 0}), *with_law({Kind::one_sided_elastic, 7})) < 1e-9);
+    CHECK(apart(*with_law({Kind::one_sided_friction, 1e6}), *with_law({Kind::signorini})) < 1e-9);
+    CHECK(apart(*with_law({Kind::capped_elastic, 1e9, 0.02}), *with_law({Kind::friction, 0.02})) < 1e-4);
+    CHECK(apart(*with_law({Kind::friction, 0}), *with_law(kFree)) < 1e-9);
+    CHECK(apart(*with_law({Kind::elastic, 0}), *with_law(kFree)) < 1e-9);
+    CHECK(apart(*with_law({Kind::prescribed, 0}), *with_law(kHeld)) < 1e-15);
   });
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("laws by functions: those of parts that the function tells apart, and 
       Plate of_parts = cantilever(element, test::always({Kind::elastic, 2}), {}, cells);
       of_parts.edges[1].deflection = test::always({Kind::elastic, 5});
       // Corners stand for half of an edge of the mesh with 5 in place of 2.
-      CHECK(distance(*a, *test::solved(of_parts)) < 1.0 / cells);
+      CHECK(apart(*a, *test::solved(of_parts)) < 1.0 / cells);
     }
     // Any law that changes from point to point is obeyed at each, and called once a point.
     int calls = 0;

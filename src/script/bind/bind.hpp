@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "problem/condensed_block.hpp"
+#include "problem/condensed.hpp"
 #include "problem/residual.hpp"
 #include "script/bind/setups.hpp"
 #include "script/bridge/library.hpp"

@@ -6,7 +6,6 @@
 
 #include "script/complete/complete_context.hpp"
 #include "script/complete/lua_tokens.hpp"
-#include "script/bridge/enter.hpp"
 #include "script/bridge/library.hpp"
 
 namespace dotyk::script {

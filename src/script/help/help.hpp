@@ -22,5 +22,4 @@ std::string help_search(const Library& library, const std::string& word);
 // The whole reference as a Markdown page.
 std::string reference_page(const Library& library);
 
-
 }  // namespace dotyk::script

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "algebra/pick_rows.hpp"
-#include "problem/law/limited.hpp"
+#include "problem/law.hpp"
 #include "solver/rows/projection.hpp"
 
 namespace dotyk::solver {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <functional>
 
-#include "algebra/pick_rows.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "problem/condensed_block.hpp"
+#include "problem/condensed.hpp"
 #include "problem/rigid_motions.hpp"
 #include "program/active_set.hpp"
 #include "solver/core/solver.hpp"
