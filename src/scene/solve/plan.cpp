@@ -12,6 +12,7 @@
 #include "scene/statement/scene.hpp"
 #include "solver/core/default_method.hpp"
 #include "solver/core/near_rows.hpp"
+#include "solver/core/turned_nodes.hpp"
 #include "solver/core/require_solvable.hpp"
 
 namespace dotyk::scene {
@@ -55,6 +56,8 @@ std::string expected(const problem::Problem& problem) {
 
 /// The method that solves it where none is named, and why.
 std::string method(const problem::Problem& problem, bool any_free) {
+  if (const solver::TurnedNodes nodes(problem); !nodes.none())
+    return method(nodes.turned(), any_free) + text("; ", problem.rows() - nodes.count(), " rows of oblique slides are none, since their nodes' frames are turned");
   const std::string factored = text(" (", problem.unknowns(), " unknowns factored once", expected(problem), ")");
   switch (solver::default_method(problem)) {
     case solver::DefaultMethod::linear: return text("one linear solve of ", problem.unknowns(), " unknowns");

@@ -28,7 +28,7 @@ constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
 /// Generalised conjugate residuals: how many directions, how many are kept, how exactly each is solved for, and what of a residual's change is rounding.
 constexpr int kMostDirections = 60, kKeptDirections = 20;
-constexpr double kShareOfDirection = 0.03, kCancelled = 1e-24;
+constexpr double kShareOfDirection = 0.1, kCancelled = 1e-24;
 
 class HeldStep final : public Step {
  public:

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "multigrid/multigrid.hpp"
 #include "solver/core/near_rows.hpp"
+#include "solver/core/turned_nodes.hpp"
 #include "solver/rows/newton.hpp"
 #include "solver/active/pdas.hpp"
 
@@ -26,16 +27,6 @@ bool multigrid_is_faster(const problem::Problem& problem) {
   if (problem.unknowns() < kLarge || !problem.subdomains.empty() || !multigrid::available() || !tells_springs(problem) || !solid_in_space(problem)) return false;
   const Expected seconds = expected(problem);
   return seconds.condensed > kClearly * seconds.multigrid;
-}
-
-/// Of the mean stiffness of unknowns, the greatest of all blocks against the least.
-double contrast(const problem::Problem& problem) {
-  double least = INFINITY, greatest = 0;
-  for (const problem::Block& block : problem.blocks) {
-    const double mean = block.size() > 0 ? block.K.diagonal().mean() : 0;
-    if (mean > 0) least = std::min(least, mean), greatest = std::max(greatest, mean);
-  }
-  return greatest > least ? greatest / least : 1;
 }
 
 /// Has nearly every row an unknown that no other row has, as those of mortar glue of order 1 do? Else the basis of rows fills up.
@@ -61,13 +52,12 @@ bool rows_stand_apart(const problem::Problem& problem) {
 Expected expected(const problem::Problem& problem) {
   // Measured on cubes, and on the parts of scripts/studies/bench/gmsh_parts.lua. With n unknowns, m points of contact: 7.5 n² operations for a factor by
   // nested dissection, and 3 (3m)³ for the dense matrices, which have three components a point.
-  constexpr double kFlops = 1.2e10, kFactor = 7.5, kRows = 81, kOneBody = 1e-4;
+  constexpr double kFlops = 1.2e10, kFactor = 7.5, kRows = 81, kUnknown = 1e-4;
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
   const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !all_linear(problem);
-  // Where parts of unlike stiffness touch, iterations grow about with the root of the contrast: 18 to 80 on the gasket, a hundred times softer.
-  const double iterations = problem.blocks.size() > 1 ? 2 * std::max(1.0, std::sqrt(contrast(problem)) / 2) : 1;
-  return {(kFactor * n * n + kRows * m * m * m) / kFlops, kOneBody * n * iterations};
+  const double solves = problem.friction.empty() ? 1 : 2;  // times as many iterations
+  return {(kFactor * n * n + kRows * m * m * m) / kFlops, kUnknown * n * solves};
 }
 
 DefaultMethod default_method(const problem::Problem& problem) {
@@ -112,7 +102,7 @@ std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) 
   problem::Clock before;
   for (;;) try {
       const problem::Problem part = near.restricted();
-      Result result = run(part, default_method(part), {near.restricted(from.start), nullptr, from.from ? std::make_shared<problem::State>(near.restricted(*from.from)) : nullptr}, monitor);
+      Result result = run(part, default_method(part), near.restricted(from), monitor);
       near.extend(result);
       result.clock.add_solve(before);
       if (!result.converged && !monitor.stop()) return std::nullopt;
@@ -124,11 +114,26 @@ std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) 
     }
 }
 
+/// With rows that turned nodes make unnecessary left out; nothing where there are none, or where that does not solve it.
+std::optional<Result> run_turned(const problem::Problem& problem, const Beginning& from, Monitor& monitor) {
+  const TurnedNodes nodes(problem);
+  if (nodes.none()) return std::nullopt;
+  try {
+    Result result = solve(nodes.turned(), {}, nodes.turned(from), monitor);
+    nodes.extend(result);
+    if (result.converged || monitor.stop()) return result;
+  } catch (const InputError&) {  // said anew of the problem as it was given
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor, std::optional<bool> condensed) {
   if (problem.rows() == 0 && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
   if (method) return method.run(problem, std::move(from), monitor);
+  if (!from.condenser && !condensed)
+    if (auto result = run_turned(problem, from, monitor)) return *std::move(result);
   const DefaultMethod by_default = default_method(problem);
   Result before;
   if (!condensed && (by_default == DefaultMethod::multigrid || (by_default == DefaultMethod::held && !from.condenser))) {

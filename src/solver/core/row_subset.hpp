@@ -1,0 +1,33 @@
+#pragma once
+
+#include "solver/core/solver.hpp"
+
+namespace dotyk::solver {
+
+/// A problem on some of its rows, as if the others were not there, and its results as results of the whole problem.
+class RowSubset {
+ public:
+  /// All rows. The problem must outlive this.
+  explicit RowSubset(const problem::Problem& problem) : problem_(problem) { take(std::vector<char>(problem.rows(), 1)); }
+
+  bool all() const { return rows_.size() == kept_.size(); }
+  int count() const { return static_cast<int>(rows_.size()); }
+  const std::vector<char>& kept() const { return kept_; }  ///< by row
+  problem::Problem restricted() const;
+  std::vector<char> restricted(const std::vector<char>& flags) const;
+  problem::State restricted(const problem::State& state) const;
+  Beginning restricted(const Beginning& from) const;
+  /// Makes a result of restricted() one of the whole problem: the rows left out are open and bear no force.
+  void extend(Result& result) const;
+
+ protected:
+  const problem::Problem& problem() const { return problem_; }
+  void take(std::vector<char> kept);
+
+ private:
+  const problem::Problem& problem_;
+  std::vector<char> kept_;
+  std::vector<int> rows_;  ///< those, ascending
+};
+
+}  // namespace dotyk::solver
