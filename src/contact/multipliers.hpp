@@ -85,7 +85,7 @@ struct FrictionCell {
 /// The cells of p1_p0 for the bound g at the contact rows (g_h is its linear interpolation; at a crack's tip the
 /// mean of the facet's other corners). Cells where g_h vanishes are left out.
 /// In the plane a dual cell a node; the half cells of a node that does not move belong to its neighbour's, those of a node that is `bare`
-/// (none given: none is) to no cell: they bear no friction. `size` joins dual cells, or in space facets, into cells of about that extent H (see partition.hpp); 0 stands for the
+/// (none given: none is) to no cell: they bear no friction. `size` joins dual cells, or in space facets, into cells of about that extent H (see partition()); 0 stands for the
 /// dual cells themselves, in space for kCellWidth times the widest facet.
 std::vector<FrictionCell> friction_cells(const Surface& surface, const std::vector<double>& g,
                                          const std::vector<char>& moves, double size, const std::vector<char>& bare = {});

@@ -35,7 +35,7 @@ const char* name(const RigidShape& shape);
 /// One row a corner of the part's facets. A plane and a gap say the normal. Against a ball it is that of frame.hpp: n₁ and |K₁| are the
 /// part's, −n₂ points to the centre, and |K₂| is 1/distance from the centre, that of the sphere about it through the node. On a flat part rows
 /// so have the part's normal and the gap that a RigidGap of the same ball has. Where the part has no normal of its own (edges), or one more
-/// than 60° off the line to the centre, rows have that line. The gap is measured along the normal, with nodes at rest, see ball_gap.hpp.
+/// than 60° off the line to the centre, rows have that line. The gap is measured along the normal, with nodes at rest, see ball_gap().
 /// `added` (may be empty) is added to it.
 /// Throws InputError for a gap that is not finite, and for a plane or ball that overlaps the part
 /// at rest by more than rounding, unless `interference` says that this is meant; and for a shape that lies behind the part: a plane or

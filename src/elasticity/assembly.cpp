@@ -35,6 +35,13 @@ class Assembly {
     const int high = std::max(a, b), low = std::min(a, b);
     int place = start_[low];
     while (neighbour_[place] != high) ++place;
+    if (count_[high] == dim_ && count_[low] == dim_) {  // nothing prescribed: the rows of a column follow one another
+      for (int j = 0; j < dim_; ++j) {
+        double* column = system.K.valuePtr() + system.K.outerIndexPtr()[first_[low] + j] + offset_[place] - j;
+        for (int i = a == b ? j : 0; i < dim_; ++i) column[i] += a >= b ? block(i, j) : block(j, i);
+      }
+      return;
+    }
     for (int i = 0; i < dim_; ++i)
       for (int j = 0; j < dim_; ++j) {
         const double k = block(i, j);

@@ -44,7 +44,7 @@ std::array<ElementTopology, 8> topologies() {
 
 const ElementTopology& topology(Element element) {
   static const auto all = topologies();
-  return all[static_cast<std::size_t>(element)];
+  return all.at(static_cast<std::size_t>(element));
 }
 
 int node_between(const ElementTopology& t, std::vector<int> corners) {

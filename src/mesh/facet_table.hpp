@@ -16,6 +16,7 @@ class FacetTable {
 
   explicit FacetTable(const Mesh& mesh) {
     const ElementTopology& t = mesh.topology();
+    corners_.reserve(static_cast<std::size_t>(mesh.cell_count()) * t.facets);
     for (int c = 0; c < mesh.cell_count(); ++c)
       for (int l = 0; l < t.facets; ++l) {
         int nodes[4];

@@ -1,5 +1,6 @@
 #include "meshfile/load.hpp"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -96,6 +97,10 @@ Loaded mesh_file(const std::string& file, const Meshing& meshing, const Choice& 
 class TextFile {
  public:
   explicit TextFile(const std::string& text) : file_(memfd_create("geometry", 0)) {
+    if (const int low = file_; low >= 0 && low <= STDERR_FILENO) {  // the programs get new ones of these
+      file_ = fcntl(low, F_DUPFD, STDERR_FILENO + 1);
+      ::close(low);
+    }
     if (file_ < 0 || ::write(file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
       throw std::runtime_error(std::string("the geometry's text cannot be handed over: ") + std::strerror(errno));
   }

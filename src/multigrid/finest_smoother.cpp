@@ -2,9 +2,9 @@
 
 namespace dotyk::multigrid {
 
-void FinestSmoother::set(Mat matrix, const std::vector<PetscInt>& shared) {
+bool FinestSmoother::set(Mat matrix, const std::vector<PetscInt>& shared) {
   matrix_ = matrix, shared_ = shared;
-  if (shared_.empty()) return;
+  if (shared_.empty()) return true;
   PetscInt size = 0;
   check(MatGetSize(matrix_, &size, nullptr));
   Owned<IS, ISDestroy> some, all;
@@ -21,7 +21,10 @@ void FinestSmoother::set(Mat matrix, const std::vector<PetscInt>& shared) {
   check(KSPGetPC(exact_, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERCHOLMOD));
-  check(KSPSetUp(exact_));
+  const PetscErrorCode code = KSPSetUp(exact_);
+  if (code == PETSC_ERR_MAT_CH_ZRPVT) return false;
+  check(code);
+  return true;
 }
 
 void FinestSmoother::attach(KSP level, bool before) {
@@ -39,8 +42,8 @@ PetscErrorCode FinestSmoother::smooth(PC shell, Vec b, Vec x, Vec, PetscReal, Pe
   const auto [self, before] = *static_cast<Side*>(context);
   *count = 1, *reason = PCRICHARDSON_CONVERGED_ITS;
   try {
-    if (from_zero) check(VecSet(x, 0));
-    if (before) check(MatSOR(self->matrix_, b, 1, SOR_LOCAL_FORWARD_SWEEP, 0, 1, 1, x));
+    if (before) check(MatSOR(self->matrix_, b, 1, static_cast<MatSORType>(SOR_LOCAL_FORWARD_SWEEP | (from_zero ? SOR_ZERO_INITIAL_GUESS : 0)), 0, 1, 1, x));
+    else if (from_zero) check(VecSet(x, 0));
     self->solve_shared(b, x);
     if (!before) check(MatSOR(self->matrix_, b, 1, SOR_LOCAL_BACKWARD_SWEEP, 0, 1, 1, x));
   } catch (const std::exception& error) {

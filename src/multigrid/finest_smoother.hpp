@@ -12,8 +12,8 @@ namespace dotyk::multigrid {
 /// correction the sweep goes forward and comes first, after it backward and last, so that the cycle is symmetric.
 class FinestSmoother {
  public:
-  /// Takes the numbers of `matrix`, which must outlive this; `shared`: rows, ascending, may be none.
-  void set(Mat matrix, const std::vector<PetscInt>& shared);
+  /// Takes the numbers of `matrix`, which must outlive this; `shared`: rows, ascending, may be none. False where they are not definite.
+  bool set(Mat matrix, const std::vector<PetscInt>& shared);
   /// Makes it the smoother of a level of PCMG, which it must outlive in its place.
   void attach(KSP level, bool before);
 

@@ -77,7 +77,7 @@ class PetscSolver final : public Solver {
     monitor_.check();
     const std::lock_guard lock(only_one());
     if (!hierarchy_.set(lower, held)) return false;
-    finest_.set(hierarchy_.matrix(0), hierarchy_.shared());
+    if (!finest_.set(hierarchy_.matrix(0), hierarchy_.shared())) return false;
     check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
     check(KSPSetUp(ksp_));
     return true;

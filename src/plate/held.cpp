@@ -66,8 +66,15 @@ class Holder {
       slopes_[s.place].push_back({t, derivative(plate_.edges[s.support].deflection, s, t)});
     };
     if (node.smooth) return along(node.normal);
-    for (const int e : s.edges)
-      if (e >= 0) along(space_.edges.edges[e].normal);
+    for (const int e : node.edges)
+      if (e == s.edges[0] || e == s.edges[1] || (node.edges.size() > 2 && of_support(e, s.support))) along(space_.edges.edges[e].normal);
+  }
+
+  /// Four edges of one part meet where holes touch at a corner.
+  bool of_support(int edge, int support) const {
+    for (const mesh::Facet f : plate_.edges[support].facets)
+      if (space_.edges.of_cell[f.cell][f.local] == edge) return true;
+    return false;
   }
 
   /// Of the prescribed deflection along t: five points, exact for polynomials of degree 4; on one side of the end of what is

@@ -96,7 +96,7 @@ void lay_out(Stage& stage);
 // colours.
 void fit_window(Stage& stage, const Box& room);
 
-// Rigid obstacles: filled and hatched in the plane, surfaces in space.
+// Rigid obstacles: hatched on the solid side in the plane, surfaces in space.
 Layer obstacle_layer();
 // Its points; in the plane those of a line.
 std::vector<Point> obstacle_line(const View& view, const RigidPicture& rigid);

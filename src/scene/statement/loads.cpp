@@ -76,14 +76,19 @@ void pressure(Part& part, const elasticity::ScalarField& value, const std::strin
 void load_volume(Body& body, const elasticity::VectorField& force) {
   const std::size_t dim = body.dimension();
   VolumeLoad load{elasticity::cell_points(*body.mesh), true, nullptr, 1};
-  std::vector<double> values;
+  std::vector<double> values;  // while they are all alike, one
+  std::size_t known = 0;
   elasticity::add_body_force(*body.mesh, elasticity::CellField([&](const elasticity::CellPoint& p) {
     const Point f = force(p.x);
-    values.insert(values.end(), f.begin(), f.begin() + dim);
-    load.uniform = load.uniform && std::equal(f.begin(), f.begin() + dim, values.begin());
+    if (known > 0 && load.uniform && !std::equal(f.begin(), f.begin() + dim, values.begin())) {
+      load.uniform = false;
+      values.reserve(static_cast<std::size_t>(body.mesh->cell_count()) * load.points * dim);
+      for (std::size_t k = dim; k < known * dim; ++k) values.push_back(values[k - dim]);
+    }
+    if (known == 0 || !load.uniform) values.insert(values.end(), f.begin(), f.begin() + dim);
+    ++known;
     return f;
   }), body.force);
-  if (load.uniform) values = std::vector<double>(values.begin(), values.begin() + dim);
   load.values = std::make_shared<const std::vector<double>>(std::move(values));
   body.volume_load = std::move(load);
 }

@@ -13,7 +13,6 @@
 #include "base/whole_file.hpp"
 #include "script/bridge/library.hpp"
 #include "script/prompt/interrupt.hpp"
-#include "script/bridge/library.hpp"
 #include "script/guard/manifest.hpp"
 #include "script/bridge/position.hpp"
 #include "script/prompt/terminal.hpp"

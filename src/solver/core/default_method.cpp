@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "multigrid/multigrid.hpp"
 #include "solver/core/near_rows.hpp"
 #include "solver/core/turned_nodes.hpp"
@@ -116,11 +117,16 @@ std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) 
 
 /// With rows that turned nodes make unnecessary left out; nothing where there are none, or where that does not solve it.
 std::optional<Result> run_turned(const problem::Problem& problem, const Beginning& from, Monitor& monitor) {
+  Stopwatch watch;
   const TurnedNodes nodes(problem);
   if (nodes.none()) return std::nullopt;
   try {
-    Result result = solve(nodes.turned(), {}, nodes.turned(from), monitor);
+    const problem::Problem turned = nodes.turned();
+    const double before = watch.lap();
+    Result result = solve(turned, {}, nodes.turned(from), monitor);
+    watch.lap();
     nodes.extend(result);
+    result.clock.assembly += before, result.clock.recover += watch.lap();
     if (result.converged || monitor.stop()) return result;
   } catch (const InputError&) {  // said anew of the problem as it was given
   }

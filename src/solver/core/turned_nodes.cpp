@@ -1,6 +1,7 @@
 #include "solver/core/turned_nodes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "algebra/dense/decompositions.hpp"
@@ -26,13 +27,6 @@ bool prescribes(const problem::RowGroup& group) {
   for (int k = 0; k < group.count; ++k)
     if (group.law->linear_stiffness(k) != problem::Law::kUnbounded) return false;
   return true;
-}
-
-/// The motions N α that the rows R do not notice.
-DenseMatrix unnoticed(const DenseMatrix& R, const DenseMatrix& N) {
-  if (N.cols() == 0 || R.rows() == 0) return N;
-  const algebra::SingularFactors f = algebra::singular_factors(R * N);
-  return N * f.V.rightCols(N.cols() - f.rank(kStopped * R.norm() * N.norm()));
 }
 
 }  // namespace
@@ -99,19 +93,20 @@ Problem TurnedNodes::turned() const {
   for (Block& block : out.blocks) {
     const int begin = block.first, end = begin + block.size();
     const int after = static_cast<int>(std::partition_point(nodes_.begin(), nodes_.end(), [&](const Node& some) { return some.first < end; }) - nodes_.begin());
-    int fixed = 0, rows = 0;
+    int rows = 0;
     for (auto k = n; k < nodes_.begin() + after; ++k) rows += static_cast<int>(k->rows.size());
     block.first = first;
     if (rows > 0) {
       const SparseMatrix T = T_.block(begin, first, end - begin, end - begin - rows);
       const Vector u0 = u0_.segment(begin, end - begin);
       const SparseMatrix K = block.K.selfadjointView<Eigen::Lower>();
-      DenseMatrix R = DenseMatrix::Zero(rows, end - begin);
+      DenseMatrix moved(rows, block.kernel.cols());  // what the rows notice of motions
+      double size = 0;
       std::vector<int> kept_nodes;
-      int next = 0;
+      int next = 0, at = 0;
       for (; n < nodes_.begin() + after; ++n) {
-        R.block(fixed, n->first - begin, n->R.rows(), n->unknowns) = n->R;
-        fixed += static_cast<int>(n->R.rows());
+        moved.middleRows(at, n->R.rows()) = n->R * block.kernel.middleRows(n->first - begin, n->unknowns);
+        at += static_cast<int>(n->R.rows()), size = std::hypot(size, n->R.norm());
         for (; next < n->first - begin + n->unknowns - n->R.rows(); ++next) kept_nodes.push_back(block.node[next]);
         next = n->first - begin + n->unknowns;
       }
@@ -119,7 +114,11 @@ Problem TurnedNodes::turned() const {
       block.offset += 0.5 * u0.dot(K * u0) - block.f.dot(u0);
       block.f = T.transpose() * (block.f - K * u0);
       block.K = SparseMatrix(T.transpose() * SparseMatrix(K * T)).triangularView<Eigen::Lower>();
-      block.kernel = T.transpose() * unnoticed(R, block.kernel);
+      if (block.kernel.cols() > 0) {
+        const algebra::SingularFactors f = algebra::singular_factors(moved);
+        const DenseMatrix unnoticed = block.kernel * f.V.rightCols(block.kernel.cols() - f.rank(kStopped * size * block.kernel.norm()));
+        block.kernel = T.transpose() * unnoticed;
+      }
       block.motions.clear();
       block.node = std::move(kept_nodes);
       if (block.rigid) block.rigid = [rigid = block.rigid, T] { return DenseMatrix(T.transpose() * rigid()); };
