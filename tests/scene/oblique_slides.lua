@@ -2,11 +2,11 @@
 -- rows on they are no rows where no method is named; named methods have them as rows.
 local check <const> = require "check"
 
-local function scene_of(turn, contact, free, method)
+local function scene_of(turn, contact, free, pushed)
   local c <const>, s <const> = math.cos(turn), math.sin(turn)
   local block <const> = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
     mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 0.8, 1}, cells = { 8, 7, 6 } }:transform(function(x, y, z) return c * x - s * y, s * x + c * y, z end) }
-  block:part"left":slide()
+  if pushed then block:part"left":support{ normal = dotyk.law.prescribed(pushed) } else block:part"left":slide() end
   block:part"front":slide()
   local lid <const> = dotyk.body{ name = "lid", material = dotyk.material{ E = 50, nu = 0.2 },
     mesh = dotyk.mesh.box{ from = {0, 0, 1}, to = {1, 0.8, 1.3}, cells = { 9, 8, 2 } }:transform(function(x, y, z) return c * x - s * y, s * x + c * y, z end) }
@@ -44,10 +44,21 @@ for name, contact in pairs(contacts) do
     -- What the slides bear, in the turned frame.
     local fx <const> = straight:reaction(straight_block:part"left")
     local gx <const>, gy <const> = turned:reaction(turned_block:part"left")
-    check.near(math.cos(0.7) * gx + math.sin(0.7) * gy, fx, 1e-8 * math.abs(fx))
+    check.near(math.cos(0.7) * gx + math.sin(0.7) * gy, fx, 1e-8)  -- of a load of 4
     -- A named method has them as rows.
     local named <const> = solved(0.7, name == "coulomb" and dotyk.solver.newton{} or dotyk.solver.pdas{})
     check.near(named.energy, turned.energy, 1e-9 * math.abs(turned.energy))
     check.equal(named.rows, turned.rows)
   end
+end
+
+-- Displacements that are prescribed along oblique normals, too.
+for _, name in ipairs{ "frictionless", "coulomb" } do
+  local scene <const> = scene_of(0.7, contacts[name], false, 0.01)
+  check.that(tostring(scene:plan()):find("frames are turned", 1, true), name)
+  local s <const> = dotyk.solve(scene)
+  local named <const> = (name == "coulomb" and dotyk.solver.newton{} or dotyk.solver.pdas{}):solve(scene)
+  check.that(s.converged and named.converged, name)
+  check.near(s.energy, named.energy, 1e-9 * math.abs(named.energy))
+  check.that(s.residual.equilibrium < 1e-9 and s.residual.law < 1e-9, name)
 end
