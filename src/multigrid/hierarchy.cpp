@@ -175,16 +175,23 @@ void Hierarchy::take_unknowns(Mat S) {
 }
 
 void Hierarchy::find_shared(Mat S, Mat displaced) {
-  constexpr double kFarStiffer = 10;
+  constexpr double kStiffer = 2;
   OwnedVec diagonal;
   check(MatCreateVecs(displaced, diagonal.put(), nullptr));
   check(MatGetDiagonal(displaced, diagonal));
   const PetscScalar* k = nullptr;
   check(VecGetArrayRead(diagonal, &k));
   const RowsView rows(S);
-  for (int i = 0; i < rows.count; ++i)
-    for (int at = rows.starts[i]; at < rows.starts[i + 1]; ++at)
-      if (const int j = rows.columns[at]; j != i && k[i] * rows.values[at] * rows.values[at] > kFarStiffer * k[j]) shared_.insert({i, j});
+  std::vector<double> brought(static_cast<std::size_t>(rows.count), 0.0);  // stiffness, by jumps
+  const auto each_pair = [&](auto&& visit) {
+    for (int i = 0; i < rows.count; ++i)
+      for (int at = rows.starts[i]; at < rows.starts[i + 1]; ++at)
+        if (rows.columns[at] != i) visit(i, rows.columns[at], rows.values[at]);
+  };
+  each_pair([&](int i, int j, double factor) { brought[j] += k[i] * factor * factor; });
+  each_pair([&](int i, int j, double) {
+    if (brought[j] > kStiffer * k[j]) shared_.insert({i, j});
+  });
   check(VecRestoreArrayRead(diagonal, &k));
 }
 

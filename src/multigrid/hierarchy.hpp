@@ -22,7 +22,7 @@ class Hierarchy {
   Mat matrix(int level) const { return matrices_[level]; }                ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
   const Embedding& embedding() const { return embedding_; }
-  /// Slots, ascending, that are not held and share the stiffness of two bodies, one ten times stiffer than the other: a jump that is an unknown
+  /// Slots, ascending, that are not held and share the stiffness of two bodies, one stiffer than the other: a jump that is an unknown
   /// in place of the stiffer body's displacement, and the softer body's displacements in it.
   std::vector<PetscInt> shared() const;
   double bytes() const;
