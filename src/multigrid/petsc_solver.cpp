@@ -1,5 +1,5 @@
 // Conjugate gradients with a V-cycle over a hierarchy, and the door of the library. PETSc knows no threads, so one call at a time goes
-// through; and no exception passes its functions.
+// through. No exception passes through functions of PETSc.
 #include <cmath>
 #include <exception>
 #include <limits>

@@ -85,7 +85,6 @@ TurnedNodes::TurnedNodes(const Problem& problem) : RowSubset(problem) {
 
 Problem TurnedNodes::turned() const {
   Problem out = restricted();
-  const std::vector<int> node = problem::nodes(problem());
   out.c -= out.B * u0_;
   out.B = out.B * T_;
   int first = 0;
