@@ -21,6 +21,8 @@ class SpdSolver {
   virtual Vector solve(const Vector& b, double tolerance) = 0;
   /// Does the work grow with the digits asked for?
   virtual bool iterates() const { return true; }
+  virtual int iterations() const { return 0; }  ///< of all calls of solve() together, where it tells
+  virtual int levels() const { return 0; }      ///< of a hierarchy of matrices, the given one included; 0 where there is none
   virtual double bytes() const = 0;        ///< of what it keeps beside A
   virtual std::string method() const = 0;  ///< "METIS", "conjugate gradients, …"
 };

@@ -67,6 +67,12 @@ Point Mesh::facet_area_vector(Facet f) const {
   return times(0.5, cross(minus(c, a), minus(d, b)));  // of the diagonals
 }
 
+int coarser_count(const Mesh& mesh) {
+  int count = 0;
+  for (const Coarser* c = mesh.coarser.get(); c; c = c->next.get()) ++count;
+  return count;
+}
+
 Buckets cells_of_nodes(const Mesh& mesh) {
   return Buckets(mesh.node_count(), [&](auto&& put) {
     for (int c = 0; c < mesh.cell_count(); ++c)

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,21 @@ struct Facet {
   auto operator<=>(const Facet&) const = default;
 };
 
+/// The coarser mesh that a mesh refines, as far as its nodes say: those of the coarser mesh are among them, and every other one lies in the middle
+/// of an edge, a face or a cell of it.
+struct Coarser {
+  Buckets means;  ///< node → the coarser mesh's nodes whose mean it is: itself, or 2, 4 or 8
+  int node_count = 0;
+  std::shared_ptr<const Coarser> next;  ///< that mesh's own
+};
+
 /// A conforming mesh of one cell type, with named boundary parts.
 struct Mesh {
   Element element = Element::triangle_p1;
   std::vector<double> coordinates;  ///< dimension × node_count, node by node; the user's length unit
   std::vector<int> cells;           ///< nodes per cell × cell_count, cell by cell
   std::map<std::string, std::vector<Facet>> parts;
+  std::shared_ptr<const Coarser> coarser = nullptr;  ///< where it is known
 
   const ElementTopology& topology() const { return mesh::topology(element); }
   int dimension() const { return topology().dimension; }
@@ -51,6 +61,9 @@ struct Mesh {
 
 /// d/dt of facet_area_vector() of a facet of order 1 where nodes move with the velocity V (node × dimension).
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f);
+
+/// How many coarser meshes are known.
+int coarser_count(const Mesh& mesh);
 
 /// Node → the cells that have it, ascending.
 Buckets cells_of_nodes(const Mesh& mesh);

@@ -43,6 +43,7 @@ Mesh second_order(Mesh first) {
   std::vector<Between> all = all_between(first, t);
   std::stable_sort(all.begin(), all.end(), [](const Between& a, const Between& b) { return a.corners < b.corners; });
   mesh.cells.resize(static_cast<std::size_t>(first.cell_count()) * t.nodes);
+  std::vector<std::vector<int>> means;
   for (int c = 0; c < first.cell_count(); ++c)
     std::copy_n(first.cell(c), t.corners, mesh.cells.begin() + static_cast<std::ptrdiff_t>(c) * t.nodes);
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -52,9 +53,16 @@ Mesh second_order(Mesh first) {
       for (int& k : corners) k = first.cell(one.cell)[k];
       const Point x = first.mean(corners.data(), static_cast<int>(corners.size()));
       mesh.coordinates.insert(mesh.coordinates.end(), x.begin(), x.begin() + t.dimension);
+      means.push_back(std::move(corners));
     }
     mesh.cells[static_cast<std::size_t>(one.cell) * t.nodes + one.local] = mesh.node_count() - 1;
   }
+  const int own = first.node_count();
+  mesh.coarser = std::make_shared<Coarser>(Coarser{Buckets(mesh.node_count(), [&](auto&& put) {
+    for (int i = 0; i < own; ++i) put(i, i);
+    for (std::size_t k = 0; k < means.size(); ++k)
+      for (const int corner : means[k]) put(own + static_cast<int>(k), corner);
+  }), own, first.coarser});
   return mesh;
 }
 
@@ -92,6 +100,7 @@ Mesh cut_at_nodes(Mesh whole) {
   Mesh mesh;
   mesh.element = first_order(whole.element);
   mesh.coordinates = whole.coordinates;
+  mesh.coarser = whole.coarser;
   for (int c = 0; c < whole.cell_count(); ++c)
     for (const std::vector<int>& piece : pieces)
       for (const int k : piece) mesh.cells.push_back(whole.cell(c)[k]);

@@ -1,8 +1,9 @@
 #include "multigrid/hierarchy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
-#include <optional>
+#include <numeric>
 #include <stdexcept>
 
 namespace dotyk::multigrid {
@@ -67,9 +68,9 @@ OwnedMat view(Embedding& e) {
   return m;
 }
 
-/// Tells `finest` the motions that take little energy: the modes, made orthonormal by Gram and Schmidt, twice, as rotations about a distant
-/// point are almost translations, and dependent ones left out.
-void attach_near_kernel(Mat finest, const Embedding& e, const algebra::DenseMatrix& modes) {
+/// Tells `finest` the motions that take little energy: the modes, one row a slot, made orthonormal by Gram and Schmidt, twice, as rotations about a
+/// distant point are almost translations, and dependent ones left out.
+void attach_near_kernel(Mat finest, const algebra::DenseMatrix& modes, const std::vector<int>& slots) {
   constexpr double kDependent = 1e-10;
   std::vector<algebra::Vector> basis;
   for (Eigen::Index k = 0; k < modes.cols(); ++k) {
@@ -83,10 +84,12 @@ void attach_near_kernel(Mat finest, const Embedding& e, const algebra::DenseMatr
   std::vector<OwnedVec> vecs;
   for (const algebra::Vector& mode : basis) {
     PetscScalar* values = nullptr;
+    PetscInt rows = 0;
     check(MatCreateVecs(finest, vecs.emplace_back().put(), nullptr));
     check(VecGetArrayWrite(vecs.back(), &values));
-    std::fill(values, values + e.rows(), 0.0);
-    for (std::size_t i = 0; i < e.slot().size(); ++i) values[e.slot()[i]] = mode[static_cast<Eigen::Index>(i)];
+    check(VecGetSize(vecs.back(), &rows));
+    std::fill(values, values + rows, 0.0);
+    for (std::size_t i = 0; i < slots.size(); ++i) values[slots[i]] = mode[static_cast<Eigen::Index>(i)];
     check(VecRestoreArrayWrite(vecs.back(), &values));
   }
   const std::vector<Vec> plain(vecs.begin(), vecs.end());
@@ -95,24 +98,66 @@ void attach_near_kernel(Mat finest, const Embedding& e, const algebra::DenseMatr
   check(MatSetNearNullSpace(finest, space));
 }
 
-/// S between slots, idle ones as they are.
-OwnedMat embedded(const algebra::SparseMatrix& S, const Embedding& e) {
-  const algebra::SparseRows rows = S;
-  std::vector<PetscInt> starts{0}, columns;
-  std::vector<PetscScalar> values;
-  std::vector<int> unknown(static_cast<std::size_t>(e.rows()), -1);
-  for (std::size_t i = 0; i < e.slot().size(); ++i) unknown[e.slot()[i]] = static_cast<int>(i);
-  for (int slot = 0; slot < e.rows(); ++slot) {
-    if (unknown[slot] < 0) columns.push_back(slot), values.push_back(1);
-    else
-      for (algebra::SparseRows::InnerIterator it(rows, unknown[slot]); it; ++it) columns.push_back(e.slot()[it.col()]), values.push_back(it.value());
-    starts.push_back(static_cast<PetscInt>(columns.size()));
+/// A matrix of PETSc's with `blocks` by rows and columns.
+OwnedMat matrix_of(const algebra::SparseRows& rows, std::array<int, 2> blocks) {
+  OwnedMat m;
+  Eigen::VectorXi counts(rows.rows());
+  for (int i = 0; i < rows.rows(); ++i) counts[i] = rows.outerIndexPtr()[i + 1] - rows.outerIndexPtr()[i];
+  check(MatCreateSeqAIJ(PETSC_COMM_SELF, rows.rows(), rows.cols(), 0, counts.data(), m.put()));
+  check(MatSetBlockSizes(m, blocks[0], blocks[1]));
+  for (int i = 0; i < rows.rows(); ++i) {
+    const int begin = rows.outerIndexPtr()[i];
+    check(MatSetValues(m, 1, &i, counts[i], rows.innerIndexPtr() + begin, rows.valuePtr() + begin, INSERT_VALUES));
   }
-  OwnedMat views, m;
-  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, e.rows(), e.rows(), starts.data(), columns.data(), values.data(), views.put()));
-  check(MatDuplicate(views, MAT_COPY_VALUES, m.put()));
-  check(MatSetBlockSize(m, e.block()));
+  check(MatAssemblyBegin(m, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(m, MAT_FINAL_ASSEMBLY));
   return m;
+}
+
+/// The rows of unknowns as rows of slots; `between`: columns likewise, idle slots as they are.
+algebra::SparseRows in_slots(const algebra::SparseRows& rows, const Embedding& e, bool between) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < rows.rows(); ++i)
+    for (algebra::SparseRows::InnerIterator it(rows, i); it; ++it)
+      entries.emplace_back(e.slot()[i], between ? e.slot()[it.col()] : static_cast<int>(it.col()), it.value());
+  if (between)
+    for (const int i : e.idle()) entries.emplace_back(i, i, 1.0);
+  algebra::SparseRows out(e.rows(), between ? e.rows() : rows.cols());
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+OwnedMat product(Mat S, Mat P) {
+  OwnedMat m;
+  check(MatMatMult(S, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, m.put()));
+  check(MatProductClear(m));
+  PetscInt rows = 1, columns = 1;
+  check(MatGetBlockSizes(P, &rows, &columns));
+  check(MatSetBlockSizes(m, rows, columns));
+  return m;
+}
+
+/// PᵀAP with a diagonal in every row.
+OwnedMat coarse_matrix(Mat A, Mat P) {
+  OwnedMat C;
+  check(MatPtAP(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, C.put()));
+  check(MatProductClear(C));
+  PetscInt rows = 0, block = 1;
+  check(MatGetSize(C, &rows, nullptr));
+  check(MatGetBlockSizes(P, nullptr, &block));
+  std::vector<Eigen::Triplet<double>> missing;
+  {
+    const RowsView view(C);
+    for (int i = 0; i < rows; ++i)
+      if (!std::binary_search(view.columns + view.starts[i], view.columns + view.starts[i + 1], i)) missing.emplace_back(i, i, 1.0);
+  }
+  if (!missing.empty()) {
+    algebra::SparseRows diagonal(rows, rows);
+    diagonal.setFromTriplets(missing.begin(), missing.end());
+    check(MatAXPY(C, 1, matrix_of(diagonal, {block, block}), DIFFERENT_NONZERO_PATTERN));
+  }
+  check(MatSetBlockSize(C, block));
+  return C;
 }
 
 }  // namespace
@@ -126,16 +171,48 @@ Hierarchy::Hierarchy(const Matrix& matrix) : embedding_(matrix.lower, matrix.nod
 }
 
 void Hierarchy::coarsen(const Matrix& matrix) {
-  std::optional<Embedding> own;  // of displacements, where unknowns are others
-  OwnedMat displaced;
-  if (matrix.displaced) {
-    own.emplace(*matrix.displaced, matrix.node);
-    std::vector<char> changed(static_cast<std::size_t>(own->rows()));
-    if (!own->fill(*matrix.displaced, changed)) throw std::runtime_error("multigrid: the diagonal of the stiffness is not positive");
-    displaced = view(*own);
+  constexpr std::size_t kLarge = 2000;  // for a factor on the coarsest level
+  OwnedMat S;
+  if (matrix.unknowns) {
+    S = matrix_of(in_slots(*matrix.unknowns, embedding_, true), {embedding_.block(), embedding_.block()});
+    find_shared(matrix);
   }
-  const Mat finest = own ? displaced : matrices_[0];
-  attach_near_kernel(finest, embedding_, matrix.near_kernel);
+  if (matrix.coarse) {
+    take_functions(matrix, S);
+    std::vector<int> slots(static_cast<std::size_t>(matrix.near_kernel.rows()));
+    std::iota(slots.begin(), slots.end(), 0);
+    if (slots.size() > kLarge) take_aggregates(matrices_.back(), matrix.near_kernel, slots);
+  } else if (matrix.displaced) {
+    Embedding own(*matrix.displaced, matrix.node);
+    std::vector<char> changed(static_cast<std::size_t>(own.rows()));
+    if (!own.fill(*matrix.displaced, changed)) throw std::runtime_error("multigrid: the diagonal of the stiffness is not positive");
+    take_aggregates(view(own), matrix.near_kernel, embedding_.slot());
+    take_unknowns(S);
+  } else {
+    take_aggregates(matrices_[0], matrix.near_kernel, embedding_.slot());
+  }
+  for (std::size_t l = 0; l < interpolations_.size(); ++l) {
+    check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
+    products_.emplace_back(interpolations_[l], matrices_[l + 1]);
+  }
+  if (interpolations_.empty()) return;
+  const RowsView P(interpolations_[0]);
+  finest_interpolation_.assign(P.values, P.values + P.starts[P.count]);
+}
+
+void Hierarchy::take_functions(const Matrix& matrix, Mat S) {
+  for (const algebra::SparseRows& functions : *matrix.coarse) {
+    const bool first = interpolations_.empty();
+    OwnedMat P = first ? matrix_of(in_slots(functions, embedding_, false), {embedding_.block(), matrix.dimension})
+                       : matrix_of(functions, {matrix.dimension, matrix.dimension});
+    if (first && S) P = product(S, P);
+    matrices_.push_back(coarse_matrix(matrices_.back(), P));
+    interpolations_.push_back(std::move(P));
+  }
+}
+
+void Hierarchy::take_aggregates(Mat finest, const algebra::DenseMatrix& modes, const std::vector<int>& slots) {
+  attach_near_kernel(finest, modes, slots);
   const OwnedPc pc = aggregate(finest);
   check(MatSetNearNullSpace(finest, nullptr));
   PetscInt count = 0, coarse = 0;
@@ -148,51 +225,29 @@ void Hierarchy::coarsen(const Matrix& matrix) {
   }
   check(PetscFree(interpolations));
   check(PetscFree(operators));
-  if (own && !interpolations_.empty()) {
-    const OwnedMat S = embedded(*matrix.unknowns, embedding_);
-    find_shared(S, displaced);
-    take_unknowns(S);
-  }
-  for (std::size_t l = 0; l < interpolations_.size(); ++l) {
-    check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
-    products_.emplace_back(interpolations_[l], matrices_[l + 1]);
-  }
-  if (interpolations_.empty()) return;
-  const RowsView P(interpolations_[0]);
-  finest_interpolation_.assign(P.values, P.values + P.starts[P.count]);
 }
 
 void Hierarchy::take_unknowns(Mat S) {
-  OwnedMat interpolation;
-  check(MatMatMult(S, interpolations_[0], MAT_INITIAL_MATRIX, PETSC_DEFAULT, interpolation.put()));
-  check(MatProductClear(interpolation));
-  interpolations_[0] = std::move(interpolation);
-  for (std::size_t l = 0; l < interpolations_.size(); ++l) {  // bodies that nothing joined meet in these patterns
-    OwnedMat coarse;
-    check(MatPtAP(matrices_[l], interpolations_[l], MAT_INITIAL_MATRIX, PETSC_DEFAULT, coarse.put()));
-    matrices_[l + 1] = std::move(coarse);
-  }
+  if (interpolations_.empty()) return;
+  interpolations_[0] = product(S, interpolations_[0]);
+  for (std::size_t l = 0; l < interpolations_.size(); ++l)  // bodies that nothing joined meet in these patterns
+    matrices_[l + 1] = coarse_matrix(matrices_[l], interpolations_[l]);
 }
 
-void Hierarchy::find_shared(Mat S, Mat displaced) {
+void Hierarchy::find_shared(const Matrix& matrix) {
   constexpr double kStiffer = 2;
-  OwnedVec diagonal;
-  check(MatCreateVecs(displaced, diagonal.put(), nullptr));
-  check(MatGetDiagonal(displaced, diagonal));
-  const PetscScalar* k = nullptr;
-  check(VecGetArrayRead(diagonal, &k));
-  const RowsView rows(S);
-  std::vector<double> brought(static_cast<std::size_t>(rows.count), 0.0);  // stiffness, by jumps
+  const algebra::Vector k = matrix.displaced->diagonal();
+  const algebra::SparseRows S = *matrix.unknowns;
+  algebra::Vector brought = algebra::Vector::Zero(k.size());  // stiffness, by jumps
   const auto each_pair = [&](auto&& visit) {
-    for (int i = 0; i < rows.count; ++i)
-      for (int at = rows.starts[i]; at < rows.starts[i + 1]; ++at)
-        if (rows.columns[at] != i) visit(i, rows.columns[at], rows.values[at]);
+    for (int i = 0; i < S.rows(); ++i)
+      for (algebra::SparseRows::InnerIterator it(S, i); it; ++it)
+        if (it.col() != i) visit(i, static_cast<int>(it.col()), it.value());
   };
   each_pair([&](int i, int j, double factor) { brought[j] += k[i] * factor * factor; });
   each_pair([&](int i, int j, double) {
-    if (brought[j] > kStiffer * k[j]) shared_.insert({i, j});
+    if (brought[j] > kStiffer * k[j]) shared_.insert({embedding_.slot()[i], embedding_.slot()[j]});
   });
-  check(VecRestoreArrayRead(diagonal, &k));
 }
 
 std::vector<PetscInt> Hierarchy::shared() const {

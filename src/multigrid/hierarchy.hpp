@@ -29,9 +29,13 @@ class Hierarchy {
 
  private:
   void coarsen(const Matrix& matrix);
-  /// S: the unknowns, of displacements; all slots.
+  /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
+  void take_functions(const Matrix& matrix, Mat S);
+  /// Levels of aggregates below `finest`, which has the modes in the given slots.
+  void take_aggregates(Mat finest, const algebra::DenseMatrix& modes, const std::vector<int>& slots);
+  /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
-  void find_shared(Mat S, Mat displaced);
+  void find_shared(const Matrix& matrix);
   void truncate(const std::vector<char>& held, std::vector<char>& changed);
 
   Embedding embedding_;

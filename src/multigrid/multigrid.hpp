@@ -1,4 +1,4 @@
-// Conjugate gradients preconditioned by algebraic multigrid, by PETSc. PETSc stands in a library of its own, which is opened when
+// Conjugate gradients preconditioned by multigrid, by PETSc. PETSc stands in a library of its own, which is opened when
 // the first solver is made.
 #pragma once
 
@@ -15,13 +15,17 @@ namespace dotyk::multigrid {
 struct Matrix {
   const algebra::SparseMatrix& lower;        ///< positive definite, lower triangle, compressed, no unknown held
   const std::vector<int>& node;              ///< of each unknown, ascending, as in problem::Block::node
-  /// Unknowns × modes of little energy, rigid motions; may have no columns. Six for all bodies together: each mode is an unknown of
-  /// every coarse node.
+  /// Modes of little energy, rigid motions; may have no columns. Six for all bodies together: each mode is an unknown of every node of aggregates.
+  /// Rows are unknowns or, where there are coarser meshes, the functions of the last one.
   const algebra::DenseMatrix& near_kernel;
-  /// Where the unknowns u' of `lower` are others than the displacements u that `near_kernel` is of, as jumps between bodies: the matrix for u, lower
-  /// triangle, whose aggregates the hierarchy takes, and S with u' = S u.
+  /// Where the unknowns u' of `lower` are others than the displacements u that `near_kernel` and `coarse` are of, as jumps between bodies: the matrix for
+  /// u, lower triangle, whose aggregates the hierarchy takes, and S with u' = S u.
   const algebra::SparseMatrix* displaced = nullptr;
   const algebra::SparseMatrix* unknowns = nullptr;
+  /// Functions of coarser meshes, level by level: the first one's rows are displacements, the others' the columns before; columns in blocks of
+  /// `dimension`, one a node. The last level is coarsened by aggregation where it is large, as the unknowns are where there is no coarser mesh.
+  const std::vector<algebra::SparseRows>* coarse = nullptr;
+  int dimension = 3;
 };
 
 /// Interpolations are chosen once, for the matrix that the solver is made from; set() computes the coarse matrices anew, with
@@ -31,11 +35,7 @@ struct Matrix {
 /// where the monitor asks to stop, which each iteration asks. b must be 0 at held unknowns, and x is. Solvers may be used from
 /// several threads, but wait for one another. Tolerances are met by the residual that conjugate gradients carry along, which below some
 /// 1e-13 may be less than that of x.
-class Solver : public algebra::SpdSolver {
- public:
-  virtual int iterations() const = 0;  ///< of all calls of solve() together
-  virtual int levels() const = 0;      ///< matrices in the hierarchy, the given one included
-};
+class Solver : public algebra::SpdSolver {};
 
 /// Throws InputError where the library was not built, which needs the package libpetsc-real-dev. The monitor must outlive the solver.
 std::unique_ptr<Solver> make_solver(const Matrix& matrix, Monitor& monitor);

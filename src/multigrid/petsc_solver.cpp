@@ -66,7 +66,7 @@ PetscErrorCode ended(KSP, PetscInt iteration, PetscReal residual, KSPConvergedRe
 
 class PetscSolver final : public Solver {
  public:
-  PetscSolver(const Matrix& matrix, Monitor& monitor) : monitor_(monitor), hierarchy_(matrix) {
+  PetscSolver(const Matrix& matrix, Monitor& monitor) : monitor_(monitor), geometric_(matrix.coarse), hierarchy_(matrix) {
     check(MatCreateVecs(hierarchy_.matrix(0), x_.put(), b_.put()));
     make_cycle();
     alone_.unlock();
@@ -119,7 +119,7 @@ class PetscSolver final : public Solver {
   int iterations() const override { return iterations_; }
   int levels() const override { return hierarchy_.levels(); }
   std::string method() const override {
-    return text("conjugate gradients, algebraic multigrid (PETSc ", PETSC_VERSION_MAJOR, ".", PETSC_VERSION_MINOR, ", ", levels(),
+    return text("conjugate gradients, ", geometric_ ? "geometric" : "algebraic", " multigrid (PETSc ", PETSC_VERSION_MAJOR, ".", PETSC_VERSION_MINOR, ", ", levels(),
                 levels() == 1 ? " level)" : " levels)");
   }
 
@@ -152,6 +152,7 @@ class PetscSolver final : public Solver {
 
   std::unique_lock<std::mutex> alone_{only_one()};  // while the members after it are made, and while they are destroyed
   Monitor& monitor_;
+  const bool geometric_;
   Hierarchy hierarchy_;
   FinestSmoother finest_;
   OwnedKsp ksp_;

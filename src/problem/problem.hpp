@@ -13,6 +13,14 @@
 
 namespace dotyk::problem {
 
+/// Coarser meshes of a body, and their functions.
+struct CoarseMeshes {
+  int count = 0;      ///< that are known
+  int dimension = 0;  ///< unknowns of a node
+  /// Of so many levels, as elasticity::coarse_functions() says.
+  std::function<std::vector<algebra::SparseRows>(int levels)> functions = {};
+};
+
 /// One body's energy ½uᵀKu − fᵀu + offset on its own unknowns.
 struct Block {
   std::string name;
@@ -25,6 +33,7 @@ struct Block {
   int first = 0;                ///< index of its first unknown among all blocks'
   /// All rigid motions of the body on its unknowns, whatever holds it: what multigrid's coarse functions are made of. May be empty.
   std::function<algebra::DenseMatrix()> rigid = {};
+  CoarseMeshes coarse = {};
   int size() const { return static_cast<int>(f.size()); }
 };
 

@@ -84,7 +84,7 @@ for name, make in pairs(scenes) do
   local reference <const> = dotyk.solve(make())
   check.that(reference.converged, reference.reason)
   for _, linear in ipairs{ "factor", "incomplete_factor", "multigrid" } do
-    local solver <const> = S.pdas{ linear = linear }
+    local solver <const> = linear == "multigrid" and S.multigrid{} or S.pdas{ linear = linear }
     local there <const>, s <const> = pcall(solver.solve, solver, make())
     if there then
       check.that(s.converged, name .. ", " .. linear .. ": " .. s.reason)
@@ -124,7 +124,7 @@ do
   long:part"bottom":fix()
   local scene <const> = dotyk.scene{ long }
   scene:contact{ long:part"top", rigid = dotyk.rigid.ball{ center = {0.5, 0.5, 20.49}, radius = 0.5 }, interference = true }
-  local solver <const> = S.pdas{ linear = "multigrid" }
+  local solver <const> = S.multigrid{}
   local solved <const>, said <const> = pcall(solver.solve, solver, scene)
   check.that(solved and said.converged or tostring(said):find("no solution of a linear system", 1, true) or tostring(said):find("libpetsc-real-dev", 1, true), said)
 end

@@ -38,7 +38,7 @@ local solvers <const> = {
   { "incomplete factor", function(scene) return dotyk.solver.pdas{ linear = "incomplete_factor" }:solve(scene) end },
 }
 do
-  local multigrid <const> = dotyk.solver.pdas{ linear = "multigrid" }
+  local multigrid <const> = dotyk.solver.multigrid{}
   local there <const>, why <const> = pcall(multigrid.solve, multigrid, cube(2))
   if there then solvers[#solvers + 1] = { "multigrid", function(scene) return multigrid:solve(scene) end } else print(why) end
 end

@@ -8,6 +8,7 @@
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "elasticity/coarse_functions.hpp"
 #include "elasticity/rigid_modes.hpp"
 #include "elasticity/weak_motions.hpp"
 #include "problem/contradiction.hpp"
@@ -78,6 +79,9 @@ void add_body(const Body& body, Model& model) {
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
   block.rigid = [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
+  block.coarse = {mesh::coarser_count(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()](int levels) {
+                    return elasticity::coarse_functions(*mesh, unknown, count, levels);
+                  }};
   model.nearly_free.push_back(nearly_free(body, numbering, block, model.softest));
   problem::add(model.problem, std::move(block));
 }

@@ -67,7 +67,7 @@ std::string method(const problem::Problem& problem, bool any_free) {
                   " rows need not be condensed, or are too many");
     case solver::DefaultMethod::multigrid: {
       const solver::Expected seconds = solver::expected(problem);
-      return text("pdas on all ", problem.unknowns(), " unknowns, linear systems by conjugate gradients with multigrid (linear = \"multigrid\"): some ",
+      return text("multigrid on all ", problem.unknowns(), " unknowns: some ",
                   std::ceil(seconds.multigrid), " s on a core, where factors and condensed rows would take some ", std::ceil(seconds.condensed), " s");
     }
     case solver::DefaultMethod::pdas: break;

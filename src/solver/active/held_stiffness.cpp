@@ -5,6 +5,7 @@
 #include "algebra/dense/generalised_inverse.hpp"
 #include "base/text.hpp"
 #include "multigrid/multigrid.hpp"
+#include "problem/coarser.hpp"
 
 namespace dotyk::solver {
 
@@ -107,13 +108,18 @@ MakeSpdSolver incomplete_factor() {
   return [](const SpdSystem& s) { return algebra::incompletely_factored(s.monitor); };
 }
 
-MakeSpdSolver algebraic_multigrid() {
-  return [](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
+MakeSpdSolver multigrid(Levels levels) {
+  return [levels](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
     const std::vector<int> nodes = problem::nodes(s.problem);
-    const DenseMatrix motions = all_rigid_motions(s.problem);
-    if (s.basis.trivial()) return multigrid::make_solver({s.lower, nodes, motions}, s.monitor);
+    const auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
+    DenseMatrix motions = all_rigid_motions(s.problem);
+    for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
+    multigrid::Matrix matrix{s.lower, nodes, motions};
+    if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension;
+    if (s.basis.trivial()) return multigrid::make_solver(matrix, s.monitor);
     const SparseMatrix K = held_slightly(s.problem), unknowns = s.basis.of_displacements(s.problem);
-    return multigrid::make_solver({s.lower, nodes, motions, &K, &unknowns}, s.monitor);
+    matrix.displaced = &K, matrix.unknowns = &unknowns;
+    return multigrid::make_solver(matrix, s.monitor);
   };
 }
 

@@ -29,8 +29,10 @@ struct NotSolved : InputError {
 MakeSpdSolver factor(algebra::Ordering ordering);
 /// Conjugate gradients with an incomplete Cholesky factor.
 MakeSpdSolver incomplete_factor();
-/// Conjugate gradients with algebraic multigrid. Making the solver throws InputError where its library was not built.
-MakeSpdSolver algebraic_multigrid();
+/// What the levels of multigrid are made of: coarser meshes, where they are known, or aggregates of unknowns alone.
+enum class Levels { meshes, aggregates };
+/// Conjugate gradients with multigrid. Making the solver throws InputError where its library was not built.
+MakeSpdSolver multigrid(Levels levels);
 
 /// A = Tᵀ(K + Σ_r s_r B_rᵀB_r)T in the basis T where rows are unknowns, with the rows and columns of held unknowns emptied but for their diagonal:
 /// what active-set and barrier iterations solve with where rows act on few unknowns each. One pattern for all s and all that is held.

@@ -9,6 +9,7 @@
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
+#include "solver/active/coarse_start.hpp"
 #include "solver/active/nested_start.hpp"
 #include "solver/active/set_iteration.hpp"
 #include "solver/core/treatable.hpp"
@@ -129,6 +130,17 @@ void come_to_rest(SetIteration& it) {
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor) {
   if (settings.reduced || settings.step) require_frictionless(problem, "pdas");
   require_springs(problem, "pdas");
+  if (settings.nested && settings.start.empty()) {
+    Stopwatch watch;
+    const CoarseStart coarse = coarse_start(problem, settings, monitor);
+    Pdas begun = settings;
+    begun.start = coarse.active, begun.nested = false;
+    const double before = watch.lap();
+    Result result = solve(problem, begun, monitor);
+    if (coarse.meshes > 0) result.reason += text(", begun on ", coarse.meshes, coarse.meshes == 1 ? " coarser mesh" : " coarser meshes");
+    result.clock.iterate += before;
+    return result;
+  }
   SetIteration it(problem, settings, monitor);
   Stopwatch iterating;
   const std::string begun = begin(it);
@@ -143,7 +155,11 @@ Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& mon
   it.result.clock.iterate += iterating.lap();
   monitor.phase("recovering the displacement");
   it.result.state = it.state();
-  if (it.is_analysed()) it.result.factor_bytes = std::max(it.result.factor_bytes, it.stiffness().solver().bytes());
+  if (it.is_analysed()) {
+    const algebra::SpdSolver& solver = it.stiffness().solver();
+    it.result.factor_bytes = std::max(it.result.factor_bytes, solver.bytes());
+    if (solver.levels() > 0) it.result.method = "multigrid", it.result.multigrid = {solver.levels(), solver.iterations(), it.result.iterations};
+  }
   if (it.result.converged && pieces) confirm_laws(it);
   it.result.clock.recover += iterating.lap();
   return std::move(it.result);

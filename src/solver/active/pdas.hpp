@@ -27,6 +27,8 @@ struct Pdas : Settings {
   bool interior = false;
   /// What solves the linear systems of all unknowns; empty: a sparse Cholesky factor.
   MakeSpdSolver linear;
+  /// Where coarser meshes are known and no `start` is given: begun where the solution on the next of them is; see coarse_start().
+  bool nested = false;
   /// What solves the linear problem of an iteration in its place, without friction; empty: held_step.
   std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>
       step;
@@ -37,6 +39,12 @@ struct Pdas : Settings {
   std::vector<int> screws;
   /// Screws whose multiplier comes out negative are moved, at most so many times in all.
   int max_moves = 50;
+};
+
+/// On all unknowns, begun on coarser meshes where they are known, linear systems by conjugate gradients with multigrid.
+struct Multigrid : Pdas {
+  static constexpr bool takes_linear = true;
+  Multigrid() { reduced = false, nested = true, linear = multigrid(Levels::meshes); }
 };
 
 /// Solves. Where Newton steps cycle, meet a singular problem or crawl (after fourteen steps still as many rows change), rescues follow one

@@ -62,8 +62,8 @@ Expected expected(const problem::Problem& problem) {
 }
 
 DefaultMethod default_method(const problem::Problem& problem) {
-  if (problem.rows() == 0) return DefaultMethod::linear;
   if (multigrid_is_faster(problem)) return DefaultMethod::multigrid;
+  if (problem.rows() == 0) return DefaultMethod::linear;
   if (!problem.friction.empty() || !tells_springs(problem)) return DefaultMethod::newton;
   constexpr int kMany = 3000, kShare = 10, kFew = 150;
   if (problem.rows() >= kFew && all_linear(problem) && rows_stand_apart(problem)) return DefaultMethod::held;
@@ -84,9 +84,9 @@ Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning 
 }
 
 /// Not converged, with the reason, where iterations come to no rest, linear systems are not solved by them, or the library cannot be used.
-Result run_held(const problem::Problem& problem, MakeSpdSolver linear, Beginning from, Monitor& monitor) {
-  Pdas pdas;
-  pdas.reduced = false, pdas.linear = std::move(linear);
+Result run_held(const problem::Problem& problem, bool by_multigrid, Beginning from, Monitor& monitor) {
+  Pdas pdas = by_multigrid ? Multigrid() : Pdas();
+  pdas.reduced = false;
   Result failed;
   try {
     return Method(pdas).run(problem, {std::move(from.start)}, monitor);
@@ -136,14 +136,15 @@ std::optional<Result> run_turned(const problem::Problem& problem, const Beginnin
 }  // namespace
 
 Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor, std::optional<bool> condensed) {
-  if (problem.rows() == 0 && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
+  const bool linear = problem.rows() == 0 && (method ? !method.takes_linear() : default_method(problem) == DefaultMethod::linear);
+  if (linear && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
   if (method) return method.run(problem, std::move(from), monitor);
   if (!from.condenser && !condensed)
     if (auto result = run_turned(problem, from, monitor)) return *std::move(result);
   const DefaultMethod by_default = default_method(problem);
   Result before;
   if (!condensed && (by_default == DefaultMethod::multigrid || (by_default == DefaultMethod::held && !from.condenser))) {
-    before = run_held(problem, by_default == DefaultMethod::multigrid ? algebraic_multigrid() : MakeSpdSolver(), from, monitor);
+    before = run_held(problem, by_default == DefaultMethod::multigrid, from, monitor);
     if (before.converged || monitor.stop()) return before;
   }
   const auto after = [&](Result result) {
@@ -152,6 +153,7 @@ Result solve(const problem::Problem& problem, const Method& method, Beginning fr
     result.clock.add_solve(before.clock);
     return result;
   };
+  if (problem.rows() == 0) return after(solve_linear(problem, {}, monitor));
   if (!from.condenser && !condensed) {
     NearRows near(problem, from.start);
     if (!near.all())

@@ -18,6 +18,7 @@ class Method {
   Method(Chosen chosen)  // NOLINT: a method is taken wherever its options are given
       : ordering_(chosen.ordering),
         begins_anew_(Chosen::begins_anew),
+        takes_linear_(Chosen::takes_linear),
         decomposition_(decomposition_of(chosen)),
         run_([chosen](const problem::Problem& problem, Beginning from, Monitor& monitor) {
           Chosen started = chosen;
@@ -36,6 +37,7 @@ class Method {
   explicit operator bool() const { return static_cast<bool>(run_); }
   algebra::Ordering ordering() const { return ordering_; }
   bool begins_anew() const { return begins_anew_; }
+  bool takes_linear() const { return takes_linear_; }
   /// The same method with another tol.
   Method with_tol(double tol) const { return with_tol_(tol); }
   /// How the method wants bodies cut into subdomains; nothing where it has no use for them.
@@ -61,7 +63,7 @@ class Method {
   }
 
   algebra::Ordering ordering_ = algebra::Ordering::automatic;
-  bool begins_anew_ = false;
+  bool begins_anew_ = false, takes_linear_ = false;
   std::optional<problem::Decomposition> decomposition_;
   std::function<Result(const problem::Problem&, Beginning, Monitor&)> run_;
   std::function<Method(double)> with_tol_;

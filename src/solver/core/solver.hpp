@@ -50,6 +50,12 @@ struct FetiCounts {
   double condition = 0;  ///< of PFP on im P, where asked for; else 0
 };
 
+struct MultigridCounts {
+  int levels = 0;
+  int cg = 0;      ///< conjugate gradient iterations of all linear systems
+  int newton = 0;  ///< steps
+};
+
 /// How a method ended.
 struct Result {
   problem::State state;
@@ -65,6 +71,7 @@ struct Result {
   std::optional<WorkingSetCounts> working_set;
   std::optional<PenaltyError> penalty;
   std::optional<FetiCounts> feti;
+  std::optional<MultigridCounts> multigrid;
   int screw_moves = 0;  ///< magnetic screws moved after their multiplier came out negative
   std::vector<ScrewPlacement> screws;  ///< first and after each move; empty without screws
   problem::Clock clock;
@@ -94,6 +101,8 @@ struct Settings : Beginning {
   algebra::Ordering ordering = algebra::Ordering::automatic;
   /// Does the method begin anew, whatever `start` and `from` say?
   static constexpr bool begins_anew = false;
+  /// Does the method solve problems without rows in its own way, not by solve_linear()?
+  static constexpr bool takes_linear = false;
 };
 
 /// K u = f for a problem without rows: order, factor, substitute. The yardstick of every other method.

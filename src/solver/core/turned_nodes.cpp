@@ -121,6 +121,7 @@ Problem TurnedNodes::turned() const {
       block.motions.clear();
       block.node = std::move(kept_nodes);
       if (block.rigid) block.rigid = [rigid = block.rigid, T] { return DenseMatrix(T.transpose() * rigid()); };
+      block.coarse = {};
     }
     first += block.size();
   }

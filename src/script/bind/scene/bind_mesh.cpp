@@ -1,4 +1,7 @@
+#include <cmath>
+
 #include "base/memory.hpp"
+#include "elasticity/refined.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/submesh.hpp"
 #include "meshfile/load.hpp"
@@ -103,6 +106,18 @@ std::shared_ptr<MeshHandle> keep(Call& call) {
   const Function chosen = call.function("chosen");
   const auto dimension = static_cast<std::size_t>(whole->dimension());
   return handle_of(mesh::keep(*whole, [&](const mesh::Point& x) { return chosen.truth({x.data(), dimension}); }, call.text("part")));
+}
+
+std::shared_ptr<MeshHandle> refined(Call& call) {
+  auto mesh = call.self<MeshHandle>()->mesh;
+  const auto times = call.integer("times");
+  const double pieces = std::pow(mesh->dimension() == 2 ? 4 : 8, static_cast<double>(times));
+  const bool simplex = mesh->topology().corners == mesh->dimension() + 1, second = mesh->topology().order == 2;
+  using mesh::Family;
+  require_room(mesh->cell_count() * pieces / (simplex && mesh->dimension() == 3 ? 6 : simplex ? 2 : 1), mesh->dimension(),
+               simplex ? (second ? Family::p2 : Family::p1) : second ? Family::q2 : Family::q1);
+  for (std::int64_t k = 0; k < times; ++k) mesh = std::make_shared<mesh::Mesh>(elasticity::refined(*mesh));
+  return std::make_shared<MeshHandle>(MeshHandle{mesh});
 }
 
 std::vector<std::string> mesh_part_names(const MeshHandle& m) {
@@ -240,6 +255,12 @@ void bind_mesh(Library& library) {
                .example = "m:transform(function(x, y) return x, y + 0.1 * x^2 end)",
                .arguments = {key::function("map", "coordinates to new coordinates").required()},
                .run = transform})
+      .method({.name = "mesh:refined",
+               .help = "A new mesh with each cell cut into 4 in the plane, 8 in space, so many times, its parts with it. Curved sides of order 2 stay the "
+                       "same curves. The coarser meshes are remembered: dotyk.solver.multigrid has its levels from them.",
+               .example = "local fine = m:refined(2)",
+               .arguments = {key::integer("times", "how often").within(0, 20).fallback(1.0)},
+               .run = refined})
       .method({.name = "mesh:keep",
                .help = "A new mesh of the cells whose centre chosen(x, y[, z]) accepts, with what is left of the parts; the "
                        "facets laid bare become a part of their own.",

@@ -30,6 +30,12 @@ std::optional<Record> penalty_record(const Solution& s) {
   return Record{"penalty", {{"factor", p->factor}, {"penetration", p->penetration}, {"energy", p->energy}}};
 }
 
+std::optional<Record> multigrid_record(const Solution& s) {
+  const auto& m = s.result().multigrid;
+  if (!m) return std::nullopt;
+  return Record{"multigrid", {{"levels", m->levels}, {"cg", m->cg}, {"newton", m->newton}}};
+}
+
 std::optional<Record> feti_record(const Solution& s) {
   const auto& f = s.result().feti;
   if (!f) return std::nullopt;
@@ -194,6 +200,7 @@ void bind_solution(Library& library) {
       .field("residual", "relative: equilibrium penetration complementarity friction law", [](const Solution& s) { return residual_record(s.residual()); })
       .field("working_set", "of active_set, else nil: added dropped singular survived factorisations repeats", working_set_record)
       .field("penalty", "of penalty, else nil: factor, penetration (length), energy (force·length, too low by)", penalty_record)
+      .field("multigrid", "of multigrid, else nil: levels, cg (iterations of conjugate gradients in all), newton (steps)", multigrid_record)
       .field("feti", "of feti, else nil: subdomains, factors (distinct ones), rows of the dual problem, kernel (size of the coarse "
                      "space), inner (steps), products (with F), loops (updates of Coulomb's bounds), norm (bound of |PFP|), "
                      "rho (the last penalty, in units of norm), condition (of PFP, with spectrum = true, else nil)", feti_record)

@@ -1,0 +1,36 @@
+#include "elasticity/coarse_functions.hpp"
+
+namespace dotyk::elasticity {
+
+std::vector<algebra::SparseRows> coarse_functions(const mesh::Mesh& mesh, const std::vector<int>& unknown, int unknowns, int levels) {
+  const auto d = static_cast<std::size_t>(mesh.dimension());
+  std::vector<algebra::SparseRows> all;
+  std::vector<int> row = unknown;  // of each component of the finer mesh, or -1
+  const mesh::Coarser* coarser = mesh.coarser.get();
+  for (int level = 0; level < levels; ++level, coarser = coarser ? coarser->next.get() : nullptr) {
+    const int nodes = static_cast<int>(row.size() / d);
+    const auto means = [&](const int& node) { return coarser ? coarser->means[node] : std::span(&node, 1); };
+    std::vector<int> column(d * (coarser ? coarser->node_count : nodes), -1);
+    for (int i = 0; i < nodes; ++i)
+      if (const auto of = means(i); of.size() == 1)
+        for (std::size_t k = 0; k < d; ++k)
+          if (const auto at = d * of[0] + k; row[d * i + k] >= 0) column[at] = static_cast<int>(at);
+    algebra::SparseRows functions(all.empty() ? unknowns : static_cast<int>(row.size()), static_cast<int>(column.size()));
+    Eigen::VectorXi counts = Eigen::VectorXi::Zero(functions.rows());
+    const auto each = [&](auto&& work) {
+      for (int i = 0; i < nodes; ++i)
+        for (std::size_t k = 0; k < d; ++k)
+          for (const int p : means(i))
+            if (row[d * i + k] >= 0 && column[d * p + k] >= 0) work(i, row[d * i + k], column[d * p + k]);
+    };
+    each([&](int, int r, int) { ++counts[r]; });
+    functions.reserve(counts);
+    each([&](int i, int r, int c) { functions.insert(r, c) = 1.0 / static_cast<double>(means(i).size()); });
+    functions.makeCompressed();
+    all.push_back(std::move(functions));
+    row = std::move(column);
+  }
+  return all;
+}
+
+}  // namespace dotyk::elasticity

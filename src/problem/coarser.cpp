@@ -1,0 +1,151 @@
+#include "problem/coarser.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace dotyk::problem {
+
+using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using algebra::SparseRows;
+using algebra::Vector;
+
+namespace {
+
+int entries(const SparseRows& rows, int i) { return rows.outerIndexPtr()[i + 1] - rows.outerIndexPtr()[i]; }
+
+/// The columns that have entries; of each column its place among them, or -1.
+std::vector<int> places(const SparseRows& functions) {
+  std::vector<int> place(functions.cols(), -1);
+  for (int i = 0; i < functions.rows(); ++i)
+    for (SparseRows::InnerIterator it(functions, i); it; ++it) place[it.col()] = 0;
+  int count = 0;
+  for (int& p : place) p = p < 0 ? -1 : count++;
+  return place;
+}
+
+SparseRows with_columns(const SparseRows& functions, const std::vector<int>& place) {
+  std::vector<Eigen::Triplet<double>> kept;
+  for (int i = 0; i < functions.rows(); ++i)
+    for (SparseRows::InnerIterator it(functions, i); it; ++it) kept.emplace_back(i, place[it.col()], it.value());
+  SparseRows out(functions.rows(), std::count_if(place.begin(), place.end(), [](int p) { return p >= 0; }));
+  out.setFromTriplets(kept.begin(), kept.end());
+  return out;
+}
+
+SparseRows with_rows(const SparseRows& functions, const std::vector<int>& place) {
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (place[i] >= 0) rows.push_back(static_cast<int>(i));
+  return algebra::pick_rows(functions, rows);
+}
+
+/// PᵀKP, lower triangles: of K = L + Lᵀ the half, and its mirror image.
+SparseMatrix galerkin(const SparseMatrix& lower, const SparseRows& P) {
+  const SparseMatrix columns = P;
+  SparseMatrix half = lower;
+  half.diagonal() *= 0.5;
+  const SparseMatrix M = columns.transpose() * SparseMatrix(half * columns);
+  return SparseMatrix(M + SparseMatrix(M.transpose())).triangularView<Eigen::Lower>();
+}
+
+struct CoarserBlock {
+  Block block;
+  SparseRows functions;
+};
+
+CoarserBlock coarser(const Block& fine, int levels) {
+  std::vector<SparseRows> all = fine.coarse.functions(levels);
+  const std::vector<int> place = places(all[0]);
+  CoarserBlock out{{}, with_columns(all[0], place)};
+  if (all.size() > 1) all[1] = with_rows(all[1], place);
+  Block& block = out.block;
+  block.name = fine.name;
+  block.K = galerkin(fine.K, out.functions);
+  block.f = out.functions.transpose() * fine.f;
+  block.offset = fine.offset;
+  for (std::size_t k = 0; k < place.size(); ++k)
+    if (place[k] >= 0) block.node.push_back(static_cast<int>(k) / fine.coarse.dimension);
+  block.kernel = at_coarse(out.functions, fine.kernel);
+  block.motions = fine.motions;
+  if (fine.rigid) block.rigid = [rigid = fine.rigid, P = out.functions] { return at_coarse(P, rigid()); };
+  all.erase(all.begin());
+  block.coarse = {levels - 1, fine.coarse.dimension, [all](int most) { return std::vector<SparseRows>(all.begin(), all.begin() + most); }};
+  return out;
+}
+
+/// Is a row that of a node that both meshes have?
+bool has_node(const SparseRows& B, int row, const std::vector<char>& both) {
+  int greatest = -1;
+  double factor = 0;
+  for (SparseRows::InnerIterator it(B, row); it; ++it)
+    if (std::abs(it.value()) > factor) factor = std::abs(it.value()), greatest = static_cast<int>(it.col());
+  return greatest >= 0 && both[greatest];
+}
+
+}  // namespace
+
+DenseMatrix at_coarse(const SparseRows& functions, const DenseMatrix& values) {
+  DenseMatrix out = DenseMatrix::Zero(functions.cols(), values.cols());
+  for (int i = 0; i < functions.rows(); ++i)
+    if (entries(functions, i) == 1) out.row(functions.innerIndexPtr()[functions.outerIndexPtr()[i]]) = values.row(i);
+  return out;
+}
+
+int coarser_meshes(const Problem& problem) {
+  int count = 0, size = -1;
+  for (const Block& block : problem.blocks) {
+    if (!block.coarse.functions) return 0;
+    if (block.size() > size) count = block.coarse.count, size = block.size();
+  }
+  return count;
+}
+
+std::vector<SparseRows> coarse_functions(const Problem& problem) {
+  const int levels = coarser_meshes(problem);
+  std::vector<std::vector<Eigen::Triplet<double>>> entries(levels);
+  std::vector<Eigen::Index> rows(entries.size(), 0), columns(rows);
+  for (const Block& block : problem.blocks) {
+    const std::vector<SparseRows> own = block.coarse.functions(levels);
+    for (std::size_t l = 0; l < own.size(); ++l) {
+      for (int i = 0; i < own[l].rows(); ++i)
+        for (SparseRows::InnerIterator it(own[l], i); it; ++it)
+          entries[l].emplace_back(static_cast<int>(rows[l] + i), static_cast<int>(columns[l] + it.col()), it.value());
+      rows[l] += own[l].rows(), columns[l] += own[l].cols();
+    }
+  }
+  std::vector<SparseRows> all;
+  for (std::size_t l = 0; l < entries.size(); ++l) {
+    all.emplace_back(rows[l], columns[l]).setFromTriplets(entries[l].begin(), entries[l].end());
+    entries[l] = {};
+  }
+  return all;
+}
+
+Coarser coarser(const Problem& problem) {
+  const int levels = coarser_meshes(problem);
+  if (levels == 0) throw std::logic_error("coarser: no coarser meshes are known");
+  Coarser out;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<char> both;
+  for (const Block& fine : problem.blocks) {
+    CoarserBlock coarse = coarser(fine, levels);
+    coarse.block.first = out.problem.unknowns();
+    const SparseRows B = problem.rows_of(fine) * coarse.functions;
+    for (int r = 0; r < B.rows(); ++r)
+      for (SparseRows::InnerIterator it(B, r); it; ++it) entries.emplace_back(r, coarse.block.first + static_cast<int>(it.col()), it.value());
+    for (int i = 0; i < coarse.functions.rows(); ++i) both.push_back(dotyk::problem::entries(coarse.functions, i) == 1);
+    out.problem.blocks.push_back(std::move(coarse.block));
+  }
+  out.problem.B.resize(problem.rows(), out.problem.unknowns());
+  out.problem.B.setFromTriplets(entries.begin(), entries.end());
+  out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
+  out.problem.chains = problem.chains, out.problem.measure = problem.measure, out.problem.row_name = problem.row_name;
+  for (int r = 0; r < problem.rows(); ++r) out.kept.push_back(has_node(problem.B, r, both));
+  for (const auto& [group, k, first, n] : problem.friction_points())
+    std::fill_n(out.kept.begin() + first, group.components, out.kept[n >= 0 ? n : first]);
+  return out;
+}
+
+}  // namespace dotyk::problem

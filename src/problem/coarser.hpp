@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "problem/problem.hpp"
+
+namespace dotyk::problem {
+
+/// How many the largest body has; 0 where a body cannot tell functions of coarser meshes.
+int coarser_meshes(const Problem& problem);
+/// Functions of so many coarser meshes of all bodies, level by level.
+std::vector<algebra::SparseRows> coarse_functions(const Problem& problem);
+
+/// Of values at nodes (rows of `functions`) those at the nodes that the coarser mesh has: where a row has one entry. Elsewhere 0.
+algebra::DenseMatrix at_coarse(const algebra::SparseRows& functions, const algebra::DenseMatrix& values);
+
+/// A problem on the functions of the next coarser meshes: the same energy, rows and laws, of fewer displacements.
+struct Coarser {
+  Problem problem;
+  std::vector<char> kept;  ///< by row: is it that of a node of the coarser mesh, by the greatest factor? Friction goes with its normal row.
+};
+/// Throws std::logic_error where there are none.
+Coarser coarser(const Problem& problem);
+
+}  // namespace dotyk::problem

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/active/pdas.hpp"
+
+namespace dotyk::solver {
+
+/// Where to begin on a mesh that refines another: rows are taken as active that bear or overlap in the solution on the coarser mesh, which is found
+/// the same way (nested iteration: Kornhuber 1994, Brandt and Cryer 1983). Without it an end of a contact zone moves by few rows a step.
+struct CoarseStart {
+  std::vector<char> active;  ///< by row; empty where no coarser mesh is known or its problem was not solved
+  int meshes = 0;            ///< solved on
+};
+CoarseStart coarse_start(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
+
+}  // namespace dotyk::solver

@@ -1,0 +1,113 @@
+#include "elasticity/refined.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "elasticity/coarse_functions.hpp"
+#include "mesh/generators.hpp"
+
+using namespace dotyk;
+using mesh::Family;
+using mesh::Mesh;
+
+namespace {
+
+constexpr Family kFamilies[] = {Family::p1, Family::q1, Family::p2, Family::q2};
+
+Mesh bent(Family family, int dimension) {
+  const double from[] = {0, 0, 0}, to[] = {2, 1, 1};
+  const int cells[] = {3, 2, 2};
+  Mesh m = dimension == 2 ? mesh::rectangle(from, to, cells, family, std::array<mesh::Grading, 2>().data())
+                          : mesh::box(from, to, cells, family, std::array<mesh::Grading, 3>().data());
+  mesh::transform(m, [](const mesh::Point& x) { return mesh::Point{x[0] + 0.1 * x[1] * x[1], x[1] + 0.05 * std::sin(x[0]), x[2] + 0.1 * x[0] * x[2]}; });
+  return m;
+}
+
+/// ∮ x·n / dimension, of facets by their corners.
+double measure(const Mesh& m) {
+  double sum = 0;
+  for (const mesh::Facet f : mesh::boundary(m)) {
+    const mesh::Point x = m.facet_centre(f), n = m.facet_area_vector(f);
+    for (int i = 0; i < m.dimension(); ++i) sum += x[i] * n[i] / m.dimension();
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("cells in the plane are cut into 4, in space into 8, parts with them") {
+  for (const Family family : kFamilies)
+    for (const int dimension : {2, 3}) {
+      const Mesh coarse = bent(family, dimension), fine = elasticity::refined(coarse);
+      CAPTURE(coarse.topology().name);
+      CAPTURE(dimension);
+      mesh::check(fine, "refined");
+      CHECK(fine.element == coarse.element);
+      CHECK(fine.cell_count() == coarse.cell_count() * (dimension == 2 ? 4 : 8));
+      REQUIRE(fine.parts.size() == coarse.parts.size());
+      std::size_t on_parts = 0;
+      for (const auto& [name, facets] : fine.parts) {
+        CHECK(facets.size() == coarse.parts.at(name).size() * (dimension == 2 ? 2 : 4));
+        on_parts += facets.size();
+      }
+      CHECK(on_parts == mesh::boundary(fine).size());
+      for (int i = 0; i < coarse.node_count(); ++i)
+        for (int k = 0; k < dimension; ++k) CHECK(fine.node(i)[k] == coarse.node(i)[k]);
+    }
+}
+
+TEST_CASE("straight simplices fill the same space") {
+  for (const int dimension : {2, 3}) {
+    const Mesh coarse = bent(Family::p1, dimension), fine = elasticity::refined(elasticity::refined(coarse));
+    CHECK(measure(fine) == doctest::Approx(measure(coarse)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("curved sides stay the same parabolas: all nodes on the boundary, and polygons through them come near as squares of their sides") {
+  const double centre[] = {0, 0};
+  Mesh m = mesh::disc(centre, 1, 3, Family::p2);
+  const double area = std::numbers::pi;
+  double before = 0;
+  for (int level = 0; level < 3; ++level) {
+    double inside = 0;  // the polygon of all boundary nodes
+    for (const mesh::Facet f : mesh::boundary(m)) {
+      const double *a = m.node(m.facet_node(f, 0)), *b = m.node(m.facet_node(f, 1)), *c = m.node(m.facet_node(f, 2));
+      inside += 0.5 * (a[0] * c[1] - a[1] * c[0] + c[0] * b[1] - c[1] * b[0]);
+    }
+    const double off = std::abs(inside - area);
+    if (level > 0) CHECK(before / off == doctest::Approx(4).epsilon(0.1));  // with straight sides nothing changes
+    before = off;
+    m = elasticity::refined(m);
+  }
+}
+
+TEST_CASE("functions of coarser meshes: linear displacements are among them, prescribed components not") {
+  for (const Family family : kFamilies)
+    for (const int dimension : {2, 3}) {
+      const double from[] = {0, 0, 0}, to[] = {1, 1, 1};
+      const int cells[] = {4, 4, 4};
+      Mesh m = dimension == 2 ? mesh::rectangle(from, to, cells, family, std::array<mesh::Grading, 2>().data())
+                              : mesh::box(from, to, cells, family, std::array<mesh::Grading, 3>().data());
+      m = elasticity::refined(m);
+      const bool second = m.topology().order == 2;
+      REQUIRE(mesh::coarser_count(m) == (second ? 4 : 3));  // 8 cells, 4, 2, 1; of order 2 first those of order 1
+      const auto nodes = static_cast<std::size_t>(m.node_count());
+      std::vector<int> unknown(nodes * dimension, -1);
+      int count = 0;
+      std::vector<double> x;
+      for (std::size_t i = 0; i < nodes; ++i)
+        for (int k = 0; k < dimension; ++k)
+          if (!(k == 1 && m.node(static_cast<int>(i))[1] == 0)) unknown[i * dimension + k] = count++, x.push_back(k == 1 ? m.node(static_cast<int>(i))[1] : m.node(static_cast<int>(i))[0] + 1);
+      algebra::Vector u = Eigen::Map<algebra::Vector>(x.data(), count);
+      for (const algebra::SparseRows& functions : elasticity::coarse_functions(m, unknown, count, 5)) {
+        REQUIRE(functions.rows() == u.size());
+        algebra::Vector coarse = algebra::Vector::Zero(functions.cols());
+        for (int i = 0; i < functions.rows(); ++i)
+          if (functions.outerIndexPtr()[i + 1] - functions.outerIndexPtr()[i] == 1) coarse[functions.innerIndexPtr()[functions.outerIndexPtr()[i]]] = u[i];
+        CHECK((functions * coarse - u).lpNorm<Eigen::Infinity>() < 1e-14);
+        u = coarse;
+      }
+    }
+}

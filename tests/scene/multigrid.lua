@@ -1,0 +1,130 @@
+-- dotyk.solver.multigrid on meshes that refine others: the state of the default method, iterations that do not grow with the mesh, few steps from the
+-- solution on the coarser mesh.
+local check <const> = require "check"
+
+local S <const> = dotyk.solver
+local material <const> = dotyk.material{ E = 1000, nu = 0.3 }
+local function body(name, mesh, force) return dotyk.body{ name = name, material = material, force = force, mesh = mesh } end
+local function box(from, to, cells, element) return dotyk.mesh.box{ from = from, to = to, cells = cells, element = element } end
+
+-- S3 and S3C of the benchmarks.
+local function cube(n, friction)
+  local b <const> = body("b", box({0, 0, 0}, {1, 1, 1}, {n, n, n}))
+  b:part"bottom":fix()
+  local scene <const> = dotyk.scene{ b }
+  scene:contact{ b:part"top", friction = friction, interference = true,
+    rigid = dotyk.rigid.gap{ normal = {0, 0, 1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.02 end } }
+  return scene
+end
+do
+  local there <const>, said <const> = pcall(S.multigrid().solve, S.multigrid(), cube(2))
+  if not there then
+    check.that(said:find("libpetsc-real-dev", 1, true), said)
+    print "PETSc is absent: multigrid was not tried"
+    return
+  end
+end
+
+local scenes = {}
+function scenes.cube() return cube(8) end
+function scenes.cube_with_friction() return cube(8, dotyk.friction.coulomb(0.3)) end
+-- An angle section of six-sided cells, refined; a third of it is held, half of a node's components on its side.
+function scenes.refined_angle()
+  local m <const> = box({0, 0, 0}, {2, 2, 1}, {3, 3, 2}, "Q1"):keep(function(x, y) return x < 0.7 or y < 0.7 end, "inside")
+  local b <const> = body("b", m:refined(2))
+  b:part("foot", function(x, y) return y < 1e-9 and x > 1 end):fix()
+  b:part"left":slide()
+  b:part"top":load{ 0, 1, -3 }
+  local scene <const> = dotyk.scene{ b }
+  scene:contact{ b:part"right", rigid = dotyk.rigid.plane{ point = {2.001, 0, 0}, normal = {-1, 0, 0} } }
+  scene:contact{ b:part"back", rigid = dotyk.rigid.plane{ point = {0, 2.0005, 0}, normal = {0, -1, 0} }, friction = dotyk.friction.coulomb(0.2) }
+  return scene
+end
+-- Two bodies that do not match, of unequal hierarchies; the upper one is held by contact and slides alone.
+local function two(cells, upper_times)
+  local a <const> = body("a", box({0, 0, 0}, {1, 1, 0.5}, cells):refined(1))
+  local b <const> = body("b", box({0.1, 0.1, 0.5}, {0.9, 0.9, 1}, {3, 3, 2}):refined(upper_times), {0, 0, -4})
+  a:part"bottom":fix()
+  b:part"left":slide()
+  b:part"front":slide()
+  local scene <const> = dotyk.scene{ a, b }
+  scene:contact{ b:part"bottom", a:part"top" }
+  return scene
+end
+function scenes.two_that_do_not_match() return two({4, 4, 2}, 1) end
+function scenes.the_smaller_without_levels() return two({6, 6, 4}, 0) end
+function scenes.glued_second_order()
+  local a <const>, b <const> = body("a", box({0, 0, 0}, {1, 1, 0.5}, {4, 4, 2}, "P2")), body("b", box({0, 0, 0.5}, {1, 1, 1}, {3, 3, 2}, "Q2"))
+  a:part"bottom":fix()
+  b:part"top":load{ 1, 0, -2 }
+  local scene <const> = dotyk.scene{ a, b }
+  scene:glue{ b:part"bottom", a:part"top" }
+  return scene
+end
+function scenes.turned_slide()
+  local m <const> = box({0, 0, 0}, {1, 1, 1}, {6, 6, 6})
+  m:transform(function(x, y, z) return 0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z end)
+  local b <const> = body("b", m)
+  b:part"bottom":fix "z"
+  b:part"left":slide()
+  b:part"front":slide()
+  local scene <const> = dotyk.scene{ b }
+  scene:contact{ b:part"top", rigid = dotyk.rigid.ball{ center = {0, 0.5, 1.48}, radius = 0.5 }, interference = true }
+  return scene
+end
+function scenes.plane()
+  local b <const> = body("b", dotyk.mesh.rectangle{ from = {-1, -1}, to = {1, 0}, cells = {64, 32} })
+  b:part"bottom":displace{ x = 0.03, y = 0.02 }
+  local scene <const> = dotyk.scene{ b }
+  scene:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = {0, 1}, gap = function(x) return x^2 / 4 end }, interference = true, friction = dotyk.friction.coulomb(0.4) }
+  return scene
+end
+function scenes.curved_disc()
+  local b <const> = body("b", dotyk.mesh.disc{ center = {0, 1}, radius = 1, cells = 4, element = "P2" }:refined(2), {0, -5})
+  b:part("axis", function(x, y, nx) return y > 1 end):fix "x"
+  local scene <const> = dotyk.scene{ b }
+  scene:contact{ b:part("below", function(x, y) return y < 0.5 end), rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} } }
+  return scene
+end
+
+for name, make in pairs(scenes) do
+  local reference <const> = dotyk.solve(make())
+  check.that(reference.converged, name .. ": " .. reference.reason)
+  for _, levels in ipairs{ "meshes", "aggregates" } do
+    for _, nested in ipairs{ true, false } do
+      local s <const> = S.multigrid{ levels = levels, nested = nested }:solve(make())
+      local what <const> = ("%s, levels of %s, %s"):format(name, levels, nested and "nested" or "from rest")
+      check.that(s.converged and s.method == "multigrid", what .. ": " .. s.reason)
+      check.that(math.abs(s.energy / reference.energy - 1) < 1e-9, ("%s: energy %.15g, not %.15g"):format(what, s.energy, reference.energy))
+      check.that(s.residual.equilibrium < 1e-9 and s.residual.penetration < 1e-9, what)
+      check.that(s.multigrid.levels >= 1 and s.multigrid.newton == s.iterations and s.multigrid.cg > 0, what)
+      check.that((s.ordering:find("geometric", 1, true) ~= nil) == (levels == "meshes" and s.multigrid.levels > 1 and name ~= "turned_slide"), what .. ": " .. s.ordering)
+    end
+  end
+end
+
+-- Iterations: those of a mesh of 24³ cells are hardly more than of 12³; nested steps are few.
+local before
+for _, n in ipairs{ 12, 24 } do
+  local s <const>, cold <const> = S.multigrid{}:solve(cube(n)), S.multigrid{ nested = false }:solve(cube(n))
+  check.that(math.abs(s.energy / cold.energy - 1) < 1e-10, "cold")
+  check.that(s.multigrid.newton <= 3, ("%d steps"):format(s.multigrid.newton))
+  check.that(s.reason:find("begun on %d coarser mesh"), s.reason)
+  check.that(not before or s.multigrid.cg <= 1.3 * before, ("%s iterations, before %s"):format(s.multigrid.cg, before))
+  before = s.multigrid.cg
+end
+
+-- What a mesh forgets, and what it does not.
+local m <const> = box({0, 0, 0}, {1, 1, 1}, {2, 2, 2})
+local levels <const> = function(mesh)
+  local b <const> = body("b", mesh)
+  b:part"bottom":fix()
+  b:part"top":load{ 0, 0, -1 }
+  local scene <const> = dotyk.scene{ b }
+  scene:contact{ b:part"left", rigid = dotyk.rigid.plane{ point = {-0.1, 0, 0}, normal = {1, 0, 0} } }
+  return S.multigrid{}:solve(scene).multigrid.levels
+end
+check.that(levels(m) == 2 and levels(m:refined(2)) == 4, "levels")
+local turned <const> = m:refined(2)
+turned:transform(function(x, y, z) return x + 0.1 * z^2, y, z end)
+check.that(levels(turned) == 4, "levels of a mesh that was moved")
