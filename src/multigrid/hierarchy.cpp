@@ -137,11 +137,15 @@ OwnedMat product(Mat S, Mat P) {
   return m;
 }
 
-/// PᵀAP with a diagonal in every row.
+/// Of PᵀAP the pattern, with a diagonal in every row.
 OwnedMat coarse_matrix(Mat A, Mat P) {
   OwnedMat C;
-  check(MatPtAP(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, C.put()));
+  check(MatProductCreate(A, P, nullptr, C.put()));
+  check(MatProductSetType(C, MATPRODUCT_PtAP));
+  check(MatProductSetFromOptions(C));
+  check(MatProductSymbolic(C));
   check(MatProductClear(C));
+  tell_changed(C);
   PetscInt rows = 0, block = 1;
   check(MatGetSize(C, &rows, nullptr));
   check(MatGetBlockSizes(P, nullptr, &block));

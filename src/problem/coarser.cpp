@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "algebra/congruent.hpp"
+
 namespace dotyk::problem {
 
 using algebra::DenseMatrix;
@@ -41,15 +43,6 @@ SparseRows with_rows(const SparseRows& functions, const std::vector<int>& place)
   return algebra::pick_rows(functions, rows);
 }
 
-/// PᵀKP, lower triangles: of K = L + Lᵀ the half, and its mirror image.
-SparseMatrix galerkin(const SparseMatrix& lower, const SparseRows& P) {
-  const SparseMatrix columns = P;
-  SparseMatrix half = lower;
-  half.diagonal() *= 0.5;
-  const SparseMatrix M = columns.transpose() * SparseMatrix(half * columns);
-  return SparseMatrix(M + SparseMatrix(M.transpose())).triangularView<Eigen::Lower>();
-}
-
 struct CoarserBlock {
   Block block;
   SparseRows functions;
@@ -62,7 +55,7 @@ CoarserBlock coarser(const Block& fine, int levels) {
   if (all.size() > 1) all[1] = with_rows(all[1], place);
   Block& block = out.block;
   block.name = fine.name;
-  block.K = galerkin(fine.K, out.functions);
+  block.K = algebra::congruent(fine.K, out.functions);
   block.f = out.functions.transpose() * fine.f;
   block.offset = fine.offset;
   for (std::size_t k = 0; k < place.size(); ++k)

@@ -115,11 +115,17 @@ void add(Problem& problem, Block block) {
 
 SparseMatrix lower_stiffness(const Problem& problem) {
   if (problem.blocks.size() == 1) return problem.blocks.front().K;
-  algebra::Triplets entries;
+  Eigen::Index entries = 0;
+  for (const Block& block : problem.blocks) entries += block.K.nonZeros();
+  SparseMatrix all(problem.unknowns(), problem.unknowns());
+  all.reserve(entries);
   for (const Block& block : problem.blocks)
-    for (int j = 0; j < block.size(); ++j)
-      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, it.value());
-  return algebra::from_triplets(problem.unknowns(), problem.unknowns(), entries);
+    for (int j = 0; j < block.size(); ++j) {
+      all.startVec(block.first + j);
+      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) all.insertBack(block.first + it.row(), block.first + j) = it.value();
+    }
+  all.finalize();
+  return all;
 }
 
 std::vector<int> nodes(const Problem& problem) {
@@ -132,19 +138,33 @@ std::vector<int> nodes(const Problem& problem) {
   return all;
 }
 
-Vector stiffness_times(const Problem& problem, const Vector& u) { return precise_stiffness_times(problem, u.cast<long double>()).cast<double>(); }
+namespace {
 
-LongVector precise_stiffness_times(const Problem& problem, const LongVector& u) {
-  LongVector result = LongVector::Zero(problem.unknowns());
-  for (const Block& block : problem.blocks)
-    for (int j = 0; j < block.size(); ++j)
-      for (algebra::SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
-        const int row = block.first + static_cast<int>(it.row()), column = block.first + j;
-        if (row < column) continue;
-        result[row] += it.value() * u[column];
-        if (row != column) result[column] += it.value() * u[row];
+template <class Numbers>
+Numbers times(const Problem& problem, const Numbers& u) {
+  using Number = typename Numbers::Scalar;
+  Numbers result = Numbers::Zero(problem.unknowns());
+  for (const Block& block : problem.blocks) {
+    Number* own = result.data() + block.first;
+    const Number* moved = u.data() + block.first;
+    for (int j = 0; j < block.size(); ++j) {
+      Number sum = 0;
+      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
+        const Eigen::Index i = it.row();
+        if (i < j) continue;
+        sum += it.value() * moved[i];
+        if (i != j) own[i] += it.value() * moved[j];
       }
+      own[j] += sum;
+    }
+  }
   return result;
 }
+
+}  // namespace
+
+Vector stiffness_times(const Problem& problem, const Vector& u) { return times<LongVector>(problem, u.cast<long double>()).cast<double>(); }
+LongVector precise_stiffness_times(const Problem& problem, const LongVector& u) { return times(problem, u); }
+Vector rough_stiffness_times(const Problem& problem, const Vector& u) { return times(problem, u); }
 
 }  // namespace dotyk::problem

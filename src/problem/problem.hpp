@@ -125,5 +125,7 @@ algebra::Vector stiffness_times(const Problem& problem, const algebra::Vector& u
 /// square in a beam or a plate.
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 LongVector precise_stiffness_times(const Problem& problem, const LongVector& u);
+/// The same in the precision of u, in a fifth of the time: where the product is small beside what it is subtracted from.
+algebra::Vector rough_stiffness_times(const Problem& problem, const algebra::Vector& u);
 
 }  // namespace dotyk::problem

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "algebra/congruent.hpp"
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/cholesky.hpp"
 #include "base/error.hpp"
@@ -172,11 +173,10 @@ DenseMatrix harmonic(const BoundaryMotion& motion, const std::vector<char>& fixe
   if (dim == 2) move_sides(motion, fixed, V);
   const Directions d = directions(motion, fixed);
   if (d.node.empty()) return V;
-  const SparseMatrix K = SparseMatrix(stiffness(mesh).selfadjointView<Eigen::Lower>());
-  const SparseMatrix reduced = SparseMatrix(d.Q.transpose() * SparseMatrix(K * d.Q)).triangularView<Eigen::Lower>();
+  const SparseMatrix K = stiffness(mesh), reduced = algebra::congruent(K, d.Q);
   algebra::Cholesky factor(reduced, d.node, {});
   if (!factor.factor(reduced)) throw InputError(text("the mesh of '", motion.part.body->name, "' is too distorted to follow ", motion.part.label()));
-  V -= d.Q * factor.solve(d.Q.transpose() * DenseMatrix(K * V));
+  V -= d.Q * factor.solve(d.Q.transpose() * DenseMatrix(K.selfadjointView<Eigen::Lower>() * V));
   return V;
 }
 

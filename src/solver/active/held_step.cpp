@@ -27,7 +27,8 @@ constexpr double kUnbalanced = 1e-12, kRough = 1e-3, kOfOff = 0.01;
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
 /// Generalised conjugate residuals: how many directions, how many are kept, how exactly each is solved for, and what of a residual's change is rounding.
-constexpr int kMostDirections = 60, kKeptDirections = 20;
+constexpr int kMostDirections = 60;
+constexpr std::size_t kKeptDirections = 20;
 constexpr double kShareOfDirection = 0.1, kCancelled = 1e-24;
 
 class HeldStep final : public Step {
@@ -48,9 +49,9 @@ class HeldStep final : public Step {
     sort(l);
     place(l.slips);
     if (!stiffness_.factor(spring_, held_, across_)) return false;
-    lambda_ = constant_;
+    lambda_ = constant_, known_ = false;
     unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(kOfOff * l.off, kUnbalanced, kRough) : kUnbalanced;
-    if (slips_.empty()) u_ += stiffness_.solve_in_basis(residual(), unbalanced_).cast<long double>();
+    if (slips_.empty()) move(stiffness_.solve_in_basis(residual(), unbalanced_));
     refine();
     return u_.allFinite() && tie() && tell(lambda, x);
   }
@@ -62,11 +63,13 @@ class HeldStep final : public Step {
     return u_.allFinite() && tell(lambda, x);
   }
 
-  void go_back(double part) override { u_ = before_ + static_cast<long double>(part) * (u_ - before_); }
+  void go_back(double part) override { u_ = before_ + static_cast<long double>(part) * (u_ - before_), known_ = false; }
 
   Vector recover() override { return u_.cast<double>(); }
 
  private:
+  void move(const Vector& by) { u_ += by.cast<long double>(), known_ = false; }
+
   /// What each row does, and u where it is held; elsewhere iterations go on from the last one.
   void sort(const Linearisation& l) {
     constant_ = spring_ = target_ = Vector::Zero(problem_.rows());
@@ -95,6 +98,7 @@ class HeldStep final : public Step {
       }
     }
     u_ += T_ * moved.cast<long double>();
+    known_ = false;
   }
 
   /// Stiffness across the direction of slip.
@@ -117,9 +121,11 @@ class HeldStep final : public Step {
   Vector beyond(const Linearisation::Slip& s, const Vector& left) const {
     Vector slip(s.components);
     for (int i = 0; i < s.components; ++i) slip[i] = static_cast<double>(gap(s.row + i));
+    return beyond(s, slip, s.by_normal > 0 ? multiplier(s.normal, left) - s.pressed : 0);
+  }
+  Vector beyond(const Linearisation::Slip& s, const Vector& slip, double pressed_more) const {
     Vector force = s.components > 1 ? Vector(s.across * (slip - s.along * s.along.dot(slip))) : Vector::Zero(1);
-    if (s.by_normal > 0) force += s.along * s.by_normal * (multiplier(s.normal, left) - s.pressed);
-    return force;
+    return force + s.along * s.by_normal * pressed_more;
   }
 
   /// Of a scalar row.
@@ -137,7 +143,7 @@ class HeldStep final : public Step {
       const double sum = left.lpNorm<1>();
       if (!(sum > unbalanced_ * gross_) || sum > before / 2) return;
       before = sum;
-      u_ += stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * unbalanced_ * gross_ / sum)).cast<long double>();
+      move(stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * unbalanced_ * gross_ / sum)));
     }
   }
 
@@ -148,25 +154,30 @@ class HeldStep final : public Step {
       Vector u, change;  ///< change: of the residual
     };
     std::vector<Direction> directions;
-    Vector left = residual();
-    for (int k = 0; k < kMostDirections && u_.allFinite() && left.lpNorm<1>() > unbalanced_ * gross_; ++k) {
-      if (k % kKeptDirections == 0) directions.clear();
-      const LongVector start = u_;
+    Vector total = Vector::Zero(u_.size()), left;
+    double enough = 0;
+    const auto arrive = [&] {
+      move(total), total.setZero(), directions.clear();
+      left = residual(), enough = unbalanced_ * gross_;
+      return left.lpNorm<1>() <= enough;
+    };
+    if (arrive()) return;
+    for (int k = 0; k < kMostDirections && left.allFinite(); ++k) {
+      if ((left.lpNorm<1>() <= enough || directions.size() == kKeptDirections) && arrive()) return;
       Direction d{stiffness_.solve_in_basis(left, kShareOfDirection), {}};
-      u_ += d.u.cast<long double>();
-      d.change = left - residual();
+      d.change = response(d.u);
       const double whole = d.change.squaredNorm();
       for (const Direction& old : directions) {
         const double share = d.change.dot(old.change) / old.change.squaredNorm();
         d.u -= share * old.u, d.change -= share * old.change;
       }
       const double size = d.change.squaredNorm();
-      u_ = start;
-      if (!(size > kCancelled * whole)) return;
-      u_ += (left.dot(d.change) / size * d.u).cast<long double>();
-      left = residual();
+      if (!(size > kCancelled * whole)) break;
+      const double step = left.dot(d.change) / size;
+      total += step * d.u, left -= step * d.change;
       directions.push_back(std::move(d));
     }
+    move(total);
   }
 
   /// f − Ku − Bᵀλ with the springs' multipliers as they are, zero where u is held.
@@ -176,8 +187,24 @@ class HeldStep final : public Step {
     return left;
   }
 
+  /// What residual() loses where u grows by that.
+  Vector response(const Vector& by) const {
+    const Vector moved = problem_.B * by;
+    const Vector before = stiffness_.basis().T.transpose() * (problem::rough_stiffness_times(problem_, by) + problem_.B.transpose() * spring_.cwiseProduct(moved));
+    Vector lost = before;
+    for (const Linearisation::Slip& s : slips_) {
+      const int own = s.by_normal > 0 ? stiffness_.basis().unknown[s.normal] : -1;
+      const double pressed = s.by_normal > 0 ? (own >= 0 && held_[own] ? -before[own] : spring_[s.normal] * moved[s.normal]) : 0;
+      const Vector force = beyond(s, moved.segment(s.row, s.components), pressed);
+      for (int i = 0; i < s.components; ++i) lost[stiffness_.basis().unknown[s.row + i]] += force[i];
+    }
+    for (const Holding& h : holding_) lost[h.unknown] = 0;
+    return lost;
+  }
+
   /// In the basis where rows are unknowns.
-  Vector forces() {
+  const Vector& forces() {
+    if (std::exchange(known_, true)) return forces_;
     LongVector all = f_.cast<long double>() - problem::precise_stiffness_times(problem_, u_);
     gross_ = f_.lpNorm<1>();
     for (int r = 0; r < problem_.rows(); ++r) {
@@ -188,7 +215,8 @@ class HeldStep final : public Step {
         gross_ += static_cast<double>(std::abs(it.value() * multiplier));
       }
     }
-    Vector left = (T_.transpose() * all).cast<double>();
+    Vector& left = forces_;
+    left = (T_.transpose() * all).cast<double>();
     const Vector without = slips_.empty() ? Vector() : left;
     for (const Linearisation::Slip& s : slips_) {
       const Vector force = beyond(s, without);
@@ -209,7 +237,7 @@ class HeldStep final : public Step {
   bool tie() {
     for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round) {
       approach();
-      u_ += stiffness_.solve_in_basis(residual()).cast<long double>();
+      move(stiffness_.solve_in_basis(residual()));
     }
     return off(tied_gap()) <= kOff;
   }
@@ -225,7 +253,7 @@ class HeldStep final : public Step {
       const double curvature = p.dot(q);
       if (!(curvature > 0)) return;
       const double t = energy / curvature;
-      lambda_ += t * p, u_ -= (t * moved).cast<long double>(), gap -= t * q;
+      lambda_ += t * p, move(-t * moved), gap -= t * q;
       z = spring_.cwiseProduct(gap);
       const double before = std::exchange(energy, gap.dot(z));
       p = z + energy / before * p;
@@ -253,7 +281,7 @@ class HeldStep final : public Step {
     lambda = lambda_;
     for (int r = 0; r < problem_.rows(); ++r)
       if (spring_[r] != 0) lambda[r] += static_cast<double>(spring_[r] * gap(r));
-    const Vector left = forces();
+    const Vector& left = forces();
     for (const Holding& h : holding_) lambda[h.row] = left[h.unknown];
     for (const Linearisation::Slip& s : slips_) lambda.segment(s.row, s.components) += beyond(s, left);
     x.resize(problem_.rows());
@@ -279,6 +307,8 @@ class HeldStep final : public Step {
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
   LongVector u_, before_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
   Vector lambda_;
+  Vector forces_;
+  bool known_ = false;                 ///< are forces_ those of u_ and lambda_?
   double unbalanced_ = kUnbalanced;    ///< of gross_, what is aimed at
   double gross_ = 0;                   ///< ‖f‖₁ + ‖Bᵀλ‖₁ of the last forces()
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "algebra/congruent.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 #include "base/text.hpp"
 #include "multigrid/multigrid.hpp"
@@ -28,10 +29,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
 
 void HeldStiffness::assemble() {
   SparseMatrix K = problem::lower_stiffness(problem_);
-  if (!basis_.trivial()) {
-    const SparseMatrix full = K.selfadjointView<Eigen::Lower>(), half = full * basis_.T;
-    K = (basis_.T.transpose() * half).triangularView<Eigen::Lower>();
-  }
+  if (!basis_.trivial()) K = algebra::congruent(K, basis_.T);
   std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
@@ -43,7 +41,7 @@ void HeldStiffness::assemble() {
   for (int i = 0; i < problem_.unknowns(); ++i) entries.emplace_back(i, i, 0.0);
   SparseMatrix springs(K.rows(), K.cols());
   springs.setFromTriplets(entries.begin(), entries.end());
-  lower_ = K + springs;
+  lower_ = algebra::lower_sum(K, springs);
 }
 
 void HeldStiffness::spring_rows(const Vector& spring) {

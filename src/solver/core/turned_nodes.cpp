@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "algebra/congruent.hpp"
 #include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::solver {
@@ -98,7 +99,7 @@ Problem TurnedNodes::turned() const {
     if (rows > 0) {
       const SparseMatrix T = T_.block(begin, first, end - begin, end - begin - rows);
       const Vector u0 = u0_.segment(begin, end - begin);
-      const SparseMatrix K = block.K.selfadjointView<Eigen::Lower>();
+      const Vector held = block.K.selfadjointView<Eigen::Lower>() * u0;
       DenseMatrix moved(rows, block.kernel.cols());  // what the rows notice of motions
       double size = 0;
       std::vector<int> kept_nodes;
@@ -110,9 +111,9 @@ Problem TurnedNodes::turned() const {
         next = n->first - begin + n->unknowns;
       }
       for (; next < end - begin; ++next) kept_nodes.push_back(block.node[next]);
-      block.offset += 0.5 * u0.dot(K * u0) - block.f.dot(u0);
-      block.f = T.transpose() * (block.f - K * u0);
-      block.K = SparseMatrix(T.transpose() * SparseMatrix(K * T)).triangularView<Eigen::Lower>();
+      block.offset += 0.5 * u0.dot(held) - block.f.dot(u0);
+      block.f = T.transpose() * (block.f - held);
+      block.K = algebra::congruent(block.K, T);
       if (block.kernel.cols() > 0) {
         const algebra::SingularFactors f = algebra::singular_factors(moved);
         const DenseMatrix unnoticed = block.kernel * f.V.rightCols(block.kernel.cols() - f.rank(kStopped * size * block.kernel.norm()));
