@@ -15,7 +15,12 @@ using algebra::Vector;
 
 namespace {
 
-int entries(const SparseRows& rows, int i) { return rows.outerIndexPtr()[i + 1] - rows.outerIndexPtr()[i]; }
+/// The column of a row that is 1 there and has no other entry: a node that the coarser mesh has. Else -1.
+int same(const SparseRows& functions, int i) {
+  const int begin = functions.outerIndexPtr()[i];
+  const bool alone = functions.outerIndexPtr()[i + 1] - begin == 1 && functions.valuePtr()[begin] == 1;
+  return alone ? functions.innerIndexPtr()[begin] : -1;
+}
 
 /// The columns that have entries; of each column its place among them, or -1.
 std::vector<int> places(const SparseRows& functions) {
@@ -82,7 +87,7 @@ bool has_node(const SparseRows& B, int row, const std::vector<char>& both) {
 DenseMatrix at_coarse(const SparseRows& functions, const DenseMatrix& values) {
   DenseMatrix out = DenseMatrix::Zero(functions.cols(), values.cols());
   for (int i = 0; i < functions.rows(); ++i)
-    if (entries(functions, i) == 1) out.row(functions.innerIndexPtr()[functions.outerIndexPtr()[i]]) = values.row(i);
+    if (const int column = same(functions, i); column >= 0) out.row(column) = values.row(i);
   return out;
 }
 
@@ -128,7 +133,7 @@ Coarser coarser(const Problem& problem) {
     const SparseRows B = problem.rows_of(fine) * coarse.functions;
     for (int r = 0; r < B.rows(); ++r)
       for (SparseRows::InnerIterator it(B, r); it; ++it) entries.emplace_back(r, coarse.block.first + static_cast<int>(it.col()), it.value());
-    for (int i = 0; i < coarse.functions.rows(); ++i) both.push_back(dotyk::problem::entries(coarse.functions, i) == 1);
+    for (int i = 0; i < coarse.functions.rows(); ++i) both.push_back(same(coarse.functions, i) >= 0);
     out.problem.blocks.push_back(std::move(coarse.block));
   }
   out.problem.B.resize(problem.rows(), out.problem.unknowns());

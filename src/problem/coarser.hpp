@@ -11,7 +11,7 @@ int coarser_meshes(const Problem& problem);
 /// Functions of so many coarser meshes of all bodies, level by level.
 std::vector<algebra::SparseRows> coarse_functions(const Problem& problem);
 
-/// Of values at nodes (rows of `functions`) those at the nodes that the coarser mesh has: where a row has one entry. Elsewhere 0.
+/// Of values at nodes (rows of `functions`) those at the nodes that the coarser mesh has: where a row is 1 in one column. Elsewhere 0.
 algebra::DenseMatrix at_coarse(const algebra::SparseRows& functions, const algebra::DenseMatrix& values);
 
 /// A problem on the functions of the next coarser meshes: the same energy, rows and laws, of fewer displacements.
