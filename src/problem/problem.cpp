@@ -148,14 +148,12 @@ Numbers times(const Problem& problem, const Numbers& u) {
     Number* own = result.data() + block.first;
     const Number* moved = u.data() + block.first;
     for (int j = 0; j < block.size(); ++j) {
-      Number sum = 0;
       for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
         const Eigen::Index i = it.row();
         if (i < j) continue;
-        sum += it.value() * moved[i];
-        if (i != j) own[i] += it.value() * moved[j];
+        own[i] += it.value() * moved[j];
+        if (i != j) own[j] += it.value() * moved[i];
       }
-      own[j] += sum;
     }
   }
   return result;

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "multigrid/multigrid.hpp"
+#include "problem/coarser.hpp"
 #include "solver/core/near_rows.hpp"
 #include "solver/core/turned_nodes.hpp"
 #include "solver/rows/newton.hpp"
@@ -53,12 +54,13 @@ bool rows_stand_apart(const problem::Problem& problem) {
 Expected expected(const problem::Problem& problem) {
   // Measured on cubes, and on the parts of scripts/studies/bench/gmsh_parts.lua. With n unknowns, m points of contact: 7.5 n² operations for a factor by
   // nested dissection, and 3 (3m)³ for the dense matrices, which have three components a point.
-  constexpr double kFlops = 1.2e10, kFactor = 7.5, kRows = 81, kUnknown = 1e-4;
+  constexpr double kFlops = 1.2e10, kFactor = 7.5, kRows = 81;
+  const double unknown = problem::coarser_meshes(problem) > 1 ? 3e-5 : 1e-4;  // seconds of multigrid
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
   const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !all_linear(problem);
   const double solves = problem.friction.empty() ? 1 : 2;  // times as many iterations
-  return {(kFactor * n * n + kRows * m * m * m) / kFlops, kUnknown * n * solves};
+  return {(kFactor * n * n + kRows * m * m * m) / kFlops, unknown * n * solves};
 }
 
 DefaultMethod default_method(const problem::Problem& problem) {

@@ -1,0 +1,123 @@
+-- How far each method carries: seconds and memory against unknowns, and what multigrid's iterations grow with.
+--
+--   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/scale.lua [N…]
+--
+-- S3, a rigid paraboloid on a cube of N³ cells of six tetrahedra: by factors (pdas), by FETI on cubes of 8³ cells, by multigrid with levels of
+-- aggregates (algebraic) and of coarser meshes (geometric). Then contact against one linear solve by the same hierarchy, assembly on neither side:
+-- frictionless, with Coulomb's friction, and two blocks whose meshes do not match. Then iterations of conjugate gradients a Newton step against the
+-- size, the contact, friction, contrast, Poisson's ratio and stretched cells: multigrid loses its speed with nearly incompressible material and with cells
+-- that are long in one direction, as theory says of point smoothers (Trottenberg, Oosterlee, Schüller 2001, §5.1). Energies agree to 1e-9.
+
+local sizes = {}
+for _, n in ipairs(arg) do sizes[#sizes + 1] = tonumber(n) end
+if #sizes == 0 then sizes = { 8, 16, 24, 32 } end
+local last <const> = sizes[#sizes]
+local S <const> = dotyk.solver
+
+-- 1. Scenes. `o` may have friction, nu, stretch (height of the cube), depth (of the paraboloid), linear (a load in place of contact).
+local function cube(n, o)
+  o = o or {}
+  local height <const> = o.stretch or 1
+  local body <const> = dotyk.body{ material = dotyk.material{ E = 1000, nu = o.nu or 0.3 },
+    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, height}, cells = {n, n, n} } }
+  body:part"bottom":fix()
+  local scene <const> = dotyk.scene{ body }
+  if o.linear then
+    body:part"top":load{ 0, 0, -1 }
+  else
+    local depth <const> = (o.depth or 0.02) * height
+    scene:contact{ body:part"top", friction = o.friction and dotyk.friction.coulomb(o.friction), interference = true,
+      rigid = dotyk.rigid.gap{ normal = {0, 0, 1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - depth end } }
+  end
+  return scene
+end
+
+-- Two blocks, n³ cells together, pressed on each other or glued; `contrast`: how much stiffer the upper one is.
+local function blocks(n, o)
+  local half <const> = n // 2
+  local function block(name, from, to, cells, E)
+    return dotyk.body{ name = name, material = dotyk.material{ E = E, nu = 0.3 }, mesh = dotyk.mesh.box{ from = from, to = to, cells = cells } }
+  end
+  local lower = block("lower", {0, 0, 0}, {1, 1, 0.5}, {n, n, half}, 1000)
+  local upper = block("upper", {0, 0, 0.5}, {1, 1, 1}, {math.max(n - 4, 2), math.max(n - 4, 2), half}, 1000 * (o.contrast or 1))
+  lower:part"bottom":fix()
+  upper:part"top":displace{ x = 0, y = 0, z = -0.01 }
+  local scene <const> = dotyk.scene{ lower, upper }
+  if o.linear then
+    scene:glue{ upper:part"bottom", lower:part"top" }
+  else
+    scene:contact{ upper:part"bottom", lower:part"top", gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 50 end }
+  end
+  return scene
+end
+
+local function solved(method, scene)
+  local s <const> = method:solve(scene)
+  assert(s.converged, s.reason)
+  return s
+end
+
+-- 2. Seconds and memory.
+local multigrid <const> = S.multigrid{}
+local methods <const> = {
+  { "factors", function() return S.pdas{} end, most = 32 },
+  { "FETI", function(n) return S.feti{ subdomains = { n // 8, n // 8, n // 8 } } end },
+  { "aggregates", function() return S.multigrid{ levels = "aggregates" } end },
+  { "coarser meshes", function() return multigrid end },
+}
+for _, method in ipairs(methods) do method.series = { name = method[1], x = {}, y = {} } end
+print "Seconds, and megabytes of what solves linear systems"
+do
+  local head = "  n  unknowns"
+  for _, method in ipairs(methods) do head = head .. ("%24s"):format(method[1]) end
+  print(head)
+end
+for _, n in ipairs(sizes) do
+  local line, energy, unknowns = "", nil, 0
+  for _, method in ipairs(methods) do
+    if n <= (method.most or math.huge) and n >= 8 then
+      local s <const> = solved(method[2](n), cube(n))
+      energy, unknowns = energy or s.energy, s.unknowns
+      assert(math.abs(s.energy / energy - 1) < (method[1] == "FETI" and 1e-6 or 1e-9), "the methods do not agree")
+      line = line .. ("%13.2f s %6.0f MB"):format(s.time.total, s.factor_bytes / 1e6)
+      table.insert(method.series.x, s.unknowns)
+      table.insert(method.series.y, s.time.total)
+    else
+      line = line .. (" "):rep(24)
+    end
+  end
+  print(("%3d%10d"):format(n, unknowns) .. line)
+end
+if #sizes > 1 then
+  local series = {}
+  for _, method in ipairs(methods) do series[#series + 1] = method.series end
+  dotyk.chart{ file = "images/scale.png", title = "A rigid paraboloid on a cube", x = "unknowns", y = "seconds", log = "xy", series = series, slopes = { 1, 2 } }
+end
+
+-- 3. Contact against one linear solve by the same hierarchy.
+local function seconds(s) return s.time.total - s.time.assembly end
+print(("\nContact against one linear solve, both by multigrid, n = %d, seconds without assembly"):format(last))
+for _, case in ipairs{ { "frictionless", cube, {} }, { "Coulomb 0.3", cube, { friction = 0.3 } }, { "two blocks", blocks, {} } } do
+  local linear <const> = solved(multigrid, case[2](last, { linear = true }))
+  local s <const> = solved(multigrid, case[2](last, case[3]))
+  print(("%-14s linear %7.2f (%d iterations)  contact %7.2f (%d steps, %d iterations)  ratio %.2f"):format(case[1], seconds(linear), linear.multigrid.cg,
+    seconds(s), s.multigrid.newton, s.multigrid.cg, seconds(s) / seconds(linear)))
+end
+
+-- 4. What iterations grow with: of all linear systems, a step.
+print "\nIterations of conjugate gradients (Newton's steps)"
+local function row(what, values, scene)
+  local line = ("%-28s"):format(what)
+  for _, value in ipairs(values) do
+    local ok <const>, s = pcall(multigrid.solve, multigrid, scene(value))
+    line = line .. ("%8s: "):format(value) .. (ok and s.converged and ("%3d (%d)"):format(s.multigrid.cg, s.multigrid.newton) or "   fails")
+  end
+  print(line)
+end
+local n <const> = math.min(last, 16)
+row("cells along an edge", sizes, cube)
+row("depth of the paraboloid", { 0.002, 0.02, 0.1, 0.3 }, function(depth) return cube(n, { depth = depth }) end)
+row("Coulomb's coefficient", { 0.1, 0.3, 0.6, 1.0 }, function(mu) return cube(n, { friction = mu }) end)
+row("contrast of two blocks", { 1, 10, 100, 1000 }, function(contrast) return blocks(n, { contrast = contrast }) end)
+row("Poisson's ratio", { 0.3, 0.45, 0.49, 0.499 }, function(nu) return cube(n, { nu = nu }) end)
+row("height of the cells", { 1, 2, 4, 8 }, function(stretch) return cube(n, { stretch = stretch }) end)
