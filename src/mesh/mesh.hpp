@@ -19,8 +19,9 @@ struct Facet {
   auto operator<=>(const Facet&) const = default;
 };
 
-/// The coarser mesh that a mesh refines, as far as its nodes say: those of the coarser mesh are among them, and every other one lies in the middle
-/// of an edge, a face or a cell of it.
+/// The coarser mesh that a mesh refines, as far as its nodes say: those of the coarser mesh are among them, and every other one is taken as the mean of
+/// the ends of an edge, the corners of a face or of a cell of it, wherever gradings, transform() or curved sides have put it. Whatever renumbers
+/// nodes leaves it empty.
 struct Coarser {
   Buckets means;  ///< node → the coarser mesh's nodes whose mean it is: itself, or 2, 4 or 8
   int node_count = 0;

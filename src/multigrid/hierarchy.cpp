@@ -183,6 +183,7 @@ void Hierarchy::coarsen(const Matrix& matrix) {
   }
   if (matrix.coarse) {
     take_functions(matrix, S);
+    fill_coarse(std::vector<char>(empty_.size(), 1));
     std::vector<int> slots(static_cast<std::size_t>(matrix.near_kernel.rows()));
     std::iota(slots.begin(), slots.end(), 0);
     if (slots.size() > kLarge) take_aggregates(matrices_.back(), matrix.near_kernel, slots);
@@ -195,7 +196,7 @@ void Hierarchy::coarsen(const Matrix& matrix) {
   } else {
     take_aggregates(matrices_[0], matrix.near_kernel, embedding_.slot());
   }
-  for (std::size_t l = 0; l < interpolations_.size(); ++l) {
+  for (std::size_t l = products_.size(); l < interpolations_.size(); ++l) {
     check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
     products_.emplace_back(interpolations_[l], matrices_[l + 1]);
   }
@@ -211,6 +212,7 @@ void Hierarchy::take_functions(const Matrix& matrix, Mat S) {
                        : matrix_of(functions, {matrix.dimension, matrix.dimension});
     if (first && S) P = product(S, P);
     matrices_.push_back(coarse_matrix(matrices_.back(), P));
+    products_.emplace_back(P, matrices_.back());
     interpolations_.push_back(std::move(P));
   }
 }
@@ -283,13 +285,17 @@ bool Hierarchy::set(const algebra::SparseMatrix& lower, const std::vector<char>&
     tell_changed(interpolations_[0]);
   }
   fresh_ = true;  // until all levels are done
-  for (std::size_t l = 0; l < interpolations_.size(); ++l) {
+  fill_coarse(std::move(changed));
+  fresh_ = false;
+  return true;
+}
+
+void Hierarchy::fill_coarse(std::vector<char> changed) {
+  for (std::size_t l = 0; l < products_.size(); ++l) {
     changed = products_[l].compute(matrices_[l], interpolations_[l], matrices_[l + 1], changed);
     make_definite(matrices_[l + 1], changed);
     tell_changed(matrices_[l + 1]);
   }
-  fresh_ = false;
-  return true;
 }
 
 double Hierarchy::bytes() const {

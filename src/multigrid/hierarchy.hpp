@@ -35,6 +35,8 @@ class Hierarchy {
   void take_aggregates(Mat finest, const algebra::DenseMatrix& modes, const std::vector<int>& slots);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
+  /// The numbers of coarse matrices, as far as they depend on the changed rows of the finest.
+  void fill_coarse(std::vector<char> changed);
   void find_shared(const Matrix& matrix);
   void truncate(const std::vector<char>& held, std::vector<char>& changed);
 

@@ -95,13 +95,14 @@ int coarser_meshes(const Problem& problem) {
   int count = 0, size = -1;
   for (const Block& block : problem.blocks) {
     if (!block.coarse.functions) return 0;
-    if (block.size() > size) count = block.coarse.count, size = block.size();
+    if (block.size() > size || (block.size() == size && block.coarse.count > count)) count = block.coarse.count, size = block.size();
   }
   return count;
 }
 
 std::vector<SparseRows> coarse_functions(const Problem& problem) {
   const int levels = coarser_meshes(problem);
+  if (levels == 0) return {};
   std::vector<std::vector<Eigen::Triplet<double>>> entries(levels);
   std::vector<Eigen::Index> rows(entries.size(), 0), columns(rows);
   for (const Block& block : problem.blocks) {
@@ -140,9 +141,11 @@ Coarser coarser(const Problem& problem) {
   out.problem.B.setFromTriplets(entries.begin(), entries.end());
   out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
   out.problem.chains = problem.chains, out.problem.measure = problem.measure, out.problem.row_name = problem.row_name;
-  for (int r = 0; r < problem.rows(); ++r) out.kept.push_back(has_node(problem.B, r, both));
+  out.kept.assign(problem.rows(), 1);
+  for (const RowGroup& group : problem.groups)
+    for (int r = group.first; r < group.first + group.count && (group.law->unilateral() || prescribes(group)); ++r) out.kept[r] = has_node(problem.B, r, both);
   for (const auto& [group, k, first, n] : problem.friction_points())
-    std::fill_n(out.kept.begin() + first, group.components, out.kept[n >= 0 ? n : first]);
+    std::fill_n(out.kept.begin() + first, group.components, n >= 0 ? out.kept[n] : char(has_node(problem.B, first, both)));
   return out;
 }
 

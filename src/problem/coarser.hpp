@@ -17,7 +17,9 @@ algebra::DenseMatrix at_coarse(const algebra::SparseRows& functions, const algeb
 /// A problem on the functions of the next coarser meshes: the same energy, rows and laws, of fewer displacements.
 struct Coarser {
   Problem problem;
-  std::vector<char> kept;  ///< by row: is it that of a node of the coarser mesh, by the greatest factor? Friction goes with its normal row.
+  /// By row: is it that of a node of the coarser mesh, by the greatest factor? Friction goes with its normal row. Rows under laws with numbers, as
+  /// springs, are all kept: together they have the stiffness.
+  std::vector<char> kept;
 };
 /// Throws std::logic_error where there are none.
 Coarser coarser(const Problem& problem);

@@ -113,6 +113,12 @@ void add(Problem& problem, Block block) {
   problem.blocks.push_back(std::move(block));
 }
 
+bool prescribes(const RowGroup& group) {
+  for (int k = 0; k < group.count; ++k)
+    if (group.law->linear_stiffness(k) != Law::kUnbounded) return false;
+  return true;
+}
+
 SparseMatrix lower_stiffness(const Problem& problem) {
   if (problem.blocks.size() == 1) return problem.blocks.front().K;
   Eigen::Index entries = 0;

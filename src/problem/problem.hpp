@@ -16,7 +16,7 @@ namespace dotyk::problem {
 /// Coarser meshes of a body, and their functions.
 struct CoarseMeshes {
   int count = 0;      ///< that are known
-  int dimension = 0;  ///< unknowns of a node
+  int dimension = 0;  ///< components of a node's displacement
   /// Of so many levels, as elasticity::coarse_functions() says.
   std::function<std::vector<algebra::SparseRows>(int levels)> functions = {};
 };
@@ -44,6 +44,9 @@ struct RowGroup {
   int first = 0;
   int count = 0;
 };
+
+/// Does the law hold every row of the group at x = 0?
+bool prescribes(const RowGroup& group);
 
 /// One row of a group: the k-th of its law, r of all rows.
 struct ScalarRow {

@@ -114,6 +114,48 @@ for _, n in ipairs{ 12, 24 } do
   before = s.multigrid.cg
 end
 
+-- Coarser problems that cannot say where to begin: no row at a node of theirs; oblique slides that are all turned away; springs; a beam.
+do
+  local function plane(cells, to)
+    return body("b", dotyk.mesh.rectangle{ from = {0, 0}, to = to, cells = cells })
+  end
+  local one <const> = plane({64, 64}, {1, 1})
+  one:part"left":fix()
+  local corner <const> = dotyk.scene{ one }
+  corner:contact{ one:part("first", function(x, y) return y > 1 - 1e-9 and x < 1 / 64 end), rigid = dotyk.rigid.plane{ point = {0, 1}, normal = {0, -1} } }
+  one:part"right":load{ 0, 5 }
+  local turned <const> = dotyk.mesh.rectangle{ from = {0, 0}, to = {20, 1}, cells = {400, 14} }
+  turned:transform(function(x, y) return 0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y end)
+  local slope <const> = body("b", turned)
+  slope:part"bottom":slide()
+  slope:part"left":fix()
+  slope:part"top":load{ 1, -1 }
+  local bed <const> = plane({128, 64}, {2, 1})
+  bed:part"bottom":support{ normal = dotyk.law.one_sided_elastic(100) }
+  bed:part"left":fix "x"
+  bed:part("middle", function(x, y) return y > 1 - 1e-9 and math.abs(x - 1) < 0.2 end):load{ 0, -3 }
+  for name, scene in pairs{ corner = corner, slope = dotyk.scene{ slope }, bed = dotyk.scene{ bed } } do
+    local s <const>, d <const> = S.multigrid{}:solve(scene), dotyk.solve(scene)
+    check.that(s.converged and math.abs(s.energy / d.energy - 1) < 1e-9, ("%s: %s, energy %.12g, not %.12g"):format(name, s.reason, s.energy, d.energy))
+  end
+  local beam <const> = dotyk.beam{ length = 1, EJ = 1, cells = 8, load = -1, left = { deflection = dotyk.law.signorini() }, right = { deflection = dotyk.law.signorini() } }
+  check.that(math.abs(S.multigrid{}:solve(beam):deflection(0.5) + 5 / 384) < 1e-6, "beam")
+  -- Only the iterations on the mesh itself are told; one that says no ends it with its state.
+  local told = 0
+  local s <const> = S.multigrid{ on_iteration = function() told = told + 1 end }:solve(cube(12))
+  check.that(told == #s.history, told)
+  local stopped <const> = S.multigrid{ on_iteration = function() return false end }:solve(cube(12, dotyk.friction.coulomb(0.3)))
+  check.that(not stopped.converged and stopped.reason:find("interrupted", 1, true), stopped.reason)
+end
+-- Below a coarsest mesh that is large, aggregates: 66 is twice 33.
+do
+  local b <const> = body("b", dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {66, 66} })
+  b:part"bottom":fix()
+  b:part"top":load{ 0, -1 }
+  local s <const> = S.multigrid{}:solve(dotyk.scene{ b })
+  check.that(s.converged and s.multigrid.levels > 2 and s.multigrid.cg < 40, ("%d levels, %d iterations"):format(s.multigrid.levels, s.multigrid.cg))
+end
+
 -- What a mesh forgets, and what it does not.
 local m <const> = box({0, 0, 0}, {1, 1, 1}, {2, 2, 2})
 local levels <const> = function(mesh)

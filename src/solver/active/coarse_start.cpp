@@ -13,7 +13,8 @@ using problem::Problem;
 
 /// Smaller problems are solved by factors.
 constexpr int kSmall = 5000;
-/// Rows between closed ones touch up to this share of the greatest displacement.
+/// A row that the coarser mesh has not touches if it is apart by no more than this share of the greatest displacement: between two closed rows of a flat
+/// part the mean is 0 but for rounding.
 constexpr double kTouches = 1e-9;
 
 class CoarseRows : public RowSubset {
@@ -24,20 +25,27 @@ class CoarseRows : public RowSubset {
 }  // namespace
 
 CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& monitor) {
-  CoarseStart start;
-  if (problem.rows() == 0 || problem.unknowns() <= kSmall || problem::coarser_meshes(problem) == 0) return start;
+  if (problem.rows() == 0 || problem.unknowns() <= kSmall || problem::coarser_meshes(problem) == 0) return {};
+  monitor.phase("solving on coarser meshes");
   const problem::Coarser coarse = problem::coarser(problem);
   const CoarseRows rows(coarse.problem, coarse.kept);
+  if (rows.count() == 0) return {};
   const Problem part = rows.restricted();
+  CoarseStart start;
   Result result;
+  InnerMonitor inner(monitor);
   try {
+    const CoarseStart before = coarse_start(part, settings, inner);
     Pdas begun = settings;
-    const CoarseStart before = coarse_start(part, settings, monitor);
-    begun.start = before.active, start.meshes = before.meshes + 1;
-    result = part.unknowns() > kSmall ? solve(part, begun, monitor) : solve(part, {}, {before.active}, monitor);
-  } catch (const InputError&) {  // said of the mesh that is given, where it is so there, too
+    begun.start = before.active, begun.nested = false;
+    start.meshes = before.meshes + 1;
+    result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {before.active}, inner);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception&) {  // said of the mesh that is given, where it is so there, too
   }
-  if (!result.converged) return {};
+  monitor.check();
+  if (!result.converged || result.active_sets.empty() || result.active_sets.back().empty()) return {};
   rows.extend(result);
   const Vector moved = coarse.problem.B * result.state.u, x = moved - coarse.problem.c;
   const double touches = -kTouches * moved.lpNorm<Eigen::Infinity>();
@@ -45,8 +53,6 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
       if (!coarse.kept[r]) start.active[r] = x[r] >= touches;
-  for (const auto& [group, k, first, n] : problem.friction_points())
-    if (n >= 0 && !coarse.kept[n]) std::fill_n(start.active.begin() + first, group.components, start.active[n]);
   return start;
 }
 

@@ -70,7 +70,7 @@ Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
   const Vector solution = solver_->solve(forces, tolerance);
   if (solver_->iterates() && forces.allFinite() && !solution.allFinite())
     throw NotSolved(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
-                          "stretched cells or great contrasts of stiffness; linear = \"factor\" does without iterations"));
+                          "stretched cells or great contrasts of stiffness; dotyk.solver.pdas{ linear = \"factor\" } does without iterations"));
   return problem::least(unnoticed_, basis_.T * solution);
 }
 

@@ -23,13 +23,6 @@ constexpr std::size_t kFewTurned = 100;
 /// Of singular values beside the greatest: rows of a node that depend on each other stay rows; motions that turned nodes stop.
 constexpr double kDependent = 1e-8, kStopped = 1e-9;
 
-/// Does the law prescribe the displacement of every row of the group?
-bool prescribes(const problem::RowGroup& group) {
-  for (int k = 0; k < group.count; ++k)
-    if (group.law->linear_stiffness(k) != problem::Law::kUnbounded) return false;
-  return true;
-}
-
 }  // namespace
 
 TurnedNodes::TurnedNodes(const Problem& problem) : RowSubset(problem) {
