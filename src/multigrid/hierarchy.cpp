@@ -183,10 +183,12 @@ void Hierarchy::coarsen(const Matrix& matrix) {
   }
   if (matrix.coarse) {
     take_functions(matrix, S);
-    fill_coarse(std::vector<char>(empty_.size(), 1));
     std::vector<int> slots(static_cast<std::size_t>(matrix.near_kernel.rows()));
     std::iota(slots.begin(), slots.end(), 0);
-    if (slots.size() > kLarge) take_aggregates(matrices_.back(), matrix.near_kernel, slots);
+    if (slots.size() > kLarge) {
+      fill_coarse(std::vector<char>(empty_.size(), 1));
+      take_aggregates(matrices_.back(), matrix.near_kernel, slots);
+    }
   } else if (matrix.displaced) {
     Embedding own(*matrix.displaced, matrix.node);
     std::vector<char> changed(static_cast<std::size_t>(own.rows()));

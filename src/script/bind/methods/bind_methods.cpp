@@ -97,14 +97,6 @@ void add_method(Library& library, Descriptor about, std::vector<Key> own, int ma
 
 const char* reduced(bool is) { return is ? "reduced" : "full"; }
 
-/// What solves the linear systems of pdas.
-enum class Linear { factor, incomplete_factor };
-
-void take_linear(Linear linear, solver::Pdas& method) {
-  method.reduced = false;
-  if (linear == Linear::incomplete_factor) method.linear = solver::incomplete_factor();
-}
-
 const char* const kBoundary =
     "on the unknowns of the contact boundary, the stiffness condensed onto it once; else on all unknowns";
 
@@ -272,36 +264,33 @@ void bind_methods(Library& library) {
   add_method<Pdas>(
       library,
       {.name = "dotyk.solver.pdas",
-       .help = "The primal-dual active set method, which is Newton's method on the contact conditions: "
-               "finite, exact, usually a handful of iterations.",
+       .help = "The primal-dual active set method, which is Newton's method on the contact conditions: finite, exact, usually a handful of iterations.",
        .example = "local s = dotyk.solver.pdas{ reduced = true }:solve(scene)"},
-      {key::positive("rho", "weight of the gap against the force when the first active set is chosen; "
-                              "multiplies each row's own stiffness").into(&Pdas::rho),
-       key::boolean("reduced", "iterate on the contact boundary alone, after one factorisation; else on the "
-                                "whole system, factored anew in each iteration").into(&Pdas::reduced),
-       key::choice<Linear>("linear", {{"factor", Linear::factor}, {"incomplete_factor", Linear::incomplete_factor}},
+      {key::positive("rho", "weight of the gap against the force when the first active set is chosen; multiplies each row's own stiffness").into(&Pdas::rho),
+       key::boolean("reduced", "iterate on the contact boundary alone, after one factorisation; else on the whole system, factored anew in each iteration").into(&Pdas::reduced),
+       key::choice<bool>("linear", {{"factor", false}, {"incomplete_factor", true}},
                            "in place of reduced: iterate on all unknowns, active rows held, and solve by a sparse factor, anew in each iteration, or by "
                            "conjugate gradients with an incomplete factor, which need little more memory than the matrix; with friction as well").otherwise("as reduced says")},
       100, [](Pdas& m, Call& call) {
         if (!call.has("linear")) return text("rho = ", m.rho, ", ", reduced(m.reduced));
         if (call.has("reduced")) throw InputError("'linear' is given beside 'reduced'; give one of them");
-        take_linear(call.choice<Linear>("linear"), m);
+        m.reduced = false;
+        if (call.choice<bool>("linear")) m.linear = solver::incomplete_factor();
         return text("rho = ", m.rho, ", linear = ", call.text("linear"));
       }, true);
   add_method<Multigrid>(
       library,
       {.name = "dotyk.solver.multigrid",
        .help = "The primal-dual active set method on all unknowns, with friction as well; linear systems by conjugate gradients with multigrid "
-               "(PETSc), whose iterations hardly grow with the mesh and whose memory grows as the unknowns do. Levels are the coarser meshes of "
-               "dotyk.mesh.rectangle and box with even numbers of cells, of mesh:refined and of second order; below the coarsest, or where there are "
-               "none, aggregates of unknowns. s.multigrid tells the levels, the iterations of conjugate gradients in all, and Newton's steps.",
+               "(PETSc), whose iterations hardly grow with the mesh. Levels are the coarser meshes of dotyk.mesh.rectangle and box with even numbers of cells, "
+               "of mesh:refined and of second order; below the coarsest, or where there are none, aggregates of unknowns.",
        .example = "local s = dotyk.solver.multigrid{}:solve(scene)\nprint(s.multigrid.levels, s.multigrid.cg, s.multigrid.newton)"},
       {key::choice<Levels>("levels", {{"meshes", Levels::meshes}, {"aggregates", Levels::aggregates}}, "what levels are made of").otherwise("meshes, where they are known"),
        key::boolean("nested", "begin where the solution on the next coarser mesh is, found the same way").into<Multigrid>([](Multigrid& m) -> bool& { return m.nested; })},
       100, [](Multigrid& m, Call& call) {
         if (call.has("levels")) m.linear = solver::multigrid(call.choice<Levels>("levels"));
         return text(call.has("levels") ? "levels = " + call.text("levels") + ", " : "", "nested = ", m.nested ? "true" : "false");
-      }, true);
+      });
   add_method<Newton>(
       library,
       {.name = "dotyk.solver.newton",
