@@ -23,7 +23,7 @@ expect "a factor, then a smaller one" "false -e:8: solve: the factor of [0-9]+ u
      return dotyk.scene{ b }
    end
    local large, small = cube(40), cube(4)
-   local ok, message = pcall(function() dotyk.solve(large) end)
+   local ok, message = pcall(function() dotyk.solver.pdas{}:solve(large) end)
    io.write(tostring(ok), " ", message, " ", tostring(dotyk.solve(small).converged))'
 expect "a script's own tables" "false not enough memory true" \
   'local ok, message = pcall(function() local t = {} while true do t[#t + 1] = ("x"):rep(1e6 + #t) end end)
