@@ -66,8 +66,8 @@ void name_facets(Mesh& mesh, const std::vector<int>& bits, const int at[3], cons
       }
 }
 
-/// The grid of every second tick, where there is one. A node between is taken as the mean of all corners about it, for simplices, too, where two of
-/// them would do: multigrid then takes two thirds of the iterations.
+/// The grid of every second tick; null where an axis has an odd number of cells. A node between its nodes is the mean of all corners of the edge, face or
+/// box that it lies in. For simplices two of them would do, but with all of them multigrid takes a third fewer iterations.
 std::shared_ptr<const Coarser> every_second(int dimension, const int cells[3]) {
   if (std::any_of(cells, cells + dimension, [](int n) { return n % 2 != 0; })) return nullptr;
   int half[3] = {0, 0, 0}, nodes[3] = {1, 1, 1}, stride[3] = {1, 1, 1};

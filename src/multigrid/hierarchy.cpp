@@ -98,7 +98,7 @@ void attach_near_kernel(Mat finest, const algebra::DenseMatrix& modes, const std
   check(MatSetNearNullSpace(finest, space));
 }
 
-/// A matrix of PETSc's with `blocks` by rows and columns.
+/// The same matrix as PETSc's; `blocks`: how many rows, and how many columns, belong to a node.
 OwnedMat matrix_of(const algebra::SparseRows& rows, std::array<int, 2> blocks) {
   OwnedMat m;
   Eigen::VectorXi counts(rows.rows());
@@ -116,17 +116,16 @@ OwnedMat matrix_of(const algebra::SparseRows& rows, std::array<int, 2> blocks) {
 
 /// The rows of unknowns as rows of slots; `between`: columns likewise, idle slots as they are.
 algebra::SparseRows in_slots(const algebra::SparseRows& rows, const Embedding& e, bool between) {
-  std::vector<Eigen::Triplet<double>> entries;
+  algebra::Triplets entries;
   for (int i = 0; i < rows.rows(); ++i)
     for (algebra::SparseRows::InnerIterator it(rows, i); it; ++it)
       entries.emplace_back(e.slot()[i], between ? e.slot()[it.col()] : static_cast<int>(it.col()), it.value());
   if (between)
     for (const int i : e.idle()) entries.emplace_back(i, i, 1.0);
-  algebra::SparseRows out(e.rows(), between ? e.rows() : rows.cols());
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+  return algebra::from_triplets<algebra::SparseRows>(e.rows(), between ? e.rows() : rows.cols(), entries);
 }
 
+/// S P, with the blocks of P.
 OwnedMat product(Mat S, Mat P) {
   OwnedMat m;
   check(MatMatMult(S, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, m.put()));
@@ -149,17 +148,14 @@ OwnedMat coarse_matrix(Mat A, Mat P) {
   PetscInt rows = 0, block = 1;
   check(MatGetSize(C, &rows, nullptr));
   check(MatGetBlockSizes(P, nullptr, &block));
-  std::vector<Eigen::Triplet<double>> missing;
+  algebra::Triplets missing;
   {
     const RowsView view(C);
     for (int i = 0; i < rows; ++i)
       if (!std::binary_search(view.columns + view.starts[i], view.columns + view.starts[i + 1], i)) missing.emplace_back(i, i, 1.0);
   }
-  if (!missing.empty()) {
-    algebra::SparseRows diagonal(rows, rows);
-    diagonal.setFromTriplets(missing.begin(), missing.end());
-    check(MatAXPY(C, 1, matrix_of(diagonal, {block, block}), DIFFERENT_NONZERO_PATTERN));
-  }
+  if (!missing.empty())
+    check(MatAXPY(C, 1, matrix_of(algebra::from_triplets<algebra::SparseRows>(rows, rows, missing), {block, block}), DIFFERENT_NONZERO_PATTERN));
   check(MatSetBlockSize(C, block));
   return C;
 }

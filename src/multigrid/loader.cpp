@@ -22,7 +22,7 @@ const SharedLibrary& petsc() {
   return library;
 }
 
-using Door = Solver*(const Matrix&, Monitor&);
+using Door = algebra::SpdSolver*(const Matrix&, Monitor&);
 
 Door* open_door() {
   const LibraryPlace place = look_for(petsc());
@@ -36,9 +36,9 @@ Door* open_door() {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_solver(const Matrix& matrix, Monitor& monitor) {
+std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& monitor) {
   static Door* const door = open_door();
-  return std::unique_ptr<Solver>(door(matrix, monitor));
+  return std::unique_ptr<algebra::SpdSolver>(door(matrix, monitor));
 }
 
 bool available() { return !look_for(petsc()).found.empty(); }

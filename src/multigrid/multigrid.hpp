@@ -15,15 +15,16 @@ namespace dotyk::multigrid {
 struct Matrix {
   const algebra::SparseMatrix& lower;        ///< positive definite, lower triangle, compressed, no unknown held
   const std::vector<int>& node;              ///< of each unknown, ascending, as in problem::Block::node
-  /// Modes of little energy, rigid motions; may have no columns. Six for all bodies together: each mode is an unknown of every node of aggregates.
-  /// Rows are unknowns or, where there are coarser meshes, the functions of the last one.
+  /// A column for each rigid motion; there may be none. Rows are unknowns or, where there are coarser meshes, the functions of the coarsest. All bodies
+  /// move as one, so that there are six: each column is an unknown of every aggregate.
   const algebra::DenseMatrix& near_kernel;
   /// Where the unknowns u' of `lower` are others than the displacements u that `near_kernel` and `coarse` are of, as jumps between bodies: the matrix for
   /// u, lower triangle, whose aggregates the hierarchy takes, and S with u' = S u.
   const algebra::SparseMatrix* displaced = nullptr;
   const algebra::SparseMatrix* unknowns = nullptr;
-  /// Functions of coarser meshes, level by level: the first one's rows are displacements, the others' the columns before; columns in blocks of
-  /// `dimension`, one a node. The last level is coarsened by aggregation where it is large, as the unknowns are where there is no coarser mesh.
+  /// The functions of coarser meshes. The first matrix gives displacements by the functions of the next coarser mesh, the second those functions by the
+  /// ones of the mesh after it, and so on; `dimension` columns belong to a node. Where the coarsest level is still large, aggregates follow. Null: there
+  /// is no coarser mesh, and all levels are aggregates.
   const std::vector<algebra::SparseRows>* coarse = nullptr;
   int dimension = 3;
 };
@@ -32,13 +33,12 @@ struct Matrix {
 /// coarse functions that vanish where unknowns are held (truncated multigrid).
 ///
 /// solve() returns NaN where the matrix shows itself to be indefinite, or 1000 iterations do not suffice; Interrupted is thrown
-/// where the monitor asks to stop, which each iteration asks. b must be 0 at held unknowns, and x is. Solvers may be used from
-/// several threads, but wait for one another. Tolerances are met by the residual that conjugate gradients carry along, which below some
+/// where the monitor, which must outlive the solver, asks to stop; each iteration asks it. b must be 0 at held unknowns, and x is. Solvers may be
+/// used from several threads, but wait for one another. Tolerances are met by the residual that conjugate gradients carry along, which below some
 /// 1e-13 may be less than that of x.
-class Solver : public algebra::SpdSolver {};
-
-/// Throws InputError where the library was not built, which needs the package libpetsc-real-dev. The monitor must outlive the solver.
-std::unique_ptr<Solver> make_solver(const Matrix& matrix, Monitor& monitor);
+///
+/// Throws InputError where the library was not built, which needs the package libpetsc-real-dev.
+std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& monitor);
 
 /// Whether the library was built. It is not opened for this answer.
 bool available();

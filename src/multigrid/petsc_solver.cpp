@@ -64,7 +64,7 @@ PetscErrorCode ended(KSP, PetscInt iteration, PetscReal residual, KSPConvergedRe
   return 0;
 }
 
-class PetscSolver final : public Solver {
+class PetscSolver final : public algebra::SpdSolver {
  public:
   PetscSolver(const Matrix& matrix, Monitor& monitor) : monitor_(monitor), geometric_(matrix.coarse), hierarchy_(matrix) {
     check(MatCreateVecs(hierarchy_.matrix(0), x_.put(), b_.put()));
@@ -164,7 +164,7 @@ class PetscSolver final : public Solver {
 
 }  // namespace dotyk::multigrid
 
-extern "C" __attribute__((visibility("default"))) dotyk::multigrid::Solver* dotyk_multigrid_solver(const dotyk::multigrid::Matrix& matrix,
+extern "C" __attribute__((visibility("default"))) dotyk::algebra::SpdSolver* dotyk_multigrid_solver(const dotyk::multigrid::Matrix& matrix,
                                                                                                    dotyk::Monitor& monitor) {
   dotyk::multigrid::start_petsc();
   monitor.check();

@@ -33,12 +33,11 @@ std::vector<int> places(const SparseRows& functions) {
 }
 
 SparseRows with_columns(const SparseRows& functions, const std::vector<int>& place) {
-  std::vector<Eigen::Triplet<double>> kept;
+  algebra::Triplets kept;
   for (int i = 0; i < functions.rows(); ++i)
     for (SparseRows::InnerIterator it(functions, i); it; ++it) kept.emplace_back(i, place[it.col()], it.value());
-  SparseRows out(functions.rows(), std::count_if(place.begin(), place.end(), [](int p) { return p >= 0; }));
-  out.setFromTriplets(kept.begin(), kept.end());
-  return out;
+  const auto columns = std::count_if(place.begin(), place.end(), [](int p) { return p >= 0; });
+  return algebra::from_triplets<SparseRows>(functions.rows(), columns, kept);
 }
 
 SparseRows with_rows(const SparseRows& functions, const std::vector<int>& place) {
@@ -50,7 +49,7 @@ SparseRows with_rows(const SparseRows& functions, const std::vector<int>& place)
 
 struct CoarserBlock {
   Block block;
-  SparseRows functions;
+  SparseRows functions;  ///< the unknowns of the finer block by this one's
 };
 
 CoarserBlock coarser(const Block& fine, int levels) {
@@ -103,7 +102,7 @@ int coarser_meshes(const Problem& problem) {
 std::vector<SparseRows> coarse_functions(const Problem& problem) {
   const int levels = coarser_meshes(problem);
   if (levels == 0) return {};
-  std::vector<std::vector<Eigen::Triplet<double>>> entries(levels);
+  std::vector<algebra::Triplets> entries(levels);
   std::vector<Eigen::Index> rows(entries.size(), 0), columns(rows);
   for (const Block& block : problem.blocks) {
     const std::vector<SparseRows> own = block.coarse.functions(levels);
@@ -116,7 +115,7 @@ std::vector<SparseRows> coarse_functions(const Problem& problem) {
   }
   std::vector<SparseRows> all;
   for (std::size_t l = 0; l < entries.size(); ++l) {
-    all.emplace_back(rows[l], columns[l]).setFromTriplets(entries[l].begin(), entries[l].end());
+    all.push_back(algebra::from_triplets<SparseRows>(rows[l], columns[l], entries[l]));
     entries[l] = {};
   }
   return all;
@@ -126,7 +125,7 @@ Coarser coarser(const Problem& problem) {
   const int levels = coarser_meshes(problem);
   if (levels == 0) throw std::logic_error("coarser: no coarser meshes are known");
   Coarser out;
-  std::vector<Eigen::Triplet<double>> entries;
+  algebra::Triplets entries;
   std::vector<char> both;
   for (const Block& fine : problem.blocks) {
     CoarserBlock coarse = coarser(fine, levels);
@@ -137,8 +136,7 @@ Coarser coarser(const Problem& problem) {
     for (int i = 0; i < coarse.functions.rows(); ++i) both.push_back(same(coarse.functions, i) >= 0);
     out.problem.blocks.push_back(std::move(coarse.block));
   }
-  out.problem.B.resize(problem.rows(), out.problem.unknowns());
-  out.problem.B.setFromTriplets(entries.begin(), entries.end());
+  out.problem.B = algebra::from_triplets<SparseRows>(problem.rows(), out.problem.unknowns(), entries);
   out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
   out.problem.chains = problem.chains, out.problem.measure = problem.measure, out.problem.row_name = problem.row_name;
   out.kept.assign(problem.rows(), 1);

@@ -8,7 +8,7 @@ namespace dotyk::problem {
 
 /// How many the largest body has; 0 where a body cannot tell functions of coarser meshes.
 int coarser_meshes(const Problem& problem);
-/// Functions of so many coarser meshes of all bodies, level by level.
+/// The functions of so many coarser meshes, all bodies together, the finest of these meshes first: see elasticity::coarse_functions().
 std::vector<algebra::SparseRows> coarse_functions(const Problem& problem);
 
 /// Of values at nodes (rows of `functions`) those at the nodes that the coarser mesh has: where a row is 1 in one column. Elsewhere 0.

@@ -51,7 +51,7 @@ TEST_CASE("several solvers at once, from several threads, ended in any order") {
   if (test::not_built()) return;
   Monitor monitor;
   std::vector<test::ElasticCube> cubes;
-  std::vector<std::unique_ptr<multigrid::Solver>> solvers;
+  std::vector<std::unique_ptr<algebra::SpdSolver>> solvers;
   for (const int n : {3, 6, 4}) {
     cubes.push_back(test::cube_on_its_bottom(n));
     solvers.push_back(multigrid::make_solver({cubes.back().lower, cubes.back().node, cubes.back().motions}, monitor));
@@ -78,7 +78,7 @@ TEST_CASE("new numbers, and solvers that come and go, take no more memory each t
   if (test::not_built()) return;
   Monitor monitor;
   const auto cube = test::cube_on_its_bottom(6);
-  const auto run = [&](multigrid::Solver& solver, int times) {
+  const auto run = [&](algebra::SpdSolver& solver, int times) {
     for (int k = 0; k < times; ++k) {
       const auto held = test::disc_on_top(cube, 0.1 * (k % 5));
       solver.set(test::holding(cube.lower, held), held);

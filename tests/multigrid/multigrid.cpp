@@ -16,7 +16,7 @@ using test::ElasticCube;
 
 namespace {
 
-std::unique_ptr<multigrid::Solver> solver_of(const ElasticCube& cube, Monitor& monitor) {
+std::unique_ptr<algebra::SpdSolver> solver_of(const ElasticCube& cube, Monitor& monitor) {
   return multigrid::make_solver({cube.lower, cube.node, cube.motions}, monitor);
 }
 
@@ -30,7 +30,7 @@ Vector direct(const algebra::SparseMatrix& K, const std::vector<int>& node, cons
 
 /// Solves with `held` and compares with the direct solver. The relative error of x is at most the condition, 2200 for 8 cells, times
 /// the tolerance.
-void compare(const ElasticCube& cube, multigrid::Solver& solver, const std::vector<char>& held) {
+void compare(const ElasticCube& cube, algebra::SpdSolver& solver, const std::vector<char>& held) {
   const algebra::SparseMatrix K = test::holding(cube.lower, held);
   const Vector b = test::pressure_on_top(cube, held);
   REQUIRE(solver.set(K, held));

@@ -7,8 +7,9 @@
 
 namespace dotyk::solver {
 
-/// Where to begin on a mesh that refines another: rows are taken as active that bear or overlap in the solution on the coarser mesh, which is found
-/// the same way (nested iteration: Kornhuber 1994, Brandt and Cryer 1983). Without it an end of a contact zone moves by few rows a step.
+/// Where to begin on a mesh that refines another. The problem is first solved on the coarser mesh; the rows that bear or overlap there are the first
+/// active ones here. The coarser mesh's own beginning is found in the same way (nested iteration: Kornhuber 1994, Brandt and Cryer 1983). Otherwise the
+/// end of a contact zone moves by few rows a step.
 struct CoarseStart {
   std::vector<char> active;  ///< by row; empty where no coarser mesh is known or its problem was not solved
   int meshes = 0;            ///< solved on

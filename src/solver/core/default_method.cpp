@@ -138,9 +138,10 @@ std::optional<Result> run_turned(const problem::Problem& problem, const Beginnin
 }  // namespace
 
 Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor, std::optional<bool> condensed) {
-  const bool linear = problem.rows() == 0 && (method ? !method.takes_linear() : default_method(problem) == DefaultMethod::linear);
-  if (linear && !method.decomposition()) return solve_linear(problem, method.ordering(), monitor);
-  if (method) return method.run(problem, std::move(from), monitor);
+  if (method) {
+    const bool linear = problem.rows() == 0 && !method.takes_linear() && !method.decomposition();
+    return linear ? solve_linear(problem, method.ordering(), monitor) : method.run(problem, std::move(from), monitor);
+  }
   if (!from.condenser && !condensed)
     if (auto result = run_turned(problem, from, monitor)) return *std::move(result);
   const DefaultMethod by_default = default_method(problem);

@@ -4,7 +4,8 @@
 
 namespace dotyk::solver {
 
-/// A problem on some of its rows, as if the others were not there, and its results as results of the whole problem.
+/// A problem on some of its rows, as if the others were not there, and its results as results of the whole problem. Scalar laws go by a row's number in its
+/// group: where they differ by row, the group is kept whole.
 class RowSubset {
  public:
   /// All rows. The problem must outlive this.
