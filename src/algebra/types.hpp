@@ -16,6 +16,27 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 /// Row-major sparse matrix: interface rows (B).
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
+/// A sparse matrix that others are moved into without a copy, which Eigen 3.4's assignment makes even of what is about to vanish.
+class StoredMatrix : public SparseMatrix {
+ public:
+  StoredMatrix() = default;
+  StoredMatrix(const StoredMatrix&) = default;
+  StoredMatrix& operator=(const StoredMatrix&) = default;
+  StoredMatrix(StoredMatrix&& other) noexcept { swap(other); }
+  StoredMatrix& operator=(StoredMatrix&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  StoredMatrix& operator=(const SparseMatrix& other) {
+    SparseMatrix::operator=(other);
+    return *this;
+  }
+  StoredMatrix& operator=(SparseMatrix&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+};
+
 /// Entries of a sparse matrix; those at one place add up.
 using Triplets = std::vector<Eigen::Triplet<double>>;
 

@@ -42,7 +42,7 @@ struct FacetSpring {
 
 /// ½ uᵀK u − fᵀu + offset is the body's energy, u its unknown components only.
 struct System {
-  algebra::SparseMatrix K;  ///< lower triangle, unknowns × unknowns
+  algebra::StoredMatrix K;  ///< lower triangle, unknowns × unknowns
   algebra::Vector f;        ///< unknowns; loads less what prescribed components pull
   double offset = 0;        ///< energy of the prescribed components alone
 };

@@ -45,8 +45,20 @@ void Embedding::number(const std::vector<int>& node) {
   starts_.assign(slot_.size() + idle_.size() + 1, 0);
 }
 
-// Rows get their entries left of the diagonal from the lower triangle's rows, the others from its columns. Going through the
-// columns in order, each row meets its own in order, too: those at its left all come before those of its own column.
+/// Calls visit(row, column, its number, its place in values_, its mirror image's) for each entry of the lower triangle. Rows get their entries left of
+/// the diagonal from the lower triangle's rows, the others from its columns. Going through the columns in order, each row meets its own in order, too:
+/// those at its left all come before those of its own column.
+template <class Visit>
+void Embedding::for_each_entry(const algebra::SparseMatrix& lower, Visit&& visit) {
+  const int* begin = lower.outerIndexPtr();
+  std::vector<int> next(starts_.begin(), starts_.end() - 1);
+  for (int j = 0; j < lower.cols(); ++j)
+    for (int k = begin[j]; k < begin[j + 1]; ++k) {
+      const int i = lower.innerIndexPtr()[k], at = next[slot_[i]]++;
+      visit(slot_[i], slot_[j], lower.valuePtr()[k], at, i == j ? at : next[slot_[j]]++);
+    }
+}
+
 void Embedding::lay_out(const algebra::SparseMatrix& lower) {
   const int* begin = lower.outerIndexPtr();
   const int* inner = lower.innerIndexPtr();
@@ -61,38 +73,25 @@ void Embedding::lay_out(const algebra::SparseMatrix& lower) {
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   columns_.resize(static_cast<std::size_t>(starts_.back()));
   values_.assign(columns_.size(), 0.0);
-  std::vector<int> next(starts_.begin(), starts_.end() - 1);
-  const auto put = [&](int row, int column) {
-    columns_[next[row]] = column;
-    return next[row]++;
-  };
-  at_.resize(static_cast<std::size_t>(lower.nonZeros()));
-  mirror_.resize(at_.size());
-  for (int j = 0; j < n; ++j)
-    for (int k = begin[j]; k < begin[j + 1]; ++k) {
-      at_[k] = put(slot_[inner[k]], slot_[j]);
-      mirror_[k] = inner[k] == j ? at_[k] : put(slot_[j], slot_[inner[k]]);
-    }
-  for (const int i : idle_) put(i, i);
+  for_each_entry(lower, [&](int row, int column, double, int at, int mirror) { columns_[at] = column, columns_[mirror] = row; });
+  for (const int i : idle_) columns_[starts_[i]] = i;
 }
 
 bool Embedding::fill(const algebra::SparseMatrix& lower, std::vector<char>& changed) {
-  if (!lower.isCompressed() || static_cast<std::size_t>(lower.nonZeros()) != at_.size() || static_cast<std::size_t>(lower.cols()) != slot_.size())
+  const std::size_t entries = slot_.size() + 2 * (static_cast<std::size_t>(lower.nonZeros()) - slot_.size()) + idle_.size();
+  if (!lower.isCompressed() || entries != values_.size() || static_cast<std::size_t>(lower.cols()) != slot_.size())
     throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
   if (!std::isfinite(positive_trace(lower))) return false;
-  const int* begin = lower.outerIndexPtr();
-  const double* value = lower.valuePtr();
-  for (int j = 0; j < lower.cols(); ++j)
-    for (int k = begin[j]; k < begin[j + 1]; ++k) {
-      if (values_[at_[k]] == value[k]) continue;
-      values_[at_[k]] = values_[mirror_[k]] = value[k];
-      changed[slot_[j]] = changed[slot_[lower.innerIndexPtr()[k]]] = 1;
-    }
+  for_each_entry(lower, [&](int row, int column, double value, int at, int mirror) {
+    if (values_[at] == value) return;
+    values_[at] = values_[mirror] = value;
+    changed[row] = changed[column] = 1;
+  });
   return true;
 }
 
 double Embedding::bytes() const {
-  const std::size_t places = slot_.size() + starts_.size() + columns_.size() + at_.size() + mirror_.size();
+  const std::size_t places = slot_.size() + starts_.size() + columns_.size();
   return 4.0 * static_cast<double>(places) + 8.0 * static_cast<double>(values_.size());
 }
 

@@ -29,12 +29,13 @@ class Embedding {
  private:
   void number(const std::vector<int>& node);
   void lay_out(const algebra::SparseMatrix& lower);
+  template <class Visit>
+  void for_each_entry(const algebra::SparseMatrix& lower, Visit&& visit);
 
   int block_ = 1;
   std::vector<int> slot_, idle_;
   std::vector<int> starts_, columns_;
   std::vector<double> values_;
-  std::vector<int> at_, mirror_;            // where an entry of the lower triangle, and its mirror image, stand in values_
 };
 
 }  // namespace dotyk::multigrid

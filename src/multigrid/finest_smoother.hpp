@@ -7,9 +7,9 @@
 
 namespace dotyk::multigrid {
 
-/// One sweep of Gauss and Seidel, and an exact solution at unknowns that share the stiffness of two bodies far apart in stiffness, by CHOLMOD: there
-/// stiff and soft modes have the same unknowns, and sweeps alone would be as many times slower as the root of the contrast. Before the coarse
-/// correction the sweep goes forward and comes first, after it backward and last, so that the cycle is symmetric.
+/// One sweep of Gauss and Seidel, and an exact solution at unknowns that share stiffness by a row, by CHOLMOD: there stiff and soft modes have the same
+/// unknowns, and sweeps alone would be as many times slower as the root of the contrast (on elements of order 2, whose rows are means, seven times).
+/// Before the coarse correction the sweep goes forward and comes first, after it backward and last, so that the cycle is symmetric.
 class FinestSmoother {
  public:
   /// Takes the numbers of `matrix`, which must outlive this; `shared`: rows, ascending, may be none. False where they are not definite.

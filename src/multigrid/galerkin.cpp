@@ -1,8 +1,95 @@
 #include "multigrid/galerkin.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace dotyk::multigrid {
+
+namespace {
+
+/// The blocks of a matrix that have entries, by rows of blocks; columns of a row in no order.
+struct Blocks {
+  explicit Blocks(Mat matrix) {
+    PetscInt height = 1, width = 1, columns = 0;
+    check(MatGetBlockSizes(matrix, &height, &width));
+    check(MatGetSize(matrix, nullptr, &columns));
+    count = columns / width;
+    const RowsView rows(matrix);
+    std::vector<int> seen(static_cast<std::size_t>(count), -1);
+    for (int block = 0; block < rows.count / height; ++block) {
+      for (int k = rows.starts[block * height]; k < rows.starts[(block + 1) * height]; ++k) {
+        const int column = rows.columns[k] / width;
+        if (std::exchange(seen[column], block) != block) columns_of.push_back(column);
+      }
+      starts.push_back(static_cast<int>(columns_of.size()));
+    }
+  }
+
+  Blocks transposed() const {
+    Blocks t;
+    t.count = static_cast<int>(starts.size()) - 1;
+    t.starts.assign(static_cast<std::size_t>(count) + 1, 0);
+    for (const int column : columns_of) ++t.starts[column + 1];
+    std::partial_sum(t.starts.begin(), t.starts.end(), t.starts.begin());
+    t.columns_of.resize(columns_of.size());
+    std::vector<int> next = t.starts;
+    for_each([&](int row, int column) { t.columns_of[next[column]++] = row; });
+    return t;
+  }
+
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (int row = 0; row + 1 < static_cast<int>(starts.size()); ++row) for_each(row, [&](int column) { visit(row, column); });
+  }
+  template <class Visit>
+  void for_each(int row, Visit&& visit) const {
+    for (int k = starts[row]; k < starts[row + 1]; ++k) visit(columns_of[k]);
+  }
+
+  int count = 0;  ///< columns
+  std::vector<int> starts{0}, columns_of;
+
+ private:
+  Blocks() = default;
+};
+
+}  // namespace
+
+OwnedMat coarse_matrix(Mat A, Mat P) {
+  PetscInt block = 1;
+  check(MatGetBlockSizes(P, nullptr, &block));
+  const Blocks fine(A), leads(P), from = leads.transposed();
+  std::vector<int> starts{0}, columns, row;
+  std::vector<int> met(static_cast<std::size_t>(fine.count), -1), seen(static_cast<std::size_t>(leads.count), -1);
+  for (int coarse = 0; coarse < leads.count; ++coarse) {
+    row = {coarse};
+    seen[coarse] = coarse;
+    from.for_each(coarse, [&](int i) {
+      fine.for_each(i, [&](int k) {
+        if (std::exchange(met[k], coarse) == coarse) return;
+        leads.for_each(k, [&](int other) {
+          if (std::exchange(seen[other], coarse) != coarse) row.push_back(other);
+        });
+      });
+    });
+    std::sort(row.begin(), row.end());
+    for (int r = 0; r < block; ++r) {
+      for (const int node : row)
+        for (int c = 0; c < block; ++c) columns.push_back(node * block + c);
+      starts.push_back(static_cast<int>(columns.size()));
+    }
+  }
+  const PetscInt size = leads.count * block;
+  OwnedMat C;
+  check(MatCreate(PETSC_COMM_SELF, C.put()));
+  check(MatSetSizes(C, size, size, size, size));
+  check(MatSetType(C, MATSEQAIJ));
+  check(MatSetBlockSize(C, block));
+  check(MatSeqAIJSetPreallocationCSR(C, starts.data(), columns.data(), nullptr));
+  check(MatShift(C, 1));
+  return C;
+}
 
 Galerkin::Galerkin(Mat interpolation, Mat coarse) {
   PetscInt size = 1, columns = 0;
@@ -22,10 +109,23 @@ Galerkin::Galerkin(Mat interpolation, Mat coarse) {
   first_.resize(support_.size());
   std::vector<int> next(support_start_.begin(), support_start_.end() - 1);
   for_each([&](int block, int row, int place) { support_[next[block]] = row, first_[next[block]++] = place; });
-  const auto fine = static_cast<std::size_t>(P.count), all = static_cast<std::size_t>(columns);
-  product_.assign(fine * static_cast<std::size_t>(size_), 0.0), in_product_.assign(fine, 0);
-  sum_.assign(all * static_cast<std::size_t>(size_), 0.0), in_sum_.assign(all, 0);
   entry_.assign(static_cast<std::size_t>(size_), 0.0);
+  product_.place.assign(static_cast<std::size_t>(P.count), -1);
+  sum_.place.assign(static_cast<std::size_t>(columns), -1);
+}
+
+double* Galerkin::Rows::at(int row, int size) {
+  if (place[row] < 0) {
+    place[row] = static_cast<int>(rows.size());
+    rows.push_back(row);
+    numbers.resize(rows.size() * static_cast<std::size_t>(size), 0.0);
+  }
+  return numbers.data() + static_cast<std::size_t>(place[row]) * size;
+}
+
+void Galerkin::Rows::clear() {
+  for (const int row : rows) place[row] = -1;
+  rows.clear(), numbers.clear();
 }
 
 // Row k of `product_` is (A P)_kJ of the block J, since A is symmetric; `sum_` is the block's rows of the coarse matrix, by columns.
@@ -41,32 +141,21 @@ void Galerkin::compute_block(int block, const RowsView& A, const RowsView& P, Ro
       own[P.columns[k] - block * m] = P.values[k], empty = empty && P.values[k] == 0;
     if (empty) continue;
     for (int k = A.starts[i]; k < A.starts[i + 1]; ++k) {
-      const int row = A.columns[k];
-      if (!in_product_[row]) in_product_[row] = 1, product_rows_.push_back(row);
-      double* to = product_.data() + static_cast<std::size_t>(row) * m;
+      double* to = product_.at(A.columns[k], m);
       for (int r = 0; r < m; ++r) to[r] += A.values[k] * own[r];
     }
   }
-  for (const int row : product_rows_) {
-    double* from = product_.data() + static_cast<std::size_t>(row) * m;
+  for (std::size_t p = 0; p < product_.rows.size(); ++p) {
+    const double* from = product_.numbers.data() + p * m;
+    const int row = product_.rows[p];
     for (int k = P.starts[row]; k < P.starts[row + 1]; ++k) {
-      const int column = P.columns[k];
-      if (!in_sum_[column]) in_sum_[column] = 1, sum_rows_.push_back(column);
-      double* to = sum_.data() + static_cast<std::size_t>(column) * m;
+      double* to = sum_.at(P.columns[k], m);
       for (int r = 0; r < m; ++r) to[r] += P.values[k] * from[r];
     }
-    std::fill(from, from + m, 0.0);
-    in_product_[row] = 0;
   }
   for (int r = 0; r < m; ++r)
-    for (int k = C.starts[block * m + r]; k < C.starts[block * m + r + 1]; ++k)
-      C.values[k] = sum_[static_cast<std::size_t>(C.columns[k]) * m + r];
-  for (const int column : sum_rows_) {
-    std::fill_n(sum_.data() + static_cast<std::size_t>(column) * m, m, 0.0);
-    in_sum_[column] = 0;
-  }
-  product_rows_.clear();
-  sum_rows_.clear();
+    for (int k = C.starts[block * m + r]; k < C.starts[block * m + r + 1]; ++k) C.values[k] = sum_.at(C.columns[k], m)[r];
+  product_.clear(), sum_.clear();
 }
 
 std::vector<char> Galerkin::compute(Mat fine, Mat interpolation, Mat coarse, const std::vector<char>& changed) {
@@ -83,8 +172,7 @@ std::vector<char> Galerkin::compute(Mat fine, Mat interpolation, Mat coarse, con
 }
 
 double Galerkin::bytes() const {
-  return 4.0 * static_cast<double>(support_.size() + first_.size() + support_start_.size()) + 8.0 * static_cast<double>(product_.size() + sum_.size()) +
-         static_cast<double>(in_product_.size() + in_sum_.size());
+  return 4.0 * static_cast<double>(support_.size() + first_.size() + support_start_.size()) + 4.0 * static_cast<double>(product_.place.size() + sum_.place.size());
 }
 
 }  // namespace dotyk::multigrid

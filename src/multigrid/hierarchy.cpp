@@ -136,30 +136,6 @@ OwnedMat product(Mat S, Mat P) {
   return m;
 }
 
-/// Of PᵀAP the pattern, with a diagonal in every row.
-OwnedMat coarse_matrix(Mat A, Mat P) {
-  OwnedMat C;
-  check(MatProductCreate(A, P, nullptr, C.put()));
-  check(MatProductSetType(C, MATPRODUCT_PtAP));
-  check(MatProductSetFromOptions(C));
-  check(MatProductSymbolic(C));
-  check(MatProductClear(C));
-  tell_changed(C);
-  PetscInt rows = 0, block = 1;
-  check(MatGetSize(C, &rows, nullptr));
-  check(MatGetBlockSizes(P, nullptr, &block));
-  algebra::Triplets missing;
-  {
-    const RowsView view(C);
-    for (int i = 0; i < rows; ++i)
-      if (!std::binary_search(view.columns + view.starts[i], view.columns + view.starts[i + 1], i)) missing.emplace_back(i, i, 1.0);
-  }
-  if (!missing.empty())
-    check(MatAXPY(C, 1, matrix_of(algebra::from_triplets<algebra::SparseRows>(rows, rows, missing), {block, block}), DIFFERENT_NONZERO_PATTERN));
-  check(MatSetBlockSize(C, block));
-  return C;
-}
-
 }  // namespace
 
 Hierarchy::Hierarchy(const Matrix& matrix) : embedding_(matrix.lower, matrix.node) {
@@ -198,9 +174,6 @@ void Hierarchy::coarsen(const Matrix& matrix) {
     check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
     products_.emplace_back(interpolations_[l], matrices_[l + 1]);
   }
-  if (interpolations_.empty()) return;
-  const RowsView P(interpolations_[0]);
-  finest_interpolation_.assign(P.values, P.values + P.starts[P.count]);
 }
 
 void Hierarchy::take_functions(const Matrix& matrix, Mat S) {
@@ -242,15 +215,18 @@ void Hierarchy::find_shared(const Matrix& matrix) {
   constexpr double kStiffer = 2;
   const algebra::Vector k = matrix.displaced->diagonal();
   const algebra::SparseRows S = *matrix.unknowns;
-  algebra::Vector brought = algebra::Vector::Zero(k.size());  // stiffness, by jumps
+  algebra::Vector brought = algebra::Vector::Zero(k.size()), carried = brought;  // stiffness, to an unknown by rows, and by a row to others
   const auto each_pair = [&](auto&& visit) {
     for (int i = 0; i < S.rows(); ++i)
       for (algebra::SparseRows::InnerIterator it(S, i); it; ++it)
         if (it.col() != i) visit(i, static_cast<int>(it.col()), it.value());
   };
-  each_pair([&](int i, int j, double factor) { brought[j] += k[i] * factor * factor; });
+  each_pair([&](int i, int j, double factor) {
+    const double whole = S.coeff(i, i), stiffness = k[i] * (factor / whole) * (factor / whole);
+    brought[j] += stiffness, carried[i] += stiffness / k[j];
+  });
   each_pair([&](int i, int j, double) {
-    if (brought[j] > kStiffer * k[j]) shared_.insert({embedding_.slot()[i], embedding_.slot()[j]});
+    if (brought[j] > kStiffer * k[j] || carried[i] > kStiffer) shared_.insert({embedding_.slot()[i], embedding_.slot()[j]});
   });
 }
 
@@ -269,7 +245,13 @@ void Hierarchy::truncate(const std::vector<char>& held, std::vector<char>& chang
   for (int i = 0; i < P.count; ++i) {
     if (empty[i] == empty_[i]) continue;
     changed[i] = 1;
-    for (int k = P.starts[i]; k < P.starts[i + 1]; ++k) P.values[k] = empty[i] ? 0.0 : finest_interpolation_[k];
+    double *begin = P.values + P.starts[i], *end = P.values + P.starts[i + 1];
+    if (empty[i]) {
+      emptied_[i].assign(begin, end);
+      std::fill(begin, end, 0.0);
+    } else {
+      std::copy_n(emptied_.extract(i).mapped().begin(), end - begin, begin);
+    }
   }
   empty_ = empty;
 }
@@ -297,7 +279,7 @@ void Hierarchy::fill_coarse(std::vector<char> changed) {
 }
 
 double Hierarchy::bytes() const {
-  double sum = embedding_.bytes() + 8.0 * static_cast<double>(finest_interpolation_.size());
+  double sum = embedding_.bytes();
   for (std::size_t l = 1; l < matrices_.size(); ++l) sum += bytes_of(matrices_[l]) + bytes_of(interpolations_[l - 1]) + products_[l - 1].bytes();
   return sum;
 }

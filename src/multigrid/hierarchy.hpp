@@ -1,6 +1,7 @@
 // Matrices and interpolations of all levels.
 #pragma once
 
+#include <map>
 #include <set>
 #include <vector>
 
@@ -22,8 +23,8 @@ class Hierarchy {
   Mat matrix(int level) const { return matrices_[level]; }                ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
   const Embedding& embedding() const { return embedding_; }
-  /// Slots, ascending, that are not held and share the stiffness of two bodies, one stiffer than the other: a jump that is an unknown
-  /// in place of the stiffer body's displacement, and the softer body's displacements in it.
+  /// Slots, ascending, that are not held and share stiffness by a row that is an unknown: that of a jump in place of the stiffer body's displacement, and
+  /// the softer body's displacements in it; or that of a mean of many displacements in place of one, and the others.
   std::vector<PetscInt> shared() const;
   double bytes() const;
 
@@ -43,8 +44,8 @@ class Hierarchy {
   Embedding embedding_;
   std::vector<OwnedMat> matrices_, interpolations_;
   std::vector<Galerkin> products_;            // of each interpolation
-  std::vector<double> finest_interpolation_;  // its numbers, no unknown held
-  std::vector<char> empty_;                   // its rows that are empty now
+  std::vector<char> empty_;                   // rows of the finest interpolation that are empty now
+  std::map<int, std::vector<double>> emptied_;  // the numbers that they had
   std::set<int> shared_;                      // slots that shared() picks from
   bool fresh_ = true;                         // no coarse matrix is ours yet
 };

@@ -14,6 +14,8 @@ namespace dotyk::multigrid {
 namespace {
 
 constexpr int kMostIterations = 1000;
+/// From so many on the rate tells how many there will be.
+constexpr int kTelling = 10;
 
 std::mutex& only_one() {
   static std::mutex mutex;
@@ -43,16 +45,23 @@ void make_coarsest(KSP ksp, Mat matrix) {
 }
 
 struct Ending {
-  double residual;  // at which to end
+  double first, residual;  // residuals: the first one, and at which to end
+  double most;             // iterations
   Monitor& monitor;
   std::exception_ptr thrown = nullptr;  // by the monitor, kept until PETSc has returned
 };
+
+/// Iterations for twelve digits at the rate so far, of this system and those after it together.
+double foreseen(const Ending& ending, int iteration, double residual) {
+  return residual < ending.first ? iteration * std::log(1e-12) / std::log(residual / ending.first) : INFINITY;
+}
 
 PetscErrorCode ended(KSP, PetscInt iteration, PetscReal residual, KSPConvergedReason* reason, void* context) {
   Ending& ending = *static_cast<Ending*>(context);
   *reason = !std::isfinite(residual)         ? KSP_DIVERGED_NANORINF
             : residual <= ending.residual    ? KSP_CONVERGED_RTOL
             : iteration >= kMostIterations   ? KSP_DIVERGED_ITS
+            : iteration >= kTelling && foreseen(ending, iteration, residual) > ending.most ? KSP_DIVERGED_ITS
                                              : KSP_CONVERGED_ITERATING;
   if (*reason != KSP_CONVERGED_ITERATING) return 0;
   try {
@@ -66,7 +75,7 @@ PetscErrorCode ended(KSP, PetscInt iteration, PetscReal residual, KSPConvergedRe
 
 class PetscSolver final : public algebra::SpdSolver {
  public:
-  PetscSolver(const Matrix& matrix, Monitor& monitor) : monitor_(monitor), geometric_(matrix.coarse), hierarchy_(matrix) {
+  PetscSolver(const Matrix& matrix, Monitor& monitor) : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), hierarchy_(matrix) {
     check(MatCreateVecs(hierarchy_.matrix(0), x_.put(), b_.put()));
     make_cycle();
     alone_.unlock();
@@ -95,7 +104,7 @@ class PetscSolver final : public algebra::SpdSolver {
     check(VecRestoreArray(b_, &in));
     PetscReal norm = 0;
     check(VecNorm(b_, NORM_2, &norm));
-    Ending ending{tolerance * norm, monitor_};
+    Ending ending{norm, tolerance * norm, most_, monitor_};
     check(KSPSetConvergenceTest(ksp_, ended, &ending, nullptr));
     check(KSPSolve(ksp_, b_, x_));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
@@ -152,6 +161,7 @@ class PetscSolver final : public algebra::SpdSolver {
 
   std::unique_lock<std::mutex> alone_{only_one()};  // while the members after it are made, and while they are destroyed
   Monitor& monitor_;
+  const double most_;  // iterations
   const bool geometric_;
   Hierarchy hierarchy_;
   FinestSmoother finest_;

@@ -24,7 +24,7 @@ struct CoarseMeshes {
 /// One body's energy ½uᵀKu − fᵀu + offset on its own unknowns.
 struct Block {
   std::string name;
-  algebra::SparseMatrix K;      ///< lower triangle; positive semidefinite
+  algebra::StoredMatrix K;      ///< lower triangle; positive semidefinite
   algebra::Vector f;
   double offset = 0;
   std::vector<int> node;        ///< node of each unknown, ascending: what orderings keep together

@@ -42,6 +42,8 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
     result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {before.active}, inner);
   } catch (const Interrupted&) {
     throw;
+  } catch (const SlowIterations&) {
+    throw;  // on the finer mesh they would not be faster
   } catch (const std::exception&) {  // said of the mesh that is given, where it is so there, too
   }
   monitor.check();

@@ -34,7 +34,7 @@ constexpr double kShareOfDirection = 0.1, kCancelled = 1e-24;
 class HeldStep final : public Step {
  public:
   HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho)
-      : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), T_(stiffness.basis().T.cast<long double>()),
+      : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), trivial_(stiffness.basis().trivial()), T_(trivial_ ? LongMatrix() : LongMatrix(stiffness.basis().T.cast<long double>())),
         f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
     for (const problem::Block& block : problem.blocks) f_.segment(block.first, block.size()) = block.f;
     for (const problem::FrictionGroup& group : problem.friction)
@@ -97,7 +97,7 @@ class HeldStep final : public Step {
         spring_[r] = kHeldRowSpring * own_[r];
       }
     }
-    u_ += T_ * moved.cast<long double>();
+    trivial_ ? u_ += moved.cast<long double>() : u_ += T_ * moved.cast<long double>();
     known_ = false;
   }
 
@@ -216,7 +216,7 @@ class HeldStep final : public Step {
       }
     }
     Vector& left = forces_;
-    left = (T_.transpose() * all).cast<double>();
+    left = trivial_ ? Vector(all.cast<double>()) : Vector((T_.transpose() * all).cast<double>());
     const Vector without = slips_.empty() ? Vector() : left;
     for (const Linearisation::Slip& s : slips_) {
       const Vector force = beyond(s, without);
@@ -297,7 +297,9 @@ class HeldStep final : public Step {
   HeldStiffness& stiffness_;
   const Vector& rho_;
   const Vector own_;
-  const Eigen::SparseMatrix<long double> T_;
+  using LongMatrix = Eigen::SparseMatrix<long double>;
+  const bool trivial_;   ///< is T the identity?
+  const LongMatrix T_;   ///< else
   Vector f_;
   Vector constant_, spring_, target_;  ///< rows: λ of those that are not active; s and t of λ = s(Bu − t), and Bu of rigid ones
   std::vector<char> held_;

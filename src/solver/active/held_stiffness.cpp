@@ -22,14 +22,12 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
   assemble();
   for (const int unknown : algebra::fixing_unknowns(unnoticed_)) lower_.coeffRef(unknown, unknown) *= 2;  // carries nothing
-  stiffness_ = Eigen::Map<const Vector>(lower_.valuePtr(), lower_.nonZeros());
+  held_.assign(problem.unknowns(), 0);
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   solver_ = make({lower_, problem, basis_, monitor});
 }
 
 void HeldStiffness::assemble() {
-  SparseMatrix K = problem::lower_stiffness(problem_);
-  if (!basis_.trivial()) K = algebra::congruent(K, basis_.T);
   std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
@@ -39,28 +37,42 @@ void HeldStiffness::assemble() {
     if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
   }
   for (int i = 0; i < problem_.unknowns(); ++i) entries.emplace_back(i, i, 0.0);
-  SparseMatrix springs(K.rows(), K.cols());
-  springs.setFromTriplets(entries.begin(), entries.end());
-  lower_ = algebra::lower_sum(K, springs);
+  const SparseMatrix zeros = algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries);
+  const bool alone = problem_.blocks.size() == 1;
+  const SparseMatrix joined = alone ? SparseMatrix() : problem::lower_stiffness(problem_);
+  const SparseMatrix& K = alone ? problem_.blocks.front().K : joined;
+  lower_ = basis_.trivial() ? algebra::lower_sum(K, zeros) : algebra::lower_sum(algebra::congruent(K, basis_.T), zeros);
+}
+
+/// Of an entry where nothing is held.
+void HeldStiffness::change(int row, int column, double by) {
+  if (held_[row] || held_[column]) return;
+  double& value = lower_.coeffRef(row, column);
+  changed_.emplace_back(&value, value);
+  value += by;
 }
 
 void HeldStiffness::spring_rows(const Vector& spring) {
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i && spring[r] != 0; ++i)
-      for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) lower_.coeffRef(i.col(), j.col()) += spring[r] * (i.value() * j.value());
+      for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j)
+        change(static_cast<int>(i.col()), static_cast<int>(j.col()), spring[r] * (i.value() * j.value()));
 }
 
 bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added) {
+  for (; !changed_.empty(); changed_.pop_back()) *changed_.back().first = changed_.back().second;
   held_ = held;
-  double* value = lower_.valuePtr();
-  std::copy(stiffness_.begin(), stiffness_.end(), value);
-  spring_rows(spring);
-  for (const auto& entry : added) lower_.coeffRef(entry.row(), entry.col()) += entry.value();
   for (int j = 0; j < lower_.cols(); ++j)
     for (int k = lower_.outerIndexPtr()[j]; k < lower_.outerIndexPtr()[j + 1]; ++k) {
       const int i = lower_.innerIndexPtr()[k];
-      if (held[i] || held[j]) value[k] = i == j ? (stiffness_[k] > 0 ? stiffness_[k] : 1) : 0;
+      double& value = lower_.valuePtr()[k];
+      const double without = i == j ? (value > 0 ? value : 1) : 0;
+      if ((!held[i] && !held[j]) || value == without) continue;
+      changed_.emplace_back(&value, value);
+      value = without;
     }
+  spring_rows(spring);
+  for (const auto& entry : added) change(entry.row(), entry.col(), entry.value());
   return solver_->set(lower_, held_);
 }
 
@@ -69,7 +81,7 @@ Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
     if (held_[i]) forces[i] = 0;
   const Vector solution = solver_->solve(forces, tolerance);
   if (solver_->iterates() && forces.allFinite() && !solution.allFinite())
-    throw NotSolved(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
+    throw SlowIterations(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
                           "stretched cells or great contrasts of stiffness; dotyk.solver.pdas{ linear = \"factor\" } does without iterations"));
   return problem::least(unnoticed_, basis_.T * solution);
 }
@@ -106,13 +118,14 @@ MakeSpdSolver incomplete_factor() {
   return [](const SpdSystem& s) { return algebra::incompletely_factored(s.monitor); };
 }
 
-MakeSpdSolver multigrid(Levels levels) {
-  return [levels](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
+MakeSpdSolver multigrid(Levels levels, double most_iterations) {
+  return [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
     const std::vector<int> nodes = problem::nodes(s.problem);
     const auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
     DenseMatrix motions = all_rigid_motions(s.problem);
     for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
     multigrid::Matrix matrix{s.lower, nodes, motions};
+    matrix.most_iterations = most_iterations;
     if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension;
     if (s.basis.trivial()) return multigrid::make_solver(matrix, s.monitor);
     const SparseMatrix K = held_slightly(s.problem), unknowns = s.basis.of_displacements(s.problem);

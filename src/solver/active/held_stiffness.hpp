@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -25,14 +26,20 @@ struct NotSolved : InputError {
   using InputError::InputError;
 };
 
+/// So did iterations with the stiffness.
+struct SlowIterations : NotSolved {
+  using NotSolved::NotSolved;
+};
+
 /// A sparse Cholesky factor.
 MakeSpdSolver factor(algebra::Ordering ordering);
 /// Conjugate gradients with an incomplete Cholesky factor.
 MakeSpdSolver incomplete_factor();
 /// What the levels of multigrid are made of: coarser meshes, where they are known, or aggregates of unknowns alone.
 enum class Levels { meshes, aggregates };
-/// Conjugate gradients with multigrid. Making the solver throws InputError where its library was not built.
-MakeSpdSolver multigrid(Levels levels);
+/// Conjugate gradients with multigrid. It gives up where their rate says that a linear system will take more than `most_iterations`. Making the solver
+/// throws InputError where its library was not built.
+MakeSpdSolver multigrid(Levels levels, double most_iterations = std::numeric_limits<double>::infinity());
 
 /// A = Tᵀ(K + Σ_r s_r B_rᵀB_r)T in the basis T where rows are unknowns, with the rows and columns of held unknowns emptied but for their diagonal:
 /// what active-set and barrier iterations solve with where rows act on few unknowns each. One pattern for all s and all that is held.
@@ -57,13 +64,14 @@ class HeldStiffness {
  private:
   void assemble();
   void spring_rows(const algebra::Vector& spring);
+  void change(int row, int column, double by);
 
   const problem::Problem& problem_;
   const problem::RowBasis basis_;
   const algebra::SparseMatrix unnoticed_;
   algebra::SparseRows rows_;        ///< B T
-  algebra::SparseMatrix lower_;     ///< of the pattern, with the numbers of the last factor()
-  algebra::Vector stiffness_;       ///< TᵀKT's numbers in that pattern
+  algebra::StoredMatrix lower_;     ///< of the pattern, with the numbers of the last factor()
+  std::vector<std::pair<double*, double>> changed_;  ///< places of its numbers that are not TᵀKT's, each with what it was before
   std::vector<char> held_;
   std::unique_ptr<algebra::SpdSolver> solver_;
 };

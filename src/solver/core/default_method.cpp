@@ -17,18 +17,26 @@ namespace dotyk::solver {
 namespace {
 
 /// Below so many unknowns nothing takes long enough to be worth an estimate.
-constexpr int kLarge = 50000;
+constexpr int kLarge = 8000;
+/// How much faster multigrid is to be, and where a history goes on with one factor.
+constexpr double kClearly = 1.2, kFactorIsKept = 10;
 
-bool solid_in_space(const problem::Problem& problem) {
-  constexpr int kRigidMotions = 6;
-  return std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.rigid && b.rigid().cols() == kRigidMotions; });
+bool multigrid_is_possible(const problem::Problem& problem) {
+  const bool solid = std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return bool(b.rigid); });
+  return problem.unknowns() >= kLarge && problem.subdomains.empty() && solid && multigrid::available() && tells_springs(problem);
 }
 
-bool multigrid_is_faster(const problem::Problem& problem) {
-  constexpr double kClearly = 1.5;
-  if (problem.unknowns() < kLarge || !problem.subdomains.empty() || !multigrid::available() || !tells_springs(problem) || !solid_in_space(problem)) return false;
+bool multigrid_is_faster(const problem::Problem& problem, double times = kClearly) {
+  if (!multigrid_is_possible(problem)) return false;
   const Expected seconds = expected(problem);
-  return seconds.condensed > kClearly * seconds.multigrid;
+  return seconds.condensed > times * seconds.multigrid;
+}
+
+/// Iterations that a linear system may take until factors would have been faster.
+double most_iterations(const problem::Problem& problem) {
+  constexpr double kUsual = 25, kShare = 0.4;  // of the seconds that the usual ones take
+  const Expected seconds = expected(problem);
+  return kUsual * (1 + std::max(0.0, seconds.condensed / seconds.multigrid - 1) / kShare);
 }
 
 /// Has nearly every row an unknown that no other row has, as those of mortar glue of order 1 do? Else the basis of rows fills up.
@@ -52,15 +60,21 @@ bool rows_stand_apart(const problem::Problem& problem) {
 }  // namespace
 
 Expected expected(const problem::Problem& problem) {
-  // Measured on cubes, and on the parts of scripts/studies/bench/gmsh_parts.lua. With n unknowns, m points of contact: 7.5 n² operations for a factor by
-  // nested dissection, and 3 (3m)³ for the dense matrices, which have three components a point.
-  constexpr double kFlops = 1.2e10, kFactor = 7.5, kRows = 81;
-  const double unknown = problem::coarser_meshes(problem) > 1 ? 3e-5 : 1e-4;  // seconds of multigrid
+  // Measured by scripts/studies/crossing.lua. With n unknowns, m points of contact: 7.5 n² operations for a factor by nested dissection in space, 210 n^1.5
+  // in the plane, 3 (dm)³ for the dense matrices, which have d components a point, and what grows with n alone, ordering most of all.
+  constexpr double kFlops = 1.2e10, kOpening = 0.15;  // opening: of the library
+  constexpr int kRigidMotions = 6;
+  const bool space = problem.blocks.front().rigid().cols() == kRigidMotions;
+  const bool geometric = problem::coarser_meshes(problem) > 1;
+  const double unknown = (space ? 2e-5 : 1e-5) * (geometric ? 1 : 3);  // seconds of multigrid
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
   const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !all_linear(problem);
   const double solves = problem.friction.empty() ? 1 : 2;  // times as many iterations
-  return {(kFactor * n * n + kRows * m * m * m) / kFlops, unknown * n * solves};
+  double factor = 0;
+  for (const problem::Block& block : problem.blocks) factor += space ? 7.5 * std::pow(block.size(), 2) : 210 * std::pow(block.size(), 1.5);
+  const double rows = (space ? 81 : 24) * m * m * m;
+  return {(space ? 2.6e-5 : 4e-6) * n + (factor + rows) / kFlops, kOpening + unknown * n * solves};
 }
 
 DefaultMethod default_method(const problem::Problem& problem) {
@@ -88,6 +102,7 @@ Result run(const problem::Problem& problem, DefaultMethod by_default, Beginning 
 /// Not converged, with the reason, where iterations come to no rest, linear systems are not solved by them, or the library cannot be used.
 Result run_held(const problem::Problem& problem, bool by_multigrid, Beginning from, Monitor& monitor) {
   Pdas pdas = by_multigrid ? Multigrid() : Pdas();
+  if (by_multigrid) pdas.linear = multigrid(Levels::meshes, most_iterations(problem));
   pdas.reduced = false;
   Result failed;
   try {
@@ -146,8 +161,9 @@ Result solve(const problem::Problem& problem, const Method& method, Beginning fr
     if (auto result = run_turned(problem, from, monitor)) return *std::move(result);
   const DefaultMethod by_default = default_method(problem);
   Result before;
-  if (!condensed && (by_default == DefaultMethod::multigrid || (by_default == DefaultMethod::held && !from.condenser))) {
-    before = run_held(problem, by_default == DefaultMethod::multigrid, from, monitor);
+  const bool by_multigrid = by_default == DefaultMethod::multigrid && (!from.condenser || multigrid_is_faster(problem, kFactorIsKept));
+  if (!condensed && (by_multigrid || (by_default == DefaultMethod::held && !from.condenser))) {
+    before = run_held(problem, by_multigrid, from, monitor);
     if (before.converged || monitor.stop()) return before;
   }
   const auto after = [&](Result result) {
