@@ -6,7 +6,8 @@
 -- aggregates (algebraic) and of coarser meshes (geometric). Then contact against one linear solve by the same hierarchy, assembly on neither side:
 -- frictionless, with Coulomb's friction, and two blocks whose meshes do not match. Then iterations of conjugate gradients a Newton step against the
 -- size, the contact, friction, contrast, Poisson's ratio and stretched cells: multigrid loses its speed with nearly incompressible material and with cells
--- that are long in one direction, as theory says of point smoothers (Trottenberg, Oosterlee, Schüller 2001, §5.1). Energies agree to 1e-9.
+-- that are long in one direction, as theory says of point smoothers (Trottenberg, Oosterlee, Schüller 2001, §5.1). Energies agree to 1e-9. Last, on paper,
+-- what a billion unknowns need on a thousand ranks.
 
 local sizes = {}
 for _, n in ipairs(arg) do sizes[#sizes + 1] = tonumber(n) end
@@ -121,3 +122,35 @@ row("Coulomb's coefficient", { 0.1, 0.3, 0.6, 1.0 }, function(mu) return cube(n,
 row("contrast of two blocks", { 1, 10, 100, 1000 }, function(contrast) return blocks(n, { contrast = contrast }) end)
 row("Poisson's ratio", { 0.3, 0.45, 0.49, 0.499 }, function(nu) return cube(n, { nu = nu }) end)
 row("height of the cells", { 1, 2, 4, 8 }, function(stretch) return cube(n, { stretch = stretch }) end)
+
+-- 5. A billion unknowns on a thousand ranks, on paper: P1 in space, a cube, what one process needs measured here, what a network takes assumed.
+do
+  local s <const> = solved(multigrid, cube(last))
+  local unknowns <const>, its <const> = s.unknowns, s.multigrid.cg
+  local iteration <const> = s.time.iterate / its / unknowns
+  local ranks <const>, all <const> = 1000, 1e9
+  local own <const> = all / ranks
+  local edge <const> = (own / 3)^(1 / 3)  -- nodes
+  local levels <const> = math.ceil(math.log((all / 3)^(1 / 3) / 8, 2))
+  -- A level has an eighth of the unknowns of the finer one. Each sends its faces in two sweeps, two products, and an interpolation up and down.
+  local exchanges <const>, neighbours <const>, latency <const>, bandwidth <const> = 6, 26, 2e-6, 1e10
+  local flops <const> = 45 * 2 * (2 * 1.5 + 2) * 8 / 7  -- 45 entries a row: two sweeps, of which one also computes what it starts from, two products
+  local halo <const> = 6 * edge^2 * 3 * 8 * exchanges * 4 / 3
+  local messages <const> = exchanges * neighbours * levels
+  local reductions <const> = 2 * math.ceil(math.log(ranks, 2)) * latency
+  local network <const> = messages * latency + halo / bandwidth + reductions
+  local bytes <const> = include "../lib/peak_memory.lua"() * 1e9 / unknowns
+  print(("\nA billion unknowns on %d ranks, from the cube of %d³ cells (%d unknowns)"):format(ranks, last, unknowns))
+  print(("memory            %8.1f GB a rank, %.2f kB an unknown, mesh, result and program included"):format(own * bytes / 1e9, bytes / 1e3))
+  print(("arithmetic        %8.2f Gflop an iteration and rank, %.2f s as fast as here (%.1f Gflop/s, bound by memory)"):format(own * flops / 1e9, own * iteration,
+    flops / iteration / 1e9))
+  print(("messages          %8d an iteration and rank on %d levels, %.1f MB; %.4f s at %g µs a message and %g GB/s (assumed)"):format(messages, levels, halo / 1e6,
+    network, latency * 1e6, bandwidth / 1e9))
+  local sparse = 0
+  for level = 0, levels do sparse = sparse + (all / 3 / 8^level < ranks and 1 or 0) end
+  print(("coarsest level    %8.0f unknowns, on one rank; levels with less than a node a rank: %d"):format(all / 8^levels, sparse))
+  print(("iterations        %8d in %d steps, if they stay as here: %.0f s"):format(its, s.multigrid.newton, its * (own * iteration + network)))
+  print(("contact           %8.0f of %d ranks have nodes of the top; their share of rows decides about the other ranks' waiting"):format(ranks^(2 / 3), ranks))
+  print("What breaks first: sweeps of Gauss and Seidel stop at a rank's border, and iterations grow; then latency on the coarse levels, where ranks have less than "
+    .. "a node; then 32-bit indices, from 4.7e7 unknowns a process on")
+end

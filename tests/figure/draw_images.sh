@@ -15,7 +15,7 @@ quick="first examples/friction examples/asperities examples/two_blocks examples/
   papers/horak_fibinger/plate_cases examples/plate_corners examples/plate_obstacle papers/hlavacova/channel
   papers/alesawi/augmented_lagrangian studies/methods/coulomb_loop studies/stability/uzawa studies/stability/locking
   studies/stability/load_limit studies/stability/stretched papers/horak/beam_foundations papers/horak/beam_breaking"
-rounding="studies/methods/penalty studies/stability/degenerate studies/stability/rho studies/stability/contrast
+rounding="studies/methods/penalty studies/stability/degenerate studies/stability/rho studies/stability/contrast studies/stability/multigrid
   studies/stability/weak_springs studies/stability/overconstrained studies/stability/penalty papers/horak/beam_examples studies/accuracy/beam_laws"
 long="examples/punch studies/accuracy/cattaneo_mindlin studies/accuracy/mortar papers/vondrak/cont examples/roller examples/wall
   papers/dostal/three_blocks examples/plate examples/plate_friction examples/thermoelastic papers/netuka/semicoercive

@@ -68,7 +68,7 @@ std::string method(const problem::Problem& problem, bool any_free) {
     case solver::DefaultMethod::multigrid: {
       const solver::Expected seconds = solver::expected(problem);
       return text("multigrid on all ", problem.unknowns(), " unknowns: some ",
-                  std::ceil(seconds.multigrid), " s on a core, where factors and condensed rows would take some ", std::ceil(seconds.condensed), " s");
+                  std::ceil(seconds.multigrid), " s on a core, where factors would take some ", std::ceil(seconds.factors), " s");
     }
     case solver::DefaultMethod::pdas: break;
   }

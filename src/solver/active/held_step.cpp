@@ -34,7 +34,8 @@ constexpr double kShareOfDirection = 0.1, kCancelled = 1e-24;
 class HeldStep final : public Step {
  public:
   HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho)
-      : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), trivial_(stiffness.basis().trivial()), T_(trivial_ ? LongMatrix() : LongMatrix(stiffness.basis().T.cast<long double>())),
+      : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), trivial_(stiffness.basis().trivial()),
+        T_(trivial_ ? LongMatrix() : LongMatrix(stiffness.basis().T.cast<long double>())),
         f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
     for (const problem::Block& block : problem.blocks) f_.segment(block.first, block.size()) = block.f;
     for (const problem::FrictionGroup& group : problem.friction)

@@ -29,14 +29,14 @@ bool multigrid_is_possible(const problem::Problem& problem) {
 bool multigrid_is_faster(const problem::Problem& problem, double times = kClearly) {
   if (!multigrid_is_possible(problem)) return false;
   const Expected seconds = expected(problem);
-  return seconds.condensed > times * seconds.multigrid;
+  return seconds.factors > times * seconds.multigrid;
 }
 
 /// Iterations that a linear system may take until factors would have been faster.
 double most_iterations(const problem::Problem& problem) {
   constexpr double kUsual = 25, kShare = 0.4;  // of the seconds that the usual ones take
   const Expected seconds = expected(problem);
-  return kUsual * (1 + std::max(0.0, seconds.condensed / seconds.multigrid - 1) / kShare);
+  return kUsual * (1 + std::max(0.0, seconds.factors / seconds.multigrid - 1) / kShare);
 }
 
 /// Has nearly every row an unknown that no other row has, as those of mortar glue of order 1 do? Else the basis of rows fills up.
@@ -61,8 +61,9 @@ bool rows_stand_apart(const problem::Problem& problem) {
 
 Expected expected(const problem::Problem& problem) {
   // Measured by scripts/studies/crossing.lua. With n unknowns, m points of contact: 7.5 n² operations for a factor by nested dissection in space, 210 n^1.5
-  // in the plane, 3 (dm)³ for the dense matrices, which have d components a point, and what grows with n alone, ordering most of all.
-  constexpr double kFlops = 1.2e10, kOpening = 0.15;  // opening: of the library
+  // in the plane, 3 (dm)³ for the dense matrices, which have d components a point, or a factor in each of a few steps; and what grows with n alone, ordering
+  // most of all.
+  constexpr double kFlops = 1.2e10, kOpening = 0.15, kSteps = 8;  // opening: of the library
   constexpr int kRigidMotions = 6;
   const bool space = problem.blocks.front().rigid().cols() == kRigidMotions;
   const bool geometric = problem::coarser_meshes(problem) > 1;
@@ -73,8 +74,8 @@ Expected expected(const problem::Problem& problem) {
   const double solves = problem.friction.empty() ? 1 : 2;  // times as many iterations
   double factor = 0;
   for (const problem::Block& block : problem.blocks) factor += space ? 7.5 * std::pow(block.size(), 2) : 210 * std::pow(block.size(), 1.5);
-  const double rows = (space ? 81 : 24) * m * m * m;
-  return {(space ? 2.6e-5 : 4e-6) * n + (factor + rows) / kFlops, kOpening + unknown * n * solves};
+  const double rows = (space ? 81 : 24) * m * m * m, each = problem.friction.empty() ? kSteps * factor : INFINITY;
+  return {(space ? 2.6e-5 : 4e-6) * n + std::min(factor + rows, each) / kFlops, kOpening + unknown * n * solves};
 }
 
 DefaultMethod default_method(const problem::Problem& problem) {

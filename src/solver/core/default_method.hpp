@@ -17,7 +17,7 @@ DefaultMethod default_method(const problem::Problem& problem);
 
 /// Seconds on one core that solid bodies are expected to take, to a factor of two; iterations of multigrid few. There must be a body.
 struct Expected {
-  double condensed, multigrid;
+  double factors, multigrid;
 };
 Expected expected(const problem::Problem& problem);
 
