@@ -1,0 +1,63 @@
+-- Stability atlas: where multigrid loses its speed.
+--
+--   ./dotyk scripts/studies/stability/multigrid.lua [CELLS]
+--
+-- A rigid paraboloid on a cube of CELLS³ cells of six tetrahedra. Gauss and Seidel smooth what couples strongly. Errors that couple weakly on the fine mesh
+-- and are no functions of the coarser one are left to conjugate gradients, whose iterations grow as the root of the condition:
+-- 1. Cells s times as high as wide: coupling along them is s² times weaker, so that iterations grow as s (point smoothers: Trottenberg, Oosterlee and
+--    Schüller, Multigrid, 2001, §5.1).
+-- 2. ν → ½: displacements without divergence cost μ, all others λ = 2μν/(1 − 2ν), and a sweep tells them not apart: iterations grow as (1 − 2ν)^−½.
+-- 3. The default method sees the rate after ten iterations, on a coarser mesh where there is one, and takes factors where these are faster.
+-- Draws images/stability_multigrid.png.
+
+local n <const> = tonumber(arg[1]) or 16
+local common <const> = include "../../lib/common.lua"
+
+local function cube(cells, nu, height)
+  local body <const> = dotyk.body{ material = dotyk.material{ E = 1000, nu = nu },
+    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, height}, cells = { cells, cells, cells } } }
+  body:part"bottom":fix()
+  local scene <const> = dotyk.scene{ body }
+  scene:contact{ body:part"top", interference = true,
+    rigid = dotyk.rigid.gap{ normal = {0, 0, 1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.02 end } }
+  return scene
+end
+
+-- Iterations of conjugate gradients a linear system, with the last system solved to twelve digits.
+local function iterations(nu, height)
+  local s <const> = dotyk.solver.multigrid{ nested = false }:solve(cube(n, nu, height))
+  assert(s.converged, s.reason)
+  return s.multigrid.cg / s.multigrid.newton, s
+end
+
+-- 1. and 2. The exponent between the last two values.
+local function exponent(values, counts)
+  local k <const> = #values
+  return math.log(counts[k] / counts[k - 1]) / math.log(values[k] / values[k - 1])
+end
+local function map(name, values, of)
+  local curve <const> = common.curve(name)
+  local counts <const> = {}
+  for k, value in ipairs(values) do
+    counts[k] = of(value)
+    curve:add(value, counts[k])
+    print(("%-24s %8g  %6.1f iterations"):format(name, value, counts[k]))
+  end
+  return curve, exponent(values, counts)
+end
+local stretched <const>, by_height <const> = map("height of the cells s", { 1, 2, 4, 8, 16 }, function(s) return iterations(0.3, s) end)
+local locking <const>, by_ratio <const> = map("1/(1 − 2ν)", { 2.5, 10, 50, 250, 1000 }, function(r) return iterations(0.5 - 0.5 / r, 1) end)
+
+-- 3.
+local method = {}
+for _, case in ipairs{ { 0.3, 1 }, { 0.499, 1 }, { 0.3, 16 } } do
+  local s <const> = dotyk.solve(cube(n + n // 2, case[1], case[2]))
+  assert(s.converged, s.reason)
+  method[#method + 1] = s.method
+end
+print(("The default method on %d³ cells: %s; nu = 0.499: %s; s = 16: %s."):format(n + n // 2, table.unpack(method)))
+
+dotyk.chart{ file = "images/stability_multigrid.png", title = "Where multigrid loses its speed", x = "height of the cells s, or 1/(1 − 2ν)",
+  y = "iterations a linear system", log = "xy", series = { stretched, locking }, slopes = { 1, 0.5 } }
+assert(n < 16 or math.abs(by_height - 1) < 0.25 and math.abs(by_ratio - 0.5) < 0.15, "not as theory says")
+print(("Iterations grow as s^%.2f (theory: 1) and as (1 − 2ν)^−%.2f (theory: 0.50)."):format(by_height, by_ratio))
