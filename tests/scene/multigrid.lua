@@ -8,8 +8,8 @@ local function body(name, mesh, force) return dotyk.body{ name = name, material 
 local function box(from, to, cells, element) return dotyk.mesh.box{ from = from, to = to, cells = cells, element = element } end
 
 -- S3 and S3C of the benchmarks.
-local function cube(n, friction)
-  local b <const> = body("b", box({0, 0, 0}, {1, 1, 1}, {n, n, n}))
+local function cube(n, friction, element, nu)
+  local b <const> = dotyk.body{ material = dotyk.material{ E = 1000, nu = nu or 0.3 }, mesh = box({0, 0, 0}, {1, 1, 1}, {n, n, n}, element) }
   b:part"bottom":fix()
   local scene <const> = dotyk.scene{ b }
   scene:contact{ b:part"top", friction = friction, interference = true,
@@ -154,6 +154,22 @@ do
   b:part"top":load{ 0, -1 }
   local s <const> = S.multigrid{}:solve(dotyk.scene{ b })
   check.that(s.converged and s.multigrid.levels > 2 and s.multigrid.cg < 40, ("%d levels, %d iterations"):format(s.multigrid.levels, s.multigrid.cg))
+end
+
+-- Rows of elements of order 2 are means of displacements: the unknowns that share them are solved exactly, or iterations are seven times as many.
+do
+  local s <const> = S.multigrid{ nested = false }:solve(cube(6, nil, "P2"))
+  check.that(s.converged and s.multigrid.cg < 40 * s.multigrid.newton, s.multigrid.cg .. " iterations with order 2")
+end
+
+-- The default method gives multigrid up where its rate is slow, and says so.
+do
+  local function solved(nu) return dotyk.solve(cube(20, nil, "P1", nu)) end
+  local fast <const>, slow <const> = solved(0.3), solved(0.4999)
+  check.that(fast.converged and slow.converged, slow.reason)
+  if fast.method == "multigrid" then
+    check.that(slow.method ~= "multigrid" and slow.reason:find("no solution of a linear system within the iterations allowed", 1, true), slow.reason)
+  end
 end
 
 -- What a mesh forgets, and what it does not.
