@@ -34,9 +34,10 @@ bool multigrid_is_faster(const problem::Problem& problem, double times = kClearl
 
 /// Iterations that a linear system may take until factors would have been faster.
 double most_iterations(const problem::Problem& problem) {
-  constexpr double kUsual = 25, kShare = 0.4;  // of the seconds that the usual ones take
+  constexpr double kShare = 0.4;  // of the seconds that the usual ones take
+  const double usual = problem::coarser_meshes(problem) > 1 ? 25 : 45;
   const Expected seconds = expected(problem);
-  return kUsual * (1 + std::max(0.0, seconds.factors / seconds.multigrid - 1) / kShare);
+  return usual * (1 + std::max(0.0, seconds.factors / seconds.multigrid - 1) / kShare);
 }
 
 /// Has nearly every row an unknown that no other row has, as those of mortar glue of order 1 do? Else the basis of rows fills up.
@@ -67,14 +68,16 @@ Expected expected(const problem::Problem& problem) {
   constexpr int kRigidMotions = 6;
   const bool space = problem.blocks.front().rigid().cols() == kRigidMotions;
   const bool geometric = problem::coarser_meshes(problem) > 1;
-  const double unknown = (space ? 2e-5 : 1e-5) * (geometric ? 1 : 3);  // seconds of multigrid
+  const double unknown = (space ? 2e-5 : 1e-5) * (geometric ? 1 : 5);  // seconds of multigrid
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
   const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !all_linear(problem);
-  const double solves = problem.friction.empty() ? 1 : 2;  // times as many iterations
-  double factor = 0;
-  for (const problem::Block& block : problem.blocks) factor += space ? 7.5 * std::pow(block.size(), 2) : 210 * std::pow(block.size(), 1.5);
-  const double rows = (space ? 81 : 24) * m * m * m, each = problem.friction.empty() ? kSteps * factor : INFINITY;
+  const double solves = all_linear(problem) ? 0.6 : problem.friction.empty() ? 1 : 2;  // times as many iterations
+  const auto factor_of = [&](double size) { return space ? 7.5 * size * size : 210 * std::pow(size, 1.5); };
+  double factor = 0;  // of each body, or of all where they are glued
+  for (const problem::Block& block : problem.blocks) factor += factor_of(block.size());
+  if (problem.rows() > 0 && all_linear(problem)) factor = factor_of(n);
+  const double rows = (space ? 81 : 24) * m * m * m, each = problem.friction.empty() ? kSteps * factor_of(n) : INFINITY;
   return {(space ? 2.6e-5 : 4e-6) * n + std::min(factor + rows, each) / kFlops, kOpening + unknown * n * solves};
 }
 
