@@ -141,7 +141,7 @@ do
   local network <const> = messages * latency + halo / bandwidth + reductions
   local bytes <const> = include "../lib/peak_memory.lua"() * 1e9 / unknowns
   print(("\nA billion unknowns on %d ranks, from the cube of %d³ cells (%d unknowns)"):format(ranks, last, unknowns))
-  print(("memory            %8.1f GB a rank, %.2f kB an unknown, mesh, result and program included"):format(own * bytes / 1e9, bytes / 1e3))
+  print(("memory            %8.1f GB a rank at most, %.2f kB an unknown, by the peak of this process, which has run the other methods too"):format(own * bytes / 1e9, bytes / 1e3))
   print(("arithmetic        %8.2f Gflop an iteration and rank, %.2f s as fast as here (%.1f Gflop/s, bound by memory)"):format(own * flops / 1e9, own * iteration,
     flops / iteration / 1e9))
   print(("messages          %8d an iteration and rank on %d levels, %.1f MB; %.4f s at %g µs a message and %g GB/s (assumed)"):format(messages, levels, halo / 1e6,
