@@ -15,42 +15,9 @@ if #sizes == 0 then sizes = { 8, 16, 24, 32 } end
 local last <const> = sizes[#sizes]
 local S <const> = dotyk.solver
 
--- 1. Scenes. `o` may have friction, nu, stretch (height of the cube), depth (of the paraboloid), linear (a load in place of contact).
-local function cube(n, o)
-  o = o or {}
-  local height <const> = o.stretch or 1
-  local body <const> = dotyk.body{ material = dotyk.material{ E = 1000, nu = o.nu or 0.3 },
-    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, height}, cells = {n, n, n} } }
-  body:part"bottom":fix()
-  local scene <const> = dotyk.scene{ body }
-  if o.linear then
-    body:part"top":load{ 0, 0, -1 }
-  else
-    local depth <const> = (o.depth or 0.02) * height
-    scene:contact{ body:part"top", friction = o.friction and dotyk.friction.coulomb(o.friction), interference = true,
-      rigid = dotyk.rigid.gap{ normal = {0, 0, 1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - depth end } }
-  end
-  return scene
-end
-
--- Two blocks, n³ cells together, pressed on each other or glued; `contrast`: how much stiffer the upper one is.
-local function blocks(n, o)
-  local half <const> = n // 2
-  local function block(name, from, to, cells, E)
-    return dotyk.body{ name = name, material = dotyk.material{ E = E, nu = 0.3 }, mesh = dotyk.mesh.box{ from = from, to = to, cells = cells } }
-  end
-  local lower = block("lower", {0, 0, 0}, {1, 1, 0.5}, {n, n, half}, 1000)
-  local upper = block("upper", {0, 0, 0.5}, {1, 1, 1}, {math.max(n - 4, 2), math.max(n - 4, 2), half}, 1000 * (o.contrast or 1))
-  lower:part"bottom":fix()
-  upper:part"top":displace{ x = 0, y = 0, z = -0.01 }
-  local scene <const> = dotyk.scene{ lower, upper }
-  if o.linear then
-    scene:glue{ upper:part"bottom", lower:part"top" }
-  else
-    scene:contact{ upper:part"bottom", lower:part"top", gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 50 end }
-  end
-  return scene
-end
+-- 1. Scenes.
+local scenes <const> = include "../lib/scale_scenes.lua"
+local cube <const>, blocks <const> = scenes.cube, scenes.blocks
 
 local function solved(method, scene)
   local s <const> = method:solve(scene)
@@ -121,7 +88,7 @@ row("depth of the paraboloid", { 0.002, 0.02, 0.1, 0.3 }, function(depth) return
 row("Coulomb's coefficient", { 0.1, 0.3, 0.6, 1.0 }, function(mu) return cube(n, { friction = mu }) end)
 row("contrast of two blocks", { 1, 10, 100, 1000 }, function(contrast) return blocks(n, { contrast = contrast }) end)
 row("Poisson's ratio", { 0.3, 0.45, 0.49, 0.499 }, function(nu) return cube(n, { nu = nu }) end)
-row("height of the cells", { 1, 2, 4, 8 }, function(stretch) return cube(n, { stretch = stretch }) end)
+row("height of the cells", { 1, 2, 4, 8 }, function(stretch) return cube(n, { height = stretch }) end)
 
 -- 5. A billion unknowns on a thousand ranks, on paper: P1 in space, a cube, what one process needs measured here, what a network takes assumed.
 do

@@ -16,7 +16,7 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 /// Row-major sparse matrix: interface rows (B).
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-/// A sparse matrix that others are moved into without a copy, which Eigen 3.4's assignment makes even of what is about to vanish.
+/// A sparse matrix that is moved without a copy. Eigen 3.4's sparse matrices have no move constructor or move assignment: they copy.
 class StoredMatrix : public SparseMatrix {
  public:
   StoredMatrix() = default;

@@ -67,7 +67,7 @@ class Assembly {
   /// The number of entries.
   std::size_t find_neighbours(const Mesh& mesh) {
     const int nodes = mesh.node_count(), per_cell = mesh.topology().nodes;
-    const mesh::Buckets around = mesh::cells_of_nodes(mesh);
+    const Buckets around = mesh::cells_of_nodes(mesh);
     std::vector<int> mark(nodes, -1);
     neighbour_.reserve(static_cast<std::size_t>(nodes) * (dim_ == 2 ? 4 : 14));
     std::size_t entries = 0;

@@ -28,7 +28,7 @@ int enough_cells(mesh::Element element) {
 }
 
 /// The cells about a node; if they are too few, also those about its neighbours.
-void patch_of(const Mesh& mesh, const mesh::Buckets& around, int node, std::vector<int>& patch) {
+void patch_of(const Mesh& mesh, const Buckets& around, int node, std::vector<int>& patch) {
   patch.assign(around[node].begin(), around[node].end());
   if (static_cast<int>(patch.size()) >= enough_cells(mesh.element)) return;
   const std::vector<int> own = patch;
@@ -128,7 +128,7 @@ std::vector<Stress> nodal_stress(const Mesh& mesh, const MaterialField& material
 }
 
 std::vector<Stress> recover_stress(const Mesh& mesh, const std::vector<Stress>& at_centres) {
-  const mesh::Buckets around = mesh::cells_of_nodes(mesh);
+  const Buckets around = mesh::cells_of_nodes(mesh);
   std::vector<mesh::Point> centre(mesh.cell_count());
   for (int c = 0; c < mesh.cell_count(); ++c) centre[c] = mesh.cell_centre(c);
   std::vector<Stress> result(mesh.node_count());

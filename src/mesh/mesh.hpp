@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/buckets.hpp"
+#include "base/buckets.hpp"
 #include "mesh/element.hpp"
 #include "mesh/point.hpp"
 

@@ -48,7 +48,7 @@ Cells cells(const std::vector<const Block*>& blocks, int each, int between, int 
   }
   const int count = static_cast<int>(all.corners.size() / each);
   const auto at = [&](int c) { return all.corners.begin() + static_cast<std::ptrdiff_t>(c) * each; };
-  const mesh::Buckets by_first(points, [&](auto&& put) {
+  const Buckets by_first(points, [&](auto&& put) {
     for (int c = 0; c < count; ++c) put(*at(c), c);
   });
   for (int c = 0; c < count; ++c) {

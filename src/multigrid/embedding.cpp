@@ -45,9 +45,8 @@ void Embedding::number(const std::vector<int>& node) {
   starts_.assign(slot_.size() + idle_.size() + 1, 0);
 }
 
-/// Calls visit(row, column, its number, its place in values_, its mirror image's) for each entry of the lower triangle. Rows get their entries left of
-/// the diagonal from the lower triangle's rows, the others from its columns. Going through the columns in order, each row meets its own in order, too:
-/// those at its left all come before those of its own column.
+/// Calls visit(row, column, number, place in values_, place of the mirror image) for each entry of the lower triangle, column by column. Each row of the
+/// full matrix so gets its entries by ascending columns: those left of the diagonal belong to earlier columns of the triangle, the others to its own.
 template <class Visit>
 void Embedding::for_each_entry(const algebra::SparseMatrix& lower, Visit&& visit) {
   const int* begin = lower.outerIndexPtr();

@@ -3,12 +3,13 @@
 
 #include <vector>
 
+#include "base/buckets.hpp"
 #include "multigrid/petsc_session.hpp"
 
 namespace dotyk::multigrid {
 
-/// A matrix of the pattern of PᵀAP, by whole blocks of coarse nodes, each node's own among them, with the numbers of the identity. A is symmetric, its rows and those of P
-/// are in blocks. PETSc's own symbolic product takes a dozen times the memory, as it does not know of blocks.
+/// The identity, with room for PᵀAP: a block of entries for each pair of coarse nodes that A couples by way of P. A is symmetric. PETSc's own symbolic
+/// product works row by row in place of node by node, and takes a dozen times the memory.
 OwnedMat coarse_matrix(Mat A, Mat P);
 
 /// PETSc's own product knows neither that unknowns come in blocks nor that rows stay. Seconds of a set() on a cube of 200 000
@@ -27,9 +28,9 @@ class Galerkin {
   template <int fixed>
   void compute_block(int block, const RowsView& A, const RowsView& P, RowsView& C);
 
-  int size_ = 1;                             // of a coarse block
-  std::vector<int> support_start_, support_;  // of each block: fine rows that P leads to
-  std::vector<int> first_;                    // beside support_: the row's first entry of that block in P
+  int size_ = 1;     // of a coarse block
+  Buckets support_;  // coarse node → the rows of P with entries in its columns
+  Buckets first_;    // beside support_: the first of these entries
   // Room to work.
   struct Rows {  // some rows of numbers, one a member of the block
     double* at(int row, int size);

@@ -23,8 +23,8 @@ class Hierarchy {
   Mat matrix(int level) const { return matrices_[level]; }                ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
   const Embedding& embedding() const { return embedding_; }
-  /// Slots, ascending, that are not held and share stiffness by a row that is an unknown: that of a jump in place of the stiffer body's displacement, and
-  /// the softer body's displacements in it; or that of a mean of many displacements in place of one, and the others.
+  /// Slots, ascending, that are not held and are coupled strongly by a row that has become an unknown: of a jump between two bodies, one much stiffer than
+  /// the other, or of a mean of many displacements. The slot of the row is among them.
   std::vector<PetscInt> shared() const;
   double bytes() const;
 

@@ -28,14 +28,14 @@ struct Matrix {
   /// is no coarser mesh, and all levels are aggregates.
   const std::vector<algebra::SparseRows>* coarse = nullptr;
   int dimension = 3;
-  /// A solution ends where the rate says that twelve digits will take more.
+  /// solve() gives up when its rate of convergence foretells that twelve digits will take more.
   double most_iterations = std::numeric_limits<double>::infinity();
 };
 
 /// Interpolations are chosen once, for the matrix that the solver is made from; set() computes the coarse matrices anew, with
 /// coarse functions that vanish where unknowns are held (truncated multigrid).
 ///
-/// solve() returns NaN where the matrix shows itself to be indefinite, or 1000 iterations, or as many as are allowed, do not suffice; Interrupted is thrown
+/// solve() returns NaN where the matrix shows itself to be indefinite, after 1000 iterations, or when it gives up by `most_iterations`. Interrupted is thrown
 /// where the monitor, which must outlive the solver, asks to stop; each iteration asks it. b must be 0 at held unknowns, and x is. Solvers may be
 /// used from several threads, but wait for one another. Tolerances are met by the residual that conjugate gradients carry along, which below some
 /// 1e-13 may be less than that of x.

@@ -14,7 +14,7 @@ namespace dotyk::multigrid {
 namespace {
 
 constexpr int kMostIterations = 1000;
-/// From so many on the rate tells how many there will be.
+/// After so many iterations their rate of convergence is trusted to foretell how many there will be.
 constexpr int kTelling = 10;
 
 std::mutex& only_one() {
@@ -51,7 +51,7 @@ struct Ending {
   std::exception_ptr thrown = nullptr;  // by the monitor, kept until PETSc has returned
 };
 
-/// Iterations for twelve digits at the rate so far, of this system and those after it together.
+/// How many iterations twelve digits take at the rate so far. The first systems of a Newton iteration are solved to fewer, the last one to as many.
 double foreseen(const Ending& ending, int iteration, double residual) {
   return residual < ending.first ? iteration * std::log(1e-12) / std::log(residual / ending.first) : INFINITY;
 }

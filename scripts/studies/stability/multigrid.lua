@@ -13,21 +13,13 @@
 local n <const> = tonumber(arg[1]) or 16
 local common <const> = include "../../lib/common.lua"
 
-local function cube(cells, nu, height)
-  local body <const> = dotyk.body{ material = dotyk.material{ E = 1000, nu = nu },
-    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, height}, cells = { cells, cells, cells } } }
-  body:part"bottom":fix()
-  local scene <const> = dotyk.scene{ body }
-  scene:contact{ body:part"top", interference = true,
-    rigid = dotyk.rigid.gap{ normal = {0, 0, 1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.02 end } }
-  return scene
-end
+local function cube(cells, nu, height) return include "../../lib/scale_scenes.lua".cube(cells, { nu = nu, height = height, depth = 0.02 / height }) end
 
 -- Iterations of conjugate gradients a linear system, with the last system solved to twelve digits.
 local function iterations(nu, height)
   local s <const> = dotyk.solver.multigrid{ nested = false }:solve(cube(n, nu, height))
   assert(s.converged, s.reason)
-  return s.multigrid.cg / s.multigrid.newton, s
+  return s.multigrid.cg / s.multigrid.newton
 end
 
 -- 1. and 2. The exponent between the last two values.

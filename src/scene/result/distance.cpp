@@ -47,7 +47,7 @@ class Places {
   const Mesh& mesh_;
   const std::string& body_;
   Locator locator_;
-  mesh::Buckets cells_;  ///< node → its cells
+  Buckets cells_;  ///< node → its cells
 };
 
 /// The displacement of a body (node × dimension) at the nodes of another mesh of it.

@@ -21,12 +21,12 @@ struct SpdSystem {
 };
 using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
 
-/// Iterations did not solve a linear system.
+/// A linear problem of an iteration was not solved.
 struct NotSolved : InputError {
   using InputError::InputError;
 };
 
-/// So did iterations with the stiffness.
+/// Conjugate gradients did not solve with the stiffness: too many iterations, or a matrix that is not definite.
 struct SlowIterations : NotSolved {
   using NotSolved::NotSolved;
 };
@@ -37,8 +37,8 @@ MakeSpdSolver factor(algebra::Ordering ordering);
 MakeSpdSolver incomplete_factor();
 /// What the levels of multigrid are made of: coarser meshes, where they are known, or aggregates of unknowns alone.
 enum class Levels { meshes, aggregates };
-/// Conjugate gradients with multigrid. It gives up where their rate says that a linear system will take more than `most_iterations`. Making the solver
-/// throws InputError where its library was not built.
+/// Conjugate gradients with multigrid, which give up when their rate of convergence foretells more than `most_iterations`. Making the solver throws
+/// InputError where its library was not built.
 MakeSpdSolver multigrid(Levels levels, double most_iterations = std::numeric_limits<double>::infinity());
 
 /// A = Tᵀ(K + Σ_r s_r B_rᵀB_r)T in the basis T where rows are unknowns, with the rows and columns of held unknowns emptied but for their diagonal:

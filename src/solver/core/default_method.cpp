@@ -18,7 +18,7 @@ namespace {
 
 /// Below so many unknowns nothing takes long enough to be worth an estimate.
 constexpr int kLarge = 8000;
-/// How much faster multigrid is to be, and where a history goes on with one factor.
+/// Multigrid is taken where it is kClearly times as fast as factors, or kFactorIsKept times where all steps of a history use one factor.
 constexpr double kClearly = 1.2, kFactorIsKept = 10;
 
 bool multigrid_is_possible(const problem::Problem& problem) {
@@ -32,7 +32,7 @@ bool multigrid_is_faster(const problem::Problem& problem, double times = kClearl
   return seconds.factors > times * seconds.multigrid;
 }
 
-/// Iterations that a linear system may take until factors would have been faster.
+/// The number of iterations a linear system beyond which factors are the faster way.
 double most_iterations(const problem::Problem& problem) {
   constexpr double kShare = 0.4;  // of the seconds that the usual ones take
   const double usual = problem::coarser_meshes(problem) > 1 ? 25 : 45;
@@ -61,9 +61,8 @@ bool rows_stand_apart(const problem::Problem& problem) {
 }  // namespace
 
 Expected expected(const problem::Problem& problem) {
-  // Measured by scripts/studies/crossing.lua. With n unknowns, m points of contact: 7.5 n² operations for a factor by nested dissection in space, 210 n^1.5
-  // in the plane, 3 (dm)³ for the dense matrices, which have d components a point, or a factor in each of a few steps; and what grows with n alone, ordering
-  // most of all.
+  // Constants measured by scripts/studies/crossing.lua, for n unknowns and m points of contact with d components each. A factor by nested dissection takes
+  // 7.5 n² operations in space and 210 n^1.5 in the plane. Contact takes 3 (dm)³ more for its dense matrices, or else a factor a step. Ordering grows with n.
   constexpr double kFlops = 1.2e10, kOpening = 0.15, kSteps = 8;  // opening: of the library
   constexpr int kRigidMotions = 6;
   const bool space = problem.blocks.front().rigid().cols() == kRigidMotions;

@@ -9,8 +9,8 @@ namespace dotyk::solver {
 /// What solves a problem where no method is named.
 enum class DefaultMethod { linear, pdas, held, newton, multigrid };
 
-/// Multigrid of solid bodies, where it is installed and promises to be faster; else without rows one linear solve; with friction, or a law that does not tell its
-/// springs, newton; else pdas: on the condensed rows, or held on all unknowns (reduced = false). That is where all of at least 150 rows are glue, or linear
+/// Multigrid, for solid bodies, where it is installed and promises to be faster; else without rows one linear solve; with friction, or a law that does
+/// not tell its springs, newton; else pdas: on the condensed rows, or held on all unknowns (reduced = false). That is where all of at least 150 rows are glue, or linear
 /// otherwise, one factorisation in all, and where rows are more than 3000 and more than a tenth of the unknowns, as on strips and plates that touch
 /// all along: a dense factor takes the cube of their number then, sparse ones of a thin body far less.
 DefaultMethod default_method(const problem::Problem& problem);

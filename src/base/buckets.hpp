@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace dotyk::mesh {
+namespace dotyk {
 
 /// Numbers put into buckets 0 … count − 1, those of a bucket in the order in which they came.
 class Buckets {
@@ -20,6 +20,8 @@ class Buckets {
     visit([&](int bucket, int number) { numbers_[next[bucket]++] = number; });
   }
 
+  int count() const { return static_cast<int>(start_.size()) - 1; }
+  std::size_t bytes() const { return sizeof(int) * (start_.size() + numbers_.size()); }
   std::span<const int> operator[](int bucket) const {
     return std::span(numbers_).subspan(start_[bucket], start_[bucket + 1] - start_[bucket]);
   }
@@ -28,4 +30,4 @@ class Buckets {
   std::vector<int> start_, numbers_;
 };
 
-}  // namespace dotyk::mesh
+}  // namespace dotyk
