@@ -12,7 +12,7 @@ namespace {
 class Factored final : public SpdSolver {
  public:
   Factored(const SparseMatrix& lower, const std::vector<int>& node, Ordering ordering) : factor_(lower, node, {}, ordering) {}
-  bool set(const SparseMatrix& lower, const std::vector<char>&) override { return factor_.factor(lower); }
+  bool set(const SparseMatrix& lower, const std::vector<char>&, const Entries&) override { return factor_.factor(lower); }
   Vector solve(const Vector& b, double) override { return factor_.solve(b); }
   bool iterates() const override { return false; }
   double bytes() const override { return factor_.bytes(); }
@@ -26,7 +26,7 @@ class IncompletelyFactored final : public SpdSolver {
  public:
   explicit IncompletelyFactored(Monitor& monitor) : monitor_(monitor) {}
 
-  bool set(const SparseMatrix& lower, const std::vector<char>&) override {
+  bool set(const SparseMatrix& lower, const std::vector<char>&, const Entries&) override {
     lower_ = lower;
     try {
       preconditioner_.emplace(lower_);

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algebra/direct/ordering.hpp"
@@ -10,13 +11,17 @@
 
 namespace dotyk::algebra {
 
+/// Rows and columns of some entries of a lower triangle.
+using Entries = std::vector<std::pair<int, int>>;
+
 /// A⁻¹ b for symmetric positive definite matrices of one pattern, which differ in their numbers.
 class SpdSolver {
  public:
   virtual ~SpdSolver() = default;
   /// Takes a matrix of the pattern that it was made for, lower triangle. `held`, one flag an unknown: rows and columns of A that are empty
-  /// but for their diagonal. False where A is seen not to be positive definite.
-  virtual bool set(const SparseMatrix& lower, const std::vector<char>& held) = 0;
+  /// but for their diagonal. `changed`: all entries, perhaps with others, that differ from those of the set() before, at first from those of
+  /// the matrix that it was made for. False where A is seen not to be positive definite.
+  virtual bool set(const SparseMatrix& lower, const std::vector<char>& held, const Entries& changed) = 0;
   /// x with ‖b − A x‖ ≤ tolerance ‖b‖; direct solvers go as far as rounding lets them, whatever the tolerance.
   virtual Vector solve(const Vector& b, double tolerance) = 0;
   /// Does the work grow with the digits asked for?

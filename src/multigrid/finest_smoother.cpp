@@ -2,25 +2,43 @@
 
 namespace dotyk::multigrid {
 
-bool FinestSmoother::set(Mat matrix, const std::vector<PetscInt>& shared) {
+void factor_on_each(KSP ksp, Mat matrix, MatFactorShiftType shift, MatSolverType library) {
+  PC pc = nullptr;
+  check(KSPSetOperators(ksp, matrix, matrix));
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  if (!ranks_of(matrix).alone()) {
+    check(PCSetType(pc, PCREDUNDANT));
+    check(PCRedundantSetNumber(pc, ranks_of(matrix).count()));
+    KSP own = nullptr;
+    check(PCRedundantGetKSP(pc, &own));
+    check(KSPSetType(own, KSPPREONLY));
+    check(KSPGetPC(own, &pc));
+  }
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetShiftType(pc, shift));
+  check(PCFactorSetMatSolverType(pc, library));
+}
+
+bool FinestSmoother::set(Mat matrix, const std::vector<int>& shared) {
   matrix_ = matrix, shared_ = shared;
-  if (shared_.empty()) return true;
-  PetscInt size = 0;
-  check(MatGetSize(matrix_, &size, nullptr));
+  const Ranks ranks = ranks_of(matrix);
+  any_ = !ranks.all(shared_.empty());
+  if (!any_) return true;
+  PetscInt first = 0, size = 0;
+  check(MatGetOwnershipRange(matrix_, &first, nullptr));
+  check(MatGetLocalSize(matrix_, &size, nullptr));
   Owned<IS, ISDestroy> some, all;
-  check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(shared_.size()), shared_.data(), PETSC_COPY_VALUES, some.put()));
-  check(ISCreateStride(PETSC_COMM_SELF, size, 0, 1, all.put()));
+  std::vector<PetscInt> numbers(shared_);
+  for (PetscInt& row : numbers) row += first;
+  check(ISCreateGeneral(ranks.comm(), static_cast<PetscInt>(numbers.size()), numbers.data(), PETSC_COPY_VALUES, some.put()));
+  check(ISCreateStride(ranks.comm(), size, first, 1, all.put()));
   rows_ = OwnedMat(), block_ = OwnedMat(), exact_ = OwnedKsp(), left_ = OwnedVec(), change_ = OwnedVec();
   check(MatCreateSubMatrix(matrix_, some, all, MAT_INITIAL_MATRIX, rows_.put()));
   check(MatCreateSubMatrix(matrix_, some, some, MAT_INITIAL_MATRIX, block_.put()));
   check(MatCreateVecs(block_, change_.put(), left_.put()));
-  check(KSPCreate(PETSC_COMM_SELF, exact_.put()));
-  check(KSPSetOperators(exact_, block_, block_));
-  check(KSPSetType(exact_, KSPPREONLY));
-  PC pc = nullptr;
-  check(KSPGetPC(exact_, &pc));
-  check(PCSetType(pc, PCCHOLESKY));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERCHOLMOD));
+  check(KSPCreate(ranks.comm(), exact_.put()));
+  factor_on_each(exact_, block_, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
   const PetscErrorCode code = KSPSetUp(exact_);
   if (code == PETSC_ERR_MAT_CH_ZRPVT) return false;
   check(code);
@@ -53,7 +71,7 @@ PetscErrorCode FinestSmoother::smooth(PC shell, Vec b, Vec x, Vec, PetscReal, Pe
 }
 
 void FinestSmoother::solve_shared(Vec b, Vec x) {
-  if (shared_.empty()) return;
+  if (!any_) return;
   check(MatMult(rows_, x, left_));
   const PetscScalar *all = nullptr, *change = nullptr;
   PetscScalar *left = nullptr, *out = nullptr;

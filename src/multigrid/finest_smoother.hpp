@@ -3,17 +3,18 @@
 
 #include <vector>
 
-#include "multigrid/petsc_session.hpp"
+#include "multigrid/local_rows.hpp"
 
 namespace dotyk::multigrid {
 
-/// One sweep of Gauss and Seidel, and an exact solution at unknowns that share stiffness by a row, by CHOLMOD: there stiff and soft modes have the same
-/// unknowns, and sweeps alone would be as many times slower as the root of the contrast (on elements of order 2, whose rows are means, seven times).
-/// Before the coarse correction the sweep goes forward and comes first, after it backward and last, so that the cycle is symmetric.
+/// One sweep of Gauss and Seidel, each rank's own, and an exact solution at unknowns that share stiffness by a row, by CHOLMOD: there stiff and soft modes have
+/// the same unknowns, and sweeps alone would be as many times slower as the root of the contrast (on elements of order 2, whose rows are means,
+/// seven times). Before the coarse correction the sweep goes forward and comes first, after it backward and last, so that the cycle is symmetric.
 class FinestSmoother {
  public:
-  /// Takes the numbers of `matrix`, which must outlive this; `shared`: rows, ascending, may be none. False where they are not definite.
-  bool set(Mat matrix, const std::vector<PetscInt>& shared);
+  /// Takes the numbers of `matrix`, which must outlive this; `shared`: rows of this rank, ascending, may be none. Collective. False where they are
+  /// not definite.
+  bool set(Mat matrix, const std::vector<int>& shared);
   /// Makes it the smoother of a level of PCMG, which it must outlive in its place.
   void attach(KSP level, bool before);
 
@@ -28,10 +29,14 @@ class FinestSmoother {
   };
   Side sides_[2] = {{this, false}, {this, true}};
   Mat matrix_ = nullptr;
-  std::vector<PetscInt> shared_;
-  OwnedMat rows_, block_;  ///< of the matrix, at the shared unknowns
+  bool any_ = false;         ///< shared rows, on any rank
+  std::vector<int> shared_;  ///< counted from the rank's first row
+  OwnedMat rows_, block_;    ///< of the matrix, at the shared unknowns
   OwnedKsp exact_;
   OwnedVec left_, change_;
 };
+
+/// Makes `ksp` solve with a sparse matrix that is small enough for a factor, on every rank the same one. Collective.
+void factor_on_each(KSP ksp, Mat matrix, MatFactorShiftType shift, MatSolverType library);
 
 }  // namespace dotyk::multigrid

@@ -13,69 +13,82 @@ struct BlockSize {
   PetscInt rows = 1, columns = 1;
 };
 
-/// For each node of the rows the nodes of columns that it has entries with, in no order.
-Buckets coupled_nodes(Mat matrix) {
+OwnedMat empty_matrix(const Ranks& ranks, const Rows& pattern, int own_columns, int block) {
+  const int rows = static_cast<int>(pattern.starts.size()) - 1;
+  const double* values = pattern.values.empty() ? nullptr : pattern.values.data();
+  OwnedMat m;
+  check(MatCreate(ranks.comm(), m.put()));
+  check(MatSetSizes(m, rows, own_columns, PETSC_DETERMINE, PETSC_DETERMINE));
+  check(MatSetType(m, ranks.alone() ? MATSEQAIJ : MATMPIAIJ));
+  check(MatSetBlockSize(m, block));
+  check(ranks.alone() ? MatSeqAIJSetPreallocationCSR(m, pattern.starts.data(), pattern.columns.data(), values)
+                      : MatMPIAIJSetPreallocationCSR(m, pattern.starts.data(), pattern.columns.data(), values));
+  return m;
+}
+
+/// 1 for each pair of a node of the rows and one of the columns that have entries.
+OwnedMat of_nodes(Mat matrix) {
   const BlockSize size(matrix);
-  PetscInt columns = 0;
-  check(MatGetSize(matrix, nullptr, &columns));
-  const RowsView view(matrix);
-  return Buckets(view.count / size.rows, [&](auto&& put) {
-    std::vector<int> seen(static_cast<std::size_t>(columns / size.columns), -1);
-    for (int row = 0; row < view.count; ++row)
-      for (int k = view.starts[row]; k < view.starts[row + 1]; ++k) {
-        const int node = row / size.rows, other = view.columns[k] / size.columns;
-        if (std::exchange(seen[other], node) != node) put(node, other);
-      }
-  });
+  const LocalRows view(matrix);
+  Rows nodes;
+  std::vector<int> met;
+  for (int row = 0; row < view.count(); ++row) {
+    view.for_each(row, [&](int column, double) {
+      if (met.empty() || met.back() != column / size.columns) met.push_back(column / size.columns);
+    });
+    if ((row + 1) % size.rows != 0) continue;
+    std::sort(met.begin(), met.end());
+    nodes.columns.insert(nodes.columns.end(), met.begin(), std::unique(met.begin(), met.end()));
+    nodes.starts.push_back(static_cast<int>(nodes.columns.size()));
+    met.clear();
+  }
+  nodes.values.assign(nodes.columns.size(), 1.0);
+  return empty_matrix(ranks_of(matrix), nodes, view.own_columns / size.columns, 1);
 }
 
 }  // namespace
 
 OwnedMat coarse_matrix(Mat A, Mat P) {
   const PetscInt block = BlockSize(P).columns;
-  PetscInt size = 0;
-  check(MatGetSize(P, nullptr, &size));
-  const Buckets fine = coupled_nodes(A), coarse_of = coupled_nodes(P);
-  const Buckets fine_of(size / block, [&](auto&& put) {
-    for (int node = 0; node < coarse_of.count(); ++node)
-      for (const int coarse : coarse_of[node]) put(coarse, node);
-  });
-  std::vector<int> starts{0}, columns, row;
-  std::vector<int> met(static_cast<std::size_t>(fine.count()), -1), seen(static_cast<std::size_t>(fine_of.count()), -1);
-  for (int coarse = 0; coarse < fine_of.count(); ++coarse) {
-    row = {coarse};
-    seen[coarse] = coarse;
-    for (const int node : fine_of[coarse])
-      for (const int neighbour : fine[node]) {
-        if (std::exchange(met[neighbour], coarse) == coarse) continue;
-        for (const int other : coarse_of[neighbour])
-          if (std::exchange(seen[other], coarse) != coarse) row.push_back(other);
+  const OwnedMat fine = of_nodes(A), interpolation = of_nodes(P);
+  OwnedMat pairs;
+  check(MatPtAP(fine, interpolation, MAT_INITIAL_MATRIX, PETSC_DEFAULT, pairs.put()));
+  Rows pattern;
+  std::vector<int> nodes;
+  {
+    const LocalRows view(pairs);
+    for (int row = 0; row < view.count(); ++row) {
+      nodes = {view.first_row + row};  // those without functions keep a diagonal
+      view.for_each(row, [&](int other, double) { nodes.push_back(other); });
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      for (int r = 0; r < block; ++r) {
+        for (const int node : nodes)
+          for (int c = 0; c < block; ++c) pattern.columns.push_back(node * block + c);
+        pattern.starts.push_back(static_cast<int>(pattern.columns.size()));
       }
-    std::sort(row.begin(), row.end());
-    for (int r = 0; r < block; ++r) {
-      for (const int node : row)
-        for (int c = 0; c < block; ++c) columns.push_back(node * block + c);
-      starts.push_back(static_cast<int>(columns.size()));
     }
   }
-  OwnedMat C;
-  check(MatCreate(PETSC_COMM_SELF, C.put()));
-  check(MatSetSizes(C, size, size, size, size));
-  check(MatSetType(C, MATSEQAIJ));
-  check(MatSetBlockSize(C, block));
-  check(MatSeqAIJSetPreallocationCSR(C, starts.data(), columns.data(), nullptr));
-  check(MatShift(C, 1));  // nodes without functions keep a diagonal
+  OwnedMat C = empty_matrix(ranks_of(A), pattern, static_cast<int>(pattern.starts.size()) - 1, block);
+  check(MatSetOption(C, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
+  check(MatShift(C, 1));
   return C;
 }
 
-Galerkin::Galerkin(Mat interpolation, Mat coarse) {
-  PetscInt size = 1, columns = 0;
+Galerkin::Galerkin(Mat fine, Mat interpolation, Mat coarse) {
+  PetscInt size = 1, columns = 0, own = 0;
   check(MatGetBlockSize(coarse, &size));
   check(MatGetSize(coarse, nullptr, &columns));
+  check(MatGetLocalSize(interpolation, &own, nullptr));
   size_ = size;
-  const RowsView P(interpolation);
-  const auto for_each = [&](auto&& work) {  // block of each row, with the place of its first entry
-    for (int i = 0; i < P.count; ++i)
+  if (!ranks_of(fine).alone()) {
+    check(MatGetBrowsOfAcols(fine, interpolation, MAT_INITIAL_MATRIX, rows_.put(), columns_.put(), reached_.put()));
+    const LocalRows A(fine);
+    below_ = static_cast<int>(std::lower_bound(A.others, A.others + A.others_count, A.first_column) - A.others);
+  }
+  const RowsView P(reached_ ? Mat(reached_) : interpolation);
+  const auto for_each = [&](auto&& work) {  // block of each own row, with the place of its first entry
+    for (int i = below_; i < below_ + own; ++i)
       for (int k = P.starts[i]; k < P.starts[i + 1]; ++k)
         if (k == P.starts[i] || P.columns[k] / size_ != P.columns[k - 1] / size_) work(P.columns[k] / size_, i, k);
   };
@@ -87,7 +100,7 @@ Galerkin::Galerkin(Mat interpolation, Mat coarse) {
   sum_.place.assign(static_cast<std::size_t>(columns), -1);
 }
 
-double* Galerkin::Rows::at(int row, int size) {
+double* Galerkin::SomeRows::at(int row, int size) {
   if (place[row] < 0) {
     place[row] = static_cast<int>(rows.size());
     rows.push_back(row);
@@ -96,50 +109,90 @@ double* Galerkin::Rows::at(int row, int size) {
   return numbers.data() + static_cast<std::size_t>(place[row]) * size;
 }
 
-void Galerkin::Rows::clear() {
+void Galerkin::SomeRows::clear() {
   for (const int row : rows) place[row] = -1;
   rows.clear(), numbers.clear();
 }
 
-// Row k of `product_` is (A P)_kJ of the block J, since A is symmetric; `sum_` is the block's rows of the coarse matrix, by columns.
 template <int fixed>
-void Galerkin::compute_block(int block, const RowsView& A, const RowsView& P, RowsView& C) {
+void Galerkin::compute_block(int block, const LocalRows& A, const RowsView& P) {
   const int m = fixed > 0 ? fixed : size_;
   double* own = entry_.data();
   const auto rows = support_[block], first = first_[block];
+  const auto add = [&](double* to, double factor, const double* numbers) {
+    for (int r = 0; r < m; ++r) to[r] += factor * numbers[r];
+  };
   for (std::size_t s = 0; s < rows.size(); ++s) {
-    const int i = rows[s];
+    const int i = rows[s], row = i - below_;
     std::fill(own, own + m, 0.0);
     bool empty = true;  // as truncated rows are
     for (int k = first[s]; k < P.starts[i + 1] && P.columns[k] / m == block; ++k)
       own[P.columns[k] - block * m] = P.values[k], empty = empty && P.values[k] == 0;
     if (empty) continue;
-    for (int k = A.starts[i]; k < A.starts[i + 1]; ++k) {
-      double* to = product_.at(A.columns[k], m);
-      for (int r = 0; r < m; ++r) to[r] += A.values[k] * own[r];
+    for (int k = A.own->starts[row]; k < A.own->starts[row + 1]; ++k) add(product_.at(below_ + A.own->columns[k], m), A.own->values[k], own);
+    if (!A.other) continue;
+    for (int k = A.other->starts[row]; k < A.other->starts[row + 1]; ++k) {
+      const int column = A.other->columns[k];
+      add(product_.at(column < below_ ? column : column + A.own_columns, m), A.other->values[k], own);
     }
   }
   for (std::size_t p = 0; p < product_.rows.size(); ++p) {
     const double* from = product_.numbers.data() + p * m;
     const int row = product_.rows[p];
-    for (int k = P.starts[row]; k < P.starts[row + 1]; ++k) {
-      double* to = sum_.at(P.columns[k], m);
-      for (int r = 0; r < m; ++r) to[r] += P.values[k] * from[r];
-    }
+    for (int k = P.starts[row]; k < P.starts[row + 1]; ++k) add(sum_.at(P.columns[k], m), P.values[k], from);
   }
-  for (int r = 0; r < m; ++r)
-    for (int k = C.starts[block * m + r]; k < C.starts[block * m + r + 1]; ++k) C.values[k] = sum_.at(C.columns[k], m)[r];
-  product_.clear(), sum_.clear();
+  product_.clear();
+}
+
+void Galerkin::put_block(int block, LocalRows& C) {
+  for (int r = 0; r < size_; ++r) {
+    const int row = block * size_ + r - C.first_row;
+    for (int k = C.own->starts[row]; k < C.own->starts[row + 1]; ++k) C.own->values[k] = sum_.at(C.first_column + C.own->columns[k], size_)[r];
+    if (!C.other) continue;
+    for (int k = C.other->starts[row]; k < C.other->starts[row + 1]; ++k) C.other->values[k] = sum_.at(C.others[C.other->columns[k]], size_)[r];
+  }
+}
+
+void Galerkin::send_block(int block, Mat C) {
+  std::vector<double> values(sum_.rows.size());
+  for (int r = 0; r < size_; ++r) {
+    const PetscInt row = block * size_ + r;
+    for (std::size_t p = 0; p < values.size(); ++p) values[p] = sum_.numbers[p * size_ + r];
+    check(MatSetValues(C, 1, &row, static_cast<PetscInt>(values.size()), sum_.rows.data(), values.data(), ADD_VALUES));
+  }
 }
 
 std::vector<char> Galerkin::compute(Mat fine, Mat interpolation, Mat coarse, const std::vector<char>& changed) {
-  const RowsView A(fine), P(interpolation);
-  RowsView C(coarse);
-  std::vector<char> computed(static_cast<std::size_t>(C.count), 0);
-  for (int b = 0; b < support_.count(); ++b) {
-    if (std::ranges::none_of(support_[b], [&](int i) { return changed[i]; })) continue;
-    size_ == 6 ? compute_block<6>(b, A, P, C) : size_ == 3 ? compute_block<3>(b, A, P, C) : compute_block<0>(b, A, P, C);
-    std::fill_n(computed.begin() + b * size_, size_, char(1));
+  const Ranks ranks = ranks_of(coarse);
+  std::vector<char> due(static_cast<std::size_t>(support_.count()), 0);
+  for (int b = 0; b < support_.count(); ++b) due[b] = std::ranges::any_of(support_[b], [&](int i) { return changed[i - below_]; });
+  if (!ranks.alone()) {
+    MPI_Allreduce(MPI_IN_PLACE, due.data(), static_cast<int>(due.size()), MPI_BYTE, MPI_BOR, ranks.comm());
+    check(MatGetBrowsOfAcols(fine, interpolation, MAT_REUSE_MATRIX, rows_.put(), columns_.put(), reached_.put()));
+  }
+  std::vector<char> computed;
+  {
+    const LocalRows A(fine);
+    const RowsView P(reached_ ? Mat(reached_) : interpolation);
+    LocalRows C(coarse);
+    computed.assign(static_cast<std::size_t>(C.count()), 0);
+    for (int b = 0; b < support_.count(); ++b) {
+      const int row = b * size_ - C.first_row;
+      const bool mine = row >= 0 && row < C.count();
+      if (!due[b] || (!mine && support_[b].empty())) continue;
+      size_ == 6 ? compute_block<6>(b, A, P) : size_ == 3 ? compute_block<3>(b, A, P) : compute_block<0>(b, A, P);
+      if (mine) {
+        put_block(b, C);
+        std::fill_n(computed.begin() + row, size_, char(1));
+      } else {
+        send_block(b, coarse);
+      }
+      sum_.clear();
+    }
+  }
+  if (!ranks.alone()) {
+    check(MatAssemblyBegin(coarse, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(coarse, MAT_FINAL_ASSEMBLY));
   }
   return computed;
 }

@@ -4,41 +4,49 @@
 #include <vector>
 
 #include "base/buckets.hpp"
-#include "multigrid/petsc_session.hpp"
+#include "multigrid/local_rows.hpp"
 
 namespace dotyk::multigrid {
 
-/// The identity, with room for PᵀAP: a block of entries for each pair of coarse nodes that A couples by way of P. A is symmetric. PETSc's own symbolic
-/// product works row by row in place of node by node, and takes a dozen times the memory.
+/// The identity, with room for PᵀAP: a block of entries for each pair of coarse nodes that A couples by way of P. The symbolic product is
+/// made of nodes: of rows it takes a dozen times the memory. Collective.
 OwnedMat coarse_matrix(Mat A, Mat P);
 
 /// PETSc's own product knows neither that unknowns come in blocks nor that rows stay. Seconds of a set() on a cube of 200 000
 /// unknowns: 1.2 by PETSc's, 0.6 here where all rows are new, 0.02 to 0.2 where a disc on the top is held or let go.
 class Galerkin {
  public:
-  /// `coarse` has the pattern of PᵀAP; its blocks are the coarse nodes.
-  Galerkin(Mat interpolation, Mat coarse);
+  /// `coarse` has the pattern of PᵀAP; its blocks are the coarse nodes. Collective.
+  Galerkin(Mat fine, Mat interpolation, Mat coarse);
 
-  /// Computes the rows of `coarse` that depend on the given fine rows of A and P. Returns a flag for each coarse row: computed.
+  /// Computes the rows of `coarse` that depend on the given fine rows of A and P, all of this rank. Returns a flag for each coarse row of
+  /// this rank: computed. Collective: each rank has the part of PᵀAP that its fine rows give, and sends what belongs to coarse nodes of others.
   std::vector<char> compute(Mat fine, Mat interpolation, Mat coarse, const std::vector<char>& changed);
 
   double bytes() const;
 
  private:
-  template <int fixed>
-  void compute_block(int block, const RowsView& A, const RowsView& P, RowsView& C);
-
-  int size_ = 1;     // of a coarse block
-  Buckets support_;  // coarse node → the rows of P with entries in its columns
-  Buckets first_;    // beside support_: the first of these entries
-  // Room to work.
-  struct Rows {  // some rows of numbers, one a member of the block
+  /// Rows of numbers, one a member of a block, of which few are used at a time.
+  struct SomeRows {
     double* at(int row, int size);
     void clear();
     std::vector<int> place, rows;  // place: of a row among `rows`, or -1
     std::vector<double> numbers;
   };
-  Rows product_, sum_;
+
+  template <int fixed>
+  void compute_block(int block, const LocalRows& A, const RowsView& P);
+  void put_block(int block, LocalRows& C);
+  void send_block(int block, Mat C);
+
+  int size_ = 1;                     // of a coarse block
+  Owned<IS, ISDestroy> rows_, columns_;
+  OwnedMat reached_;                 // rows of P that this rank's rows of A reach; none where there is one rank, as these are P
+  int below_ = 0;                    // of these, how many come before the rank's own
+  Buckets support_;                  // coarse node → the own rows of P with entries in its columns, as rows of reached_
+  Buckets first_;                    // beside support_: the first of these entries
+  // Room to work: row k of `product_` is (A P)_kJ of the block J, since A is symmetric; `sum_` is the block's rows of the coarse matrix, by columns.
+  SomeRows product_, sum_;
   std::vector<double> entry_;
 };
 

@@ -1,11 +1,13 @@
 // Opens the library with PETSc when the first solver is made: linked to it, the program would start its MPI as well.
 #include <dlfcn.h>
 
+#include <cstdlib>
 #include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/open_library.hpp"
 #include "multigrid/multigrid.hpp"
+#include "multigrid/start_ranks.hpp"
 
 namespace dotyk::multigrid {
 
@@ -22,23 +24,31 @@ const SharedLibrary& petsc() {
   return library;
 }
 
-using Door = algebra::SpdSolver*(const Matrix&, Monitor&);
-
-Door* open_door() {
+/// A function of the library, which is opened for it.
+template <class Function>
+Function* door(const char* name) {
   const LibraryPlace place = look_for(petsc());
   if (place.found.empty())
-    throw InputError("algebraic multigrid needs PETSc's library: install it (apt-get install --no-install-recommends libpetsc-real-dev; "
-                     "./dotyk --setup-only does) and build again");
-  const auto door = reinterpret_cast<Door*>(dlsym(open_library(petsc(), place.found), "dotyk_multigrid_solver"));
-  if (!door) throw std::runtime_error(petsc().what + " is of another version of dotyk");
-  return door;
+    throw InputError("algebraic multigrid, and work on several ranks, need PETSc's library: install it (apt-get install --no-install-recommends "
+                     "libpetsc-real-dev; ./dotyk --setup-only does) and build again");
+  const auto function = reinterpret_cast<Function*>(dlsym(open_library(petsc(), place.found), name));
+  if (!function) throw std::runtime_error(petsc().what + " is of another version of dotyk");
+  return function;
 }
 
 }  // namespace
 
 std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& monitor) {
-  static Door* const door = open_door();
-  return std::unique_ptr<algebra::SpdSolver>(door(matrix, monitor));
+  static const auto make = door<algebra::SpdSolver*(const Matrix&, Monitor&)>("dotyk_multigrid_solver");
+  return std::unique_ptr<algebra::SpdSolver>(make(matrix, monitor));
+}
+
+void work_for_rank_0() { door<void()>("dotyk_multigrid_work")(); }
+
+void meet_ranks() {
+  door<void()>("dotyk_multigrid_start_ranks")();
+  static void (*const end)() = door<void()>("dotyk_multigrid_end_ranks");
+  std::atexit([] { end(); });
 }
 
 bool available() { return !look_for(petsc()).found.empty(); }

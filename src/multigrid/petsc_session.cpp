@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "multigrid/start_ranks.hpp"
+
 namespace dotyk::multigrid {
 
 namespace {
@@ -62,12 +64,13 @@ class Environment {
 void initialise() {
   const KeptSignals signals;
   Environment environment;
-  // A process of its own: no daemon beside it, no files, no network, no handlers that print stacks.
-  environment.set("OMPI_MCA_ess_singleton_isolated", "1");
-  environment.set("OMPI_MCA_orte_create_session_dirs", "0");
-  environment.set("OMPI_MCA_pml", "ob1");
-  environment.set("OMPI_MCA_btl", "self");
-  environment.set("OMPI_MCA_opal_signal", "");
+  if (rank_by_mpirun().ranks == 1) {  // a process of its own: no daemon beside it, no files, no network
+    environment.set("OMPI_MCA_ess_singleton_isolated", "1");
+    environment.set("OMPI_MCA_orte_create_session_dirs", "0");
+    environment.set("OMPI_MCA_pml", "ob1");
+    environment.set("OMPI_MCA_btl", "self");
+  }
+  environment.set("OMPI_MCA_opal_signal", "");             // no handlers that print stacks
   environment.set("OMPI_MCA_memory", "^patcher");  // which rewrites munmap() and others in the running program
   environment.set("OMPI_MCA_mpi_warn_on_fork", "0");
   environment.set("HWLOC_COMPONENTS", "-gl,-opencl,-cuda,-nvml,-rsmi,-levelzero,-pci");  // or it asks X servers for displays
@@ -77,7 +80,6 @@ void initialise() {
   char** arguments = words;
   if (PetscInitialize(&count, &arguments, nullptr, nullptr) != 0) throw std::runtime_error("PETSc could not be started");
   check(PetscPushErrorHandler(note_error, nullptr));
-  check(PetscOptionsSetValue(nullptr, "-matptap_via", "rap"));  // GAMG's coarse matrices: construction takes two thirds of the time
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 
 #include <unistd.h>
 
+#include "multigrid/start_ranks.hpp"
 #include "script/interpreter.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/library.hpp"
@@ -191,11 +192,17 @@ int run(const Command& command) {
 
 int main(int count, char** words) {
   try {
+    const dotyk::multigrid::RankAmong place = dotyk::multigrid::rank_by_mpirun();
+    if (place.rank > 0) {
+      dotyk::multigrid::work_for_rank_0();
+      return 0;
+    }
     Command command;
-    if (const auto status = read_command({words + 1, words + count}, command)) return after_printing(*status);
+    const auto status = read_command({words + 1, words + count}, command);
     if (command.safe) command.limits.fill_in_for_safe();
-    dotyk::script::leave_threads_if_tight(command.limits, words);
-    return after_printing(run(command));
+    if (!status) dotyk::script::leave_threads_if_tight(command.limits, words);
+    if (place.ranks > 1) dotyk::multigrid::meet_ranks();
+    return after_printing(status ? *status : run(command));
   } catch (const std::bad_alloc&) {
     std::fputs("dotyk: out of memory\n", stderr);
     return 1;

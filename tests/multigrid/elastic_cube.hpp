@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "algebra/spd_solver.hpp"
 #include "algebra/types.hpp"
 
 namespace dotyk::test {
@@ -104,6 +105,14 @@ inline algebra::SparseMatrix holding(const algebra::SparseMatrix& lower, const s
     for (algebra::SparseMatrix::InnerIterator it(out, j); it; ++it)
       if (it.row() != j && (held[it.row()] || held[j])) it.valueRef() = 0;
   return out;
+}
+
+/// All entries: what may have changed, for a solver's set().
+inline algebra::Entries entries(const algebra::SparseMatrix& lower) {
+  algebra::Entries all;
+  for (int j = 0; j < lower.outerSize(); ++j)
+    for (algebra::SparseMatrix::InnerIterator it(lower, j); it; ++it) all.emplace_back(it.row(), j);
+  return all;
 }
 
 inline algebra::Vector pressure_on_top(const ElasticCube& cube, const std::vector<char>& held) {

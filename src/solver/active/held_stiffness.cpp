@@ -1,6 +1,7 @@
 #include "solver/active/held_stiffness.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "algebra/congruent.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
@@ -23,6 +24,11 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   assemble();
   for (const int unknown : algebra::fixing_unknowns(unnoticed_)) lower_.coeffRef(unknown, unknown) *= 2;  // carries nothing
   held_.assign(problem.unknowns(), 0);
+  watched_ = held_;
+  std::vector<char> may_be_held = held_;
+  for (const int unknown : basis_.unknown)
+    if (unknown >= 0) may_be_held[unknown] = 1;
+  watch(may_be_held);
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   solver_ = make({lower_, problem, basis_, monitor});
 }
@@ -48,8 +54,20 @@ void HeldStiffness::assemble() {
 void HeldStiffness::change(int row, int column, double by) {
   if (held_[row] || held_[column]) return;
   double& value = lower_.coeffRef(row, column);
-  changed_.emplace_back(&value, value);
+  changed_.push_back({row, column, &value, value});
   value += by;
+}
+
+/// Knows the entries of what is held, which are few, so that not all are looked at in each step.
+void HeldStiffness::watch(const std::vector<char>& held) {
+  bool known = true;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i] && !watched_[i]) watched_[i] = 1, known = false;
+  if (known) return;
+  of_watched_.clear();
+  for (int j = 0; j < lower_.cols(); ++j)
+    for (int k = lower_.outerIndexPtr()[j]; k < lower_.outerIndexPtr()[j + 1]; ++k)
+      if (const int i = lower_.innerIndexPtr()[k]; watched_[i] || watched_[j]) of_watched_.push_back({i, j, lower_.valuePtr() + k});
 }
 
 void HeldStiffness::spring_rows(const Vector& spring) {
@@ -60,20 +78,23 @@ void HeldStiffness::spring_rows(const Vector& spring) {
 }
 
 bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added) {
-  for (; !changed_.empty(); changed_.pop_back()) *changed_.back().first = changed_.back().second;
+  watch(held);
+  algebra::Entries changed;
+  for (; !changed_.empty(); changed_.pop_back()) {
+    const Entry& e = changed_.back();
+    *e.number = e.before;
+    changed.emplace_back(e.row, e.column);
+  }
   held_ = held;
-  for (int j = 0; j < lower_.cols(); ++j)
-    for (int k = lower_.outerIndexPtr()[j]; k < lower_.outerIndexPtr()[j + 1]; ++k) {
-      const int i = lower_.innerIndexPtr()[k];
-      double& value = lower_.valuePtr()[k];
-      const double without = i == j ? (value > 0 ? value : 1) : 0;
-      if ((!held[i] && !held[j]) || value == without) continue;
-      changed_.emplace_back(&value, value);
-      value = without;
-    }
+  for (const Entry& e : of_watched_) {
+    const double without = e.row == e.column ? (*e.number > 0 ? *e.number : 1) : 0;
+    if ((!held[e.row] && !held[e.column]) || *e.number == without) continue;
+    changed_.push_back({e.row, e.column, e.number, std::exchange(*e.number, without)});
+  }
   spring_rows(spring);
   for (const auto& entry : added) change(entry.row(), entry.col(), entry.value());
-  return solver_->set(lower_, held_);
+  for (const Entry& e : changed_) changed.emplace_back(e.row, e.column);
+  return solver_->set(lower_, held_, changed);
 }
 
 Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {

@@ -65,14 +65,21 @@ class HeldStiffness {
   void assemble();
   void spring_rows(const algebra::Vector& spring);
   void change(int row, int column, double by);
+  void watch(const std::vector<char>& held);
 
   const problem::Problem& problem_;
   const problem::RowBasis basis_;
   const algebra::SparseMatrix unnoticed_;
   algebra::SparseRows rows_;        ///< B T
   algebra::StoredMatrix lower_;     ///< of the pattern, with the numbers of the last factor()
-  std::vector<std::pair<double*, double>> changed_;  ///< places of its numbers that are not TᵀKT's, each with what it was before
-  std::vector<char> held_;
+  struct Entry {
+    int row, column;
+    double* number;
+    double before = 0;  ///< it was changed
+  };
+  std::vector<Entry> changed_;      ///< entries of lower_ that are not TᵀKT's; one may be there twice
+  std::vector<char> held_, watched_;
+  std::vector<Entry> of_watched_;   ///< entries whose row or column is of an unknown that may be held
   std::unique_ptr<algebra::SpdSolver> solver_;
 };
 

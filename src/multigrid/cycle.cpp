@@ -1,0 +1,130 @@
+#include "multigrid/cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dotyk::multigrid {
+
+namespace {
+
+constexpr int kMostIterations = 1000;
+/// After so many iterations their rate of convergence is trusted to foretell how many there will be.
+constexpr int kTelling = 10;
+
+/// One sweep of Gauss and Seidel, each rank's own, `type` its direction: forward before the coarse correction and backward after it make the
+/// cycle symmetric.
+void make_smoother(KSP ksp, Mat matrix, MatSORType type) {
+  PC pc = nullptr;
+  check(KSPSetOperators(ksp, matrix, matrix));
+  check(KSPSetType(ksp, KSPRICHARDSON));
+  check(KSPSetNormType(ksp, KSP_NORM_NONE));
+  check(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 1));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCSOR));
+  check(PCSORSetSymmetric(pc, type));
+}
+
+struct Ending {
+  double first, residual;  // residuals: the first one, and at which to end
+  double most;             // iterations
+  Monitor* monitor;
+  const Ranks& ranks;
+  std::exception_ptr thrown = nullptr;  // by the monitor, kept until PETSc has returned
+
+  /// Whether rank 0's monitor wants the end: all ranks learn it.
+  bool stopped() {
+    int stop = 0;
+    try {
+      if (monitor) monitor->check();
+    } catch (...) {
+      thrown = std::current_exception();
+      stop = 1;
+    }
+    if (!ranks.alone()) MPI_Bcast(&stop, 1, MPI_INT, 0, ranks.comm());
+    return stop != 0;
+  }
+};
+
+/// How many iterations twelve digits take at the rate so far. The first systems of a Newton iteration are solved to fewer, the last one to as many.
+double foreseen(const Ending& ending, int iteration, double residual) {
+  return residual < ending.first ? iteration * std::log(1e-12) / std::log(residual / ending.first) : INFINITY;
+}
+
+PetscErrorCode ended(KSP, PetscInt iteration, PetscReal residual, KSPConvergedReason* reason, void* context) {
+  Ending& ending = *static_cast<Ending*>(context);
+  *reason = !std::isfinite(residual)         ? KSP_DIVERGED_NANORINF
+            : residual <= ending.residual    ? KSP_CONVERGED_RTOL
+            : iteration >= kMostIterations   ? KSP_DIVERGED_ITS
+            : iteration >= kTelling && foreseen(ending, iteration, residual) > ending.most ? KSP_DIVERGED_ITS
+                                             : KSP_CONVERGED_ITERATING;
+  if (*reason == KSP_CONVERGED_ITERATING && ending.stopped()) *reason = KSP_DIVERGED_BREAKDOWN;
+  return 0;
+}
+
+}  // namespace
+
+Cycle::Cycle(const Ranks& ranks, Piece piece) : ranks_(ranks), hierarchy_(ranks, std::move(piece)) {
+  check(MatCreateVecs(hierarchy_.matrix(0), x_.put(), b_.put()));
+  make();
+}
+
+void Cycle::make() {
+  check(KSPCreate(ranks_.comm(), ksp_.put()));
+  check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
+  check(KSPSetType(ksp_, KSPCG));
+  check(KSPSetNormType(ksp_, KSP_NORM_UNPRECONDITIONED));
+  PC pc = nullptr;
+  check(KSPGetPC(ksp_, &pc));
+  check(PCSetType(pc, PCMG));
+  check(PCMGSetLevels(pc, levels(), nullptr));
+  check(PCMGSetGalerkin(pc, PC_MG_GALERKIN_EXTERNAL));
+  KSP ksp = nullptr;
+  for (int l = 0; l + 1 < levels(); ++l) {
+    const int theirs = levels() - 1 - l;  // PETSc counts from the coarsest
+    check(PCMGSetInterpolation(pc, theirs, hierarchy_.interpolation(l)));
+    check(PCMGGetSmootherDown(pc, theirs, &ksp));
+    make_smoother(ksp, hierarchy_.matrix(l), SOR_LOCAL_FORWARD_SWEEP);
+    if (l == 0) finest_.attach(ksp, true);
+    check(PCMGGetSmootherUp(pc, theirs, &ksp));
+    make_smoother(ksp, hierarchy_.matrix(l), SOR_LOCAL_BACKWARD_SWEEP);
+    if (l == 0) finest_.attach(ksp, false);
+    check(KSPSetInitialGuessNonzero(ksp, PETSC_TRUE));
+  }
+  check(PCMGGetCoarseSolve(pc, &ksp));
+  factor_on_each(ksp, hierarchy_.matrix(levels() - 1), MAT_SHIFT_POSITIVE_DEFINITE, MATSOLVERPETSC);
+}
+
+bool Cycle::set(const Change& change) {
+  if (!hierarchy_.set(change)) return false;
+  if (!ranks_.all(finest_.set(hierarchy_.matrix(0), change.shared))) return false;
+  check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
+  check(KSPSetUp(ksp_));
+  bytes_ = ranks_.sum(hierarchy_.bytes());
+  return true;
+}
+
+Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor) {
+  PetscScalar* in = nullptr;
+  check(VecGetArrayWrite(b_, &in));
+  std::copy(b.begin(), b.end(), in);
+  check(VecRestoreArrayWrite(b_, &in));
+  PetscReal norm = 0;
+  check(VecNorm(b_, NORM_2, &norm));
+  Ending ending{norm, tolerance * norm, most, monitor, ranks_};
+  check(KSPSetConvergenceTest(ksp_, ended, &ending, nullptr));
+  check(KSPSolve(ksp_, b_, x_));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  Solution solution;
+  check(KSPGetConvergedReason(ksp_, &reason));
+  check(KSPGetIterationNumber(ksp_, &solution.iterations));
+  solution.thrown = ending.thrown;
+  solution.found = reason > 0;
+  const PetscScalar* out = nullptr;
+  check(VecGetArrayRead(x_, &out));
+  solution.x.assign(out, out + b.size());
+  check(VecRestoreArrayRead(x_, &out));
+  return solution;
+}
+
+}  // namespace dotyk::multigrid

@@ -1,0 +1,44 @@
+// Conjugate gradients with a V-cycle over a hierarchy.
+#pragma once
+
+#include <exception>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "multigrid/finest_smoother.hpp"
+#include "multigrid/hierarchy.hpp"
+
+namespace dotyk::multigrid {
+
+/// One of them lives on each rank; all functions but those that look are collective.
+class Cycle {
+ public:
+  Cycle(const Ranks& ranks, Piece piece);
+
+  bool set(const Change& change);
+
+  struct Solution {
+    bool found = false;  ///< else x has no meaning: an indefinite matrix, too many iterations
+    int iterations = 0;
+    std::vector<double> x;
+    std::exception_ptr thrown;  ///< by the monitor
+  };
+  /// x with ‖b − A x‖ ≤ tolerance ‖b‖, by the residual that conjugate gradients carry along; b and x: of this rank's rows. `most`: iterations that the rate
+  /// of convergence may foretell. `monitor`: rank 0's, which each iteration asks, null on the others; where it throws, all stop.
+  Solution solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor);
+
+  int levels() const { return hierarchy_.levels(); }
+  double bytes() const { return bytes_; }  ///< of all ranks, after the last set()
+
+ private:
+  void make();
+
+  const Ranks ranks_;
+  Hierarchy hierarchy_;
+  FinestSmoother finest_;
+  OwnedKsp ksp_;
+  OwnedVec b_, x_;
+  double bytes_ = 0;
+};
+
+}  // namespace dotyk::multigrid

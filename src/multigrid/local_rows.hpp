@@ -1,0 +1,59 @@
+// The rows of a matrix of PETSc's that this process has.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "multigrid/petsc_session.hpp"
+#include "multigrid/piece.hpp"
+
+namespace dotyk::multigrid {
+
+/// A sequential matrix as rows of numbers, columns ascending, for as long as this lives. PETSc then counts the numbers as changed.
+class RowsView {
+ public:
+  explicit RowsView(Mat matrix);
+  ~RowsView();
+  RowsView(const RowsView&) = delete;
+  RowsView& operator=(const RowsView&) = delete;
+
+  PetscInt count = 0;
+  const PetscInt *starts = nullptr, *columns = nullptr;
+  PetscScalar* values = nullptr;
+
+ private:
+  Mat matrix_;
+};
+
+/// The rows of this rank, in two parts: of its own columns, and of others' where there are several ranks.
+class LocalRows {
+ public:
+  explicit LocalRows(Mat matrix);
+
+  int count() const { return own->count; }
+  /// Calls visit(column by the numbers of all ranks, number) for the entries of a row: its own columns first.
+  template <class Visit>
+  void for_each(int row, Visit&& visit) const {
+    for (int k = own->starts[row]; k < own->starts[row + 1]; ++k) visit(first_column + own->columns[k], own->values[k]);
+    if (other)
+      for (int k = other->starts[row]; k < other->starts[row + 1]; ++k) visit(others[other->columns[k]], other->values[k]);
+  }
+  /// The number at a row, counted from 0, and a column of all; null where the pattern has no such entry.
+  double* find(int row, int column) const;
+
+  std::optional<RowsView> own, other;
+  const PetscInt* others = nullptr;            ///< by column of `other`: its number, ascending
+  int others_count = 0;
+  int first_row = 0, first_column = 0, own_columns = 0;
+};
+
+/// `blocks`: how many rows, and how many columns, belong to a node. The arrays of `rows` become the matrix's where there is one rank, and must outlive it.
+OwnedMat matrix_of(const Ranks& ranks, Rows& rows, int own_columns, std::array<int, 2> blocks);
+
+/// Numbers were changed: what PETSc derived from them is out of date.
+void tell_changed(Mat m);
+
+/// The ranks of a matrix.
+Ranks ranks_of(Mat m);
+
+}  // namespace dotyk::multigrid

@@ -1,0 +1,164 @@
+#include "multigrid/numbering.hpp"
+
+#include <metis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace dotyk::multigrid {
+
+namespace {
+
+/// The graph's vertices shared out among `parts` with few edges between them. `visit(edge)` calls edge(a, b) as often as the edge weighs.
+template <class Visit>
+std::vector<int> share_out(int vertices, int parts, const Visit& visit) {
+  const Buckets met(vertices, [&](auto&& put) {
+    visit([&](int a, int b) {
+      if (a != b) put(a, b), put(b, a);
+    });
+  });
+  std::vector<idx_t> starts{0}, neighbours, weights;
+  for (int v = 0; v < vertices; ++v) {
+    std::vector<int> own(met[v].begin(), met[v].end());
+    std::sort(own.begin(), own.end());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (k == 0 || own[k] != own[k - 1]) neighbours.push_back(own[k]), weights.push_back(0);
+      ++weights.back();
+    }
+    starts.push_back(static_cast<idx_t>(neighbours.size()));
+  }
+  idx_t count = vertices, constraints = 1, wanted = parts, cut = 0, options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  std::vector<idx_t> part(static_cast<std::size_t>(vertices));
+  const int status = METIS_PartGraphRecursive(&count, &constraints, starts.data(), neighbours.data(), nullptr, nullptr, weights.data(), &wanted, nullptr,
+                                              nullptr, options, &cut, part.data());
+  if (status != METIS_OK) throw std::runtime_error("METIS could not share out the unknowns");
+  return {part.begin(), part.end()};
+}
+
+/// New numbers of nodes, those of rank 0 first; `first`: of each rank its first node, and the number of all.
+std::vector<int> numbers_by_rank(const std::vector<int>& rank, int ranks, std::vector<int>& first) {
+  first.assign(static_cast<std::size_t>(ranks) + 1, 0);
+  for (const int r : rank) ++first[r + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> next(first.begin(), first.end() - 1), number;
+  for (const int r : rank) number.push_back(next[r]++);
+  return number;
+}
+
+/// The ranks of the nodes of all levels.
+class Sharing {
+ public:
+  /// `first`: unknown of each node, and the number of all.
+  Sharing(const Matrix& matrix, const std::vector<int>& first, int ranks) : matrix_(matrix), first_(first), ranks_(ranks) {
+    constexpr int kEnough = 100;  // nodes for each rank, so that shares are like
+    const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
+    for (int l = 0; l <= meshes; ++l) of_.emplace_back(static_cast<std::size_t>(nodes(l)), 0);
+    if (ranks == 1) return;
+    int level = meshes;
+    while (level > 0 && nodes(level) < kEnough * ranks) --level;
+    std::vector<std::vector<int>> parents;
+    for (int l = 0; l < level; ++l) parents.push_back(parents_of(l));
+    of_[level] = share_out(nodes(level), ranks_, [&](auto&& edge) {
+      level > 0 ? functions_meet(level, edge) : matrix_meets(edge);
+      rows_join(parents, edge);
+    });
+    for (int l = level - 1; l >= 0; --l)
+      for (int node = 0; node < nodes(l); ++node) of_[l][node] = of_[l + 1][parents[l][node]];
+  }
+
+  const std::vector<int>& of(int level) const { return of_[level]; }
+
+ private:
+  int nodes(int level) const {
+    return level == 0 ? static_cast<int>(first_.size()) - 1 : static_cast<int>((*matrix_.coarse)[level - 1].cols()) / matrix_.dimension;
+  }
+  int first_row(int node, int level) const { return level == 0 ? first_[node] : node * matrix_.dimension; }
+
+  /// Of each node the one of the next level whose function is greatest there; where there is none, that of the node before.
+  std::vector<int> parents_of(int level) const {
+    const algebra::SparseRows& functions = (*matrix_.coarse)[level];
+    std::vector<int> parent(static_cast<std::size_t>(nodes(level)), 0);
+    for (int node = 0; node < nodes(level); ++node) {
+      double greatest = 0;
+      if (node > 0) parent[node] = parent[node - 1];
+      for (algebra::SparseRows::InnerIterator it(functions, first_row(node, level)); it; ++it)
+        if (std::abs(it.value()) > greatest * (1 + 1e-12)) greatest = std::abs(it.value()), parent[node] = static_cast<int>(it.col()) / matrix_.dimension;
+    }
+    return parent;
+  }
+  /// Functions that meet at a node of the finer mesh are neighbours.
+  template <class Edge>
+  void functions_meet(int level, Edge& edge) const {
+    const algebra::SparseRows& functions = (*matrix_.coarse)[level - 1];
+    for (int node = 0; node < nodes(level - 1); ++node) {
+      const int row = first_row(node, level - 1);
+      for (algebra::SparseRows::InnerIterator a(functions, row); a; ++a)
+        for (algebra::SparseRows::InnerIterator b(functions, row); b && b.col() < a.col(); ++b)
+          edge(static_cast<int>(a.col()) / matrix_.dimension, static_cast<int>(b.col()) / matrix_.dimension);
+    }
+  }
+  template <class Edge>
+  void matrix_meets(Edge& edge) const {
+    const algebra::SparseMatrix& K = matrix_.displaced ? *matrix_.displaced : matrix_.lower;
+    const std::vector<int> node = node_of_unknowns();
+    for (int b = 0; b < nodes(0); ++b)
+      for (int k = K.outerIndexPtr()[first_[b]]; k < K.outerIndexPtr()[first_[b] + 1]; ++k) edge(b, node[K.innerIndexPtr()[k]]);
+  }
+  /// Unknowns that a row of an interface couples: kept together, as sweeps of one rank hardly see what others have.
+  template <class Edge>
+  void rows_join(const std::vector<std::vector<int>>& parents, Edge& edge) const {
+    constexpr int kWeight = 10;
+    if (!matrix_.unknowns) return;
+    std::vector<int> node = node_of_unknowns();
+    for (const std::vector<int>& parent : parents)
+      for (int& n : node) n = parent[n];
+    for (int j = 0; j < matrix_.unknowns->cols(); ++j)
+      for (algebra::SparseMatrix::InnerIterator it(*matrix_.unknowns, j); it; ++it)
+        for (int times = 0; times < kWeight && it.row() != j; ++times) edge(node[it.row()], node[j]);
+  }
+  std::vector<int> node_of_unknowns() const {
+    std::vector<int> node;
+    for (int b = 0; b < nodes(0); ++b) node.resize(static_cast<std::size_t>(first_[b + 1]), b);
+    return node;
+  }
+
+  const Matrix& matrix_;
+  const std::vector<int>& first_;
+  const int ranks_;
+  std::vector<std::vector<int>> of_;
+};
+
+}  // namespace
+
+Numbering::Numbering(const Matrix& matrix, int ranks) {
+  std::vector<int> first;  // unknown of each node
+  for (std::size_t i = 0; i < matrix.node.size(); ++i)
+    if (i == 0 || matrix.node[i] != matrix.node[i - 1]) first.push_back(static_cast<int>(i));
+  first.push_back(static_cast<int>(matrix.node.size()));
+  for (std::size_t b = 0; b + 1 < first.size(); ++b) block_ = std::max(block_, first[b + 1] - first[b]);
+  const Sharing sharing(matrix, first, ranks);
+  const std::vector<int> finest = numbers_by_rank(sharing.of(0), ranks, first_.emplace_back());
+  for (std::size_t b = 0; b + 1 < first.size(); ++b) {
+    const int begin = finest[b] * block_, used = first[b + 1] - first[b];
+    for (int k = 0; k < used; ++k) slot_.push_back(begin + k);
+    for (int k = used; k < block_; ++k) idle_.push_back(begin + k);
+  }
+  for (int& f : first_[0]) f *= block_;
+  for (std::size_t l = 1; matrix.coarse && l <= matrix.coarse->size(); ++l) {
+    const std::vector<int> number = numbers_by_rank(sharing.of(static_cast<int>(l)), ranks, first_.emplace_back());
+    std::vector<int>& rows = functions_.emplace_back();
+    for (const int n : number)
+      for (int k = 0; k < matrix.dimension; ++k) rows.push_back(n * matrix.dimension + k);
+    for (int& f : first_[l]) f *= matrix.dimension;
+  }
+}
+
+int Numbering::rank_of(int row) const {
+  return static_cast<int>(std::upper_bound(first_[0].begin(), first_[0].end(), row) - first_[0].begin()) - 1;
+}
+
+}  // namespace dotyk::multigrid

@@ -1,0 +1,169 @@
+#include "multigrid/piece.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace dotyk::multigrid {
+
+namespace {
+
+/// Rows first … last − 1 of one level.
+struct Range {
+  int first, last;
+  bool has(int row) const { return row >= first && row < last; }
+  int count() const { return last - first; }
+};
+
+Range range_of(int rank, const Numbering& numbering, int level) { return {numbering.first(level)[rank], numbering.first(level)[rank + 1]}; }
+
+void sort_rows(Rows& rows) {
+  std::vector<std::pair<int, double>> row;
+  for (std::size_t i = 0; i + 1 < rows.starts.size(); ++i) {
+    const int begin = rows.starts[i], end = rows.starts[i + 1];
+    if (std::is_sorted(rows.columns.begin() + begin, rows.columns.begin() + end)) continue;
+    row.clear();
+    for (int k = begin; k < end; ++k) row.emplace_back(rows.columns[k], rows.values[k]);
+    std::sort(row.begin(), row.end());
+    for (int k = begin; k < end; ++k) std::tie(rows.columns[k], rows.values[k]) = row[k - begin];
+  }
+}
+
+/// Of the full matrix that a lower triangle stands for. Its entries come column by column, so that where unknowns keep their order each row gets
+/// ascending columns: those left of the diagonal belong to earlier columns of the triangle, the others to its own.
+Rows full_rows(const algebra::SparseMatrix& lower, const Numbering& numbering, const Range& range, double idle) {
+  const int *begin = lower.outerIndexPtr(), *inner = lower.innerIndexPtr();
+  const std::vector<int>& slot = numbering.slot();
+  const auto each = [&](auto&& visit) {  // row, column, number
+    for (int j = 0; j < lower.cols(); ++j)
+      for (int k = begin[j]; k < begin[j + 1]; ++k) {
+        const int i = inner[k];
+        if (i < j) throw std::runtime_error("multigrid: the matrix is not a lower triangle");
+        if (range.has(slot[i])) visit(slot[i] - range.first, slot[j], lower.valuePtr()[k]);
+        if (i != j && range.has(slot[j])) visit(slot[j] - range.first, slot[i], lower.valuePtr()[k]);
+      }
+    for (const int i : numbering.idle())
+      if (range.has(i)) visit(i - range.first, i, idle);
+  };
+  Rows rows;
+  rows.starts.assign(static_cast<std::size_t>(range.count()) + 1, 0);
+  each([&](int row, int, double) { ++rows.starts[row + 1]; });
+  std::partial_sum(rows.starts.begin(), rows.starts.end(), rows.starts.begin());
+  rows.columns.resize(static_cast<std::size_t>(rows.starts.back()));
+  rows.values.resize(rows.columns.size());
+  std::vector<int> next(rows.starts.begin(), rows.starts.end() - 1);
+  each([&](int row, int column, double value) {
+    const int at = next[row]++;
+    rows.columns[at] = column, rows.values[at] = value;
+  });
+  sort_rows(rows);
+  return rows;
+}
+
+/// Mean of the diagonal, which must be positive.
+double mean_diagonal(const algebra::SparseMatrix& lower) {
+  const int* begin = lower.outerIndexPtr();
+  double sum = 0;
+  for (int j = 0; j < lower.cols(); ++j) {
+    const bool has = begin[j] < begin[j + 1] && lower.innerIndexPtr()[begin[j]] == j;
+    if (!has || !(lower.valuePtr()[begin[j]] > 0)) throw std::runtime_error("multigrid: the diagonal of the matrix is not positive");
+    sum += lower.valuePtr()[begin[j]];
+  }
+  return sum / static_cast<double>(lower.cols());
+}
+
+/// The rows of `from` whose new numbers are in the range; null: numbers stay as they are.
+Rows some_rows(const algebra::SparseRows& from, const std::vector<int>* row_number, const std::vector<int>* column_number, const Range& range,
+               const std::vector<int>& idle = {}) {
+  std::vector<int> origin(static_cast<std::size_t>(range.count()), -1);  // row of `from`
+  for (int i = 0; i < from.rows(); ++i) {
+    const int row = row_number ? (*row_number)[i] : i;
+    if (range.has(row)) origin[row - range.first] = i;
+  }
+  std::vector<char> is_idle(origin.size(), 0);
+  for (const int i : idle)
+    if (range.has(i)) is_idle[i - range.first] = 1;
+  Rows rows;
+  for (int r = 0; r < range.count(); ++r) {
+    if (origin[r] >= 0)
+      for (algebra::SparseRows::InnerIterator it(from, origin[r]); it; ++it) {
+        rows.columns.push_back(column_number ? (*column_number)[it.col()] : static_cast<int>(it.col()));
+        rows.values.push_back(it.value());
+      }
+    if (is_idle[r]) rows.columns.push_back(range.first + r), rows.values.push_back(1.0);
+    rows.starts.push_back(static_cast<int>(rows.columns.size()));
+  }
+  sort_rows(rows);
+  return rows;
+}
+
+std::vector<double> some_modes(const algebra::DenseMatrix& modes, const std::vector<int>& number, const Range& range) {
+  std::vector<double> some(static_cast<std::size_t>(range.count() * modes.cols()), 0.0);
+  for (Eigen::Index i = 0; i < modes.rows(); ++i)
+    if (range.has(number[i]))
+      for (Eigen::Index k = 0; k < modes.cols(); ++k) some[k * range.count() + number[i] - range.first] = modes(i, k);
+  return some;
+}
+
+/// Calls visit(numbers) for all that a piece, or a change, is.
+template <class Visit>
+void visit_rows(Rows& rows, Visit&& visit) {
+  visit(rows.starts), visit(rows.columns), visit(rows.values);
+}
+
+template <class Visit>
+void visit_all(Piece& p, Visit&& visit) {
+  std::vector<int> sizes{p.block, p.dimension, p.motions, static_cast<int>(p.functions.size())};
+  visit(sizes);
+  p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2];
+  p.functions.resize(static_cast<std::size_t>(sizes[3]));
+  visit(p.own);
+  visit_rows(p.matrix, visit);
+  for (Rows& functions : p.functions) visit_rows(functions, visit);
+  visit_rows(p.displaced, visit), visit_rows(p.unknowns, visit);
+  visit(p.modes);
+}
+
+template <class Visit>
+void visit_all(Change& c, Visit&& visit) {
+  visit(c.rows), visit(c.columns), visit(c.values), visit(c.empty), visit(c.shared);
+}
+
+template <class Whole>
+Whole receive_whole(const Ranks& ranks, int from) {
+  Whole whole;
+  visit_all(whole, [&](auto& numbers) { ranks.receive(from, numbers); });
+  return whole;
+}
+
+}  // namespace
+
+Piece piece_for(int rank, const Matrix& matrix, const Numbering& numbering) {
+  if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
+    throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
+  const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
+  const Range finest = range_of(rank, numbering, 0);
+  Piece p;
+  p.block = numbering.block(), p.dimension = matrix.dimension, p.motions = static_cast<int>(matrix.near_kernel.cols());
+  for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering, l).count());
+  p.matrix = full_rows(matrix.lower, numbering, finest, mean_diagonal(matrix.lower));
+  for (int l = 0; l < meshes; ++l)
+    p.functions.push_back(some_rows((*matrix.coarse)[l], l == 0 ? &numbering.slot() : &numbering.functions(l), &numbering.functions(l + 1),
+                                    range_of(rank, numbering, l)));
+  if (matrix.displaced && meshes == 0) p.displaced = full_rows(*matrix.displaced, numbering, finest, mean_diagonal(*matrix.displaced));
+  if (matrix.unknowns) p.unknowns = some_rows(*matrix.unknowns, &numbering.slot(), &numbering.slot(), finest, numbering.idle());
+  p.modes = some_modes(matrix.near_kernel, meshes > 0 ? numbering.functions(meshes) : numbering.slot(), range_of(rank, numbering, meshes));
+  return p;
+}
+
+void send(const Ranks& ranks, int to, Piece& piece) {
+  visit_all(piece, [&](const auto& numbers) { ranks.send(to, numbers); });
+}
+Piece receive_piece(const Ranks& ranks, int from) { return receive_whole<Piece>(ranks, from); }
+void send(const Ranks& ranks, int to, Change& change) {
+  visit_all(change, [&](const auto& numbers) { ranks.send(to, numbers); });
+}
+Change receive_change(const Ranks& ranks, int from) { return receive_whole<Change>(ranks, from); }
+
+}  // namespace dotyk::multigrid

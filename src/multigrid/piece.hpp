@@ -1,0 +1,43 @@
+// What one process works on.
+#pragma once
+
+#include <vector>
+
+#include "multigrid/numbering.hpp"
+#include "multigrid/ranks.hpp"
+
+namespace dotyk::multigrid {
+
+/// Rows of a sparse matrix, columns ascending in each.
+struct Rows {
+  std::vector<int> starts{0}, columns;
+  std::vector<double> values;
+};
+
+/// The rows of one rank, by the numbers of Numbering.
+struct Piece {
+  int block = 1, dimension = 3;  ///< unknowns of a node: on the finest level, on coarser meshes
+  int motions = 0;               ///< columns of `modes`
+  std::vector<int> own;          ///< how many rows of each level are this rank's
+  Rows matrix;                   ///< the full one, which the lower triangle stands for; idle rows have the mean of its diagonal
+  std::vector<Rows> functions;   ///< of each coarser mesh
+  Rows displaced, unknowns;      ///< as in Matrix, full, idle rows as in the identity; no rows where it has none
+  std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh
+};
+
+Piece piece_for(int rank, const Matrix& matrix, const Numbering& numbering);
+void send(const Ranks& ranks, int to, Piece& piece);
+Piece receive_piece(const Ranks& ranks, int from);
+
+/// What makes another matrix of the one before, for one rank: entries, its rows of the finest level that no coarse function reaches, and those with an
+/// exact smoother.
+struct Change {
+  std::vector<int> rows, columns;
+  std::vector<double> values;
+  std::vector<int> empty, shared;
+};
+
+void send(const Ranks& ranks, int to, Change& change);
+Change receive_change(const Ranks& ranks, int from);
+
+}  // namespace dotyk::multigrid

@@ -1,0 +1,51 @@
+// The processes that share the work on a hierarchy, by MPI.
+#pragma once
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace dotyk::multigrid {
+
+/// Processes of one communicator, counted from 0. Functions of all of them together ("collective") must be called by all, in the same order.
+class Ranks {
+ public:
+  explicit Ranks(MPI_Comm comm);
+
+  MPI_Comm comm() const { return comm_; }
+  int own() const { return own_; }
+  int count() const { return count_; }
+  bool alone() const { return count_ == 1; }
+
+  bool all(bool own) const;           ///< collective
+  double sum(double own) const;       ///< collective
+  double greatest(double own) const;  ///< collective
+
+  void send(int to, const std::vector<int>& numbers) const;
+  void send(int to, const std::vector<double>& numbers) const;
+  /// Takes what was sent, in the order in which it was.
+  void receive(int from, std::vector<int>& numbers) const;
+  void receive(int from, std::vector<double>& numbers) const;
+
+  /// Ends all of them with one message and status 1.
+  [[noreturn]] void abort(const std::string& reason) const;
+  /// Runs work of all ranks. What it throws on one of several ends all, as the others would wait for it.
+  template <class Work>
+  auto together(const Work& work) const {
+    if (alone()) return work();
+    try {
+      return work();
+    } catch (const std::bad_alloc&) {
+      abort("out of memory");
+    } catch (const std::exception& error) {
+      abort(error.what());
+    }
+  }
+
+ private:
+  MPI_Comm comm_;
+  int own_ = 0, count_ = 1;
+};
+
+}  // namespace dotyk::multigrid

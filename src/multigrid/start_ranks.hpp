@@ -1,0 +1,26 @@
+// One script, many processes: rank 0 runs it, the others work for its solvers.
+#pragma once
+
+#include <cstdlib>
+
+namespace dotyk::multigrid {
+
+/// Which of the processes that mpirun started this is, and how many there are; rank 0 of 1 where it was not mpirun.
+struct RankAmong {
+  int rank = 0, ranks = 1;
+};
+inline RankAmong rank_by_mpirun() {
+  const auto number = [](const char* variable, int otherwise) {
+    const char* text = std::getenv(variable);
+    return text ? std::atoi(text) : otherwise;
+  };
+  return {number("OMPI_COMM_WORLD_RANK", 0), number("OMPI_COMM_WORLD_SIZE", 1)};
+}
+
+/// For ranks other than 0: works until rank 0 ends. A failure on one rank ends the program on all, with a message and status 1.
+/// Both throw InputError where the library was not built.
+void work_for_rank_0();
+/// For rank 0: meets the others, and lets them go when the program ends, also by std::exit.
+void meet_ranks();
+
+}  // namespace dotyk::multigrid

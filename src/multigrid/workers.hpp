@@ -1,0 +1,30 @@
+// The processes that wait for rank 0's solvers, and what they do for them.
+#pragma once
+
+#include "multigrid/ranks.hpp"
+
+namespace dotyk::multigrid {
+
+enum class Task : int { make, set, solve, drop, end };
+
+/// Rank 0's way to those that work for one solver. What a task needs follows it.
+class Workers {
+ public:
+  Workers(const Ranks& ranks, int solver) : ranks_(ranks), solver_(solver) {}
+  const Ranks& ranks() const { return ranks_; }
+  void tell(Task task) const;
+
+ private:
+  Ranks ranks_;
+  int solver_;  // its number
+};
+
+/// For a solver of so many unknowns: all ranks, or this one alone where shares would be too small.
+Workers workers_for(double unknowns);
+
+/// What ranks other than 0 do: the tasks, until the last.
+void work();
+/// Tells them the last. Called once, by rank 0, when nothing more will be solved.
+void end_workers();
+
+}  // namespace dotyk::multigrid
