@@ -2,10 +2,12 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/open_library.hpp"
+#include "base/text.hpp"
 #include "multigrid/multigrid.hpp"
 #include "multigrid/start_ranks.hpp"
 
@@ -43,12 +45,30 @@ std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& m
   return std::unique_ptr<algebra::SpdSolver>(make(matrix, monitor));
 }
 
-void work_for_rank_0() { door<void()>("dotyk_multigrid_work")(); }
+void work_for_rank_0(bool spawned) { door<void(bool)>("dotyk_multigrid_work")(spawned); }
+
+namespace {
+
+void end_at_exit() {
+  static void (*const end)() = door<void()>("dotyk_multigrid_end_ranks");
+  std::atexit([] { end(); });
+}
+
+}  // namespace
 
 void meet_ranks() {
   door<void()>("dotyk_multigrid_start_ranks")();
-  static void (*const end)() = door<void()>("dotyk_multigrid_end_ranks");
-  std::atexit([] { end(); });
+  end_at_exit();
+}
+
+int count_ranks() { return available() ? door<int()>("dotyk_multigrid_ranks")() : 1; }
+
+void start_ranks(int ranks) {
+  const int there = count_ranks();
+  if (ranks == there) return;
+  if (there > 1) throw InputError(text("there are ", there, " ranks already; their number stays as it is"));
+  door<void(int, const char*)>("dotyk_multigrid_spawn")(ranks, std::filesystem::read_symlink("/proc/self/exe").c_str());
+  end_at_exit();
 }
 
 bool available() { return !look_for(petsc()).found.empty(); }

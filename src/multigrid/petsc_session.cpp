@@ -61,10 +61,15 @@ class Environment {
   std::vector<const char*> names_;
 };
 
-void initialise() {
+void initialise(bool spawns) {
   const KeptSignals signals;
   Environment environment;
-  if (rank_by_mpirun().ranks == 1) {  // a process of its own: no daemon beside it, no files, no network
+  if (spawns) {  // in containers too: as root, and more ranks than processors
+    environment.set("OMPI_ALLOW_RUN_AS_ROOT", "1");
+    environment.set("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
+    environment.set("OMPI_MCA_rmaps_base_oversubscribe", "1");
+    environment.set("OMPI_MCA_plm_rsh_agent", "false");  // needs no ssh, and looks for none
+  } else if (rank_by_mpirun().ranks == 1) {  // a process of its own: no daemon beside it, no files, no network
     environment.set("OMPI_MCA_ess_singleton_isolated", "1");
     environment.set("OMPI_MCA_orte_create_session_dirs", "0");
     environment.set("OMPI_MCA_pml", "ob1");
@@ -84,12 +89,17 @@ void initialise() {
 
 }  // namespace
 
-void start_petsc() {
-  static const bool started = [] {
-    initialise();
+void start_petsc(bool spawns) {
+  static const bool started = [spawns] {
+    initialise(spawns);
     return true;
   }();
   static_cast<void>(started);
+}
+
+bool petsc_started() {
+  PetscBool started = PETSC_FALSE;
+  return PetscInitialized(&started) == 0 && started == PETSC_TRUE;
 }
 
 void check(PetscErrorCode code) {

@@ -7,8 +7,10 @@
 
 namespace dotyk::multigrid {
 
-/// Starts PETSc, and the MPI that it needs, where that has not been done. It is never ended: that can only be done once a process.
-void start_petsc();
+/// Starts PETSc, and the MPI that it needs, where that has not been done: it can only be done once a process. `spawns`: whether this process will start
+/// others, or was started by one that does.
+void start_petsc(bool spawns = false);
+bool petsc_started();
 
 /// Throws std::runtime_error with PETSc's words where `code` is not 0.
 void check(PetscErrorCode code);

@@ -119,4 +119,6 @@ DOTYK_DOOR dotyk::algebra::SpdSolver* dotyk_multigrid_solver(const dotyk::multig
 
 DOTYK_DOOR void dotyk_multigrid_start_ranks() { dotyk::multigrid::start_petsc(); }
 DOTYK_DOOR void dotyk_multigrid_end_ranks() { dotyk::multigrid::end_workers(); }
-DOTYK_DOOR void dotyk_multigrid_work() { dotyk::multigrid::work(); }
+DOTYK_DOOR void dotyk_multigrid_spawn(int ranks, const char* program) { dotyk::multigrid::spawn_workers(ranks, program); }
+DOTYK_DOOR int dotyk_multigrid_ranks() { return dotyk::multigrid::count_ranks(); }
+DOTYK_DOOR void dotyk_multigrid_work(bool spawned) { dotyk::multigrid::work(spawned); }

@@ -17,10 +17,15 @@ inline RankAmong rank_by_mpirun() {
   return {number("OMPI_COMM_WORLD_RANK", 0), number("OMPI_COMM_WORLD_SIZE", 1)};
 }
 
-/// For ranks other than 0: works until rank 0 ends. A failure on one rank ends the program on all, with a message and status 1.
-/// Both throw InputError where the library was not built.
-void work_for_rank_0();
-/// For rank 0: meets the others, and lets them go when the program ends, also by std::exit.
+/// For ranks other than 0: works until rank 0 ends. A failure on one rank ends the program on all, with a message and status 1. `spawned`: by
+/// start_ranks(), else by mpirun. All these functions throw InputError where the library was not built.
+void work_for_rank_0(bool spawned);
+/// For rank 0 under mpirun: meets the others, and lets them go when the program ends, also by std::exit.
 void meet_ranks();
+
+/// Starts other processes of this program on this machine, so that there are `ranks`. Throws InputError where MPI cannot, after the first
+/// solution by multigrid, or where there is another number of several ranks already.
+void start_ranks(int ranks);
+int count_ranks();
 
 }  // namespace dotyk::multigrid

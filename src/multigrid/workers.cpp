@@ -3,24 +3,52 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <map>
 #include <memory>
 
+#include "base/text.hpp"
 #include "multigrid/cycle.hpp"
+#include "multigrid/death_watch.hpp"
 
 namespace dotyk::multigrid {
 
 namespace {
 
+/// All processes that MPI has brought together; null: those that mpirun started.
+MPI_Comm& spawned_world() {
+  static MPI_Comm comm = MPI_COMM_NULL;
+  return comm;
+}
+
+/// Between rank 0 and those that it has spawned.
+MPI_Comm& meeting() {
+  static MPI_Comm comm = MPI_COMM_NULL;
+  return comm;
+}
+
 /// All processes. The communicator is our own, so that PETSc's messages are not taken for ours.
 const Ranks& world() {
   static const Ranks ranks = [] {
     start_petsc();
-    MPI_Comm own = MPI_COMM_NULL;
-    MPI_Comm_dup(MPI_COMM_WORLD, &own);
+    MPI_Comm own = spawned_world();
+    if (own == MPI_COMM_NULL) MPI_Comm_dup(MPI_COMM_WORLD, &own);
     return Ranks(own);
   }();
   return ranks;
+}
+
+/// Both sides of spawn_workers(), once they have met.
+void join(MPI_Comm others, bool spawned) {
+  meeting() = others;
+  MPI_Intercomm_merge(others, spawned, &spawned_world());
+  const Ranks& all = world();
+  int own = getpid();
+  std::vector<int> processes(static_cast<std::size_t>(all.count()));
+  MPI_Allgather(&own, 1, MPI_INT, processes.data(), 1, MPI_INT, all.comm());
+  std::vector<Companion> companions;
+  for (int r = spawned ? 0 : 1; r < (spawned ? 1 : all.count()); ++r) companions.push_back({processes[r], text("rank ", r, " of ", all.count())});
+  watch_for_death(std::move(companions), !spawned);
 }
 
 /// Solvers that live, on rank 0.
@@ -49,6 +77,7 @@ void solve(Cycle& cycle) {
 
 /// Where solvers still live, as when a script ends by os.exit, PETSc cannot be ended: MPI alone is.
 void finalise(bool clean) {
+  if (meeting() != MPI_COMM_NULL) MPI_Comm_disconnect(&meeting());
   if (clean) PetscFinalize();
   else MPI_Finalize();
 }
@@ -68,7 +97,30 @@ void Workers::tell(Task task) const {
   for (int r = 1; r < ranks_.count(); ++r) ranks_.send(r, std::vector<int>{static_cast<int>(task), solver_});
 }
 
-void work() {
+void spawn_workers(int ranks, const std::string& program) {
+  if (petsc_started()) throw InputError("MPI has started already, with the first solution by multigrid: dotyk.ranks(…) must come before it");
+  start_petsc(true);
+  MPI_Comm others = MPI_COMM_NULL;
+  char word[] = "--worker";
+  char* words[] = {word, nullptr};
+  MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_RETURN);
+  const int code = MPI_Comm_spawn(program.c_str(), words, ranks - 1, MPI_INFO_NULL, 0, MPI_COMM_SELF, &others, MPI_ERRCODES_IGNORE);
+  MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_ARE_FATAL);
+  if (code != MPI_SUCCESS) throw InputError(text("MPI could not start ", ranks - 1, " more processes of ", program));
+  join(others, false);
+}
+
+int count_ranks() { return petsc_started() ? world().count() : 1; }
+
+void work(bool spawned) {
+  if (spawned) {
+    std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for rank 0, which has the terminal
+    start_petsc(true);
+    MPI_Comm parent = MPI_COMM_NULL;
+    MPI_Comm_get_parent(&parent);
+    if (parent == MPI_COMM_NULL) throw InputError("--worker is for processes that dotyk.ranks(…) starts");
+    join(parent, true);
+  }
   world().together([] {
     std::map<int, std::unique_ptr<Cycle>> cycles;
     for (;;) {
@@ -80,6 +132,7 @@ void work() {
         case Task::solve: solve(*cycles.at(solver)); break;
         case Task::drop: cycles.erase(solver); break;
         case Task::end:
+          stop_watching();
           if (!solver)
             for (auto& [number, cycle] : cycles) static_cast<void>(cycle.release());
           finalise(solver != 0);
@@ -91,6 +144,7 @@ void work() {
 
 void end_workers() {
   const bool clean = living() == 0;
+  stop_watching();
   for (int r = 1; r < world().count(); ++r) world().send(r, std::vector<int>{static_cast<int>(Task::end), clean});
   finalise(clean);
 }

@@ -1,6 +1,8 @@
 // The processes that wait for rank 0's solvers, and what they do for them.
 #pragma once
 
+#include <string>
+
 #include "multigrid/ranks.hpp"
 
 namespace dotyk::multigrid {
@@ -22,8 +24,13 @@ class Workers {
 /// For a solver of so many unknowns: all ranks, or this one alone where shares would be too small.
 Workers workers_for(double unknowns);
 
-/// What ranks other than 0 do: the tasks, until the last.
-void work();
+/// Starts so many processes less one of this program, which then are ranks 1, 2, …; before anything else that needs MPI.
+/// Throws InputError where MPI cannot, or has begun without them.
+void spawn_workers(int ranks, const std::string& program);
+/// How many ranks there are; 1 where MPI has not started.
+int count_ranks();
+/// What ranks other than 0 do: the tasks, until the last. `spawned`: by spawn_workers(), else by mpirun.
+void work(bool spawned);
 /// Tells them the last. Called once, by rank 0, when nothing more will be solved.
 void end_workers();
 

@@ -193,8 +193,9 @@ int run(const Command& command) {
 int main(int count, char** words) {
   try {
     const dotyk::multigrid::RankAmong place = dotyk::multigrid::rank_by_mpirun();
-    if (place.rank > 0) {
-      dotyk::multigrid::work_for_rank_0();
+    const bool spawned = count == 2 && std::string(words[1]) == "--worker";  // by dotyk.ranks
+    if (place.rank > 0 || spawned) {
+      dotyk::multigrid::work_for_rank_0(spawned);
       return 0;
     }
     Command command;

@@ -79,7 +79,7 @@ void bind_help(Library& library) {
 void bind_all(Library& library) {
   library.module("dotyk", "Unilateral contact problems: describe bodies and contacts, solve, look.");
   for (const auto bind :
-       {bind_help, bind_material, bind_mesh, bind_refinement, bind_body, bind_scene, bind_solver, bind_repeated, bind_shape, bind_solution,
+       {bind_help, bind_material, bind_mesh, bind_refinement, bind_body, bind_scene, bind_solver, bind_ranks, bind_repeated, bind_shape, bind_solution,
         bind_figure, bind_program, bind_fclib, bind_law, bind_beam, bind_channel, bind_thermoelastic, bind_beam_figure, bind_plate, bind_lua})
     bind(library);
 }

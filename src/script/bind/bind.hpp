@@ -29,6 +29,7 @@ void bind_shape(Library& library);
 void bind_body(Library& library);
 void bind_scene(Library& library);
 void bind_methods(Library& library);
+void bind_ranks(Library& library);
 void bind_solver(Library& library);
 void bind_solution(Library& library);
 void bind_figure(Library& library);

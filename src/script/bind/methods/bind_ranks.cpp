@@ -1,0 +1,25 @@
+// Several processes for one script.
+#include "multigrid/start_ranks.hpp"
+#include "script/bind/bind.hpp"
+
+namespace dotyk::script {
+
+void bind_ranks(Library& library) {
+  library.function(
+      {.name = "dotyk.ranks",
+       .help = "Shares the work of multigrid's solvers with other processes on this machine, which are started so that there are `count`, and tells how many "
+               "there are. This one goes on with the script, or the prompt. It comes before the first solution by multigrid. mpirun -n COUNT "
+               "./dotyk FILE does the same from outside, there also on several machines. All else runs on this process alone.",
+       .example = "print(dotyk.ranks())",
+       .arguments = {key::integer("count", "of processes, this one included").within(1, 4096).otherwise("as many as there are")},
+       .run = [](Call& call) {
+         if (call.has("count")) {
+           const int count = static_cast<int>(call.number("count"));
+           if (count > 1 && Library::of(call.state()).folder) throw InputError("--safe starts no other programs");
+           multigrid::start_ranks(count);
+         }
+         return call.give(multigrid::count_ranks());
+       }});
+}
+
+}  // namespace dotyk::script
