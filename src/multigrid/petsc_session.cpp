@@ -85,6 +85,7 @@ void initialise(bool spawns) {
   char** arguments = words;
   if (PetscInitialize(&count, &arguments, nullptr, nullptr) != 0) throw std::runtime_error("PETSc could not be started");
   check(PetscPushErrorHandler(note_error, nullptr));
+  check(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"));  // what is not definite is told by set()
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ bool petsc_started() {
 
 void check(PetscErrorCode code) {
   if (code == 0) return;
-  if (code == PETSC_ERR_MEM) throw std::runtime_error("out of memory: PETSc's algebraic multigrid takes more than there is left");
+  if (code == PETSC_ERR_MEM || last_error().find("Malloc") != std::string::npos) throw std::runtime_error("out of memory: PETSc's algebraic multigrid takes more than there is left");
   throw std::runtime_error("PETSc: " + (last_error().empty() ? "error " + std::to_string(code) : last_error()));
 }
 

@@ -162,6 +162,18 @@ do
   check.that(s.converged and s.multigrid.cg < 40 * s.multigrid.newton, s.multigrid.cg .. " iterations with order 2")
 end
 
+-- Great contrasts with friction, the load by a moved support: its forces are no measure of those of the contact, points that hardly slip are no springs
+-- without bound, and points that slip against their force stick first. Newton's method with factors takes six steps.
+do
+  local scenes <const> = include "../../scripts/lib/scale_scenes.lua"
+  for _, contrast in ipairs{ 10, 100 } do
+    local by <const> = { friction = 0.3, contrast = contrast }
+    local s <const>, direct <const> = S.multigrid{}:solve(scenes.blocks(16, by)), S.newton{}:solve(scenes.blocks(16, by))
+    check.that(s.converged and s.iterations <= 9, s.reason)
+    check.near(s.energy, direct.energy, 1e-9 * direct.energy)
+  end
+end
+
 -- The default method gives multigrid up where its rate is slow, and says so.
 do
   local function solved(nu) return dotyk.solve(cube(20, nil, "P1", nu)) end

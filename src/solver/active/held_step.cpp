@@ -18,11 +18,14 @@ using problem::LongVector;
 /// Spring of a rigid row that holds no unknown, in units of the stiffness that it sees: most of its force then comes with the first solution, while rounding
 /// of displacements, times the spring, stays small in it.
 constexpr double kHeldRowSpring = 100;
+/// Of a point that hardly slips the stiffness across its slip, b/‖x‖, grows without bound. More than so many times the stiffness that the point sees is of
+/// no use: steps still converge with this factor's inverse, and the solution, where nothing moves across the slip, is the same.
+constexpr double kMostAcross = 1e4;
 constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
 /// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at; what is enough where digits cost iterations, until
-/// active sets come to rest; with friction, where steps converge as Newton's, this share of what the last state was off its laws. How often at most.
+/// active sets come to rest; with friction, where steps converge as Newton's, this share of what the rows' forces were off their laws. How often at most.
 constexpr double kUnbalanced = 1e-12, kRough = 1e-3, kOfOff = 0.01;
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
@@ -51,7 +54,7 @@ class HeldStep final : public Step {
     place(l.slips);
     if (!stiffness_.factor(spring_, held_, across_)) return false;
     lambda_ = constant_, known_ = false;
-    unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(kOfOff * l.off, kUnbalanced, kRough) : kUnbalanced;
+    unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(kOfOff * l.off * of_rows_, kUnbalanced, kRough) : kUnbalanced;
     if (slips_.empty()) move(stiffness_.solve_in_basis(residual(), unbalanced_));
     refine();
     return u_.allFinite() && tie() && tell(lambda, x);
@@ -106,7 +109,8 @@ class HeldStep final : public Step {
   void place(const std::vector<Linearisation::Slip>& slips) {
     slips_ = slips;
     across_.clear();
-    for (const Linearisation::Slip& s : slips_) {
+    for (Linearisation::Slip& s : slips_) {
+      s.across = std::min(s.across, kMostAcross * own_[s.row]);
       for (int i = 0; i < s.components; ++i) {
         const int own = stiffness_.basis().unknown[s.row + i];
         target_[s.row + i] = problem_.c[s.row + i];
@@ -224,6 +228,7 @@ class HeldStep final : public Step {
       for (int i = 0; i < s.components; ++i) left[stiffness_.basis().unknown[s.row + i]] -= force[i];
     }
     for (const Holding& h : holding_) gross_ += std::abs(left[h.unknown]);
+    of_rows_ = gross_ > 0 ? (gross_ - f_.lpNorm<1>()) / gross_ : 1;
     return left;
   }
 
@@ -314,6 +319,7 @@ class HeldStep final : public Step {
   bool known_ = false;                 ///< are forces_ those of u_ and lambda_?
   double unbalanced_ = kUnbalanced;    ///< of gross_, what is aimed at
   double gross_ = 0;                   ///< ‖f‖₁ + ‖Bᵀλ‖₁ of the last forces()
+  double of_rows_ = 1;                 ///< the second's share: small where supports are moved, as their forces are loads
 };
 
 }  // namespace

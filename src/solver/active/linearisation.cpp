@@ -27,14 +27,17 @@ bool at_kink(const problem::ScalarRow& row, double lambda, double x, const Noise
   return std::abs(x - (previous.value[r] >= high ? to : from)) <= noise.gap[r];
 }
 
-/// The friction of one point, where the normal rows have their values already.
-void take_friction(const problem::FrictionPoint& point, const Vector& lambda, const Vector& x, const Vector& rho, Linearisation& l) {
+/// The friction of one point, where the normal rows have their values already. A point that was to slip and moved against its force sticks first: were rho x
+/// great beside the bound, it would slip the other way, move against that force too, and so on.
+void take_friction(const problem::FrictionPoint& point, const Vector& lambda, const Vector& x, const Vector& rho, const Linearisation* previous,
+                   Linearisation& l) {
   const auto& [group, k, first, n] = point;
   const double bound = group.bound(k, l.value), own = rho[group.scale_row(k)];
   if (bound == 0) return;
   const int d = group.components;
   const Vector y = lambda.segment(first, d) + own * x.segment(first, d);
-  const problem::DiscProjection p = problem::project_disc(y, bound);
+  problem::DiscProjection p = problem::project_disc(y, bound);
+  if (previous && previous->slipping[first] && x.segment(first, d).dot(previous->value.segment(first, d)) < 0) p.stick = true;
   for (int i = 0; i < d; ++i) l.set(first + i, y[i], p.stick ? closed(y[i]) : Projection{p.value[i], 0});
   if (p.stick) return;
   std::fill_n(l.slipping.begin() + first, d, char(1));
@@ -89,7 +92,7 @@ Linearisation linearise(const Problem& problem, const Vector& lambda, const Vect
     else
       l.set(r, y, law.project(k, y, rho[r]));
   }
-  for (const problem::FrictionPoint& point : problem.friction_points()) take_friction(point, lambda, x, rho, l);
+  for (const problem::FrictionPoint& point : problem.friction_points()) take_friction(point, lambda, x, rho, previous, l);
   return l;
 }
 

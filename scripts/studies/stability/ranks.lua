@@ -1,0 +1,140 @@
+-- Stability atlas: one script on several ranks, and what happens when one of them fails.
+--
+--   ./dotyk scripts/studies/stability/ranks.lua [FAULTS] [RANKS]
+--
+-- 1. The same scenes at 1, 2, 3, 4 and 8 ranks: energies agree to 1e-9 of their size, the numbers of interface rows are equal. A sweep of Gauss and Seidel
+--    sees what other ranks have only after it, and aggregates end where a rank ends: iterations of conjugate gradients may be a tenth more, by five at
+--    least, with levels of aggregates a third.
+-- 2. Faults while a process of its own solves one scene after the other: a rank is killed, rank 0 is killed, memory ends on a rank or on rank 0 (a limit of
+--    address space at what it has, while scenes grow), the disk is full where rank 0 writes results. Each run must end, with a status other than
+--    0, leave no process behind, and all answers that it has given must be right.
+
+local faults <const>, most <const> = tonumber(arg[1]) or 20, tonumber(arg[2]) or 8
+local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
+local here <const> = arg[0]:match "(.*/)" or "./"
+local scenes <const> = include "../../lib/scale_scenes.lua"
+
+local child <const> = ([[
+local scenes = dofile "%s../../lib/scale_scenes.lua"
+local ranks = tonumber(arg[1])
+if ranks > 1 then dotyk.ranks(ranks) end
+]]):format(here)
+local function run(code, ...)
+  local file = os.tmpname()
+  local out = assert(io.open(file, "w"))
+  out:write(child, code)
+  out:close()
+  return file
+end
+
+-- 1. The same answers.
+local answers <const> = run [[
+local S = dotyk.solver
+local function strip(n)
+  local b = dotyk.body{ material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {n, n} } }
+  b:part"bottom":fix()
+  local scene = dotyk.scene{ b }
+  scene:contact{ b:part"top", friction = dotyk.friction.coulomb(0.3), rigid = dotyk.rigid.ball{ center = {0.5, 2.98}, radius = 2 }, interference = true }
+  return scene
+end
+for _, case in ipairs{
+  { "cube", S.multigrid{}, scenes.cube(16) }, { "cube, Coulomb", S.multigrid{}, scenes.cube(16, { friction = 0.3 }) },
+  { "cube, aggregates", S.multigrid{ levels = "aggregates" }, scenes.cube(16, { friction = 0.3 }) },
+  { "blocks, mortar", S.multigrid{}, scenes.blocks(16) }, { "blocks, mortar, Coulomb", S.multigrid{}, scenes.blocks(16, { friction = 0.3, contrast = 10 }) },
+  { "blocks, aggregates", S.multigrid{ levels = "aggregates" }, scenes.blocks(16) }, { "blocks, glued", S.multigrid{}, scenes.blocks(16, { linear = true }) },
+  { "plane, Coulomb", S.multigrid{}, strip(96) } } do
+  local s = case[2]:solve(case[3])
+  assert(s.converged, s.reason)
+  print(("%s|%.17g|%d|%d|%d"):format(case[1], s.energy, s.rows, s.iterations, s.multigrid.cg))
+end
+]]
+local alone, worst, more = {}, 0, 0
+print "scene                      ranks  energy                rows  Newton steps  iterations"
+for _, ranks in ipairs{ 1, 2, 3, 4, 8 } do
+  if ranks > most then break end
+  local pipe = io.popen(("OPENBLAS_NUM_THREADS=1 timeout 300 '%s' '%s' %d 2>&1"):format(program, answers, ranks))
+  local count = 0
+  for line in pipe:lines() do
+    local name, energy, rows, steps, cg = line:match "^(.-)|(.-)|(%d+)|(%d+)|(%d+)$"
+    if not name then error("ranks: " .. line, 0) end
+    energy, rows, cg, count = tonumber(energy), tonumber(rows), tonumber(cg), count + 1
+    local first = alone[name] or { energy = energy, rows = rows, cg = cg }
+    alone[name] = first
+    assert(rows == first.rows, "the numbers of rows differ")
+    worst = math.max(worst, math.abs(energy / first.energy - 1))
+    more = math.max(more, cg / math.max((name:find "aggregates" and 4 / 3 or 1.1) * first.cg, first.cg + 5))
+    print(("%-26s %5d  %-20.15g %5d  %12s  %10d"):format(name, ranks, energy, rows, steps, cg))
+  end
+  pipe:close()
+  assert(count == 8, "a run has ended early")
+end
+print(("energies differ by %.0e of their size at most"):format(worst))
+
+-- 2. Faults.
+local many <const> = run [[
+local file = arg[2]
+io.stdout:setvbuf "line"
+for n = 10, 100, 2 do
+  local s = dotyk.solver.multigrid{}:solve(scenes.cube(n, { friction = 0.3 }))
+  print(("answer %d %.12g"):format(n, s.energy))
+  s:write(file)
+end
+]]
+local kinds <const> = {
+  { "a rank is killed", "kill -9 $(echo $workers | tr ' ' '\\n' | shuf -n 1)" },
+  { "rank 0 is killed", "kill -9 $zero" },
+  { "memory ends on a rank", "victim=$(echo $workers | tr ' ' '\\n' | shuf -n 1); limit=$(awk '/VmSize/ { print $2 * 1024 }' /proc/$victim/status); prlimit --pid $victim --as=$limit" },
+  { "memory ends on rank 0", "limit=$(awk '/VmSize/ { print $2 * 1024 }' /proc/$zero/status); prlimit --pid $zero --as=$limit" },
+  { "the disk is full", "prlimit --pid $zero --fsize=4096" },
+}
+-- Starts, waits for the first answer and a moment more, does it, and tells the status and how many processes are left.
+local harness <const> = [[
+out=%s; file=%s.vtu
+OPENBLAS_NUM_THREADS=1 timeout -k 1 20 '%s' '%s' %d $file >$out 2>&1 & runner=$!
+for i in $(seq 200); do grep -q '^answer' $out && break; sleep 0.05; done
+children() { cat /proc/$1/task/*/children 2>/dev/null; }
+zero=$(children $runner | awk '{ print $1 }'); workers=
+for c in $(children $zero); do workers="$workers $(children $c)"; done
+workers=$(echo $workers)
+sleep %.2f
+{ %s; } 2>/dev/null
+wait $runner; status=$?
+sleep 0.3; left=0
+for p in $workers; do if [ -e /proc/$p ] && ! grep -q '^State:.[ZX]' /proc/$p/status 2>/dev/null; then left=$((left + 1)); fi; done
+echo "status $status left $left workers $(echo $workers | wc -w)"
+rm -f $file $file.*
+]]
+local right, wrong, hung, stayed, kept = {}, 0, 0, 0, 0
+local done <const>, words <const> = {}, {}
+math.randomseed(1)
+for f = 1, faults do
+  local kind = kinds[(f - 1) % #kinds + 1]
+  local ranks = math.random(2, math.min(4, most))
+  local out = os.tmpname()
+  local pipe = io.popen("sh -c '" .. harness:format(out, out, program, many, ranks, math.random() * 0.5, kind[2]):gsub("'", "'\\''") .. "' 2>/dev/null")
+  local told = pipe:read "a"
+  pipe:close()
+  local status, left, workers = told:match "status (%d+) left (%d+) workers (%d+)"
+  assert(tonumber(workers) == ranks - 1, "the child has not started its ranks: " .. told)
+  for line in io.lines(out) do
+    local n, energy = line:match "^answer (%d+) (.*)"
+    if n then
+      right[n] = right[n] or dotyk.solver.multigrid{}:solve(scenes.cube(tonumber(n), { friction = 0.3 })).energy
+      if math.abs(energy / right[n] - 1) > 1e-9 then wrong = wrong + 1 end
+    end
+    if not n and line:find "dotyk:" then words[kind[1]] = line:sub(1, 100) end
+  end
+  os.remove(out)
+  if status == "124" or status == "137" and kind[1] ~= "rank 0 is killed" then hung = hung + 1 end
+  if status == "0" then kept = kept + 1 end
+  if left ~= "0" then stayed = stayed + 1 end
+  done[kind[1]] = (done[kind[1]] or 0) + 1
+end
+for _, kind in ipairs(kinds) do
+  if done[kind[1]] then print(("%-24s %4d times; the last words: %s"):format(kind[1], done[kind[1]], words[kind[1]] or "none")) end
+end
+os.remove(answers)
+os.remove(many)
+print(("%d faults: %d hung, %d went on to the end, %d left processes behind, %d wrong answers"):format(faults, hung, kept, stayed, wrong))
+assert(worst < 1e-9 and more <= 1, "ranks disagree")
+assert(hung + kept + stayed + wrong == 0, "a fault was not seen")
