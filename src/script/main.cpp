@@ -39,6 +39,7 @@ constexpr char usage[] =
     "  dotyk -e CODE ARGS…        run a text\n"
     "  dotyk -i FILE.lua ARGS…    run a script, then the prompt, which has the script's local variables, too\n"
     "  dotyk - ARGS…              run a script from standard input\n"
+    "  dotyk --ranks N …          N processes for multigrid, as dotyk.ranks(N)\n"
     "  dotyk --traceback …        errors with the stack of calls (also DOTYK_TRACEBACK=1)\n"
     "  dotyk --safe FOLDER …      a script from a stranger: files below FOLDER only, of 1 GB at most, no other\n"
     "                             programs, no environment, text only to load; unless said otherwise at most\n"
@@ -58,6 +59,7 @@ struct Command {
   std::vector<std::string> arguments;
   std::optional<std::string> safe;
   std::optional<double> instructions;
+  int ranks = 1;
   dotyk::script::ProcessLimits limits;
   bool prompt = false, manifest = false, traceback = std::getenv("DOTYK_TRACEBACK") != nullptr;
 };
@@ -79,7 +81,7 @@ double read_limit(const std::string& word, bool letters) {
   return whole && value >= 1 && value <= 1e18 ? value : 0;
 }
 
-// --safe, --instructions, --seconds, --memory and the word after them; returns an exit status where they are wrong.
+// --safe, --instructions, --seconds, --memory, --ranks and the word after them; returns an exit status where they are wrong.
 std::optional<int> read_limits(const std::string& option, const std::string* next, Command& command) {
   const bool memory = option == "--memory";
   if (!next) return misuse(option + (option == "--safe" ? " needs a folder" : " needs a number"));
@@ -89,6 +91,11 @@ std::optional<int> read_limits(const std::string& option, const std::string* nex
   }
   const double value = read_limit(*next, memory);
   if (value == 0) return misuse(option + " needs a number of at least 1" + (memory ? ", as 500M or 2G" : "") + ", got '" + *next + "'");
+  if (option == "--ranks") {
+    if (value != std::floor(value) || value > 4096) return misuse("--ranks needs a whole number of at most 4096, got '" + *next + "'");
+    command.ranks = static_cast<int>(value);
+    return std::nullopt;
+  }
   (memory ? command.limits.memory : option == "--seconds" ? command.limits.seconds : command.instructions) = value;
   return std::nullopt;
 }
@@ -108,7 +115,7 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
     } else if (word == "--version" || word == "-v") {
       std::printf("dotyk %s\n", DOTYK_VERSION);
       return 0;
-    } else if (word == "--safe" || word == "--instructions" || word == "--seconds" || word == "--memory") {
+    } else if (word == "--safe" || word == "--instructions" || word == "--seconds" || word == "--memory" || word == "--ranks") {
       const auto status = read_limits(word, i + 1 < words.size() ? &words[i + 1] : nullptr, command);
       if (status) return status;
       ++i;
@@ -203,6 +210,7 @@ int main(int count, char** words) {
     if (command.safe) command.limits.fill_in_for_safe();
     if (!status) dotyk::script::leave_threads_if_tight(command.limits, words);
     if (place.ranks > 1) dotyk::multigrid::meet_ranks();
+    if (!status && command.ranks > 1) dotyk::multigrid::start_ranks(command.ranks);
     return after_printing(status ? *status : run(command));
   } catch (const std::bad_alloc&) {
     std::fputs("dotyk: out of memory\n", stderr);

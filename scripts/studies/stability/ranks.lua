@@ -40,8 +40,8 @@ end
 for _, case in ipairs{
   { "cube", S.multigrid{}, scenes.cube(16) }, { "cube, Coulomb", S.multigrid{}, scenes.cube(16, { friction = 0.3 }) },
   { "cube, aggregates", S.multigrid{ levels = "aggregates" }, scenes.cube(16, { friction = 0.3 }) },
-  { "blocks, mortar", S.multigrid{}, scenes.blocks(16) }, { "blocks, mortar, Coulomb", S.multigrid{}, scenes.blocks(16, { friction = 0.3, contrast = 10 }) },
-  { "blocks, aggregates", S.multigrid{ levels = "aggregates" }, scenes.blocks(16) }, { "blocks, glued", S.multigrid{}, scenes.blocks(16, { linear = true }) },
+  { "blocks, mortar", S.multigrid{}, scenes.blocks(24) }, { "blocks, mortar, Coulomb", S.multigrid{}, scenes.blocks(24, { friction = 0.3, contrast = 10 }) },
+  { "blocks, aggregates", S.multigrid{ levels = "aggregates" }, scenes.blocks(16) }, { "blocks, glued", S.multigrid{}, scenes.blocks(24, { linear = true }) },
   { "plane, Coulomb", S.multigrid{}, strip(96) } } do
   local s = case[2]:solve(case[3])
   assert(s.converged, s.reason)

@@ -27,6 +27,8 @@ constexpr double kOff = 1e-12, kAim = 1e-15;
 /// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at; what is enough where digits cost iterations, until
 /// active sets come to rest; with friction, where steps converge as Newton's, this share of what the rows' forces were off their laws. How often at most.
 constexpr double kUnbalanced = 1e-12, kRough = 1e-3, kOfOff = 0.01;
+/// What rounding of u and of Ku leaves in forces lies far below this share of them; what is aimed at above it does without more digits.
+constexpr double kRounding = 1e-6;
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
 /// Generalised conjugate residuals: how many directions, how many are kept, how exactly each is solved for, and what of a residual's change is rounding.
@@ -62,7 +64,7 @@ class HeldStep final : public Step {
 
   bool sharpen(Vector& lambda, Vector& x) override {
     if (unbalanced_ <= kUnbalanced) return false;
-    unbalanced_ = kUnbalanced;
+    unbalanced_ = kUnbalanced, known_ = false;
     refine();
     return u_.allFinite() && tell(lambda, x);
   }
@@ -210,7 +212,9 @@ class HeldStep final : public Step {
   /// In the basis where rows are unknowns.
   const Vector& forces() {
     if (std::exchange(known_, true)) return forces_;
-    LongVector all = f_.cast<long double>() - problem::precise_stiffness_times(problem_, u_);
+    LongVector all = f_.cast<long double>();
+    if (unbalanced_ < kRounding) all -= problem::precise_stiffness_times(problem_, u_);
+    else all -= problem::rough_stiffness_times(problem_, u_.cast<double>()).cast<long double>();
     gross_ = f_.lpNorm<1>();
     for (int r = 0; r < problem_.rows(); ++r) {
       const long double multiplier = lambda_[r] + spring_[r] * gap(r);
