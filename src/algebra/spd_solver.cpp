@@ -9,25 +9,33 @@
 namespace dotyk::algebra {
 namespace {
 
+void put(const Triplets& changed, SparseMatrix& lower) {
+  for (const auto& entry : changed) lower.coeffRef(entry.row(), entry.col()) = entry.value();
+}
+
 class Factored final : public SpdSolver {
  public:
-  Factored(const SparseMatrix& lower, const std::vector<int>& node, Ordering ordering) : factor_(lower, node, {}, ordering) {}
-  bool set(const SparseMatrix& lower, const std::vector<char>&, const Entries&) override { return factor_.factor(lower); }
+  Factored(const SparseMatrix& lower, const std::vector<int>& node, Ordering ordering) : lower_(lower), factor_(lower, node, {}, ordering) {}
+  bool set(const Triplets& changed, const std::vector<char>&) override {
+    put(changed, lower_);
+    return factor_.factor(lower_);
+  }
   Vector solve(const Vector& b, double) override { return factor_.solve(b); }
   bool iterates() const override { return false; }
   double bytes() const override { return factor_.bytes(); }
   std::string method() const override { return factor_.method(); }
 
  private:
+  SparseMatrix lower_;
   Cholesky factor_;
 };
 
 class IncompletelyFactored final : public SpdSolver {
  public:
-  explicit IncompletelyFactored(Monitor& monitor) : monitor_(monitor) {}
+  IncompletelyFactored(const SparseMatrix& lower, Monitor& monitor) : monitor_(monitor), lower_(lower) {}
 
-  bool set(const SparseMatrix& lower, const std::vector<char>&, const Entries&) override {
-    lower_ = lower;
+  bool set(const Triplets& changed, const std::vector<char>&) override {
+    put(changed, lower_);
     try {
       preconditioner_.emplace(lower_);
     } catch (const InputError&) {
@@ -52,6 +60,8 @@ std::unique_ptr<SpdSolver> factored(const SparseMatrix& lower, const std::vector
   return std::make_unique<Factored>(lower, node, ordering);
 }
 
-std::unique_ptr<SpdSolver> incompletely_factored(Monitor& monitor) { return std::make_unique<IncompletelyFactored>(monitor); }
+std::unique_ptr<SpdSolver> incompletely_factored(const SparseMatrix& lower, Monitor& monitor) {
+  return std::make_unique<IncompletelyFactored>(lower, monitor);
+}
 
 }  // namespace dotyk::algebra

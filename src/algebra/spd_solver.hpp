@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "algebra/direct/ordering.hpp"
@@ -11,17 +10,13 @@
 
 namespace dotyk::algebra {
 
-/// Rows and columns of some entries of a lower triangle.
-using Entries = std::vector<std::pair<int, int>>;
-
 /// A⁻¹ b for symmetric positive definite matrices of one pattern, which differ in their numbers.
 class SpdSolver {
  public:
   virtual ~SpdSolver() = default;
-  /// Takes a matrix of the pattern that it was made for, lower triangle. `held`, one flag an unknown: rows and columns of A that are empty
-  /// but for their diagonal. `changed`: all entries, perhaps with others, that differ from those of the set() before, at first from those of
-  /// the matrix that it was made for. False where A is seen not to be positive definite.
-  virtual bool set(const SparseMatrix& lower, const std::vector<char>& held, const Entries& changed) = 0;
+  /// Other numbers of entries of the lower triangle, no place twice; all other entries keep theirs. `held`, one flag an unknown: rows and columns of A that
+  /// are empty but for their diagonal. False where A is seen not to be positive definite.
+  virtual bool set(const Triplets& changed, const std::vector<char>& held) = 0;
   /// x with ‖b − A x‖ ≤ tolerance ‖b‖; direct solvers go as far as rounding lets them, whatever the tolerance.
   virtual Vector solve(const Vector& b, double tolerance) = 0;
   /// Does the work grow with the digits asked for?
@@ -35,6 +30,6 @@ class SpdSolver {
 /// By a sparse Cholesky factor. `lower`, `node`, `ordering` as for Cholesky.
 std::unique_ptr<SpdSolver> factored(const SparseMatrix& lower, const std::vector<int>& node, Ordering ordering);
 /// By conjugate gradients, preconditioned by an incomplete Cholesky factor: as much memory as A, however many unknowns.
-std::unique_ptr<SpdSolver> incompletely_factored(Monitor& monitor);
+std::unique_ptr<SpdSolver> incompletely_factored(const SparseMatrix& lower, Monitor& monitor);
 
 }  // namespace dotyk::algebra

@@ -26,18 +26,18 @@ std::set<int> sharing_unknowns(const Matrix& matrix) {
   return sharing;
 }
 
-std::vector<Change> changes(const algebra::SparseMatrix& lower, const std::vector<char>& held, const algebra::Entries& changed,
-                            const std::set<int>& sharing, const Numbering& numbering, int ranks) {
+std::vector<Change> changes(const algebra::Triplets& changed, const std::vector<char>& held, const std::set<int>& sharing, const Numbering& numbering,
+                            int ranks) {
   const std::vector<int>& slot = numbering.slot();
   std::vector<Change> of(static_cast<std::size_t>(ranks));
   const auto put = [&](int row, int column, double value) {
     Change& own = of[numbering.rank_of(row)];
     own.rows.push_back(row), own.columns.push_back(column), own.values.push_back(value);
   };
-  for (const auto& [i, j] : changed) {
-    const double value = lower.coeff(i, j);
-    put(slot[i], slot[j], value);
-    if (i != j) put(slot[j], slot[i], value);
+  for (const auto& entry : changed) {
+    const int row = slot[entry.row()], column = slot[entry.col()];
+    put(row, column, entry.value());
+    if (row != column) put(column, row, entry.value());
   }
   const auto put_local = [&](std::vector<int> Change::*list, int row) {
     const int rank = numbering.rank_of(row);

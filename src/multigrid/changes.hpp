@@ -12,8 +12,8 @@ namespace dotyk::multigrid {
 /// many displacements. The unknown of the row is among them.
 std::set<int> sharing_unknowns(const Matrix& matrix);
 
-/// For each rank what differs. `changed`: as in algebra::SpdSolver::set().
-std::vector<Change> changes(const algebra::SparseMatrix& lower, const std::vector<char>& held, const algebra::Entries& changed,
-                            const std::set<int>& sharing, const Numbering& numbering, int ranks);
+/// For each rank what differs. `changed`, `held`: as in algebra::SpdSolver::set().
+std::vector<Change> changes(const algebra::Triplets& changed, const std::vector<char>& held, const std::set<int>& sharing, const Numbering& numbering,
+                            int ranks);
 
 }  // namespace dotyk::multigrid

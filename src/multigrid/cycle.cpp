@@ -64,7 +64,7 @@ PetscErrorCode ended(KSP, PetscInt iteration, PetscReal residual, KSPConvergedRe
 
 }  // namespace
 
-Cycle::Cycle(const Ranks& ranks, Piece piece) : ranks_(ranks), hierarchy_(ranks, std::move(piece)) {
+Cycle::Cycle(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), hierarchy_(ranks, std::move(piece), first) {
   check(MatCreateVecs(hierarchy_.matrix(0), x_.put(), b_.put()));
   make();
 }

@@ -13,7 +13,7 @@ namespace dotyk::multigrid {
 /// One of them lives on each rank; all functions but those that look are collective.
 class Cycle {
  public:
-  Cycle(const Ranks& ranks, Piece piece);
+  Cycle(const Ranks& ranks, Piece piece, const Change& first);
 
   bool set(const Change& change);
 

@@ -102,10 +102,13 @@ OwnedMat product(Mat S, Mat P) {
 
 }  // namespace
 
-Hierarchy::Hierarchy(const Ranks& ranks, Piece piece) : ranks_(ranks), piece_(std::move(piece)) {
+Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
   matrices_.push_back(matrix_of(ranks_, piece_.matrix, piece_.own[0], {piece_.block, piece_.block}));
   check(MatSetOption(matrices_[0], MAT_SPD, PETSC_TRUE));
+  std::vector<char> changed(empty_.size());
+  take(first, changed);
+  tell_changed(matrices_[0]);
   coarsen();
 }
 
@@ -187,21 +190,23 @@ void Hierarchy::truncate(const std::vector<int>& held, std::vector<char>& change
   empty_ = empty;
 }
 
+bool Hierarchy::take(const Change& change, std::vector<char>& changed) {
+  bool positive = true;
+  const LocalRows A(matrices_[0]);
+  for (std::size_t e = 0; e < change.values.size(); ++e) {
+    const int row = change.rows[e] - A.first_row;
+    double* number = A.find(row, change.columns[e]);
+    if (!number) throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
+    if (change.rows[e] == change.columns[e] && !(change.values[e] > 0)) positive = false;
+    if (std::exchange(*number, change.values[e]) != change.values[e]) changed[row] = 1;
+  }
+  return positive;
+}
+
 bool Hierarchy::set(const Change& change) {
   std::vector<char> changed(empty_.size(), fresh_);
-  bool positive = true;
-  {
-    const LocalRows A(matrices_[0]);
-    for (std::size_t e = 0; e < change.values.size(); ++e) {
-      const int row = change.rows[e] - A.first_row;
-      double* number = A.find(row, change.columns[e]);
-      if (!number) throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
-      if (change.rows[e] == change.columns[e] && !(change.values[e] > 0)) positive = false;
-      if (std::exchange(*number, change.values[e]) != change.values[e]) changed[row] = 1;
-    }
-  }
   fresh_ = true;  // until all levels are done
-  if (!ranks_.all(positive)) return false;
+  if (!ranks_.all(take(change, changed))) return false;
   tell_changed(matrices_[0]);
   if (!interpolations_.empty()) {
     truncate(change.empty, changed);

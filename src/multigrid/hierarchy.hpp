@@ -11,7 +11,8 @@ namespace dotyk::multigrid {
 /// Each rank holds its rows of every level. All functions but those that look are collective.
 class Hierarchy {
  public:
-  Hierarchy(const Ranks& ranks, Piece piece);
+  /// `first`: of the piece's matrix; without it that need not be positive definite.
+  Hierarchy(const Ranks& ranks, Piece piece, const Change& first);
 
   /// New numbers, and the coarse matrices for them. False where they are seen not to be positive definite.
   bool set(const Change& change);
@@ -22,6 +23,8 @@ class Hierarchy {
   double bytes() const;  ///< of this rank
 
  private:
+  /// Takes the entries, and flags the rows in which one differs. False where a number of the diagonal is not positive.
+  bool take(const Change& change, std::vector<char>& changed);
   void coarsen();
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
   void take_functions(Mat S);

@@ -14,7 +14,7 @@ namespace dotyk::multigrid {
 
 /// What a hierarchy is built from. Nothing of it is kept.
 struct Matrix {
-  const algebra::SparseMatrix& lower;        ///< positive definite, lower triangle, compressed, no unknown held
+  const algebra::SparseMatrix& lower;        ///< lower triangle, compressed, no unknown held; positive definite but for `changed`
   const std::vector<int>& node;              ///< of each unknown, ascending, as in problem::Block::node
   /// A column for each rigid motion; there may be none. Rows are unknowns or, where there are coarser meshes, the functions of the coarsest. All bodies
   /// move as one, so that there are six: each column is an unknown of every aggregate.
@@ -28,6 +28,8 @@ struct Matrix {
   /// is no coarser mesh, and all levels are aggregates.
   const std::vector<algebra::SparseRows>* coarse = nullptr;
   int dimension = 3;
+  /// Other numbers of some entries, as for set(), with which `lower` is positive definite; null: none.
+  const algebra::Triplets* changed = nullptr;
   /// solve() gives up when its rate of convergence foretells that twelve digits will take more.
   double most_iterations = std::numeric_limits<double>::infinity();
 };

@@ -26,11 +26,14 @@ class PetscSolver final : public algebra::SpdSolver {
         numbering_(matrix, workers_.ranks().count()), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
     workers_.tell(Task::make);
+    std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
+    if (matrix.changed) first = changes(*matrix.changed, {}, {}, numbering_, ranks.count());
     for (int r = 1; r < ranks.count(); ++r) {
       Piece piece = piece_for(r, matrix, numbering_);
       send(ranks, r, piece);
+      send(ranks, r, first[r]);
     }
-    cycle_ = ranks.together([&] { return std::make_unique<Cycle>(ranks, piece_for(0, matrix, numbering_)); });
+    cycle_ = ranks.together([&] { return std::make_unique<Cycle>(ranks, piece_for(0, matrix, numbering_), first[0]); });
     alone_.unlock();
   }
   ~PetscSolver() override {
@@ -39,13 +42,12 @@ class PetscSolver final : public algebra::SpdSolver {
     cycle_.reset();
   }
 
-  bool set(const algebra::SparseMatrix& lower, const std::vector<char>& held, const algebra::Entries& changed) override {
+  bool set(const algebra::Triplets& changed, const std::vector<char>& held) override {
     monitor_.check();
-    if (static_cast<std::size_t>(lower.rows()) != numbering_.slot().size() || held.size() != numbering_.slot().size())
-      throw std::runtime_error("multigrid: the matrix has another size than the one that the solver was made for");
+    if (held.size() != numbering_.slot().size()) throw std::runtime_error("multigrid: the matrix has another size than the one that the solver was made for");
     const std::lock_guard lock(only_one());
     const Ranks& ranks = workers_.ranks();
-    std::vector<Change> of = changes(lower, held, changed, sharing_, numbering_, ranks.count());
+    std::vector<Change> of = changes(changed, held, sharing_, numbering_, ranks.count());
     workers_.tell(Task::set);
     for (int r = 1; r < ranks.count(); ++r) send(ranks, r, of[r]);
     return ranks.together([&] { return cycle_->set(of[0]); });

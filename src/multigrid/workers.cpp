@@ -68,6 +68,11 @@ std::vector<int> next_task() {
   return task;
 }
 
+std::unique_ptr<Cycle> make() {
+  Piece piece = receive_piece(world(), 0);
+  return std::make_unique<Cycle>(world(), std::move(piece), receive_change(world(), 0));
+}
+
 void solve(Cycle& cycle) {
   std::vector<double> ending, b;
   world().receive(0, ending);
@@ -127,7 +132,7 @@ void work(bool spawned) {
       const std::vector<int> order = next_task();
       const int solver = order[1];
       switch (static_cast<Task>(order[0])) {
-        case Task::make: cycles[solver] = std::make_unique<Cycle>(world(), receive_piece(world(), 0)); break;
+        case Task::make: cycles[solver] = make(); break;
         case Task::set: cycles.at(solver)->set(receive_change(world(), 0)); break;
         case Task::solve: solve(*cycles.at(solver)); break;
         case Task::drop: cycles.erase(solver); break;

@@ -5,7 +5,6 @@
 #include <functional>
 #include <vector>
 
-#include "algebra/spd_solver.hpp"
 #include "algebra/types.hpp"
 
 namespace dotyk::test {
@@ -107,11 +106,11 @@ inline algebra::SparseMatrix holding(const algebra::SparseMatrix& lower, const s
   return out;
 }
 
-/// All entries: what may have changed, for a solver's set().
-inline algebra::Entries entries(const algebra::SparseMatrix& lower) {
-  algebra::Entries all;
+/// All entries, for a solver's set().
+inline algebra::Triplets entries(const algebra::SparseMatrix& lower) {
+  algebra::Triplets all;
   for (int j = 0; j < lower.outerSize(); ++j)
-    for (algebra::SparseMatrix::InnerIterator it(lower, j); it; ++it) all.emplace_back(it.row(), j);
+    for (algebra::SparseMatrix::InnerIterator it(lower, j); it; ++it) all.emplace_back(static_cast<int>(it.row()), j, it.value());
   return all;
 }
 

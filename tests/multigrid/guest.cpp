@@ -58,7 +58,7 @@ TEST_CASE("several solvers at once, from several threads, ended in any order") {
   }
   const auto solve = [&](std::size_t k) {
     const std::vector<char> held(cubes[k].node.size(), 0);
-    solvers[k]->set(cubes[k].lower, held, test::entries(cubes[k].lower));
+    solvers[k]->set(test::entries(cubes[k].lower), held);
     const algebra::Vector b = test::pressure_on_top(cubes[k], held), x = solvers[k]->solve(b, 1e-10);
     return (b - cubes[k].lower.selfadjointView<Eigen::Lower>() * x).norm() / b.norm();
   };
@@ -81,7 +81,7 @@ TEST_CASE("new numbers, and solvers that come and go, take no more memory each t
   const auto run = [&](algebra::SpdSolver& solver, int times) {
     for (int k = 0; k < times; ++k) {
       const auto held = test::disc_on_top(cube, 0.1 * (k % 5));
-      solver.set(test::holding(cube.lower, held), held, test::entries(cube.lower));
+      solver.set(test::entries(test::holding(cube.lower, held)), held);
       solver.solve(test::pressure_on_top(cube, held), 1e-3);
     }
   };

@@ -18,19 +18,38 @@ using algebra::Vector;
 using problem::Problem;
 using problem::RigidMotions;
 
+namespace {
+
+/// Where the entry is among the numbers of a compressed matrix; -1 where its pattern has none.
+std::ptrdiff_t place(const SparseMatrix& matrix, int row, int column) {
+  const int *begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column], *end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column + 1];
+  const int* at = std::lower_bound(begin, end, row);
+  return at == end || *at != row ? -1 : at - matrix.innerIndexPtr();
+}
+
+bool has_room(const SparseMatrix& matrix, const SparseMatrix& pattern) {
+  for (int j = 0; j < pattern.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(pattern, j); it; ++it)
+      if (place(matrix, static_cast<int>(it.row()), j) < 0) return false;
+  return matrix.isCompressed();
+}
+
+}  // namespace
+
 HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor)
-    : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T) {
+    : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T),
+      fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
   assemble();
-  for (const int unknown : algebra::fixing_unknowns(unnoticed_)) lower_.coeffRef(unknown, unknown) *= 2;  // carries nothing
   held_.assign(problem.unknowns(), 0);
   watched_ = held_;
   std::vector<char> may_be_held = held_;
   for (const int unknown : basis_.unknown)
     if (unknown >= 0) may_be_held[unknown] = 1;
   watch(may_be_held);
+  for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
-  solver_ = make({lower_, problem, basis_, monitor});
+  solver_ = make({lower(), told(), problem, basis_, monitor});
 }
 
 void HeldStiffness::assemble() {
@@ -45,6 +64,7 @@ void HeldStiffness::assemble() {
   for (int i = 0; i < problem_.unknowns(); ++i) entries.emplace_back(i, i, 0.0);
   const SparseMatrix zeros = algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries);
   const bool alone = problem_.blocks.size() == 1;
+  if (alone && basis_.trivial() && has_room(problem_.blocks.front().K, zeros)) return;
   const SparseMatrix joined = alone ? SparseMatrix() : problem::lower_stiffness(problem_);
   const SparseMatrix& K = alone ? problem_.blocks.front().K : joined;
   lower_ = basis_.trivial() ? algebra::lower_sum(K, zeros) : algebra::lower_sum(algebra::congruent(K, basis_.T), zeros);
@@ -52,10 +72,7 @@ void HeldStiffness::assemble() {
 
 /// Of an entry where nothing is held.
 void HeldStiffness::change(int row, int column, double by) {
-  if (held_[row] || held_[column]) return;
-  double& value = lower_.coeffRef(row, column);
-  changed_.push_back({row, column, &value, value});
-  value += by;
+  if (!held_[row] && !held_[column]) changed_.push_back({place(lower(), row, column), row, column, by});
 }
 
 /// Knows the entries of what is held, which are few, so that not all are looked at in each step.
@@ -65,9 +82,9 @@ void HeldStiffness::watch(const std::vector<char>& held) {
     if (held[i] && !watched_[i]) watched_[i] = 1, known = false;
   if (known) return;
   of_watched_.clear();
-  for (int j = 0; j < lower_.cols(); ++j)
-    for (int k = lower_.outerIndexPtr()[j]; k < lower_.outerIndexPtr()[j + 1]; ++k)
-      if (const int i = lower_.innerIndexPtr()[k]; watched_[i] || watched_[j]) of_watched_.push_back({i, j, lower_.valuePtr() + k});
+  for (int j = 0; j < lower().cols(); ++j)
+    for (int k = lower().outerIndexPtr()[j]; k < lower().outerIndexPtr()[j + 1]; ++k)
+      if (const int i = lower().innerIndexPtr()[k]; watched_[i] || watched_[j]) of_watched_.push_back({k, i, j});
 }
 
 void HeldStiffness::spring_rows(const Vector& spring) {
@@ -77,24 +94,38 @@ void HeldStiffness::spring_rows(const Vector& spring) {
         change(static_cast<int>(i.col()), static_cast<int>(j.col()), spring[r] * (i.value() * j.value()));
 }
 
+algebra::Triplets HeldStiffness::told() {
+  std::sort(changed_.begin(), changed_.end(), [](const Entry& a, const Entry& b) { return a.place < b.place; });
+  std::vector<Entry> now;
+  for (const Entry& e : changed_) {
+    if (now.empty() || now.back().place != e.place) now.push_back(e);
+    else now.back().by += e.by;
+  }
+  algebra::Triplets all;
+  const double* before = lower().valuePtr();
+  auto old = told_.begin();
+  for (const Entry& e : now) {
+    for (; old != told_.end() && old->place < e.place; ++old) all.emplace_back(old->row, old->column, before[old->place]);
+    if (old != told_.end() && old->place == e.place) ++old;
+    all.emplace_back(e.row, e.column, before[e.place] + e.by);
+  }
+  for (; old != told_.end(); ++old) all.emplace_back(old->row, old->column, before[old->place]);
+  told_ = std::move(now), changed_.clear();
+  return all;
+}
+
 bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added) {
   watch(held);
-  algebra::Entries changed;
-  for (; !changed_.empty(); changed_.pop_back()) {
-    const Entry& e = changed_.back();
-    *e.number = e.before;
-    changed.emplace_back(e.row, e.column);
-  }
   held_ = held;
+  const double* K = lower().valuePtr();
   for (const Entry& e : of_watched_) {
-    const double without = e.row == e.column ? (*e.number > 0 ? *e.number : 1) : 0;
-    if ((!held[e.row] && !held[e.column]) || *e.number == without) continue;
-    changed_.push_back({e.row, e.column, e.number, std::exchange(*e.number, without)});
+    const double number = K[e.place], without = e.row == e.column ? (number > 0 ? number : 1) : 0;
+    if ((held[e.row] || held[e.column]) && number != without) changed_.push_back({e.place, e.row, e.column, without - number});
   }
+  for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));
   spring_rows(spring);
   for (const auto& entry : added) change(entry.row(), entry.col(), entry.value());
-  for (const Entry& e : changed_) changed.emplace_back(e.row, e.column);
-  return solver_->set(lower_, held_, changed);
+  return solver_->set(told(), held_);
 }
 
 Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
@@ -136,7 +167,7 @@ MakeSpdSolver factor(algebra::Ordering ordering) {
 }
 
 MakeSpdSolver incomplete_factor() {
-  return [](const SpdSystem& s) { return algebra::incompletely_factored(s.monitor); };
+  return [](const SpdSystem& s) { return algebra::incompletely_factored(s.lower, s.monitor); };
 }
 
 MakeSpdSolver multigrid(Levels levels, double most_iterations) {
@@ -146,6 +177,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     DenseMatrix motions = all_rigid_motions(s.problem);
     for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
     multigrid::Matrix matrix{s.lower, nodes, motions};
+    matrix.changed = &s.changed;
     matrix.most_iterations = most_iterations;
     if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension;
     if (s.basis.trivial()) return multigrid::make_solver(matrix, s.monitor);

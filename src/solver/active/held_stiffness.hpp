@@ -14,7 +14,8 @@ namespace dotyk::solver {
 
 /// What a linear solver is made from: the first matrix, in the basis where rows are unknowns, and the problem that it belongs to.
 struct SpdSystem {
-  const algebra::SparseMatrix& lower;  ///< positive definite: nothing held, but springs in the rows of bodies that nothing else holds
+  const algebra::SparseMatrix& lower;  ///< nothing held, no springs
+  const algebra::Triplets& changed;    ///< other numbers that make it definite: of springs in the rows of bodies that nothing else holds
   const problem::Problem& problem;
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
@@ -63,21 +64,27 @@ class HeldStiffness {
 
  private:
   void assemble();
-  void spring_rows(const algebra::Vector& spring);
   void change(int row, int column, double by);
+  void spring_rows(const algebra::Vector& spring);
   void watch(const std::vector<char>& held);
+  const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
+  /// What differs from lower(), each place once, and what did before but no longer does.
+  algebra::Triplets told();
+
+  /// An entry of the lower triangle, and what it has beyond lower().
+  struct Entry {
+    std::ptrdiff_t place;
+    int row, column;
+    double by = 0;
+  };
 
   const problem::Problem& problem_;
   const problem::RowBasis basis_;
   const algebra::SparseMatrix unnoticed_;
   algebra::SparseRows rows_;        ///< B T
-  algebra::StoredMatrix lower_;     ///< of the pattern, with the numbers of the last factor()
-  struct Entry {
-    int row, column;
-    double* number;
-    double before = 0;  ///< it was changed
-  };
-  std::vector<Entry> changed_;      ///< entries of lower_ that are not TᵀKT's; one may be there twice
+  algebra::StoredMatrix lower_;     ///< TᵀKT with room for what is added; none where K has that room and T is the identity
+  std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices
+  std::vector<Entry> changed_, told_;  ///< now, and when the solver was last told, that in the order of places
   std::vector<char> held_, watched_;
   std::vector<Entry> of_watched_;   ///< entries whose row or column is of an unknown that may be held
   std::unique_ptr<algebra::SpdSolver> solver_;
