@@ -25,15 +25,17 @@ class PetscSolver final : public algebra::SpdSolver {
       : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), workers_(workers_for(static_cast<double>(matrix.lower.rows()))),
         numbering_(matrix, workers_.ranks().count()), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
-    workers_.tell(Task::make);
-    std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
-    if (matrix.changed) first = changes(*matrix.changed, {}, {}, numbering_, ranks.count());
-    for (int r = 1; r < ranks.count(); ++r) {
-      Piece piece = piece_for(r, matrix, numbering_);
-      send(ranks, r, piece);
-      send(ranks, r, first[r]);
-    }
-    cycle_ = ranks.together([&] { return std::make_unique<Cycle>(ranks, piece_for(0, matrix, numbering_), first[0]); });
+    ranks.together([&] {
+      std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
+      if (matrix.changed) first = changes(*matrix.changed, {}, {}, numbering_, ranks.count());
+      workers_.tell(Task::make);
+      for (int r = 1; r < ranks.count(); ++r) {
+        Piece piece = piece_for(r, matrix, numbering_);
+        send(ranks, r, piece);
+        send(ranks, r, first[r]);
+      }
+      cycle_ = std::make_unique<Cycle>(ranks, piece_for(0, matrix, numbering_), first[0]);
+    });
     alone_.unlock();
   }
   ~PetscSolver() override {
@@ -47,10 +49,12 @@ class PetscSolver final : public algebra::SpdSolver {
     if (held.size() != numbering_.slot().size()) throw std::runtime_error("multigrid: the matrix has another size than the one that the solver was made for");
     const std::lock_guard lock(only_one());
     const Ranks& ranks = workers_.ranks();
-    std::vector<Change> of = changes(changed, held, sharing_, numbering_, ranks.count());
-    workers_.tell(Task::set);
-    for (int r = 1; r < ranks.count(); ++r) send(ranks, r, of[r]);
-    return ranks.together([&] { return cycle_->set(of[0]); });
+    return ranks.together([&] {
+      std::vector<Change> of = changes(changed, held, sharing_, numbering_, ranks.count());
+      workers_.tell(Task::set);
+      for (int r = 1; r < ranks.count(); ++r) send(ranks, r, of[r]);
+      return cycle_->set(of[0]);
+    });
   }
 
   algebra::Vector solve(const algebra::Vector& b, double tolerance) override {
@@ -59,22 +63,8 @@ class PetscSolver final : public algebra::SpdSolver {
     if (b.size() != x.size()) throw std::runtime_error(text("a right-hand side of ", b.size(), " numbers for ", x.size(), " unknowns"));
     const std::lock_guard lock(only_one());
     const Ranks& ranks = workers_.ranks();
-    const std::vector<int>& first = numbering_.first(0);
-    std::vector<double> all(static_cast<std::size_t>(first.back()), 0.0);
-    for (std::size_t i = 0; i < slot.size(); ++i) all[slot[i]] = b[static_cast<Eigen::Index>(i)];
-    workers_.tell(Task::solve);
-    for (int r = 1; r < ranks.count(); ++r) {
-      ranks.send(r, std::vector<double>{tolerance, most_});
-      ranks.send(r, std::vector<double>(all.begin() + first[r], all.begin() + first[r + 1]));
-    }
-    all.resize(static_cast<std::size_t>(first[1]));
-    Cycle::Solution solution = ranks.together([&] { return cycle_->solve(all, tolerance, most_, &monitor_); });
+    const Cycle::Solution solution = ranks.together([&] { return solve_together(b, tolerance); });
     iterations_ += solution.iterations;
-    std::vector<double> part;
-    for (int r = 1; r < ranks.count(); ++r) {
-      ranks.receive(r, part);
-      solution.x.insert(solution.x.end(), part.begin(), part.end());
-    }
     if (solution.thrown) std::rethrow_exception(solution.thrown);
     if (solution.found)
       for (std::size_t i = 0; i < slot.size(); ++i) x[static_cast<Eigen::Index>(i)] = solution.x[slot[i]];
@@ -94,6 +84,27 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
+  /// x of all ranks, by the numbers of Numbering.
+  Cycle::Solution solve_together(const algebra::Vector& b, double tolerance) {
+    const Ranks& ranks = workers_.ranks();
+    const std::vector<int>&first = numbering_.first(0), &slot = numbering_.slot();
+    std::vector<double> all(static_cast<std::size_t>(first.back()), 0.0);
+    for (std::size_t i = 0; i < slot.size(); ++i) all[slot[i]] = b[static_cast<Eigen::Index>(i)];
+    workers_.tell(Task::solve);
+    for (int r = 1; r < ranks.count(); ++r) {
+      ranks.send(r, std::vector<double>{tolerance, most_});
+      ranks.send(r, std::vector<double>(all.begin() + first[r], all.begin() + first[r + 1]));
+    }
+    all.resize(static_cast<std::size_t>(first[1]));
+    Cycle::Solution solution = cycle_->solve(all, tolerance, most_, &monitor_);
+    std::vector<double> part;
+    for (int r = 1; r < ranks.count(); ++r) {
+      ranks.receive(r, part);
+      solution.x.insert(solution.x.end(), part.begin(), part.end());
+    }
+    return solution;
+  }
+
   std::unique_lock<std::mutex> alone_{only_one()};  // while the members after it are made, and while they are destroyed
   Monitor& monitor_;
   const double most_;  // iterations
