@@ -76,30 +76,37 @@ class Sharing {
   int nodes(int level) const {
     return level == 0 ? static_cast<int>(first_.size()) - 1 : static_cast<int>((*matrix_.coarse)[level - 1].cols()) / matrix_.dimension;
   }
-  int first_row(int node, int level) const { return level == 0 ? first_[node] : node * matrix_.dimension; }
+  /// Calls visit(node, row) for the rows of a level: supports may take components of a node, and their functions, away.
+  template <class Visit>
+  void each_row(int level, Visit&& visit) const {
+    for (int node = 0; node < nodes(level); ++node) {
+      const int begin = level == 0 ? first_[node] : node * matrix_.dimension, end = level == 0 ? first_[node + 1] : begin + matrix_.dimension;
+      for (int row = begin; row < end; ++row) visit(node, row);
+    }
+  }
 
   /// Of each node the one of the next level whose function is greatest there; where there is none, that of the node before.
   std::vector<int> parents_of(int level) const {
     const algebra::SparseRows& functions = (*matrix_.coarse)[level];
-    std::vector<int> parent(static_cast<std::size_t>(nodes(level)), 0);
-    for (int node = 0; node < nodes(level); ++node) {
-      double greatest = 0;
-      if (node > 0) parent[node] = parent[node - 1];
-      for (algebra::SparseRows::InnerIterator it(functions, first_row(node, level)); it; ++it)
-        if (std::abs(it.value()) > greatest * (1 + 1e-12)) greatest = std::abs(it.value()), parent[node] = static_cast<int>(it.col()) / matrix_.dimension;
-    }
+    std::vector<int> parent(static_cast<std::size_t>(nodes(level)), -1);
+    std::vector<double> greatest(parent.size(), 0);
+    each_row(level, [&](int node, int row) {
+      for (algebra::SparseRows::InnerIterator it(functions, row); it; ++it)
+        if (std::abs(it.value()) > greatest[node] * (1 + 1e-12)) greatest[node] = std::abs(it.value()), parent[node] = static_cast<int>(it.col()) / matrix_.dimension;
+    });
+    for (std::size_t node = 0; node < parent.size(); ++node)
+      if (parent[node] < 0) parent[node] = node > 0 ? parent[node - 1] : 0;
     return parent;
   }
   /// Functions that meet at a node of the finer mesh are neighbours.
   template <class Edge>
   void functions_meet(int level, Edge& edge) const {
     const algebra::SparseRows& functions = (*matrix_.coarse)[level - 1];
-    for (int node = 0; node < nodes(level - 1); ++node) {
-      const int row = first_row(node, level - 1);
+    each_row(level - 1, [&](int, int row) {
       for (algebra::SparseRows::InnerIterator a(functions, row); a; ++a)
         for (algebra::SparseRows::InnerIterator b(functions, row); b && b.col() < a.col(); ++b)
           edge(static_cast<int>(a.col()) / matrix_.dimension, static_cast<int>(b.col()) / matrix_.dimension);
-    }
+    });
   }
   template <class Edge>
   void matrix_meets(Edge& edge) const {

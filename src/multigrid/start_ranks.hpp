@@ -5,16 +5,16 @@
 
 namespace dotyk::multigrid {
 
-/// Which of the processes that mpirun started this is, and how many there are; rank 0 of 1 where it was not mpirun.
+/// Which of the processes that mpirun started this is, and how many there are: 0 where it was not mpirun.
 struct RankAmong {
-  int rank = 0, ranks = 1;
+  int rank = 0, ranks = 0;
 };
 inline RankAmong rank_by_mpirun() {
   const auto number = [](const char* variable, int otherwise) {
     const char* text = std::getenv(variable);
     return text ? std::atoi(text) : otherwise;
   };
-  return {number("OMPI_COMM_WORLD_RANK", 0), number("OMPI_COMM_WORLD_SIZE", 1)};
+  return {number("OMPI_COMM_WORLD_RANK", 0), number("OMPI_COMM_WORLD_SIZE", 0)};
 }
 
 /// For ranks other than 0: works until rank 0 ends. A failure on one rank ends the program on all, with a message and status 1. `spawned`: by

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "algebra/congruent.hpp"
@@ -72,13 +74,34 @@ CoarserBlock coarser(const Block& fine, int levels) {
   return out;
 }
 
-/// Is a row that of a node that both meshes have?
-bool has_node(const SparseRows& B, int row, const std::vector<char>& both) {
-  int greatest = -1;
+/// The unknown with the greatest factor, or -1.
+int greatest(const SparseRows& B, int row) {
+  int unknown = -1;
   double factor = 0;
   for (SparseRows::InnerIterator it(B, row); it; ++it)
-    if (std::abs(it.value()) > factor) factor = std::abs(it.value()), greatest = static_cast<int>(it.col());
-  return greatest >= 0 && both[greatest];
+    if (std::abs(it.value()) > factor) factor = std::abs(it.value()), unknown = static_cast<int>(it.col());
+  return unknown;
+}
+
+/// Is a row that of a node that both meshes have?
+bool has_node(const SparseRows& B, int row, const std::vector<char>& both) {
+  const int unknown = greatest(B, row);
+  return unknown >= 0 && both[unknown];
+}
+
+/// Rows whose forces are of one kind: of a group, or one component of the friction of one.
+std::vector<std::vector<int>> kinds(const Problem& problem) {
+  std::vector<std::vector<int>> all;
+  for (const RowGroup& group : problem.groups) {
+    std::vector<int>& rows = all.emplace_back(static_cast<std::size_t>(group.count));
+    std::iota(rows.begin(), rows.end(), group.first);
+  }
+  for (const FrictionGroup& group : problem.friction)
+    for (int i = 0; i < group.components; ++i) {
+      std::vector<int>& rows = all.emplace_back();
+      for (int point = 0; point < group.points(); ++point) rows.push_back(group.row(point) + i);
+    }
+  return all;
 }
 
 }  // namespace
@@ -135,6 +158,7 @@ Coarser coarser(const Problem& problem) {
       for (SparseRows::InnerIterator it(B, r); it; ++it) entries.emplace_back(r, coarse.block.first + static_cast<int>(it.col()), it.value());
     for (int i = 0; i < coarse.functions.rows(); ++i) both.push_back(same(coarse.functions, i) >= 0);
     out.problem.blocks.push_back(std::move(coarse.block));
+    out.functions.push_back(std::move(coarse.functions));
   }
   out.problem.B = algebra::from_triplets<SparseRows>(problem.rows(), out.problem.unknowns(), entries);
   out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
@@ -144,6 +168,25 @@ Coarser coarser(const Problem& problem) {
     for (int r = group.first; r < group.first + group.count && (group.law->unilateral() || prescribes(group)); ++r) out.kept[r] = has_node(problem.B, r, both);
   for (const auto& [group, k, first, n] : problem.friction_points())
     std::fill_n(out.kept.begin() + first, group.components, n >= 0 ? out.kept[n] : char(has_node(problem.B, first, both)));
+  return out;
+}
+
+State Coarser::prolonged(const State& state) const {
+  Eigen::Index unknowns = 0;
+  for (const SparseRows& P : functions) unknowns += P.rows();
+  State out{algebra::Vector(unknowns), algebra::Vector::Zero(problem.rows())};
+  for (std::size_t b = 0, first = 0; b < functions.size(); first += functions[b++].rows())
+    out.u.segment(static_cast<Eigen::Index>(first), functions[b].rows()) = functions[b] * state.u.segment(problem.blocks[b].first, functions[b].cols());
+  for (const std::vector<int>& rows : kinds(problem)) {
+    std::map<int, int> kept_at;  // unknown of the greatest factor → row
+    for (const int r : rows)
+      if (kept[r]) kept_at[greatest(problem.B, r)] = r;
+    const double share = static_cast<double>(kept_at.size()) / static_cast<double>(rows.size());
+    for (const int r : rows)
+      for (SparseRows::InnerIterator it(problem.B, r); it; ++it)
+        if (const auto at = kept_at.find(static_cast<int>(it.col())); at != kept_at.end())
+          out.lambda[r] += share * state.lambda[at->second] * it.value() / problem.B.coeff(at->second, it.col());
+  }
   return out;
 }
 

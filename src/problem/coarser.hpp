@@ -20,6 +20,11 @@ struct Coarser {
   /// By row: is it that of a node of the coarser mesh, by the greatest factor? Friction goes with its normal row. Rows under laws with numbers, as
   /// springs, are all kept: together they have the stiffness.
   std::vector<char> kept;
+  std::vector<algebra::SparseRows> functions;  ///< by block: the finer unknowns by the coarser ones
+
+  /// The state of the finer problem that a state (u, λ) of this one, λ on the rows that are kept, is nearest to: u by the functions, forces of rows
+  /// by their densities between those kept.
+  State prolonged(const State& state) const;
 };
 /// Throws std::logic_error where there are none.
 Coarser coarser(const Problem& problem);

@@ -209,7 +209,7 @@ int main(int count, char** words) {
     const auto status = read_command({words + 1, words + count}, command);
     if (command.safe) command.limits.fill_in_for_safe();
     if (!status) dotyk::script::leave_threads_if_tight(command.limits, words);
-    if (place.ranks > 1) dotyk::multigrid::meet_ranks();
+    if (place.ranks > 0) dotyk::multigrid::meet_ranks();
     if (!status && command.ranks > 1) dotyk::multigrid::start_ranks(command.ranks);
     return after_printing(status ? *status : run(command));
   } catch (const std::bad_alloc&) {

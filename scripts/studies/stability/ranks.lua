@@ -129,6 +129,7 @@ for f = 1, faults do
   if status == "0" then kept = kept + 1 end
   if left ~= "0" then stayed = stayed + 1 end
   done[kind[1]] = (done[kind[1]] or 0) + 1
+  if f % 100 == 0 then io.stderr:write(f, " faults so far, ", hung + kept + stayed + wrong, " not seen\n") end
 end
 for _, kind in ipairs(kinds) do
   if done[kind[1]] then print(("%-24s %4d times; the last words: %s"):format(kind[1], done[kind[1]], words[kind[1]] or "none")) end

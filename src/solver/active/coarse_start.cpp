@@ -37,7 +37,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   try {
     const CoarseStart before = coarse_start(part, settings, inner);
     Pdas begun = settings;
-    begun.start = before.active, begun.nested = false;
+    begun.start = before.active, begun.from = before.state, begun.nested = false;
     start.meshes = before.meshes + 1;
     result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {before.active}, inner);
   } catch (const Interrupted&) {
@@ -55,6 +55,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
       if (!coarse.kept[r]) start.active[r] = x[r] >= touches;
+  start.state = std::make_shared<problem::State>(coarse.prolonged(result.state));
   return start;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <memory>
 #include <vector>
 
 #include "solver/active/pdas.hpp"
@@ -13,6 +13,7 @@ namespace dotyk::solver {
 struct CoarseStart {
   std::vector<char> active;  ///< by row; empty where no coarser mesh is known or its problem was not solved
   int meshes = 0;            ///< solved on
+  std::shared_ptr<const problem::State> state;  ///< of this mesh, as the coarser one's; null likewise
 };
 CoarseStart coarse_start(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
 

@@ -62,6 +62,8 @@ class HeldStep final : public Step {
     return u_.allFinite() && tie() && tell(lambda, x);
   }
 
+  void begin(const Vector& u) override { u_ = u.cast<long double>(); }
+
   bool sharpen(Vector& lambda, Vector& x) override {
     if (unbalanced_ <= kUnbalanced) return false;
     unbalanced_ = kUnbalanced, known_ = false;

@@ -94,6 +94,18 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
          : settings.reduced ? reduced_step(*condensed_, rho)
          : settings.step    ? settings.step(problem, rigid, rho)
                             : held_step(problem, stiffness(), rho);
+  if (settings.from && !settings.reduced) begin_from(*settings.from);
+}
+
+/// Which rows bear is said already; points that bear stick or slip as they do there.
+void SetIteration::begin_from(const problem::State& from) {
+  step->begin(from.u);
+  if (problem.friction.empty()) return;
+  Vector forces = from.lambda, places = problem.B * from.u - problem.c;
+  const double least = 1e-9 * forces.lpNorm<Eigen::Infinity>();
+  for (const auto& [law, k, r] : problem.scalar_rows())
+    if (law.unilateral()) forces[r] = l.active[r] ? std::max(forces[r], least) : 0, places[r] = l.active[r] ? 0 : -1;
+  l = held(linearise(problem, forces, places, rho, {}, nullptr), -problem.c);
 }
 
 void SetIteration::place_screws() {

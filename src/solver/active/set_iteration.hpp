@@ -59,6 +59,7 @@ class SetIteration {
   bool is_analysed() const { return stiffness_.has_value(); }
 
  private:
+  void begin_from(const problem::State& from);
   void place_screws();
   void note_screws() { result.screws.push_back({screws->rows(), screws->regularity(), screws->determinant()}); }
   double noise_of_screws() const;

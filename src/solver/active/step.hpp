@@ -13,6 +13,8 @@ class HeldStiffness;
 class Step {
  public:
   virtual ~Step() = default;
+  /// A displacement near the solution, for steps that iterate.
+  virtual void begin(const algebra::Vector& /*u*/) {}
   /// Sets λ and x = Bu − c. False where the linear problem is singular (the active rows
   /// depend on each other beyond repair, or do not hold a body).
   virtual bool solve(const Linearisation& l, algebra::Vector& lambda, algebra::Vector& x) = 0;
