@@ -104,7 +104,7 @@ OwnedMat product(Mat S, Mat P) {
 
 Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
-  matrices_.push_back(matrix_of(ranks_, piece_.matrix, piece_.own[0], {piece_.block, piece_.block}));
+  matrices_.push_back(matrix_of(piece_.matrix, piece_.own[0], {piece_.block, piece_.block}));
   check(MatSetOption(matrices_[0], MAT_SPD, PETSC_TRUE));
   std::vector<char> changed(empty_.size());
   take(first, changed);
@@ -112,11 +112,15 @@ Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ran
   coarsen();
 }
 
+OwnedMat Hierarchy::matrix_of(Rows& rows, int own_columns, std::array<int, 2> blocks) {
+  return multigrid::matrix_of(ranks_, rows, others_.emplace_back(), own_columns, blocks);
+}
+
 void Hierarchy::coarsen() {
   constexpr double kLarge = 2000;  // for a factor on the coarsest level
   const bool same = piece_.unknowns.columns.empty();
   OwnedMat S;
-  if (!ranks_.all(same)) S = matrix_of(ranks_, piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
+  if (!ranks_.all(same)) S = matrix_of(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
   if (!piece_.functions.empty()) {
     take_functions(S);
     if (ranks_.sum(piece_.own.back()) > kLarge) {
@@ -124,7 +128,7 @@ void Hierarchy::coarsen() {
       take_aggregates(matrices_.back());
     }
   } else if (S) {
-    const OwnedMat displaced = matrix_of(ranks_, piece_.displaced, piece_.own[0], {piece_.block, piece_.block});
+    const OwnedMat displaced = matrix_of(piece_.displaced, piece_.own[0], {piece_.block, piece_.block});
     check(MatSetOption(displaced, MAT_SPD, PETSC_TRUE));
     take_aggregates(displaced);
     take_unknowns(S);
@@ -141,7 +145,7 @@ void Hierarchy::coarsen() {
 
 void Hierarchy::take_functions(Mat S) {
   for (std::size_t l = 0; l < piece_.functions.size(); ++l) {
-    OwnedMat P = matrix_of(ranks_, piece_.functions[l], piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
+    OwnedMat P = matrix_of(piece_.functions[l], piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
     if (l == 0 && S) P = product(S, P);
     matrices_.push_back(coarse_matrix(matrices_.back(), P));
     products_.emplace_back(matrices_[l], P, matrices_.back());

@@ -1,6 +1,8 @@
 // Matrices and interpolations of all levels.
 #pragma once
 
+#include <array>
+#include <deque>
 #include <map>
 #include <vector>
 
@@ -25,6 +27,7 @@ class Hierarchy {
  private:
   /// Takes the entries, and flags the rows in which one differs. False where a number of the diagonal is not positive.
   bool take(const Change& change, std::vector<char>& changed);
+  OwnedMat matrix_of(Rows& rows, int own_columns, std::array<int, 2> blocks);
   void coarsen();
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
   void take_functions(Mat S);
@@ -37,7 +40,8 @@ class Hierarchy {
   void truncate(const std::vector<int>& held, std::vector<char>& changed);
 
   const Ranks ranks_;
-  Piece piece_;                                 // whose arrays are the first matrices', where there is one rank
+  Piece piece_;                                 // whose arrays are the first matrices'
+  std::deque<Rows> others_;                     // beside them: in columns of other ranks
   std::vector<OwnedMat> matrices_, interpolations_;
   std::vector<Galerkin> products_;              // of each interpolation
   std::vector<char> empty_;                     // own rows of the finest interpolation that are empty now

@@ -44,20 +44,40 @@ double* LocalRows::find(int row, int column) const {
   return at == end || *at != local ? nullptr : part.values + (at - part.columns);
 }
 
-OwnedMat matrix_of(const Ranks& ranks, Rows& rows, int own_columns, std::array<int, 2> blocks) {
+namespace {
+
+/// Leaves the columns first … first + count − 1 in `rows`, counted from `first`, and puts the others into `others`.
+void split(Rows& rows, Rows& others, int first, int count) {
+  int kept = 0;
+  for (std::size_t i = 0, k = 0; i + 1 < rows.starts.size(); ++i) {
+    for (const std::size_t end = static_cast<std::size_t>(rows.starts[i + 1]); k < end; ++k) {
+      const int column = rows.columns[k] - first;
+      if (column >= 0 && column < count) {
+        rows.columns[kept] = column, rows.values[kept++] = rows.values[k];
+      } else {
+        others.columns.push_back(rows.columns[k]), others.values.push_back(rows.values[k]);
+      }
+    }
+    rows.starts[i + 1] = kept;
+    others.starts.push_back(static_cast<int>(others.columns.size()));
+  }
+}
+
+}  // namespace
+
+OwnedMat matrix_of(const Ranks& ranks, Rows& rows, Rows& others, int own_columns, std::array<int, 2> blocks) {
   OwnedMat m;
   const int count = static_cast<int>(rows.starts.size()) - 1;
   if (ranks.alone()) {
     check(MatCreateSeqAIJWithArrays(ranks.comm(), count, own_columns, rows.starts.data(), rows.columns.data(), rows.values.data(), m.put()));
-    check(MatSetBlockSizes(m, blocks[0], blocks[1]));
-    return m;
+  } else {
+    int up_to = 0;
+    MPI_Scan(&own_columns, &up_to, 1, MPI_INT, MPI_SUM, ranks.comm());
+    split(rows, others, up_to - own_columns, own_columns);
+    check(MatCreateMPIAIJWithSplitArrays(ranks.comm(), count, own_columns, PETSC_DETERMINE, PETSC_DETERMINE, rows.starts.data(), rows.columns.data(),
+                                         rows.values.data(), others.starts.data(), others.columns.data(), others.values.data(), m.put()));
   }
-  check(MatCreate(ranks.comm(), m.put()));
-  check(MatSetSizes(m, count, own_columns, PETSC_DETERMINE, PETSC_DETERMINE));
   check(MatSetBlockSizes(m, blocks[0], blocks[1]));
-  check(MatSetType(m, MATMPIAIJ));
-  check(MatMPIAIJSetPreallocationCSR(m, rows.starts.data(), rows.columns.data(), rows.values.data()));
-  rows = Rows();
   return m;
 }
 

@@ -47,8 +47,9 @@ class LocalRows {
   int first_row = 0, first_column = 0, own_columns = 0;
 };
 
-/// `blocks`: how many rows, and how many columns, belong to a node. The arrays of `rows` become the matrix's where there is one rank, and must outlive it.
-OwnedMat matrix_of(const Ranks& ranks, Rows& rows, int own_columns, std::array<int, 2> blocks);
+/// `blocks`: how many rows, and how many columns, belong to a node. The arrays become the matrix's and must outlive it, as must `others`, which gets
+/// what `rows` has in columns of other ranks. Collective.
+OwnedMat matrix_of(const Ranks& ranks, Rows& rows, Rows& others, int own_columns, std::array<int, 2> blocks);
 
 /// Numbers were changed: what PETSc derived from them is out of date.
 void tell_changed(Mat m);

@@ -51,24 +51,25 @@ SparseRows with_rows(const SparseRows& functions, const std::vector<int>& place)
 
 struct CoarserBlock {
   Block block;
-  SparseRows functions;  ///< the unknowns of the finer block by this one's
+  std::shared_ptr<const SparseRows> functions;  ///< the unknowns of the finer block by this one's
 };
 
 CoarserBlock coarser(const Block& fine, int levels) {
   std::vector<SparseRows> all = fine.coarse.functions(levels);
   const std::vector<int> place = places(all[0]);
-  CoarserBlock out{{}, with_columns(all[0], place)};
+  CoarserBlock out{{}, std::make_shared<const SparseRows>(with_columns(all[0], place))};
+  const SparseRows& functions = *out.functions;
   if (all.size() > 1) all[1] = with_rows(all[1], place);
   Block& block = out.block;
   block.name = fine.name;
-  block.K = algebra::congruent(fine.K, out.functions);
-  block.f = out.functions.transpose() * fine.f;
+  block.K = algebra::congruent(fine.K, functions);
+  block.f = functions.transpose() * fine.f;
   block.offset = fine.offset;
   for (std::size_t k = 0; k < place.size(); ++k)
     if (place[k] >= 0) block.node.push_back(static_cast<int>(k) / fine.coarse.dimension);
-  block.kernel = at_coarse(out.functions, fine.kernel);
+  block.kernel = at_coarse(functions, fine.kernel);
   block.motions = fine.motions;
-  if (fine.rigid) block.rigid = [rigid = fine.rigid, P = out.functions] { return at_coarse(P, rigid()); };
+  if (fine.rigid) block.rigid = [rigid = fine.rigid, P = out.functions] { return at_coarse(*P, rigid()); };
   all.erase(all.begin());
   block.coarse = {levels - 1, fine.coarse.dimension, [all](int most) { return std::vector<SparseRows>(all.begin(), all.begin() + most); }};
   return out;
@@ -153,10 +154,10 @@ Coarser coarser(const Problem& problem) {
   for (const Block& fine : problem.blocks) {
     CoarserBlock coarse = coarser(fine, levels);
     coarse.block.first = out.problem.unknowns();
-    const SparseRows B = problem.rows_of(fine) * coarse.functions;
+    const SparseRows B = problem.rows_of(fine) * *coarse.functions;
     for (int r = 0; r < B.rows(); ++r)
       for (SparseRows::InnerIterator it(B, r); it; ++it) entries.emplace_back(r, coarse.block.first + static_cast<int>(it.col()), it.value());
-    for (int i = 0; i < coarse.functions.rows(); ++i) both.push_back(same(coarse.functions, i) >= 0);
+    for (int i = 0; i < coarse.functions->rows(); ++i) both.push_back(same(*coarse.functions, i) >= 0);
     out.problem.blocks.push_back(std::move(coarse.block));
     out.functions.push_back(std::move(coarse.functions));
   }
@@ -173,10 +174,14 @@ Coarser coarser(const Problem& problem) {
 
 State Coarser::prolonged(const State& state) const {
   Eigen::Index unknowns = 0;
-  for (const SparseRows& P : functions) unknowns += P.rows();
+  for (const auto& P : functions) unknowns += P->rows();
   State out{algebra::Vector(unknowns), algebra::Vector::Zero(problem.rows())};
-  for (std::size_t b = 0, first = 0; b < functions.size(); first += functions[b++].rows())
-    out.u.segment(static_cast<Eigen::Index>(first), functions[b].rows()) = functions[b] * state.u.segment(problem.blocks[b].first, functions[b].cols());
+  Eigen::Index first = 0;
+  for (std::size_t b = 0; b < functions.size(); ++b) {
+    const SparseRows& P = *functions[b];
+    out.u.segment(first, P.rows()) = P * state.u.segment(problem.blocks[b].first, P.cols());
+    first += P.rows();
+  }
   for (const std::vector<int>& rows : kinds(problem)) {
     std::map<int, int> kept_at;  // unknown of the greatest factor → row
     for (const int r : rows)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "problem/problem.hpp"
@@ -20,7 +21,7 @@ struct Coarser {
   /// By row: is it that of a node of the coarser mesh, by the greatest factor? Friction goes with its normal row. Rows under laws with numbers, as
   /// springs, are all kept: together they have the stiffness.
   std::vector<char> kept;
-  std::vector<algebra::SparseRows> functions;  ///< by block: the finer unknowns by the coarser ones
+  std::vector<std::shared_ptr<const algebra::SparseRows>> functions;  ///< by block: the finer unknowns by the coarser ones
 
   /// The state of the finer problem that a state (u, λ) of this one, λ on the rows that are kept, is nearest to: u by the functions, forces of rows
   /// by their densities between those kept.
