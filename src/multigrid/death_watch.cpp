@@ -5,6 +5,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -37,11 +38,16 @@ void watch_for_death(std::vector<Companion> companions, bool speaks) {
   sigset_t all, mask;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &mask);  // the thread's; signals stay the program's
-  std::thread([companions = std::move(companions), watched = std::move(watched), before, on_terminal, speaks]() mutable {
-    while (poll(watched.data(), watched.size(), -1) < 0) {
+  const bool by_number = std::ranges::any_of(watched, [](const pollfd& p) { return p.fd < 0; });  // old kernels
+  std::thread([by_number, companions = std::move(companions), watched = std::move(watched), before, on_terminal, speaks]() mutable {
+    constexpr int kMilliseconds = 200;
+    for (;;) {
+      const int events = poll(watched.data(), watched.size(), by_number ? kMilliseconds : -1);
+      const auto gone = [&](std::size_t k) { return watched[k].revents != 0 || (by_number && kill(companions[k].process, 0) != 0); };
+      if (may_end()) return;
+      for (std::size_t k = 0; events >= 0 && k < watched.size(); ++k)
+        if (gone(k)) end_with(companions, k, speaks, on_terminal ? &before : nullptr);
     }
-    for (std::size_t k = 0; k < watched.size(); ++k)
-      if (watched[k].revents && !may_end()) end_with(companions, k, speaks, on_terminal ? &before : nullptr);
   }).detach();
   pthread_sigmask(SIG_SETMASK, &mask, nullptr);
 }

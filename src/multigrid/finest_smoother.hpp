@@ -15,7 +15,7 @@ class FinestSmoother {
   /// Takes the numbers of `matrix`, which must outlive this; `shared`: rows of this rank, ascending, may be none. Collective. False where they are
   /// not definite.
   bool set(Mat matrix, const std::vector<int>& shared);
-  /// Makes it the smoother of a level of PCMG, which it must outlive in its place.
+  /// Makes it the smoother of a level of PCMG; it must outlive that, and must not be moved.
   void attach(KSP level, bool before);
 
  private:

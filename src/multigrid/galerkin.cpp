@@ -13,7 +13,8 @@ struct BlockSize {
   PetscInt rows = 1, columns = 1;
 };
 
-OwnedMat empty_matrix(const Ranks& ranks, const Rows& pattern, int own_columns, int block) {
+/// A square or oblong matrix of this pattern, with its values or, where there are none, zeros; `block`: rows and columns of a node.
+OwnedMat with_pattern(const Ranks& ranks, const Rows& pattern, int own_columns, int block) {
   const int rows = static_cast<int>(pattern.starts.size()) - 1;
   const double* values = pattern.values.empty() ? nullptr : pattern.values.data();
   OwnedMat m;
@@ -43,7 +44,7 @@ OwnedMat of_nodes(Mat matrix) {
     met.clear();
   }
   nodes.values.assign(nodes.columns.size(), 1.0);
-  return empty_matrix(ranks_of(matrix), nodes, view.own_columns / size.columns, 1);
+  return with_pattern(ranks_of(matrix), nodes, view.own_columns / size.columns, 1);
 }
 
 }  // namespace
@@ -69,7 +70,7 @@ OwnedMat coarse_matrix(Mat A, Mat P) {
       }
     }
   }
-  OwnedMat C = empty_matrix(ranks_of(A), pattern, static_cast<int>(pattern.starts.size()) - 1, block);
+  OwnedMat C = with_pattern(ranks_of(A), pattern, static_cast<int>(pattern.starts.size()) - 1, block);
   check(MatSetOption(C, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
   check(MatShift(C, 1));
   return C;

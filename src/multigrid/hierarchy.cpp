@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace dotyk::multigrid {
 
@@ -23,7 +24,7 @@ OwnedPc aggregate(Mat finest) {
   check(PCSetOperators(pc, finest, finest));
   check(PCSetType(pc, PCGAMG));
   leave_out_smoothers(pc);
-  const bool alone = ranks_of(finest).alone();  // others have no such product; PETSc's choice takes twice the time of this one
+  const bool alone = ranks_of(finest).alone();  // which parallel matrices do not have; PETSc's choice takes twice the time
   check(alone ? PetscOptionsSetValue(nullptr, "-matptap_via", "rap") : PetscOptionsClearValue(nullptr, "-matptap_via"));
   PetscReal threshold = 0;
   check(PCGAMGSetThreshold(pc, &threshold, 1));
@@ -136,7 +137,8 @@ void Hierarchy::coarsen() {
   } else {
     take_aggregates(matrices_[0]);
   }
-  piece_.unknowns = Rows();
+  S = OwnedMat();
+  piece_.unknowns = Rows(), piece_.modes = {};
   for (std::size_t l = products_.size(); l < interpolations_.size(); ++l) {
     check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
     products_.emplace_back(matrices_[l], interpolations_[l], matrices_[l + 1]);

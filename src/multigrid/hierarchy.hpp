@@ -13,7 +13,7 @@ namespace dotyk::multigrid {
 /// Each rank holds its rows of every level. All functions but those that look are collective.
 class Hierarchy {
  public:
-  /// `first`: of the piece's matrix; without it that need not be positive definite.
+  /// `first` makes the piece's matrix positive definite.
   Hierarchy(const Ranks& ranks, Piece piece, const Change& first);
 
   /// New numbers, and the coarse matrices for them. False where they are seen not to be positive definite.

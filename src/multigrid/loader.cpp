@@ -1,6 +1,7 @@
 // Opens the library with PETSc when the first solver is made: linked to it, the program would start its MPI as well.
 #include <dlfcn.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -26,6 +27,8 @@ const SharedLibrary& petsc() {
   return library;
 }
 
+std::atomic<bool> is_open{false};  // the library
+
 /// A function of the library, which is opened for it.
 template <class Function>
 Function* door(const char* name) {
@@ -35,6 +38,7 @@ Function* door(const char* name) {
                      "libpetsc-real-dev; ./dotyk --setup-only does) and build again");
   const auto function = reinterpret_cast<Function*>(dlsym(open_library(petsc(), place.found), name));
   if (!function) throw std::runtime_error(petsc().what + " is of another version of dotyk");
+  is_open = true;
   return function;
 }
 
@@ -57,11 +61,11 @@ void end_at_exit() {
 }  // namespace
 
 void meet_ranks() {
-  door<void()>("dotyk_multigrid_start_ranks")();
+  door<void()>("dotyk_multigrid_meet")();
   end_at_exit();
 }
 
-int count_ranks() { return available() ? door<int()>("dotyk_multigrid_ranks")() : 1; }
+int count_ranks() { return is_open ? door<int()>("dotyk_multigrid_ranks")() : 1; }
 
 void start_ranks(int ranks) {
   const int there = count_ranks();

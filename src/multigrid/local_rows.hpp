@@ -1,6 +1,7 @@
 // The rows of a matrix of PETSc's that this process has.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 

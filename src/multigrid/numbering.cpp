@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "base/buckets.hpp"
+
 namespace dotyk::multigrid {
 
 namespace {

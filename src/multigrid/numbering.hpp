@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "base/buckets.hpp"
 #include "multigrid/multigrid.hpp"
 
 namespace dotyk::multigrid {

@@ -84,6 +84,7 @@ void initialise(bool spawns) {
   int count = 3;
   char** arguments = words;
   if (PetscInitialize(&count, &arguments, nullptr, nullptr) != 0) throw std::runtime_error("PETSc could not be started");
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}) unsetenv(name);  // programs that a script starts are none of these ranks
   check(PetscPushErrorHandler(note_error, nullptr));
   check(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"));  // what is not definite is told by set()
 }

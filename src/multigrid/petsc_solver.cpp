@@ -1,6 +1,5 @@
 // The doors of the library. PETSc knows no threads, so one call at a time goes through. No exception passes through functions of PETSc.
 #include <limits>
-#include <map>
 #include <memory>
 #include <mutex>
 
@@ -25,6 +24,7 @@ class PetscSolver final : public algebra::SpdSolver {
       : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), workers_(workers_for(static_cast<double>(matrix.lower.rows()))),
         numbering_(matrix, workers_.ranks().count()), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
+    require_pieces(matrix);
     ranks.together([&] {
       std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
       if (matrix.changed) first = changes(*matrix.changed, {}, {}, numbering_, ranks.count());
@@ -36,6 +36,7 @@ class PetscSolver final : public algebra::SpdSolver {
       }
       cycle_ = std::make_unique<Cycle>(ranks, piece_for(0, matrix, numbering_), first[0]);
     });
+    workers_.made();
     alone_.unlock();
   }
   ~PetscSolver() override {
@@ -130,8 +131,8 @@ DOTYK_DOOR dotyk::algebra::SpdSolver* dotyk_multigrid_solver(const dotyk::multig
   return solver.release();
 }
 
-DOTYK_DOOR void dotyk_multigrid_start_ranks() { dotyk::multigrid::start_petsc(); }
+DOTYK_DOOR void dotyk_multigrid_meet() { dotyk::multigrid::meet_workers(); }
 DOTYK_DOOR void dotyk_multigrid_end_ranks() { dotyk::multigrid::end_workers(); }
 DOTYK_DOOR void dotyk_multigrid_spawn(int ranks, const char* program) { dotyk::multigrid::spawn_workers(ranks, program); }
-DOTYK_DOOR int dotyk_multigrid_ranks() { return dotyk::multigrid::count_ranks(); }
+DOTYK_DOOR int dotyk_multigrid_ranks() { return dotyk::multigrid::ranks_now(); }
 DOTYK_DOOR void dotyk_multigrid_work(bool spawned) { dotyk::multigrid::work(spawned); }

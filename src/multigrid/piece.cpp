@@ -1,8 +1,10 @@
 #include "multigrid/piece.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace dotyk::multigrid {
@@ -106,12 +108,12 @@ std::vector<double> some_modes(const algebra::DenseMatrix& modes, const std::vec
   return some;
 }
 
-/// Calls visit(numbers) for all that a piece, or a change, is.
 template <class Visit>
 void visit_rows(Rows& rows, Visit&& visit) {
   visit(rows.starts), visit(rows.columns), visit(rows.values);
 }
 
+/// Calls visit(numbers) for all lists of numbers that a piece, or a change, consists of.
 template <class Visit>
 void visit_all(Piece& p, Visit&& visit) {
   std::vector<int> sizes{p.block, p.dimension, p.motions, static_cast<int>(p.functions.size())};
@@ -139,9 +141,16 @@ Whole receive_whole(const Ranks& ranks, int from) {
 
 }  // namespace
 
-Piece piece_for(int rank, const Matrix& matrix, const Numbering& numbering) {
+void require_pieces(const Matrix& matrix) {
   if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
+  if (2.0 * static_cast<double>(matrix.lower.nonZeros()) > std::numeric_limits<int>::max())
+    throw std::runtime_error("multigrid: the matrix has more entries than can be counted");
+  mean_diagonal(matrix.lower);
+  if (matrix.displaced) mean_diagonal(*matrix.displaced);
+}
+
+Piece piece_for(int rank, const Matrix& matrix, const Numbering& numbering) {
   const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
   const Range finest = range_of(rank, numbering, 0);
   Piece p;

@@ -21,10 +21,13 @@ struct Piece {
   std::vector<int> own;          ///< how many rows of each level are this rank's
   Rows matrix;                   ///< the full one, which the lower triangle stands for; idle rows have the mean of its diagonal
   std::vector<Rows> functions;   ///< of each coarser mesh
-  Rows displaced, unknowns;      ///< as in Matrix, full, idle rows as in the identity; no rows where it has none
+  Rows displaced;                ///< as in Matrix, full, where there are no coarser meshes; idle rows as in `matrix`
+  Rows unknowns;                 ///< as in Matrix; idle rows as in the identity. No rows where it has none
   std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh
 };
 
+/// Throws std::runtime_error where no pieces can be made: a diagonal that is not positive, more entries than an int counts.
+void require_pieces(const Matrix& matrix);
 Piece piece_for(int rank, const Matrix& matrix, const Numbering& numbering);
 void send(const Ranks& ranks, int to, Piece& piece);
 Piece receive_piece(const Ranks& ranks, int from);

@@ -3,6 +3,8 @@
 
 #include <mpi.h>
 
+#include <exception>
+#include <new>
 #include <string>
 #include <vector>
 

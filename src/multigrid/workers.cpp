@@ -97,25 +97,37 @@ Workers workers_for(double unknowns) {
 }
 
 void Workers::tell(Task task) const {
-  if (task == Task::make) ++living();
   if (task == Task::drop) --living();
   for (int r = 1; r < ranks_.count(); ++r) ranks_.send(r, std::vector<int>{static_cast<int>(task), solver_});
 }
 
 void spawn_workers(int ranks, const std::string& program) {
-  if (petsc_started()) throw InputError("MPI has started already, with the first solution by multigrid: dotyk.ranks(…) must come before it");
+  if (petsc_started())
+    throw InputError("MPI can start other processes only once, and before anything else uses it: dotyk.ranks(…) comes before the first solution by multigrid, and "
+                     "not under mpirun");
   start_petsc(true);
   MPI_Comm others = MPI_COMM_NULL;
+  MPI_Info here = MPI_INFO_NULL;  // on this machine, whatever a list of hosts says
+  char host[MPI_MAX_PROCESSOR_NAME + 1] = {};
+  int length = 0;
+  MPI_Get_processor_name(host, &length);
+  MPI_Info_create(&here);
+  MPI_Info_set(here, "host", text(host, ":", ranks).c_str());
   char word[] = "--worker";
   char* words[] = {word, nullptr};
   MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_RETURN);
-  const int code = MPI_Comm_spawn(program.c_str(), words, ranks - 1, MPI_INFO_NULL, 0, MPI_COMM_SELF, &others, MPI_ERRCODES_IGNORE);
+  const int code = MPI_Comm_spawn(program.c_str(), words, ranks - 1, here, 0, MPI_COMM_SELF, &others, MPI_ERRCODES_IGNORE);
   MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_ARE_FATAL);
+  MPI_Info_free(&here);
   if (code != MPI_SUCCESS) throw InputError(text("MPI could not start ", ranks - 1, " more processes of ", program));
   join(others, false);
 }
 
-int count_ranks() { return petsc_started() ? world().count() : 1; }
+void meet_workers() { world(); }
+
+int ranks_now() { return petsc_started() ? world().count() : 1; }
+
+void Workers::made() const { ++living(); }
 
 void work(bool spawned) {
   if (spawned) {

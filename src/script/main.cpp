@@ -131,6 +131,7 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
     }
   }
   if (command.prompt && !command.file && !command.code) return misuse("-i needs a file");
+  if (command.safe && command.ranks > 1) return misuse("--safe starts no other programs, so --ranks does not go with it");
   if (!command.file && !command.code) command.prompt = true;
   command.arguments.assign(words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
   if (std::count(command.arguments.begin(), command.arguments.end(), "--safe"))
@@ -167,6 +168,7 @@ int run(const Command& command) {
   }
   dotyk::script::Interpreter interpreter;
   dotyk::script::set_limits(command.limits);
+  if (command.ranks > 1) dotyk::multigrid::start_ranks(command.ranks);  // which inherit the limits
   interpreter.trace(command.traceback);
   interpreter.set_arguments(command.file.value_or(command.code ? "-e" : "dotyk"), command.arguments);
   dotyk::script::watch_interrupts(interpreter.state());
@@ -210,7 +212,6 @@ int main(int count, char** words) {
     if (command.safe) command.limits.fill_in_for_safe();
     if (!status) dotyk::script::leave_threads_if_tight(command.limits, words);
     if (place.ranks > 0) dotyk::multigrid::meet_ranks();
-    if (!status && command.ranks > 1) dotyk::multigrid::start_ranks(command.ranks);
     return after_printing(status ? *status : run(command));
   } catch (const std::bad_alloc&) {
     std::fputs("dotyk: out of memory\n", stderr);

@@ -1,6 +1,6 @@
 -- Stability atlas: one script on several ranks, and what happens when one of them fails.
 --
---   ./dotyk scripts/studies/stability/ranks.lua [FAULTS] [RANKS]
+--   ./dotyk scripts/studies/stability/ranks.lua [FAULTS] [RANKS] [SEED]
 --
 -- 1. The same scenes at 1, 2, 3, 4 and 8 ranks: energies agree to 1e-9 of their size, the numbers of interface rows are equal. A sweep of Gauss and Seidel
 --    sees what other ranks have only after it, and aggregates end where a rank ends: iterations of conjugate gradients may be a tenth more, by five at
@@ -106,7 +106,7 @@ rm -f $file $file.*
 ]]
 local right, wrong, hung, stayed, kept = {}, 0, 0, 0, 0
 local done <const>, words <const> = {}, {}
-math.randomseed(1)
+math.randomseed(tonumber(arg[3]) or 1)
 for f = 1, faults do
   local kind = kinds[(f - 1) % #kinds + 1]
   local ranks = math.random(2, math.min(4, most))
@@ -125,6 +125,7 @@ for f = 1, faults do
     if not n and line:find "dotyk:" then words[kind[1]] = line:sub(1, 100) end
   end
   os.remove(out)
+  if status == "124" or status == "0" or left ~= "0" then print(("not seen: %s, status %s, %s processes left"):format(kind[1], status, left)) end
   if status == "124" or status == "137" and kind[1] ~= "rank 0 is killed" then hung = hung + 1 end
   if status == "0" then kept = kept + 1 end
   if left ~= "0" then stayed = stayed + 1 end

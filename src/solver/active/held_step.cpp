@@ -19,7 +19,7 @@ using problem::LongVector;
 /// of displacements, times the spring, stays small in it.
 constexpr double kHeldRowSpring = 100;
 /// Of a point that hardly slips the stiffness across its slip, b/‖x‖, grows without bound. More than so many times the stiffness that the point sees is of
-/// no use: steps still converge with this factor's inverse, and the solution, where nothing moves across the slip, is the same.
+/// no use: the solution, where nothing moves across the slip, is the same, and errors still fall by about this factor a step.
 constexpr double kMostAcross = 1e4;
 constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
@@ -27,7 +27,7 @@ constexpr double kOff = 1e-12, kAim = 1e-15;
 /// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at; what is enough where digits cost iterations, until
 /// active sets come to rest; with friction, where steps converge as Newton's, this share of what the rows' forces were off their laws. How often at most.
 constexpr double kUnbalanced = 1e-12, kRough = 1e-3, kOfOff = 0.01;
-/// What rounding of u and of Ku leaves in forces lies far below this share of them; what is aimed at above it does without more digits.
+/// Above this tolerance residuals are computed in double precision.
 constexpr double kRounding = 1e-6;
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
@@ -62,7 +62,7 @@ class HeldStep final : public Step {
     return u_.allFinite() && tie() && tell(lambda, x);
   }
 
-  void begin(const Vector& u) override { u_ = u.cast<long double>(); }
+  void begin(const Vector& u) override { u_ = stiffness_.without_unnoticed(u).cast<long double>(); }
 
   bool sharpen(Vector& lambda, Vector& x) override {
     if (unbalanced_ <= kUnbalanced) return false;

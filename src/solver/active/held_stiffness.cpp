@@ -1,6 +1,7 @@
 #include "solver/active/held_stiffness.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "algebra/congruent.hpp"
@@ -49,7 +50,9 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   watch(may_be_held);
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
-  solver_ = make({lower(), told(), problem, basis_, monitor});
+  std::vector<Entry> first = now();
+  solver_ = make({lower(), numbers(first), problem, basis_, monitor});
+  told_ = std::move(first);
 }
 
 void HeldStiffness::assemble() {
@@ -72,7 +75,10 @@ void HeldStiffness::assemble() {
 
 /// Of an entry where nothing is held.
 void HeldStiffness::change(int row, int column, double by) {
-  if (!held_[row] && !held_[column]) changed_.push_back({place(lower(), row, column), row, column, by});
+  if (held_[row] || held_[column]) return;
+  const std::ptrdiff_t at = place(lower(), row, column);
+  if (at < 0) throw std::logic_error("held stiffness: there is no room for an entry");
+  changed_.push_back({at, row, column, by});
 }
 
 /// Knows the entries of what is held, which are few, so that not all are looked at in each step.
@@ -94,23 +100,27 @@ void HeldStiffness::spring_rows(const Vector& spring) {
         change(static_cast<int>(i.col()), static_cast<int>(j.col()), spring[r] * (i.value() * j.value()));
 }
 
-algebra::Triplets HeldStiffness::told() {
+std::vector<HeldStiffness::Entry> HeldStiffness::now() {
   std::sort(changed_.begin(), changed_.end(), [](const Entry& a, const Entry& b) { return a.place < b.place; });
   std::vector<Entry> now;
   for (const Entry& e : changed_) {
     if (now.empty() || now.back().place != e.place) now.push_back(e);
     else now.back().by += e.by;
   }
+  changed_.clear();
+  return now;
+}
+
+algebra::Triplets HeldStiffness::numbers(const std::vector<Entry>& now) const {
   algebra::Triplets all;
-  const double* before = lower().valuePtr();
+  const double* without = lower().valuePtr();
   auto old = told_.begin();
   for (const Entry& e : now) {
-    for (; old != told_.end() && old->place < e.place; ++old) all.emplace_back(old->row, old->column, before[old->place]);
+    for (; old != told_.end() && old->place < e.place; ++old) all.emplace_back(old->row, old->column, without[old->place]);
     if (old != told_.end() && old->place == e.place) ++old;
-    all.emplace_back(e.row, e.column, before[e.place] + e.by);
+    all.emplace_back(e.row, e.column, without[e.place] + e.by);
   }
-  for (; old != told_.end(); ++old) all.emplace_back(old->row, old->column, before[old->place]);
-  told_ = std::move(now), changed_.clear();
+  for (; old != told_.end(); ++old) all.emplace_back(old->row, old->column, without[old->place]);
   return all;
 }
 
@@ -125,7 +135,10 @@ bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, 
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));
   spring_rows(spring);
   for (const auto& entry : added) change(entry.row(), entry.col(), entry.value());
-  return solver_->set(told(), held_);
+  std::vector<Entry> told = now();
+  const bool definite = solver_->set(numbers(told), held_);
+  told_ = std::move(told);
+  return definite;
 }
 
 Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {

@@ -60,17 +60,12 @@ class HeldStiffness {
   /// reach that.
   algebra::Vector solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;
 
+  /// u without the motions that no row notices, as solve() gives it.
+  algebra::Vector without_unnoticed(const algebra::Vector& u) const { return problem::least(unnoticed_, u); }
+
   const algebra::SpdSolver& solver() const { return *solver_; }
 
  private:
-  void assemble();
-  void change(int row, int column, double by);
-  void spring_rows(const algebra::Vector& spring);
-  void watch(const std::vector<char>& held);
-  const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
-  /// What differs from lower(), each place once, and what did before but no longer does.
-  algebra::Triplets told();
-
   /// An entry of the lower triangle, and what it has beyond lower().
   struct Entry {
     std::ptrdiff_t place;
@@ -78,13 +73,24 @@ class HeldStiffness {
     double by = 0;
   };
 
+  void assemble();
+  void change(int row, int column, double by);
+  void spring_rows(const algebra::Vector& spring);
+  void watch(const std::vector<char>& held);
+  const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
+  /// What differs from lower(), each place once and in their order; changed_ is empty then.
+  std::vector<Entry> now();
+  /// The numbers of these entries, and of those that the solver was told of and that no longer differ.
+  algebra::Triplets numbers(const std::vector<Entry>& now) const;
+
   const problem::Problem& problem_;
   const problem::RowBasis basis_;
   const algebra::SparseMatrix unnoticed_;
   algebra::SparseRows rows_;        ///< B T
   algebra::StoredMatrix lower_;     ///< TᵀKT with room for what is added; none where K has that room and T is the identity
   std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices
-  std::vector<Entry> changed_, told_;  ///< now, and when the solver was last told, that in the order of places
+  std::vector<Entry> changed_;      ///< of the next matrix, in no order
+  std::vector<Entry> told_;         ///< of the solver's
   std::vector<char> held_, watched_;
   std::vector<Entry> of_watched_;   ///< entries whose row or column is of an unknown that may be held
   std::unique_ptr<algebra::SpdSolver> solver_;

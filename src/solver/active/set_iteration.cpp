@@ -97,14 +97,16 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
   if (settings.from && !settings.reduced) begin_from(*settings.from);
 }
 
-/// Which rows bear is said already; points that bear stick or slip as they do there.
+/// Goes on from u, and from where points stick and slip in `from`; which normal rows bear is known from `start`. Given bounds are those of a finer mesh's
+/// points, fewer of which the coarser one has: there its friction says nothing.
 void SetIteration::begin_from(const problem::State& from) {
   step->begin(from.u);
-  if (problem.friction.empty()) return;
+  const auto given = [](const problem::FrictionGroup& group) { return group.points() > 0 && group.law->bound_slope(0) == 0; };
+  if (problem.friction.empty() || std::ranges::any_of(problem.friction, given)) return;
   Vector forces = from.lambda, places = problem.B * from.u - problem.c;
   const double least = 1e-9 * forces.lpNorm<Eigen::Infinity>();
   for (const auto& [law, k, r] : problem.scalar_rows())
-    if (law.unilateral()) forces[r] = l.active[r] ? std::max(forces[r], least) : 0, places[r] = l.active[r] ? 0 : -1;
+    if (law.unilateral()) forces[r] = l.active[r] ? std::max(forces[r], least) : 0, places[r] = l.active[r] ? 0 : -1;  // -1: any gap is open
   l = held(linearise(problem, forces, places, rho, {}, nullptr), -problem.c);
 }
 
