@@ -27,7 +27,8 @@ const SharedLibrary& petsc() {
   return library;
 }
 
-std::atomic<bool> is_open{false};  // the library
+std::atomic<bool> is_open{false};     // the library
+std::atomic<bool> takes_word{false};  // the program: --worker
 
 /// A function of the library, which is opened for it.
 template <class Function>
@@ -67,9 +68,12 @@ void meet_ranks() {
 
 int count_ranks() { return is_open ? door<int()>("dotyk_multigrid_ranks")() : 1; }
 
+void take_word_worker() { takes_word = true; }
+
 void start_ranks(int ranks) {
   const int there = count_ranks();
   if (ranks == there) return;
+  if (!takes_word) throw InputError("only the program dotyk starts other processes of its own");
   if (there > 1) throw InputError(text("there are ", there, " ranks already; their number stays as it is"));
   door<void(int, const char*)>("dotyk_multigrid_spawn")(ranks, std::filesystem::read_symlink("/proc/self/exe").c_str());
   end_at_exit();

@@ -23,8 +23,10 @@ void work_for_rank_0(bool spawned);
 /// For rank 0 under mpirun: meets the others, and lets them go when the program ends, also by std::exit.
 void meet_ranks();
 
-/// Starts other processes of this program on this machine, so that there are `ranks`. Throws InputError where MPI cannot, after the first
-/// solution by multigrid, or where there is another number of several ranks already.
+/// Says that this program, started with the word --worker, calls work_for_rank_0(true).
+void take_word_worker();
+/// Starts other processes of this program on this machine, so that there are `ranks`. Throws InputError where the program does not take the word, where MPI
+/// cannot, after the first solution by multigrid, or where there is another number of several ranks already.
 void start_ranks(int ranks);
 int count_ranks();
 

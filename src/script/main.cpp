@@ -207,6 +207,7 @@ int main(int count, char** words) {
       dotyk::multigrid::work_for_rank_0(spawned);
       return 0;
     }
+    dotyk::multigrid::take_word_worker();
     Command command;
     const auto status = read_command({words + 1, words + count}, command);
     if (command.safe) command.limits.fill_in_for_safe();

@@ -1,0 +1,48 @@
+-- Several ranks from a script: what is refused in words, and that a free body's answer is the same.
+local check <const> = require "check"
+if not pcall(dotyk.solver.multigrid) then return end
+local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
+
+local scene <const> = [[
+local function cube(n, free)
+  local b = dotyk.body{ material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {n,n,n} } }
+  local s = dotyk.scene{ b }
+  if free then
+    b:part"top":load{ 0, 0, -10 }
+    s:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0,0,0}, normal = {0,0,-1} } }
+  else
+    b:part"bottom":fix()
+    b:part"top":load{ 0, 0, -10 }
+  end
+  return dotyk.solver.multigrid{}:solve(s), b
+end
+]]
+local function told(code, options)
+  local file = os.tmpname()
+  local out <const> = assert(io.open(file, "w"))
+  out:write(scene, code)
+  out:close()
+  local pipe <const> = io.popen(("OPENBLAS_NUM_THREADS=1 timeout 60 '%s' %s '%s' 2>&1; echo status $?"):format(program, options or "", file))
+  local text <const> = pipe:read "a"
+  pipe:close()
+  os.remove(file)
+  return text
+end
+local function says(text, words, status)
+  check.that(text:find(words, 1, true) and text:find("status " .. status, 1, true), text)
+end
+
+if not told("cube(4)"):find("libpetsc", 1, true) then
+  says(told "dotyk.ranks(2) dotyk.ranks(2) dotyk.ranks(3)", "there are 2 ranks already", 1)
+  says(told "cube(4) dotyk.ranks(2)", "comes before the first solution by multigrid", 1)
+  says(told("print(dotyk.ranks())", "--ranks 2"), "2\n", 0)
+  says(told("", "--ranks 2.5"), "--ranks needs a whole number", 2)
+  says(told("", "--safe /tmp --ranks 2"), "--safe starts no other programs", 2)
+  says(told("dotyk.ranks(2)", "--safe /tmp"), "--safe starts no other programs", 1)
+  says(told "print(dotyk.ranks()) dotyk.ranks(0)", "count", 1)
+  -- A free block on a plane, of enough unknowns for coarser meshes: motions that no row notices are none of the answer.
+  local free <const> = [[ local s = cube(12, true) local x, y = 0, 0 for _, p in ipairs(s:displacement()) do x, y = x + p.x, y + p.y end
+    print(("|%.12g|%.6f|%.6f|"):format(s.energy, x, y)) ]]
+  local alone <const>, two <const> = told(free):match "|.*|", told("dotyk.ranks(2)" .. free):match "|.*|"
+  print(alone, two)
+end
