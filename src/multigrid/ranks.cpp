@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 
 namespace dotyk::multigrid {
@@ -56,6 +57,12 @@ void Ranks::receive(int from, std::vector<double>& numbers) const { receive_numb
 void Ranks::abort(const std::string& reason) const {
   std::fprintf(stderr, "dotyk: rank %d of %d: %s; the run ends on all ranks\n", own_, count_, reason.c_str());
   std::fflush(stderr);
+  std::signal(SIGALRM, SIG_DFL);  // should MPI wait, as without memory it may: a rank's death ends the others
+  sigset_t alarms;
+  sigemptyset(&alarms);
+  sigaddset(&alarms, SIGALRM);
+  pthread_sigmask(SIG_UNBLOCK, &alarms, nullptr);
+  alarm(2);
   MPI_Abort(comm_, 1);
   _exit(1);
 }
