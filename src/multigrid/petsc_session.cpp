@@ -68,6 +68,7 @@ void initialise(bool spawns) {
     environment.set("OMPI_ALLOW_RUN_AS_ROOT", "1");
     environment.set("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
     environment.set("OMPI_MCA_rmaps_base_oversubscribe", "1");
+    environment.set("OMPI_MCA_mpi_yield_when_idle", "1");
     environment.set("OMPI_MCA_plm_rsh_agent", "false");  // needs no ssh, and looks for none
   } else if (rank_by_mpirun().ranks == 0) {  // a process of its own: no daemon beside it, no files, no network
     environment.set("OMPI_MCA_ess_singleton_isolated", "1");
