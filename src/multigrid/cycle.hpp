@@ -10,7 +10,7 @@
 
 namespace dotyk::multigrid {
 
-/// One of them lives on each rank; all functions but those that look are collective.
+/// One of them lives on each rank. All functions are collective, except the const ones.
 class Cycle {
  public:
   Cycle(const Ranks& ranks, Piece piece, const Change& first);

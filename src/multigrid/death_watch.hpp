@@ -1,4 +1,4 @@
-// Processes that work together learn that one of them has died.
+// Ends the processes that work together when one of them dies.
 #pragma once
 
 #include <sys/types.h>

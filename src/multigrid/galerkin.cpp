@@ -7,12 +7,6 @@ namespace dotyk::multigrid {
 
 namespace {
 
-/// How many rows and columns a node has in a matrix.
-struct BlockSize {
-  explicit BlockSize(Mat matrix) { check(MatGetBlockSizes(matrix, &rows, &columns)); }
-  PetscInt rows = 1, columns = 1;
-};
-
 /// A square or oblong matrix of this pattern, with its values or, where there are none, zeros; `block`: rows and columns of a node.
 OwnedMat with_pattern(const Ranks& ranks, const Rows& pattern, int own_columns, int block) {
   const int rows = static_cast<int>(pattern.starts.size()) - 1;
@@ -163,14 +157,15 @@ void Galerkin::send_block(int block, Mat C) {
   }
 }
 
+void Galerkin::fetch(Mat fine, Mat interpolation) {
+  if (reached_) check(MatGetBrowsOfAcols(fine, interpolation, MAT_REUSE_MATRIX, rows_.put(), columns_.put(), reached_.put()));
+}
+
 std::vector<char> Galerkin::compute(Mat fine, Mat interpolation, Mat coarse, const std::vector<char>& changed) {
   const Ranks ranks = ranks_of(coarse);
   std::vector<char> due(static_cast<std::size_t>(support_.count()), 0);
   for (int b = 0; b < support_.count(); ++b) due[b] = std::ranges::any_of(support_[b], [&](int i) { return changed[i - below_]; });
-  if (!ranks.alone()) {
-    MPI_Allreduce(MPI_IN_PLACE, due.data(), static_cast<int>(due.size()), MPI_BYTE, MPI_BOR, ranks.comm());
-    check(MatGetBrowsOfAcols(fine, interpolation, MAT_REUSE_MATRIX, rows_.put(), columns_.put(), reached_.put()));
-  }
+  if (!ranks.alone()) MPI_Allreduce(MPI_IN_PLACE, due.data(), static_cast<int>(due.size()), MPI_BYTE, MPI_BOR, ranks.comm());
   std::vector<char> computed;
   {
     const LocalRows A(fine);

@@ -95,9 +95,8 @@ OwnedMat product(Mat S, Mat P) {
   OwnedMat m;
   check(MatMatMult(S, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, m.put()));
   check(MatProductClear(m));
-  PetscInt rows = 1, columns = 1;
-  check(MatGetBlockSizes(P, &rows, &columns));
-  check(MatSetBlockSizes(m, rows, columns));
+  const BlockSize size(P);
+  check(MatSetBlockSizes(m, size.rows, size.columns));
   return m;
 }
 
@@ -217,6 +216,7 @@ bool Hierarchy::set(const Change& change) {
   if (!interpolations_.empty()) {
     truncate(change.empty, changed);
     tell_changed(interpolations_[0]);
+    products_[0].fetch(matrices_[0], interpolations_[0]);
   }
   fill_coarse(std::move(changed));
   fresh_ = false;

@@ -10,7 +10,7 @@
 
 namespace dotyk::multigrid {
 
-/// Each rank holds its rows of every level. All functions but those that look are collective.
+/// Matrices and interpolations of all levels; each rank holds its rows. All functions are collective, except the const ones.
 class Hierarchy {
  public:
   /// `first` makes the piece's matrix positive definite.

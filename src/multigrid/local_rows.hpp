@@ -48,8 +48,14 @@ class LocalRows {
   int first_row = 0, first_column = 0, own_columns = 0;
 };
 
-/// `blocks`: how many rows, and how many columns, belong to a node. The arrays become the matrix's and must outlive it, as must `others`, which gets
-/// what `rows` has in columns of other ranks. Collective.
+/// How many rows, and how many columns, of a matrix belong to a node.
+struct BlockSize {
+  explicit BlockSize(Mat matrix) { check(MatGetBlockSizes(matrix, &rows, &columns)); }
+  PetscInt rows = 1, columns = 1;
+};
+
+/// A matrix with these rows; `blocks`: its BlockSize. It uses the arrays of `rows` and `others`, which must outlive it: entries in columns of other ranks are
+/// moved from `rows` to `others`. Collective.
 OwnedMat matrix_of(const Ranks& ranks, Rows& rows, Rows& others, int own_columns, std::array<int, 2> blocks);
 
 /// Numbers were changed: what PETSc derived from them is out of date.

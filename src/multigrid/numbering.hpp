@@ -7,10 +7,10 @@
 
 namespace dotyk::multigrid {
 
-/// Numbers of the rows of all levels: unknowns in blocks of one size, one block a node, those of a rank one after the other. A node of the finest level with
-/// fewer unknowns than others has idle slots after them. Among several ranks nodes are shared out by METIS (Karypis, Kumar 1998) on the
-/// coarsest mesh that has enough of them; a node of a finer mesh goes with that of the coarser one that gives it most. Meshes that are coarser still
-/// are rank 0's.
+/// Numbers the rows of all levels. Unknowns come in blocks of one size, one block a node; a node of the finest level with fewer unknowns has idle rows after
+/// them. The rows of a rank follow one another.
+/// METIS (Karypis, Kumar 1998) shares out the nodes of the coarsest mesh that has enough of them. A node of a finer mesh goes to the rank of the coarse node
+/// whose function is greatest there. Meshes that are coarser still belong to rank 0.
 class Numbering {
  public:
   Numbering(const Matrix& matrix, int ranks);

@@ -17,7 +17,7 @@ std::mutex& only_one() {
   return mutex;
 }
 
-/// Rank 0's side: it has the matrix, the others their pieces of it.
+/// The solver as rank 0 has it. The other ranks have a Cycle each, and do what this one tells them.
 class PetscSolver final : public algebra::SpdSolver {
  public:
   PetscSolver(const Matrix& matrix, Monitor& monitor)

@@ -113,7 +113,7 @@ void visit_rows(Rows& rows, Visit&& visit) {
   visit(rows.starts), visit(rows.columns), visit(rows.values);
 }
 
-/// Calls visit(numbers) for all lists of numbers that a piece, or a change, consists of.
+/// Calls visit(list) for each list of numbers of a piece; a second function does so for a change.
 template <class Visit>
 void visit_all(Piece& p, Visit&& visit) {
   std::vector<int> sizes{p.block, p.dimension, p.motions, static_cast<int>(p.functions.size())};

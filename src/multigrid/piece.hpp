@@ -32,12 +32,12 @@ Piece piece_for(int rank, const Matrix& matrix, const Numbering& numbering);
 void send(const Ranks& ranks, int to, Piece& piece);
 Piece receive_piece(const Ranks& ranks, int from);
 
-/// What makes another matrix of the one before, for one rank: entries, its rows of the finest level that no coarse function reaches, and those with an
-/// exact smoother.
+/// How a matrix differs from the one before, as far as one rank's rows of the finest level are concerned.
 struct Change {
-  std::vector<int> rows, columns;
-  std::vector<double> values;
-  std::vector<int> empty, shared;
+  std::vector<int> rows, columns;  ///< of entries with other numbers, by the numbers of Numbering
+  std::vector<double> values;      ///< of these entries
+  std::vector<int> empty;          ///< rows, counted from the rank's first, where all coarse functions vanish
+  std::vector<int> shared;         ///< rows, counted likewise, at which the smoother solves exactly
 };
 
 void send(const Ranks& ranks, int to, Change& change);

@@ -32,7 +32,7 @@ class Ranks {
 
   /// Ends all of them with one message and status 1.
   [[noreturn]] void abort(const std::string& reason) const;
-  /// Runs work of all ranks. What it throws on one of several ends all, as the others would wait for it.
+  /// Runs work that is collective. With several ranks an exception on one of them ends all: the others would wait for it for ever.
   template <class Work>
   auto together(const Work& work) const {
     if (alone()) return work();

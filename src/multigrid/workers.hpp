@@ -9,7 +9,7 @@ namespace dotyk::multigrid {
 
 enum class Task : int { make, set, solve, drop, end };
 
-/// Rank 0's way to those that work for one solver. What a task needs follows it.
+/// How rank 0 tells the other ranks what to do for one solver. The data of a task are sent after it.
 class Workers {
  public:
   Workers(const Ranks& ranks, int solver) : ranks_(ranks), solver_(solver) {}

@@ -19,7 +19,8 @@ local scenes = dofile "%s../../lib/scale_scenes.lua"
 local ranks = tonumber(arg[1])
 if ranks > 1 then dotyk.ranks(ranks) end
 ]]):format(here)
-local function run(code, ...)
+-- The file of a child that does this.
+local function script(code)
   local file = os.tmpname()
   local out = assert(io.open(file, "w"))
   out:write(child, code)
@@ -28,7 +29,7 @@ local function run(code, ...)
 end
 
 -- 1. The same answers.
-local answers <const> = run [[
+local answers <const> = script [[
 local S = dotyk.solver
 local function strip(n)
   local b = dotyk.body{ material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {n, n} } }
@@ -71,7 +72,7 @@ end
 print(("energies differ by %.0e of their size at most"):format(worst))
 
 -- 2. Faults.
-local many <const> = run [[
+local many <const> = script [[
 local file = arg[2]
 io.stdout:setvbuf "line"
 for n = 10, 100, 2 do

@@ -25,12 +25,13 @@ constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
 /// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at; what is enough where digits cost iterations, until
-/// active sets come to rest; with friction, where steps converge as Newton's, this share of what the rows' forces were off their laws. How often at most.
+/// active sets come to rest. With friction, whose steps converge as Newton's, kOfOff is the share of what the last forces of rows were off their laws. Refined
+/// so often at most.
 constexpr double kUnbalanced = 1e-12, kRough = 1e-3, kOfOff = 0.01;
-/// Above this tolerance residuals are computed in double precision.
-constexpr double kRounding = 1e-6;
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
+/// Above this tolerance residuals are computed in double precision.
+constexpr double kRounding = 1e-6;
 /// Generalised conjugate residuals: how many directions, how many are kept, how exactly each is solved for, and what of a residual's change is rounding.
 constexpr int kMostDirections = 60;
 constexpr std::size_t kKeptDirections = 20;
