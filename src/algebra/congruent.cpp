@@ -49,8 +49,8 @@ SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B) {
 }
 
 // With L = A's lower triangle and half its diagonal, PᵀAP = M + Mᵀ for M = PᵀLP, which is made column by column.
-SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P) {
-  const SparseRows rows = P;
+SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& rows) {
+  const SparseMatrix P = rows;
   SparseColumn fine(P.rows()), coarse(P.cols());
   std::vector<int> starts{0}, places;
   std::vector<double> values;

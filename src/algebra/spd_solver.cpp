@@ -20,7 +20,7 @@ class Factored final : public SpdSolver {
     put(changed, lower_);
     return factor_.factor(lower_);
   }
-  Vector solve(const Vector& b, double) override { return factor_.solve(b); }
+  Vector solve(const Vector& b, double, Vector*) override { return factor_.solve(b); }
   bool iterates() const override { return false; }
   double bytes() const override { return factor_.bytes(); }
   std::string method() const override { return factor_.method(); }
@@ -44,7 +44,11 @@ class IncompletelyFactored final : public SpdSolver {
     return true;
   }
 
-  Vector solve(const Vector& b, double tolerance) override { return conjugate_gradient(*preconditioner_, b, {tolerance}, monitor_).x; }
+  Vector solve(const Vector& b, double tolerance, Vector* left) override {
+    const Vector x = conjugate_gradient(*preconditioner_, b, {tolerance}, monitor_).x;
+    if (left) *left = b - lower_.selfadjointView<Eigen::Lower>() * x;
+    return x;
+  }
   double bytes() const override { return preconditioner_ ? preconditioner_->bytes() : 0; }
   std::string method() const override { return "conjugate gradients, incomplete Cholesky factor"; }
 

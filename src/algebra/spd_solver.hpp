@@ -17,8 +17,9 @@ class SpdSolver {
   /// Other numbers of entries of the lower triangle, no place twice; all other entries keep theirs. `held`, one flag an unknown: rows and columns of A that
   /// are empty but for their diagonal. False where A is seen not to be positive definite.
   virtual bool set(const Triplets& changed, const std::vector<char>& held) = 0;
-  /// x with ‖b − A x‖ ≤ tolerance ‖b‖; direct solvers go as far as rounding lets them, whatever the tolerance.
-  virtual Vector solve(const Vector& b, double tolerance) = 0;
+  /// x with ‖b − A x‖ ≤ tolerance ‖b‖; direct solvers go as far as rounding lets them, whatever the tolerance. `left`, where it is given: b − A x, as
+  /// iterations carry it along; direct solvers leave it as it is.
+  virtual Vector solve(const Vector& b, double tolerance, Vector* left = nullptr) = 0;
   /// Does the work grow with the digits asked for?
   virtual bool iterates() const { return true; }
   virtual int iterations() const { return 0; }  ///< of all calls of solve() together, where it tells

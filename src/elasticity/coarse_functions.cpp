@@ -1,5 +1,8 @@
 #include "elasticity/coarse_functions.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace dotyk::elasticity {
 
 std::vector<algebra::SparseRows> coarse_functions(const mesh::Mesh& mesh, const std::vector<int>& unknown, int unknowns, int levels) {
@@ -24,9 +27,15 @@ std::vector<algebra::SparseRows> coarse_functions(const mesh::Mesh& mesh, const 
             if (row[d * i + k] >= 0 && column[d * p + k] >= 0) work(i, row[d * i + k], column[d * p + k]);
     };
     each([&](int, int r, int) { ++counts[r]; });
-    functions.reserve(counts);
-    each([&](int i, int r, int c) { functions.insert(r, c) = 1.0 / static_cast<double>(means(i).size()); });
-    functions.makeCompressed();
+    int* starts = functions.outerIndexPtr();
+    std::partial_sum(counts.begin(), counts.end(), starts + 1);
+    functions.resizeNonZeros(starts[functions.rows()]);
+    std::vector<int> next(starts, starts + functions.rows());
+    each([&](int i, int r, int c) {
+      functions.innerIndexPtr()[next[r]] = c;
+      functions.valuePtr()[next[r]++] = 1.0 / static_cast<double>(means(i).size());
+    });
+    for (int r = 0; r < functions.rows(); ++r) std::sort(functions.innerIndexPtr() + starts[r], functions.innerIndexPtr() + starts[r + 1]);  // one number a row
     all.push_back(std::move(functions));
     row = std::move(column);
   }

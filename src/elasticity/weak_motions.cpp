@@ -106,6 +106,23 @@ double least_quotient(const Motions& motions, const SparseMatrix& lower, DenseMa
   return algebra::eigenvalues(Q.transpose() * KQ)[0];
 }
 
+using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// K V, in one pass over K.
+ByRows product(const SparseMatrix& lower, const ByRows& V) {
+  ByRows KV = ByRows::Zero(V.rows(), V.cols());
+  const Eigen::Index count = V.cols();
+  const auto add = [&](Eigen::Index to, Eigen::Index from, double k) {
+    for (Eigen::Index c = 0; c < count; ++c) KV.data()[to * count + c] += k * V.data()[from * count + c];
+  };
+  for (int j = 0; j < lower.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+      add(it.row(), j, it.value());
+      if (it.row() != j) add(j, it.row(), it.value());
+    }
+  return KV;
+}
+
 WeakMotions by_response(const Motions& motions, const Numbering& numbering, const SparseMatrix& lower,
                         const DenseMatrix& kernel) {
   WeakMotions result;
@@ -156,11 +173,12 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, con
   if (numbering.count() == 0 || kernel.cols() == all) return {};
   const Motions motions(mesh, numbering, kernel);
   if (motions.Q.cols() == 0) return {};
-  const auto K = lower.selfadjointView<Eigen::Lower>();
-  const DenseMatrix KQ = K * motions.Q;
-  const algebra::Eigenpairs trial = algebra::eigenpairs(motions.Q.transpose() * KQ);
-  const Vector Kd = K * motions.dilatation;
-  const double own = motions.dilatation.dot(Kd) / motions.dilatation.cwiseAbs2().dot(motions.w);
+  const Eigen::Index rigid = motions.Q.cols();
+  ByRows V(motions.Q.rows(), rigid + 1);
+  V << motions.Q, motions.dilatation;
+  const DenseMatrix energies = V.transpose() * product(lower, V);
+  const algebra::Eigenpairs trial = algebra::eigenpairs(energies.topLeftCorner(rigid, rigid));
+  const double own = energies(rigid, rigid) / motions.dilatation.cwiseAbs2().dot(motions.w);
   if (!std::isfinite(own) || !(trial.values[0] < kSuspicious * own)) return {};
   const DenseMatrix lost = lost_in_rounding(motions, mesh, numbering, lower, motions.Q * trial.vectors);
   if (lost.cols() > 0) return {0, motions.named(lost)};

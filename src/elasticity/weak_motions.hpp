@@ -27,10 +27,8 @@ struct WeakMotions {
 /// own size, so that the statement of small displacements has lost its meaning, and six digits of the
 /// deformation are lost beside the rigid part.
 ///
-/// Cost: a screen of four products with K in the plane, seven in space (least Rayleigh quotient of rigid
-/// motions, an upper bound of the supports' stiffness, against that of a dilatation), 2 to 3 % of a linear solve in the
-/// plane, 1 % in space;
-/// only where the quotient is below 1e-3, one factorisation of K and twice as many solutions as motions are held.
+/// Cost: a screen of one pass over K (least Rayleigh quotient of rigid motions, an upper bound of the supports' stiffness, against that of a
+/// dilatation); only where the quotient is below 1e-3, one factorisation of K and twice as many solutions as motions are held.
 /// `lower`: K on the unknowns; `kernel`: its exact rigid modes, unknowns × modes.
 WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, const algebra::SparseMatrix& lower,
                          const algebra::DenseMatrix& kernel);

@@ -120,10 +120,17 @@ Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, dou
   check(KSPGetIterationNumber(ksp_, &solution.iterations));
   solution.thrown = ending.thrown;
   solution.found = reason > 0;
-  const PetscScalar* out = nullptr;
-  check(VecGetArrayRead(x_, &out));
-  solution.x.assign(out, out + b.size());
-  check(VecRestoreArrayRead(x_, &out));
+  const auto numbers = [&](Vec of) {
+    const PetscScalar* out = nullptr;
+    check(VecGetArrayRead(of, &out));
+    const std::vector<double> own(out, out + b.size());
+    check(VecRestoreArrayRead(of, &out));
+    return own;
+  };
+  solution.x = numbers(x_);
+  Vec left = nullptr;
+  check(KSPBuildResidual(ksp_, nullptr, b_, &left));
+  solution.left = numbers(left);
   return solution;
 }
 

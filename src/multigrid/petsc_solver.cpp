@@ -24,17 +24,17 @@ class PetscSolver final : public algebra::SpdSolver {
       : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), workers_(workers_for(static_cast<double>(matrix.lower.rows()))),
         numbering_(matrix, workers_.ranks().count()), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
-    require_pieces(matrix);
+    const Pieces pieces(matrix, numbering_);
     ranks.together([&] {
       std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
       if (matrix.changed) first = changes(*matrix.changed, {}, {}, numbering_, ranks.count());
       workers_.tell(Task::make);
       for (int r = 1; r < ranks.count(); ++r) {
-        Piece piece = piece_for(r, matrix, numbering_);
+        Piece piece = pieces.of(r);
         send(ranks, r, piece);
         send(ranks, r, first[r]);
       }
-      cycle_ = std::make_unique<Cycle>(ranks, piece_for(0, matrix, numbering_), first[0]);
+      cycle_ = std::make_unique<Cycle>(ranks, pieces.of(0), first[0]);
     });
     workers_.made();
     alone_.unlock();
@@ -58,7 +58,7 @@ class PetscSolver final : public algebra::SpdSolver {
     });
   }
 
-  algebra::Vector solve(const algebra::Vector& b, double tolerance) override {
+  algebra::Vector solve(const algebra::Vector& b, double tolerance, algebra::Vector* left) override {
     const std::vector<int>& slot = numbering_.slot();
     algebra::Vector x = algebra::Vector::Constant(static_cast<Eigen::Index>(slot.size()), std::numeric_limits<double>::quiet_NaN());
     if (b.size() != x.size()) throw std::runtime_error(text("a right-hand side of ", b.size(), " numbers for ", x.size(), " unknowns"));
@@ -67,8 +67,12 @@ class PetscSolver final : public algebra::SpdSolver {
     const Cycle::Solution solution = ranks.together([&] { return solve_together(b, tolerance); });
     iterations_ += solution.iterations;
     if (solution.thrown) std::rethrow_exception(solution.thrown);
-    if (solution.found)
-      for (std::size_t i = 0; i < slot.size(); ++i) x[static_cast<Eigen::Index>(i)] = solution.x[slot[i]];
+    if (!solution.found) return x;
+    const auto of_unknowns = [&](const std::vector<double>& all) {
+      for (std::size_t i = 0; i < slot.size(); ++i) x[static_cast<Eigen::Index>(i)] = all[slot[i]];
+    };
+    if (left) of_unknowns(solution.left), *left = x;
+    of_unknowns(solution.x);
     return x;
   }
 
@@ -85,7 +89,7 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
-  /// x of all ranks, by the numbers of Numbering.
+  /// Of all ranks, by the numbers of Numbering.
   Cycle::Solution solve_together(const algebra::Vector& b, double tolerance) {
     const Ranks& ranks = workers_.ranks();
     const std::vector<int>&first = numbering_.first(0), &slot = numbering_.slot();
@@ -99,10 +103,11 @@ class PetscSolver final : public algebra::SpdSolver {
     all.resize(static_cast<std::size_t>(first[1]));
     Cycle::Solution solution = cycle_->solve(all, tolerance, most_, &monitor_);
     std::vector<double> part;
-    for (int r = 1; r < ranks.count(); ++r) {
-      ranks.receive(r, part);
-      solution.x.insert(solution.x.end(), part.begin(), part.end());
-    }
+    for (int r = 1; r < ranks.count(); ++r)
+      for (std::vector<double>* all : {&solution.x, &solution.left}) {
+        ranks.receive(r, part);
+        all->insert(all->end(), part.begin(), part.end());
+      }
     return solution;
   }
 

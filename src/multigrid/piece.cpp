@@ -32,35 +32,17 @@ void sort_rows(Rows& rows) {
   }
 }
 
-/// Of the full matrix that a lower triangle stands for. Its entries come column by column, so that where unknowns keep their order each row gets
-/// ascending columns: those left of the diagonal belong to earlier columns of the triangle, the others to its own.
-Rows full_rows(const algebra::SparseMatrix& lower, const Numbering& numbering, const Range& range, double idle) {
-  const int *begin = lower.outerIndexPtr(), *inner = lower.innerIndexPtr();
-  const std::vector<int>& slot = numbering.slot();
-  const auto each = [&](auto&& visit) {  // row, column, number
-    for (int j = 0; j < lower.cols(); ++j)
-      for (int k = begin[j]; k < begin[j + 1]; ++k) {
-        const int i = inner[k];
-        if (i < j) throw std::runtime_error("multigrid: the matrix is not a lower triangle");
-        if (range.has(slot[i])) visit(slot[i] - range.first, slot[j], lower.valuePtr()[k]);
-        if (i != j && range.has(slot[j])) visit(slot[j] - range.first, slot[i], lower.valuePtr()[k]);
-      }
-    for (const int i : numbering.idle())
-      if (range.has(i)) visit(i - range.first, i, idle);
-  };
-  Rows rows;
-  rows.starts.assign(static_cast<std::size_t>(range.count()) + 1, 0);
-  each([&](int row, int, double) { ++rows.starts[row + 1]; });
-  std::partial_sum(rows.starts.begin(), rows.starts.end(), rows.starts.begin());
-  rows.columns.resize(static_cast<std::size_t>(rows.starts.back()));
-  rows.values.resize(rows.columns.size());
-  std::vector<int> next(rows.starts.begin(), rows.starts.end() - 1);
-  each([&](int row, int column, double value) {
-    const int at = next[row]++;
-    rows.columns[at] = column, rows.values[at] = value;
-  });
-  sort_rows(rows);
-  return rows;
+/// Calls visit(row, column, place) for the entries of the full matrix that a lower triangle stands for, by the numbers of Numbering. They come column by
+/// column, so that where unknowns keep their order each row gets ascending columns: those left of the diagonal belong to earlier columns of the triangle,
+/// the others to its own.
+template <class Visit>
+void each_entry(const algebra::SparseMatrix& lower, const std::vector<int>& slot, Visit&& visit) {
+  for (int j = 0; j < lower.cols(); ++j)
+    for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k) {
+      const int i = lower.innerIndexPtr()[k];
+      visit(slot[i], slot[j], k);
+      if (i != j) visit(slot[j], slot[i], k);
+    }
 }
 
 /// Mean of the diagonal, which must be positive.
@@ -141,26 +123,53 @@ Whole receive_whole(const Ranks& ranks, int from) {
 
 }  // namespace
 
-void require_pieces(const Matrix& matrix) {
+Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matrix), numbering_(numbering) {
   if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
   if (2.0 * static_cast<double>(matrix.lower.nonZeros()) > std::numeric_limits<int>::max())
     throw std::runtime_error("multigrid: the matrix has more entries than can be counted");
-  mean_diagonal(matrix.lower);
-  if (matrix.displaced) mean_diagonal(*matrix.displaced);
+  finest_ = full(matrix.lower);
+  if (matrix.displaced && !matrix.coarse) displaced_ = full(*matrix.displaced);
 }
 
-Piece piece_for(int rank, const Matrix& matrix, const Numbering& numbering) {
+Pieces::Full Pieces::full(const algebra::SparseMatrix& lower) const {
+  Full full{&lower, mean_diagonal(lower), std::vector<int>(static_cast<std::size_t>(numbering_.first(0).back()), 0)};
+  each_entry(lower, numbering_.slot(), [&](int row, int, int) { ++full.entries[row]; });
+  for (const int i : numbering_.idle()) full.entries[i] = 1;
+  return full;
+}
+
+Rows Pieces::rows_of(int rank, const Full& full) const {
+  const Range range = range_of(rank, numbering_, 0);
+  Rows rows;
+  for (int row = range.first; row < range.last; ++row) rows.starts.push_back(rows.starts.back() + full.entries[row]);
+  rows.columns.resize(static_cast<std::size_t>(rows.starts.back()));
+  rows.values.resize(rows.columns.size());
+  std::vector<int> next(rows.starts.begin(), rows.starts.end() - 1);
+  const auto put = [&](int row, int column, double value) {
+    if (!range.has(row)) return;
+    const int at = next[row - range.first]++;
+    rows.columns[at] = column, rows.values[at] = value;
+  };
+  each_entry(*full.lower, numbering_.slot(), [&](int row, int column, int place) { put(row, column, full.lower->valuePtr()[place]); });
+  for (const int i : numbering_.idle()) put(i, i, full.idle);
+  sort_rows(rows);
+  return rows;
+}
+
+Piece Pieces::of(int rank) const {
+  const Matrix& matrix = matrix_;
+  const Numbering& numbering = numbering_;
   const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
   const Range finest = range_of(rank, numbering, 0);
   Piece p;
   p.block = numbering.block(), p.dimension = matrix.dimension, p.motions = static_cast<int>(matrix.near_kernel.cols());
   for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering, l).count());
-  p.matrix = full_rows(matrix.lower, numbering, finest, mean_diagonal(matrix.lower));
+  p.matrix = rows_of(rank, finest_);
   for (int l = 0; l < meshes; ++l)
     p.functions.push_back(some_rows((*matrix.coarse)[l], l == 0 ? &numbering.slot() : &numbering.functions(l), &numbering.functions(l + 1),
                                     range_of(rank, numbering, l)));
-  if (matrix.displaced && meshes == 0) p.displaced = full_rows(*matrix.displaced, numbering, finest, mean_diagonal(*matrix.displaced));
+  if (displaced_.lower) p.displaced = rows_of(rank, displaced_);
   if (matrix.unknowns) p.unknowns = some_rows(*matrix.unknowns, &numbering.slot(), &numbering.slot(), finest, numbering.idle());
   p.modes = some_modes(matrix.near_kernel, meshes > 0 ? numbering.functions(meshes) : numbering.slot(), range_of(rank, numbering, meshes));
   return p;

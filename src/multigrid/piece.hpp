@@ -26,9 +26,27 @@ struct Piece {
   std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh
 };
 
-/// Throws std::runtime_error where no pieces can be made: a diagonal that is not positive, more entries than an int counts.
-void require_pieces(const Matrix& matrix);
-Piece piece_for(int rank, const Matrix& matrix, const Numbering& numbering);
+/// Shares a matrix out; it and the numbering must outlive this.
+class Pieces {
+ public:
+  /// Throws std::runtime_error where no pieces can be made: a diagonal that is not positive, more entries than an int counts.
+  Pieces(const Matrix& matrix, const Numbering& numbering);
+  Piece of(int rank) const;
+
+ private:
+  /// The full matrix that a lower triangle stands for, with idle rows.
+  struct Full {
+    const algebra::SparseMatrix* lower = nullptr;
+    double idle = 0;           ///< mean of the diagonal
+    std::vector<int> entries;  ///< of each row
+  };
+  Full full(const algebra::SparseMatrix& lower) const;
+  Rows rows_of(int rank, const Full& full) const;
+
+  const Matrix& matrix_;
+  const Numbering& numbering_;
+  Full finest_, displaced_;  // the second where aggregates are made of it
+};
 void send(const Ranks& ranks, int to, Piece& piece);
 Piece receive_piece(const Ranks& ranks, int from);
 

@@ -77,7 +77,9 @@ void solve(Cycle& cycle) {
   std::vector<double> ending, b;
   world().receive(0, ending);
   world().receive(0, b);
-  world().send(0, cycle.solve(b, ending[0], ending[1], nullptr).x);
+  const Cycle::Solution solution = cycle.solve(b, ending[0], ending[1], nullptr);
+  world().send(0, solution.x);
+  world().send(0, solution.left);
 }
 
 /// Where solvers still live, as when a script ends by os.exit, PETSc cannot be ended: MPI alone is.

@@ -126,6 +126,7 @@ int coarser_meshes(const Problem& problem) {
 std::vector<SparseRows> coarse_functions(const Problem& problem) {
   const int levels = coarser_meshes(problem);
   if (levels == 0) return {};
+  if (problem.blocks.size() == 1) return problem.blocks.front().coarse.functions(levels);
   std::vector<algebra::Triplets> entries(levels);
   std::vector<Eigen::Index> rows(entries.size(), 0), columns(rows);
   for (const Block& block : problem.blocks) {

@@ -58,12 +58,11 @@ class HeldStep final : public Step {
     if (!stiffness_.factor(spring_, held_, across_)) return false;
     lambda_ = constant_, known_ = false;
     unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(kOfOff * l.off * of_rows_, kUnbalanced, kRough) : kUnbalanced;
-    if (slips_.empty()) move(stiffness_.solve_in_basis(residual(), unbalanced_));
     refine();
     return u_.allFinite() && tie() && tell(lambda, x);
   }
 
-  void begin(const Vector& u) override { u_ = stiffness_.without_unnoticed(u).cast<long double>(); }
+  void begin(const Vector& u) override { u_ = stiffness_.without_unnoticed(u).cast<long double>(), forget(); }
 
   bool sharpen(Vector& lambda, Vector& x) override {
     if (unbalanced_ <= kUnbalanced) return false;
@@ -72,18 +71,34 @@ class HeldStep final : public Step {
     return u_.allFinite() && tell(lambda, x);
   }
 
-  void go_back(double part) override { u_ = before_ + static_cast<long double>(part) * (u_ - before_), known_ = false; }
+  void go_back(double part) override { u_ = before_ + static_cast<long double>(part) * (u_ - before_), forget(); }
 
   Vector recover() override { return u_.cast<double>(); }
 
  private:
-  void move(const Vector& by) { u_ += by.cast<long double>(), known_ = false; }
+  /// Where elastic_ comes from: products in double precision, or in extended.
+  enum class Known { no, roughly, precisely };
+
+  void move(const Vector& by) { u_ += by.cast<long double>(), forget(); }
+  void forget() { known_ = false, elastic_known_ = Known::no; }
+  void resist(const Vector& resistance) {
+    known_ = false;
+    if (resistance.size() == 0) return forget();
+    if (elastic_known_ != Known::no) elastic_ -= resistance;
+  }
+  /// A movement that is small against u, as its forces `of` the present ones are, spoils no digit of these.
+  void move(const HeldStiffness::Displaced& by, double of) {
+    constexpr double kSmall = 0.01;
+    u_ += by.u.cast<long double>();
+    if (!(of <= kSmall)) elastic_known_ = std::min(elastic_known_, Known::roughly);
+    resist(by.resistance);
+  }
 
   /// What each row does, and u where it is held; elsewhere iterations go on from the last one.
   void sort(const Linearisation& l) {
     constant_ = spring_ = target_ = Vector::Zero(problem_.rows());
     held_.assign(problem_.unknowns(), 0);
-    if (!stiffness_.solver().iterates() || !u_.allFinite()) u_.setZero();
+    if (!stiffness_.solver().iterates() || !u_.allFinite()) u_.setZero(), forget();
     Vector moved = Vector::Zero(problem_.unknowns());
     holding_.clear(), tied_.clear();
     for (int r = 0; r < problem_.rows(); ++r) {
@@ -107,7 +122,8 @@ class HeldStep final : public Step {
       }
     }
     trivial_ ? u_ += moved.cast<long double>() : u_ += T_ * moved.cast<long double>();
-    known_ = false;
+    elastic_known_ = std::min(elastic_known_, Known::roughly);
+    resist(stiffness_.resistance_of_held(moved));
   }
 
   /// Stiffness across the direction of slip.
@@ -151,9 +167,9 @@ class HeldStep final : public Step {
     for (int k = 0; k < kMostRefinements && u_.allFinite(); ++k) {
       const Vector left = residual();
       const double sum = left.lpNorm<1>();
-      if (!(sum > unbalanced_ * gross_) || sum > before / 2) return;
+      if (k > 0 && (!(sum > unbalanced_ * gross_) || sum > before / 2)) return;
       before = sum;
-      move(stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * unbalanced_ * gross_ / sum)));
+      move(stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * unbalanced_ * gross_ / sum)), sum / gross_);
     }
   }
 
@@ -174,8 +190,8 @@ class HeldStep final : public Step {
     if (arrive()) return;
     for (int k = 0; k < kMostDirections && left.allFinite(); ++k) {
       if ((left.lpNorm<1>() <= enough || directions.size() == kKeptDirections) && arrive()) return;
-      Direction d{stiffness_.solve_in_basis(left, kShareOfDirection), {}};
-      d.change = response(d.u);
+      const HeldStiffness::Displaced by = stiffness_.solve_in_basis(left, kShareOfDirection);
+      Direction d{by.u, response(by)};
       const double whole = d.change.squaredNorm();
       for (const Direction& old : directions) {
         const double share = d.change.dot(old.change) / old.change.squaredNorm();
@@ -198,9 +214,11 @@ class HeldStep final : public Step {
   }
 
   /// What residual() loses where u grows by that.
-  Vector response(const Vector& by) const {
-    const Vector moved = problem_.B * by;
-    const Vector before = stiffness_.basis().T.transpose() * (problem::rough_stiffness_times(problem_, by) + problem_.B.transpose() * spring_.cwiseProduct(moved));
+  Vector response(const HeldStiffness::Displaced& by) const {
+    const Vector moved = problem_.B * by.u;
+    const auto& T = stiffness_.basis().T;
+    const Vector before = (by.resistance.size() > 0 ? by.resistance : Vector(T.transpose() * problem::rough_stiffness_times(problem_, by.u))) +
+                          T.transpose() * (problem_.B.transpose() * spring_.cwiseProduct(moved));
     Vector lost = before;
     for (const Linearisation::Slip& s : slips_) {
       const int own = s.by_normal > 0 ? stiffness_.basis().unknown[s.normal] : -1;
@@ -215,20 +233,20 @@ class HeldStep final : public Step {
   /// In the basis where rows are unknowns.
   const Vector& forces() {
     if (std::exchange(known_, true)) return forces_;
-    LongVector all = f_.cast<long double>();
-    if (unbalanced_ < kRounding) all -= problem::precise_stiffness_times(problem_, u_);
-    else all -= problem::rough_stiffness_times(problem_, u_.cast<double>()).cast<long double>();
+    know_elastic(unbalanced_ < kRounding ? Known::precisely : Known::roughly);
     gross_ = f_.lpNorm<1>();
+    Vector of_rows = Vector::Zero(trivial_ ? 0 : u_.size());
+    Vector& left = forces_;
+    left = elastic_;
     for (int r = 0; r < problem_.rows(); ++r) {
-      const long double multiplier = lambda_[r] + spring_[r] * gap(r);
+      const double multiplier = static_cast<double>(lambda_[r] + spring_[r] * gap(r));
       if (multiplier == 0) continue;
       for (SparseRows::InnerIterator it(problem_.B, r); it; ++it) {
-        all[it.col()] -= it.value() * multiplier;
-        gross_ += static_cast<double>(std::abs(it.value() * multiplier));
+        (trivial_ ? left : of_rows)[it.col()] -= it.value() * multiplier;
+        gross_ += std::abs(it.value() * multiplier);
       }
     }
-    Vector& left = forces_;
-    left = trivial_ ? Vector(all.cast<double>()) : Vector((T_.transpose() * all).cast<double>());
+    if (!trivial_) left += stiffness_.basis().T.transpose() * of_rows;
     const Vector without = slips_.empty() ? Vector() : left;
     for (const Linearisation::Slip& s : slips_) {
       const Vector force = beyond(s, without);
@@ -237,6 +255,15 @@ class HeldStep final : public Step {
     for (const Holding& h : holding_) gross_ += std::abs(left[h.unknown]);
     of_rows_ = gross_ > 0 ? (gross_ - f_.lpNorm<1>()) / gross_ : 1;
     return left;
+  }
+
+  void know_elastic(Known how) {
+    if (elastic_known_ >= how) return;
+    elastic_known_ = how;
+    LongVector all = f_.cast<long double>();
+    if (how == Known::precisely) all -= problem::precise_stiffness_times(problem_, u_);
+    else all -= problem::rough_stiffness_times(problem_, u_.cast<double>()).cast<long double>();
+    elastic_ = trivial_ ? Vector(all.cast<double>()) : Vector((T_.transpose() * all).cast<double>());
   }
 
   /// Bu − t of a row.
@@ -250,7 +277,7 @@ class HeldStep final : public Step {
   bool tie() {
     for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round) {
       approach();
-      move(stiffness_.solve_in_basis(residual()));
+      move(stiffness_.solve_in_basis(residual()).u);
     }
     return off(tied_gap()) <= kOff;
   }
@@ -322,6 +349,8 @@ class HeldStep final : public Step {
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
   LongVector u_, before_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
   Vector lambda_;
+  Vector elastic_;                     ///< Tᵀ(f − Ku), as far as it is known
+  Known elastic_known_ = Known::no;
   Vector forces_;
   bool known_ = false;                 ///< are forces_ those of u_ and lambda_?
   double unbalanced_ = kUnbalanced;    ///< of gross_, what is aimed at

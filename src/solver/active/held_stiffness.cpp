@@ -141,14 +141,43 @@ bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, 
   return definite;
 }
 
-Vector HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
+Vector HeldStiffness::resistance(const Vector& y, Vector Ay) const {
+  const auto is_held = [&](const Entry& e) { return held_[e.row] || held_[e.column]; };
+  for (const Entry& e : told_) {
+    if (is_held(e)) continue;
+    Ay[e.row] -= e.by * y[e.column];
+    if (e.row != e.column) Ay[e.column] -= e.by * y[e.row];
+  }
+  for (Eigen::Index i = 0; i < Ay.size(); ++i)
+    if (held_[i]) Ay[i] = 0;
+  const double* K = lower().valuePtr();
+  for (const Entry& e : of_watched_) {
+    if (held_[e.row]) Ay[e.row] += K[e.place] * y[e.column];
+    if (held_[e.column] && e.row != e.column) Ay[e.column] += K[e.place] * y[e.row];
+  }
+  return Ay;
+}
+
+Vector HeldStiffness::resistance_of_held(const Vector& y) const {
+  Vector forces = Vector::Zero(y.size());
+  const double* K = lower().valuePtr();
+  for (const Entry& e : of_watched_) {
+    forces[e.row] += K[e.place] * y[e.column];
+    if (e.row != e.column) forces[e.column] += K[e.place] * y[e.row];
+  }
+  return forces;
+}
+
+HeldStiffness::Displaced HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
   for (Eigen::Index i = 0; i < forces.size(); ++i)
     if (held_[i]) forces[i] = 0;
-  const Vector solution = solver_->solve(forces, tolerance);
+  Vector left;
+  const Vector solution = solver_->solve(forces, tolerance, &left);
   if (solver_->iterates() && forces.allFinite() && !solution.allFinite())
     throw SlowIterations(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
                           "stretched cells or great contrasts of stiffness; dotyk.solver.pdas{ linear = \"factor\" } does without iterations"));
-  return problem::least(unnoticed_, basis_.T * solution);
+  Vector resisting = left.size() > 0 ? resistance(solution, forces - left) : Vector();
+  return {problem::least(unnoticed_, basis_.T * solution), std::move(resisting)};
 }
 
 namespace {

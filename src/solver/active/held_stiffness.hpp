@@ -54,11 +54,17 @@ class HeldStiffness {
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
+  struct Displaced {
+    algebra::Vector u;
+    algebra::Vector resistance;  ///< TᵀKu, of what iterations carry along, without a product with K; none where the solver is direct
+  };
   /// u under the forces b, zero in what is held.
-  algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.T.transpose() * b); }
+  algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.T.transpose() * b).u; }
   /// The same for forces given as Tᵀb. An iterative solver stops at a residual of `tolerance` times their norm, and throws NotSolved if it cannot
   /// reach that.
-  algebra::Vector solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;
+  Displaced solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;
+  /// TᵀKT y of a y that is zero but where rows may hold.
+  algebra::Vector resistance_of_held(const algebra::Vector& y) const;
 
   /// u without the motions that no row notices, as solve() gives it.
   algebra::Vector without_unnoticed(const algebra::Vector& u) const { return problem::least(unnoticed_, u); }
@@ -77,6 +83,8 @@ class HeldStiffness {
   void change(int row, int column, double by);
   void spring_rows(const algebra::Vector& spring);
   void watch(const std::vector<char>& held);
+  /// TᵀKT y, of A y where nothing is held.
+  algebra::Vector resistance(const algebra::Vector& y, algebra::Vector Ay) const;
   const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
   /// What differs from lower(), each place once and in their order; changed_ is empty then.
   std::vector<Entry> now();

@@ -1,0 +1,35 @@
+#include <doctest/doctest.h>
+
+#include "../support/programs.hpp"
+#include "problem/rigid_motions.hpp"
+#include "solver/active/held_stiffness.hpp"
+
+using namespace dotyk;
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+TEST_CASE("the resistance that comes with a solution is the product with the stiffness, held unknowns included") {
+  constexpr int kUnknowns = 20, kRows = 8;
+  test::Random random(405);
+  Monitor quiet;
+  for (int trial = 0; trial < 50; ++trial) {
+    DenseMatrix B = DenseMatrix::Zero(kRows, kUnknowns);
+    for (int r = 0; r < kRows; ++r) B(r, 2 * r) = random.between(0.5, 1.5), B(r, 2 * r + 1) = r % 2 ? random.between(-1, 1) : 0;  // jumps, and one unknown
+    auto p = test::program(random.positive_definite(kUnknowns, 0.3), random.vector(kUnknowns), B, Vector::Zero(kRows));
+    p.groups = {test::group(problem::unilateral(), 0, kRows)};
+    solver::HeldStiffness stiffness(p, problem::rigid_motions(p), solver::incomplete_factor(), quiet);
+    const auto& T = stiffness.basis().T;
+    Vector spring = Vector::Zero(kRows), at_held = Vector::Zero(kUnknowns);
+    std::vector<char> held(kUnknowns, 0);
+    for (int r = 0; r < kRows; ++r) {
+      const int own = stiffness.basis().unknown[r];
+      if (own < 0 || r % 3 == 2) spring[r] = random.between(0.1, 10);
+      else held[own] = r % 3 == 0, at_held[own] = random.between(-1, 1);
+    }
+    REQUIRE(stiffness.factor(spring, held));
+    const auto product = [&](const Vector& u) { return Vector(T.transpose() * problem::stiffness_times(p, u)); };
+    const auto by = stiffness.solve_in_basis(random.vector(kUnknowns), 1e-14);
+    CHECK((by.resistance - product(by.u)).norm() <= 1e-12 * by.resistance.norm());
+    CHECK((stiffness.resistance_of_held(at_held) - product(T * at_held)).norm() <= 1e-12 * product(T * at_held).norm() + 1e-13);
+  }
+}
