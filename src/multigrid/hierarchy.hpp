@@ -22,6 +22,7 @@ class Hierarchy {
   int levels() const { return static_cast<int>(matrices_.size()); }
   Mat matrix(int level) const { return matrices_[level]; }                ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
+  int meshes() const { return static_cast<int>(piece_.functions.size()); }  ///< coarser ones: of so many levels after the finest
   double bytes() const;  ///< of this rank
 
  private:

@@ -140,8 +140,8 @@ void work(bool spawned) {
     if (parent == MPI_COMM_NULL) throw InputError("--worker is for processes that dotyk.ranks(…) starts");
     join(parent, true);
   }
-  world().together([] {
-    std::map<int, std::unique_ptr<Cycle>> cycles;
+  std::map<int, std::unique_ptr<Cycle>> cycles;  // outside: PETSc may crash where it destroys what is half made, and then the reason would not be told
+  world().together([&cycles] {
     for (;;) {
       const std::vector<int> order = next_task();
       const int solver = order[1];

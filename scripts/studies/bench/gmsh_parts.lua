@@ -1,14 +1,20 @@
 -- What contact costs on parts with free meshes: four of them from Gmsh, against one linear solve of the same bodies glued.
 --
---   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/bench/gmsh_parts.lua [NODES…]
+--   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/bench/gmsh_parts.lua [NODES…] [PARTS…] [aggregates]
 --
 -- A lug on a pin, a ball in a socket, a pipe's flange on its gasket and a wheel on a rail, P1, quarters or sectors of them, meshes that do not match;
--- glued, frictionless, and with Coulomb's coefficient 0.2; all by the default method. For each: seconds of the solve, times the glued bodies', and
--- iterations; and the most memory that the process has had. NODES, 10000 unless given, are met to a tenth.
+-- glued, frictionless, and with Coulomb's coefficient 0.2; by the default method or, with the word aggregates, by algebraic multigrid. For each: seconds
+-- of the solve, times the glued bodies', and iterations (of conjugate gradients, too, by multigrid); and the most memory that the process has had.
+-- NODES, 10000 unless given, are met to a tenth. PARTS: some of lug, ball, flange and wheel, all of them unless given.
 
-local sizes = {}
-for _, n in ipairs(arg) do sizes[#sizes + 1] = tonumber(n) end
-if #sizes == 0 then sizes = { 10000 } end
+local sizes <const>, names, method = {}, {}, nil
+for _, word in ipairs(arg) do
+  if tonumber(word) then sizes[#sizes + 1] = tonumber(word)
+  elseif word == "aggregates" then method = dotyk.solver.multigrid{ levels = "aggregates" }
+  else names[#names + 1] = word end
+end
+if #sizes == 0 then sizes[1] = 10000 end
+if #names == 0 then names = { "lug", "ball", "flange", "wheel" } end
 local peak_memory <const> = include "../../lib/peak_memory.lua"
 local steel <const> = dotyk.material{ E = 210e3, nu = 0.3 }
 
@@ -133,7 +139,7 @@ local function solved(part, h, join)
   local bodies <const>, pair <const> = parts[part](h, join.name == "glued")
   local scene <const> = dotyk.scene(bodies)
   join.make(scene, pair)
-  local s <const> = dotyk.solve(scene)
+  local s <const> = method and method:solve(scene) or dotyk.solve(scene)
   assert(s.converged, part .. ", " .. join.name .. ": " .. s.reason)
   return s
 end
@@ -146,13 +152,14 @@ local joins <const> = {
 
 print "part        nodes        glued                  contact                    Coulomb 0.2      memory"
 for _, count in ipairs(sizes) do
-  for _, part in ipairs{ "lug", "ball", "flange", "wheel" } do
+  for _, part in ipairs(names) do
+    assert(parts[part], "there is no part " .. part)
     local h <const> = with_nodes(part, count)
     local line, glued
     for _, join in ipairs(joins) do
       local s <const> = solved(part, h, join)
       glued = glued or s.time.total
-      line = (line or ("%-8s %8d"):format(part, s.unknowns // 3)) .. ("  %8.2f s  x%.2f %3d it"):format(s.time.total, s.time.total / glued, s.iterations)
+      line = (line or ("%-8s %8d"):format(part, s.unknowns // 3)) .. ("  %8.2f s  x%.2f %3d it"):format(s.time.total, s.time.total / glued, s.iterations) .. (s.multigrid and (" %3d cg"):format(s.multigrid.cg) or "")
     end
     print(line .. ("  %6.2f GB"):format(peak_memory()))
   end
