@@ -18,7 +18,7 @@ class SpdSolver {
   /// are empty but for their diagonal. False where A is seen not to be positive definite.
   virtual bool set(const Triplets& changed, const std::vector<char>& held) = 0;
   /// x with ‖b − A x‖ ≤ tolerance ‖b‖; direct solvers go as far as rounding lets them, whatever the tolerance. `left`, where it is given: b − A x, as
-  /// iterations carry it along; direct solvers leave it as it is.
+  /// iterations know it; direct solvers leave it as it is.
   virtual Vector solve(const Vector& b, double tolerance, Vector* left = nullptr) = 0;
   /// Does the work grow with the digits asked for?
   virtual bool iterates() const { return true; }

@@ -35,7 +35,7 @@ std::vector<algebra::SparseRows> coarse_functions(const mesh::Mesh& mesh, const 
       functions.innerIndexPtr()[next[r]] = c;
       functions.valuePtr()[next[r]++] = 1.0 / static_cast<double>(means(i).size());
     });
-    for (int r = 0; r < functions.rows(); ++r) std::sort(functions.innerIndexPtr() + starts[r], functions.innerIndexPtr() + starts[r + 1]);  // one number a row
+    for (int r = 0; r < functions.rows(); ++r) std::sort(functions.innerIndexPtr() + starts[r], functions.innerIndexPtr() + starts[r + 1]);  // the numbers of a row are equal
     all.push_back(std::move(functions));
     row = std::move(column);
   }

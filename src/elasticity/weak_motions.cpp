@@ -96,16 +96,6 @@ struct Motions {
   }
 };
 
-/// The least Rayleigh quotient (K, M) on the span of V; infinite where V is nothing.
-double least_quotient(const Motions& motions, const SparseMatrix& lower, DenseMatrix V) {
-  const Vector norm = (V.cwiseAbs2().transpose() * motions.w).cwiseSqrt();
-  for (Eigen::Index k = 0; k < V.cols(); ++k) V.col(k) *= norm[k] > 0 ? 1 / norm[k] : 0;
-  const DenseMatrix Q = orthonormal_in(motions.w, V, 1e-8);
-  if (Q.cols() == 0) return INFINITY;
-  const DenseMatrix KQ = lower.selfadjointView<Eigen::Lower>() * Q;
-  return algebra::eigenvalues(Q.transpose() * KQ)[0];
-}
-
 using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// K V, in one pass over K.
@@ -121,6 +111,15 @@ ByRows product(const SparseMatrix& lower, const ByRows& V) {
       if (it.row() != j) add(j, it.row(), it.value());
     }
   return KV;
+}
+
+/// The least Rayleigh quotient (K, M) on the span of V; infinite where V is nothing.
+double least_quotient(const Motions& motions, const SparseMatrix& lower, DenseMatrix V) {
+  const Vector norm = (V.cwiseAbs2().transpose() * motions.w).cwiseSqrt();
+  for (Eigen::Index k = 0; k < V.cols(); ++k) V.col(k) *= norm[k] > 0 ? 1 / norm[k] : 0;
+  const DenseMatrix Q = orthonormal_in(motions.w, V, 1e-8);
+  if (Q.cols() == 0) return INFINITY;
+  return algebra::eigenvalues(Q.transpose() * product(lower, Q))[0];
 }
 
 WeakMotions by_response(const Motions& motions, const Numbering& numbering, const SparseMatrix& lower,

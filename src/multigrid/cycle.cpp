@@ -82,7 +82,8 @@ void Cycle::make() {
   KSP ksp = nullptr;
   for (int l = 0; l + 1 < levels(); ++l) {
     const int theirs = levels() - 1 - l;  // PETSc counts from the coarsest
-    // Aggregates below meshes converge more slowly than these. They have few unknowns: a second sweep costs little, and saves a fifth of the iterations.
+    // From the coarsest mesh on aggregates correct, which converge more slowly than meshes. There are few unknowns: a second sweep costs little, and on a
+    // cube of 76 cells a side it saves a fifth of the iterations.
     const int sweeps = hierarchy_.meshes() > 0 && l >= hierarchy_.meshes() ? 2 : 1;
     check(PCMGSetInterpolation(pc, theirs, hierarchy_.interpolation(l)));
     check(PCMGGetSmootherDown(pc, theirs, &ksp));
@@ -131,7 +132,7 @@ Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, dou
   };
   solution.x = numbers(x_);
   Vec left = nullptr;
-  check(KSPBuildResidual(ksp_, nullptr, b_, &left));
+  check(KSPBuildResidual(ksp_, x_, b_, &left));  // for CG a copy of what it carries along, into b_, which is not needed any more
   solution.left = numbers(left);
   return solution;
 }

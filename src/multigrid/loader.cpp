@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "algebra/direct/blas_threads.hpp"
 #include "base/error.hpp"
 #include "base/open_library.hpp"
 #include "base/text.hpp"
@@ -37,6 +38,7 @@ Function* door(const char* name) {
   if (place.found.empty())
     throw InputError("algebraic multigrid, and work on several ranks, need PETSc's library: install it (apt-get install --no-install-recommends "
                      "libpetsc-real-dev; ./dotyk --setup-only does) and build again");
+  algebra::reserve_blas_buffer();  // PETSc's aggregates need it: a rank that does not get it would ask for ever, and all others wait
   const auto function = reinterpret_cast<Function*>(dlsym(open_library(petsc(), place.found), name));
   if (!function) throw std::runtime_error(petsc().what + " is of another version of dotyk");
   is_open = true;

@@ -14,7 +14,7 @@ namespace dotyk::multigrid {
 
 /// What a hierarchy is built from. Nothing of it is kept.
 struct Matrix {
-  const algebra::SparseMatrix& lower;        ///< lower triangle, compressed, no unknown held; positive definite but for `changed`
+  const algebra::SparseMatrix& lower;        ///< lower triangle, compressed, columns sorted, no unknown held; positive definite but for `changed`
   const std::vector<int>& node;              ///< of each unknown, ascending, as in problem::Block::node
   /// A column for each rigid motion; there may be none. Rows are unknowns or, where there are coarser meshes, the functions of the coarsest. All bodies
   /// move as one, so that there are six: each column is an unknown of every aggregate.

@@ -1,14 +1,11 @@
 #include "multigrid/petsc_session.hpp"
 
-#include <petscblaslapack.h>
-
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "base/memory.hpp"
 #include "multigrid/start_ranks.hpp"
 
 namespace dotyk::multigrid {
@@ -64,19 +61,7 @@ class Environment {
   std::vector<const char*> names_;
 };
 
-/// OpenBLAS keeps its buffer once it has one, but asks for ever for one that it does not get (its issue 5289). PETSc's aggregates need it: a rank whose memory
-/// ends before would keep all others waiting.
-void take_blas_buffer() {
-  require_address_space(150e6, "the buffer of OpenBLAS");
-  const PetscBLASInt rows = 1, columns = 1024;  // too many for the stack, which small products make do with
-  const std::vector<double> a(columns, 0.0);
-  const double one = 1, none = 0;
-  double product = 0;
-  BLASgemv_("N", &rows, &columns, &one, a.data(), &rows, a.data(), &rows, &none, &product, &rows);
-}
-
 void initialise(bool spawns) {
-  take_blas_buffer();
   const KeptSignals signals;
   Environment environment;
   if (spawns) {  // in containers too: as root, and more ranks than processors

@@ -26,7 +26,7 @@ struct Piece {
   std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh
 };
 
-/// Shares a matrix out; it and the numbering must outlive this.
+/// Shares a matrix out. The matrix and the numbering must outlive this object.
 class Pieces {
  public:
   /// Throws std::runtime_error where no pieces can be made: a diagonal that is not positive, more entries than an int counts.

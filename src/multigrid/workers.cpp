@@ -140,7 +140,7 @@ void work(bool spawned) {
     if (parent == MPI_COMM_NULL) throw InputError("--worker is for processes that dotyk.ranks(…) starts");
     join(parent, true);
   }
-  std::map<int, std::unique_ptr<Cycle>> cycles;  // outside: PETSc may crash where it destroys what is half made, and then the reason would not be told
+  std::map<int, std::unique_ptr<Cycle>> cycles;  // outlive an exception: PETSc may crash where it destroys a solver that failed, before the reason is told
   world().together([&cycles] {
     for (;;) {
       const std::vector<int> order = next_task();

@@ -58,6 +58,10 @@ class HeldStep final : public Step {
     if (!stiffness_.factor(spring_, held_, across_)) return false;
     lambda_ = constant_, known_ = false;
     unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(kOfOff * l.off * of_rows_, kUnbalanced, kRough) : kUnbalanced;
+    if (slips_.empty()) {
+      const Vector left = residual();
+      if (const double sum = left.lpNorm<1>(); sum != 0) approach(left, sum);
+    }
     refine();
     return u_.allFinite() && tie() && tell(lambda, x);
   }
@@ -76,7 +80,7 @@ class HeldStep final : public Step {
   Vector recover() override { return u_.cast<double>(); }
 
  private:
-  /// Where elastic_ comes from: products in double precision, or in extended.
+  /// How exact elastic_ is: as a product in double precision, or in extended.
   enum class Known { no, roughly, precisely };
 
   void move(const Vector& by) { u_ += by.cast<long double>(), forget(); }
@@ -86,12 +90,20 @@ class HeldStep final : public Step {
     if (resistance.size() == 0) return forget();
     if (elastic_known_ != Known::no) elastic_ -= resistance;
   }
-  /// A movement that is small against u, as its forces `of` the present ones are, spoils no digit of these.
-  void move(const HeldStiffness::Displaced& by, double of) {
+  /// The resistance has the rounding of a product in double precision. A hundredth of that is let pass: where the movement is so small a part of u, and no
+  /// great terms cancel in it, as they do where springs hold rows.
+  void move(const HeldStiffness::Displaced& by) {
     constexpr double kSmall = 0.01;
+    if (elastic_known_ == Known::precisely && (sprung_ || !(by.u.lpNorm<Eigen::Infinity>() <= kSmall * static_cast<double>(u_.lpNorm<Eigen::Infinity>()))))
+      elastic_known_ = Known::roughly;
     u_ += by.u.cast<long double>();
-    if (!(of <= kSmall)) elastic_known_ = std::min(elastic_known_, Known::roughly);
     resist(by.resistance);
+  }
+
+  /// Goes to where of the forces left a share of what refinement aims at is left, and of themselves that share at most.
+  void approach(const Vector& left, double sum) {
+    const double aim = std::min(1.0, unbalanced_ * gross_ / sum);
+    move(stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * aim)));
   }
 
   /// What each row does, and u where it is held; elsewhere iterations go on from the last one.
@@ -100,7 +112,7 @@ class HeldStep final : public Step {
     held_.assign(problem_.unknowns(), 0);
     if (!stiffness_.solver().iterates() || !u_.allFinite()) u_.setZero(), forget();
     Vector moved = Vector::Zero(problem_.unknowns());
-    holding_.clear(), tied_.clear();
+    holding_.clear(), tied_.clear(), sprung_ = false;
     for (int r = 0; r < problem_.rows(); ++r) {
       if (!l.active[r]) {
         constant_[r] = l.value[r];
@@ -110,6 +122,7 @@ class HeldStep final : public Step {
       const double compliance = l.added_compliance(r, rho_[r]);
       if (compliance > 0) {
         spring_[r] = 1 / compliance;
+        sprung_ = sprung_ || stiffness_.basis().unknown[r] < 0;
         continue;
       }
       if (const int own = stiffness_.basis().unknown[r]; own >= 0) {
@@ -118,11 +131,14 @@ class HeldStep final : public Step {
         holding_.push_back({r, own});
       } else {
         tied_.push_back(r);
-        spring_[r] = kHeldRowSpring * own_[r];
+        spring_[r] = kHeldRowSpring * own_[r], sprung_ = true;
       }
     }
+    known_ = false;
+    if (moved.isZero(0)) return;
     trivial_ ? u_ += moved.cast<long double>() : u_ += T_ * moved.cast<long double>();
-    elastic_known_ = std::min(elastic_known_, Known::roughly);
+    if (elastic_known_ == Known::no) return;
+    elastic_known_ = Known::roughly;
     resist(stiffness_.resistance_of_held(moved));
   }
 
@@ -167,9 +183,9 @@ class HeldStep final : public Step {
     for (int k = 0; k < kMostRefinements && u_.allFinite(); ++k) {
       const Vector left = residual();
       const double sum = left.lpNorm<1>();
-      if (k > 0 && (!(sum > unbalanced_ * gross_) || sum > before / 2)) return;
+      if (!(sum > unbalanced_ * gross_) || sum > before / 2) return;
       before = sum;
-      move(stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * unbalanced_ * gross_ / sum)), sum / gross_);
+      approach(left, sum);
     }
   }
 
@@ -183,7 +199,7 @@ class HeldStep final : public Step {
     Vector total = Vector::Zero(u_.size()), left;
     double enough = 0;
     const auto arrive = [&] {
-      move(total), total.setZero(), directions.clear();
+      if (!directions.empty()) move(total), total.setZero(), directions.clear();
       left = residual(), enough = unbalanced_ * gross_;
       return left.lpNorm<1>() <= enough;
     };
@@ -203,7 +219,7 @@ class HeldStep final : public Step {
       total += step * d.u, left -= step * d.change;
       directions.push_back(std::move(d));
     }
-    move(total);
+    if (!directions.empty()) move(total);
   }
 
   /// f − Ku − Bᵀλ with the springs' multipliers as they are, zero where u is held.
@@ -233,20 +249,21 @@ class HeldStep final : public Step {
   /// In the basis where rows are unknowns.
   const Vector& forces() {
     if (std::exchange(known_, true)) return forces_;
-    know_elastic(unbalanced_ < kRounding ? Known::precisely : Known::roughly);
+    const Known how = unbalanced_ < kRounding ? Known::precisely : Known::roughly;
+    const bool carried = elastic_known_ >= how;
+    LongVector all = !carried ? elastic_anew(how) : trivial_ ? LongVector(elastic_.cast<long double>()) : LongVector(LongVector::Zero(u_.size()));
     gross_ = f_.lpNorm<1>();
-    Vector of_rows = Vector::Zero(trivial_ ? 0 : u_.size());
-    Vector& left = forces_;
-    left = elastic_;
     for (int r = 0; r < problem_.rows(); ++r) {
-      const double multiplier = static_cast<double>(lambda_[r] + spring_[r] * gap(r));
+      const long double multiplier = lambda_[r] + spring_[r] * gap(r);
       if (multiplier == 0) continue;
       for (SparseRows::InnerIterator it(problem_.B, r); it; ++it) {
-        (trivial_ ? left : of_rows)[it.col()] -= it.value() * multiplier;
-        gross_ += std::abs(it.value() * multiplier);
+        all[it.col()] -= it.value() * multiplier;
+        gross_ += static_cast<double>(std::abs(it.value() * multiplier));
       }
     }
-    if (!trivial_) left += stiffness_.basis().T.transpose() * of_rows;
+    Vector& left = forces_;
+    left = in_basis(all);
+    if (carried && !trivial_) left += elastic_;
     const Vector without = slips_.empty() ? Vector() : left;
     for (const Linearisation::Slip& s : slips_) {
       const Vector force = beyond(s, without);
@@ -257,13 +274,15 @@ class HeldStep final : public Step {
     return left;
   }
 
-  void know_elastic(Known how) {
-    if (elastic_known_ >= how) return;
-    elastic_known_ = how;
+  Vector in_basis(const LongVector& forces) const { return trivial_ ? Vector(forces.cast<double>()) : Vector((T_.transpose() * forces).cast<double>()); }
+
+  /// f − Ku by a product, which is remembered as elastic_.
+  LongVector elastic_anew(Known how) {
     LongVector all = f_.cast<long double>();
     if (how == Known::precisely) all -= problem::precise_stiffness_times(problem_, u_);
     else all -= problem::rough_stiffness_times(problem_, u_.cast<double>()).cast<long double>();
-    elastic_ = trivial_ ? Vector(all.cast<double>()) : Vector((T_.transpose() * all).cast<double>());
+    elastic_ = in_basis(all), elastic_known_ = how;
+    return all;
   }
 
   /// Bu − t of a row.
@@ -276,14 +295,14 @@ class HeldStep final : public Step {
   /// λ of tied rows so that Bu = t there. False where they contradict each other.
   bool tie() {
     for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round) {
-      approach();
+      approach_ties();
       move(stiffness_.solve_in_basis(residual()).u);
     }
     return off(tied_gap()) <= kOff;
   }
 
   /// Conjugate gradients on B(K + sBᵀB)⁻¹Bᵀ δλ = Bu − t, preconditioned by s, which makes the first step one of the method of multipliers.
-  void approach() {
+  void approach_ties() {
     Vector gap = tied_gap(), z = spring_.cwiseProduct(gap), p = z;
     double energy = gap.dot(z);
     for (int k = 0; k < kMostSteps && off(gap) > kAim; ++k) {
@@ -347,6 +366,7 @@ class HeldStep final : public Step {
   std::vector<Linearisation::Slip> slips_;
   std::vector<Eigen::Triplet<double>> across_;
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
+  bool sprung_ = false;                ///< do springs hold rows that have no unknown of their own?
   LongVector u_, before_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
   Vector lambda_;
   Vector elastic_;                     ///< Tᵀ(f − Ku), as far as it is known

@@ -56,7 +56,7 @@ class HeldStiffness {
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
   struct Displaced {
     algebra::Vector u;
-    algebra::Vector resistance;  ///< TᵀKu, of what iterations carry along, without a product with K; none where the solver is direct
+    algebra::Vector resistance;  ///< TᵀKu, from the residual that an iterative solver returns; empty where the solver is direct
   };
   /// u under the forces b, zero in what is held.
   algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.T.transpose() * b).u; }
@@ -83,7 +83,7 @@ class HeldStiffness {
   void change(int row, int column, double by);
   void spring_rows(const algebra::Vector& spring);
   void watch(const std::vector<char>& held);
-  /// TᵀKT y, of A y where nothing is held.
+  /// TᵀKT y from A y, for a y that is zero at what is held: without what springs added, with the rows of held unknowns.
   algebra::Vector resistance(const algebra::Vector& y, algebra::Vector Ay) const;
   const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
   /// What differs from lower(), each place once and in their order; changed_ is empty then.
