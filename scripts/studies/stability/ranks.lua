@@ -100,8 +100,12 @@ workers=$(echo $workers)
 sleep %.2f
 { %s; } 2>/dev/null
 wait $runner; status=$?
-sleep 0.3; left=0
-for p in $workers; do if [ -e /proc/$p ] && ! grep -q '^State:.[ZX]' /proc/$p/status 2>/dev/null; then left=$((left + 1)); fi; done
+living() {
+  left=0
+  for p in $workers; do if [ -e /proc/$p ] && ! grep -q '^State:.[ZX]' /proc/$p/status 2>/dev/null; then left=$((left + 1)); fi; done
+  [ $left -gt 0 ]
+}
+for i in $(seq 50); do living || break; sleep 0.1; done  # a busy machine takes a while to end them
 echo "status $status left $left workers $(echo $workers | wc -w)"
 rm -f $file $file.*
 ]]
@@ -110,7 +114,7 @@ local done <const>, words <const> = {}, {}
 math.randomseed(tonumber(arg[3]) or 1)
 for f = 1, faults do
   local kind = kinds[(f - 1) % #kinds + 1]
-  local ranks = math.random(2, math.min(4, most))
+  local ranks = math.random(2, math.max(2, math.min(4, most)))
   local out = os.tmpname()
   local pipe = io.popen("sh -c '" .. harness:format(out, out, program, many, ranks, math.random() * 0.5, kind[2]):gsub("'", "'\\''") .. "' 2>/dev/null")
   local told = pipe:read "a"
