@@ -27,6 +27,27 @@ class SparseColumn {
   std::vector<int> places_;
 };
 
+// With L = A's lower triangle and half its diagonal, PᵀAP = M + Mᵀ for M = PᵀLP, which is made column by column. `rows`: P once more.
+SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P, const SparseRows& rows) {
+  SparseColumn fine(P.rows()), coarse(P.cols());
+  std::vector<int> starts{0}, places;
+  std::vector<double> values;
+  for (int J = 0; J < P.cols(); ++J) {
+    for (SparseMatrix::InnerIterator p(P, J); p; ++p)
+      for (SparseMatrix::InnerIterator l(lower, p.row()); l; ++l) fine.add(static_cast<int>(l.row()), (l.row() == l.col() ? 0.5 : 1) * l.value() * p.value());
+    fine.empty([&](int i, double value) {
+      for (SparseRows::InnerIterator p(rows, i); p; ++p) coarse.add(static_cast<int>(p.col()), p.value() * value);
+    });
+    coarse.empty([&](int I, double value) {
+      places.push_back(I), values.push_back(value);
+    });
+    starts.push_back(static_cast<int>(places.size()));
+  }
+  const Eigen::Map<const SparseMatrix> M(P.cols(), P.cols(), static_cast<Eigen::Index>(places.size()), starts.data(), places.data(), values.data());
+  const SparseMatrix mirrored = M.transpose(), sorted = mirrored.transpose();
+  return lower_sum(sorted, mirrored);
+}
+
 }  // namespace
 
 SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B) {
@@ -48,26 +69,7 @@ SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B) {
   return sum;
 }
 
-// With L = A's lower triangle and half its diagonal, PᵀAP = M + Mᵀ for M = PᵀLP, which is made column by column.
-SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& rows) {
-  const SparseMatrix P = rows;
-  SparseColumn fine(P.rows()), coarse(P.cols());
-  std::vector<int> starts{0}, places;
-  std::vector<double> values;
-  for (int J = 0; J < P.cols(); ++J) {
-    for (SparseMatrix::InnerIterator p(P, J); p; ++p)
-      for (SparseMatrix::InnerIterator l(lower, p.row()); l; ++l) fine.add(static_cast<int>(l.row()), (l.row() == l.col() ? 0.5 : 1) * l.value() * p.value());
-    fine.empty([&](int i, double value) {
-      for (SparseRows::InnerIterator p(rows, i); p; ++p) coarse.add(static_cast<int>(p.col()), p.value() * value);
-    });
-    coarse.empty([&](int I, double value) {
-      places.push_back(I), values.push_back(value);
-    });
-    starts.push_back(static_cast<int>(places.size()));
-  }
-  const Eigen::Map<const SparseMatrix> M(P.cols(), P.cols(), static_cast<Eigen::Index>(places.size()), starts.data(), places.data(), values.data());
-  const SparseMatrix mirrored = M.transpose(), sorted = mirrored.transpose();
-  return lower_sum(sorted, mirrored);
-}
+SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P) { return congruent(lower, P, SparseRows(P)); }
+SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& P) { return congruent(lower, SparseMatrix(P), P); }
 
 }  // namespace dotyk::algebra

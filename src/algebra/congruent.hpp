@@ -9,6 +9,7 @@ namespace dotyk::algebra {
 SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B);
 
 /// PᵀAP, m × m, of a symmetric A, n × n, for P, n × m. `lower` has no entries above the diagonal; nor has the result, whose columns are sorted.
+SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P);
 SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& P);
 
 }  // namespace dotyk::algebra

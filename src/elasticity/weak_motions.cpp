@@ -98,7 +98,7 @@ struct Motions {
 
 using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// K V, in one pass over K.
+/// K V, in one pass over K. Eigen's product makes one for each column.
 ByRows product(const SparseMatrix& lower, const ByRows& V) {
   ByRows KV = ByRows::Zero(V.rows(), V.cols());
   const Eigen::Index count = V.cols();

@@ -27,8 +27,8 @@ struct WeakMotions {
 /// own size, so that the statement of small displacements has lost its meaning, and six digits of the
 /// deformation are lost beside the rigid part.
 ///
-/// Cost: a screen of one pass over K (least Rayleigh quotient of rigid motions, an upper bound of the supports' stiffness, against that of a
-/// dilatation); only where the quotient is below 1e-3, one factorisation of K and twice as many solutions as motions are held.
+/// Cost: one pass over K compares the least Rayleigh quotient of rigid motions, an upper bound of the supports' stiffness, with that of a dilatation.
+/// Only where their ratio is below 1e-3 there follow one factorisation of K and twice as many solutions as motions are held.
 /// `lower`: K on the unknowns; `kernel`: its exact rigid modes, unknowns × modes.
 WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, const algebra::SparseMatrix& lower,
                          const algebra::DenseMatrix& kernel);

@@ -19,7 +19,7 @@ class Galerkin {
   /// `coarse` has the pattern of PᵀAP; its blocks are the coarse nodes. Collective.
   Galerkin(Mat fine, Mat interpolation, Mat coarse);
 
-  /// Takes other numbers of P, those of rows on other ranks too. Collective.
+  /// Takes the new numbers of P, also those of rows on other ranks. Collective.
   void fetch(Mat fine, Mat interpolation);
   /// Computes the rows of `coarse` that depend on the given fine rows of A and P, all of this rank. Returns a flag for each coarse row of
   /// this rank: computed. Collective: each rank has the part of PᵀAP that its fine rows give, and sends what belongs to coarse nodes of others.

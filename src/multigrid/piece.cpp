@@ -40,12 +40,13 @@ void each_entry(const algebra::SparseMatrix& lower, const std::vector<int>& slot
   for (int j = 0; j < lower.cols(); ++j)
     for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k) {
       const int i = lower.innerIndexPtr()[k];
+      if (i < j) throw std::runtime_error("multigrid: the matrix is not a lower triangle");
       visit(slot[i], slot[j], k);
       if (i != j) visit(slot[j], slot[i], k);
     }
 }
 
-/// Mean of the diagonal, which must be positive.
+/// Mean of the diagonal. Throws where that is not positive.
 double mean_diagonal(const algebra::SparseMatrix& lower) {
   const int* begin = lower.outerIndexPtr();
   double sum = 0;
@@ -129,7 +130,9 @@ Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matri
   if (2.0 * static_cast<double>(matrix.lower.nonZeros()) > std::numeric_limits<int>::max())
     throw std::runtime_error("multigrid: the matrix has more entries than can be counted");
   finest_ = full(matrix.lower);
-  if (matrix.displaced && !matrix.coarse) displaced_ = full(*matrix.displaced);
+  if (!matrix.displaced) return;
+  if (matrix.coarse) mean_diagonal(*matrix.displaced);
+  else displaced_ = full(*matrix.displaced);
 }
 
 Pieces::Full Pieces::full(const algebra::SparseMatrix& lower) const {
@@ -158,20 +161,18 @@ Rows Pieces::rows_of(int rank, const Full& full) const {
 }
 
 Piece Pieces::of(int rank) const {
-  const Matrix& matrix = matrix_;
-  const Numbering& numbering = numbering_;
-  const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
-  const Range finest = range_of(rank, numbering, 0);
+  const int meshes = matrix_.coarse ? static_cast<int>(matrix_.coarse->size()) : 0;
+  const Range finest = range_of(rank, numbering_, 0);
   Piece p;
-  p.block = numbering.block(), p.dimension = matrix.dimension, p.motions = static_cast<int>(matrix.near_kernel.cols());
-  for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering, l).count());
+  p.block = numbering_.block(), p.dimension = matrix_.dimension, p.motions = static_cast<int>(matrix_.near_kernel.cols());
+  for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering_, l).count());
   p.matrix = rows_of(rank, finest_);
   for (int l = 0; l < meshes; ++l)
-    p.functions.push_back(some_rows((*matrix.coarse)[l], l == 0 ? &numbering.slot() : &numbering.functions(l), &numbering.functions(l + 1),
-                                    range_of(rank, numbering, l)));
+    p.functions.push_back(some_rows((*matrix_.coarse)[l], l == 0 ? &numbering_.slot() : &numbering_.functions(l), &numbering_.functions(l + 1),
+                                    range_of(rank, numbering_, l)));
   if (displaced_.lower) p.displaced = rows_of(rank, displaced_);
-  if (matrix.unknowns) p.unknowns = some_rows(*matrix.unknowns, &numbering.slot(), &numbering.slot(), finest, numbering.idle());
-  p.modes = some_modes(matrix.near_kernel, meshes > 0 ? numbering.functions(meshes) : numbering.slot(), range_of(rank, numbering, meshes));
+  if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, &numbering_.slot(), &numbering_.slot(), finest, numbering_.idle());
+  p.modes = some_modes(matrix_.near_kernel, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
   return p;
 }
 

@@ -32,7 +32,7 @@ TEST_CASE("the resistance that comes with a solution is the product with the sti
       const auto by = stiffness.solve_in_basis(random.vector(kUnknowns), 1e-14);
       REQUIRE(by.resistance.size() == kUnknowns);
       CHECK((by.resistance - product(by.u)).norm() <= 1e-12 * product(by.u).norm());
-      CHECK((stiffness.resistance_of_held(at_held) - product(T * at_held)).norm() <= 1e-12 * product(T * at_held).norm() + 1e-13);
+      CHECK((stiffness.resistance_of_watched(at_held) - product(T * at_held)).norm() <= 1e-12 * product(T * at_held).norm() + 1e-13);
     }
   }
 }

@@ -159,7 +159,8 @@ for _, count in ipairs(sizes) do
     for _, join in ipairs(joins) do
       local s <const> = solved(part, h, join)
       glued = glued or s.time.total
-      line = (line or ("%-8s %8d"):format(part, s.unknowns // 3)) .. ("  %8.2f s  x%.2f %3d it"):format(s.time.total, s.time.total / glued, s.iterations) .. (s.multigrid and (" %3d cg"):format(s.multigrid.cg) or "")
+      local cg <const> = s.multigrid and (" %3d cg"):format(s.multigrid.cg) or ""
+      line = (line or ("%-8s %8d"):format(part, s.unknowns // 3)) .. ("  %8.2f s  x%.2f %3d it"):format(s.time.total, s.time.total / glued, s.iterations) .. cg
     end
     print(line .. ("  %6.2f GB"):format(peak_memory()))
   end

@@ -90,8 +90,8 @@ class HeldStep final : public Step {
     if (resistance.size() == 0) return forget();
     if (elastic_known_ != Known::no) elastic_ -= resistance;
   }
-  /// The resistance has the rounding of a product in double precision. A hundredth of that is let pass: where the movement is so small a part of u, and no
-  /// great terms cancel in it, as they do where springs hold rows.
+  /// The resistance is rounded as a product in double precision. Where the movement is at most a hundredth of u, this error is a hundredth of that of Ku, and
+  /// elastic_ still counts as precise. Where springs hold rows that have no unknown of their own it does not: there great terms cancel.
   void move(const HeldStiffness::Displaced& by) {
     constexpr double kSmall = 0.01;
     if (elastic_known_ == Known::precisely && (sprung_ || !(by.u.lpNorm<Eigen::Infinity>() <= kSmall * static_cast<double>(u_.lpNorm<Eigen::Infinity>()))))
@@ -100,7 +100,7 @@ class HeldStep final : public Step {
     resist(by.resistance);
   }
 
-  /// Goes to where of the forces left a share of what refinement aims at is left, and of themselves that share at most.
+  /// Solves for the forces left, so far that a share of what refinement aims at remains, and no more than that share of themselves. `sum`: ‖left‖₁.
   void approach(const Vector& left, double sum) {
     const double aim = std::min(1.0, unbalanced_ * gross_ / sum);
     move(stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * aim)));
@@ -139,7 +139,7 @@ class HeldStep final : public Step {
     trivial_ ? u_ += moved.cast<long double>() : u_ += T_ * moved.cast<long double>();
     if (elastic_known_ == Known::no) return;
     elastic_known_ = Known::roughly;
-    resist(stiffness_.resistance_of_held(moved));
+    resist(stiffness_.resistance_of_watched(moved));
   }
 
   /// Stiffness across the direction of slip.
@@ -206,8 +206,9 @@ class HeldStep final : public Step {
     if (arrive()) return;
     for (int k = 0; k < kMostDirections && left.allFinite(); ++k) {
       if ((left.lpNorm<1>() <= enough || directions.size() == kKeptDirections) && arrive()) return;
-      const HeldStiffness::Displaced by = stiffness_.solve_in_basis(left, kShareOfDirection);
-      Direction d{by.u, response(by)};
+      HeldStiffness::Displaced by = stiffness_.solve_in_basis(left, kShareOfDirection);
+      Vector change = response(by);
+      Direction d{std::move(by.u), std::move(change)};
       const double whole = d.change.squaredNorm();
       for (const Direction& old : directions) {
         const double share = d.change.dot(old.change) / old.change.squaredNorm();
@@ -251,7 +252,7 @@ class HeldStep final : public Step {
     if (std::exchange(known_, true)) return forces_;
     const Known how = unbalanced_ < kRounding ? Known::precisely : Known::roughly;
     const bool carried = elastic_known_ >= how;
-    LongVector all = !carried ? elastic_anew(how) : trivial_ ? LongVector(elastic_.cast<long double>()) : LongVector(LongVector::Zero(u_.size()));
+    LongVector all = carried ? LongVector(LongVector::Zero(u_.size())) : elastic_anew(how);
     gross_ = f_.lpNorm<1>();
     for (int r = 0; r < problem_.rows(); ++r) {
       const long double multiplier = lambda_[r] + spring_[r] * gap(r);
@@ -263,7 +264,7 @@ class HeldStep final : public Step {
     }
     Vector& left = forces_;
     left = in_basis(all);
-    if (carried && !trivial_) left += elastic_;
+    if (carried) left += elastic_;
     const Vector without = slips_.empty() ? Vector() : left;
     for (const Linearisation::Slip& s : slips_) {
       const Vector force = beyond(s, without);

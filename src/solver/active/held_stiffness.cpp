@@ -148,17 +148,13 @@ Vector HeldStiffness::resistance(const Vector& y, Vector Ay) const {
     Ay[e.row] -= e.by * y[e.column];
     if (e.row != e.column) Ay[e.column] -= e.by * y[e.row];
   }
+  const Vector of_held = resistance_of_watched(y);
   for (Eigen::Index i = 0; i < Ay.size(); ++i)
-    if (held_[i]) Ay[i] = 0;
-  const double* K = lower().valuePtr();
-  for (const Entry& e : of_watched_) {
-    if (held_[e.row]) Ay[e.row] += K[e.place] * y[e.column];
-    if (held_[e.column] && e.row != e.column) Ay[e.column] += K[e.place] * y[e.row];
-  }
+    if (held_[i]) Ay[i] = of_held[i];
   return Ay;
 }
 
-Vector HeldStiffness::resistance_of_held(const Vector& y) const {
+Vector HeldStiffness::resistance_of_watched(const Vector& y) const {
   Vector forces = Vector::Zero(y.size());
   const double* K = lower().valuePtr();
   for (const Entry& e : of_watched_) {

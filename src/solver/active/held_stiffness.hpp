@@ -54,6 +54,7 @@ class HeldStiffness {
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
+  /// What forces displace.
   struct Displaced {
     algebra::Vector u;
     algebra::Vector resistance;  ///< TᵀKu, from the residual that an iterative solver returns; empty where the solver is direct
@@ -63,10 +64,10 @@ class HeldStiffness {
   /// The same for forces given as Tᵀb. An iterative solver stops at a residual of `tolerance` times their norm, and throws NotSolved if it cannot
   /// reach that.
   Displaced solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;
-  /// TᵀKT y of a y that is zero but where rows may hold.
-  algebra::Vector resistance_of_held(const algebra::Vector& y) const;
+  /// TᵀKT y at the unknowns that rows may hold; where y is zero but there, at all unknowns.
+  algebra::Vector resistance_of_watched(const algebra::Vector& y) const;
 
-  /// u without the motions that no row notices, as solve() gives it.
+  /// u without the motions that no row notices: solve() gives none of them.
   algebra::Vector without_unnoticed(const algebra::Vector& u) const { return problem::least(unnoticed_, u); }
 
   const algebra::SpdSolver& solver() const { return *solver_; }
@@ -83,7 +84,7 @@ class HeldStiffness {
   void change(int row, int column, double by);
   void spring_rows(const algebra::Vector& spring);
   void watch(const std::vector<char>& held);
-  /// TᵀKT y from A y, for a y that is zero at what is held: without what springs added, with the rows of held unknowns.
+  /// TᵀKT y from A y, for a y that is zero at what is held: A has springs in addition, and lacks the rows of held unknowns.
   algebra::Vector resistance(const algebra::Vector& y, algebra::Vector Ay) const;
   const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
   /// What differs from lower(), each place once and in their order; changed_ is empty then.

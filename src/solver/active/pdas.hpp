@@ -27,7 +27,7 @@ struct Pdas : Settings {
   bool interior = false;
   /// What solves the linear systems of all unknowns; empty: a sparse Cholesky factor.
   MakeSpdSolver linear;
-  /// Where coarser meshes are known and no `start` is given: begun where the solution on the next coarser mesh ends; see coarse_start().
+  /// Where coarser meshes are known and no `start` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
   bool nested = false;
   /// What solves the linear problem of an iteration in its place, without friction; empty: held_step.
   std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>

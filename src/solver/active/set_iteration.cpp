@@ -97,8 +97,8 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
   if (settings.from && !settings.reduced) begin_from(*settings.from);
 }
 
-/// Goes on from u, and from where points stick and slip in `from`; which normal rows bear is known from `start`. Given bounds are those of a finer mesh's
-/// points, fewer of which the coarser one has: there its friction says nothing.
+/// Goes on from u, and from where points stick and slip in `from`; which normal rows bear is known from `start`. Bounds that are
+/// given belong to points of this mesh, and the coarser one has only some of them: its friction is too small there, and its slip is left out.
 void SetIteration::begin_from(const problem::State& from) {
   step->begin(from.u);
   const auto given = [](const problem::FrictionGroup& group) { return group.points() > 0 && group.law->bound_slope(0) == 0; };

@@ -89,8 +89,7 @@ struct Beginning {
   std::vector<char> start;
   /// Shared by problems that differ in f and c alone, for methods that condense; empty: condensed anew.
   std::shared_ptr<problem::Condenser> condenser = nullptr;
-  /// A state of this problem to go on from, for methods that know more of one than which rows are active (RowMethod, for which `start` then does not
-  /// count; `pdas` on all unknowns, which takes both). Empty: from rest.
+  /// A state of this problem to go on from. RowMethod then ignores `start`; `pdas` on all unknowns takes both; other methods ignore this. Empty: from rest.
   std::shared_ptr<const problem::State> from = nullptr;
 };
 
