@@ -24,10 +24,10 @@ constexpr double kMostAcross = 1e4;
 constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
-/// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at; what is enough where digits cost iterations, until
-/// active sets come to rest. With friction, whose steps converge as Newton's, kOfOff is the share of what the last forces of rows were off their laws. Refined
-/// so often at most.
-constexpr double kUnbalanced = 1e-12, kRough = 1e-3, kOfOff = 0.01;
+/// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at. Where digits cost iterations kRough is enough until active sets
+/// come to rest, then kSharper, in the end kUnbalanced. With friction, whose steps converge as Newton's, kOfOff of what the last forces of rows were off their
+/// laws; more than kSharper would cost steps where stiffnesses are far apart. Refined so often at most.
+constexpr double kUnbalanced = 1e-12, kSharper = 1e-3, kRough = 0.03, kOfOff = 0.01;
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
 /// Above this tolerance residuals are computed in double precision.
@@ -57,7 +57,8 @@ class HeldStep final : public Step {
     place(l.slips);
     if (!stiffness_.factor(spring_, held_, across_)) return false;
     lambda_ = constant_, known_ = false;
-    unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(kOfOff * l.off * of_rows_, kUnbalanced, kRough) : kUnbalanced;
+    const double enough = (problem_.friction.empty() ? kRough : kOfOff * l.off) * of_rows_;
+    unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(enough, kUnbalanced, roughest_) : kUnbalanced;
     if (slips_.empty()) {
       const Vector left = residual();
       if (const double sum = left.lpNorm<1>(); sum != 0) approach(left, sum);
@@ -70,7 +71,7 @@ class HeldStep final : public Step {
 
   bool sharpen(Vector& lambda, Vector& x) override {
     if (unbalanced_ <= kUnbalanced) return false;
-    unbalanced_ = kUnbalanced, known_ = false;
+    roughest_ = unbalanced_ = unbalanced_ > kSharper ? kSharper : kUnbalanced, known_ = false;
     refine();
     return u_.allFinite() && tell(lambda, x);
   }
@@ -375,6 +376,7 @@ class HeldStep final : public Step {
   Vector forces_;
   bool known_ = false;                 ///< are forces_ those of u_ and lambda_?
   double unbalanced_ = kUnbalanced;    ///< of gross_, what is aimed at
+  double roughest_ = problem_.friction.empty() ? kRough : kSharper;  ///< that
   double gross_ = 0;                   ///< ‖f‖₁ + ‖Bᵀλ‖₁ of the last forces()
   double of_rows_ = 1;                 ///< the second's share: small where supports are moved, as their forces are loads
 };

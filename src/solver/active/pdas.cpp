@@ -109,7 +109,7 @@ void come_to_rest(SetIteration& it) {
   if (resting.empty()) return;
   Vector lambda, x;
   if (it.step->solve(rest, lambda, x)) {
-    it.step->sharpen(lambda, x);
+    while (it.step->sharpen(lambda, x)) {}
     const Noise small = it.noise(lambda, x);
     Linearisation found = linearise(problem, lambda, x, it.rho, small, &it.l);
     bool allowed = true;
@@ -124,7 +124,7 @@ void come_to_rest(SetIteration& it) {
     }
   }
   if (!it.step->solve(it.l, it.lambda, it.x)) throw std::logic_error("pdas: a linear problem that had a solution has none");
-  it.step->sharpen(it.lambda, it.x);
+  while (it.step->sharpen(it.lambda, it.x)) {}
 }
 
 }  // namespace

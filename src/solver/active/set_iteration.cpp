@@ -166,7 +166,6 @@ Linearisation SetIteration::held(Linearisation l, const Vector& x) const {
 
 End SetIteration::iterate(int most, int patience) {
   seen_.clear();
-  sharp_ = false;
   double nearest = INFINITY;
   int since = 0;
   for (int k = 0; k < most && (k < patience || !crawls()); ++k) {
@@ -206,9 +205,9 @@ std::optional<End> SetIteration::advance() {
   alpha.reset();
   const bool whole = problem.friction.empty() || result.iterations <= kUnguided || !shorten(next_lambda, next_x);
   Linearisation next = follow();
-  if (whole && (sharp_ || at_rest(next) || repeats(next)) && step->sharpen(lambda, x)) {
+  while (whole && (at_rest(next) || repeats(next)) && step->sharpen(lambda, x)) {
     next = follow();
-    if (!std::exchange(sharp_, true)) seen_.clear();  // rough states may have had other branches
+    seen_.clear();  // rougher states may have had other branches
   }
   record(next);
   if (whole && at_rest(next)) {

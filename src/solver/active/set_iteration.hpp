@@ -80,7 +80,6 @@ class SetIteration {
   std::optional<HeldStiffness> stiffness_;  ///< of the held form, and of the interior point method
   std::vector<int> changed_;
   std::set<std::uint64_t> seen_;
-  bool sharp_ = false;  ///< From the first sharpened state on every state is sharpened, so that branches which come again tell a cycle.
   Stopwatch watch_;
 };
 

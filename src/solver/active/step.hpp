@@ -18,7 +18,7 @@ class Step {
   /// Sets λ and x = Bu − c. False where the linear problem is singular (the active rows
   /// depend on each other beyond repair, or do not hold a body).
   virtual bool solve(const Linearisation& l, algebra::Vector& lambda, algebra::Vector& x) = 0;
-  /// Makes the last solution as exact as it can be, where it was not; false where it is.
+  /// Makes the last solution more exact, and all that follow at least as exact; false where it is as exact as it can be.
   virtual bool sharpen(algebra::Vector& /*lambda*/, algebra::Vector& /*x*/) { return false; }
   /// Takes u back towards that of the solve before the last: this part of the way is left. For steps that take friction.
   virtual void go_back(double /*part*/) {}
