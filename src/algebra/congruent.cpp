@@ -1,5 +1,7 @@
 #include "algebra/congruent.hpp"
 
+#include "base/parallel.hpp"
+
 namespace dotyk::algebra {
 namespace {
 
@@ -29,19 +31,35 @@ class SparseColumn {
 
 // With L = A's lower triangle and half its diagonal, PᵀAP = M + Mᵀ for M = PᵀLP, which is made column by column. `rows`: P once more.
 SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P, const SparseRows& rows) {
-  SparseColumn fine(P.rows()), coarse(P.cols());
+  struct Columns {
+    std::vector<int> counts, places;
+    std::vector<double> values;
+  };
+  constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
+  const int shares = shares_of(lower.nonZeros(), kFew);
+  std::vector<Columns> some(static_cast<std::size_t>(shares));
+  parallel_shares(static_cast<int>(P.cols()), shares, [&](int k, int first, int end) {
+    Columns& own = some[k];
+    SparseColumn fine(P.rows()), coarse(P.cols());
+    for (int J = first; J < end; ++J) {
+      for (SparseMatrix::InnerIterator p(P, J); p; ++p)
+        for (SparseMatrix::InnerIterator l(lower, p.row()); l; ++l) fine.add(static_cast<int>(l.row()), (l.row() == l.col() ? 0.5 : 1) * l.value() * p.value());
+      fine.empty([&](int i, double value) {
+        for (SparseRows::InnerIterator p(rows, i); p; ++p) coarse.add(static_cast<int>(p.col()), p.value() * value);
+      });
+      const std::size_t before = own.places.size();
+      coarse.empty([&](int I, double value) {
+        own.places.push_back(I), own.values.push_back(value);
+      });
+      own.counts.push_back(static_cast<int>(own.places.size() - before));
+    }
+  });
   std::vector<int> starts{0}, places;
   std::vector<double> values;
-  for (int J = 0; J < P.cols(); ++J) {
-    for (SparseMatrix::InnerIterator p(P, J); p; ++p)
-      for (SparseMatrix::InnerIterator l(lower, p.row()); l; ++l) fine.add(static_cast<int>(l.row()), (l.row() == l.col() ? 0.5 : 1) * l.value() * p.value());
-    fine.empty([&](int i, double value) {
-      for (SparseRows::InnerIterator p(rows, i); p; ++p) coarse.add(static_cast<int>(p.col()), p.value() * value);
-    });
-    coarse.empty([&](int I, double value) {
-      places.push_back(I), values.push_back(value);
-    });
-    starts.push_back(static_cast<int>(places.size()));
+  for (Columns& own : some) {
+    for (const int count : own.counts) starts.push_back(starts.back() + count);
+    places.insert(places.end(), own.places.begin(), own.places.end()), values.insert(values.end(), own.values.begin(), own.values.end());
+    own = {};
   }
   const Eigen::Map<const SparseMatrix> M(P.cols(), P.cols(), static_cast<Eigen::Index>(places.size()), starts.data(), places.data(), values.data());
   const SparseMatrix mirrored = M.transpose(), sorted = mirrored.transpose();

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -11,7 +14,11 @@
 
 namespace dotyk {
 
-inline int cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+/// Those that this process may use: mpirun binds each to one.
+inline int cores() {
+  cpu_set_t own;
+  return sched_getaffinity(0, sizeof own, &own) == 0 ? std::max(1, CPU_COUNT(&own)) : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
 
 /// Calls work(0), …, work(count − 1), each once, on as many threads as there are cores, or `most`; an idle thread takes
 /// the next number. The calls must not touch what another one writes. Serial on one core and for count ≤ 1.
@@ -47,6 +54,15 @@ inline void parallel_for(int count, const std::function<void(int)>& work, int mo
     run();
   }
   if (failure) std::rethrow_exception(failure);
+}
+
+/// Into how many like shares work is cut for threads, none of which gets less than `least`.
+inline int shares_of(std::int64_t work, std::int64_t least) { return static_cast<int>(std::clamp<std::int64_t>(work / least, 1, cores())); }
+
+/// Calls work(k, first, end) for so many shares first … end − 1 of the numbers below `count`, each on a thread, as parallel_for() does.
+inline void parallel_shares(int count, int shares, const std::function<void(int, int, int)>& work) {
+  const auto begin = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(count) * k / shares); };
+  parallel_for(shares, [&](int k) { work(k, begin(k), begin(k + 1)); });
 }
 
 }  // namespace dotyk

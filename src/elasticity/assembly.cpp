@@ -1,9 +1,12 @@
 #include "elasticity/assembly.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "elasticity/kernel.hpp"
 
 namespace dotyk::elasticity {
@@ -16,17 +19,16 @@ using mesh::Mesh;
 class Assembly {
  public:
   Assembly(const Mesh& mesh, const Numbering& numbering)
-      : dim_(mesh.dimension()), numbering_(numbering), first_(mesh.node_count(), 0), count_(mesh.node_count(), 0) {
+      : dim_(mesh.dimension()), threads_(shares_of(mesh.cell_count(), 10'000)), numbering_(numbering), first_(mesh.node_count(), 0), count_(mesh.node_count(), 0) {
     for (int u = numbering.count() - 1; u >= 0; --u) first_[numbering.node[u]] = u, ++count_[numbering.node[u]];
-    const std::size_t entries = find_neighbours(mesh);
-    if (entries > 2'000'000'000)
-      throw InputError("the stiffness matrix would have more than 2e9 entries; use a coarser mesh");
-    system.K.resize(numbering.count(), numbering.count());
-    system.K.resizeNonZeros(static_cast<Eigen::Index>(entries));
-    std::fill_n(system.K.valuePtr(), entries, 0.0);
+    find_neighbours(mesh);
     number_entries();
     system.f = Vector::Zero(numbering.count());
   }
+
+  int threads() const { return threads_; }
+  /// Is none of the node's components prescribed?
+  bool free(int node) const { return count_[node] == dim_; }
 
   /// block(i, j) couples component i of node a to component j of node b; for a ≠ b it stands
   /// for both triangles, for a = b it is a full symmetric block.
@@ -35,7 +37,7 @@ class Assembly {
     const int high = std::max(a, b), low = std::min(a, b);
     int place = start_[low];
     while (neighbour_[place] != high) ++place;
-    if (count_[high] == dim_ && count_[low] == dim_) {  // nothing prescribed: the rows of a column follow one another
+    if (free(high) && free(low)) {  // the rows of a column follow one another
       for (int j = 0; j < dim_; ++j) {
         double* column = system.K.valuePtr() + system.K.outerIndexPtr()[first_[low] + j] + offset_[place] - j;
         for (int i = a == b ? j : 0; i < dim_; ++i) column[i] += a >= b ? block(i, j) : block(j, i);
@@ -64,60 +66,94 @@ class Assembly {
   int unknown(int node, int i) const { return numbering_.unknown[static_cast<std::size_t>(node) * dim_ + i]; }
   double prescribed(int node, int i) const { return numbering_.prescribed[static_cast<std::size_t>(node) * dim_ + i]; }
 
-  /// The number of entries.
-  std::size_t find_neighbours(const Mesh& mesh) {
+  void find_neighbours(const Mesh& mesh) {
     const int nodes = mesh.node_count(), per_cell = mesh.topology().nodes;
     const Buckets around = mesh::cells_of_nodes(mesh);
-    std::vector<int> mark(nodes, -1);
-    neighbour_.reserve(static_cast<std::size_t>(nodes) * (dim_ == 2 ? 4 : 14));
-    std::size_t entries = 0;
-    for (int b = 0; b < nodes; ++b) {
-      const auto first = static_cast<std::ptrdiff_t>(neighbour_.size());
-      start_.push_back(static_cast<int>(first));
-      neighbour_.push_back(b);
-      for (const int c : around[b])
-        for (int l = 0; l < per_cell; ++l) {
-          const int a = mesh.cell(c)[l];
-          if (a > b && mark[a] != b) mark[a] = b, neighbour_.push_back(a);
-        }
-      std::sort(neighbour_.begin() + first + 1, neighbour_.end());
-      int rows = 0;
-      for (std::size_t k = first; k < neighbour_.size(); ++k) offset_.push_back(rows), rows += count_[neighbour_[k]];
-      entries += static_cast<std::size_t>(rows) * count_[b] - count_[b] * (count_[b] - 1) / 2;
-    }
-    start_.push_back(static_cast<int>(neighbour_.size()));
-    return entries;
+    start_.assign(static_cast<std::size_t>(nodes) + 1, 0);
+    std::vector<std::vector<int>> found(static_cast<std::size_t>(threads_));
+    parallel_shares(nodes, threads_, [&](int k, int first, int end) {
+      std::vector<int> mark(static_cast<std::size_t>(nodes), -1), &own = found[k];
+      own.reserve(static_cast<std::size_t>(end - first) * (dim_ == 2 ? 4 : 8));
+      for (int b = first; b < end; ++b) {
+        const auto before = static_cast<std::ptrdiff_t>(own.size());
+        own.push_back(b);
+        for (const int c : around[b])
+          for (int l = 0; l < per_cell; ++l) {
+            const int a = mesh.cell(c)[l];
+            if (a > b && mark[a] != b) mark[a] = b, own.push_back(a);
+          }
+        std::sort(own.begin() + before + 1, own.end());
+        start_[b + 1] = static_cast<int>(own.size() - before);
+      }
+    });
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    for (std::vector<int>& own : found) neighbour_.insert(neighbour_.end(), own.begin(), own.end()), own = {};
   }
 
+  /// Makes the pattern, with zeros.
   void number_entries() {
-    int *outer = system.K.outerIndexPtr(), *inner = system.K.innerIndexPtr(), at = 0;
-    for (std::size_t b = 0; b < count_.size(); ++b)
-      for (int rank = 0; rank < count_[b]; ++rank) {
-        outer[first_[b] + rank] = at;
-        for (int k = start_[b]; k < start_[b + 1]; ++k) {
-          const int a = neighbour_[k];
-          for (int r = k == start_[b] ? rank : 0; r < count_[a]; ++r) inner[at++] = first_[a] + r;
+    const int nodes = static_cast<int>(count_.size());
+    std::vector<std::int64_t> entries{0};  // before those of a node's columns
+    for (int b = 0; b < nodes; ++b) {
+      int rows = 0;
+      for (int k = start_[b]; k < start_[b + 1]; ++k) offset_.push_back(rows), rows += count_[neighbour_[k]];
+      entries.push_back(entries.back() + static_cast<std::int64_t>(rows) * count_[b] - count_[b] * (count_[b] - 1) / 2);
+    }
+    if (entries.back() > 2'000'000'000) throw InputError("the stiffness matrix would have more than 2e9 entries; use a coarser mesh");
+    system.K.resize(numbering_.count(), numbering_.count());
+    system.K.resizeNonZeros(static_cast<Eigen::Index>(entries.back()));
+    int *outer = system.K.outerIndexPtr(), *inner = system.K.innerIndexPtr();
+    double* values = system.K.valuePtr();
+    outer[numbering_.count()] = static_cast<int>(entries.back());
+    parallel_shares(nodes, threads_, [&](int, int first, int end) {
+      int at = static_cast<int>(entries[first]);
+      for (int b = first; b < end; ++b)
+        for (int rank = 0; rank < count_[b]; ++rank) {
+          outer[first_[b] + rank] = at;
+          for (int k = start_[b]; k < start_[b + 1]; ++k)
+            for (int a = neighbour_[k], r = k == start_[b] ? rank : 0; r < count_[a]; ++r) inner[at] = first_[a] + r, values[at++] = 0;
         }
-      }
-    outer[numbering_.count()] = at;
+    });
   }
 
   int dim_;
+  const int threads_;
   const Numbering& numbering_;
   std::vector<int> first_, count_;      ///< of a node's unknowns
   std::vector<int> start_, neighbour_;  ///< node → its neighbours ≥ itself, ascending, itself first
   std::vector<int> offset_;             ///< unknowns of the neighbours before
 };
 
-/// Calls visit(nodes of the cell, k) for every cell; k[a][b][i][j] couples component i of its node a
+/// Calls visit(nodes of the cell, k) for every cell that has a node for which `wanted` holds; k[a][b][i][j] couples component i of its node a
 /// to component j of its node b ≤ a.
-template <class E, class Visit>
-void for_each_stiffness(const Mesh& mesh, const MaterialField& material, Visit&& visit) {
+template <class E, class Wanted, class Visit>
+void for_each_stiffness(const Mesh& mesh, const MaterialField& material, Wanted&& wanted, Visit&& visit) {
   double k[E::nodes][E::nodes][E::dim][E::dim];
   for_each_cell<E>(mesh, material, [&](int c, const auto& x, const Hooke& hooke) {
+    const int* n = mesh.cell(c);
+    if (!std::any_of(n, n + E::nodes, wanted)) return;
     stiffness<E>(x, hooke, k);
-    visit(mesh.cell(c), k);
+    visit(n, k);
   });
+}
+
+/// The cells' stiffness. Each thread has a range of nodes, and adds what belongs to the columns of theirs, in the order of the cells whatever the number of
+/// threads; blocks of nodes with prescribed components, which reach further, come last.
+template <class E>
+void add_stiffness(const Mesh& mesh, const MaterialField& material, Assembly& assembly) {
+  const auto add = [&](auto&& wanted, auto&& mine) {  // the blocks of nodes (low, high) for which `mine` holds; `wanted`: of one node of their cell
+    for_each_stiffness<E>(mesh, material, wanted, [&](const int* n, const auto& k) {
+      for (int a = 0; a < E::nodes; ++a)
+        for (int b = 0; b <= a; ++b)
+          if (mine(std::min(n[a], n[b]), std::max(n[a], n[b]))) assembly.add(n[a], n[b], [&](int i, int j) { return k[a][b][i][j]; });
+    });
+  };
+  const auto free = [&](int node) { return assembly.free(node); };
+  parallel_shares(mesh.node_count(), assembly.threads(), [&](int, int first, int end) {
+    const auto inside = [&](int node) { return node >= first && node < end; };
+    add(inside, [&](int low, int high) { return inside(low) && free(low) && free(high); });
+  });
+  add([&](int node) { return !free(node); }, [&](int low, int high) { return !free(low) || !free(high); });
 }
 
 }  // namespace
@@ -152,11 +188,7 @@ System assemble(const Mesh& mesh, const MaterialField& material,
       system.offset -= force[k] * numbering.prescribed[k];
   }
   dispatch(mesh.element, [&]<class E>() {
-    for_each_stiffness<E>(mesh, material, [&](const int* n, const auto& k) {
-      for (int a = 0; a < E::nodes; ++a)
-        for (int b = 0; b <= a; ++b)
-          assembly.add(n[a], n[b], [&](int i, int j) { return k[a][b][i][j]; });
-    });
+    add_stiffness<E>(mesh, material, assembly);
   });
   for (const FacetSpring& spring : springs)
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
@@ -214,7 +246,7 @@ std::vector<double> internal_force(const Mesh& mesh, const MaterialField& materi
   std::vector<double> force(u.size(), 0.0);
   const int dim = mesh.dimension();
   dispatch(mesh.element, [&]<class E>() {
-    for_each_stiffness<E>(mesh, material, [&](const int* n, const auto& k) {
+    for_each_stiffness<E>(mesh, material, [](int) { return true; }, [&](const int* n, const auto& k) {
       for (int a = 0; a < E::nodes; ++a)
         for (int b = 0; b < E::nodes; ++b)
           for (int i = 0; i < E::dim; ++i)

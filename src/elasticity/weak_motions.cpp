@@ -5,6 +5,7 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
+#include "algebra/symmetric_product.hpp"
 #include "elasticity/kernel.hpp"
 #include "algebra/dense/dense.hpp"
 #include "elasticity/rigid_modes.hpp"
@@ -98,28 +99,13 @@ struct Motions {
 
 using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// K V, in one pass over K. Eigen's product makes one for each column.
-ByRows product(const SparseMatrix& lower, const ByRows& V) {
-  ByRows KV = ByRows::Zero(V.rows(), V.cols());
-  const Eigen::Index count = V.cols();
-  const auto add = [&](Eigen::Index to, Eigen::Index from, double k) {
-    for (Eigen::Index c = 0; c < count; ++c) KV.data()[to * count + c] += k * V.data()[from * count + c];
-  };
-  for (int j = 0; j < lower.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      add(it.row(), j, it.value());
-      if (it.row() != j) add(j, it.row(), it.value());
-    }
-  return KV;
-}
-
 /// The least Rayleigh quotient (K, M) on the span of V; infinite where V is nothing.
 double least_quotient(const Motions& motions, const SparseMatrix& lower, DenseMatrix V) {
   const Vector norm = (V.cwiseAbs2().transpose() * motions.w).cwiseSqrt();
   for (Eigen::Index k = 0; k < V.cols(); ++k) V.col(k) *= norm[k] > 0 ? 1 / norm[k] : 0;
   const DenseMatrix Q = orthonormal_in(motions.w, V, 1e-8);
   if (Q.cols() == 0) return INFINITY;
-  return algebra::eigenvalues(Q.transpose() * product(lower, Q))[0];
+  return algebra::eigenvalues(Q.transpose() * algebra::symmetric_product(lower, ByRows(Q)))[0];
 }
 
 WeakMotions by_response(const Motions& motions, const Numbering& numbering, const SparseMatrix& lower,
@@ -175,7 +161,7 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, con
   const Eigen::Index rigid = motions.Q.cols();
   ByRows V(motions.Q.rows(), rigid + 1);
   V << motions.Q, motions.dilatation;
-  const DenseMatrix energies = V.transpose() * product(lower, V);
+  const DenseMatrix energies = V.transpose() * algebra::symmetric_product(lower, V);
   const algebra::Eigenpairs trial = algebra::eigenpairs(energies.topLeftCorner(rigid, rigid));
   const double own = energies(rigid, rigid) / motions.dilatation.cwiseAbs2().dot(motions.w);
   if (!std::isfinite(own) || !(trial.values[0] < kSuspicious * own)) return {};

@@ -38,6 +38,12 @@ struct ElementTopology {
 };
 
 const ElementTopology& topology(Element element);
+/// Its `nodes` and `dimension`, for inner loops.
+constexpr int nodes_of(Element element) {
+  constexpr int nodes[] = {3, 4, 4, 8, 6, 9, 10, 27};
+  return nodes[static_cast<int>(element)];
+}
+constexpr int dimension_of(Element element) { return static_cast<int>(element) % 4 < 2 ? 2 : 3; }
 
 /// The node of a cell of order 2 that lies between these corners, in any order; -1: none (a triangle's centre).
 int node_between(const ElementTopology& topology, std::vector<int> corners);

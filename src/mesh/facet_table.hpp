@@ -41,8 +41,10 @@ class FacetTable {
   /// Calls visit(facet) for each with these corners, ascending: one on the boundary, two within the mesh.
   template <class Visit>
   void with(const Corners& corners, const Visit& visit) const {
-    for (const int f : by_least_[corners[0]])
-      if (corners_[f] == corners) visit(f);
+    for (const int f : by_least_[corners[0]]) {
+      const Corners& own = corners_[f];
+      if (own[1] == corners[1] && own[2] == corners[2] && own[3] == corners[3]) visit(f);
+    }
   }
 
  private:

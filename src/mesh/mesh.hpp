@@ -37,11 +37,11 @@ struct Mesh {
   std::shared_ptr<const Coarser> coarser = nullptr;  ///< where it is known
 
   const ElementTopology& topology() const { return mesh::topology(element); }
-  int dimension() const { return topology().dimension; }
+  int dimension() const { return dimension_of(element); }
   int node_count() const { return static_cast<int>(coordinates.size()) / dimension(); }
-  int cell_count() const { return static_cast<int>(cells.size()) / topology().nodes; }
+  int cell_count() const { return static_cast<int>(cells.size()) / nodes_of(element); }
   const double* node(int i) const { return &coordinates[static_cast<std::size_t>(i) * dimension()]; }
-  const int* cell(int c) const { return &cells[static_cast<std::size_t>(c) * topology().nodes]; }
+  const int* cell(int c) const { return &cells[static_cast<std::size_t>(c) * nodes_of(element)]; }
 
   Point point(int i) const;
   Point mean(const int* nodes, int count) const;

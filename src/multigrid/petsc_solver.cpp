@@ -1,8 +1,10 @@
 // The doors of the library. PETSc knows no threads, so one call at a time goes through. No exception passes through functions of PETSc.
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <mutex>
 
+#include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "multigrid/changes.hpp"
 #include "multigrid/cycle.hpp"
@@ -28,13 +30,16 @@ class PetscSolver final : public algebra::SpdSolver {
     ranks.together([&] {
       std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
       if (matrix.changed) first = changes(*matrix.changed, {}, {}, numbering_, ranks.count());
-      workers_.tell(Task::make);
-      for (int r = 1; r < ranks.count(); ++r) {
-        Piece piece = pieces.of(r);
-        send(ranks, r, piece);
-        send(ranks, r, first[r]);
+      std::vector<Piece> some;  // of the ranks from r on: as many as threads make at once
+      for (int r = ranks.count(); r > 0;) {
+        some.assign(static_cast<std::size_t>(std::min(r, cores())), {});
+        const bool begins = r == ranks.count();
+        r -= static_cast<int>(some.size());
+        parallel_for(static_cast<int>(some.size()), [&](int k) { some[k] = pieces.of(r + k); });
+        if (begins) workers_.tell(Task::make);  // from now on MPI keeps their processors busy with waiting
+        for (int k = r > 0 ? 0 : 1; k < static_cast<int>(some.size()); ++k) send(ranks, r + k, some[k]), send(ranks, r + k, first[r + k]), some[k] = {};
       }
-      cycle_ = std::make_unique<Cycle>(ranks, pieces.of(0), first[0]);
+      cycle_ = std::make_unique<Cycle>(ranks, std::move(some[0]), first[0]);
     });
     workers_.made();
     alone_.unlock();

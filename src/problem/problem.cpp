@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algebra/dense/generalised_inverse.hpp"
+#include "algebra/symmetric_product.hpp"
 #include "base/error.hpp"
 #include "base/moderate.hpp"
 #include "base/text.hpp"
@@ -148,20 +149,9 @@ namespace {
 
 template <class Numbers>
 Numbers times(const Problem& problem, const Numbers& u) {
-  using Number = typename Numbers::Scalar;
-  Numbers result = Numbers::Zero(problem.unknowns());
-  for (const Block& block : problem.blocks) {
-    Number* own = result.data() + block.first;
-    const Number* moved = u.data() + block.first;
-    for (int j = 0; j < block.size(); ++j) {
-      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) {
-        const Eigen::Index i = it.row();
-        if (i < j) continue;
-        own[i] += it.value() * moved[j];
-        if (i != j) own[j] += it.value() * moved[i];
-      }
-    }
-  }
+  Numbers result(problem.unknowns());
+  for (const Block& block : problem.blocks)
+    result.segment(block.first, block.size()) = algebra::symmetric_product(block.K, Eigen::Map<const Numbers>(u.data() + block.first, block.size()));
   return result;
 }
 

@@ -18,8 +18,23 @@ TEST_CASE("every number is worked on once") {
   }
 }
 
+TEST_CASE("shares are like, follow one another and leave nothing out") {
+  for (int count : {0, 1, 2, 3, 1000, 2'000'000'000})
+    for (int shares : {1, 2, 3, 7}) {
+      std::vector<std::pair<int, int>> of(shares);
+      parallel_shares(count, shares, [&](int k, int first, int end) { of[k] = {first, end}; });
+      int from = 0;
+      for (const auto& [first, end] : of) {
+        CHECK(first == from);
+        CHECK(std::abs(end - first - count / shares) <= 1);
+        from = end;
+      }
+      CHECK(from == count);
+    }
+}
+
 TEST_CASE("threads work side by side where there are cores") {
-  if (std::thread::hardware_concurrency() < 2) return;
+  if (cores() < 2) return;
   // Two calls that wait for each other end only if both are under way at once.
   std::atomic<int> begun{0};
   std::set<std::thread::id> who;
@@ -49,6 +64,6 @@ TEST_CASE("of several exceptions the one of the least number comes out, and no c
     }
     CHECK(message == "17");
     CHECK(calls >= 18);
-    CHECK(calls <= 17 + static_cast<int>(std::thread::hardware_concurrency()));
+    CHECK(calls <= 17 + cores());
   }
 }

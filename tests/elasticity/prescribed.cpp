@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/elastic.hpp"
+#include "../support/one_core.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -45,6 +46,25 @@ TEST_CASE("with prescribed components K, f and the energy are those of the full 
       CHECK(std::abs(0.5 * u.dot(test::full(part.K) * u) - part.f.dot(u) + part.offset - energy) <
             1e-12 * (std::abs(energy) + K.norm()));
     }
+}
+
+TEST_CASE("the assembled system is the same to the last bit on one core and on several") {
+  const auto m = test::unit(3, mesh::Family::p1, 20);
+  REQUIRE(m.cell_count() > 40'000);
+  test::Random random(212);
+  std::vector<char> fixed(m.coordinates.size());
+  std::vector<double> value(fixed.size(), 0);
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    if (random.below(10) == 0) fixed[k] = 1, value[k] = random.between(-1, 1);
+  const auto numbering = elasticity::number(m, fixed, value);
+  const std::vector<double> force(fixed.size(), 1);
+  const auto assembled = [&] { return elasticity::assemble(m, test::steel(3), {}, force, numbering); };
+  const auto several = assembled();
+  const test::OneCore core;
+  const auto one = assembled();
+  CHECK(std::equal(one.K.valuePtr(), one.K.valuePtr() + one.K.nonZeros(), several.K.valuePtr()));
+  CHECK(one.f == several.f);
+  CHECK(one.offset == several.offset);
 }
 
 TEST_CASE("all components prescribed: no unknowns, the energy is the offset") {

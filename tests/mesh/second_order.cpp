@@ -49,6 +49,14 @@ mesh::Mesh bent(int dim, mesh::Family family, int n) {
 
 }  // namespace
 
+TEST_CASE("nodes and dimension of every cell type are those of its topology") {
+  for (int k = 0; k < 8; ++k) {
+    const auto element = static_cast<mesh::Element>(k);
+    CHECK(mesh::nodes_of(element) == mesh::topology(element).nodes);
+    CHECK(mesh::dimension_of(element) == mesh::topology(element).dimension);
+  }
+}
+
 TEST_CASE("order 2 adds a node an edge, a quadrilateral face and a tensor cell; each shared by the cells that have it") {
   for (const int n : {1, 2, 3}) {
     // Of the lattice of half the spacing, tensor cells and Kuhn's tetrahedra have every point.

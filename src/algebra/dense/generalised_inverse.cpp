@@ -7,6 +7,7 @@
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/lu.hpp"
 #include "algebra/dense/null_space.hpp"
+#include "algebra/symmetric_product.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -45,13 +46,7 @@ std::vector<int> fixing_unknowns(const SparseMatrix& kernel) {
 }
 
 Vector gross_product(const SparseMatrix& lower, const Vector& w) {
-  Vector sum = Vector::Zero(w.size());
-  for (int j = 0; j < lower.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      sum[it.row()] += std::abs(it.value() * w[j]);
-      if (it.row() != j) sum[j] += std::abs(it.value() * w[it.row()]);
-    }
-  return sum;
+  return symmetric_product(lower, Vector(w.cwiseAbs()), [](double a) { return std::abs(a); });
 }
 
 Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R) {
@@ -59,7 +54,7 @@ Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R) {
   if (R.cols() == 0) return result;
   const Vector rows = gross_product(lower, Vector::Ones(lower.rows()));
   for (Eigen::Index k = 0; rows.size() > 0 && k < R.cols(); ++k) {
-    const Vector force = lower.selfadjointView<Eigen::Lower>() * R.col(k);
+    const Vector force = symmetric_product(lower, Vector(R.col(k)));
     for (Eigen::Index i = 0; i < rows.size(); ++i)
       if (rows[i] > 0) result[k] = std::max(result[k], std::abs(force[i]) / rows[i]);
     result[k] /= R.col(k).lpNorm<Eigen::Infinity>();

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "algebra/types.hpp"
+#include "base/parallel.hpp"
+
+namespace dotyk::algebra {
+
+/// A V of a symmetric A, given as its lower triangle, in the numbers of V: a vector, or several as the columns of a matrix stored by rows, in one pass over A.
+/// `of`: what is taken for an entry, as its modulus. On several threads sums are in another order than on one.
+template <class Numbers, class Of = std::identity>
+typename Numbers::PlainObject symmetric_product(const SparseMatrix& lower, const Numbers& V, Of of = {}) {
+  using Plain = typename Numbers::PlainObject;
+  using Number = typename Numbers::Scalar;
+  static_assert(Numbers::ColsAtCompileTime == 1 || Numbers::IsRowMajor);
+  const int n = static_cast<int>(lower.cols());
+  const Eigen::Index count = Numbers::ColsAtCompileTime == 1 ? 1 : V.cols();
+  const auto add = [&](Number* to, int from, double a) {
+    for (Eigen::Index c = 0; c < count; ++c) to[c] += a * V.data()[from * count + c];
+  };
+  constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
+  const int shares = shares_of(lower.nonZeros(), kFew);
+  Plain product = Plain::Zero(V.rows(), V.cols());
+  std::vector<Plain> beyond(static_cast<std::size_t>(shares));  // what a share of the columns adds to the rows after it
+  parallel_shares(n, shares, [&](int k, int first, int end) {
+    Plain& after = beyond[k] = Plain::Zero(n - end, V.cols());
+    for (int j = first; j < end; ++j)
+      for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+        const int i = static_cast<int>(it.row());
+        if (i < j) continue;
+        const double a = of(it.value());
+        add(i < end ? product.data() + i * count : after.data() + (i - end) * count, j, a);
+        if (i != j) add(product.data() + j * count, i, a);
+      }
+  });
+  for (const Plain& after : beyond) product.bottomRows(after.rows()) += after;
+  return product;
+}
+
+}  // namespace dotyk::algebra
