@@ -36,9 +36,9 @@ SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P, const S
     std::vector<double> values;
   };
   constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
-  const int shares = shares_of(lower.nonZeros(), kFew);
-  std::vector<Columns> some(static_cast<std::size_t>(shares));
-  parallel_shares(static_cast<int>(P.cols()), shares, [&](int k, int first, int end) {
+  const int threads = threads_for(lower.nonZeros(), kFew);
+  std::vector<Columns> some(static_cast<std::size_t>(threads));
+  parallel_ranges(static_cast<int>(P.cols()), threads, [&](int k, int first, int end) {
     Columns& own = some[k];
     SparseColumn fine(P.rows()), coarse(P.cols());
     for (int J = first; J < end; ++J) {
@@ -58,6 +58,10 @@ SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P, const S
   std::vector<double> values;
   for (Columns& own : some) {
     for (const int count : own.counts) starts.push_back(starts.back() + count);
+    if (places.empty()) {  // not a second copy of all entries where there is one thread
+      places.swap(own.places), values.swap(own.values);
+      continue;
+    }
     places.insert(places.end(), own.places.begin(), own.places.end()), values.insert(values.end(), own.values.begin(), own.values.end());
     own = {};
   }

@@ -8,8 +8,9 @@
 
 namespace dotyk::algebra {
 
-/// A V of a symmetric A, given as its lower triangle, in the numbers of V: a vector, or several as the columns of a matrix stored by rows, in one pass over A.
-/// `of`: what is taken for an entry, as its modulus. On several threads sums are in another order than on one.
+/// The product A V of a symmetric matrix A, given as its lower triangle, with a vector V or a row-major matrix V, in V's number type. A is read once, whatever
+/// the number of columns. `of` is applied to each entry of A first: with the modulus the result is |A| V. The order of summation, and so rounding, depends on
+/// the number of threads.
 template <class Numbers, class Of = std::identity>
 typename Numbers::PlainObject symmetric_product(const SparseMatrix& lower, const Numbers& V, Of of = {}) {
   using Plain = typename Numbers::PlainObject;
@@ -21,10 +22,10 @@ typename Numbers::PlainObject symmetric_product(const SparseMatrix& lower, const
     for (Eigen::Index c = 0; c < count; ++c) to[c] += a * V.data()[from * count + c];
   };
   constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
-  const int shares = shares_of(lower.nonZeros(), kFew);
+  const int threads = threads_for(lower.nonZeros(), kFew);
   Plain product = Plain::Zero(V.rows(), V.cols());
-  std::vector<Plain> beyond(static_cast<std::size_t>(shares));  // what a share of the columns adds to the rows after it
-  parallel_shares(n, shares, [&](int k, int first, int end) {
+  std::vector<Plain> beyond(static_cast<std::size_t>(threads));  // what a range of columns adds to the rows after it
+  parallel_ranges(n, threads, [&](int k, int first, int end) {
     Plain& after = beyond[k] = Plain::Zero(n - end, V.cols());
     for (int j = first; j < end; ++j)
       for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {

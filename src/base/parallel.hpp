@@ -14,7 +14,7 @@
 
 namespace dotyk {
 
-/// Those that this process may use: mpirun binds each to one.
+/// The number of cores that this process may use. Under mpirun it can be one, as mpirun binds processes to cores.
 inline int cores() {
   cpu_set_t own;
   return sched_getaffinity(0, sizeof own, &own) == 0 ? std::max(1, CPU_COUNT(&own)) : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -56,13 +56,16 @@ inline void parallel_for(int count, const std::function<void(int)>& work, int mo
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Into how many like shares work is cut for threads, none of which gets less than `least`.
-inline int shares_of(std::int64_t work, std::int64_t least) { return static_cast<int>(std::clamp<std::int64_t>(work / least, 1, cores())); }
+/// The number of threads for an amount of work: at most one a core, and each with at least the amount `least`.
+inline int threads_for(std::int64_t work, std::int64_t least) {
+  return work < 2 * least ? 1 : static_cast<int>(std::min<std::int64_t>(work / least, cores()));
+}
 
-/// Calls work(k, first, end) for so many shares first … end − 1 of the numbers below `count`, each on a thread, as parallel_for() does.
-inline void parallel_shares(int count, int shares, const std::function<void(int, int, int)>& work) {
-  const auto begin = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(count) * k / shares); };
-  parallel_for(shares, [&](int k) { work(k, begin(k), begin(k + 1)); });
+/// Cuts the numbers 0 … count − 1 into ranges of nearly equal length and calls work(k, first, end) for the k-th range, first … end − 1. Each range has a
+/// thread of its own; exceptions are treated as in parallel_for().
+inline void parallel_ranges(int count, int ranges, const std::function<void(int, int, int)>& work) {
+  const auto begin = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(count) * k / ranges); };
+  parallel_for(ranges, [&](int k) { work(k, begin(k), begin(k + 1)); }, ranges);
 }
 
 }  // namespace dotyk

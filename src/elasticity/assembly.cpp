@@ -19,15 +19,15 @@ using mesh::Mesh;
 class Assembly {
  public:
   Assembly(const Mesh& mesh, const Numbering& numbering)
-      : dim_(mesh.dimension()), threads_(shares_of(mesh.cell_count(), 10'000)), numbering_(numbering), first_(mesh.node_count(), 0), count_(mesh.node_count(), 0) {
+      : dim_(mesh.dimension()), threads_(threads_for(mesh.cell_count(), kFewCells)), numbering_(numbering), first_(mesh.node_count(), 0), count_(mesh.node_count(), 0) {
     for (int u = numbering.count() - 1; u >= 0; --u) first_[numbering.node[u]] = u, ++count_[numbering.node[u]];
     find_neighbours(mesh);
-    number_entries();
+    make_pattern();
     system.f = Vector::Zero(numbering.count());
   }
 
   int threads() const { return threads_; }
-  /// Is none of the node's components prescribed?
+  /// Are all components of the node unknown?
   bool free(int node) const { return count_[node] == dim_; }
 
   /// block(i, j) couples component i of node a to component j of node b; for a ≠ b it stands
@@ -67,11 +67,11 @@ class Assembly {
   double prescribed(int node, int i) const { return numbering_.prescribed[static_cast<std::size_t>(node) * dim_ + i]; }
 
   void find_neighbours(const Mesh& mesh) {
-    const int nodes = mesh.node_count(), per_cell = mesh.topology().nodes;
+    const int nodes = mesh.node_count(), per_cell = mesh::nodes_of(mesh.element);
     const Buckets around = mesh::cells_of_nodes(mesh);
     start_.assign(static_cast<std::size_t>(nodes) + 1, 0);
     std::vector<std::vector<int>> found(static_cast<std::size_t>(threads_));
-    parallel_shares(nodes, threads_, [&](int k, int first, int end) {
+    parallel_ranges(nodes, threads_, [&](int k, int first, int end) {
       std::vector<int> mark(static_cast<std::size_t>(nodes), -1), &own = found[k];
       own.reserve(static_cast<std::size_t>(end - first) * (dim_ == 2 ? 4 : 8));
       for (int b = first; b < end; ++b) {
@@ -90,8 +90,8 @@ class Assembly {
     for (std::vector<int>& own : found) neighbour_.insert(neighbour_.end(), own.begin(), own.end()), own = {};
   }
 
-  /// Makes the pattern, with zeros.
-  void number_entries() {
+  /// Allocates K with the pattern of the mesh. All entries are 0.
+  void make_pattern() {
     const int nodes = static_cast<int>(count_.size());
     std::vector<std::int64_t> entries{0};  // before those of a node's columns
     for (int b = 0; b < nodes; ++b) {
@@ -105,7 +105,7 @@ class Assembly {
     int *outer = system.K.outerIndexPtr(), *inner = system.K.innerIndexPtr();
     double* values = system.K.valuePtr();
     outer[numbering_.count()] = static_cast<int>(entries.back());
-    parallel_shares(nodes, threads_, [&](int, int first, int end) {
+    parallel_ranges(nodes, threads_, [&](int, int first, int end) {
       int at = static_cast<int>(entries[first]);
       for (int b = first; b < end; ++b)
         for (int rank = 0; rank < count_[b]; ++rank) {
@@ -116,6 +116,7 @@ class Assembly {
     });
   }
 
+  static constexpr int kFewCells = 10'000;  ///< for a thread
   int dim_;
   const int threads_;
   const Numbering& numbering_;
@@ -124,24 +125,24 @@ class Assembly {
   std::vector<int> offset_;             ///< unknowns of the neighbours before
 };
 
-/// Calls visit(nodes of the cell, k) for every cell that has a node for which `wanted` holds; k[a][b][i][j] couples component i of its node a
+/// Calls visit(nodes of the cell, k) for every cell with at least one node that is `wanted`. k[a][b][i][j] couples component i of the cell's node a
 /// to component j of its node b ≤ a.
 template <class E, class Wanted, class Visit>
 void for_each_stiffness(const Mesh& mesh, const MaterialField& material, Wanted&& wanted, Visit&& visit) {
   double k[E::nodes][E::nodes][E::dim][E::dim];
-  for_each_cell<E>(mesh, material, [&](int c, const auto& x, const Hooke& hooke) {
-    const int* n = mesh.cell(c);
-    if (!std::any_of(n, n + E::nodes, wanted)) return;
+  const auto has_one = [&](int c) { return std::any_of(mesh.cell(c), mesh.cell(c) + E::nodes, wanted); };
+  for_each_cell<E>(mesh, material, has_one, [&](int c, const auto& x, const Hooke& hooke) {
     stiffness<E>(x, hooke, k);
-    visit(n, k);
+    visit(mesh.cell(c), k);
   });
 }
 
-/// The cells' stiffness. Each thread has a range of nodes, and adds what belongs to the columns of theirs, in the order of the cells whatever the number of
-/// threads; blocks of nodes with prescribed components, which reach further, come last.
+/// Adds the stiffness of all cells. Each thread fills the columns of its own range of nodes. It takes cells in their order, so that the result does not depend
+/// on the number of threads. Blocks with prescribed components also change f and the offset, which all columns share; one thread adds them at the end.
 template <class E>
 void add_stiffness(const Mesh& mesh, const MaterialField& material, Assembly& assembly) {
-  const auto add = [&](auto&& wanted, auto&& mine) {  // the blocks of nodes (low, high) for which `mine` holds; `wanted`: of one node of their cell
+  // Adds the blocks for whose nodes mine(low, high) holds. They must be in cells with a node that is `wanted`.
+  const auto add = [&](auto&& wanted, auto&& mine) {
     for_each_stiffness<E>(mesh, material, wanted, [&](const int* n, const auto& k) {
       for (int a = 0; a < E::nodes; ++a)
         for (int b = 0; b <= a; ++b)
@@ -149,7 +150,7 @@ void add_stiffness(const Mesh& mesh, const MaterialField& material, Assembly& as
     });
   };
   const auto free = [&](int node) { return assembly.free(node); };
-  parallel_shares(mesh.node_count(), assembly.threads(), [&](int, int first, int end) {
+  parallel_ranges(mesh.node_count(), assembly.threads(), [&](int, int first, int end) {
     const auto inside = [&](int node) { return node >= first && node < end; };
     add(inside, [&](int low, int high) { return inside(low) && free(low) && free(high); });
   });

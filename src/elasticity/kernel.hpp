@@ -63,16 +63,23 @@ void cell_coordinates(const mesh::Mesh& mesh, int cell, double x[][E::dim]) {
     for (int i = 0; i < E::dim; ++i) x[a][i] = mesh.node(n[a])[i];
 }
 
-/// Calls visit(cell, coordinates, its material) for each cell.
-template <class E, class Visit>
-void for_each_cell(const mesh::Mesh& mesh, const MaterialField& material, Visit&& visit) {
+/// Calls visit(cell, coordinates, its material) for each cell that is `wanted`.
+template <class E, class Wanted, class Visit>
+void for_each_cell(const mesh::Mesh& mesh, const MaterialField& material, Wanted&& wanted, Visit&& visit) {
   double x[E::nodes][E::dim];
   Hooke hooke = material.at(0);
   for (int c = 0; c < mesh.cell_count(); ++c) {
+    if (!wanted(c)) continue;
     if (material.varies()) hooke = material.at(c);
     cell_coordinates<E>(mesh, c, x);
     visit(c, x, hooke);
   }
+}
+
+/// The same for all cells.
+template <class E, class Visit>
+void for_each_cell(const mesh::Mesh& mesh, const MaterialField& material, Visit&& visit) {
+  for_each_cell<E>(mesh, material, [](int) { return true; }, visit);
 }
 
 /// Calls visit(point, weight × measure, shape functions, their gradients) for each point of the cells' load rule.

@@ -33,7 +33,7 @@ void patch_of(const Mesh& mesh, const Buckets& around, int node, std::vector<int
   if (static_cast<int>(patch.size()) >= enough_cells(mesh.element)) return;
   const std::vector<int> own = patch;
   for (int c : own)
-    for (int k = 0; k < mesh.topology().nodes; ++k) {
+    for (int k = 0; k < mesh::nodes_of(mesh.element); ++k) {
       const auto here = around[mesh.cell(c)[k]];
       patch.insert(patch.end(), here.begin(), here.end());
     }

@@ -83,7 +83,7 @@ inline BoxTree boxes_of_cells(const Mesh& mesh) {
   std::vector<Box> boxes(mesh.cell_count());
   for (int c = 0; c < mesh.cell_count(); ++c) {
     Box& box = boxes[c];
-    for (int k = 0; k < mesh.topology().nodes; ++k) box.add(mesh.point(mesh.cell(c)[k]));
+    for (int k = 0; k < nodes_of(mesh.element); ++k) box.add(mesh.point(mesh.cell(c)[k]));
     // A curved side bulges beyond its nodes, by less than half its height.
     for (int i = 0; mesh.topology().order == 2 && i < 3; ++i) {
       const double bulge = box.extent(i) / 4;

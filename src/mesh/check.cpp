@@ -26,7 +26,7 @@ std::string advice(const Mesh& mesh, int c) {
 double edge_scale(const Mesh& mesh, int c) {
   const Point a = mesh.point(mesh.cell(c)[0]);
   double h = 0;
-  for (int k = 1; k < mesh.topology().nodes; ++k) h = std::max(h, length(minus(mesh.point(mesh.cell(c)[k]), a)));
+  for (int k = 1; k < nodes_of(mesh.element); ++k) h = std::max(h, length(minus(mesh.point(mesh.cell(c)[k]), a)));
   return h;
 }
 

@@ -38,7 +38,7 @@ struct ElementTopology {
 };
 
 const ElementTopology& topology(Element element);
-/// Its `nodes` and `dimension`, for inner loops.
+/// ElementTopology's `nodes` and `dimension`, computed inline because inner loops ask for them.
 constexpr int nodes_of(Element element) {
   constexpr int nodes[] = {3, 4, 4, 8, 6, 9, 10, 27};
   return nodes[static_cast<int>(element)];

@@ -76,7 +76,7 @@ int coarser_count(const Mesh& mesh) {
 Buckets cells_of_nodes(const Mesh& mesh) {
   return Buckets(mesh.node_count(), [&](auto&& put) {
     for (int c = 0; c < mesh.cell_count(); ++c)
-      for (int k = 0; k < mesh.topology().nodes; ++k) put(mesh.cell(c)[k], c);
+      for (int k = 0; k < nodes_of(mesh.element); ++k) put(mesh.cell(c)[k], c);
   });
 }
 

@@ -30,16 +30,7 @@ class PetscSolver final : public algebra::SpdSolver {
     ranks.together([&] {
       std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
       if (matrix.changed) first = changes(*matrix.changed, {}, {}, numbering_, ranks.count());
-      std::vector<Piece> some;  // of the ranks from r on: as many as threads make at once
-      for (int r = ranks.count(); r > 0;) {
-        some.assign(static_cast<std::size_t>(std::min(r, cores())), {});
-        const bool begins = r == ranks.count();
-        r -= static_cast<int>(some.size());
-        parallel_for(static_cast<int>(some.size()), [&](int k) { some[k] = pieces.of(r + k); });
-        if (begins) workers_.tell(Task::make);  // from now on MPI keeps their processors busy with waiting
-        for (int k = r > 0 ? 0 : 1; k < static_cast<int>(some.size()); ++k) send(ranks, r + k, some[k]), send(ranks, r + k, first[r + k]), some[k] = {};
-      }
-      cycle_ = std::make_unique<Cycle>(ranks, std::move(some[0]), first[0]);
+      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, first), first[0]);
     });
     workers_.made();
     alone_.unlock();
@@ -94,6 +85,24 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
+  /// Sends the other ranks their pieces and first changes, and returns rank 0's piece. As many pieces are made at once as there are cores. The first ones are
+  /// made before the ranks are told to begin: from then on MPI keeps the processor of each rank busy until its piece has come.
+  Piece share_out(const Pieces& pieces, std::vector<Change>& first) const {
+    const Ranks& ranks = workers_.ranks();
+    for (int end = ranks.count();;) {
+      const int from = std::max(0, end - cores());
+      std::vector<Piece> some(static_cast<std::size_t>(end - from));
+      parallel_for(end - from, [&](int k) { some[k] = pieces.of(from + k); });
+      if (end == ranks.count()) workers_.tell(Task::make);
+      for (int r = std::max(from, 1); r < end; ++r) {
+        send(ranks, r, some[r - from]);
+        send(ranks, r, first[r]);
+        some[r - from] = {};
+      }
+      if (from == 0) return std::move(some[0]);
+      end = from;
+    }
+  }
   /// Of all ranks, by the numbers of Numbering.
   Cycle::Solution solve_together(const algebra::Vector& b, double tolerance) {
     const Ranks& ranks = workers_.ranks();

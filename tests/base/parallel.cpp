@@ -18,15 +18,15 @@ TEST_CASE("every number is worked on once") {
   }
 }
 
-TEST_CASE("shares are like, follow one another and leave nothing out") {
+TEST_CASE("ranges are of like length, follow one another and leave nothing out") {
   for (int count : {0, 1, 2, 3, 1000, 2'000'000'000})
-    for (int shares : {1, 2, 3, 7}) {
-      std::vector<std::pair<int, int>> of(shares);
-      parallel_shares(count, shares, [&](int k, int first, int end) { of[k] = {first, end}; });
+    for (int ranges : {1, 2, 3, 7}) {
+      std::vector<std::pair<int, int>> of(ranges);
+      parallel_ranges(count, ranges, [&](int k, int first, int end) { of[k] = {first, end}; });
       int from = 0;
       for (const auto& [first, end] : of) {
         CHECK(first == from);
-        CHECK(std::abs(end - first - count / shares) <= 1);
+        CHECK(std::abs(end - first - count / ranges) <= 1);
         from = end;
       }
       CHECK(from == count);

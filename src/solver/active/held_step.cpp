@@ -24,10 +24,12 @@ constexpr double kMostAcross = 1e4;
 constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
-/// Forces on unknowns that are not held, of the loads and multipliers: what refinement aims at. Where digits cost iterations kRough is enough until active sets
-/// come to rest, then kSharper, in the end kUnbalanced. With friction, whose steps converge as Newton's, kOfOff of what the last forces of rows were off their
-/// laws; more than kSharper would cost steps where stiffnesses are far apart. Refined so often at most.
+/// What refinement aims at: forces left on unknowns that are not held, relative to the loads and multipliers. Direct solvers go to kUnbalanced at once. Where
+/// digits cost iterations, steps without friction go to kRough until the active set comes to rest, then to kSharper, at last to kUnbalanced. With friction,
+/// whose steps converge as Newton's method does, a step goes to kOfOff times the last violation of the laws, relative to the forces of the rows, but at least to
+/// kSharper: rougher steps became more numerous where stiffnesses differ by a factor of 100.
 constexpr double kUnbalanced = 1e-12, kSharper = 1e-3, kRough = 0.03, kOfOff = 0.01;
+/// The most refinements of one step.
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
 /// Above this tolerance residuals are computed in double precision.
@@ -376,7 +378,7 @@ class HeldStep final : public Step {
   Vector forces_;
   bool known_ = false;                 ///< are forces_ those of u_ and lambda_?
   double unbalanced_ = kUnbalanced;    ///< of gross_, what is aimed at
-  double roughest_ = problem_.friction.empty() ? kRough : kSharper;  ///< that
+  double roughest_ = problem_.friction.empty() ? kRough : kSharper;  ///< the greatest value that unbalanced_ may take
   double gross_ = 0;                   ///< ‖f‖₁ + ‖Bᵀλ‖₁ of the last forces()
   double of_rows_ = 1;                 ///< the second's share: small where supports are moved, as their forces are loads
 };
