@@ -4,7 +4,8 @@
 --
 -- Over thirty scenes from 10³ to 10⁶ unknowns (from LEAST to MOST, 2000 and 20000 unless given), in the plane and in space, with and without friction, one
 -- body and two, meshes with and without coarser ones, nearly incompressible material and stretched cells. Seconds of each method, by factors pdas, pdas on all
--- unknowns or newton, and how much longer the default method takes than the fastest. Short solves are repeated, and the least time is taken.
+-- unknowns or newton, and how much longer the default method takes than the fastest. Solves are repeated, and the least time is taken; what the first solve by
+-- multigrid takes to open its library is added, as a process that solves one scene takes it.
 
 local least <const>, most <const> = tonumber(arg[1] or 2000), tonumber(arg[2] or 20000)
 local S <const> = dotyk.solver
@@ -65,6 +66,7 @@ local scenes <const> = {
 }
 
 -- 2. Seconds.
+local opening = 0
 local function seconds(make, method)
   local best, used, count = math.huge, 0, 0
   repeat
@@ -73,8 +75,14 @@ local function seconds(make, method)
     if not method then assert(ok, s) end
     if not ok or not s.converged then return nil end
     best, used, count = math.min(best, s.time.total), used + s.time.total, count + 1
-    if used > 0.5 or count == 5 then return best, s.unknowns, s.method end
+    -- The first of several pays for memory that the process has not used before.
+    if (used > 0.5 and count > 1) or used > 20 or count == 5 then return best + (s.method == "multigrid" and opening or 0), s.unknowns, s.method end
   until false
+end
+do
+  local first <const> = S.multigrid{}:solve(cube(8)).time.total
+  opening = first - seconds(function() return cube(8) end, S.multigrid{})
+  print(("The library of multigrid is opened in %.2f s.\n"):format(opening))
 end
 
 local methods <const> = { { "pdas", S.pdas{} }, { "all unknowns", S.pdas{ reduced = false } }, { "newton", S.newton{} }, { "multigrid", S.multigrid{} } }

@@ -19,6 +19,7 @@ struct CoarseMeshes {
   int dimension = 0;  ///< components of a node's displacement
   /// Of so many levels, as elasticity::coarse_functions() says.
   std::function<std::vector<algebra::SparseRows>(int levels)> functions = {};
+  int order = 1;  ///< of the elements of the finest mesh
 };
 
 /// One body's energy ½uᵀKu − fᵀu + offset on its own unknowns.

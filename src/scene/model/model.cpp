@@ -81,7 +81,7 @@ void add_body(const Body& body, Model& model) {
   block.rigid = [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
   block.coarse = {mesh::coarser_count(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()](int levels) {
                     return elasticity::coarse_functions(*mesh, unknown, count, levels);
-                  }};
+                  }, body.mesh->topology().order};
   model.nearly_free.push_back(nearly_free(body, numbering, block, model.softest));
   problem::add(model.problem, std::move(block));
 }

@@ -16,6 +16,8 @@ constexpr int kSmall = 5000;
 /// A row that the coarser mesh has not touches if it is apart by no more than this share of the greatest displacement: between two closed rows of a flat
 /// part the mean is 0 but for rounding.
 constexpr double kTouches = 1e-9;
+/// Of a coarser solution: its contact forces are off by about as much because the mesh is coarse.
+constexpr double kTolerance = 0.1;
 
 class CoarseRows : public RowSubset {
  public:
@@ -38,6 +40,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
     const CoarseStart before = coarse_start(part, settings, inner);
     Pdas begun = settings;
     begun.start = before.active, begun.from = before.state, begun.nested = false;
+    begun.tol = std::max(begun.tol, kTolerance);
     start.meshes = before.meshes + 1;
     result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {before.active}, inner);
   } catch (const Interrupted&) {

@@ -25,10 +25,10 @@ constexpr int kMostSteps = 60, kMostRounds = 3;
 /// How far tied rows may be off, of the displacements that make them up, and what the steps of a round aim at.
 constexpr double kOff = 1e-12, kAim = 1e-15;
 /// What refinement aims at: forces left on unknowns that are not held, relative to the loads and multipliers. Direct solvers go to kUnbalanced at once. Where
-/// digits cost iterations, steps without friction go to kRough until the active set comes to rest, then to kSharper, at last to kUnbalanced. With friction,
-/// whose steps converge as Newton's method does, a step goes to kOfOff times the last violation of the laws, relative to the forces of the rows, but at least to
-/// kSharper: rougher steps became more numerous where stiffnesses differ by a factor of 100.
-constexpr double kUnbalanced = 1e-12, kSharper = 1e-3, kRough = 0.03, kOfOff = 0.01;
+/// digits cost iterations, steps without friction go to kRough until the active set comes to rest, then to kSharper, at last to kOfTolerance times the tolerance
+/// of the method. With friction, whose steps converge as Newton's method does, a step goes to kOfOff times the last violation of the laws, relative to the forces
+/// of the rows, but at least to kSharper: rougher steps became more numerous where stiffnesses differ by a factor of 100.
+constexpr double kUnbalanced = 1e-12, kOfTolerance = 0.01, kSharper = 1e-3, kRough = 0.03, kOfOff = 0.01;
 /// The most refinements of one step.
 constexpr int kMostRefinements = 6;
 constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
@@ -41,8 +41,8 @@ constexpr double kShareOfDirection = 0.1, kCancelled = 1e-24;
 
 class HeldStep final : public Step {
  public:
-  HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho)
-      : problem_(problem), stiffness_(stiffness), rho_(rho), own_(problem.row_stiffness()), trivial_(stiffness.basis().trivial()),
+  HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho, double tol)
+      : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()), trivial_(stiffness.basis().trivial()),
         T_(trivial_ ? LongMatrix() : LongMatrix(stiffness.basis().T.cast<long double>())),
         f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
     for (const problem::Block& block : problem.blocks) f_.segment(block.first, block.size()) = block.f;
@@ -60,7 +60,7 @@ class HeldStep final : public Step {
     if (!stiffness_.factor(spring_, held_, across_)) return false;
     lambda_ = constant_, known_ = false;
     const double enough = (problem_.friction.empty() ? kRough : kOfOff * l.off) * of_rows_;
-    unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(enough, kUnbalanced, roughest_) : kUnbalanced;
+    unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(enough, least_, roughest_) : least_;
     if (slips_.empty()) {
       const Vector left = residual();
       if (const double sum = left.lpNorm<1>(); sum != 0) approach(left, sum);
@@ -72,8 +72,8 @@ class HeldStep final : public Step {
   void begin(const Vector& u) override { u_ = stiffness_.without_unnoticed(u).cast<long double>(), forget(); }
 
   bool sharpen(Vector& lambda, Vector& x) override {
-    if (unbalanced_ <= kUnbalanced) return false;
-    roughest_ = unbalanced_ = unbalanced_ > kSharper ? kSharper : kUnbalanced, known_ = false;
+    if (unbalanced_ <= least_) return false;
+    roughest_ = unbalanced_ = unbalanced_ > kSharper ? std::max(kSharper, least_) : least_, known_ = false;
     refine();
     return u_.allFinite() && tell(lambda, x);
   }
@@ -359,6 +359,7 @@ class HeldStep final : public Step {
   const Problem& problem_;
   HeldStiffness& stiffness_;
   const Vector& rho_;
+  const double least_;   ///< the least value that unbalanced_ may take
   const Vector own_;
   using LongMatrix = Eigen::SparseMatrix<long double>;
   const bool trivial_;   ///< is T the identity?
@@ -377,7 +378,7 @@ class HeldStep final : public Step {
   Known elastic_known_ = Known::no;
   Vector forces_;
   bool known_ = false;                 ///< are forces_ those of u_ and lambda_?
-  double unbalanced_ = kUnbalanced;    ///< of gross_, what is aimed at
+  double unbalanced_ = least_;         ///< of gross_, what is aimed at
   double roughest_ = problem_.friction.empty() ? kRough : kSharper;  ///< the greatest value that unbalanced_ may take
   double gross_ = 0;                   ///< ‖f‖₁ + ‖Bᵀλ‖₁ of the last forces()
   double of_rows_ = 1;                 ///< the second's share: small where supports are moved, as their forces are loads
@@ -385,8 +386,8 @@ class HeldStep final : public Step {
 
 }  // namespace
 
-std::unique_ptr<Step> held_step(const Problem& problem, HeldStiffness& stiffness, const Vector& rho) {
-  return std::make_unique<HeldStep>(problem, stiffness, rho);
+std::unique_ptr<Step> held_step(const Problem& problem, HeldStiffness& stiffness, const Vector& rho, double tol) {
+  return std::make_unique<HeldStep>(problem, stiffness, rho, tol);
 }
 
 }  // namespace dotyk::solver

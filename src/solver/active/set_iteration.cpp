@@ -93,7 +93,7 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
   step = screws             ? screw_step(*condensed_, rho, *screws)
          : settings.reduced ? reduced_step(*condensed_, rho)
          : settings.step    ? settings.step(problem, rigid, rho)
-                            : held_step(problem, stiffness(), rho);
+                            : held_step(problem, stiffness(), rho, settings.tol);
   if (settings.from && !settings.reduced) begin_from(*settings.from);
 }
 

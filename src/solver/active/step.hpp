@@ -33,7 +33,8 @@ std::unique_ptr<Step> reduced_step(const problem::CondensedProblem& condensed,
 /// Solves on all unknowns, in the basis where rows are unknowns (see HeldStiffness). An active rigid row holds its unknown, and its λ is the force
 /// that equilibrium needs there. A row with compliance is a spring. Rigid rows without an unknown of their own are springs to which conjugate gradients add the
 /// forces that keep them closed. A point that slips has the force that its bound allows, which may follow the pressure. Dependent rows get some
-/// multipliers, not refused. Throws NotSolved where a friction row has no unknown of its own.
-std::unique_ptr<Step> held_step(const problem::Problem& problem, HeldStiffness& stiffness, const algebra::Vector& rho);
+/// multipliers, not refused. `tol` as in Settings: where digits cost iterations, forces are left that are small beside it. Throws NotSolved where a friction
+/// row has no unknown of its own.
+std::unique_ptr<Step> held_step(const problem::Problem& problem, HeldStiffness& stiffness, const algebra::Vector& rho, double tol);
 
 }  // namespace dotyk::solver

@@ -67,7 +67,8 @@ Expected expected(const problem::Problem& problem) {
   constexpr int kRigidMotions = 6;
   const bool space = problem.blocks.front().rigid().cols() == kRigidMotions;
   const bool geometric = problem::coarser_meshes(problem) > 1;
-  const double unknown = (space ? 2e-5 : 1e-5) * (geometric ? 1 : 5);  // seconds of multigrid
+  const bool quadratic = std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.coarse.order == 2; });
+  const double unknown = (space ? 2e-5 : 1e-5) * (geometric ? 1 : 5) * (quadratic ? 3 : 1);  // seconds of multigrid; twice as many entries and iterations
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
   const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !all_linear(problem);
