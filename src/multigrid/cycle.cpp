@@ -27,7 +27,7 @@ void make_smoother(KSP ksp, Mat matrix, MatSORType type, int sweeps) {
 
 struct Ending {
   double first, residual;  // residuals: the first one, and at which to end
-  double most;             // iterations
+  double most;             // iterations that are worth while; those made already are spent either way
   Monitor* monitor;
   const Ranks& ranks;
   std::exception_ptr thrown = nullptr;  // by the monitor, kept until PETSc has returned
@@ -46,7 +46,7 @@ struct Ending {
   }
 };
 
-/// How many iterations twelve digits take at the rate so far. The first systems of a Newton iteration are solved to fewer, the last one to as many.
+/// How many iterations twelve digits take in all at the rate so far. The first systems of a Newton iteration are solved to fewer, the last one to as many.
 double foreseen(const Ending& ending, int iteration, double residual) {
   return residual < ending.first ? iteration * std::log(1e-12) / std::log(residual / ending.first) : INFINITY;
 }
@@ -56,7 +56,7 @@ PetscErrorCode ended(KSP, PetscInt iteration, PetscReal residual, KSPConvergedRe
   *reason = !std::isfinite(residual)         ? KSP_DIVERGED_NANORINF
             : residual <= ending.residual    ? KSP_CONVERGED_RTOL
             : iteration >= kMostIterations   ? KSP_DIVERGED_ITS
-            : iteration >= kTelling && foreseen(ending, iteration, residual) > ending.most ? KSP_DIVERGED_ITS
+            : iteration >= kTelling && foreseen(ending, iteration, residual) - iteration > ending.most ? KSP_DIVERGED_ITS
                                              : KSP_CONVERGED_ITERATING;
   if (*reason == KSP_CONVERGED_ITERATING && ending.stopped()) *reason = KSP_DIVERGED_BREAKDOWN;
   return 0;

@@ -30,7 +30,7 @@ struct Matrix {
   int dimension = 3;
   /// Other numbers of some entries, as for set(), with which `lower` is positive definite; null: none.
   const algebra::Triplets* changed = nullptr;
-  /// solve() gives up when its rate of convergence foretells that twelve digits will take more.
+  /// solve() gives up when its rate of convergence foretells that twelve digits will take so many more.
   double most_iterations = std::numeric_limits<double>::infinity();
 };
 
