@@ -156,7 +156,7 @@ TEST_CASE("symbols of every law stand whole within the frame") {
           b.q = q;
           const auto s = solutions(b)[0].solution;
           PagePicture page = compose(view(*s), {BeamPanel::deflection}, {});
-          page.file = "symbol.png", page.width = 640, page.height = 300;
+          page.file = "symbol.png", page.width = 640, page.height = 300, page.printed = 145;
           draw(page);
           const Pixels p = read_png("symbol.png");
           CHECK(white_rim(p));

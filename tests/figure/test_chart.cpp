@@ -189,6 +189,7 @@ TEST_CASE("texts too long for their places are broken and shortened, not cut off
   for (const int n : {1, 2, 4, 12})
     for (const std::string& words : {often("a long label, ", 3), often("ü", 40)}) {
       ChartPicture chart = chart_of("long.png", {1, 2}, {1e6, 2e6});
+      chart.printed = 120;
       chart.title = chart.x_label = chart.y_label = chart.series[0].name = often(words, n);
       chart.series[0].style = SeriesStyle::points;
       draw(chart);

@@ -91,7 +91,7 @@ TEST_CASE("a folder that cannot be written is named, and the old file stays") {
 }
 
 TEST_CASE("what is refused, and with which words") {
-  CHECK(contains(message_of([] { draw(small_chart("a.pdf")); }), "must end in .png"));
+  CHECK(contains(message_of([] { draw(small_chart("a.eps")); }), "must end in .png, .pdf or .svg"));
   ChartPicture chart = small_chart("refused.png");
   chart.width = 20;
   CHECK(contains(message_of([&] { draw(chart); }), "expected 160 to 8192"));

@@ -325,6 +325,7 @@ TEST_CASE("the arrows of a uniform load are equally far apart, whatever their nu
   for (const int n : {50, 53, 61}) {
     CAPTURE(n);
     ScenePicture scene = scene_of(square_body(4, [](double, double) { return 0.0; }), "uniform.png");
+    scene.printed = 120;
     scene.bodies[0].values.clear();
     for (int i = 0; i < n; ++i) {
       LoadArrow load;
@@ -346,7 +347,7 @@ TEST_CASE("the arrows of a uniform load are equally far apart, whatever their nu
 TEST_CASE("dots of the pressure on the plan of a grid stand in its rows and columns") {
   ScenePicture scene;
   scene.file = "dots.png";
-  scene.width = 700, scene.height = 500;
+  scene.width = 700, scene.height = 500, scene.printed = 127;
   scene.bodies = {brick(2)};
   ContactPicture contact;
   contact.nodes_per_facet = 4;

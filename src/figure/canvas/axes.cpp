@@ -84,8 +84,9 @@ double widest_label(const Ticks& ticks, double size) {
 }
 
 Ticks few_ticks(double low, double high, double wanted) {
+  const std::size_t least = wanted < 2.3 ? 2 : 4;
   Ticks out;
-  for (int n = std::clamp(static_cast<int>(wanted), 2, 8); n <= 10 && out.labelled().size() < 2; ++n) out = linear_ticks(low, high, n);
+  for (int n = std::clamp(static_cast<int>(wanted), 2, 8); n <= 10 && out.labelled().size() < least; ++n) out = linear_ticks(low, high, n);
   return out;
 }
 

@@ -87,7 +87,7 @@ void draw_grid(Canvas& canvas, const Axes& axes);
 void draw_ticks(Canvas& canvas, const Axes& axes, bool x_labels = true);
 void draw_frame(Canvas& canvas, const Axes& axes);
 double widest_label(const Ticks& ticks, double size);
-// Ticks for so many labels, at least two of them labelled.
+// Ticks for so many labels, or a few more: at least four of them labelled, or two where less than 2.3 are wanted, as there is no room for four.
 Ticks few_ticks(double low, double high, double wanted);
 // Of a horizontal axis: as many as have room for their labels.
 Ticks spaced_ticks(const Axis& axis, double em);

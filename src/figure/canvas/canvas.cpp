@@ -2,67 +2,43 @@
 
 #include <numbers>
 
-#include <vtkActor2D.h>
-#include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOpenGLPolyDataMapper2D.h>
-#include <vtkOpenGLRenderWindow.h>
-#include <vtkOpenGLState.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
-
 namespace dotyk::figure {
 
 namespace {
 
-// Paints in order, whatever has been painted there: the mapper of VTK tests
-// depth, and of triangles in one plane keeps the first.
-class PaintingMapper : public vtkOpenGLPolyDataMapper2D {
-public:
-  static PaintingMapper* New();
-  vtkTypeMacro(PaintingMapper, vtkOpenGLPolyDataMapper2D);
-  void RenderOverlay(vtkViewport* viewport, vtkActor2D* actor) override {
-    constexpr unsigned int depth_test = 0x0B71;  // GL_DEPTH_TEST
-    auto* window = static_cast<vtkOpenGLRenderWindow*>(viewport->GetVTKWindow());
-    window->GetState()->vtkglDisable(depth_test);
-    vtkOpenGLPolyDataMapper2D::RenderOverlay(viewport, actor);
-    window->GetState()->vtkglEnable(depth_test);
+bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+std::vector<Point> moved(std::span<const Point> points, Point by) {
+  std::vector<Point> out;
+  for (const Point& p : points) out.push_back(p + by);
+  return out;
+}
+
+// The parts of the line in the box.
+std::vector<std::vector<Point>> cropped_line(std::span<const Point> path, const Box& box) {
+  std::vector<std::vector<Point>> parts;
+  bool goes_on = false;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    Point p = path[i], q = path[i + 1];
+    if (!crop(p, q, box)) {
+      goes_on = false;
+      continue;
+    }
+    if (!goes_on) parts.push_back({p});
+    parts.back().push_back(q);
+    goes_on = box.holds(path[i + 1]);
   }
-};
-vtkStandardNewMacro(PaintingMapper);
+  return parts;
+}
 
 }  // namespace
 
-Canvas::Canvas(const Sheet& sheet) {
-  const double pixels = static_cast<double>(sheet.width) * sheet.height;
-  const int side = std::max(sheet.width, sheet.height);
-  factor_ = pixels <= 2e6 && side <= 5000 ? 3 : pixels <= 16e6 && side <= 8000 ? 2 : 1;
-}
-
-void Canvas::emit(Point p, Colour c, double opacity) {
-  const auto alpha = static_cast<unsigned char>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
-  vertices_.push_back({static_cast<float>((origin_.x + p.x) * factor_), static_cast<float>((origin_.y + p.y) * factor_), {c.r, c.g, c.b, alpha}});
-}
-
-void Canvas::fan(std::span<const Point> corners, Colour colour, double opacity) {
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    emit(corners[0], colour, opacity);
-    emit(corners[i - 1], colour, opacity);
-    emit(corners[i], colour, opacity);
-  }
-}
-
 void Canvas::convex(std::span<const Point> corners, Colour colour, double opacity) {
-  for (const Point& p : corners)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) return;
-  const bool inside = !clipped_ || std::all_of(corners.begin(), corners.end(), [&](Point p) { return clip_.holds(p); });
-  if (inside) return fan(corners, colour, opacity);
-  const auto rest = cropped(std::vector<Point>(corners.begin(), corners.end()), clip_);
-  if (rest.size() > 2) fan(rest, colour, opacity);
+  if (!std::ranges::all_of(corners, finite)) return;
+  const bool inside = !clipped_ || std::ranges::all_of(corners, [&](Point p) { return clip_.holds(p); });
+  std::vector<Point> rest(corners.begin(), corners.end());
+  if (!inside) rest = cropped(std::move(rest), clip_);
+  if (rest.size() > 2) add({Mark::Kind::polygon, moved(rest, origin_), colour, opacity});
 }
 
 void Canvas::box(const Box& b, Colour colour, double opacity) { convex(b.corners(), colour, opacity); }
@@ -70,47 +46,33 @@ void Canvas::box(const Box& b, Colour colour, double opacity) { convex(b.corners
 void Canvas::outline(const Box& b, double width, Colour colour) { polyline(b.corners(), width, colour, {}, true); }
 
 void Canvas::line(Point p, Point q, double width, Colour colour, double opacity) {
-  const double size = length(q - p);
-  if (!(size > 0)) return;
-  const Point n{-(q.y - p.y) / size * width / 2, (q.x - p.x) / size * width / 2};
-  convex(std::array{p + n, p - n, q - n, q + n}, colour, opacity);
+  if (!finite(p) || !finite(q) || (clipped_ && !crop(p, q, clip_)) || !(length(q - p) > 0)) return;
+  add({Mark::Kind::line, {p + origin_, q + origin_}, colour, opacity, width});
 }
 
 void Canvas::polyline(std::span<const Point> points, double width, Colour colour, std::span<const double> dash, bool closed) {
+  if (!std::ranges::all_of(points, finite)) return;
   // Points closer than a quarter of a pixel do not show.
   std::vector<Point> path;
   for (const Point& p : points)
     if (path.empty() || length(p - path.back()) > 0.25) path.push_back(p);
   if (!points.empty() && path.size() > 1) path.back() = points.back();
+  if (path.size() < 2) return;
+  const std::vector<double> dashes(dash.begin(), dash.end());
+  if (!clipped_ || std::ranges::all_of(path, [&](Point p) { return clip_.holds(p); }))
+    return add({Mark::Kind::line, moved(path, origin_), colour, 1, width, dashes, closed && path.size() > 2});
+  // What lies outside is neither drawn nor dashed: it may be very long.
   if (closed && path.size() > 2) path.push_back(path.front());
-
-  std::size_t turn_of = 0;
-  double left = dash.empty() ? 0 : dash[0];
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    Point p = path[i], q = path[i + 1];
-    // What lies outside is neither drawn nor dashed: it may be very long.
-    if (clipped_ && !crop(p, q, clip_.grown(width))) continue;
-    if (dash.empty()) {
-      line(p, q, width, colour);
-      if (width > 1.2 && (i > 0 || closed)) disc(p, width / 2, colour);
-      continue;
-    }
-    double rest = length(q - p);
-    while (rest > 0) {
-      const double step = std::min(left, rest);
-      const Point end = part_way(p, q, step / rest);
-      if (turn_of % 2 == 0) line(p, end, width, colour);
-      p = end, rest -= step, left -= step;
-      if (left <= 0) left = dash[++turn_of % dash.size()];
-    }
-  }
+  for (const std::vector<Point>& part : cropped_line(path, clip_)) add({Mark::Kind::line, moved(part, origin_), colour, 1, width, dashes});
 }
 
 void Canvas::disc(Point centre, double radius, Colour colour) {
-  const int n = std::clamp(static_cast<int>(4 * radius) + 6, 8, 64);
+  if (!finite(centre)) return;
+  if (!clipped_ || clip_.holds(centre, -radius)) return add({Mark::Kind::disc, {centre + origin_}, colour, 1, radius});
   std::vector<Point> corners;
-  for (int k = 0; k < n; ++k) {
-    const double angle = 2 * std::numbers::pi * k / n;
+  constexpr int kCorners = 64;
+  for (int k = 0; k < kCorners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kCorners;
     corners.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
   }
   convex(corners, colour);
@@ -182,34 +144,6 @@ void Canvas::arrow(Point tail, Point head, double width, double head_length, Col
   }
   line(tail, head - 0.9 * tip * d, width, colour);
   convex(std::array{neck + half * across, neck - half * across, head}, colour);
-}
-
-void Canvas::add_to(vtkRenderer* renderer) const {
-  if (vertices_.empty()) return;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkUnsignedCharArray> colours;
-  vtkNew<vtkCellArray> triangles;
-  colours->SetNumberOfComponents(4);
-  for (const Vertex& v : vertices_) {
-    const vtkIdType i = points->InsertNextPoint(v.x, v.y, 0);
-    colours->InsertNextTypedTuple(v.rgba);
-    if (i % 3 == 2) triangles->InsertNextCell({i - 2, i - 1, i});
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(triangles);
-  data->GetPointData()->SetScalars(colours);
-  vtkNew<PaintingMapper> mapper;
-  mapper->SetInputData(data);
-  vtkNew<vtkActor2D> actor;
-  actor->SetMapper(mapper);
-  renderer->AddViewProp(actor);
-}
-
-void write_canvas(const Canvas& canvas, const Sheet& sheet) {
-  vtkNew<vtkRenderer> renderer;
-  canvas.add_to(renderer);
-  write_picture(sheet, std::array{renderer.Get()}, canvas);
 }
 
 }  // namespace dotyk::figure

@@ -1,6 +1,6 @@
 // Flat drawing in the pixels of the finished picture: origin at the lower
-// left, y upwards. Shapes become triangles for VTK, painted in the order of
-// the calls; texts are set on the finished image, above everything.
+// left, y upwards. A canvas keeps what is drawn on it, in the order of the
+// calls; texts lie above everything. paper.hpp puts it into a file.
 #pragma once
 
 #include <span>
@@ -10,14 +10,7 @@
 #include "figure/canvas/plane.hpp"
 #include "figure/door/picture.hpp"
 
-class vtkRenderer;
-
 namespace dotyk::figure {
-
-struct Image {
-  int width = 0, height = 0;
-  std::vector<unsigned char> rgb;  // 3 width height, lowest row first
-};
 
 constexpr Colour load_colour{0, 70, 110};  // of arrows of loads
 
@@ -39,7 +32,8 @@ TextStyle title_style();
 Point text_extent(const std::string& text, double size, bool bold = false);
 
 // The size at which the text fits into so many pixels: at most `size`, and no
-// less than half of it.
+// less than this share of it, so that letters stay legible.
+constexpr double least_letters = 0.85;
 double fitting_size(const std::string& text, double size, double pixels, bool bold = false);
 
 // The text, or its beginning and "…", no wider than so many pixels.
@@ -51,20 +45,35 @@ struct FittedText {
   double depth() const;  // from the first line to the last
 };
 
-// In one line of letters down to half of `size`; else in two lines of these, broken between words, the second
+// In one line of letters down to least_letters of `size`; else in two lines of these, broken between words, the second
 // shortened where that does not suffice either. `end` stays whatever is left out before it.
 FittedText fitted(const std::string& text, double size, double pixels, bool bold = false, const std::string& end = "");
 
 enum class Marker { disc, square, triangle, diamond, down_triangle, plus, cross, ring };
 Marker status_marker(Status status);
 
+// A convex polygon, a line through points, or a disc about one.
+struct Mark {
+  enum class Kind { polygon, line, disc } kind;
+  std::vector<Point> points;
+  Colour colour;
+  double opacity = 1;
+  double width = 0;             // of the line; radius of the disc
+  std::vector<double> dash = {};  // lengths of stroke and gap by turns; empty: solid
+  bool closed = false;          // the line returns to its first point
+};
+
+struct PlacedText {
+  Point at;
+  std::string text;
+  TextStyle style;
+};
+
 class Canvas {
 public:
-  explicit Canvas(const Sheet& sheet);
-
   // Where (0, 0) of what follows is.
   void origin(Point origin) { origin_ = origin; }
-  // Triangles outside the box are cut off from here on.
+  // What lies outside the box is cut off from here on, but for texts.
   void clip(const Box& box) { clip_ = box, clipped_ = true; }
   void no_clip() { clipped_ = false; }
 
@@ -86,37 +95,17 @@ public:
   // From the place of the first line on, the others below it; of an upright text, to the right.
   void text(Point first, const FittedText& lines, TextStyle style);
 
-  void add_to(vtkRenderer* renderer) const;
-  void set_texts(Image& image) const;
-  // How many times finer than the picture to render, for smooth edges; less for very large pictures.
-  int factor() const { return factor_; }
+  const std::vector<Mark>& marks() const { return marks_; }
+  const std::vector<PlacedText>& texts() const { return texts_; }
 
 private:
-  struct Vertex {
-    float x, y;
-    unsigned char rgba[4];
-  };
-  struct Text {
-    Point at;
-    std::string text;
-    TextStyle style;
-  };
-  void fan(std::span<const Point> corners, Colour colour, double opacity);
-  void emit(Point p, Colour colour, double opacity);
+  void add(Mark mark) { marks_.push_back(std::move(mark)); }
 
-  int factor_;
   Point origin_;
   bool clipped_ = false;
   Box clip_;
-  std::vector<Vertex> vertices_;  // three a triangle
-  std::vector<Text> texts_;
+  std::vector<Mark> marks_;
+  std::vector<PlacedText> texts_;
 };
-
-// What layers hold on white, from the lowest to the highest, rendered off screen canvas.factor() times too large, and the texts of
-// the canvas above it as PNG, whole or not at all: beside the target first, then renamed. Throws std::runtime_error with path and
-// reason, or where no context for OpenGL can be had.
-void write_picture(const Sheet& sheet, std::span<vtkRenderer* const> layers, const Canvas& canvas);
-// A canvas alone.
-void write_canvas(const Canvas& canvas, const Sheet& sheet);
 
 }  // namespace dotyk::figure

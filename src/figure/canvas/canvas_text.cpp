@@ -1,101 +1,14 @@
-// Texts of a Canvas: FreeType by way of VTK, blended onto the finished image
-// at its own resolution, which keeps small letters sharp.
-#include <unistd.h>
+// Texts: how much room they need, and how they are made to fit.
+#include <array>
+#include <cctype>
+#include <memory>
+#include <optional>
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-#include <vtkStdString.h>
-#include <vtkTextProperty.h>
-#include <vtkTextRenderer.h>
-
-#include "figure/canvas/canvas.hpp"
+#include "figure/canvas/font.hpp"
 
 namespace dotyk::figure {
 
 namespace {
-
-constexpr int dots_per_inch = 72;  // a font size is then in pixels
-
-// DejaVu has the Greek letters and signs of mechanics; VTK's own Arial is
-// the fallback.
-const char* font_file(bool bold) {
-  static const char* const regular = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-  static const char* const heavy = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
-  const char* file = bold ? heavy : regular;
-  return access(file, R_OK) == 0 ? file : nullptr;
-}
-
-vtkSmartPointer<vtkTextProperty> property(double size, bool bold, bool upright) {
-  auto p = vtkSmartPointer<vtkTextProperty>::New();
-  if (const char* file = font_file(bold)) {
-    p->SetFontFamily(VTK_FONT_FILE);
-    p->SetFontFile(file);
-  } else {
-    p->SetFontFamilyToArial();
-    p->SetBold(bold);
-  }
-  p->SetFontSize(std::max(4, static_cast<int>(std::lround(size))));
-  p->SetColor(1, 1, 1);
-  p->SetOrientation(upright ? 90 : 0);
-  return p;
-}
-
-struct Mask {
-  int width = 0, height = 0;
-  std::vector<unsigned char> alpha;
-};
-
-Mask render(const std::string& text, const TextStyle& style) {
-  const vtkSmartPointer<vtkTextProperty> p = property(style.size, style.bold, style.upright);
-  vtkNew<vtkImageData> data;
-  int extent[2] = {0, 0};
-  vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
-  if (!renderer) return {};
-  renderer->SetScaleToPowerOfTwo(false);
-  if (!renderer->RenderString(p.Get(), vtkStdString(text), data.Get(), extent, dots_per_inch, vtkTextRenderer::FreeType)) return {};
-  int dims[3];
-  data->GetDimensions(dims);
-  Mask mask{dims[0], dims[1], {}};
-  const auto* pixels = static_cast<const unsigned char*>(data->GetScalarPointer());
-  const int components = data->GetNumberOfScalarComponents();
-  mask.alpha.resize(static_cast<std::size_t>(dims[0]) * dims[1]);
-  for (std::size_t i = 0; i < mask.alpha.size(); ++i) mask.alpha[i] = pixels[components * i + components - 1];
-  return mask;
-}
-
-void blend(Image& image, const Mask& mask, int left, int bottom, Colour colour) {
-  for (int y = std::max(0, -bottom); y < mask.height && bottom + y < image.height; ++y)
-    for (int x = std::max(0, -left); x < mask.width && left + x < image.width; ++x) {
-      const int a = mask.alpha[static_cast<std::size_t>(y) * mask.width + x];
-      if (a == 0) continue;
-      unsigned char* pixel = &image.rgb[3 * (static_cast<std::size_t>(bottom + y) * image.width + left + x)];
-      const int c[3] = {colour.r, colour.g, colour.b};
-      for (int k = 0; k < 3; ++k) pixel[k] = static_cast<unsigned char>((c[k] * a + pixel[k] * (255 - a) + 127) / 255);
-    }
-}
-
-// The mask grown by `radius` pixels each way.
-Mask grown(const Mask& mask, int radius) {
-  Mask out{mask.width + 2 * radius, mask.height + 2 * radius, {}};
-  out.alpha.resize(static_cast<std::size_t>(out.width) * out.height);
-  for (int y = 0; y < mask.height; ++y)
-    for (int x = 0; x < mask.width; ++x) {
-      const unsigned char a = mask.alpha[static_cast<std::size_t>(y) * mask.width + x];
-      if (a == 0) continue;
-      for (int dy = -radius; dy <= radius; ++dy)
-        for (int dx = -radius; dx <= radius; ++dx) {
-          if (dx * dx + dy * dy > radius * radius) continue;
-          unsigned char& to = out.alpha[static_cast<std::size_t>(y + radius + dy) * out.width + x + radius + dx];
-          to = std::max(to, a);
-        }
-    }
-  return out;
-}
-
-double shift(Align align, int size) {
-  return align == Align::low ? 0 : align == Align::middle ? -size / 2.0 : -size;
-}
 
 constexpr double line_height = 1.25;  // of the letters
 
@@ -121,18 +34,83 @@ std::string beginning(const std::string& text, const std::string& end, double si
 
 }  // namespace
 
+void set_font(cairo_t* cr, double size, bool bold) {
+  cairo_select_font_face(cr, font_family, CAIRO_FONT_SLANT_NORMAL, bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size);
+  const std::unique_ptr<cairo_font_options_t, decltype(&cairo_font_options_destroy)> options(cairo_font_options_create(), cairo_font_options_destroy);
+  // Alike whatever the system prefers, and as wide on paper as on the screen.
+  cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(cr, options.get());
+}
+
+namespace {
+
+double width_of(const std::string& text, double size, bool bold) {
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> nowhere(cairo_recording_surface_create(CAIRO_CONTENT_ALPHA, nullptr), cairo_surface_destroy);
+  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cr(cairo_create(nowhere.get()), cairo_destroy);
+  set_font(cr.get(), size, bold);
+  cairo_text_extents_t extent;
+  cairo_text_extents(cr.get(), text.c_str(), &extent);
+  return extent.x_advance;
+}
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || (c & 0x80); }
+
+// Where an index begins and ends of the first symbol from `from` on: one letter, "_" at the first place, up to five letters or digits.
+std::optional<std::array<std::size_t, 2>> find_index(const std::string& text, std::size_t from) {
+  for (std::size_t bar = text.find('_', from); bar != std::string::npos; bar = text.find('_', bar + 1)) {
+    std::size_t letter = bar;
+    while (letter > from && (static_cast<unsigned char>(text[letter - 1]) & 0xc0) == 0x80) --letter;
+    if (letter == from || !is_word(text[--letter]) || text[letter] == '_' || (letter > 0 && is_word(text[letter - 1]))) continue;
+    std::size_t end = bar + 1;
+    while (end < text.size() && std::isalnum(static_cast<unsigned char>(text[end]))) ++end;
+    if (end > bar + 1 && end <= bar + 6 && (end == text.size() || !is_word(text[end]))) return std::array{bar, end};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<TextRun> text_runs(const std::string& text, double size, bool bold) {
+  constexpr double kLower = 0.22;
+  std::vector<TextRun> runs;
+  double at = 0;
+  const auto add = [&](const std::string& piece, double letters, double up) {
+    if (piece.empty()) return;
+    runs.push_back({piece, letters, {at, up}});
+    at += width_of(piece, letters, bold);
+  };
+  std::size_t from = 0;
+  while (const auto index = find_index(text, from)) {
+    const auto [bar, end] = *index;
+    add(text.substr(from, bar - from), size, 0);
+    add(text.substr(bar + 1, end - bar - 1), least_letters * size, -kLower * size);
+    from = end;
+  }
+  add(text.substr(from), size, 0);
+  return runs;
+}
+
 Point text_extent(const std::string& text, double size, bool bold) {
   if (text.empty()) return {0, 0};
-  const vtkSmartPointer<vtkTextProperty> p = property(size, bold, false);
-  vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
-  int box[4] = {0, 0, 0, 0};
-  if (!renderer || !renderer->GetBoundingBox(p.Get(), vtkStdString(text), box, dots_per_inch, vtkTextRenderer::FreeType)) return {0, size};
-  return {static_cast<double>(box[1] - box[0] + 1), static_cast<double>(box[3] - box[2] + 1)};
+  const TextRun last = text_runs(text, size, bold).back();
+  return {last.start.x + width_of(last.text, last.size, bold), (font_ascent + font_descent) * size};
+}
+
+Point baseline(const PlacedText& text) {
+  const auto shift = [](Align align, double size) { return align == Align::low ? 0 : align == Align::middle ? -size / 2 : -size; };
+  const TextStyle& style = text.style;
+  const Point extent = text_extent(text.text, style.size, style.bold);
+  // Along an upright text "across" and "up" are those of the page.
+  if (style.upright) return text.at + Point{shift(style.across, extent.y) + font_ascent * style.size, shift(style.up, extent.x)};
+  return text.at + Point{shift(style.across, extent.x), shift(style.up, extent.y) + font_descent * style.size};
 }
 
 double fitting_size(const std::string& text, double size, double pixels, bool bold) {
   const double width = text_extent(text, size, bold).x;
-  return width > pixels ? std::max(0.5 * size, size * pixels / width) : size;
+  return width > pixels ? std::max(least_letters * size, size * pixels / width) : size;
 }
 
 std::string shortened(const std::string& text, double size, double pixels, bool bold) {
@@ -144,8 +122,7 @@ std::string shortened(const std::string& text, double size, double pixels, bool 
 
 FittedText fitted(const std::string& text, double size, double pixels, bool bold, const std::string& end) {
   const double smaller = fitting_size(text + end, size, pixels, bold);
-  // Letters are of whole pixels, so the smaller text may be a little wider; its place has a margin.
-  if (text_extent(text + end, smaller, bold).x <= pixels + 0.5 * size) return {smaller, {text + end}};
+  if (text_extent(text + end, smaller, bold).x <= pixels + 1e-6 * size) return {smaller, {text + end}};
   std::string first = beginning(text, "", smaller, pixels, bold);
   const std::size_t space = text.find_last_of(" \n", first.size());
   if (space != std::string::npos && space > 0) first.resize(space);
@@ -166,20 +143,6 @@ void Canvas::text(Point first, const FittedText& lines, TextStyle style) {
   for (const std::string& line : lines.lines) {
     text(first, line, style);
     (style.upright ? first.x : first.y) += (style.upright ? 1 : -1) * line_height * lines.size;
-  }
-}
-
-void Canvas::set_texts(Image& image) const {
-  for (const Text& t : texts_) {
-    const Mask mask = render(t.text, t.style);
-    // Along an upright text "across" and "up" are those of the page.
-    const int left = static_cast<int>(std::lround(t.at.x + shift(t.style.across, mask.width)));
-    const int bottom = static_cast<int>(std::lround(t.at.y + shift(t.style.up, mask.height)));
-    if (t.style.halo) {
-      const int radius = std::max(1, static_cast<int>(std::lround(t.style.size / 9)));
-      blend(image, grown(mask, radius), left - radius, bottom - radius, {255, 255, 255});
-    }
-    blend(image, mask, left, bottom, t.style.colour);
   }
 }
 

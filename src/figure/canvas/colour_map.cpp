@@ -31,7 +31,7 @@ std::string label(const ScenePicture& p, int exponent) {
   return unit.empty() ? p.field_label : p.field_label + " [" + unit + "]";
 }
 
-Ticks bar_ticks(const ColourScale& scale) { return linear_ticks(scale.low, scale.high, 6); }
+Ticks bar_ticks(const ColourScale& scale) { return few_ticks(scale.low, scale.high, 5); }
 
 constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small_label = 0.85, ends = 0.55, tip = 0.9;  // in em
 
@@ -93,13 +93,21 @@ double colour_bar_width(const ColourScale& scale, const ScenePicture& p, double 
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& p, double em, double left, double bottom, double top) {
   if (!scale.shown || p.field_label.empty()) return;
   const Ticks ticks = bar_ticks(scale);
+  // The name stands beside the bar, above it where that is too short.
+  const std::string name = label(p, ticks.exponent);
+  const bool upright = text_extent(name, least_letters * em).x <= top - bottom - 2 * (ends + 1.0) * em;
+  if (!upright) {
+    const FittedText lines = fitted(name, em, p.width - 0.3 * em - left);
+    canvas.text({left, top}, lines, {.up = Align::high});
+    top -= lines.depth() + 1.3 * em;
+  }
   // Where the field goes on beyond an end of the bar, a triangle in the colour of that end says so.
   const double tip_below = scale.least < scale.low ? tip * em : 0, tip_above = scale.greatest > scale.high ? tip * em : 0;
   const Box box{left, bottom + (ends + 1.0) * em + tip_below, left + bar * em, top - (ends + 1.0) * em - tip_above};
   const int n = std::max(2, static_cast<int>(box.height()));
   for (int i = 0; i < n; ++i) {
     const double y = box.bottom + box.height() * i / n;
-    canvas.box({box.left, y, box.right, box.bottom + box.height() * (i + 1) / n}, scale.at(scale.low + (scale.high - scale.low) * (i + 0.5) / n));
+    canvas.box({box.left, y, box.right, box.top}, scale.at(scale.low + (scale.high - scale.low) * (i + 0.5) / n));
   }
   canvas.outline(box, std::max(1.0, em / 22), {60, 60, 60});
   for (const auto& [foot, height, value] : {std::tuple{box.bottom, -tip_below, scale.low}, std::tuple{box.top, tip_above, scale.high}}) {
@@ -108,7 +116,7 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePictur
     canvas.convex(corners, scale.at(value));
     canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
   }
-  for (const Tick& t : ticks.ticks) {
+  for (const Tick& t : few_ticks(scale.low, scale.high, std::min(5.0, box.height() / (2.6 * em))).ticks) {
     if (t.label.empty()) continue;
     const double y = box.bottom + box.height() * (t.value - scale.low) / (scale.high - scale.low);
     canvas.line({box.right, y}, {box.right + tick * em, y}, std::max(1.0, em / 20), {60, 60, 60});
@@ -118,9 +126,9 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePictur
   canvas.text({box.left, box.top + tip_above + ends * em}, extreme("max", scale.greatest, ticks), end);
   end.up = Align::high;
   canvas.text({box.left, box.bottom - tip_below - ends * em}, extreme("min", scale.least, ticks), end);
-  const std::string name = label(p, ticks.exponent);
-  canvas.text({box.right + (tick + pad) * em + widest_label(ticks, em) + 0.4 * em, box.centre().y}, name,
-              {.size = fitting_size(name, em, box.height()), .up = Align::middle, .upright = true});
+  if (upright)
+    canvas.text({box.right + (tick + pad) * em + widest_label(ticks, em) + 0.4 * em, box.centre().y}, name,
+                {.size = fitting_size(name, em, box.height()), .up = Align::middle, .upright = true});
 }
 
 }  // namespace dotyk::figure

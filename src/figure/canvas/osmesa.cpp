@@ -5,25 +5,19 @@
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 
-#include <cstdint>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
-#include "base/whole_file.hpp"
-#include "figure/canvas/canvas.hpp"
+#include "figure/canvas/osmesa.hpp"
 
 using GlFunction = void (*)();
 
@@ -71,8 +65,8 @@ struct ContextEnd {
   }
 };
 
-// Renders on white what layers hold, from the lowest to the highest: the rows of an image of this size.
-std::vector<unsigned char> rendered(int width, int height, std::span<vtkRenderer* const> layers) {
+// Pixels with opacity, of an image of this size, the lowest row first.
+std::vector<unsigned char> rendered(int width, int height, vtkRenderer* renderer) {
   require_room(width, height);
   std::vector<unsigned char> buffer(4 * static_cast<std::size_t>(width) * height);
   const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24,
@@ -96,68 +90,28 @@ std::vector<unsigned char> rendered(int width, int height, std::span<vtkRenderer
   window->SetMultiSamples(0);
   window->SetSize(width, height);
   window->SetDPI(72);
-  window->SetNumberOfLayers(static_cast<int>(layers.size()));
-  for (std::size_t k = 0; k < layers.size(); ++k) {
-    layers[k]->SetLayer(static_cast<int>(k));
-    window->AddRenderer(layers[k]);
-  }
-  layers[0]->SetBackground(1, 1, 1);
+  window->SetAlphaBitPlanes(1);
+  window->AddRenderer(renderer);
+  renderer->SetBackground(0, 0, 0);  // so that colours come multiplied by their opacity
+  renderer->SetBackgroundAlpha(0);
   window->Render();
   vtkNew<vtkUnsignedCharArray> pixels;
-  window->GetPixelData(0, 0, width - 1, height - 1, 0, pixels.Get(), 0);
+  window->GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels.Get(), 0);
   window->Finalize();
   return {pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues()};
 }
 
-// The mean of each `factor` x `factor` block of an image that is `factor` times too large each way.
-Image reduce(const std::vector<unsigned char>& fine, int width, int height, int factor) {
-  const auto n = static_cast<std::size_t>(width);
-  if (fine.size() != 3 * n * height * factor * factor)
-    throw std::runtime_error("the drawing library returned a picture of another size");
-  Image image{width, height, std::vector<unsigned char>(3 * n * height)};
-  std::vector<std::uint32_t> sums(3 * n);
-  const std::uint32_t count = factor * factor;
-  for (int y = 0; y < height; ++y) {
-    std::fill(sums.begin(), sums.end(), 0);
-    for (int dy = 0; dy < factor; ++dy) {
-      const unsigned char* row = &fine[3 * n * factor * (static_cast<std::size_t>(y) * factor + dy)];
-      for (std::size_t x = 0; x < n; ++x)
-        for (int dx = 0; dx < factor; ++dx, row += 3)
-          for (int c = 0; c < 3; ++c) sums[3 * x + c] += row[c];
-    }
-    unsigned char* out = &image.rgb[3 * n * y];
-    for (std::size_t k = 0; k < 3 * n; ++k) out[k] = static_cast<unsigned char>((sums[k] + count / 2) / count);
-  }
-  return image;
-}
-
-vtkSmartPointer<vtkUnsignedCharArray> encode(const Image& image) {
-  vtkNew<vtkImageData> data;
-  data->SetDimensions(image.width, image.height, 1);
-  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  std::memcpy(data->GetScalarPointer(), image.rgb.data(), image.rgb.size());
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(data);
-  writer->SetCompressionLevel(4);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  if (writer->GetResult()) bytes->DeepCopy(writer->GetResult());
-  return bytes;
-}
-
 }  // namespace
 
-void write_picture(const Sheet& sheet, std::span<vtkRenderer* const> layers, const Canvas& canvas) {
-  const int factor = canvas.factor();
-  Image image = reduce(rendered(factor * sheet.width, factor * sheet.height, layers), sheet.width, sheet.height, factor);
-  canvas.set_texts(image);
-  const vtkSmartPointer<vtkUnsignedCharArray> bytes = encode(image);
-  const auto size = static_cast<std::size_t>(bytes->GetNumberOfValues());
-  if (size == 0) throw std::runtime_error("cannot encode " + sheet.file + " as PNG");
-  PartFile part(sheet.file);
-  part.write(bytes->GetPointer(0), size);
-  part.finish();
+Image rendered(const Sheet& sheet, vtkRenderer* renderer) {
+  const int factor = image_factor(sheet), width = factor * sheet.width, height = factor * sheet.height;
+  const std::vector<unsigned char> pixels = rendered(width, height, renderer);
+  if (pixels.size() != 4 * static_cast<std::size_t>(width) * height) throw std::runtime_error("the drawing library returned a picture of another size");
+  Image image{width, height, {}};
+  image.rgba.reserve(pixels.size());
+  const std::ptrdiff_t row = 4 * width;
+  for (auto from = pixels.end(); from != pixels.begin(); from -= row) image.rgba.insert(image.rgba.end(), from - row, from);
+  return image;
 }
 
 }  // namespace dotyk::figure

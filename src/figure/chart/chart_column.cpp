@@ -1,4 +1,6 @@
 
+#include "figure/canvas/paper.hpp"
+#include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart.hpp"
 #include "figure/door/drawing.hpp"
 
@@ -30,7 +32,7 @@ ChartMargins share(std::vector<ChartPicture>& panels, const std::vector<ChartFra
   std::vector<double> beside;
   double plots = height;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    Canvas tried(panels[i]);
+    Canvas tried;
     const ChartMargins margins = draw_on(tried, panels[i], frames[i]);
     least.left = std::max(least.left, margins.left), least.right = std::max(least.right, margins.right);
     beside.push_back(margins.above + margins.below);
@@ -57,11 +59,13 @@ void draw_column(Canvas& canvas, std::vector<ChartPicture> panels, double left, 
 
 }  // namespace
 
-void render(const ChartColumn& picture) {
+void render(const ChartColumn& given) {
+  ChartColumn picture = given;
   const auto columns = static_cast<std::size_t>(picture.columns), rows = (picture.panels.size() + columns - 1) / columns;
+  picture.height = tall_enough(picture, static_cast<double>(rows));
   const double width = static_cast<double>(picture.width) / picture.columns;
-  const double em = std::min(0.022 * picture.width / std::sqrt(picture.columns), 0.075 * picture.height / static_cast<double>(rows));
-  Canvas canvas(picture);
+  const double em = letters(picture);
+  Canvas canvas;
   const double height = (picture.height - draw_title(canvas, picture, em)) / static_cast<double>(rows);
   for (std::size_t column = 0; column < columns; ++column) {
     std::vector<ChartPicture> panels;

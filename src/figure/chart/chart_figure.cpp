@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "figure/canvas/legend.hpp"
+#include "figure/canvas/paper.hpp"
+#include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart.hpp"
 #include "figure/door/drawing.hpp"
 
@@ -270,8 +272,8 @@ private:
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
 
 void render(const ChartPicture& picture) {
-  Canvas canvas(picture);
-  draw_on(canvas, picture, {0.034 * std::min<double>(picture.height, 0.8 * picture.width), {}, true, true});
+  Canvas canvas;
+  draw_on(canvas, picture, {letters(picture), {}, true, true});
   write_canvas(canvas, picture);
 }
 

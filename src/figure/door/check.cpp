@@ -28,7 +28,7 @@ std::string box_text(const std::array<double, 4>& b) {
   return out;
 }
 
-/// Without code points that stand for no character: what VTK refuses in the middle of a picture.
+/// Without code points that stand for no character, which cairo refuses in the middle of a picture.
 bool is_utf8(const std::string& words) {
   const auto* at = reinterpret_cast<const unsigned char*>(words.data());
   const unsigned char* const end = at + words.size();
@@ -41,7 +41,7 @@ bool is_utf8(const std::string& words) {
       if ((*at & 0xc0) != 0x80) return false;
       point = point << 6 | (*at & 0x3f);
     }
-    if (point < least[more] || point > 0x10ffff || (point >= 0xd800 && point < 0xe000) || point == 0xfffe || point == 0xffff) return false;
+    if (point < least[more] || point > 0x10ffff || (point >= 0xd800 && point < 0xe000) || (point & 0xfffe) == 0xfffe || (point >= 0xfdd0 && point <= 0xfdef)) return false;
   }
   return true;
 }
@@ -53,15 +53,18 @@ void check_text(const std::string& key, const std::string& words) {
   if (!is_utf8(words)) throw InputError(key + " is not valid UTF-8");
 }
 
-// `ending` with its dot.
-void check_file(const std::string& file, const std::string& ending) {
-  require(!file.empty(), "a file name is needed, one that ends in " + ending);
-  require(file.size() > ending.size() && file.ends_with(ending), "cannot write ", file, ": the file name must end in ", ending);
+// `endings` with their dots; `words`: the same in words.
+void check_file(const std::string& file, std::initializer_list<const char*> endings, const std::string& words) {
+  require(!file.empty(), "a file name is needed, one that ends in " + words);
+  const std::string name = file.substr(file.rfind('/') + 1);
+  require(std::ranges::any_of(endings, [&](const std::string& ending) { return name.size() > ending.size() && name.ends_with(ending); }), "cannot write ", file,
+          ": the file name must end in ", words);
   place_to_write(file);
 }
 
 void check_sheet(const Sheet& sheet) {
-  check_file(sheet.file, ".png");
+  check_file(sheet.file, {".png", ".pdf", ".svg"}, ".png, .pdf or .svg");
+  if (sheet.printed) require(*sheet.printed >= 30 && *sheet.printed <= 500, "the width of ", sheet.file, " is ", *sheet.printed, " mm, expected 30 to 500");
   require(sheet.width >= 160 && sheet.width <= 8192 && sheet.height >= 160 && sheet.height <= 8192,
           "the size of ", sheet.file, " is ", sheet.width, " x ", sheet.height, ", expected 160 to 8192 pixels each way");
   check_text("'title'", sheet.title);
@@ -246,7 +249,7 @@ void check(const PlatePicture& p) {
 }
 
 void check(const GridFile& g) {
-  check_file(g.file, ".vtu");
+  check_file(g.file, {".vtu"}, ".vtu");
   require(g.points.size() % 3 == 0, g.file + ": points come three coordinates each");
   require(finite(g.points), g.file + ": a coordinate is not finite");
   const std::size_t n = g.points.size() / 3;

@@ -18,9 +18,10 @@ using Vec3 = std::array<double, 3>;
 
 // The file that a picture becomes, and what stands above it.
 struct Sheet {
-  std::string file;                         // ends in .png; its folder must exist
-  int width = 1000, height = 900;           // pixels, 160 to 8192 each
+  std::string file;                         // ends in .png, .pdf or .svg; its folder must exist
+  int width = 1000, height = 900;           // pixels, 160 to 8192 each; of PDF and SVG the proportions
   std::string title;                        // empty: none, the space goes to the picture
+  std::optional<double> printed = {};       // width on paper in mm, 30 to 500, for which letters are made; default: one column of a journal, 85, or two, 178
 };
 
 // ---------------------------------------------------------------- colours

@@ -4,6 +4,8 @@
 
 #include "figure/door/drawing.hpp"
 #include "figure/canvas/legend.hpp"
+#include "figure/canvas/paper.hpp"
+#include "figure/canvas/sheet.hpp"
 #include "figure/page/page_cells.hpp"
 
 namespace dotyk::figure {
@@ -12,9 +14,7 @@ namespace {
 
 class Page {
 public:
-  explicit Page(const PagePicture& picture) : picture_(picture), canvas_(picture), columns_(picture.rows.front().size()) {
-    const double lowest = picture.height * *std::min_element(picture.row_weights.begin(), picture.row_weights.end()) / total(picture.row_weights);
-    em_ = std::min(0.02 * picture.width / std::pow(static_cast<double>(columns_), 0.35), 0.075 * lowest);
+  explicit Page(const PagePicture& picture) : picture_(picture), columns_(picture.rows.front().size()), em_(letters(picture)) {
     double top = picture.height - 0.4 * em_;
     top = draw_title(top);
     top = draw_legend(top);
@@ -33,10 +33,9 @@ private:
 
   double draw_title(double top) {
     if (picture_.title.empty()) return top - 0.4 * em_;
-    TextStyle style = title_style();
-    style.size = fitting_size(picture_.title, 1.25 * em_, picture_.width - 2 * em_, true);
-    canvas_.text({picture_.width / 2.0, top - 0.4 * em_}, picture_.title, style);
-    return top - 0.7 * em_ - 1.5 * style.size;
+    const FittedText title = fitted(picture_.title, 1.1 * em_, picture_.width - 2 * em_, true);
+    canvas_.text({picture_.width / 2.0, top - 0.4 * em_}, title, title_style());
+    return top - 0.7 * em_ - 1.5 * title.size - title.depth();
   }
 
   // States of supports that occur; none where all do no more than act.
@@ -145,13 +144,17 @@ private:
   const PagePicture& picture_;
   Canvas canvas_;
   std::size_t columns_;
-  double em_ = 20;
+  double em_;
   std::vector<std::vector<Axes>> axes_;
 };
 
 }  // namespace
 
-void render(const PagePicture& picture) {
+void render(const PagePicture& given) {
+  PagePicture picture = given;
+  const auto& weights = picture.row_weights;
+  const double lowest = *std::min_element(weights.begin(), weights.end()) / std::accumulate(weights.begin(), weights.end(), 0.0);
+  picture.height = tall_enough(picture, 1 / lowest);
   write_canvas(Page(picture).canvas(), picture);
 }
 

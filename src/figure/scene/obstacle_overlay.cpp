@@ -12,7 +12,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour body_grey{205, 205, 205}, edge_grey{95, 95, 95}, hatch_grey{140, 140, 140};
+constexpr Colour hatch_ground{226, 226, 226}, edge_grey{95, 95, 95}, hatch_grey{140, 140, 140};
 
 std::vector<Vec3> corners(const RigidPicture& rigid) {
   std::vector<Vec3> out;
@@ -20,9 +20,23 @@ std::vector<Vec3> corners(const RigidPicture& rigid) {
   return out;
 }
 
-// On the solid side of p q, whose direction is `along`; far ends, as of a plane without end, are cut before. `walked`: the
+// Unit normals of the line at its points, to its solid side.
+std::vector<Point> normals(const std::vector<Point>& line, Point into) {
+  std::vector<Point> out(line.size(), Point{0, 0});
+  double side = 0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Point d = line[i + 1] - line[i], left{-d.y, d.x};
+    side += left.x * into.x + left.y * into.y;
+    if (!(length(d) > 0)) continue;
+    for (const std::size_t end : {i, i + 1}) out[end] = out[end] + (1 / length(d)) * left;
+  }
+  for (Point& n : out) n = length(n) > 0 ? ((side < 0 ? -1 : 1) / length(n)) * n : into;
+  return out;
+}
+
+// On the solid side of p q; far ends, as of a plane without end, are cut before. `normals`: at p and q. `walked`: the
 // length of the line up to here, so that strokes go on evenly.
-void draw_hatching(Stage& stage, Point p, Point q, Point into, double& walked) {
+void draw_hatching(Stage& stage, Point p, Point q, std::array<Point, 2> normals, double& walked) {
   const double size = length(q - p), reach = 2.0 * (stage.frame.width() + stage.frame.height());
   if (!(size > 0)) return;
   const Point along{(q.x - p.x) / size, (q.y - p.y) / size}, to_centre = stage.frame.centre() - p;
@@ -30,18 +44,19 @@ void draw_hatching(Stage& stage, Point p, Point q, Point into, double& walked) {
   const double from = std::max(0.0, nearest - reach), to = std::min(size, nearest + reach);
   if (from >= to) return;
   const double depth = hatch_depth * stage.em, spacing = 0.55 * stage.em;
+  const auto into = [&](double s) { return part_way(normals[0], normals[1], s / size); };
   const Point first = p + from * along, last = p + to * along;
-  stage.under.convex(std::array{first, last, last + depth * into, first + depth * into}, {226, 226, 226});
+  stage.under.convex(std::array{first, last, last + depth * into(to), first + depth * into(from)}, hatch_ground);
   // Slanted by half a right angle against the direction of the line.
   for (double s = spacing - std::fmod(walked, spacing); s <= to - from; s += spacing)
-    stage.under.line(first + s * along, first + s * along + depth * (into - 0.7 * along), std::max(1.0, stage.em / 24), hatch_grey);
+    stage.under.line(first + s * along, first + s * along + depth * (into(from + s) - 0.7 * along), std::max(1.0, stage.em / 24), hatch_grey);
   walked += to - from;
 }
 
 void draw_in_plane(Stage& stage, const RigidPicture& rigid) {
-  const std::vector<Point> at = obstacle_line(stage.view, rigid);
+  const std::vector<Point> at = obstacle_line(stage.view, rigid), into = normals(at, stage.view.direction(rigid.into_solid));
   double walked = 0;
-  for (std::size_t i = 0; i + 1 < at.size(); ++i) draw_hatching(stage, at[i], at[i + 1], stage.view.direction(rigid.into_solid), walked);
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) draw_hatching(stage, at[i], at[i + 1], {into[i], into[i + 1]}, walked);
   stage.under.polyline(at, std::max(1.5, stage.em / 12), edge_grey);
 }
 
@@ -100,9 +115,11 @@ void obstacle_legend(const Stage& stage, std::vector<LegendEntry>& out) {
   });
   if (!seen) return;
   out.push_back({"rigid obstacle", [em = stage.em](Canvas& c, const Box& b) {
-                   const double middle = b.centre().y, top = middle + 0.3 * em;
-                   c.box({b.left, middle - 0.3 * em, b.right, top}, body_grey);
-                   c.line({b.left, top}, {b.right, top}, std::max(1.5, em / 12), edge_grey);
+                   const double foot = b.centre().y - 0.3 * em, depth = 0.6 * em, line = std::max(1.0, em / 24);
+                   c.box({b.left, foot, b.right, foot + depth}, hatch_ground);
+                   for (double x = b.left + 0.3 * em; x < b.right; x += 0.55 * em)
+                     c.line({x, foot}, {std::max(b.left, x - 0.7 * depth), foot + std::min(depth, (x - b.left) / 0.7)}, line, hatch_grey);
+                   c.line({b.left, foot}, {b.right, foot}, std::max(1.5, em / 12), edge_grey);
                  }});
 }
 

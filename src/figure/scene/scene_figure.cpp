@@ -5,14 +5,15 @@
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
+#include "figure/canvas/osmesa.hpp"
+#include "figure/canvas/sheet.hpp"
 #include "figure/door/drawing.hpp"
 #include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {
 
 Stage::Stage(const ScenePicture& p)
-    : picture(p), factor(Canvas(p).factor()), plane(p.bodies.front().dimension == 2),
-      em(0.032 * std::min<double>(p.height, 0.8 * p.width)), under(p), over(p),
+    : picture(p), factor(image_factor(p)), plane(p.bodies.front().dimension == 2), em(letters(p)),
       layers{contact_layer(), obstacle_layer(), load_layer(), support_layer(), body_layer()} {
   if (p.window) window = box_of(*p.window);
   scale = colour_scale(p, window);
@@ -102,7 +103,7 @@ void set_camera(const Stage& stage, vtkRenderer* renderer) {
 
 void draw_stage(Stage& stage) {
   lay_out(stage);
-  vtkNew<vtkRenderer> ground, bodies, overlay;
+  vtkNew<vtkRenderer> bodies;
   if (stage.window) stage.over.clip(stage.frame);
   std::vector<Layer> upwards = stage.layers;
   std::stable_sort(upwards.begin(), upwards.end(), [](const Layer& a, const Layer& b) { return a.height < b.height; });
@@ -112,9 +113,7 @@ void draw_stage(Stage& stage) {
   // The rim of a window, above what it cuts off.
   if (stage.window) stage.over.outline(stage.frame, std::max(1.0, stage.em / 20), {30, 30, 30});
   set_camera(stage, bodies);
-  stage.under.add_to(ground);
-  stage.over.add_to(overlay);
-  write_picture(stage.picture, std::array{ground.Get(), bodies.Get(), overlay.Get()}, stage.over);
+  write_picture(stage.picture, stage.under, rendered(stage.picture, bodies), stage.over);
 }
 
 void render(const ScenePicture& picture) {

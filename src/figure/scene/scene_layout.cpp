@@ -111,8 +111,7 @@ std::array<Ticks, 2> frame_ticks(const Stage& stage) {
   const double s = stage.view.scale, em = stage.em;
   const Point o = stage.view.origin;
   const Box w = stage.window.value_or(Box{(f.left - o.x) / s, (f.bottom - o.y) / s, (f.right - o.x) / s, (f.top - o.y) / s});
-  const int nx = std::clamp(static_cast<int>(f.width() / (4.5 * em)), 2, 8), ny = std::clamp(static_cast<int>(f.height() / (3 * em)), 2, 8);
-  return {linear_ticks(w.left, w.right, nx), linear_ticks(w.bottom, w.top, ny)};
+  return {spaced_ticks({false, w.left, w.right, f.left, f.right}, em), few_ticks(w.bottom, w.top, f.height() / (2.6 * em))};
 }
 
 void draw_axes(Stage& stage) {
@@ -181,12 +180,15 @@ struct Surroundings {
   Box room;  // for the scene
 };
 
+FittedText title_of(const ScenePicture& p, double em) { return fitted(p.title, 1.1 * em, p.width - em, true); }
+FittedText caption_of(const ScenePicture& p, double em) { return fitted(p.caption, legend_size * em, p.width - em); }
+
 // The room that all else leaves, with the widths of labels as the scene stands now.
 Box room_left(const Stage& stage, const Surroundings& around, bool placed) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em;
   Box room;
-  room.top = p.height - 0.7 * em - (p.title.empty() ? 0 : 1.7 * em);
+  room.top = p.height - 0.7 * em - (p.title.empty() ? 0 : 1.7 * em + title_of(p, em).depth());
   room.bottom = 0.4 * em + around.caption + around.legend.height();
   room.left = 0.8 * em;
   room.right = p.width - 0.8 * em - (around.column > 0 ? around.column + 1.0 * em : 0);
@@ -204,7 +206,7 @@ Surroundings place_scene(Stage& stage) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em;
   const Bounds scaled = scaled_bounds(stage);
-  Surroundings around{0, inset_width(stage), 0, p.caption.empty() ? 0 : 1.5 * em, Legend({}, em), {}};
+  Surroundings around{0, inset_width(stage), 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), Legend({}, em), {}};
   stage.frame = {0, 0, 1.0 * p.width, 1.0 * p.height};
   for (int round = 0; round < 3; ++round) {
     stage.deformation_shows = round > 0 && displacement_shows(stage);
@@ -244,10 +246,9 @@ void lay_out(Stage& stage) {
   const double em = stage.em, w = p.width;
   if (!stage.plane) aim(stage);
   const Surroundings around = place_scene(stage);
-  TextStyle title = title_style();
-  title.size = fitting_size(p.title, 1.1 * em, w - em, true);
-  stage.over.text({w / 2, p.height - 0.6 * em}, p.title, title);
-  stage.over.text({w / 2, 0.5 * em}, p.caption, {.size = fitting_size(p.caption, legend_size * em, w - em), .across = Align::middle});
+  stage.over.text({w / 2, p.height - 0.6 * em}, title_of(p, em), title_style());
+  const FittedText caption = caption_of(p, em);
+  stage.over.text({w / 2, 0.5 * em + caption.depth()}, caption, {.across = Align::middle});
   around.legend.draw(stage.over, {(w - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
   draw_column(stage, around);
   if (p.axes && stage.plane) draw_axes(stage);

@@ -6,21 +6,29 @@
 
 namespace dotyk::script {
 
-inline Key picture_key() { return key::file("file", "where to; ends in .png, its folder must exist").written().required(); }
+inline Key picture_key() { return key::file("file", "where to; ends in .png, .pdf or .svg, its folder must exist").written().required(); }
 inline Key title_key(const char* help = "above the figure") { return key::string("title", help).otherwise("none"); }
-inline Key size_key(const char* otherwise) {
-  return key::list("size", key::integer("", ""), "width and height").count(2).unit("pixels").otherwise(otherwise);
+inline std::vector<Key> size_keys(const char* otherwise) {
+  return {key::list("size", key::integer("", ""), "width and height; of .pdf and .svg the proportions").count(2).unit("pixels").otherwise(text(otherwise, "; with 'width' 300 an inch")),
+          key::number("width", "on paper, from 30 to 500: letters are made to be read at this width").unit("mm").otherwise("85, one column of a journal; of more than 1300 pixels 178, two")};
 }
 
-// File, title, and size where it is given. Throws InputError where a side of that is out of range.
+// File, title, and sizes where they are given. Throws InputError where one is out of range.
 inline void read_page(const Arguments& call, figure::Sheet& sheet) {
   call.read("file", sheet.file);
   call.read("title", sheet.title);
-  if (!call.has("size")) return;
-  const auto size = call.integers("size");
-  for (const long long pixels : size)
-    if (pixels < 160 || pixels > 8192) throw InputError(text("size has ", pixels, " pixels; a side must have from 160 to 8192"));
-  sheet.width = static_cast<int>(size[0]), sheet.height = static_cast<int>(size[1]);
+  call.read("width", sheet.printed);
+  if (sheet.printed && !(*sheet.printed >= 30 && *sheet.printed <= 500)) throw InputError(text("'width' is ", *sheet.printed, " mm; it must be from 30 to 500"));
+  if (call.has("size")) {
+    const auto size = call.integers("size");
+    for (const long long pixels : size)
+      if (pixels < 160 || pixels > 8192) throw InputError(text("size has ", pixels, " pixels; a side must have from 160 to 8192"));
+    sheet.width = static_cast<int>(size[0]), sheet.height = static_cast<int>(size[1]);
+  } else if (sheet.printed) {
+    constexpr double kDots = 300 / 25.4;  // a mm
+    const double shape = static_cast<double>(sheet.height) / sheet.width;
+    sheet.width = static_cast<int>(std::lround(kDots * *sheet.printed)), sheet.height = std::clamp(static_cast<int>(std::lround(shape * sheet.width)), 160, 8192);
+  }
 }
 
 // Draws what read_page() completes; gives the file.

@@ -23,7 +23,7 @@ template <class Enum>
 Names<Enum> first(const Names<Enum>& names, int count) { return {names.begin(), names.begin() + count}; }
 
 std::vector<Key> page_keys(const std::vector<Key>& keys, const char* size, bool heat = false) {
-  return joined(joined({picture_key()}, keys), {title_key(), units_key(heat), size_key(size)});
+  return joined(joined(joined({picture_key()}, keys), {title_key(), units_key(heat)}), size_keys(size));
 }
 
 std::vector<BeamPanel> panels(const Arguments& call, std::vector<BeamPanel> otherwise) {
@@ -89,7 +89,7 @@ void add_thermoelastic(Library& library) {
   library.extend<ThermoelasticBeam>()
       .method({.name = "thermoelastic_beam:render",
                .help = "Draws the beam as it is now: the deflection line (exaggerated) with supports as symbols and loads as arrows, moment, shear and normal "
-                       "force, temperature on the axis and its slope over the height, displacement along the axis, over one x axis into a PNG file, and "
+                       "force, temperature on the axis and its slope over the height, displacement along the axis, over one x axis into a file, and "
                        "returns its name. Supports are coloured by what they do about deflection and rotation.",
                .example = "b:run(60):render{ file = \"a.png\", panels = { \"deflection\", \"temperature\" }, units = { length = \"m\", temperature = \"K\" } }",
                .arguments = {key::table(page_keys({panels_key(7, "deflection, moment, temperature and gradient")},
@@ -97,7 +97,7 @@ void add_thermoelastic(Library& library) {
                .run = render_thermoelastic})
       .method({.name = "thermoelastic_beam:render_law",
                .help = "Draws the law of a support with where it is on it now, its reaction against its displacement, and the superpotential beside it, "
-                       "into a PNG file, and returns its name. Displacements that the law forbids are grey.",
+                       "into a file, and returns its name. Displacements that the law forbids are grey.",
                .example = "b:run(60):render_law{ file = \"a.png\", support = \"left\", of = \"displacement\" }",
                .arguments = {key::table(page_keys({support_key("support").required(), of_key(3)}, "{1100, 480}"))},
                .run = render_thermoelastic_law});
@@ -109,34 +109,34 @@ void bind_beam_figure(Library& library) {
   library.extend<BeamResult>()
       .method({.name = "beam_solution:render",
                .help = "Draws the deflection line (exaggerated) with supports as symbols and loads as arrows, the bending moment and the shear force "
-                       "over one x axis into a PNG file, and returns its name. Supports are coloured by what they do.",
+                       "over one x axis into a file, and returns its name. Supports are coloured by what they do.",
                .example = "s:render{ file = \"a.png\", panels = { \"deflection\", \"moment\" }, units = { length = \"m\", force = \"kN\" } }",
                .arguments = {key::table(page_keys({panels_key(3, "all three")}, "{1000, 60 and 250 for each diagram and 400 for the deflection}"))},
                .run = render_beam})
       .method({.name = "beam_solution:render_law",
                .help = "Draws the law of a support with the working point on it, its reaction against its displacement, and the superpotential beside it, "
-                       "into a PNG file, and returns its name. Displacements that the law forbids are grey.",
+                       "into a file, and returns its name. Displacements that the law forbids are grey.",
                .example = "s:render_law{ file = \"a.png\", support = \"right\", of = \"deflection\" }",
                .arguments = {key::table(page_keys({support_key("support").required(), of_key()}, "{1100, 480}"))},
                .run = render_law});
   library.extend<SupportLaw>().method(
       {.name = "law:render",
-       .help = "Draws the law, its reaction against the displacement, and its superpotential into a PNG file, and returns its name. "
+       .help = "Draws the law, its reaction against the displacement, and its superpotential into a file, and returns its name. "
                "One-sided laws of a rotation resist slopes above zero.",
        .example = "dotyk.law.capped_elastic(100, 2):render{ file = \"a.png\" }",
        .arguments = {key::table(page_keys({of_key()}, "{1100, 480}"))},
        .run = render_support_law});
   library.function({.name = "dotyk.support_gallery",
-                    .help = "Draws rows of solved beams, the law of one support each with the working point, and its superpotential, into a PNG file, "
+                    .help = "Draws rows of solved beams, the law of one support each with the working point, and its superpotential, into a file, "
                             "and returns its name.",
                     .setup = setup::solved_beam(),
                     .example = "dotyk.support_gallery{ file = \"a.png\", rows = { { solution = s, support = \"right\", title = \"A stop\" } } }",
-                    .arguments = {key::table({picture_key(),
+                    .arguments = {key::table(joined({picture_key(),
                                               key::list("rows", key::table("", {key::object<BeamResult>("solution", "a solved beam").required(), support_key("support").required(), of_key(),
                                                                                 title_key("above the row")}, ""),
                                                         "from above").count(1, 12).required(),
-                                              title_key("above all"),
-                                              size_key("{1600, 60 and 380 a row}")})},
+                                              title_key("above all")},
+                                              size_keys("{1600, 60 and 380 a row}")))},
                     .run = gallery});
   add_thermoelastic(library);
 }

@@ -183,11 +183,11 @@ void bind_plate_solution(Library& library) {
        }})
       .method(
       {.name = "plate_solution:render",
-       .help = "Draws the plate into a PNG file and returns its name. surface: in space, its deflection magnified, over the outline at rest; edges that have "
+       .help = "Draws the plate into a file and returns its name. surface: in space, its deflection magnified, over the outline at rest; edges that have "
                "left their support show the gap. plan: from above, with contour lines, reactions per length as areas along the edges and those at corners "
                "and point supports as dots with their numbers. Both show the status of edges, point supports, and hatched what bears on the obstacle.",
        .example = "s:render{ file = \"a.png\", view = \"plan\", field = \"von_mises\", units = { length = \"m\", force = \"kN\" } }",
-       .arguments = {key::table(
+       .arguments = {key::table(joined(
            {picture_key(),
             key::choice<PlateView>("view", {{"surface", PlateView::surface}, {"plan", PlateView::plan}}, "the deflected surface, or the plan").into(&figure::PlateOptions::view),
             key::choice<PlateField>("field", {{"none", PlateField::none}, {"deflection", PlateField::deflection}, {"mxx", PlateField::xx}, {"myy", PlateField::yy},
@@ -197,7 +197,8 @@ void bind_plate_solution(Library& library) {
             key::boolean("edges", "edges of the triangles").otherwise("on a surface while they can be told apart, none on a plan"),
             key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's").into(&figure::PlatePicture::field_range),
             key::vector("eye", "surface: direction towards the eye").count(3).otherwise("{1, -1.7, 0.8}"),
-            title_key(), units_key(), size_key("{1200, 800}, a plan {1200, 900}")})},
+            title_key(), units_key()},
+           size_keys("{1200, 800}, a plan {1200, 900}")))},
        .run = render_plate})
       .text(plate_solution_text);
 }

@@ -153,10 +153,10 @@ std::vector<Key> chart_keys(Key series) {
 
 std::vector<Key> figure_keys() {
   const Key panel = key::table("", chart_keys(series_key().required()), "");
-  return joined(joined({picture_key()}, chart_keys(series_key())),
+  return joined(joined(joined({picture_key()}, chart_keys(series_key())),
                 {key::list("panels", panel, "instead of series, y, log and slopes: charts one below the other; an x beside them is one axis for all").count(1, 12),
-                 key::integer("columns", "of the panels, which follow row by row").at_least(1).otherwise("1"),
-                 size_key("{1000, 750}; with panels {1000, 60 and 260 for each row}")});
+                 key::integer("columns", "of the panels, which follow row by row").at_least(1).otherwise("1")}),
+                size_keys("{1000, 750}; with panels {1000, 60 and 260 for each row}"));
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ void bind_figure(Library& library) {
   using Options = figure::SceneOptions;
   using Picture = figure::ScenePicture;
   library.function({.name = "dotyk.chart",
-                    .help = "Draws curves into a PNG file, in one chart or in panels one below the other (or in columns), and returns its name.",
+                    .help = "Draws curves into a file, in one chart or in panels one below the other (or in columns), and returns its name.",
                     .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
                                "  series = { { name = \"P1\", x = { 1, 0.5 }, y = { 0.1, 0.03 } } } }",
                     .arguments = {key::table(figure_keys())},
@@ -177,7 +177,7 @@ void bind_figure(Library& library) {
                "returns its name. A deformation factor magnifies the gap and the motion of "
                "rigid obstacles as well, so that what touches is seen to touch.",
        .example = "s:render{ file = \"a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
-       .arguments = {key::table(
+       .arguments = {key::table(joined(
            {picture_key(),
             key::choice<Field>("field", {{"none", Field::none}, {"displacement", Field::displacement}, {"ux", Field::ux}, {"uy", Field::uy}, {"uz", Field::uz},
                                          {"von_mises", Field::von_mises}, {"xx", Field::xx}, {"yy", Field::yy}, {"zz", Field::zz}, {"yz", Field::yz},
@@ -198,8 +198,8 @@ void bind_figure(Library& library) {
                                   "pressure are scaled to it").count(4).otherwise("all").into(&Picture::window),
             key::vector("view", "direction towards the eye, in space").count(3),
             title_key(),
-            key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none").into(&Picture::field_unit),
-            size_key("{1200, 800}")})},
+            key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none").into(&Picture::field_unit)},
+           size_keys("{1200, 800}")))},
        .run = render_scene})
       .method(
       {.name = "solution:write",

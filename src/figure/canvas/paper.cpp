@@ -1,0 +1,196 @@
+// Canvases on paper by cairo.
+#include "figure/canvas/paper.hpp"
+
+#include <cairo-pdf.h>
+
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+
+#include "base/whole_file.hpp"
+#include "figure/canvas/font.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+
+Surface owned(cairo_surface_t* surface) { return {surface, cairo_surface_destroy}; }
+
+cairo_status_t append(void* bytes, const unsigned char* data, unsigned int size) {
+  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), size);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void require(cairo_status_t status, const Sheet& sheet) {
+  if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error("cannot draw " + sheet.file + ": " + cairo_status_to_string(status));
+}
+
+// In the pixels of the sheet, y downwards from here on.
+class Painter {
+public:
+  // crisp: upright and level lines cover whole pixels.
+  Painter(cairo_t* cr, double height, bool crisp) : cr_(cr), height_(height), crisp_(crisp) {}
+
+  void paint(const Canvas& canvas) {
+    for (const Mark& mark : canvas.marks()) paint(mark);
+    for (const PlacedText& text : canvas.texts()) paint(text);
+  }
+
+private:
+  void ink(Colour c, double opacity) { cairo_set_source_rgba(cr_, c.r / 255.0, c.g / 255.0, c.b / 255.0, opacity); }
+
+  void paint(const Mark& mark) {
+    ink(mark.colour, mark.opacity);
+    if (mark.kind == Mark::Kind::disc) {
+      cairo_arc(cr_, mark.points[0].x, height_ - mark.points[0].y, mark.width, 0, 2 * std::numbers::pi);
+      return cairo_fill(cr_);
+    }
+    const bool snapped = crisp_ && mark.kind == Mark::Kind::line && along_axes(mark.points);
+    const double width = snapped ? std::max(1.0, std::round(mark.width)) : mark.width;
+    const auto place = [&](double pixel) { return snapped ? std::round(pixel - width / 2) + width / 2 : pixel; };
+    for (const Point& p : mark.points) cairo_line_to(cr_, place(p.x), place(height_ - p.y));
+    if (mark.kind == Mark::Kind::polygon || mark.closed) cairo_close_path(cr_);
+    if (mark.kind == Mark::Kind::polygon) return cairo_fill(cr_);
+    cairo_set_line_width(cr_, width);
+    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_dash(cr_, mark.dash.data(), static_cast<int>(mark.dash.size()), 0);
+    cairo_stroke(cr_);
+  }
+
+  static bool along_axes(const std::vector<Point>& points) {
+    return std::adjacent_find(points.begin(), points.end(), [](Point p, Point q) { return p.x != q.x && p.y != q.y; }) == points.end();
+  }
+
+  void paint(const PlacedText& text) {
+    const TextStyle& style = text.style;
+    cairo_save(cr_);
+    const Point start = baseline(text);
+    cairo_translate(cr_, start.x, height_ - start.y);
+    if (style.upright) cairo_rotate(cr_, -std::numbers::pi / 2);
+    const std::vector<TextRun> runs = text_runs(text.text, style.size, style.bold);
+    const auto each = [&](auto put) {
+      for (const TextRun& run : runs) {
+        set_font(cr_, run.size, style.bold);
+        cairo_move_to(cr_, run.start.x, -run.start.y);
+        put(cr_, run.text.c_str());
+      }
+    };
+    if (style.halo) {
+      each(cairo_text_path);
+      ink({255, 255, 255}, 1);
+      cairo_set_line_width(cr_, 2 * halo_width(style.size));
+      cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
+      cairo_set_dash(cr_, nullptr, 0, 0);
+      cairo_stroke(cr_);
+    }
+    ink(style.colour, 1);
+    each(cairo_show_text);
+    cairo_restore(cr_);
+  }
+
+  cairo_t* cr_;
+  double height_;
+  bool crisp_;
+};
+
+// Cairo's pixels: blue, green, red, opacity.
+Surface surface_of(Image& image) {
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) std::swap(image.rgba[i], image.rgba[i + 2]);
+  return owned(cairo_image_surface_create_for_data(image.rgba.data(), CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width));
+}
+
+std::string png(cairo_surface_t* surface, const Sheet& sheet) {
+  std::string bytes;
+  require(cairo_surface_write_to_png_stream(surface, append, &bytes), sheet);
+  return bytes;
+}
+
+// The mean of each block of pixels that is one of the sheet.
+Image reduced(const Image& fine, const Sheet& sheet) {
+  const int factor = fine.width / sheet.width;
+  if (factor == 1) return fine;
+  const auto n = static_cast<std::size_t>(sheet.width);
+  Image out{sheet.width, sheet.height, std::vector<unsigned char>(4 * n * sheet.height)};
+  std::vector<unsigned> sums(4 * n);
+  const unsigned count = factor * factor;
+  for (int y = 0; y < sheet.height; ++y) {
+    std::fill(sums.begin(), sums.end(), 0);
+    for (int dy = 0; dy < factor; ++dy) {
+      const unsigned char* row = &fine.rgba[4 * n * factor * (static_cast<std::size_t>(y) * factor + dy)];
+      for (std::size_t x = 0; x < n; ++x)
+        for (int dx = 0; dx < factor; ++dx, row += 4)
+          for (int c = 0; c < 4; ++c) sums[4 * x + c] += row[c];
+    }
+    for (std::size_t k = 0; k < 4 * n; ++k) out.rgba[4 * n * y + k] = static_cast<unsigned char>((sums[k] + count / 2) / count);
+  }
+  return out;
+}
+
+void paint(cairo_t* cr, const Sheet& sheet, const Canvas& under, Image image, const Canvas& over) {
+  Painter painter(cr, sheet.height, !vector_graphics(sheet));
+  painter.paint(under);
+  if (!image.rgba.empty()) {
+    const double shrunk = static_cast<double>(sheet.width) / image.width;
+    const Surface source = surface_of(image);
+    cairo_save(cr);
+    cairo_scale(cr, shrunk, shrunk);
+    cairo_set_source_surface(cr, source.get(), 0, 0);
+    cairo_paint(cr);
+    cairo_restore(cr);
+  }
+  painter.paint(over);
+}
+
+std::string as_png(const Sheet& sheet, const Canvas& under, const Image& image, const Canvas& over) {
+  const Surface surface = owned(cairo_image_surface_create(CAIRO_FORMAT_RGB24, sheet.width, sheet.height));
+  const Context cr(cairo_create(surface.get()), cairo_destroy);
+  cairo_set_source_rgb(cr.get(), 1, 1, 1);
+  cairo_paint(cr.get());
+  paint(cr.get(), sheet, under, image.rgba.empty() ? image : reduced(image, sheet), over);
+  require(cairo_status(cr.get()), sheet);
+  return png(surface.get(), sheet);
+}
+
+std::string as_pdf(const Sheet& sheet, const Canvas& under, const Image& image, const Canvas& over) {
+  std::string bytes;
+  {
+    const double shrunk = points_per_pixel(sheet);
+    const Surface surface = owned(cairo_pdf_surface_create_for_stream(append, &bytes, shrunk * sheet.width, shrunk * sheet.height));
+    cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00");  // equal pictures give equal bytes
+    const Context cr(cairo_create(surface.get()), cairo_destroy);
+    cairo_scale(cr.get(), shrunk, shrunk);
+    paint(cr.get(), sheet, under, image, over);
+    cairo_show_page(cr.get());
+    require(cairo_status(cr.get()), sheet);
+    cairo_surface_finish(surface.get());
+    require(cairo_surface_status(surface.get()), sheet);
+  }
+  return bytes;
+}
+
+std::string as_svg(const Sheet& sheet, const Canvas& under, Image image, const Canvas& over) {
+  return svg(sheet, under, image.rgba.empty() ? "" : png(surface_of(image).get(), sheet), over);
+}
+
+}  // namespace
+
+int image_factor(const Sheet& sheet) {
+  const double pixels = static_cast<double>(sheet.width) * sheet.height;
+  const int side = std::max(sheet.width, sheet.height), most = pixels <= 2e6 && side <= 5000 ? 3 : pixels <= 16e6 && side <= 8000 ? 2 : 1;
+  if (!vector_graphics(sheet)) return most;
+  constexpr double kDots = 600, kInch = 72;
+  return std::clamp(static_cast<int>(std::ceil(kDots / kInch * points_per_pixel(sheet) - 0.05)), 1, most);
+}
+
+void write_picture(const Sheet& sheet, const Canvas& under, const Image& image, const Canvas& over) {
+  write_whole_file(sheet.file, sheet.file.ends_with(".pdf")   ? as_pdf(sheet, under, image, over)
+                               : sheet.file.ends_with(".svg") ? as_svg(sheet, under, image, over)
+                                                              : as_png(sheet, under, image, over));
+}
+
+void write_canvas(const Canvas& canvas, const Sheet& sheet) { write_picture(sheet, {}, {}, canvas); }
+
+}  // namespace dotyk::figure

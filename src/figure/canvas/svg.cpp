@@ -1,0 +1,113 @@
+// SVG. Cairo would make outlines of its texts.
+#include <sstream>
+
+#include "figure/canvas/font.hpp"
+#include "figure/canvas/paper.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) c == '&' ? out += "&amp;" : c == '<' ? out += "&lt;" : out += c;
+  return out;
+}
+
+std::string base64(const std::string& bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t there = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned three = 0;
+    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < there ? static_cast<unsigned char>(bytes[i + k]) : 0);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= there ? digits[three >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+class Svg {
+public:
+  explicit Svg(const Sheet& sheet) : height_(sheet.height) {
+    const double points = points_per_pixel(sheet);
+    out_.precision(7);
+    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << points * sheet.width << "pt\" height=\""
+         << points * sheet.height << "pt\" viewBox=\"0 0 " << sheet.width << ' ' << sheet.height << "\" font-family=\"" << font_family << "\">\n";
+  }
+
+  void draw(const Canvas& canvas) {
+    for (const Mark& mark : canvas.marks()) draw(mark);
+    for (const PlacedText& text : canvas.texts()) draw(text);
+  }
+  void draw(const Sheet& sheet, const std::string& png) {
+    if (!png.empty())
+      out_ << "<image width=\"" << sheet.width << "\" height=\"" << sheet.height << "\" href=\"data:image/png;base64," << base64(png) << "\"/>\n";
+  }
+  std::string finish() {
+    out_ << "</svg>\n";
+    return out_.str();
+  }
+
+private:
+  static std::string name(Colour c) {
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", c.r, c.g, c.b);
+    return text;
+  }
+  // As an attribute; rounded to a hundredth of a pixel.
+  std::string number(double value) const {
+    std::ostringstream out;
+    out << std::round(100 * value) / 100;
+    return out.str();
+  }
+
+  void draw(const Mark& mark) {
+    const std::string opacity = mark.opacity < 1 ? "-opacity=\"" + number(mark.opacity) + "\"" : "";
+    if (mark.kind == Mark::Kind::disc) {
+      out_ << "<circle cx=\"" << number(mark.points[0].x) << "\" cy=\"" << number(height_ - mark.points[0].y) << "\" r=\"" << number(mark.width) << "\" fill=\""
+           << name(mark.colour) << "\"/>\n";
+      return;
+    }
+    const bool filled = mark.kind == Mark::Kind::polygon;
+    out_ << (filled || mark.closed ? "<polygon points=\"" : "<polyline points=\"");
+    for (const Point& p : mark.points) out_ << number(p.x) << ',' << number(height_ - p.y) << ' ';
+    out_ << "\" fill=\"" << (filled ? name(mark.colour) : "none") << '"';
+    if (!opacity.empty()) out_ << (filled ? " fill" : " stroke") << opacity;
+    if (!filled) out_ << " stroke=\"" << name(mark.colour) << "\" stroke-width=\"" << number(mark.width) << "\" stroke-linejoin=\"round\"";
+    if (!mark.dash.empty()) {
+      out_ << " stroke-dasharray=\"";
+      for (const double d : mark.dash) out_ << number(d) << ' ';
+      out_ << '"';
+    }
+    out_ << "/>\n";
+  }
+
+  void draw(const PlacedText& text) {
+    const Point at = baseline(text);
+    const TextStyle& style = text.style;
+    out_ << "<text transform=\"translate(" << number(at.x) << ' ' << number(height_ - at.y) << ')' << (style.upright ? " rotate(-90)" : "") << "\" font-size=\""
+         << number(style.size) << "\" fill=\"" << name(style.colour) << "\" xml:space=\"preserve\"";
+    if (style.bold) out_ << " font-weight=\"bold\"";
+    if (style.halo) out_ << " stroke=\"#ffffff\" stroke-width=\"" << number(2 * halo_width(style.size)) << "\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
+    out_ << '>';
+    for (const TextRun& run : text_runs(text.text, style.size, style.bold))
+      if (run.size == style.size) out_ << "<tspan x=\"" << number(run.start.x) << "\" y=\"0\">" << escaped(run.text) << "</tspan>";
+      else out_ << "<tspan x=\"" << number(run.start.x) << "\" y=\"" << number(-run.start.y) << "\" font-size=\"" << number(run.size) << "\">" << escaped(run.text) << "</tspan>";
+    out_ << "</text>\n";
+  }
+
+  std::ostringstream out_;
+  double height_;
+};
+
+}  // namespace
+
+std::string svg(const Sheet& sheet, const Canvas& under, const std::string& png, const Canvas& over) {
+  Svg out(sheet);
+  out.draw(under);
+  out.draw(sheet, png);
+  out.draw(over);
+  return out.finish();
+}
+
+}  // namespace dotyk::figure
