@@ -35,6 +35,29 @@ Ticks bar_ticks(const ColourScale& scale) { return few_ticks(scale.low, scale.hi
 
 constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small_label = 0.85, ends = 0.55, tip = 0.9;  // in em
 
+// At the nodes that are seen.
+std::vector<double> values_of(const ScenePicture& p, const std::optional<Box>& window) {
+  std::vector<double> out;
+  for (const BodyPicture& body : p.bodies)
+    for (std::size_t i = 0; i < body.values.size(); ++i) {
+      const Vec3 at = body.node(i, p.deformation);
+      if (std::isfinite(body.values[i]) && (!window || window->holds({at[0], at[1]}))) out.push_back(body.values[i]);
+    }
+  return out;
+}
+
+// Where an end of the field is half as far again from zero as all values but a hundredth, colours end at these: one peak would leave them to no other place.
+void leave_out_peaks(ColourScale& scale, std::vector<double> values) {
+  constexpr double kShare = 0.01, kFar = 1.5;
+  const std::size_t beyond = static_cast<std::size_t>(kShare * static_cast<double>(values.size()));
+  if (beyond == 0) return;
+  const auto high = values.end() - static_cast<std::ptrdiff_t>(beyond) - 1, low = values.begin() + static_cast<std::ptrdiff_t>(beyond);
+  std::nth_element(values.begin(), high, values.end());
+  if (*high > 0 && scale.high > kFar * *high) scale.high = *high;
+  std::nth_element(values.begin(), low, values.end());
+  if (*low < 0 && scale.low < kFar * *low) scale.low = *low;
+}
+
 std::string extreme(const char* name, double value, const Ticks& ticks) { return std::string(name) + " " + scaled_number(value, ticks.exponent); }
 
 }  // namespace
@@ -58,9 +81,10 @@ ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window
   if (!scale.shown) return scale;
   scale.least = scale.low = part.least, scale.greatest = scale.high = part.greatest;
   if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
-  // A field that dips below zero by rounding only has one sign.
+  else leave_out_peaks(scale, values_of(p, window));
+  // A field without sign may dip below zero by rounding, or by recovery.
   const double lesser = std::min(-scale.low, scale.high), greater = std::max(-scale.low, scale.high);
-  scale.diverging = lesser > 0.02 * greater;
+  scale.diverging = p.field_signed || lesser > 0.02 * greater;
   if (!(scale.high - scale.low > 1e-12 * std::max(std::abs(scale.low), std::abs(scale.high)))) {
     // A constant field: a bar of some height around it.
     const double half = scale.low == 0 ? 1 : 0.1 * std::abs(scale.low);
@@ -116,9 +140,11 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePictur
     canvas.convex(corners, scale.at(value));
     canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
   }
+  double below = -1e300;
   for (const Tick& t : few_ticks(scale.low, scale.high, std::min(5.0, box.height() / (2.6 * em))).ticks) {
-    if (t.label.empty()) continue;
     const double y = box.bottom + box.height() * (t.value - scale.low) / (scale.high - scale.low);
+    if (t.label.empty() || y - below < 1.1 * em) continue;
+    below = y;
     canvas.line({box.right, y}, {box.right + tick * em, y}, std::max(1.0, em / 20), {60, 60, 60});
     canvas.text({box.right + (tick + pad) * em, y}, t.label, {.size = em, .up = Align::middle});
   }

@@ -1,9 +1,6 @@
 // Sizes on paper.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "figure/door/picture.hpp"
 
 namespace dotyk::figure {
@@ -20,12 +17,9 @@ inline double points_per_pixel(const Sheet& sheet) { return printed_width(sheet)
 // Pixels of the letters of axes and legends. small_text and least_letters of it are 7 points, which no text of a journal should fall below.
 inline double letters(const Sheet& sheet) { return 8.25 / points_per_pixel(sheet); }
 
-// The height of a sheet with so many rows of panels of which none is to be lower than 30 mm, at most the greatest that there is.
-inline int tall_enough(const Sheet& sheet, double rows) {
-  constexpr double kLowest = 30;  // mm
-  constexpr int kMost = 8192;
-  return std::clamp(static_cast<int>(std::ceil(rows * kLowest / printed_width(sheet) * sheet.width)), sheet.height, kMost);
-}
+constexpr int greatest_side = 8192;  // pixels
+// Pixels below which no plot should be high: with its axis it is 30 mm then.
+inline double least_plot(const Sheet& sheet) { return 22 / printed_width(sheet) * sheet.width; }
 
 inline bool vector_graphics(const Sheet& sheet) { return !sheet.file.ends_with(".png"); }
 

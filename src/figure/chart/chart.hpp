@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "figure/canvas/axes.hpp"
+#include "figure/canvas/legend.hpp"
 #include "figure/canvas/places.hpp"
 
 namespace dotyk::figure {
@@ -26,10 +27,14 @@ struct ChartMargins {
 // What a chart has in common with those above and below it.
 struct ChartFrame {
   double em = 20;
-  ChartMargins least = {};  // left and right
+  ChartMargins least = {};
   bool x_labels = true;
   bool alone = false;       // may be narrower than the picture
+  bool legend = true;
 };
+
+// In rows no wider than so many pixels; 0: one name below the other. The picture must outlive it.
+Legend chart_legend(const ChartPicture& picture, double em, double width);
 
 // From the canvas's origin, of the picture's size; returns the margins taken.
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame);

@@ -1,3 +1,4 @@
+#include <numeric>
 
 #include "figure/canvas/paper.hpp"
 #include "figure/canvas/sheet.hpp"
@@ -18,65 +19,105 @@ std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
   return range;
 }
 
-// Over all panels; returns the height it takes.
-double draw_title(Canvas& canvas, const ChartColumn& picture, double em) {
-  if (picture.title.empty()) return 0;
-  canvas.text({picture.width / 2.0, picture.height - 0.6 * em}, fitted(picture.title, 1.15 * em, picture.width - em, true), title_style());
-  return 1.9 * em;
+// The names in a legend.
+std::vector<std::string> names(const ChartPicture& panel) {
+  std::vector<std::string> out;
+  for (const SeriesPicture& s : panel.series)
+    if (!s.name.empty()) out.push_back(s.name);
+  return out;
 }
 
-// Gives the panels heights with which their plots are equally high, whatever stands above and below; the margins left and
-// right that suffice for all.
-ChartMargins share(std::vector<ChartPicture>& panels, const std::vector<ChartFrame>& frames, double height) {
-  ChartMargins least;
-  std::vector<double> beside;
-  double plots = height;
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    Canvas tried;
-    const ChartMargins margins = draw_on(tried, panels[i], frames[i]);
-    least.left = std::max(least.left, margins.left), least.right = std::max(least.right, margins.right);
-    beside.push_back(margins.above + margins.below);
-    plots -= beside.back();
+// Do all panels that have a legend have the same one?
+bool legends_agree(const std::vector<ChartPicture>& panels) {
+  std::vector<std::string> common;
+  int count = 0;
+  for (const ChartPicture& panel : panels) {
+    const std::vector<std::string> own = names(panel);
+    if (own.empty()) continue;
+    if (++count > 1 && own != common) return false;
+    common = own;
   }
-  for (std::size_t i = 0; i < panels.size(); ++i)
-    panels[i].height = static_cast<int>(beside[i] + std::max(2.0, plots / static_cast<double>(panels.size())));
-  return least;
+  return count > 1;
 }
 
-// One column into its part of the canvas, from `height` downwards.
-void draw_column(Canvas& canvas, std::vector<ChartPicture> panels, double left, double bottom, double height, double em, bool shared_x) {
-  std::vector<ChartFrame> frames(panels.size(), {em, {}, !shared_x});
-  frames.back().x_labels = true;
-  ChartMargins least;
-  for (int round = 0; round < 2; ++round) least = share(panels, frames, height);
-  for (std::size_t i = panels.size(); i-- > 0;) {
-    canvas.origin({left, bottom});
-    frames[i].least = least;
-    draw_on(canvas, panels[i], frames[i]);
-    bottom += panels[i].height;
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+// Panels row by row. Plots are equally high; those of a row stand side by side, those of a column one below the other, whatever stands beside them.
+class Grid {
+public:
+  Grid(const ChartColumn& picture, double em, bool legends) : columns_(static_cast<std::size_t>(picture.columns)), width_(static_cast<double>(picture.width) / picture.columns) {
+    panels_ = picture.panels;
+    for (std::size_t i = 0; i < panels_.size(); ++i) {
+      panels_[i].width = static_cast<int>(width_), panels_[i].height = picture.height / static_cast<int>(rows());
+      if (picture.shared_x) panels_[i].x_range = common_x(picture.panels);
+      frames_.push_back({em, {}, !picture.shared_x || i + columns_ >= panels_.size()});
+      frames_.back().legend = legends;
+    }
   }
-}
+
+  // Plots that fill so many pixels in all, but are at least so high: returns the height that all takes.
+  double fill(double height, double least) {
+    double plots = 0;
+    left_.assign(columns_, 0), right_ = left_, above_.assign(rows(), 0), below_ = above_;
+    for (int round = 0; round < 3; ++round) {
+      measure();
+      plots = std::max(least, (height - sum(above_) - sum(below_)) / static_cast<double>(rows()));
+      for (std::size_t i = 0; i < panels_.size(); ++i) panels_[i].height = static_cast<int>(above_[row(i)] + plots + below_[row(i)]);
+    }
+    for (std::size_t i = 0; i < panels_.size(); ++i) frames_[i].least = {left_[column(i)], right_[column(i)], below_[row(i)], above_[row(i)]};
+    return sum(above_) + sum(below_) + plots * static_cast<double>(rows());
+  }
+
+  // Downwards from `top`.
+  void draw(Canvas& canvas, double top) const {
+    for (std::size_t i = 0; i < panels_.size(); ++i) {
+      if (column(i) == 0) top -= panels_[i].height;
+      canvas.origin({width_ * static_cast<double>(column(i)), top});
+      draw_on(canvas, panels_[i], frames_[i]);
+    }
+  }
+
+private:
+  std::size_t rows() const { return (panels_.size() + columns_ - 1) / columns_; }
+  std::size_t row(std::size_t i) const { return i / columns_; }
+  std::size_t column(std::size_t i) const { return i % columns_; }
+
+  // The margins that suffice for all of a row or column, now and before: a legend that comes to stand above its plot keeps its place.
+  void measure() {
+    for (std::size_t i = 0; i < panels_.size(); ++i) {
+      Canvas tried;
+      const ChartMargins margins = draw_on(tried, panels_[i], frames_[i]);
+      left_[column(i)] = std::max(left_[column(i)], margins.left), right_[column(i)] = std::max(right_[column(i)], margins.right);
+      above_[row(i)] = std::max(above_[row(i)], margins.above), below_[row(i)] = std::max(below_[row(i)], margins.below);
+    }
+  }
+
+  std::size_t columns_;
+  double width_;  // of a panel
+  std::vector<ChartPicture> panels_;
+  std::vector<ChartFrame> frames_;
+  std::vector<double> left_, right_, above_, below_;
+};
 
 }  // namespace
 
 void render(const ChartColumn& given) {
   ChartColumn picture = given;
-  const auto columns = static_cast<std::size_t>(picture.columns), rows = (picture.panels.size() + columns - 1) / columns;
-  picture.height = tall_enough(picture, static_cast<double>(rows));
-  const double width = static_cast<double>(picture.width) / picture.columns;
   const double em = letters(picture);
+  const bool one_legend = legends_agree(picture.panels);
+  const FittedText title = fitted(picture.title, 1.15 * em, picture.width - em, true);
+  const auto named = std::find_if(picture.panels.begin(), picture.panels.end(), [](const ChartPicture& p) { return !names(p).empty(); });
+  const Legend legend = one_legend ? chart_legend(*named, em, picture.width - em) : Legend({}, em);
+  const double above = (picture.title.empty() ? 0 : 1.9 * em + title.depth()) + legend.height();
+  Grid grid(picture, em, !one_legend);
+  // The picture grows where plots would be too low to be legible.
+  const double needed = grid.fill(picture.height - above, least_plot(picture));
+  picture.height = std::clamp(static_cast<int>(std::ceil(needed + above)), picture.height, std::max(picture.height, greatest_side));
+
   Canvas canvas;
-  const double height = (picture.height - draw_title(canvas, picture, em)) / static_cast<double>(rows);
-  for (std::size_t column = 0; column < columns; ++column) {
-    std::vector<ChartPicture> panels;
-    for (std::size_t i = column; i < picture.panels.size(); i += columns) {
-      ChartPicture& panel = panels.emplace_back(picture.panels[i]);
-      panel.width = static_cast<int>(width), panel.height = static_cast<int>(height);
-      if (picture.shared_x) panel.x_range = common_x(picture.panels);
-    }
-    const double used = height * static_cast<double>(panels.size());
-    draw_column(canvas, panels, width * static_cast<double>(column), height * static_cast<double>(rows) - used, used, em, picture.shared_x);
-  }
+  canvas.text({picture.width / 2.0, picture.height - 0.6 * em}, title, title_style());
+  legend.draw(canvas, {(picture.width - legend.width()) / 2, picture.height - above}, false);
+  grid.draw(canvas, picture.height - above);
   write_canvas(canvas, picture);
 }
 

@@ -25,39 +25,88 @@ struct Look {
   const SeriesPicture& data;
   Colour colour;
   Marker marker;
+  bool dashed;
 };
+
+// Methods have the same colour and marker in every chart: their places in this order, dashed beyond as many as there are colours.
+constexpr std::array methods{"pdas", "newton", "projected_cg", "interior_point", "uzawa", "active_set", "psor", "feti", "multigrid", "uzawa_pdas", "coulomb_loop", "penalty", "proximal"};
+
+bool takes_colour(const SeriesPicture& s) { return !s.reference && !s.twin && !s.front && !s.status; }
+
+// The places of the methods that series are named after, of those that take a colour; nothing where some are not, or two the same.
+std::vector<int> places_of_methods(const std::vector<SeriesPicture>& series) {
+  std::vector<int> places;
+  for (const SeriesPicture& s : series) {
+    if (!takes_colour(s)) continue;
+    const int place = static_cast<int>(std::find(methods.begin(), methods.end(), s.name) - methods.begin());
+    if (place == static_cast<int>(methods.size()) || std::find(places.begin(), places.end(), place) != places.end()) return {};
+    places.push_back(place);
+  }
+  return places;
+}
 
 // Reference curves, statuses and twins take no colour of their own, so the k-th series keeps its own. Beside statuses only
 // colours that are none of theirs.
 std::vector<Look> looks(const std::vector<SeriesPicture>& series) {
+  constexpr int kColours = 7;
   constexpr std::array clear{0, 2, 6};
   const bool statuses = std::any_of(series.begin(), series.end(), [](const SeriesPicture& s) { return s.status.has_value(); });
+  const std::vector<int> places = statuses ? std::vector<int>{} : places_of_methods(series);
   std::vector<Look> out;
   int own = 0;
   for (const SeriesPicture& s : series) {
-    if (!s.reference && !s.twin && !s.front && !s.status) ++own;
-    const int k = std::max(0, own - 1);
+    if (takes_colour(s)) ++own;
+    int k = std::max(0, own - 1);
+    if (!places.empty()) k = places[k];
     const Colour colour = s.reference ? reference_grey : s.status ? status_colour(*s.status) : series_colour(statuses ? clear[k % clear.size()] : k);
-    out.push_back({s, colour, s.status ? status_marker(*s.status) : markers[k % markers.size()]});
+    out.push_back({s, colour, s.status ? status_marker(*s.status) : markers[k % markers.size()], s.reference || s.twin || (!statuses && k >= kColours)});
   }
   return out;
 }
+
+// Draws series in letters of this height.
+struct Pen {
+  double em;
+
+  double line_width() const { return std::max(1.5, em / 9); }
+  double front_width() const { return 0.9 * em; }
+  double marker_size(const SeriesPicture& s) const { return (s.style == SeriesStyle::points ? 0.45 : 0.5) * em; }
+
+  void sample(Canvas& canvas, const Look& look, const Box& b) const {
+    const SeriesPicture& s = look.data;
+    if (s.front) return canvas.polyline(b.midline(), front_width(), front_yellow);
+    const double middle = b.centre().y;
+    if (!s.low.empty()) canvas.box({b.left, middle - 0.3 * em, b.right, middle + 0.3 * em}, look.colour, 0.2);
+    if (s.style != SeriesStyle::points || s.reference) stroke(canvas, b.midline(), look);
+    if (s.style != SeriesStyle::line && !s.reference) mark(canvas, look, b.centre());
+  }
+
+  void stroke(Canvas& canvas, std::span<const Point> points, const Look& look) const {
+    const std::array<double, 2> dash{0.42 * em, 0.26 * em};
+    canvas.polyline(points, line_width(), look.colour, look.dashed ? std::span<const double>(dash) : std::span<const double>());
+  }
+
+  void mark(Canvas& canvas, const Look& look, Point at) const {
+    if (look.data.crossed) canvas.crossed_marker(look.marker, at, marker_size(look.data), look.colour);
+    else canvas.marker(look.marker, at, marker_size(look.data), look.colour);
+  }
+};
 
 class Chart {
 public:
   // Draws itself, from the canvas's origin.
   Chart(const ChartPicture& picture, Canvas& canvas, const ChartFrame& frame)
-      : picture_(picture), canvas_(canvas), frame_(frame), em_(frame.em), looks_(looks(picture.series)) {
+      : picture_(picture), canvas_(canvas), frame_(frame), em_(frame.em), pen_{frame.em}, looks_(looks(picture.series)) {
     axes_.em = em_, axes_.x = fit_axis(picture, false), axes_.y = fit_axis(picture, true);
     for (const Look& look : looks_)
       if (look.data.y.empty() && !look.data.x.empty()) failed_.push_back(look);
     place(0);
-    Legend legend(entries(), 0.92 * em_);
+    Legend legend = frame.legend ? chart_legend(picture, em_, 0) : Legend({}, em_);
     occupy();
     auto corner = free_place(occupied_, room_, {legend.width(), legend.height()}, 0.6 * em_);
     if (!corner && !legend.empty()) {
       // No free place among the curves: in rows above them.
-      legend = Legend(entries(), 0.92 * em_, room_.width());
+      legend = chart_legend(picture, em_, room_.width());
       place(legend.height());
       occupied_ = {};
       occupy();
@@ -84,9 +133,6 @@ public:
   ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top}; }
 
 private:
-  double line_width() const { return std::max(1.5, em_ / 9); }
-  double front_width() const { return 0.9 * em_; }
-  double marker_size(const SeriesPicture& s) const { return (s.style == SeriesStyle::points ? 0.45 : 0.5) * em_; }
   static bool dense(const std::vector<Point>& curve, double spacing) {
     return curve.size() > 2 && std::abs(curve.back().x - curve.front().x) / static_cast<double>(curve.size() - 1) < spacing && curve.size() > 60;
   }
@@ -103,8 +149,10 @@ private:
       room_.left = 0.6 * em_ + (picture_.y_label.empty() && !axes_.y_ticks.exponent ? 0 : 1.7 * em_) + widest + 0.5 * em_;
       room_.left = std::max(room_.left, frame_.least.left);
       room_.bottom = frame_.x_labels ? 0.4 * em_ + (picture_.x_label.empty() && !axes_.x_ticks.exponent ? 0 : 1.35 * em_) + 1.6 * em_ : 0.2 * em_;
+      room_.bottom = std::max(room_.bottom, frame_.least.below);
       room_.right = picture_.width - std::max(0.6 * em_ + widest_label(axes_.x_ticks, em_) / 2, frame_.least.right);
       room_.top = picture_.height - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - legend_height - strip_height();
+      room_.top = std::min(room_.top, picture_.height - frame_.least.above);
       if (frame_.alone && equal()) make_square();
     }
     x.from = room_.left, x.to = room_.right;
@@ -135,43 +183,17 @@ private:
     }
   }
 
-  std::vector<LegendEntry> entries() const {
-    std::vector<LegendEntry> out;
-    for (const Look& look : looks_)
-      if (!look.data.name.empty()) out.push_back({look.data.name, [this, &look](Canvas& canvas, const Box& box) { draw_sample(canvas, look, box); }});
-    return out;
-  }
-
-  void draw_sample(Canvas& canvas, const Look& look, const Box& b) const {
-    const SeriesPicture& s = look.data;
-    if (s.front) return canvas.polyline(b.midline(), front_width(), front_yellow);
-    const double middle = b.centre().y;
-    if (!s.low.empty()) canvas.box({b.left, middle - 0.3 * em_, b.right, middle + 0.3 * em_}, look.colour, 0.2);
-    if (s.style != SeriesStyle::points || s.reference) stroke(canvas, b.midline(), look);
-    if (s.style != SeriesStyle::line && !s.reference) mark(canvas, look, b.centre());
-  }
-
-  void stroke(Canvas& canvas, std::span<const Point> points, const Look& look) const {
-    const std::array<double, 2> dash{0.42 * em_, 0.26 * em_};
-    canvas.polyline(points, line_width(), look.colour, look.data.reference || look.data.twin ? std::span<const double>(dash) : std::span<const double>());
-  }
-
-  void mark(Canvas& canvas, const Look& look, Point at) const {
-    if (look.data.crossed) canvas.crossed_marker(look.marker, at, marker_size(look.data), look.colour);
-    else canvas.marker(look.marker, at, marker_size(look.data), look.colour);
-  }
-
   void draw_front(const Look& look) {
     if (!look.data.front) return;
     for (const auto& curve : curves(look.data.x, look.data.y, axes_)) {
-      canvas_.polyline(curve, front_width(), front_yellow);
-      for (const Point& end : {curve.front(), curve.back()}) canvas_.disc(end, front_width() / 2, front_yellow);
+      canvas_.polyline(curve, pen_.front_width(), front_yellow);
+      for (const Point& end : {curve.front(), curve.back()}) canvas_.disc(end, pen_.front_width() / 2, front_yellow);
     }
   }
 
   // With caps.
   void draw_whiskers(const Look& look) {
-    const double width = 0.8 * line_width();
+    const double width = 0.8 * pen_.line_width();
     const Point cap{0, 0.22 * em_};
     for (const auto& ends : whiskers(look.data)) {
       canvas_.line(ends[0], ends[1], width, look.colour);
@@ -192,7 +214,7 @@ private:
   void draw_line(const Look& look) {
     const SeriesPicture& s = look.data;
     if (s.front || (s.style == SeriesStyle::points && !s.reference)) return;
-    for (const auto& curve : curves(s.x, s.y, axes_)) stroke(canvas_, curve, look);
+    for (const auto& curve : curves(s.x, s.y, axes_)) pen_.stroke(canvas_, curve, look);
   }
 
   void draw_markers(const Look& look) {
@@ -200,12 +222,12 @@ private:
     if (s.style == SeriesStyle::line || s.reference || s.front) return;
     for (const auto& curve : curves(s.x, s.y, axes_)) {
       // A line needs no marker at every one of many points; points alone do.
-      const bool thin = s.style == SeriesStyle::both && dense(curve, marker_size(s));
+      const bool thin = s.style == SeriesStyle::both && dense(curve, pen_.marker_size(s));
       const double spacing = thin ? 0.08 * room_.width() : 0;
       Point last{-1e9, -1e9};
       for (const Point& p : curve) {
         if (!room_.holds(p, 0.5) || length(p - last) < spacing) continue;
-        mark(canvas_, look, p);
+        pen_.mark(canvas_, look, p);
         last = p;
       }
     }
@@ -227,7 +249,7 @@ private:
     for (std::size_t row = 0; row < failed_.size(); ++row) {
       const double y = foot + strip.room.height() * (static_cast<double>(row) + 0.5) / static_cast<double>(failed_.size());
       for (const double x : failed_[row].data.x)
-        if (const Point at{axes_.x.shows(x) ? axes_.x.pixel(x) : -1e9, y}; strip.room.holds(at, 0.5)) mark(canvas_, failed_[row], at);
+        if (const Point at{axes_.x.shows(x) ? axes_.x.pixel(x) : -1e9, y}; strip.room.holds(at, 0.5)) pen_.mark(canvas_, failed_[row], at);
     }
     draw_frame(canvas_, strip);
   }
@@ -260,6 +282,7 @@ private:
   Canvas& canvas_;
   ChartFrame frame_;
   double em_;
+  Pen pen_;
   std::vector<Look> looks_, failed_;  // of all series, of those of the strip
   Axes axes_;
   Box& room_ = axes_.room;
@@ -269,12 +292,28 @@ private:
 
 }  // namespace
 
+Legend chart_legend(const ChartPicture& picture, double em, double width) {
+  constexpr double kLetters = 0.92;
+  std::vector<LegendEntry> entries;
+  for (const Look& look : looks(picture.series))
+    if (!look.data.name.empty()) entries.push_back({look.data.name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }});
+  return Legend(std::move(entries), kLetters * em, width);
+}
+
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
 
 void render(const ChartPicture& picture) {
+  const ChartFrame frame{letters(picture), {}, true, true};
+  ChartPicture grown = picture;
+  // Legend and title may leave a plot too low to be legible.
+  Canvas tried;
+  const ChartMargins margins = draw_on(tried, picture, frame);
+  constexpr double kShare = 0.45;  // of the height
+  const double least = std::max(least_plot(picture), kShare * picture.height);
+  grown.height = std::clamp(static_cast<int>(margins.above + margins.below + least), picture.height, std::max(picture.height, greatest_side));
   Canvas canvas;
-  draw_on(canvas, picture, {letters(picture), {}, true, true});
-  write_canvas(canvas, picture);
+  draw_on(canvas, grown, frame);
+  write_canvas(canvas, grown);
 }
 
 }  // namespace dotyk::figure

@@ -174,6 +174,7 @@ ScenePicture compose(const Solution& s, const SceneOptions& options) {
   ScenePicture picture;
   picture.caption = solver::doubt(s.result());
   picture.field_label = field_of(options.field).label;
+  picture.field_signed = options.field != FieldChoice::displacement && options.field != FieldChoice::von_mises;
   picture.deformation = options.deform.value_or(visible_deformation(s));
   const double size = scene_size(s);
   for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {

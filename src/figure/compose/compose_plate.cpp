@@ -173,7 +173,7 @@ const PlateValue& field_of(PlateField choice) {
 
 void add_field(PlatePicture& picture, const plate::Solution& s, const PlateOptions& options) {
   const PlateValue& field = field_of(options.field);
-  picture.field_label = field.label;
+  picture.field_label = field.label, picture.field_signed = options.field != PlateField::von_mises;
   picture.field_unit = options.field == PlateField::deflection ? options.units.length : options.units.force;  // force·length per length
   if (options.field == PlateField::deflection) picture.values = picture.deflection;
   if (!field.value) return;

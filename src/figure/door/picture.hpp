@@ -134,6 +134,7 @@ struct ScenePicture : Sheet {
 
   std::string field_label;                  // "von Mises stress"; empty: no colour bar
   std::string field_unit;                   // "MPa"; may be empty
+  bool field_signed = false;                // its sign has a meaning, as a stress component's: colours diverge about zero
   std::optional<std::array<double, 2>> field_range;  // {least, greatest}; values beyond keep the end colour, a triangle on the bar tells of them
 
   double deformation = 1;                   // factor on every displacement

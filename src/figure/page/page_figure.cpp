@@ -154,7 +154,8 @@ void render(const PagePicture& given) {
   PagePicture picture = given;
   const auto& weights = picture.row_weights;
   const double lowest = *std::min_element(weights.begin(), weights.end()) / std::accumulate(weights.begin(), weights.end(), 0.0);
-  picture.height = tall_enough(picture, 1 / lowest);
+  constexpr double kBeside = 1.4;  // its axis and title
+  picture.height = std::clamp(static_cast<int>(kBeside * least_plot(picture) / lowest), picture.height, std::max(picture.height, greatest_side));
   write_canvas(Page(picture).canvas(), picture);
 }
 

@@ -57,6 +57,7 @@ struct PlatePicture : Sheet {
   double deformation = 1;                   // factor on the deflection in the surface
   std::vector<double> values;               // n: the field, or empty: plain colour
   std::string field_label, field_unit;      // beside the colour bar
+  bool field_signed = false;                // as ScenePicture has it
   std::optional<std::array<double, 2>> field_range;  // {least, greatest}
   MeshEdges edges = MeshEdges::automatic;   // automatic in a plan: none
 

@@ -52,7 +52,7 @@ struct ContourLabels {
   void add(const std::vector<Point>& line, const std::string& text) {
     std::vector<double> way{0};
     for (std::size_t i = 1; i < line.size(); ++i) way.push_back(way.back() + length(line[i] - line[i - 1]));
-    const double em = stage.em, size = 0.68 * em;
+    const double em = stage.em, size = small_text * em;
     const Point extent = text_extent(text, size);
     if (way.back() < 2.5 * extent.x + 2 * em) return;
     for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9}) {

@@ -130,6 +130,7 @@ void body_legend(const Stage& stage, std::vector<LegendEntry>& out) {
   const auto& bodies = stage.picture.bodies;
   const bool displaced = std::any_of(bodies.begin(), bodies.end(), [](const BodyPicture& body) { return !body.displacement.empty(); });
   if (displaced && stage.picture.deformation != 1) out.push_back({"deformation × " + number(stage.picture.deformation), {}});
+  else if (stage.deformation_shows) out.push_back({"true scale", {}});
 }
 
 }  // namespace

@@ -127,8 +127,9 @@ LegendEntry pressure_entry(const Stage& stage) {
           }};
 }
 
-LegendEntry shear_entry(double em) {
-  return {"shear", [em](Canvas& c, const Box& b) {
+LegendEntry shear_entry(const Stage& stage) {
+  const std::string& unit = stage.picture.pressure_unit;
+  return {"shear, at most " + number(stage.greatest_shear) + (unit.empty() ? "" : " " + unit), [em = stage.em](Canvas& c, const Box& b) {
             const auto [from, to] = b.midline();
             c.arrow({from.x + 0.1 * em, from.y}, {to.x - 0.1 * em, to.y}, std::max(1.4, em / 11), 0.42 * em, shear_line);
           }};
@@ -143,7 +144,7 @@ void contact_legend(const Stage& stage, std::vector<LegendEntry>& out) {
   }
   for (const Status status : present) out.push_back(status_entry(stage, status));
   if (stage.greatest_pressure > 0 && stage.pressures()) out.push_back(pressure_entry(stage));
-  if (stage.greatest_shear > 0) out.push_back(shear_entry(stage.em));
+  if (stage.greatest_shear > 0) out.push_back(shear_entry(stage));
 }
 
 // In space the plan beside the scene says the greatest pressure.

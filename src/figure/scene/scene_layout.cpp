@@ -181,7 +181,7 @@ struct Surroundings {
 };
 
 FittedText title_of(const ScenePicture& p, double em) { return fitted(p.title, 1.1 * em, p.width - em, true); }
-FittedText caption_of(const ScenePicture& p, double em) { return fitted(p.caption, legend_size * em, p.width - em); }
+FittedText caption_of(const ScenePicture& p, double em) { return fitted(p.caption, em, p.width - em); }
 
 // The room that all else leaves, with the widths of labels as the scene stands now.
 Box room_left(const Stage& stage, const Surroundings& around, bool placed) {

@@ -9,7 +9,7 @@ namespace dotyk::script {
 inline Key picture_key() { return key::file("file", "where to; ends in .png, .pdf or .svg, its folder must exist").written().required(); }
 inline Key title_key(const char* help = "above the figure") { return key::string("title", help).otherwise("none"); }
 inline std::vector<Key> size_keys(const char* otherwise) {
-  return {key::list("size", key::integer("", ""), "width and height; of .pdf and .svg the proportions").count(2).unit("pixels").otherwise(text(otherwise, "; with 'width' 300 an inch")),
+  return {key::list("size", key::integer("", ""), "width and height, which is more where panels would be lower than 30 mm; of .pdf and .svg the proportions").count(2).unit("pixels").otherwise(text(otherwise, "; with 'width' 300 an inch")),
           key::number("width", "on paper, from 30 to 500: letters are made to be read at this width").unit("mm").otherwise("85, one column of a journal; of more than 1300 pixels 178, two")};
 }
 
