@@ -46,16 +46,18 @@ std::vector<double> values_of(const ScenePicture& p, const std::optional<Box>& w
   return out;
 }
 
-// Where an end of the field is half as far again from zero as all values but a hundredth, colours end at these: one peak would leave them to no other place.
+// Where an end of the field is half as far again from zero as all values but a hundredth, colours end at these: one peak would leave few colours to all else.
+// Not where it is a peak of next to nothing, as by rounding.
 void leave_out_peaks(ColourScale& scale, std::vector<double> values) {
-  constexpr double kShare = 0.01, kFar = 1.5;
+  constexpr double kShare = 0.01, kFar = 1.5, kNothing = 0.02;
+  const double range = scale.high - scale.low;
   const std::size_t beyond = static_cast<std::size_t>(kShare * static_cast<double>(values.size()));
   if (beyond == 0) return;
   const auto high = values.end() - static_cast<std::ptrdiff_t>(beyond) - 1, low = values.begin() + static_cast<std::ptrdiff_t>(beyond);
   std::nth_element(values.begin(), high, values.end());
-  if (*high > 0 && scale.high > kFar * *high) scale.high = *high;
+  if (*high > 0 && scale.high > kFar * *high && scale.high - *high > kNothing * range) scale.high = *high;
   std::nth_element(values.begin(), low, values.end());
-  if (*low < 0 && scale.low < kFar * *low) scale.low = *low;
+  if (*low < 0 && scale.low < kFar * *low && *low - scale.low > kNothing * range) scale.low = *low;
 }
 
 std::string extreme(const char* name, double value, const Ticks& ticks) { return std::string(name) + " " + scaled_number(value, ticks.exponent); }
