@@ -1,15 +1,9 @@
 -- Letters of all kinds of pictures at the widths of one and of two columns of a journal: none below 7 points. PDF has the same letters as SVG, and the same size.
 local check <const> = require "check"
 local refused <const> = require "refused"
+local content <const> = require "bytes_of"
 local law <const> = dotyk.law
 local mm <const> = 72 / 25.4  -- in points
-
-local function content(file)
-  local f <const> = assert(io.open(file, "rb"))
-  local all <const> = f:read "a"
-  f:close()
-  return all
-end
 
 -- The least size of letters in an SVG file, its width in points, its texts.
 local function letters(file)

@@ -11,12 +11,7 @@ local function beam(keys)
   for key, value in pairs(keys or {}) do all[key] = value end
   return dotyk.thermoelastic_beam(all)
 end
-local function bytes(file)
-  local f <const> = assert(io.open(file, "rb"))
-  local all <const> = f:read "a"
-  f:close()
-  return all
-end
+local bytes <const> = require "bytes_of"
 
 local b <const> = beam():run(1)
 check.equal(b:render{ file = "thermo.png" }, "thermo.png")

@@ -58,7 +58,7 @@ double width_of(const std::string& text, double size, bool bold) {
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || (c & 0x80); }
 
-// Where an index begins and ends of the first symbol from `from` on: one letter, "_" at the first place, up to five letters or digits.
+// Finds the next symbol with an index: a single letter, "_", and one to five letters or digits. Returns the places of "_" and of the end.
 std::optional<std::array<std::size_t, 2>> find_index(const std::string& text, std::size_t from) {
   for (std::size_t bar = text.find('_', from); bar != std::string::npos; bar = text.find('_', bar + 1)) {
     std::size_t letter = bar;
@@ -79,8 +79,8 @@ std::vector<TextRun> text_runs(const std::string& text, double size, bool bold) 
   double at = 0;
   const auto add = [&](const std::string& piece, double letters, double up) {
     if (piece.empty()) return;
-    runs.push_back({piece, letters, {at, up}});
-    at += width_of(piece, letters, bold);
+    runs.push_back({piece, letters, width_of(piece, letters, bold), {at, up}});
+    at += runs.back().width;
   };
   std::size_t from = 0;
   while (const auto index = find_index(text, from)) {
@@ -96,7 +96,7 @@ std::vector<TextRun> text_runs(const std::string& text, double size, bool bold) 
 Point text_extent(const std::string& text, double size, bool bold) {
   if (text.empty()) return {0, 0};
   const TextRun last = text_runs(text, size, bold).back();
-  return {last.start.x + width_of(last.text, last.size, bold), (font_ascent + font_descent) * size};
+  return {last.start.x + last.width, (font_ascent + font_descent) * size};
 }
 
 Point baseline(const PlacedText& text) {

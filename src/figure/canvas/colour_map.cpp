@@ -46,18 +46,21 @@ std::vector<double> values_of(const ScenePicture& p, const std::optional<Box>& w
   return out;
 }
 
-// Where an end of the field is half as far again from zero as all values but a hundredth, colours end at these: one peak would leave few colours to all else.
-// Not where it is a peak of next to nothing, as by rounding.
+// Shortens the range of the colours where the field has a peak, so that a peak does not leave few colours to the rest. An end of the range moves to the
+// 99th percentile of the values on its side if the peak is more than half as high again, and by more than a share of the range, which rounding is not.
 void leave_out_peaks(ColourScale& scale, std::vector<double> values) {
   constexpr double kShare = 0.01, kFar = 1.5, kNothing = 0.02;
   const double range = scale.high - scale.low;
   const std::size_t beyond = static_cast<std::size_t>(kShare * static_cast<double>(values.size()));
   if (beyond == 0) return;
-  const auto high = values.end() - static_cast<std::ptrdiff_t>(beyond) - 1, low = values.begin() + static_cast<std::ptrdiff_t>(beyond);
-  std::nth_element(values.begin(), high, values.end());
-  if (*high > 0 && scale.high > kFar * *high && scale.high - *high > kNothing * range) scale.high = *high;
-  std::nth_element(values.begin(), low, values.end());
-  if (*low < 0 && scale.low < kFar * *low && *low - scale.low > kNothing * range) scale.low = *low;
+  const auto shorten = [&](double& end, std::size_t place) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
+    std::nth_element(values.begin(), at, values.end());
+    const bool same_side = *at * end > 0;
+    if (same_side && std::abs(end) > kFar * std::abs(*at) && std::abs(end - *at) > kNothing * range) end = *at;
+  };
+  shorten(scale.high, values.size() - 1 - beyond);
+  shorten(scale.low, beyond);
 }
 
 std::string extreme(const char* name, double value, const Ticks& ticks) { return std::string(name) + " " + scaled_number(value, ticks.exponent); }

@@ -17,7 +17,7 @@ void set_font(cairo_t* cr, double size, bool bold);
 // A piece of a line of text in letters of one size; where its base line begins, from that of the line, upwards.
 struct TextRun {
   std::string text;
-  double size = 0;
+  double size = 0, width = 0;
   Point start;
 };
 // The line in pieces: what follows a symbol of one letter and "_" stands lower, as in λ_max.

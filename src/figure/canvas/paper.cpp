@@ -31,7 +31,7 @@ void require(cairo_status_t status, const Sheet& sheet) {
 // In the pixels of the sheet, y downwards from here on.
 class Painter {
 public:
-  // crisp: upright and level lines cover whole pixels.
+  // crisp: horizontal and vertical lines are moved so that they cover whole pixels.
   Painter(cairo_t* cr, double height, bool crisp) : cr_(cr), height_(height), crisp_(crisp) {}
 
   void paint(const Canvas& canvas) {

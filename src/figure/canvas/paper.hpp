@@ -1,4 +1,4 @@
-// Puts a picture into a file, by its ending: PNG; PDF; SVG. The two last ones keep lines as lines and texts as texts, and have what VTK drew as an image.
+// Writes pictures as PNG, PDF or SVG, as the file name ends. PDF and SVG keep lines as lines and texts as texts; what VTK drew is an image in them.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,15 @@ struct Image {
   std::vector<unsigned char> rgba;  // 4 width height, highest row first; colours are multiplied by the opacity
 };
 
-// How many times finer than the sheet's pixels VTK is to draw: for smooth edges, less for very large pictures; in PDF and SVG for 600 dots an inch.
+// VTK draws with so many pixels for each pixel of the sheet, across and up: in PNG for smooth edges, in PDF and SVG for 600 dots an inch; fewer in very large pictures.
 int image_factor(const Sheet& sheet);
 
-// Whole or not at all: beside the target first, then renamed. `image` has the size of the sheet, or some times it; none: the canvases alone.
+// Writes the file whole or not at all. `image` is as large as the sheet, or a whole number of times as large; an empty one is left out.
 // Throws std::runtime_error with path and reason.
 void write_picture(const Sheet& sheet, const Canvas& under, const Image& image, const Canvas& over);
 void write_canvas(const Canvas& canvas, const Sheet& sheet);
 
-// As SVG.
+// The text of an SVG file; `png` is the file of the image between the canvases, empty if there is none.
 std::string svg(const Sheet& sheet, const Canvas& under, const std::string& png, const Canvas& over);
 
 }  // namespace dotyk::figure

@@ -14,11 +14,10 @@ inline double printed_width(const Sheet& sheet) {
 // A point is 1/72 of an inch.
 inline double points_per_pixel(const Sheet& sheet) { return printed_width(sheet) / 25.4 * 72 / sheet.width; }
 
-// Pixels of the letters of axes and legends. small_text and least_letters of it are 7 points, which no text of a journal should fall below.
+// The size of letters of axes and legends in pixels: 8.25 points. Times small_text or least_letters this is 7 points, the least size that journals print.
 inline double letters(const Sheet& sheet) { return 8.25 / points_per_pixel(sheet); }
 
-constexpr int greatest_side = 8192;  // pixels
-// Pixels below which no plot should be high: with its axis it is 30 mm then.
+// The least height of a plot in pixels: 22 mm, 30 mm with its axis.
 inline double least_plot(const Sheet& sheet) { return 22 / printed_width(sheet) * sheet.width; }
 
 inline bool vector_graphics(const Sheet& sheet) { return !sheet.file.ends_with(".png"); }

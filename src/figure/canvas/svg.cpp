@@ -1,6 +1,7 @@
 // SVG. Cairo would make outlines of its texts.
 #include <sstream>
 
+#include "base/text.hpp"
 #include "figure/canvas/font.hpp"
 #include "figure/canvas/paper.hpp"
 
@@ -8,9 +9,10 @@ namespace dotyk::figure {
 
 namespace {
 
+// XML has no control characters.
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) c == '&' ? out += "&amp;" : c == '<' ? out += "&lt;" : out += c;
+  for (const char c : text) c == '&' ? out += "&amp;" : c == '<' ? out += "&lt;" : out += c >= 0 && c < ' ' ? ' ' : c;
   return out;
 }
 
@@ -54,12 +56,8 @@ private:
     std::snprintf(text, sizeof text, "#%02x%02x%02x", c.r, c.g, c.b);
     return text;
   }
-  // As an attribute; rounded to a hundredth of a pixel.
-  std::string number(double value) const {
-    std::ostringstream out;
-    out << std::round(100 * value) / 100;
-    return out.str();
-  }
+  // A number as text, rounded to a hundredth of a pixel.
+  static std::string number(double value) { return text(std::round(100 * value) / 100); }
 
   void draw(const Mark& mark) {
     const std::string opacity = mark.opacity < 1 ? "-opacity=\"" + number(mark.opacity) + "\"" : "";
@@ -91,8 +89,7 @@ private:
     if (style.halo) out_ << " stroke=\"#ffffff\" stroke-width=\"" << number(2 * halo_width(style.size)) << "\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
     out_ << '>';
     for (const TextRun& run : text_runs(text.text, style.size, style.bold))
-      if (run.size == style.size) out_ << "<tspan x=\"" << number(run.start.x) << "\" y=\"0\">" << escaped(run.text) << "</tspan>";
-      else out_ << "<tspan x=\"" << number(run.start.x) << "\" y=\"" << number(-run.start.y) << "\" font-size=\"" << number(run.size) << "\">" << escaped(run.text) << "</tspan>";
+      out_ << "<tspan x=\"" << number(run.start.x) << "\" y=\"" << number(0 - run.start.y) << "\" font-size=\"" << number(run.size) << "\">" << escaped(run.text) << "</tspan>";
     out_ << "</text>\n";
   }
 

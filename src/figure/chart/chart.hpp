@@ -27,12 +27,14 @@ struct ChartMargins {
 // What a chart has in common with those above and below it.
 struct ChartFrame {
   double em = 20;
-  ChartMargins least = {};
+  ChartMargins least = {};  // the margins are at least these
   bool x_labels = true;
   bool alone = false;       // may be narrower than the picture
   bool legend = true;
 };
 
+// Do series have the same names, and look the same, in the legends of both?
+bool same_legend(const ChartPicture& a, const ChartPicture& b);
 // In rows no wider than so many pixels; 0: one name below the other. The picture must outlive it.
 Legend chart_legend(const ChartPicture& picture, double em, double width);
 

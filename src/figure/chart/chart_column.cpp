@@ -19,30 +19,26 @@ std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
   return range;
 }
 
-// The names in a legend.
-std::vector<std::string> names(const ChartPicture& panel) {
-  std::vector<std::string> out;
-  for (const SeriesPicture& s : panel.series)
-    if (!s.name.empty()) out.push_back(s.name);
-  return out;
+bool has_legend(const ChartPicture& panel) {
+  return std::ranges::any_of(panel.series, [](const SeriesPicture& s) { return !s.name.empty(); });
 }
 
-// Do all panels that have a legend have the same one?
-bool legends_agree(const std::vector<ChartPicture>& panels) {
-  std::vector<std::string> common;
-  int count = 0;
+// The panel whose legend serves all others that have one; none where these differ, or only one has.
+const ChartPicture* common_legend(const std::vector<ChartPicture>& panels) {
+  const ChartPicture* first = nullptr;
+  bool several = false;
   for (const ChartPicture& panel : panels) {
-    const std::vector<std::string> own = names(panel);
-    if (own.empty()) continue;
-    if (++count > 1 && own != common) return false;
-    common = own;
+    if (!has_legend(panel)) continue;
+    if (first && !same_legend(*first, panel)) return nullptr;
+    several = first;
+    if (!first) first = &panel;
   }
-  return count > 1;
+  return several ? first : nullptr;
 }
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// Panels row by row. Plots are equally high; those of a row stand side by side, those of a column one below the other, whatever stands beside them.
+// Panels row by row. All plots are equally high, and their frames stand in line along rows and columns.
 class Grid {
 public:
   Grid(const ChartColumn& picture, double em, bool legends) : columns_(static_cast<std::size_t>(picture.columns)), width_(static_cast<double>(picture.width) / picture.columns) {
@@ -55,7 +51,7 @@ public:
     }
   }
 
-  // Plots that fill so many pixels in all, but are at least so high: returns the height that all takes.
+  // Gives the plots a height with which all panels take `height` pixels, but at least the height `least`. Returns the pixels that the panels then take.
   double fill(double height, double least) {
     double plots = 0;
     left_.assign(columns_, 0), right_ = left_, above_.assign(rows(), 0), below_ = above_;
@@ -68,7 +64,7 @@ public:
     return sum(above_) + sum(below_) + plots * static_cast<double>(rows());
   }
 
-  // Downwards from `top`.
+  // `top`: of the first row, above the lower edge of the picture.
   void draw(Canvas& canvas, double top) const {
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       if (column(i) == 0) top -= panels_[i].height;
@@ -82,7 +78,7 @@ private:
   std::size_t row(std::size_t i) const { return i / columns_; }
   std::size_t column(std::size_t i) const { return i % columns_; }
 
-  // The margins that suffice for all of a row or column, now and before: a legend that comes to stand above its plot keeps its place.
+  // The margins of a row or column are the greatest of its panels, also of those measured before: a legend that once stood above its plot keeps that room.
   void measure() {
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       Canvas tried;
@@ -104,12 +100,11 @@ private:
 void render(const ChartColumn& given) {
   ChartColumn picture = given;
   const double em = letters(picture);
-  const bool one_legend = legends_agree(picture.panels);
   const FittedText title = fitted(picture.title, 1.15 * em, picture.width - em, true);
-  const auto named = std::find_if(picture.panels.begin(), picture.panels.end(), [](const ChartPicture& p) { return !names(p).empty(); });
-  const Legend legend = one_legend ? chart_legend(*named, em, picture.width - em) : Legend({}, em);
+  const ChartPicture* common = common_legend(picture.panels);
+  const Legend legend = common ? chart_legend(*common, em, picture.width - em) : Legend({}, em);
   const double above = (picture.title.empty() ? 0 : 1.9 * em + title.depth()) + legend.height();
-  Grid grid(picture, em, !one_legend);
+  Grid grid(picture, em, !common);
   // The picture grows where plots would be too low to be legible.
   const double needed = grid.fill(picture.height - above, least_plot(picture));
   picture.height = std::clamp(static_cast<int>(std::ceil(needed + above)), picture.height, std::max(picture.height, greatest_side));

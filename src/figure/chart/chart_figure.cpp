@@ -33,7 +33,7 @@ constexpr std::array methods{"pdas", "newton", "projected_cg", "interior_point",
 
 bool takes_colour(const SeriesPicture& s) { return !s.reference && !s.twin && !s.front && !s.status; }
 
-// The places of the methods that series are named after, of those that take a colour; nothing where some are not, or two the same.
+// For each series that takes a colour, the place of its name among the methods. Empty if one has another name, or two have the same.
 std::vector<int> places_of_methods(const std::vector<SeriesPicture>& series) {
   std::vector<int> places;
   for (const SeriesPicture& s : series) {
@@ -64,7 +64,15 @@ std::vector<Look> looks(const std::vector<SeriesPicture>& series) {
   return out;
 }
 
-// Draws series in letters of this height.
+// Those of a legend.
+std::vector<Look> named(const ChartPicture& picture) {
+  std::vector<Look> out;
+  for (const Look& look : looks(picture.series))
+    if (!look.data.name.empty()) out.push_back(look);
+  return out;
+}
+
+// Draws series; lines and markers are sized by the height of letters.
 struct Pen {
   double em;
 
@@ -292,11 +300,18 @@ private:
 
 }  // namespace
 
+bool same_legend(const ChartPicture& a, const ChartPicture& b) {
+  const std::vector<Look> one = named(a), other = named(b);
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const Look& x, const Look& y) {
+    const auto look = [](const Look& l) { return std::tuple(l.data.name, l.marker, l.dashed, l.data.style, l.data.reference, l.data.front, l.data.crossed, l.data.low.empty()); };
+    return x.colour == y.colour && look(x) == look(y);
+  });
+}
+
 Legend chart_legend(const ChartPicture& picture, double em, double width) {
   constexpr double kLetters = 0.92;
   std::vector<LegendEntry> entries;
-  for (const Look& look : looks(picture.series))
-    if (!look.data.name.empty()) entries.push_back({look.data.name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }});
+  for (const Look& look : named(picture)) entries.push_back({look.data.name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }});
   return Legend(std::move(entries), kLetters * em, width);
 }
 

@@ -64,9 +64,10 @@ void check_file(const std::string& file, std::initializer_list<const char*> endi
 
 void check_sheet(const Sheet& sheet) {
   check_file(sheet.file, {".png", ".pdf", ".svg"}, ".png, .pdf or .svg");
-  if (sheet.printed) require(*sheet.printed >= 30 && *sheet.printed <= 500, "the width of ", sheet.file, " is ", *sheet.printed, " mm, expected 30 to 500");
-  require(sheet.width >= 160 && sheet.width <= 8192 && sheet.height >= 160 && sheet.height <= 8192,
-          "the size of ", sheet.file, " is ", sheet.width, " x ", sheet.height, ", expected 160 to 8192 pixels each way");
+  if (sheet.printed) require(*sheet.printed >= least_printed && *sheet.printed <= greatest_printed, "the width of ", sheet.file, " is ", *sheet.printed, " mm, expected ", least_printed, " to ", greatest_printed);
+  const auto possible = [](int side) { return side >= least_side && side <= greatest_side; };
+  require(possible(sheet.width) && possible(sheet.height), "the size of ", sheet.file, " is ", sheet.width, " x ", sheet.height, ", expected ", least_side, " to ",
+          greatest_side, " pixels each way");
   check_text("'title'", sheet.title);
 }
 

@@ -16,6 +16,9 @@ namespace dotyk::figure {
 
 using Vec3 = std::array<double, 3>;
 
+constexpr int least_side = 160, greatest_side = 8192;           // pixels of a picture
+constexpr double least_printed = 30, greatest_printed = 500;    // mm, widths on paper
+
 // The file that a picture becomes, and what stands above it.
 struct Sheet {
   std::string file;                         // ends in .png, .pdf or .svg; its folder must exist
@@ -226,7 +229,7 @@ struct GridFile {
 
 // ---------------------------------------------------------------- drawing
 
-// Draws the picture and writes it as PNG, whole or not at all: on an error
+// Draws the picture and writes it, whole or not at all: on an error
 // picture.file is as it was. Equal pictures give equal bytes.
 // Throws std::runtime_error: the folder does not exist or cannot be written
 // (path and reason), arrays of unequal or impossible length (which), a node

@@ -156,12 +156,11 @@ void draw_apex(Stage& stage, Point at, Point size, double rim, Colour colour) {
 
 void render(const PlatePicture& picture) {
   const Plate plate(picture);
-  const ScenePicture scene = scene_of(plate);
-  Stage stage(scene);
-  const std::vector<Layer> layers = stage.plane ? plan_layers(plate) : surface_layers(plate);
-  stage.layers.insert(stage.layers.end() - 1, layers.begin(), layers.end());  // in the legend before what is said of bodies
-  stage.axes_of_bodies = stage.plane;
-  draw_stage(stage);
+  draw_scene(scene_of(plate), [&](Stage& stage) {
+    const std::vector<Layer> layers = stage.plane ? plan_layers(plate) : surface_layers(plate);
+    stage.layers.insert(stage.layers.end() - 1, layers.begin(), layers.end());  // in the legend before what is said of bodies
+    stage.axes_of_bodies = stage.plane;
+  });
 }
 
 }  // namespace dotyk::figure

@@ -99,10 +99,7 @@ void set_camera(const Stage& stage, vtkRenderer* renderer) {
   renderer->AddLight(light);
 }
 
-}  // namespace
-
 void draw_stage(Stage& stage) {
-  lay_out(stage);
   vtkNew<vtkRenderer> bodies;
   if (stage.window) stage.over.clip(stage.frame);
   std::vector<Layer> upwards = stage.layers;
@@ -116,9 +113,19 @@ void draw_stage(Stage& stage) {
   write_picture(stage.picture, stage.under, rendered(stage.picture, bodies), stage.over);
 }
 
-void render(const ScenePicture& picture) {
-  Stage stage(picture);
-  draw_stage(stage);
+}  // namespace
+
+void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare) {
+  ScenePicture grown = picture;
+  for (const bool last : {false, true}) {
+    Stage stage(grown);
+    if (prepare) prepare(stage);
+    const double missing = lay_out(stage);
+    if (last || !(missing > 0)) return draw_stage(stage);
+    grown.height = std::min(std::max(grown.height, greatest_side), grown.height + static_cast<int>(std::ceil(missing)));
+  }
 }
+
+void render(const ScenePicture& picture) { draw_scene(picture); }
 
 }  // namespace dotyk::figure

@@ -2,6 +2,7 @@
 // axes, into what title, legend, axes and colour bar leave.
 #include "figure/scene/stage.hpp"
 #include "figure/canvas/axes.hpp"
+#include "figure/canvas/sheet.hpp"
 
 namespace dotyk::figure {
 
@@ -241,7 +242,7 @@ void draw_column(Stage& stage, const Surroundings& around) {
 
 }  // namespace
 
-void lay_out(Stage& stage) {
+double lay_out(Stage& stage) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em, w = p.width;
   if (!stage.plane) aim(stage);
@@ -252,9 +253,11 @@ void lay_out(Stage& stage) {
   around.legend.draw(stage.over, {(w - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
   draw_column(stage, around);
   if (p.axes && stage.plane) draw_axes(stage);
-  if (stage.plane) return;
-  if (p.axes) draw_triad(stage, {around.room.left + 2.2 * em, around.room.bottom + 1.6 * em});
-  stage.frame = around.room;
+  if (p.axes && !stage.plane) draw_triad(stage, {around.room.left + 2.2 * em, around.room.bottom + 1.6 * em});
+  if (!stage.plane) stage.frame = around.room;
+  constexpr double kBar = 10;  // em, with its name and ends
+  const double column = (around.bar > 0 ? kBar * em : 0) + (around.inset > 0 ? around.inset + 2.4 * em : 0);
+  return std::max(column, least_plot(p)) - around.room.height();
 }
 
 }  // namespace dotyk::figure

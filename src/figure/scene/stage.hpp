@@ -84,12 +84,12 @@ std::vector<std::size_t> spread(const std::vector<Point>& at, double spacing);
 // Where these are those of a grid, whole lines of it are left out.
 std::vector<std::size_t> spread(const std::vector<Point>& at, const std::vector<Point>& plan, double spacing);
 
-// Lays out, draws, and writes the file.
-void draw_stage(Stage& stage);
+// Lays out, draws, and writes the file. The picture becomes higher where it lacks height. `prepare` is called for each stage that is made.
+void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare = {});
 
 // Chooses the view and the frame, and reserves room for title, legend, axes
-// and colour bar; draws these.
-void lay_out(Stage& stage);
+// and colour bar; draws these. Returns how many pixels the picture's height lacks for a scene and a colour bar that are legible.
+double lay_out(Stage& stage);
 
 // Fits the picture's window into the room. The greatest pressure comes to a fifth of its height, less where it would not fit; from
 // three quarters of that on the window grows. Sets stage.view, frame, window, and what depends on what is seen: greatest pressure,

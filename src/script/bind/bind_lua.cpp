@@ -72,7 +72,7 @@ std::vector<Key> work_precision_keys() {
               .otherwise("\"finest\"; none for an error function"),
           key::integer("repeats", "runs of each; fewer where they would last longer than the budget").at_least(1).fallback(3.0),
           key::positive("budget", "a run that lasts longer is stopped, and its method goes no further up the levels").unit("s").fallback(30.0),
-          key::file("file", "of the figure; ends in .png").written().otherwise("no figure"),
+          key::file("file", "of the figure; ends in .png, .pdf or .svg").written().otherwise("no figure"),
           key::either("csv", {key::file("", "").written(), key::boolean("", "")}, "where the rows go as comma-separated values; false: nowhere").otherwise("beside the figure"),
           key::vector("slopes", "guides of these slopes").otherwise("none"),
           key::string("title", "above the figure").otherwise("none"),

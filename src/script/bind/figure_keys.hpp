@@ -18,16 +18,18 @@ inline void read_page(const Arguments& call, figure::Sheet& sheet) {
   call.read("file", sheet.file);
   call.read("title", sheet.title);
   call.read("width", sheet.printed);
-  if (sheet.printed && !(*sheet.printed >= 30 && *sheet.printed <= 500)) throw InputError(text("'width' is ", *sheet.printed, " mm; it must be from 30 to 500"));
+  if (sheet.printed && !(*sheet.printed >= figure::least_printed && *sheet.printed <= figure::greatest_printed))
+    throw InputError(text("'width' is ", *sheet.printed, " mm; it must be from ", figure::least_printed, " to ", figure::greatest_printed));
   if (call.has("size")) {
     const auto size = call.integers("size");
     for (const long long pixels : size)
-      if (pixels < 160 || pixels > 8192) throw InputError(text("size has ", pixels, " pixels; a side must have from 160 to 8192"));
+      if (pixels < figure::least_side || pixels > figure::greatest_side)
+        throw InputError(text("size has ", pixels, " pixels; a side must have from ", figure::least_side, " to ", figure::greatest_side));
     sheet.width = static_cast<int>(size[0]), sheet.height = static_cast<int>(size[1]);
   } else if (sheet.printed) {
     constexpr double kDots = 300 / 25.4;  // a mm
     const double shape = static_cast<double>(sheet.height) / sheet.width;
-    sheet.width = static_cast<int>(std::lround(kDots * *sheet.printed)), sheet.height = std::clamp(static_cast<int>(std::lround(shape * sheet.width)), 160, 8192);
+    sheet.width = static_cast<int>(std::lround(kDots * *sheet.printed)), sheet.height = std::clamp(static_cast<int>(std::lround(shape * sheet.width)), figure::least_side, figure::greatest_side);
   }
 }
 

@@ -173,7 +173,7 @@ void bind_figure(Library& library) {
                     .run = chart});
   library.extend<Solution>().method(
       {.name = "solution:render",
-       .help = "Draws the deformed bodies coloured by a field, with contact status and pressure, into a PNG file and "
+       .help = "Draws the deformed bodies coloured by a field, with contact status and pressure, into a file and "
                "returns its name. A deformation factor magnifies the gap and the motion of "
                "rigid obstacles as well, so that what touches is seen to touch.",
        .example = "s:render{ file = \"a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
