@@ -26,6 +26,7 @@ end
 
 print "c [N/mm^4]   peak [GPa]   force [kN/mm]   half width [mm]"
 local series <const>, last = {}, 0
+local raised <const> = { [1e7] = "⁷", [1e8] = "⁸", [1e9] = "⁹", [1e11] = "¹¹" }
 for _, c in ipairs{ 1e7, 1e8, 1e9, 1e11, math.huge } do
   local smooth <const> = c == math.huge
   local result <const> = pressed(smooth and dotyk.law.signorini() or dotyk.law.compliance{ c = c, m = m })
@@ -37,7 +38,7 @@ for _, c in ipairs{ 1e7, 1e8, 1e9, 1e11, math.huge } do
   print(("%10.0e   %10.3f   %13.3f   %15.3f"):format(c, result.max_pressure / 1e3, -result.force[2] / 1e3, half))
   assert(off < 1e-9 * result.max_pressure and -result.force[2] > last) -- on the law; a stiffer contact bears more
   last = -result.force[2]
-  series[#series + 1] = drawn(smooth and "smooth (Signorini)" or ("c = 1e%d N/mm⁴"):format(math.floor(math.log(c, 10) + 0.5)), result, { style = "line", reference = smooth })
+  series[#series + 1] = drawn(smooth and "smooth (Signorini)" or ("c = 10%s N/mm⁴"):format(raised[c]), result, { style = "line", reference = smooth })
 end
 dotyk.chart{ file = "images/asperities.png", title = "A rigid parabola on a rough block", x = "x [mm]", y = "pressure [GPa]", series = series }
 print "images/asperities.png"

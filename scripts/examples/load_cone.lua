@@ -29,7 +29,7 @@ end
 local mu <const> = 0.4
 local cases <const> = {
   { name = "floor", planes = { bottom = {0, -1} }, from = 270, to = 270 },
-  { name = "floor, mu = 0.4", planes = { bottom = {0, -1} }, friction = dotyk.friction.coulomb(mu),
+  { name = "floor, μ = 0.4", planes = { bottom = {0, -1} }, friction = dotyk.friction.coulomb(mu),
     from = 270 - math.deg(math.atan(mu)), to = 270 + math.deg(math.atan(mu)) },
   { name = "floor and wall", planes = { bottom = {0, -1}, left = {-1, 0} }, from = 180, to = 270 },
   { name = "floor and two walls", planes = { bottom = {0, -1}, left = {-1, 0}, right = {1, 0} }, from = 180, to = 360 },

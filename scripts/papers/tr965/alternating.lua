@@ -107,5 +107,5 @@ for _, case in ipairs{ { "T2", scenes.blocks, given, 16 }, { "T2", scenes.blocks
 end
 series[#series + 1] = { name = ("Newton: %d at most"):format(newton_most), x = { 1, 1e6 }, y = { newton_most, newton_most }, reference = true }
 
-dotyk.chart{ file = "images/alternating.png", log = "xy", x = "rho [force/displacement]", y = "iterations", series = series }
+dotyk.chart{ file = "images/alternating.png", log = "xy", x = "ρ [force/displacement]", y = "iterations", series = series }
 print "images/alternating.png"

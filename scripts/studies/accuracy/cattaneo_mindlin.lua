@@ -177,7 +177,7 @@ for i = -200, 200 do
   px[#px + 1], pe[#pe + 1], qx[#qx + 1], qe[#qe + 1] = x, mu * result.exact.p(x), stick, result.exact.q(stick)
 end
 dotyk.chart{ file = "images/cattaneo_mindlin.png", x = "x [mm]", y = "traction [MPa]", series = {
-  { name = "mu times pressure, nodes", x = at, y = p, style = "points" },
+  { name = "μ times pressure, nodes", x = at, y = p, style = "points" },
   { name = "shear, nodes", x = at, y = shear, style = "points" },
   { name = "Hertz, Cattaneo and Mindlin", x = px, y = pe, reference = true },
   { x = qx, y = qe, reference = true } } }
@@ -195,5 +195,5 @@ for k, leg in ipairs{ { 0, top }, { top, -top, 1 }, { -top, top, -1 } } do
   local x, y = curve(table.unpack(leg))
   series[#series + 1] = { name = k == 1 and "closed form" or nil, x = x, y = y, reference = true }
 end
-dotyk.chart{ file = "images/hysteresis.png", x = "displacement by slip [µm]", y = "Q / (mu P)", series = series }
+dotyk.chart{ file = "images/hysteresis.png", x = "displacement by slip [µm]", y = "Q / (μP)", series = series }
 print "images/cattaneo_mindlin.png, images/cattaneo_mindlin_zones.png, images/hysteresis.png"
