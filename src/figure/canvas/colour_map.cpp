@@ -1,5 +1,7 @@
 #include "figure/canvas/colour_map.hpp"
 
+#include <iterator>
+
 #include "figure/canvas/axes.hpp"
 
 namespace dotyk::figure {
@@ -25,17 +27,25 @@ Colour mix(const Anchors& anchors, double t) {
 }
 
 // "stress [MPa]", "stress [10⁶ Pa]": the power of ten stands with the unit.
-std::string label(const ScenePicture& p, int exponent) {
-  std::string unit = exponent ? (p.field_unit.empty() ? "× " : "") + power_of_ten(exponent) : "";
-  if (!p.field_unit.empty()) unit += (unit.empty() ? "" : " ") + p.field_unit;
-  return unit.empty() ? p.field_label : p.field_label + " [" + unit + "]";
+std::string label(const FieldLabel& field, int exponent) {
+  std::string unit = exponent ? (field.unit.empty() ? "× " : "") + power_of_ten(exponent) : "";
+  if (!field.unit.empty()) unit += (unit.empty() ? "" : " ") + field.unit;
+  return unit.empty() ? field.name : field.name + " [" + unit + "]";
 }
 
 Ticks bar_ticks(const ColourScale& scale) { return few_ticks(scale.low, scale.high, 5); }
 
 constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small_label = 0.85, ends = 0.55, tip = 0.9;  // in em
 
-// At the nodes that are seen.
+// Values that are not at nodes of bodies.
+std::vector<const std::vector<double>*> fields_beside(const ScenePicture& p) {
+  std::vector<const std::vector<double>*> out;
+  for (const BodyPicture& body : p.bodies) out.push_back(&body.cell_values);
+  for (const ContactPicture& contact : p.contacts) out.push_back(&contact.values);
+  return out;
+}
+
+// At the nodes that are seen, and beside them.
 std::vector<double> values_of(const ScenePicture& p, const std::optional<Box>& window) {
   std::vector<double> out;
   for (const BodyPicture& body : p.bodies)
@@ -43,6 +53,8 @@ std::vector<double> values_of(const ScenePicture& p, const std::optional<Box>& w
       const Vec3 at = body.node(i, p.deformation);
       if (std::isfinite(body.values[i]) && (!window || window->holds({at[0], at[1]}))) out.push_back(body.values[i]);
     }
+  for (const auto* values : fields_beside(p))
+    std::ranges::copy_if(*values, std::back_inserter(out), [](double v) { return std::isfinite(v); });
   return out;
 }
 
@@ -78,12 +90,18 @@ Colour ColourScale::at(double value) const {
 ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window) {
   ColourScale scale;
   Seen part;
-  if (window) part = seen(p, *window);
-  else
+  if (window && p.bodies.front().dimension == 2) {
+    part = seen(p, *window);
+  } else {
     for (const BodyPicture& body : p.bodies)
       for (const double v : body.values) part.add(v);
+    for (const auto* values : fields_beside(p))
+      for (const double v : *values) part.add(v);
+  }
   scale.shown = part.least <= part.greatest;
   if (!scale.shown) return scale;
+  constexpr double kRounding = 1e-12;
+  if (std::abs(part.least) < kRounding * part.greatest) part.least = 0;
   scale.least = scale.low = part.least, scale.greatest = scale.high = part.greatest;
   if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
   else leave_out_peaks(scale, values_of(p, window));
@@ -111,22 +129,23 @@ vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale) {
   return table;
 }
 
-double colour_bar_width(const ColourScale& scale, const ScenePicture& p, double em) {
-  if (!scale.shown || p.field_label.empty()) return 0;
+double colour_bar_width(const ColourScale& scale, const FieldLabel& field, double em) {
+  if (!scale.shown || field.name.empty()) return 0;
   const Ticks ticks = bar_ticks(scale);
   const double beside = (bar + tick + pad) * em + widest_label(ticks, em) + 0.4 * em + 1.3 * em;
   const auto above = [&](const char* name, double value) { return text_extent(extreme(name, value, ticks), small_label * em).x; };
   return std::max({beside, above("max", scale.greatest), above("min", scale.least)});
 }
 
-void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& p, double em, double left, double bottom, double top) {
-  if (!scale.shown || p.field_label.empty()) return;
+void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& field, double em, const Box& room) {
+  const double left = room.left, bottom = room.bottom;
+  double top = room.top;
   const Ticks ticks = bar_ticks(scale);
   // The name stands beside the bar, above it where that is too short.
-  const std::string name = label(p, ticks.exponent);
+  const std::string name = label(field, ticks.exponent);
   const bool upright = text_extent(name, least_letters * em).x <= top - bottom - 2 * (ends + 1.0) * em;
   if (!upright) {
-    const FittedText lines = fitted(name, em, p.width - 0.3 * em - left);
+    const FittedText lines = fitted(name, em, room.width());
     canvas.text({left, top}, lines, {.up = Align::high});
     top -= lines.depth() + 1.3 * em;
   }

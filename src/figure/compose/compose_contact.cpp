@@ -110,7 +110,7 @@ ContactPicture contact_picture(const Contact& contact, const scene::ContactResul
   for (std::size_t k = 0; k < result.nodes.size(); ++k) {
     const scene::ContactNode& n = result.nodes[k];
     picture.nodes.push_back({n.x, n.displacement, n.normal, n.pressure, n.weight, static_cast<Status>(static_cast<int>(n.status)),
-                             n.shear, contact.second.body ? contact.rows[k].gap : 0});
+                             n.shear, contact.second.body ? contact.rows[k].gap : 0, n.gap, mesh::length(n.slip)});
   }
   return picture;
 }

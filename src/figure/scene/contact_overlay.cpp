@@ -1,6 +1,7 @@
 // What happens on the contact boundary: status, pressure and shear.
 #include <set>
 
+#include "figure/canvas/axes.hpp"
 #include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {
@@ -95,6 +96,7 @@ LegendEntry status_entry(const Stage& stage, Status status) {
   const auto& contacts = stage.picture.contacts;
   const bool markers = std::any_of(contacts.begin(), contacts.end(), [&](const ContactPicture& c) { return !is_short(stage, c); });
   const Colour colour = status_colour(status);
+  if (stage.map()) return map_status_entry(stage, status);
   if (stage.plane)
     return {status_name(status), [=, em = stage.em](Canvas& c, const Box& b) {
               c.line(b.midline()[0], b.midline()[1], (markers ? wide : thin) * em, colour);
@@ -107,9 +109,12 @@ LegendEntry status_entry(const Stage& stage, Status status) {
           }};
 }
 
-// As a strip with an ordinate at each node, or as arrows, and dots on the plan of a contact in space.
+std::string at_most(const char* what, double value, const std::string& unit) { return std::string(what) + ", at most " + number(value) + (unit.empty() ? "" : " " + unit); }
+
+// As a strip with an ordinate at each node, as arrows, or as dots on a map. In the plane the greatest is written beside it.
 LegendEntry pressure_entry(const Stage& stage) {
-  if (stage.strips())
+  const bool map = stage.map();
+  if (stage.strips() && !map)
     return {"contact pressure", [em = stage.em](Canvas& c, const Box& b) {
               const double low = b.centre().y - 0.3 * em, w = b.width();
               std::array<Point, 9> hill;
@@ -120,19 +125,30 @@ LegendEntry pressure_entry(const Stage& stage) {
               c.convex(hill, pressure_fill, 0.9);
               c.polyline(hill, std::max(1.2, em / 14), pressure_line);
             }};
-  return {"contact pressure", [em = stage.em, dots = inset_width(stage) > 0](Canvas& c, const Box& b) {
-            const double x = b.centre().x - (dots ? 0.4 * em : 0);
-            c.arrow({x, b.top - 0.1 * em}, {x, b.bottom + 0.1 * em}, std::max(1.2, em / 14), 0.42 * em, pressure_line);
-            if (dots) c.disc({x + 0.9 * em, b.centre().y}, 0.24 * em, pressure_line);
+  const std::string name = stage.plane && !map ? "contact pressure" : at_most("contact pressure", stage.greatest_pressure, stage.picture.pressure_unit);
+  return {name, [em = stage.em, arrow = !map, dots = map || stage.inset](Canvas& c, const Box& b) {
+            const double x = b.centre().x - (arrow && dots ? 0.4 * em : 0);
+            if (arrow) c.arrow({x, b.top - 0.1 * em}, {x, b.bottom + 0.1 * em}, std::max(1.2, em / 14), 0.42 * em, pressure_line);
+            if (dots) c.disc({x + (arrow ? 0.9 * em : 0), b.centre().y}, 0.24 * em, pressure_line);
           }};
 }
 
 LegendEntry shear_entry(const Stage& stage) {
-  const std::string& unit = stage.picture.pressure_unit;
-  return {"shear, at most " + number(stage.greatest_shear) + (unit.empty() ? "" : " " + unit), [em = stage.em](Canvas& c, const Box& b) {
+  return {at_most("shear", stage.greatest_shear, stage.picture.pressure_unit), [em = stage.em](Canvas& c, const Box& b) {
             const auto [from, to] = b.midline();
             c.arrow({from.x + 0.1 * em, from.y}, {to.x - 0.1 * em, to.y}, std::max(1.4, em / 11), 0.42 * em, shear_line);
           }};
+}
+
+// "open and slip", "open, stick and slip".
+std::string listed(const std::set<Status>& statuses) {
+  std::string out;
+  std::size_t k = 0;
+  for (const Status status : statuses) {
+    out += (k == 0 ? "" : k + 1 == statuses.size() ? " and " : ", ") + std::string(status_name(status));
+    ++k;
+  }
+  return out;
 }
 
 void contact_legend(const Stage& stage, std::vector<LegendEntry>& out) {
@@ -142,15 +158,22 @@ void contact_legend(const Stage& stage, std::vector<LegendEntry>& out) {
     for (std::size_t i = 0; i < seen.size(); ++i)
       if (seen[i]) present.insert(contact.nodes[i].status);
   }
-  for (const Status status : present) out.push_back(status_entry(stage, status));
-  if (stage.greatest_pressure > 0 && stage.pressures()) out.push_back(pressure_entry(stage));
-  if (stage.greatest_shear > 0) out.push_back(shear_entry(stage));
+  if (stage.colours_contacts() && present.size() > 1)
+    out.push_back({"border of " + listed(present), [em = stage.em](Canvas& c, const Box& b) {
+                     c.line(b.midline()[0], b.midline()[1], 0.3 * em, {150, 150, 150});
+                     c.line(b.midline()[0], b.midline()[1], 0.16 * em, {255, 255, 255});
+                   }});
+  if (!stage.colours_contacts())
+    for (const Status status : present) out.push_back(status_entry(stage, status));
+  const bool in_colours = stage.colours_contacts() || (stage.map() && stage.scale.shown);
+  if (stage.greatest_pressure > 0 && stage.pressures() && !in_colours) out.push_back(pressure_entry(stage));
+  if (stage.greatest_shear > 0 && (stage.plane || stage.inset)) out.push_back(shear_entry(stage));
 }
 
-// In space the plan beside the scene says the greatest pressure.
+// In space, and on maps, the legend says the greatest pressure.
 std::vector<Label> labels(const Stage& stage) {
   std::vector<Label> out;
-  if (stage.pressures() && inset_width(stage) == 0)
+  if (stage.pressures() && stage.plane && !stage.map())
     for (const ContactPicture& contact : stage.picture.contacts)
       if (const std::optional<Label> label = peak_label(stage, contact)) out.push_back(*label);
   return out;
@@ -159,8 +182,8 @@ std::vector<Label> labels(const Stage& stage) {
 void contact_bounds(const Stage& stage, Bounds& bounds) {
   for (const ContactPicture& contact : stage.picture.contacts)
     for (const ContactNode& node : contact.nodes) {
-      if (stage.pressures() && node.pressure > 0 && stage.greatest_pressure > 0) bounds.add(pressure_tip(stage, node));
-      if (stage.plane && stage.greatest_shear > 0 && length(node.shear) > 0)
+      if (stage.pressures() && contact.values.empty() && node.pressure > 0 && stage.greatest_pressure > 0) bounds.add(pressure_tip(stage, node));
+      if (stage.plane && !stage.map() && stage.greatest_shear > 0 && length(node.shear) > 0)
         for (const Point& end : shear_arrow(stage, node)) bounds.add(end);
     }
   for (const Label& label : labels(stage)) bounds.add(label.box);
@@ -168,7 +191,9 @@ void contact_bounds(const Stage& stage, Bounds& bounds) {
 
 void draw_contacts(Stage& stage, vtkRenderer* renderer) {
   for (const ContactPicture& contact : stage.picture.contacts) {
-    if (stage.plane) {
+    if (stage.map()) {
+      draw_contact_map(stage, contact);
+    } else if (stage.plane) {
       if (stage.strips()) draw_strip(stage, contact);
       if (contact.nodes_per_facet == 2) draw_joint(stage, contact), draw_line(stage, contact);
       if (stage.pressures() && !stage.strips()) draw_arrows(stage, contact);

@@ -84,7 +84,7 @@ Box settle_pressure(Stage& stage) {
 }  // namespace
 
 void fit_window(Stage& stage, const Box& room) {
-  Box& w = stage.window.emplace(box_of(*stage.picture.window));
+  Box& w = *(stage.window = stage.asked);
   for (int round = 0; round < 20; ++round) {
     place(stage, room);
     const Box beyond = settle_pressure(stage);

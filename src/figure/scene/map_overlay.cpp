@@ -1,0 +1,88 @@
+// On the map of a contact: statuses, pressure, shear.
+#include "figure/canvas/axes.hpp"
+#include "figure/scene/stage.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+constexpr double marker_size = 0.5, marker_spacing = 1.5, shear_spacing = 1.0;  // em
+
+void fill_statuses(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
+  each_polygon({contact.facets, contact.nodes_per_facet}, [&](std::span<const int> facet) {
+    std::vector<Point> corner;
+    for (const int i : facet) corner.push_back(at[i]);
+    const auto parts = quarters(corner);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const Status status = contact.nodes[facet[k]].status;
+      stage.over.convex(parts[k], status_colour(status), status == Status::open ? 0.22 : 1.0);
+    }
+  });
+}
+
+// Lines between nodes of different statuses, half way.
+void draw_borders(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
+  const double width = std::max(1.4, stage.em / 11);
+  for (const bool rim : {true, false})
+    each_polygon({contact.facets, contact.nodes_per_facet}, [&](std::span<const int> facet) {
+      std::vector<Point> corner;
+      for (const int i : facet) corner.push_back(at[i]);
+      const auto parts = quarters(corner);
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        if (contact.nodes[facet[k]].status != contact.nodes[facet[(k + 1) % parts.size()]].status)
+          stage.over.line(parts[k][1], parts[k][2], rim ? 2 * width : width, rim ? Colour{255, 255, 255} : axes_ink);
+    });
+}
+
+std::vector<std::size_t> apart(const Stage& stage, const std::vector<Point>& at, double spacing) {
+  std::vector<Point> seen;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    if (stage.shows(at[i], 0.3 * stage.em)) seen.push_back(at[i]), numbers.push_back(i);
+  std::vector<std::size_t> out = spread(seen, seen, spacing);
+  for (std::size_t& i : out) i = numbers[i];
+  return out;
+}
+
+// On a field statuses are told by markers, and by lines between them.
+void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
+  draw_borders(stage, contact, at);
+  for (const std::size_t i : apart(stage, at, marker_spacing * stage.em)) {
+    const Status status = contact.nodes[i].status;
+    stage.over.marker(status_marker(status), at[i], marker_size * stage.em, status_colour(status));
+  }
+}
+
+// Discs whose area is the pressure.
+void draw_pressure(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
+  if (!(stage.greatest_pressure > 0) || !stage.pressures()) return;
+  const double spacing = 0.55 * stage.em;
+  for (const std::size_t i : apart(stage, at, spacing)) {
+    const double share = contact.nodes[i].pressure / stage.greatest_pressure;
+    if (share > 0.002) stage.over.disc(at[i], 0.45 * spacing * std::sqrt(share), pressure_line);
+  }
+}
+
+}  // namespace
+
+void draw_contact_map(Stage& stage, const ContactPicture& contact) {
+  const std::vector<Point> at = stage.at(contact.nodes);
+  const bool field = stage.scale.shown;
+  if (!field) fill_statuses(stage, contact, at), draw_pressure(stage, contact, at);
+  for (const auto& [a, b] : pairs(rim({contact.facets, contact.nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, stage.em / 18), axes_ink);
+  if (field) draw_markers(stage, contact, at);
+  draw_shear(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, shear_spacing * stage.em); }, [&](std::size_t i) {
+    const Vec3& shear = contact.nodes[i].shear;
+    const Point half = 0.5 * shear_spacing * stage.em / stage.greatest_shear * Point{shear[0], shear[1]};
+    return std::array{at[i] - half, at[i] + half};
+  });
+}
+
+LegendEntry map_status_entry(const Stage& stage, Status status) {
+  return {status_name(status), [em = stage.em, colour = status_colour(status), status, field = stage.scale.shown](Canvas& c, const Box& b) {
+            if (field) return c.marker(status_marker(status), b.centre(), marker_size * em, colour);
+            c.box(Box::about(b.centre(), {1.2 * em, 0.7 * em}), colour, status == Status::open ? 0.22 : 1.0);
+          }};
+}
+
+}  // namespace dotyk::figure
