@@ -6,7 +6,14 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr double marker_size = 0.5, marker_spacing = 1.5, shear_spacing = 1.0;  // em
+constexpr double marker_size = 0.42, marker_spacing = 1.5, longest_arrow = 1.3;  // em
+
+// Open parts are pale.
+Colour map_colour(Status status) {
+  const Colour c = status_colour(status);
+  const auto pale = [](unsigned char value) { return static_cast<unsigned char>(255 - (255 - value) / 4); };
+  return status == Status::open ? Colour{pale(c.r), pale(c.g), pale(c.b)} : c;
+}
 
 void fill_statuses(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
   each_polygon({contact.facets, contact.nodes_per_facet}, [&](std::span<const int> facet) {
@@ -14,8 +21,9 @@ void fill_statuses(Stage& stage, const ContactPicture& contact, const std::vecto
     for (const int i : facet) corner.push_back(at[i]);
     const auto parts = quarters(corner);
     for (std::size_t k = 0; k < parts.size(); ++k) {
-      const Status status = contact.nodes[facet[k]].status;
-      stage.over.convex(parts[k], status_colour(status), status == Status::open ? 0.22 : 1.0);
+      const Colour colour = map_colour(contact.nodes[facet[k]].status);
+      stage.over.convex(parts[k], colour);
+      stage.over.polyline(parts[k], 1, colour, {}, true);  // so that no seams show between them
     }
   });
 }
@@ -46,7 +54,6 @@ std::vector<std::size_t> apart(const Stage& stage, const std::vector<Point>& at,
 
 // On a field statuses are told by markers, and by lines between them.
 void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
-  draw_borders(stage, contact, at);
   for (const std::size_t i : apart(stage, at, marker_spacing * stage.em)) {
     const Status status = contact.nodes[i].status;
     stage.over.marker(status_marker(status), at[i], marker_size * stage.em, status_colour(status));
@@ -70,18 +77,19 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact) {
   const bool field = stage.scale.shown;
   if (!field) fill_statuses(stage, contact, at), draw_pressure(stage, contact, at);
   for (const auto& [a, b] : pairs(rim({contact.facets, contact.nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, stage.em / 18), axes_ink);
-  if (field) draw_markers(stage, contact, at);
-  draw_shear(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, shear_spacing * stage.em); }, [&](std::size_t i) {
+  if (field) draw_borders(stage, contact, at);
+  // From the nodes, where there are markers.
+  draw_shear(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, marker_spacing * stage.em); }, [&](std::size_t i) {
     const Vec3& shear = contact.nodes[i].shear;
-    const Point half = 0.5 * shear_spacing * stage.em / stage.greatest_shear * Point{shear[0], shear[1]};
-    return std::array{at[i] - half, at[i] + half};
+    return std::array{at[i], at[i] + longest_arrow * stage.em / stage.greatest_shear * Point{shear[0], shear[1]}};
   });
+  if (field) draw_markers(stage, contact, at);
 }
 
 LegendEntry map_status_entry(const Stage& stage, Status status) {
   return {status_name(status), [em = stage.em, colour = status_colour(status), status, field = stage.scale.shown](Canvas& c, const Box& b) {
             if (field) return c.marker(status_marker(status), b.centre(), marker_size * em, colour);
-            c.box(Box::about(b.centre(), {1.2 * em, 0.7 * em}), colour, status == Status::open ? 0.22 : 1.0);
+            c.box(Box::about(b.centre(), {1.2 * em, 0.7 * em}), map_colour(status));
           }};
 }
 
