@@ -105,6 +105,8 @@ ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window
   scale.least = scale.low = part.least, scale.greatest = scale.high = part.greatest;
   if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
   else leave_out_peaks(scale, values_of(p, window));
+  constexpr double kNearZero = 0.2;
+  if (!p.field_range && !p.field_signed && scale.low > 0 && scale.low < kNearZero * scale.high) scale.low = 0;
   // A field without sign may dip below zero by rounding, or by recovery.
   const double lesser = std::min(-scale.low, scale.high), greater = std::max(-scale.low, scale.high);
   scale.diverging = p.field_signed || lesser > 0.02 * greater;
@@ -165,7 +167,7 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel&
     canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
   }
   double below = -1e300;
-  for (const Tick& t : few_ticks(scale.low, scale.high, std::min(5.0, box.height() / (2.6 * em))).ticks) {
+  for (const Tick& t : few_ticks(scale.low, scale.high, std::min(5.0, box.height() / (1.6 * em))).ticks) {
     const double y = box.bottom + box.height() * (t.value - scale.low) / (scale.high - scale.low);
     if (t.label.empty() || y - below < 1.1 * em) continue;
     below = y;

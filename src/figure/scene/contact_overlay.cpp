@@ -9,7 +9,7 @@ namespace dotyk::figure {
 namespace {
 
 constexpr Colour rim_colour{255, 255, 255};
-constexpr double longest_shear = 1.5, least_share = 0.1;  // of an arrow: em, and of the greatest shear
+constexpr double longest_shear = 1.5, least_share = 0.2;  // of an arrow: em, and of the greatest shear
 
 void draw_strip(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = stage.at(contact.nodes);
@@ -50,6 +50,29 @@ bool is_short(const Stage& stage, const ContactPicture& contact) {
 
 constexpr double wide = 0.26, thin = 0.15;  // lines with markers and without, in em
 
+// Nodes of one status that follow each other along a contact line, and how long that is in pixels, to half way to their neighbours.
+struct Run {
+  std::vector<int> nodes;
+  double length = 0;
+};
+
+std::vector<Run> runs(const ContactPicture& contact, const std::vector<Point>& at) {
+  std::vector<Run> out;
+  for (const std::vector<int>& chain : chains(contact.facets))
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      const double half = k == 0 ? 0 : length(at[chain[k]] - at[chain[k - 1]]) / 2;
+      if (k > 0) out.back().length += half;
+      if (k == 0 || contact.nodes[chain[k]].status != contact.nodes[chain[k - 1]].status) out.emplace_back();
+      out.back().nodes.push_back(chain[k]);
+      out.back().length += half;
+    }
+  return out;
+}
+
+constexpr double marker_size = 0.55, least_marker = 0.3;  // em
+
+void mark(Stage& stage, Status status, Point at, double size) { stage.over.marker(status_marker(status), at, size * stage.em, status_colour(status)); }
+
 // Each half of a facet in the colour of its node.
 void draw_line(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = stage.at(contact.nodes);
@@ -63,10 +86,16 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
         stage.over.line(at[i], 0.5 * (at[a] + at[b]), w, colour);
         stage.over.disc(at[i], w / 2, colour);
       }
-  if (!markers) return;
-  for (const std::size_t i : stage.spaced(at, 0.95 * stage.em, 0.36 * stage.em)) {
-    const Status status = contact.nodes[i].status;
-    stage.over.marker(status_marker(status), at[i], 0.55 * stage.em, status_colour(status));
+  std::set<std::size_t> marked;
+  if (markers)
+    for (const std::size_t i : stage.spaced(at, 0.95 * stage.em, 0.36 * stage.em)) marked.insert(i);
+  for (const std::size_t i : marked) mark(stage, contact.nodes[i].status, at[i], marker_size);
+  // Each run of one status keeps a marker, which is as large as there is room for.
+  for (const Run& run : runs(contact, at)) {
+    const std::size_t middle = run.nodes[run.nodes.size() / 2];
+    const double size = std::min(marker_size, run.length / stage.em);
+    if (size < least_marker || !stage.shows(at[middle], 0.36 * stage.em) || std::ranges::any_of(run.nodes, [&](int i) { return marked.contains(i); })) continue;
+    mark(stage, contact.nodes[middle].status, at[middle], size);
   }
 }
 
@@ -227,7 +256,18 @@ void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<P
   std::vector<Point> places;
   for (std::size_t i = 0; i < at.size(); ++i)
     if (length(contact.nodes[i].shear) >= least_share * stage.greatest_shear) rubbing.push_back(i), places.push_back(at[i]);
-  for (const std::size_t k : choice(places)) {
+  std::vector<std::size_t> chosen = choice(places);
+  // The greatest is among them, in place of that next to it.
+  const auto shear = [&](std::size_t k) { return length(contact.nodes[rubbing[k]].shear); };
+  std::vector<std::size_t> seen;
+  for (std::size_t k = 0; k < rubbing.size(); ++k)
+    if (stage.shows(places[k], 0.4 * stage.em)) seen.push_back(k);
+  if (!chosen.empty() && !seen.empty()) {
+    const std::size_t greatest = *std::ranges::max_element(seen, {}, shear);
+    if (shear(greatest) > (1 + 1e-6) * shear(*std::ranges::max_element(chosen, {}, shear)))
+      *std::ranges::min_element(chosen, {}, [&](std::size_t k) { return length(places[k] - places[greatest]); }) = greatest;
+  }
+  for (const std::size_t k : chosen) {
     const auto [tail, head] = arrow(rubbing[k]);
     stage.over.arrow(tail, head, std::max(1.4, stage.em / 11), 0.42 * stage.em, shear_line, std::max(0.9, stage.em / 24));
   }

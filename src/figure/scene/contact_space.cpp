@@ -144,7 +144,7 @@ std::optional<ScenePicture> inset_of(const ScenePicture& picture) {
   const double em = letters(picture);
   Bounds bounds;
   for (const ContactNode& node : map.contacts.front().nodes) bounds.add(Point{node.position[0], node.position[1]});
-  map.file = picture.file, map.title = contact->name;
+  map.file = picture.file, map.title = "contact " + contact->name;
   map.width = static_cast<int>(std::min(inset_em * em, inset_share * picture.width));
   const double plot = map.width - 4.5 * em, around = 6 * em;  // beside it axes and their numbers, above and below it these and the title
   map.height = static_cast<int>(std::min(plot * std::min(1.6, bounds.height() / std::max(bounds.width(), 1e-300)) + around, 0.62 * picture.height));

@@ -6,7 +6,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr double marker_size = 0.42, marker_spacing = 1.5, longest_arrow = 1.3;  // em
+constexpr double map_marker = 0.42, map_spacing = 1.5, longest_arrow = 1.3;  // em
 
 // Open parts are pale.
 Colour map_colour(Status status) {
@@ -54,9 +54,9 @@ std::vector<std::size_t> apart(const Stage& stage, const std::vector<Point>& at,
 
 // On a field statuses are told by markers, and by lines between them.
 void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
-  for (const std::size_t i : apart(stage, at, marker_spacing * stage.em)) {
+  for (const std::size_t i : apart(stage, at, map_spacing * stage.em)) {
     const Status status = contact.nodes[i].status;
-    stage.over.marker(status_marker(status), at[i], marker_size * stage.em, status_colour(status));
+    stage.over.marker(status_marker(status), at[i], map_marker * stage.em, status_colour(status));
   }
 }
 
@@ -79,7 +79,7 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact) {
   for (const auto& [a, b] : pairs(rim({contact.facets, contact.nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, stage.em / 18), axes_ink);
   if (field) draw_borders(stage, contact, at);
   // From the nodes, where there are markers.
-  draw_shear(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, marker_spacing * stage.em); }, [&](std::size_t i) {
+  draw_shear(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, map_spacing * stage.em); }, [&](std::size_t i) {
     const Vec3& shear = contact.nodes[i].shear;
     return std::array{at[i], at[i] + longest_arrow * stage.em / stage.greatest_shear * Point{shear[0], shear[1]}};
   });
@@ -88,7 +88,7 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact) {
 
 LegendEntry map_status_entry(const Stage& stage, Status status) {
   return {status_name(status), [em = stage.em, colour = status_colour(status), status, field = stage.scale.shown](Canvas& c, const Box& b) {
-            if (field) return c.marker(status_marker(status), b.centre(), marker_size * em, colour);
+            if (field) return c.marker(status_marker(status), b.centre(), map_marker * em, colour);
             c.box(Box::about(b.centre(), {1.2 * em, 0.7 * em}), map_colour(status));
           }};
 }

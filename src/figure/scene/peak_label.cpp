@@ -26,6 +26,10 @@ public:
       const std::vector<Point> at = obstacle_line(stage.view, rigid);
       for (std::size_t i = 0; i + 1 < at.size(); ++i) add(at[i], at[i + 1]), add(at[i] + depth, at[i + 1] + depth);
     }
+    for (const SupportSymbol& s : p.supports) {
+      const Point at = stage.at(s), out = at + stage.em * stage.view.direction(s.normal), aside = 0.4 * stage.em * Point{at.y - out.y, out.x - at.x};
+      add(at, out), add(out + 0.02 * aside, out - 0.02 * aside);
+    }
     for (const ContactPicture& contact : p.contacts)
       if (contact.nodes_per_facet == 2) add_tips(stage, contact);
   }
