@@ -226,8 +226,13 @@ void move(std::vector<double>& points, const Vec3& by) {
 void move_contact(ContactPicture& contact, const Vec3& first, const Vec3& second) {
   Vec3 mean{0, 0, 0};
   for (const ContactNode& node : contact.nodes) mean = plus(mean, node.normal, node.weight);
-  const Vec3& by = mean[2] >= 0 ? first : second;  // from above
-  for (ContactNode& node : contact.nodes) node.position = plus(node.position, by);
+  const bool own = mean[2] >= 0;  // from above
+  for (ContactNode& node : contact.nodes) {
+    node.position = plus(node.position, own ? first : second);
+    if (own) continue;
+    node.position = plus(node.position, node.normal, node.rest_gap);
+    node.displacement = plus(node.displacement, node.normal, node.gap - node.rest_gap);
+  }
 }
 
 void show_field(ContactPicture& contact, FieldChoice field) {

@@ -48,26 +48,29 @@ Vec3 mean_normal(const ContactPicture& contact, bool by_pressure) {
   return unit(mean);
 }
 
-// Two directions across the normal, along axes where these are nearly so.
-std::array<Vec3, 2> directions_across(Vec3 normal) {
+// Two directions across the normal; along axes where its component along one is more than `nearly`.
+std::array<Vec3, 2> directions_across(const Vec3& normal, double nearly) {
   std::size_t most = 0;
   for (std::size_t c = 1; c < 3; ++c)
     if (std::abs(normal[c]) > (1 + 1e-9) * std::abs(normal[most])) most = c;
-  constexpr double kNearly = 0.9;
-  if (std::abs(normal[most]) > kNearly || length(normal) == 0) {
-    normal = {0, 0, 0};
-    normal[most] = 1;
+  if (std::abs(normal[most]) > nearly || length(normal) == 0) {
     std::array<Vec3, 2> along{};
     along[0][most == 0 ? 1 : 0] = 1, along[1][most == 2 ? 1 : 2] = 1;
     return along;
   }
-  const Vec3 vertical = std::abs(normal[2]) > kNearly ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 vertical = std::abs(normal[2]) > 0.9 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   const Vec3 across = forwards(unit(cross(vertical, normal)));
   return {across, forwards(unit(cross(normal, across)))};
 }
 
+bool is_flat(const ContactPicture& contact) {
+  const Vec3 first = unit(contact.nodes.front().normal);
+  return std::ranges::all_of(contact.nodes, [&](const ContactNode& node) { return length(cross(first, unit(node.normal))) < kAlong; });
+}
+
 Flat seen_along(const ContactPicture& contact, const Vec3& normal) {
-  const auto [across, up] = directions_across(normal);
+  // What is curved is not seen in true size anyway.
+  const auto [across, up] = directions_across(normal, is_flat(contact) ? 0.9999 : 0.7);
   Flat flat;
   for (const ContactNode& node : contact.nodes) flat.at.push_back({dot(node.position, across), dot(node.position, up)});
   flat.across.assign(contact.nodes.size(), across), flat.up.assign(contact.nodes.size(), up);
@@ -84,9 +87,8 @@ std::optional<Vec3> direction_of_lines(const ContactPicture& contact) {
     sum = plus(sum, c, dot(sum, c) < 0 ? -1 : 1);
   }
   const Vec3 lines = forwards(unit(sum));
-  const bool flat = std::ranges::all_of(contact.nodes, [&](const ContactNode& node) { return length(cross(first, unit(node.normal))) < kAlong; });
   const bool across = std::ranges::all_of(contact.nodes, [&](const ContactNode& node) { return std::abs(dot(unit(node.normal), lines)) < kAlong; });
-  return flat || !across ? std::nullopt : std::optional(lines);
+  return is_flat(contact) || !across ? std::nullopt : std::optional(lines);
 }
 
 // Lengths along a profile that is a graph over the coordinate t, height h; from its middle.
@@ -145,14 +147,15 @@ std::optional<Flat> unrolled(const ContactPicture& contact, const Vec3& lines) {
     for (const Point& p : profile) arc.push_back(circle->radius * std::atan2(p.x - circle->centre.x, side * (p.y - circle->centre.y)));
     flat.period = 2 * std::numbers::pi * circle->radius;
   }
-  const bool lines_up = std::abs(lines[0]) < 0.9;
+  std::vector<double> along;
+  for (const ContactNode& node : contact.nodes) along.push_back(dot(node.position, lines));
+  const auto extent = [](const std::vector<double>& values) { return std::ranges::max(values) - std::ranges::min(values); };
+  const bool lines_up = extent(along) < extent(arc);  // pictures are broad
   for (std::size_t i = 0; i < arc.size(); ++i) {
-    const Vec3& p = contact.nodes[i].position;
-    Vec3 along = unit(cross(lines, contact.nodes[i].normal));
     // At the middle the arc runs along t.
-    if (dot(unit(cross(lines, middle)), t) < 0) along = plus({0, 0, 0}, along, -1);
-    flat.at.push_back(lines_up ? Point{arc[i], dot(p, lines)} : Point{dot(p, lines), arc[i]});
-    flat.across.push_back(lines_up ? along : lines), flat.up.push_back(lines_up ? lines : along);
+    const Vec3 tangent = plus({0, 0, 0}, unit(cross(lines, contact.nodes[i].normal)), dot(cross(lines, middle), t) < 0 ? -1 : 1);
+    flat.at.push_back(lines_up ? Point{arc[i], along[i]} : Point{along[i], arc[i]});
+    flat.across.push_back(lines_up ? tangent : lines), flat.up.push_back(lines_up ? lines : tangent);
   }
   const std::string name = name_of(lines, "along");
   flat.names = lines_up ? std::array<std::string, 2>{"arc", name} : std::array<std::string, 2>{name, "arc"};
@@ -216,7 +219,7 @@ ScenePicture contact_map(const ContactPicture& given, MapField field) {
   if (value) body.cells = contact.facets;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     ContactNode& node = contact.nodes[i];
-    if (value) body.values.push_back(node.*value);
+    if (value) body.values.push_back(field == MapField::slip && node.status == Status::open ? NAN : node.*value);  // what is open does not slip
     node.shear = {dot(node.shear, flat.across[i]), dot(node.shear, flat.up[i]), 0};
     node.position = {flat.at[i].x, flat.at[i].y, 0}, node.displacement = {0, 0, 0}, node.normal = {0, 0, 1};
     body.points.insert(body.points.end(), node.position.begin(), node.position.end());

@@ -12,6 +12,7 @@ enum class MapField { status, pressure, gap, slip };
 //   straight lines in a direction: (of a cylinder, a tooth) unrolled, `arc` is the length along the profile, from the middle of it;
 //                                  a closed cylinder is cut opposite to the mean of its pressure
 //   otherwise:                     seen along the mean normal
+// The slip of open nodes is NaN, which is drawn grey.
 // Axes keep the names and numbers of the scene's coordinates where the surface is along them. Contacts without facets have no map:
 // throws std::runtime_error.
 ScenePicture contact_map(const ContactPicture& contact, MapField field);

@@ -133,7 +133,8 @@ LegendEntry status_entry(const Stage& stage, Status status) {
             }};
   return {status_name(status), [=, em = stage.em](Canvas& c, const Box& b) {
             const double middle = b.centre().y;
-            const Box sample{b.left + 0.4 * em, middle - 0.35 * em, b.right - 0.4 * em, middle + 0.35 * em};
+            const double half = std::min(0.6 * em, 0.4 * b.width());
+            const Box sample{b.centre().x - half, middle - 0.35 * em, b.centre().x + half, middle + 0.35 * em};
             status == Status::open ? c.outline(sample, 0.16 * em, colour) : c.box(sample, colour);
           }};
 }

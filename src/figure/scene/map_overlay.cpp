@@ -1,4 +1,8 @@
 // On the map of a contact: statuses, pressure, shear.
+#include <map>
+#include <numeric>
+#include <set>
+
 #include "figure/canvas/axes.hpp"
 #include "figure/scene/stage.hpp"
 
@@ -52,9 +56,39 @@ std::vector<std::size_t> apart(const Stage& stage, const std::vector<Point>& at,
   return out;
 }
 
-// On a field statuses are told by markers, and by lines between them.
+// Nodes of one status that hang together.
+std::vector<std::vector<std::size_t>> regions(const ContactPicture& contact) {
+  std::vector<std::size_t> root(contact.nodes.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  std::vector<bool> used(contact.nodes.size(), false);
+  for (const auto& [a, b] : pairs(unique_edges({contact.facets, contact.nodes_per_facet}))) {
+    used[a] = used[b] = true;
+    if (contact.nodes[a].status == contact.nodes[b].status) root[find(a)] = find(b);
+  }
+  std::map<std::size_t, std::vector<std::size_t>> by_root;
+  for (std::size_t i = 0; i < root.size(); ++i)
+    if (used[i]) by_root[find(i)].push_back(i);
+  std::vector<std::vector<std::size_t>> out;
+  for (auto& [i, nodes] : by_root) out.push_back(std::move(nodes));
+  return out;
+}
+
+// On a field statuses are told by markers, and by lines between them. Each region has a marker, the nearest of its nodes to its middle where no other is on it.
 void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
-  for (const std::size_t i : apart(stage, at, map_spacing * stage.em)) {
+  std::vector<std::size_t> marked = apart(stage, at, map_spacing * stage.em);
+  const std::set<std::size_t> spaced(marked.begin(), marked.end());
+  for (const std::vector<std::size_t>& region : regions(contact)) {
+    if (std::ranges::any_of(region, [&](std::size_t i) { return spaced.contains(i); })) continue;
+    Bounds bounds;
+    for (const std::size_t i : region) bounds.add(at[i]);
+    const std::size_t middle = *std::ranges::min_element(region, {}, [&](std::size_t i) { return length(at[i] - bounds.centre()); });
+    if (stage.shows(at[middle], 0.3 * stage.em)) marked.push_back(middle);
+  }
+  for (const std::size_t i : marked) {
     const Status status = contact.nodes[i].status;
     stage.over.marker(status_marker(status), at[i], map_marker * stage.em, status_colour(status));
   }
@@ -89,7 +123,7 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact) {
 LegendEntry map_status_entry(const Stage& stage, Status status) {
   return {status_name(status), [em = stage.em, colour = status_colour(status), status, field = stage.scale.shown](Canvas& c, const Box& b) {
             if (field) return c.marker(status_marker(status), b.centre(), map_marker * em, colour);
-            c.box(Box::about(b.centre(), {1.2 * em, 0.7 * em}), map_colour(status));
+            c.box(Box::about(b.centre(), {std::min(1.2 * em, 0.8 * b.width()), 0.7 * em}), map_colour(status));
           }};
 }
 

@@ -1,6 +1,8 @@
 // Scenes on one sheet: row by row, with one legend, and one colour bar where all show the same field.
 #include <iterator>
 #include <list>
+#include <map>
+#include <numeric>
 
 #include "figure/canvas/sheet.hpp"
 #include "figure/door/drawing.hpp"
@@ -38,11 +40,12 @@ public:
         if (!p.field_label.empty()) p.field_range = {scale_->low, scale_->high}, p.field_signed = scale_->diverging;
     title_ = fitted(sheet_.title, 1.15 * em_, sheet_.width - em_, true);
     above_ = sheet_.title.empty() ? 0 : 1.9 * em_ + title_.depth();
-    // The height of the legend depends on what the panels show, their height on that of the legend.
-    for (int round = 0; round < 3; ++round) {
-      const double missing = lay_out_panels();
-      if (!(missing > 0)) continue;
-      sheet_.height = std::min(std::max(sheet_.height, greatest_side), sheet_.height + static_cast<int>(std::ceil(missing * static_cast<double>(rows()))));
+    heights_.assign(rows(), (sheet_.height - above_) / static_cast<double>(rows()));
+    // Heights of rows depend on what the panels lack or do not need, and that on their heights.
+    for (int round = 0; round < 4; ++round) {
+      const std::vector<double> missing = lay_out_panels();
+      for (std::size_t r = 0; r < rows(); ++r) heights_[r] = std::max(least_plot(sheet_), heights_[r] + missing[r]);
+      sheet_.height = std::min(greatest_side, static_cast<int>(std::ceil(above_ + std::accumulate(heights_.begin(), heights_.end(), 0.0) + legend_.height())));
     }
     lay_out_panels();
   }
@@ -69,32 +72,59 @@ private:
   }
   double bar_width() const { return scale_ ? colour_bar_width(*scale_, field_of(shown()), em_) : 0; }
 
-  // Returns the pixels of height that a panel lacks at most.
-  double lay_out_panels() {
+  // Returns the pixels that each row's height lacks; below 0: that it does not need.
+  std::vector<double> lay_out_panels() {
     const double bar = scale_ ? bar_width() + 0.8 * em_ : 0, spacing = gap * em_;
     const double wide = (sheet_.width - bar - spacing * static_cast<double>(columns_ - 1)) / static_cast<double>(columns_);
-    const double high = (sheet_.height - above_ - legend_.height()) / static_cast<double>(rows());
     stages_.clear();
-    double missing = 0;
-    std::vector<LegendEntry> entries;
+    std::vector<double> missing(rows(), -1e300);
+    std::vector<Named> entries;
+    double top = sheet_.height - above_;
     for (std::size_t i = 0; i < panels_.size(); ++i) {
+      const std::size_t row = i / columns_;
+      if (i % columns_ == 0) top -= heights_[row];
       ScenePicture& p = panels_[i];
-      p.file = sheet_.file, p.width = static_cast<int>(wide), p.height = static_cast<int>(high);
+      p.file = sheet_.file, p.width = static_cast<int>(wide), p.height = static_cast<int>(heights_[row]);
       p.printed = printed_width(sheet_) * p.width / sheet_.width;
-      const Point corner{std::floor(static_cast<double>(i % columns_) * (wide + spacing)), std::floor(sheet_.height - above_ - high * static_cast<double>(i / columns_ + 1))};
-      Stage& stage = stages_.emplace_back(p, corner);
+      Stage& stage = stages_.emplace_back(p, Point{std::floor(static_cast<double>(i % columns_) * (wide + spacing)), std::floor(top)});
       stage.own_bar = !scale_, stage.own_legend = false;
-      missing = std::max(missing, lay_out(stage));
-      for (const LegendEntry& entry : stage.entries)
-        if (std::ranges::none_of(entries, [&](const LegendEntry& other) { return other.name == entry.name; })) entries.push_back(entry);
+      missing[row] = std::max(missing[row], lay_out(stage));
+      for (const LegendEntry& entry : stage.entries) add(entry, stage, entries);
     }
-    legend_ = Legend(std::move(entries), small_text * em_, sheet_.width - em_);
+    std::vector<LegendEntry> all;
+    for (Named& entry : entries) all.push_back(joined(std::move(entry)));
+    legend_ = Legend(std::move(all), small_text * em_, sheet_.width - em_);
     return missing;
+  }
+
+  // An entry, and its samples on the kinds of pictures that have it.
+  struct Named {
+    LegendEntry entry;
+    std::map<int, std::function<void(Canvas&, const Box&)>> samples;
+  };
+
+  static void add(const LegendEntry& entry, const Stage& stage, std::vector<Named>& entries) {
+    const int kind = stage.map() ? (stage.scale.shown ? 2 : 3) : stage.plane ? 1 : 0;
+    const auto same = std::ranges::find_if(entries, [&](const Named& other) { return other.entry.name == entry.name; });
+    if (same == entries.end()) entries.push_back({entry, {{kind, entry.sample}}});
+    else same->samples.emplace(kind, entry.sample);
+  }
+
+  // A status looks otherwise on each kind: all its samples side by side.
+  static LegendEntry joined(Named named) {
+    const auto is_status = [&](Status s) { return named.entry.name == status_name(s); };
+    if (named.samples.size() < 2 || std::ranges::none_of(std::array{Status::open, Status::closed, Status::stick, Status::slip}, is_status)) return named.entry;
+    return {named.entry.name, [samples = named.samples](Canvas& c, const Box& b) {
+              const double each = b.width() / static_cast<double>(samples.size());
+              double left = b.left;
+              for (const auto& [kind, sample] : samples) sample(c, {left, b.bottom, left + each, b.top}), left += each;
+            }};
   }
 
   SceneGrid sheet_;
   std::size_t columns_;
   double em_, above_ = 0;
+  std::vector<double> heights_;  // of rows
   std::vector<ScenePicture> panels_;
   std::optional<ColourScale> scale_;
   FittedText title_;

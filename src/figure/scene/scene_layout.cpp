@@ -158,7 +158,7 @@ void draw_axes(Stage& stage) {
   const std::string x_name = axis_text(stage, 0, x_ticks.exponent), y_name = axis_text(stage, 1, y_ticks.exponent);
   if (is_long(x_name, em)) c.text({along.right, f.bottom - tick - 1.2 * em}, x_name, {.size = size, .across = Align::high, .up = Align::high, .colour = axis_ink});
   else c.text({along.right + 0.3 * em, f.bottom}, x_name, {.size = size, .up = Align::middle, .colour = axis_ink});
-  const double above = (stage.window ? 0.45 : stage.axes_of_bodies ? 0.5 : 0.15) * em;
+  const double above = (stage.window ? 0.45 : stage.axes_of_bodies ? 0.5 : is_long(y_name, em) ? 0.6 : 0.15) * em;
   c.text({f.left - (is_long(y_name, em) ? 1.5 * em : 0), along.top + above}, y_name, {.size = size, .across = is_long(y_name, em) ? Align::low : Align::middle, .colour = axis_ink});
 }
 
@@ -171,9 +171,9 @@ void draw_triad(Stage& stage, Point at) {
     const Point head = at + reach * Point{stage.view.right[i], stage.view.up[i]};
     const double d = length(head - at);
     if (d < 0.2 * reach) continue;
-    stage.over.arrow(at, head, std::max(1.5, em / 12), 0.5 * em, axis_ink);
+    stage.over.arrow(at, head, std::max(1.5, em / 12), 0.5 * em, axis_ink, std::max(1.0, em / 20));
     stage.over.text({head.x + 0.55 * em * (head.x - at.x) / d, head.y + 0.55 * em * (head.y - at.y) / d}, std::string(1, "xyz"[i]),
-                    {.size = legend_size * em, .across = Align::middle, .up = Align::middle});
+                    {.size = legend_size * em, .across = Align::middle, .up = Align::middle, .halo = true});
   }
 }
 
@@ -194,10 +194,11 @@ bool displacement_shows(const Stage& stage) {
 
 // What stands around the scene.
 struct Surroundings {
-  double bar = 0, column = 0;  // widths of the colour bar, and of the wider of it and the inset
-  double caption = 0;                     // height
+  double bar = 0, column = 0;  // widths of the colour bar, and of the widest of what stands in its column
+  double caption = 0;          // height
   Legend legend;
-  Box room;  // for the scene
+  bool beside = false;         // the legend stands in that column, not below
+  Box room;                    // for the scene
 };
 
 FittedText title_of(const ScenePicture& p, double em) { return fitted(p.title, 1.1 * em, p.width - em, true); }
@@ -209,7 +210,7 @@ Box room_left(const Stage& stage, const Surroundings& around, bool placed) {
   const double em = stage.em;
   Box room;
   room.top = p.height - 0.7 * em - (p.title.empty() ? 0 : 1.7 * em + title_of(p, em).depth());
-  room.bottom = 0.4 * em + around.caption + around.legend.height();
+  room.bottom = 0.4 * em + around.caption + (around.beside ? 0 : around.legend.height());
   room.left = 0.8 * em;
   room.right = p.width - 0.8 * em - (around.column > 0 ? around.column + 1.0 * em : 0);
   if (!p.axes || !stage.plane) return room;
@@ -217,30 +218,54 @@ Box room_left(const Stage& stage, const Surroundings& around, bool placed) {
   room.left += widest + 0.5 * em + axis_gap(stage);
   const bool below = placed && is_long(axis_text(stage, 0, frame_ticks(stage)[0].exponent), em);
   room.bottom += (below ? 2.6 : 1.5) * em + axis_gap(stage);
-  room.top -= (stage.window ? 1.4 : 1.1) * em;
+  room.top -= (stage.window || is_long(axis_text(stage, 1, 0), em) ? 1.5 : 1.1) * em;
   room.right -= (below ? 0.6 : 1.0) * em;
   return room;
 }
 
 // Places the scene: what stands around it depends on the place, and the place on that.
-Surroundings place_scene(Stage& stage) {
+Surroundings place_scene(Stage& stage, bool beside) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em;
   const Bounds scaled = scaled_bounds(stage);
-  Surroundings around{0, 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), Legend({}, em), {}};
+  Surroundings around{0, 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), Legend({}, em), beside, {}};
   stage.frame = {0, 0, 1.0 * p.width, 1.0 * p.height};
   for (int round = 0; round < 3; ++round) {
     stage.deformation_shows = round > 0 && displacement_shows(stage);
-    around.bar = stage.own_bar ? colour_bar_width(stage.scale, field_of(p), em) : 0;
-    around.column = std::max(around.bar, stage.inset ? 1.0 * stage.inset->width : 0.0);
     stage.entries.clear();
     for (const Layer& layer : stage.layers)
       if (layer.legend) layer.legend(stage, stage.entries);
-    around.legend = Legend(stage.own_legend ? stage.entries : std::vector<LegendEntry>{}, legend_size * em, p.width - 2 * em);
+    around.legend = Legend(stage.own_legend ? stage.entries : std::vector<LegendEntry>{}, legend_size * em, beside ? 0 : p.width - 2 * em);
+    around.bar = stage.own_bar ? colour_bar_width(stage.scale, field_of(p), em) : 0;
+    around.column = std::max({around.bar, stage.inset ? 1.0 * stage.inset->width : 0.0, beside ? around.legend.width() : 0});
     around.room = room_left(stage, around, round > 0);
     stage.window ? fit_window(stage, around.room) : fit(stage, scaled, around.room);
   }
   return around;
+}
+
+constexpr double bar_height = 9;  // em, with its name and ends
+
+// What stands in the column, one above the other.
+double column_height(const Stage& stage, const Surroundings& around) {
+  return (around.bar > 0 ? bar_height * stage.em : 0) + (stage.inset ? stage.inset->height : 0) + (around.beside ? around.legend.height() : 0);
+}
+
+// The room of the column, which goes down beside the axis.
+double room_of_column(const Stage& stage, const Surroundings& around) {
+  return around.room.top - (around.beside ? 0.4 * stage.em + around.caption : around.room.bottom);
+}
+
+// The legend stands beside a scene that is larger by that.
+Surroundings place_scene(Stage& stage) {
+  constexpr double kLarger = 1.1, kWidest = 0.45;
+  const Surroundings below = place_scene(stage, false);
+  const double scale = stage.view.scale;
+  if (!stage.own_legend || stage.entries.empty()) return below;
+  const Surroundings beside = place_scene(stage, true);
+  const bool fits = beside.column < kWidest * stage.picture.width && column_height(stage, beside) < room_of_column(stage, beside);
+  if (fits && stage.view.scale > kLarger * scale) return beside;
+  return place_scene(stage, false);
 }
 
 // The bar as high as the scene, within reason, and not too far from it; above the inset where there is one.
@@ -249,16 +274,21 @@ void draw_column(Stage& stage, const Surroundings& around) {
   const double em = stage.em;
   const Box& room = around.room;
   const double right = p.width - 0.6 * em - 0.3 * std::max(0.0, room.width() - stage.frame.width());
-  double bottom = room.bottom;
+  const double spare = std::max(0.0, room_of_column(stage, around) - column_height(stage, around)), left = right - around.column;
+  double bottom = room.top - room_of_column(stage, around) + (around.bar > 0 ? 0 : spare / 2);
+  if (around.beside) {
+    around.legend.draw(stage.over, {left, bottom}, false);
+    bottom += around.legend.height();
+  }
   if (stage.inset) {
-    bottom += around.bar > 0 ? 0 : std::max(0.0, (room.height() - stage.inset->height) / 2);
     draw_inset(stage, {right - stage.inset->width, bottom});
     bottom += stage.inset->height;
   }
   if (!(around.bar > 0)) return;
-  const double height = stage.inset ? room.top - bottom : std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height());
-  const double middle = stage.inset ? (bottom + room.top) / 2 : stage.frame.centre().y;
-  draw_colour_bar(stage.over, stage.scale, field_of(p), em, {right - (stage.inset ? around.column - 2 * em : around.bar), middle - height / 2, p.width - 0.3 * em, middle + height / 2});
+  const bool alone = !stage.inset && !around.beside;
+  const double height = alone ? std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height()) : std::min(room.top - bottom, 22 * em);
+  const double middle = alone ? stage.frame.centre().y : room.top - height / 2;
+  draw_colour_bar(stage.over, stage.scale, field_of(p), em, {alone ? right - around.bar : left + (stage.inset ? 2 * em : 0.5 * em), middle - height / 2, p.width - 0.3 * em, middle + height / 2});
 }
 
 }  // namespace
@@ -271,14 +301,13 @@ double lay_out(Stage& stage) {
   stage.over.text({w / 2, p.height - 0.6 * em}, title_of(p, em), title_style());
   const FittedText caption = caption_of(p, em);
   stage.over.text({w / 2, 0.5 * em + caption.depth()}, caption, {.across = Align::middle});
-  around.legend.draw(stage.over, {(w - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
+  if (!around.beside) around.legend.draw(stage.over, {(w - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
   draw_column(stage, around);
   if (p.axes && stage.plane) draw_axes(stage);
   if (p.axes && !stage.plane) draw_triad(stage, {around.room.left + 2.2 * em, around.room.bottom + 1.6 * em});
+  const double missing = std::max({column_height(stage, around) - room_of_column(stage, around), least_plot(p) - around.room.height(), stage.frame.height() - around.room.height()});
   if (!stage.plane && !stage.window) stage.frame = around.room;
-  constexpr double kBar = 10;  // em, with its name and ends
-  const double column = (around.bar > 0 ? kBar * em : 0) + (stage.inset ? stage.inset->height : 0);
-  return std::max(column, least_plot(p)) - around.room.height();
+  return missing;
 }
 
 }  // namespace dotyk::figure

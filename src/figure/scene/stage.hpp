@@ -104,7 +104,8 @@ void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& 
 std::vector<Painted> painted(Stage& stage);
 
 // Chooses the view and the frame, and reserves room for title, legend, axes
-// and colour bar; draws these. Returns how many pixels the picture's height lacks for a scene and a colour bar that are legible.
+// and colour bar; draws these. Returns how many pixels the picture's height lacks for a scene and a colour bar that are legible;
+// less than 0: so many it does not need.
 double lay_out(Stage& stage);
 
 // Fits the picture's window into the room. The greatest pressure comes to a fifth of its height, less where it would not fit; from
