@@ -167,7 +167,7 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel&
     canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
   }
   double below = -1e300;
-  for (const Tick& t : few_ticks(scale.low, scale.high, std::min(5.0, box.height() / (1.6 * em))).ticks) {
+  for (const Tick& t : few_ticks(scale.low, scale.high, std::min(5.0, box.height() / (1.3 * em))).ticks) {
     const double y = box.bottom + box.height() * (t.value - scale.low) / (scale.high - scale.low);
     if (t.label.empty() || y - below < 1.1 * em) continue;
     below = y;

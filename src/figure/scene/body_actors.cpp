@@ -55,34 +55,62 @@ std::vector<int> nodes_of(const BodyPicture& body, const std::vector<int>& cells
 
 std::vector<double> values_of(const BodyPicture& body, const std::vector<int>& cells) {
   std::vector<double> out;
-  for (const int c : cells) out.push_back(body.cell_values[c]);
+  if (!body.cell_values.empty())
+    for (const int c : cells) out.push_back(body.cell_values[c]);
   return out;
 }
 
-void draw_bodies(Stage& stage, vtkRenderer* renderer) {
+// Polygons with the field of a body, and the edges of its cells. `on_polygons`: values for each of these; empty: those of the nodes.
+void draw_faces(const Stage& stage, vtkRenderer* renderer, const BodyPicture& body, const Facets& faces, const std::vector<double>& on_polygons, Colour plain) {
   const double f = stage.picture.deformation;
+  const std::vector<Vec3> at = pixels(stage, body, f, 0);
+  const vtkSmartPointer<vtkPolyData> surface = poly_data(at, faces);
+  if (!stage.scale.shown || (body.values.empty() && on_polygons.empty())) add_surface(stage, renderer, surface, plain);
+  else on_polygons.empty() ? add_coloured(stage, renderer, surface, body.values) : add_coloured(stage, renderer, surface, on_polygons, true);
+  if (stage.picture.edges == MeshEdges::off) return;
+  const std::vector<int> edges = body.edges.empty() ? unique_edges(faces) : body.edges;
+  if (edges_wanted(stage, at, edges)) add_plain(stage, renderer, poly_data(pixels(stage, body, f, 0.5), {edges, 2}), {0, 0, 0}, 0.6, 0.32);
+}
+
+void draw_in_plane(Stage& stage, vtkRenderer* renderer, const BodyPicture& body, Colour plain) {
+  const int corners = nodes_per_cell(body.shape, 1);
+  if (!stage.window) {
+    draw_faces(stage, renderer, body, {body.cells, corners}, body.cell_values, plain);
+  } else {
+    const std::vector<int> near = cells_near(body, stage.picture.deformation, *stage.window);
+    draw_faces(stage, renderer, body, {nodes_of(body, near), corners}, values_of(body, near), plain);
+  }
+  plane_outlines(stage, body);
+}
+
+// The surface of a body in space without its inside.
+BodyPicture skin_of(const BodyPicture& body) {
+  std::vector<int> place(body.points.size() / 3, -1);
+  BodyPicture skin;
+  const auto take = [&](int i) {
+    if (place[i] >= 0) return place[i];
+    for (std::size_t c = 0; c < 3; ++c) skin.points.push_back(body.points[3 * i + c]);
+    for (std::size_t c = 0; c < 3 && !body.displacement.empty(); ++c) skin.displacement.push_back(body.displacement[3 * i + c]);
+    if (!body.values.empty()) skin.values.push_back(body.values[i]);
+    return place[i] = static_cast<int>(skin.points.size()) / 3 - 1;
+  };
+  for (const int i : body.facets) skin.facets.push_back(take(i));
+  for (const int i : body.edges) skin.edges.push_back(take(i));
+  return skin;
+}
+
+void draw_in_space(Stage& stage, vtkRenderer* renderer, const BodyPicture& body, Colour plain) {
+  const BodyPicture skin = skin_of(body);
+  const Facets faces{skin.facets, body.nodes_per_facet};
+  draw_faces(stage, renderer, skin, faces, body.cell_values, plain);
+  add_features(stage, renderer, poly_data(pixels(stage, skin, stage.picture.deformation, 2), faces), outline_colour, std::max(1.2, stage.em / 18));
+  if (draws_undeformed(stage, skin)) add_features(stage, renderer, poly_data(pixels(stage, skin, 0, 0.3), faces), undeformed_colour, std::max(0.8, stage.em / 28));
+}
+
+void draw_bodies(Stage& stage, vtkRenderer* renderer) {
   for (std::size_t k = 0; k < stage.picture.bodies.size(); ++k) {
     const BodyPicture& body = stage.picture.bodies[k];
-    if (body.cells.empty() && body.facets.empty()) continue;
-    const int corners = nodes_per_cell(body.shape, 1);
-    const std::vector<int> near = stage.window && stage.plane ? cells_near(body, f, *stage.window) : std::vector<int>{};
-    const Facets faces = stage.window && stage.plane ? Facets{nodes_of(body, near), corners} : stage.plane ? Facets{body.cells, corners} : Facets{body.facets, body.nodes_per_facet};
-    const std::vector<Vec3> at = pixels(stage, body, f, 0);
-    const vtkSmartPointer<vtkPolyData> surface = poly_data(at, faces);
-    const Colour plain = plain_colour(k);
-    if (!stage.scale.shown || (body.values.empty() && body.cell_values.empty())) add_surface(stage, renderer, surface, plain);
-    else if (body.cell_values.empty()) add_coloured(stage, renderer, surface, body.values);
-    else add_coloured(stage, renderer, surface, stage.window && stage.plane ? values_of(body, near) : body.cell_values, true);
-    if (stage.picture.edges != MeshEdges::off) {
-      const std::vector<int> edges = body.edges.empty() ? unique_edges(faces) : body.edges;
-      if (edges_wanted(stage, at, edges)) add_plain(stage, renderer, poly_data(pixels(stage, body, f, 0.5), {edges, 2}), {0, 0, 0}, 0.6, 0.32);
-    }
-    if (stage.plane) {
-      plane_outlines(stage, body);
-      continue;
-    }
-    add_features(stage, renderer, poly_data(pixels(stage, body, f, 2), faces), outline_colour, std::max(1.2, stage.em / 18));
-    if (draws_undeformed(stage, body)) add_features(stage, renderer, poly_data(pixels(stage, body, 0, 0.3), faces), undeformed_colour, std::max(0.8, stage.em / 28));
+    if (!body.cells.empty() || !body.facets.empty()) stage.plane ? draw_in_plane(stage, renderer, body, plain_colour(k)) : draw_in_space(stage, renderer, body, plain_colour(k));
   }
 }
 

@@ -206,6 +206,9 @@ std::vector<Label> labels(const Stage& stage) {
   if (stage.pressures() && stage.plane && !stage.map())
     for (const ContactPicture& contact : stage.picture.contacts)
       if (const std::optional<Label> label = peak_label(stage, contact)) out.push_back(*label);
+  const Box sheet = Box{0, 0, 1.0 * stage.picture.width, 1.0 * stage.picture.height}.grown(-0.3 * stage.em);
+  if (stage.crowded)
+    for (Label& label : out) label.box = pushed(label.box, sheet);
   return out;
 }
 
@@ -216,6 +219,7 @@ void contact_bounds(const Stage& stage, Bounds& bounds) {
       if (stage.plane && !stage.map() && stage.greatest_shear > 0 && length(node.shear) > 0)
         for (const Point& end : shear_arrow(stage, node)) bounds.add(end);
     }
+  if (stage.crowded) return;
   for (const Label& label : labels(stage)) bounds.add(label.box);
 }
 

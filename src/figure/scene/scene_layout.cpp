@@ -90,7 +90,7 @@ void fit(Stage& stage, const Bounds& scaled, const Box& room) {
   const double size = std::max(scaled.width(), scaled.height());
   const double width = scaled.width() > 1e-6 * size ? scaled.width() : 0, height = scaled.height() > 1e-6 * size ? scaled.height() : 0;
   const auto share = [](double pixels, double length) { return length > 0 ? pixels / length : 1e300; };
-  stage.view.scale = size > 0 ? std::min(share(room.width(), width), share(room.height(), height)) : 1;
+  const double most = stage.view.scale = size > 0 ? std::min(share(room.width(), width), share(room.height(), height)) : 1;
   for (int round = 0; round < 8 && size > 0; ++round) {
     const Bounds now = pixel_bounds(stage, scaled);
     const double over_x = now.width() - room.width(), over_y = now.height() - room.height();
@@ -98,6 +98,8 @@ void fit(Stage& stage, const Bounds& scaled, const Box& room) {
     stage.view.scale = std::max(0.2 * s, s - std::max(width > 0 ? over_x / width : -1e300, height > 0 ? over_y / height : -1e300));
     if (std::abs(stage.view.scale - s) < 1e-6 * s) break;
   }
+  constexpr double kCrowded = 0.4;
+  if (stage.view.scale < kCrowded * most && !std::exchange(stage.crowded, true)) return fit(stage, scaled, room);
   const Bounds now = pixel_bounds(stage, scaled);
   stage.view.origin = room.centre() - now.centre();
   stage.frame = now.moved(stage.view.origin);

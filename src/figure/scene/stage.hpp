@@ -46,6 +46,7 @@ struct Stage {
   double window_strip = 0;    // pixels of the greatest pressure in a window
   double greatest_pressure = 0, greatest_shear = 0, greatest_load = 0;  // the first two of what is seen
   bool deformation_shows = false;
+  bool crowded = false;  // labels would take more room than they leave to the scene: they are within it
   Canvas under, over;         // below and above the bodies
   std::vector<Layer> layers;
   bool own_bar = true, own_legend = true;  // else they stand beside, for several scenes

@@ -98,12 +98,13 @@ std::string draw_zoomed(Call& call, ScenePicture whole) {
   std::copy(ends.begin(), ends.end(), part.window.emplace().begin());
   whole.marked.push_back(*part.window);
   figure::SceneGrid grid;
+  grid.title = std::exchange(whole.title, "");
   figure::Bounds bounds;
   for (const figure::BodyPicture& body : whole.bodies)
     for (std::size_t i = 0; i < body.points.size(); i += 3) bounds.add(figure::Point{body.points[i], body.points[i + 1]});
   const bool broad = bounds.width() > 1.8 * bounds.height();
   grid.columns = broad ? 1 : 2;
-  if (broad) grid.height = 3 * grid.width / 4;
+  grid.width = broad ? 1200 : 2100, grid.height = 1000;
   grid.panels = {std::move(whole), std::move(part)};
   grid.panels[1].caption.clear();
   return draw(call, std::move(grid));
