@@ -26,4 +26,4 @@ local s <const>, history <const> = dotyk.adapt{ tol = last.error, scene = scene_
   mesh = dotyk.mesh.rectangle{ from = { -1, -1 }, to = { 1, 0 }, cells = { 16, 8 } } }
 print(("adapted: %d unknowns for %.1f %%, after %d rounds (%s)"):format(s.unknowns, 100 * history[#history].estimate, #history, history.reason))
 assert(history.converged and s.unknowns < last.unknowns / 2)
-print("wrote", s:render{ file = "images/tutorial_04.png", edges = true, title = "A flat punch: cells where they are needed" })
+print("wrote", s:render{ file = "images/tutorial_04.png", field = "error", edges = true, title = "A flat punch: cells where they are needed" })

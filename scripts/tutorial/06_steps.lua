@@ -26,3 +26,9 @@ end
 assert(math.abs(x[1] - x[#x]) > 1e-6) -- the push is gone, what slipped stays
 print("wrote", dotyk.chart{ file = "images/tutorial_06.png", x = "displacement of the right end", y = "push", title = "Pushed forth and back",
   series = { { name = "way", x = x, y = y } } })
+-- Four of the states beside each other, in one scale of colours.
+local frames <const> = {}
+for _, k in ipairs{ 1, 4, 7, 11 } do
+  frames[#frames + 1] = s.steps[k]:picture{ field = "xy", deform = 50, loads = true, pressure = "none", title = ("push %g"):format(way[k]) }
+end
+print("wrote", dotyk.pictures{ file = "images/tutorial_06_states.png", columns = 2, table.unpack(frames) })

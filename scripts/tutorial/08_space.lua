@@ -23,6 +23,11 @@ print(("force %.2f, by Hertz %.2f: a block 1 thick on a rigid base is %.0f %% st
 assert(force > hertz and force < 2 * hertz)
 
 print("wrote", s:render{ file = "images/tutorial_08.png", title = "A quarter of a block under a ball", view = { 2, -3, 2 } })
+-- What happens in the contact, on a map of it; and a cut through the block, whose inside is seen then.
+local units <const> = { length = "mm", stress = "MPa" }
+print("wrote", dotyk.pictures{ file = "images/tutorial_08_contact.png",
+  s:picture{ map = contact, units = units, window = { 0, 0, 0.5, 0.5 }, isolines = true, title = "Contact pressure" },
+  s:picture{ units = units, cut = { point = { 0, 0.15, 0 }, normal = { 0, -1, 0 } }, view = { 1, -2, 1 }, title = "A cut" } })
 local vtu <const> = os.tmpname() .. ".vtu"
 s:write(vtu) -- for ParaView
 print "wrote a .vtu file for ParaView"

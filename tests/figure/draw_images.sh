@@ -10,7 +10,7 @@
 # rounding: they show residuals of 1e-16, or labels of axes that start at errors of 1e-9, which differ from processor to processor.
 # long: up to some minutes; to be compared by hand after changes of solvers or figures, or once a week.
 quick="first examples/friction examples/asperities examples/two_blocks examples/tower examples/corner examples/stack examples/several_solutions
-  examples/ladder papers/tr965/screws examples/breaking examples/beam examples/foundation
+  examples/ladder examples/socket examples/gear_pair examples/flange papers/tr965/screws examples/breaking examples/beam examples/foundation
   examples/supports studies/accuracy/hertz examples/ball examples/gears examples/lug examples/load_cone
   papers/horak_fibinger/plate_cases examples/plate_corners examples/plate_obstacle papers/hlavacova/channel
   papers/alesawi/augmented_lagrangian studies/methods/coulomb_loop studies/stability/uzawa studies/stability/locking

@@ -175,6 +175,8 @@ struct ScenePicture : Sheet {
   std::vector<SupportSymbol> supports;
   std::vector<LoadArrow> loads;
 
+  // Pressure, shear and load for which the longest ordinates and arrows stand; 0: the greatest of what is seen.
+  std::array<double, 3> longest = {0, 0, 0};
   std::string length_unit, pressure_unit, load_unit;  // of the axes; of pressure and shear; of loads; may be empty
   bool shear = true;                        // arrows of the shear, where there is any
   PressureStyle pressure = PressureStyle::automatic;

@@ -100,6 +100,7 @@ void draw_isolines(Stage& stage, const std::function<bool(const Box&)>& free) {
     if (body.values.empty()) continue;
     const Triangles triangles = triangles_of(stage, body);
     for (const Tick& tick : linear_ticks(stage.scale.low, stage.scale.high, 6).ticks) {
+      if (tick.value <= stage.scale.least || tick.value >= stage.scale.greatest) continue;  // a field ends there, it does not pass
       const Colour colour = brightness(stage.scale.at(tick.value)) < 0.35 ? Colour{225, 225, 225} : Colour{55, 55, 55};
       for (const std::vector<Point>& line : contour(triangles, tick.value)) {
         stage.over.polyline(line, std::max(0.8, stage.em / (tick.label.empty() ? 40 : 22)), colour);

@@ -23,7 +23,8 @@ Stage::Stage(const ScenePicture& p, Point at)
   if (p.window) window = asked = box_of(*p.window);
   scale = colour_scale(p, window);
   set_greatest();
-  for (const LoadArrow& load : p.loads) greatest_load = std::max(greatest_load, std::sqrt(dot(load.vector, load.vector)));
+  for (const LoadArrow& load : p.loads) greatest_load = std::max(greatest_load, length(load.vector));
+  greatest_load = std::max(greatest_load, p.longest[2]);
   for (const BodyPicture& body : p.bodies) {
     Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
     for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -60,6 +61,8 @@ void Stage::set_greatest() {
       }
   }
   if (greatest_shear < 1e-9 * greatest_pressure) greatest_shear = 0;  // rounding's
+  if (greatest_pressure > 0) greatest_pressure = std::max(greatest_pressure, picture.longest[0]);
+  if (greatest_shear > 0) greatest_shear = std::max(greatest_shear, picture.longest[1]);
 }
 
 std::vector<std::size_t> Stage::spaced(const std::vector<Point>& positions, double spacing, double within) const {

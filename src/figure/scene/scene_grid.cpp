@@ -32,12 +32,25 @@ std::optional<ColourScale> common_scale(const std::vector<ScenePicture>& panels)
   return several > 1 ? common : std::nullopt;
 }
 
+// Ordinates and arrows of the same length stand for the same; in a window they are scaled to what is seen of it.
+void share_lengths(std::vector<ScenePicture>& panels) {
+  std::array<double, 3> longest{};
+  for (const ScenePicture& p : panels) {
+    if (p.window) continue;
+    const Stage stage(p);
+    longest = {std::max(longest[0], stage.greatest_pressure), std::max(longest[1], stage.greatest_shear), std::max(longest[2], stage.greatest_load)};
+  }
+  for (ScenePicture& p : panels)
+    if (!p.window) p.longest = longest;
+}
+
 class Rows {
 public:
   explicit Rows(const SceneGrid& given) : sheet_(given), columns_(static_cast<std::size_t>(given.columns)), em_(letters(given)), panels_(given.panels), scale_(common_scale(panels_)) {
     if (scale_)
       for (ScenePicture& p : panels_)
         if (!p.field_label.empty()) p.field_range = {scale_->low, scale_->high}, p.field_signed = scale_->diverging;
+    share_lengths(panels_);
     title_ = fitted(sheet_.title, 1.15 * em_, sheet_.width - em_, true);
     above_ = sheet_.title.empty() ? 0 : 1.9 * em_ + title_.depth();
     heights_.assign(rows(), (sheet_.height - above_) / static_cast<double>(rows()));
