@@ -174,7 +174,7 @@ void load(Part& part, const elasticity::VectorField& traction, const std::string
 void pressure(Part& part, const elasticity::ScalarField& value, const std::string& load_case = {});
 /// Sums the nodal loads of all cases anew from the body's loads, on its mesh as it is.
 void sum_loads(Body& body);
-/// The loads on parts, facet by facet.
+/// The loads on parts, those of each facet together.
 std::vector<LoadArrow> load_arrows(const Body& body);
 /// The load per volume at each cell: its points' mean; empty: none.
 std::vector<mesh::Point> cell_forces(const Body& body);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -105,17 +106,20 @@ void sum_loads(Body& body) {
 
 std::vector<LoadArrow> load_arrows(const Body& body) {
   std::vector<LoadArrow> arrows;
+  std::map<mesh::Facet, std::size_t> place;
   for (const FacetLoad& load : body.facet_loads)
     for (std::size_t k = 0; k < load.facets.size(); ++k) {
-      LoadArrow arrow{load.facets[k], body.mesh->facet_centre(load.facets[k]), {0, 0, 0}};
+      const mesh::Facet facet = load.facets[k];
+      Point sum{0, 0, 0};
       double area = 0;
-      elasticity::for_each_facet_point(*body.mesh, arrow.facet, [&](const FacetPoint& p) {
-        const Point t = load.traction(k, p, body.dimension());
+      elasticity::for_each_facet_point(*body.mesh, facet, [&](const FacetPoint& p) {
         area += p.measure;
-        arrow.value = mesh::plus(arrow.value, mesh::times(p.measure, t));
+        sum = mesh::plus(sum, mesh::times(p.measure, load.traction(k, p, body.dimension())));
       });
-      for (double& v : arrow.value) v /= area;
-      arrows.push_back(arrow);
+      const auto [found, fresh] = place.try_emplace(facet, arrows.size());
+      if (fresh) arrows.push_back({facet, body.mesh->facet_centre(facet), {0, 0, 0}});
+      Point& value = arrows[found->second].value;
+      value = mesh::plus(value, mesh::times(1 / area, sum));
     }
   return arrows;
 }
