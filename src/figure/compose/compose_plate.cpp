@@ -1,6 +1,7 @@
 #include "figure/compose/compose_plate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -137,7 +138,7 @@ void add_forces(PlatePicture& picture, const plate::Solution& s) {
   std::erase_if(picture.forces, [&](const PlateForce& f) { return std::abs(f.force) <= 1e-3 * carried; });
 }
 
-// At vertices that have a row of their own: x = −u + height.
+// At vertices that have a row of their own: x = −u + height. `bears` is half of the vertex' own, half the mean of those about it.
 void add_obstacle(PlatePicture& picture, const plate::Solution& s) {
   const std::vector<int>& rows = s.model().obstacle_row;
   const algebra::Vector &lambda = s.result().state.lambda, &c = s.model().problem.c;
@@ -149,6 +150,47 @@ void add_obstacle(PlatePicture& picture, const plate::Solution& s) {
     picture.obstacle.push_back(rows[i] < 0 ? NAN : std::max(floor, -c[rows[i]]));
     if (rows[i] >= 0 && lambda[rows[i]] > noise) picture.bearing.push_back(static_cast<int>(i));
   }
+  std::vector<double> own(rows.size(), 0), sum = own, count = own;
+  for (const int i : picture.bearing) own[i] = 1;
+  for (const plate::Edge& e : s.model().space.edges.edges)
+    for (const int end : {0, 1}) sum[e.node[end]] += own[e.node[1 - end]], ++count[e.node[end]];
+  for (std::size_t i = 0; i < rows.size(); ++i) picture.bears.push_back(0.5 * own[i] + 0.5 * sum[i] / count[i]);
+}
+
+// Cuts each triangle into four. The deflection at the middle of a side is that of the element, the mean where its two cells differ; other
+// values are linear.
+void refine(PlatePicture& picture, const plate::Solution& s) {
+  const plate::Edges& edges = s.model().space.edges;
+  const mesh::Mesh& mesh = *s.plate().mesh;
+  const int vertices = mesh.node_count();
+  const auto halve = [&](std::vector<double>& values, std::size_t each) {
+    for (const plate::Edge& e : edges.edges)
+      for (std::size_t c = 0; c < each && !values.empty(); ++c) values.push_back((values[each * e.node[0] + c] + values[each * e.node[1] + c]) / 2);
+  };
+  const bool deflection = picture.values == picture.deflection;
+  for (std::vector<double>* values : {&picture.values, &picture.obstacle, &picture.bears}) halve(*values, 1);
+  halve(picture.points, 2);
+  std::vector<double> sum(edges.edges.size(), 0), count = sum;
+  picture.triangles.clear();
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const int* v = mesh.cell(c);
+    std::array<int, 3> m;
+    for (int k = 0; k < 3; ++k) {
+      const int edge = edges.of_cell[c][k];
+      plate::Barycentric b = plate::Barycentric::Constant(0.5);
+      b[(k + 2) % 3] = 0;
+      sum[edge] += s.deflection({c, b}), ++count[edge];
+      m[k] = vertices + edge;
+    }
+    for (int k = 0; k < 3; ++k) picture.triangles.insert(picture.triangles.end(), {v[k], m[k], m[(k + 2) % 3]});
+    picture.triangles.insert(picture.triangles.end(), m.begin(), m.end());
+  }
+  for (std::size_t e = 0; e < sum.size(); ++e) {
+    const int middle = vertices + static_cast<int>(e);
+    picture.deflection.push_back(sum[e] / count[e]);
+    picture.mesh_edges.insert(picture.mesh_edges.end(), {edges.edges[e].node[0], middle, middle, edges.edges[e].node[1]});
+  }
+  if (deflection) picture.values = picture.deflection;
 }
 
 // Half the sum of the principal moments, and half their difference.
@@ -203,6 +245,7 @@ PlatePicture compose(const plate::Solution& s, const PlateOptions& options) {
   add_boundary(picture, s);
   add_forces(picture, s);
   add_obstacle(picture, s);
+  refine(picture, s);
   return picture;
 }
 

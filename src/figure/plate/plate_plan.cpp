@@ -14,13 +14,15 @@ std::vector<Point> flat(const Stage& stage, const PlateLine& line) {
   return out;
 }
 
-// Clear of edges, forces and supports.
+// Clear of edges, forces, supports and the zone that bears.
 bool is_free(const Stage& stage, const Plate& plate, const Box& box) {
   for (const EdgeRun& run : plate.runs)
     for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
       Point p = stage.view.flat(run.points[i].position), q = stage.view.flat(run.points[i + 1].position);
       if (crop(p, q, box)) return false;
     }
+  for (const PlateLine& line : plate.rim)
+    if (std::vector<Point> ends = flat(stage, line); crop(ends[0], ends[1], box)) return false;
   const auto on = [&](double x, double y) { return box.holds(stage.view.flat({x, y, 0}), stage.em); };
   return std::ranges::none_of(plate.picture.forces, [&](const PlateForce& f) { return on(f.x, f.y); }) &&
          std::ranges::none_of(plate.picture.supports, [&](const PlatePointSupport& s) { return on(s.x, s.y); });
@@ -32,11 +34,12 @@ void draw_bearing(Stage& stage, const Plate& plate) {
     const std::vector<Point> ends = flat(stage, line);
     stage.over.line(ends[0], ends[1], std::max(1.0, stage.em / 18), colour);
   }
-  for (const std::vector<int>& chain : chains(rim({plate.zone, 3}))) {
-    std::vector<Point> points;
-    for (const int i : chain) points.push_back(stage.view.flat(plate.node(i, 0)));
-    stage.over.polyline(points, std::max(1.6, stage.em / 10), colour);
-  }
+  for (const auto& [width, ink] : {std::pair{stage.em / 5, Colour{255, 255, 255}}, std::pair{stage.em / 10, colour}})
+    for (const PlateLine& line : plate.rim) {
+      const std::vector<Point> ends = flat(stage, line);
+      stage.over.line(ends[0], ends[1], std::max(1.6, width), ink);
+      for (const Point& end : ends) stage.over.disc(end, std::max(1.6, width) / 2, ink);
+    }
   draw_bearing_points(stage, plate, 0, 0.5 * stage.em);
 }
 
