@@ -124,7 +124,11 @@ FittedText fitted(const std::string& text, double size, double pixels, bool bold
   const double smaller = fitting_size(text + end, size, pixels, bold);
   if (text_extent(text + end, smaller, bold).x <= pixels + 1e-6 * size) return {smaller, {text + end}};
   std::string first = beginning(text, "", smaller, pixels, bold);
-  const std::size_t space = text.find_last_of(" \n", first.size());
+  // Lines of about the same width, where the second fits: broken at the first space after which it is no longer than the first.
+  const auto ends_at = [&](std::size_t space) { return text_extent(text.substr(0, space), smaller, bold).x >= text_extent(text.substr(space + 1) + end, smaller, bold).x; };
+  std::size_t space = text.find_last_of(" \n", first.size());
+  for (std::size_t at = text.find_first_of(" \n"); at < space; at = text.find_first_of(" \n", at + 1))
+    if (ends_at(at)) space = at;
   if (space != std::string::npos && space > 0) first.resize(space);
   const std::size_t rest = std::min(text.find_first_not_of(" \n", first.size()), text.size());
   return {smaller, {first, shortened(text.substr(rest), smaller, pixels - text_extent(end, smaller, bold).x, bold) + end}};
