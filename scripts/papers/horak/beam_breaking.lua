@@ -133,6 +133,6 @@ end
 dotyk.chart{ file = "images/papers_beam_breaking.png", columns = 3, size = { 2100, 720 }, panels = {
   { title = "Force on the latch", x = "time [min]", y = "force [N]", series = force },
   { title = "Deflection of the end", x = "time [min]", y = "deflection [mm]", series = deflection },
-  { title = "Errors through a break", x = "step", y = "error in time and deflection", log = "xy", series = curves, slopes = { 1, 2 } },
+  { title = "Errors through a break", x = "step [min]", y = "error, relative", log = "xy", series = curves, slopes = { 1, 2 } },
 } }
 print "images/papers_beam_breaking.png"
