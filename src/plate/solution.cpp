@@ -1,10 +1,6 @@
 #include "plate/solution.hpp"
 
 #include <cmath>
-#include <set>
-#include <span>
-
-#include <Eigen/LU>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -64,39 +60,24 @@ Moment Solution::moment(double x, double y) const {
 const std::vector<Moment>& Solution::vertex_moments() const {
   if (!moments_.empty()) return moments_;
   const mesh::Mesh& mesh = *plate().mesh;
-  const Space& space = model_->space;
-  const bool morley = plate().element == Element::morley;
+  std::vector<Eigen::Vector3d> sum(mesh.node_count(), Eigen::Vector3d::Zero());
+  std::vector<double> area(mesh.node_count(), 0);
+  constexpr double kInside = 1e-9;  // to one of the thirds that meet at a vertex
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const double weight = triangle(mesh, model_->space.edges, c).area / 2, D = stiffness(c);
+    for (int k = 0; k < 3; ++k)
+      for (int side = 1; side < 3; ++side) {
+        Barycentric b = Barycentric::Zero();
+        b[k] = 1 - kInside;
+        b[(k + side) % 3] = kInside;
+        sum[mesh.cell(c)[k]] -= weight * D * values({c, b}, u_).tail<3>();
+        area[mesh.cell(c)[k]] += weight;
+      }
+  }
   const Eigen::Matrix3d C = bending(plate().nu);
-  std::vector<std::vector<int>> star(mesh.node_count());
-  for (int c = 0; c < mesh.cell_count(); ++c)
-    for (const int n : std::span(mesh.cell(c), 3)) star[n].push_back(c);
   moments_.resize(mesh.node_count());
   for (int n = 0; n < mesh.node_count(); ++n) {
-    std::set<int> cells(star[n].begin(), star[n].end());
-    if (morley && !space.boundary[n].edges.empty())  // too few for a linear function
-      for (const int c : star[n])
-        for (const int other : std::span(mesh.cell(c), 3)) cells.insert(star[other].begin(), star[other].end());
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(), right = normal;  // of 1, x and y about the vertex
-    const double size = std::sqrt(triangle(mesh, space.edges, star[n].front()).area);
-    const auto add = [&](const Triangle& t, int c, const Barycentric& b) {
-      Eigen::Vector3d basis;
-      basis << 1, (t.point(b) - node_position(mesh, n)) / size;
-      normal += t.area * basis * basis.transpose();
-      right -= t.area * stiffness(c) * basis * (C * values({c, b}, u_).tail<3>()).transpose();
-    };
-    for (const int c : cells) {
-      const Triangle t = triangle(mesh, space.edges, c);
-      constexpr double kInside = 1e-9;  // to one of the thirds of HCT's that meet at a vertex
-      if (morley) add(t, c, Barycentric::Constant(1.0 / 3));
-      for (int k = 0; k < 3 && !morley; ++k)
-        for (int side = 1; side < 3 && mesh.cell(c)[k] == n; ++side) {
-          Barycentric b = Barycentric::Zero();
-          b[k] = 1 - kInside, b[(k + side) % 3] = kInside;
-          add(t, c, b);
-        }
-    }
-    Eigen::RowVector3d m = right.row(0) / normal(0, 0);
-    if (const Eigen::FullPivLU<Eigen::Matrix3d> lu(normal); lu.rcond() > 1e-6) m = lu.solve(right).row(0);
+    const Eigen::Vector3d m = C * sum[n] / area[n];
     moments_[n] = {m[0], m[1], m[2]};
   }
   return moments_;

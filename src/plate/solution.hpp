@@ -36,8 +36,7 @@ class Solution {
   double stiffness(int cell) const;                                                     ///< mean D of a cell
   double deflection(double x, double y) const;
   Eigen::Vector2d slope(double x, double y) const;  ///< ∇u
-  /// Linear on a cell. At a vertex Morley's: a linear function fitted to the curvatures of the cells about it, which are of order h² at
-  /// their centroids; HCT's: the mean of the curvatures that the cells have there. Of order h².
+  /// Of the mean curvatures about each vertex, linear on a cell: of order h² within where the mesh is regular, h at the edge with Morley's element.
   Moment moment(double x, double y) const;
   double motion(double x, double y) const;  ///< of the family; 0 without one
   double deflection(const Place& place) const { return values(place, u_)[0]; }

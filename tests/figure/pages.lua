@@ -55,14 +55,3 @@ local plate <const> = dotyk.solve(dotyk.plate{ mesh = dotyk.mesh.rectangle{ from
 plate:render{ file = "page.svg", view = "plan" }
 local plan <const> = read "page.svg"
 check.equal(count(plan, "^0%.4"), 1)
-
--- Moments of Morley's element at vertices where the mesh is not regular: the spokes of a disc.
-local disc <const> = dotyk.solve(dotyk.plate{ mesh = dotyk.mesh.disc{ center = { 0, 0 }, radius = 1, cells = 16 }, nu = 0.3, load = -1, edge = { deflection = law.prescribed(), rotation = law.prescribed() } })
-for _, r in ipairs{ 0.5, 1 } do -- exact: radial and around, of the clamped circle
-  local radial <const>, around <const> = (1.3 - 3.3 * r^2) / 16, (1.3 - 1.9 * r^2) / 16
-  for angle = 0, 60, 15 do
-    local a <const>, near <const> = math.rad(angle), r == 1 and 1 - 1e-2 or r
-    local m <const> = disc:moment(near * math.cos(a), near * math.sin(a)).principal
-    check.that(math.max(math.abs(m[1] + math.min(radial, around)), math.abs(m[2] + math.max(radial, around))) < 6e-3, ("%g at %g°"):format(r, angle))
-  end
-end

@@ -129,9 +129,9 @@ local pressing <const>, sliding <const> = {}, {}
 for k = 0, 18 do pressing[#pressing + 1], sliding[#sliding + 1] = 2 - k / 10, 0.1 + 3.8 * k / 18 end
 for _, off in ipairs(near) do pressing[#pressing + 1], sliding[#sliding + 1] = off, 4 - off end
 local function nearest(x, y) return wave(x, y) + height end
-local panels <const> = { sweep("Rigid one-sided edge, none left of 0", pressing, edges.signorini, waves, 0, nearest),
-  sweep("One-sided springs, k = 500", pressing, edges.springs, waves, 0, nearest),
-  sweep("Edge friction up to 4, none right of 4", sliding, edges.friction, function(p) return -p end, 4, slipping) }
+local panels <const> = { sweep("Rigid one-sided edge: no solution below 0", pressing, edges.signorini, waves, 0, nearest),
+  sweep("One-sided springs: no solution below 0", pressing, edges.springs, waves, 0, nearest),
+  sweep("Friction at the edge: no solution above 4", sliding, edges.friction, function(p) return -p end, 4, slipping) }
 
 -- 4. Stiff springs, relative to Signorini's edge. Of the order 1 once the part that touches no longer changes with k.
 local apart <const> = {}

@@ -138,7 +138,8 @@ void add_forces(PlatePicture& picture, const plate::Solution& s) {
   std::erase_if(picture.forces, [&](const PlateForce& f) { return std::abs(f.force) <= 1e-3 * carried; });
 }
 
-// At vertices that have a row of their own: x = −u + height. `bears` is half of the vertex' own, half the mean of those about it.
+// At vertices that have a row of their own: x = −u + height. The zone that bears has also those that touch without a force, and is
+// smoothed: twice half of a vertex' own and half the mean of those about it.
 void add_obstacle(PlatePicture& picture, const plate::Solution& s) {
   const std::vector<int>& rows = s.model().obstacle_row;
   const algebra::Vector &lambda = s.result().state.lambda, &c = s.model().problem.c;
@@ -150,11 +151,17 @@ void add_obstacle(PlatePicture& picture, const plate::Solution& s) {
     picture.obstacle.push_back(rows[i] < 0 ? NAN : std::max(floor, -c[rows[i]]));
     if (rows[i] >= 0 && lambda[rows[i]] > noise) picture.bearing.push_back(static_cast<int>(i));
   }
-  std::vector<double> own(rows.size(), 0), sum = own, count = own;
-  for (const int i : picture.bearing) own[i] = 1;
-  for (const plate::Edge& e : s.model().space.edges.edges)
-    for (const int end : {0, 1}) sum[e.node[end]] += own[e.node[1 - end]], ++count[e.node[end]];
-  for (std::size_t i = 0; i < rows.size(); ++i) picture.bears.push_back(0.5 * own[i] + 0.5 * sum[i] / count[i]);
+  std::vector<double>& bears = picture.bears;
+  bears.assign(rows.size(), 0);
+  if (picture.bearing.empty()) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) bears[i] = rows[i] >= 0 && picture.deflection[i] + c[rows[i]] < 1e-4 * (*high - *low);
+  for (const int i : picture.bearing) bears[i] = 1;
+  for (int pass = 0; pass < 2; ++pass) {
+    std::vector<double> sum(rows.size(), 0), count = sum;
+    for (const plate::Edge& e : s.model().space.edges.edges)
+      for (const int end : {0, 1}) sum[e.node[end]] += bears[e.node[1 - end]], ++count[e.node[end]];
+    for (std::size_t i = 0; i < rows.size(); ++i) bears[i] = 0.5 * bears[i] + 0.5 * sum[i] / count[i];
+  }
 }
 
 // Cuts each triangle into four. The deflection at the middle of a side is that of the element, the mean where its two cells differ; other

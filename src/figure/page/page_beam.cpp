@@ -107,7 +107,7 @@ private:
   bool on_support(Point low) const {
     return std::ranges::any_of(beam_.supports, [&](const BeamSupport& s) {
       const double axis = axes_.y.pixel(0);
-      return s.below.kind != ElementKind::none && s.below.kind != ElementKind::fixed && low.y < axis + 0.2 * em_ && low.y > axis - 2.5 * symbol_em(axes_) &&
+      return s.below.kind != ElementKind::none && s.below.kind != ElementKind::fixed && low.y < axis + 0.7 * em_ && low.y > axis - 2.5 * symbol_em(axes_) &&
              std::abs(low.x - axes_.x.pixel(s.x)) < 0.8 * symbol_em(axes_) && std::abs(on_line(s.x).y - axis) < 0.5 * em_;
     });
   }

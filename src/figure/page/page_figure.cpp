@@ -68,6 +68,7 @@ private:
                            const Box bar{b.left + 0.3 * b.width(), b.centre().y - 0.16 * b.height(), b.right, b.centre().y + 0.16 * b.height()};
                            const double middle = bar.centre().x, half = 0.5 * gap * bar.width();
                            if (hollow) return c.outline(bar.grown(-0.05 * b.height()), 0.1 * b.height(), colour);
+                           if (gap == 0) return c.box(bar, colour);
                            c.box({bar.left, bar.bottom, middle - half, bar.top}, colour), c.box({middle + half, bar.bottom, bar.right, bar.top}, colour);
                          }});
     };
@@ -95,7 +96,7 @@ private:
         const double wide = width * picture_.column_weights[j] / total(picture_.column_weights);
         Axes& axes = row.emplace_back();
         axes.em = em_;
-        axes.room = {x, y - share + (picture_.shared_x ? 0.35 * em_ : 3.1 * em_), x + wide - 1.1 * em_, y - (titled ? 1.7 : 0.45) * em_};
+        axes.room = {x, y - share + (picture_.shared_x ? 0.35 * em_ : 3.1 * em_), x + wide - 1.5 * em_, y - (titled ? 1.7 : 0.45) * em_};
         x += wide;
       }
       axes_.push_back(std::move(row));

@@ -59,7 +59,7 @@ void add_zone(Stage& stage, const Plate& plate, vtkRenderer* renderer) {
   for (const PlateLine& line : hatch(plate, 0.7 * stage.em / stage.view.scale))
     for (const Vec3& end : line) lines.add({end[0], end[1], factor * end[2]}, 2);
   for (const PlateLine& line : plate.rim)
-    for (const Vec3& end : line) outline.add({end[0], end[1], factor * end[2]}, 3), halo.add({end[0], end[1], factor * end[2]}, 2.5);
+    for (const Vec3& end : line) outline.add({end[0], end[1], factor * end[2]}, 3 + 0.3 * stage.em), halo.add({end[0], end[1], factor * end[2]}, 2 + 0.3 * stage.em);
   lines.show(renderer, status_colour(Status::closed), std::max(1.0, stage.em / 18));
   halo.show(renderer, {255, 255, 255}, std::max(3.2, stage.em / 5));
   outline.show(renderer, status_colour(Status::closed), std::max(1.6, stage.em / 10));
@@ -92,6 +92,11 @@ void surface_legend(const Stage& stage, const Plate& plate, std::vector<LegendEn
 
 std::vector<Layer> surface_layers(const Plate& plate) {
   const auto draw = [&plate](Stage& stage, vtkRenderer* renderer) {
+    for (const RigidPicture& block : stage.picture.obstacles) {
+      std::vector<Vec3> at;
+      for (std::size_t i = 0; i < block.points.size(); i += 3) at.push_back(stage.rendered(stage.view.pixel({block.points[i], block.points[i + 1], block.points[i + 2]}), 0.5));
+      add_features(stage, renderer, poly_data(at, {block.triangles, 3}), {120, 120, 120}, std::max(0.8, stage.em / 28));
+    }
     add_gaps(stage, plate, renderer);
     add_edges(stage, plate, renderer);
     add_zone(stage, plate, renderer);

@@ -177,6 +177,26 @@ void draw_triad(Stage& stage, Point at) {
   }
 }
 
+// In a corner that the scene leaves free, else below on the left.
+Point triad_place(const Stage& stage, const Box& room) {
+  const double em = stage.em;
+  const Box corners{room.left + 2.2 * em, room.bottom + 1.6 * em, room.right - 2.6 * em, room.top - 2.6 * em};
+  for (const Point at : {Point{corners.left, corners.bottom}, {corners.right, corners.bottom}, {corners.left, corners.top}, {corners.right, corners.top}}) {
+    const Box box{at.x - 2.6 * em, at.y - 1.6 * em, at.x + 2.6 * em, at.y + 2.6 * em};
+    const auto meets = [&](const auto& thing, double factor) {
+      for (std::size_t i = 0; i + 2 < thing.points.size(); i += 3) {
+        Vec3 p{thing.points[i], thing.points[i + 1], thing.points[i + 2]};
+        if constexpr (requires { thing.displacement; }) p = thing.node(i / 3, factor);
+        if (box.holds(stage.view.flat(p))) return true;
+      }
+      return false;
+    };
+    const auto on_body = [&](const BodyPicture& body) { return meets(body, stage.picture.deformation) || meets(body, 0); };
+    if (std::ranges::none_of(stage.picture.bodies, on_body) && std::ranges::none_of(stage.picture.obstacles, [&](const RigidPicture& o) { return meets(o, 0); })) return at;
+  }
+  return {corners.left, corners.bottom};
+}
+
 // Whether the undeformed outline is seen beside the deformed one; in a window
 // the contact drawn on that is broad.
 bool displacement_shows(const Stage& stage) {
@@ -274,7 +294,7 @@ double lay_out(Stage& stage) {
   around.legend.draw(stage.over, {(w - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
   draw_column(stage, around);
   if (p.axes && stage.plane) draw_axes(stage);
-  if (p.axes && !stage.plane) draw_triad(stage, {around.room.left + 2.2 * em, around.room.bottom + 1.6 * em});
+  if (p.axes && !stage.plane) draw_triad(stage, triad_place(stage, around.room));
   if (!stage.plane && !stage.window) stage.frame = around.room;
   constexpr double kBar = 10;  // em, with its name and ends
   const double column = (around.bar > 0 ? kBar * em : 0) + (stage.inset ? stage.inset->height : 0);
