@@ -27,7 +27,7 @@ local function curve(s, quantity, keys, points) -- over the beam
 end
 for _, case in ipairs(cases) do
   local s <const> = continuous(case[2])
-  deflections[#deflections + 1] = curve(s, "deflection", { name = case[1], style = #deflections < 1 and "both" or "line", twin = #deflections == 2 or nil }, #deflections < 1 and 40 or 400)
+  deflections[#deflections + 1] = curve(s, "deflection", { name = case[1], style = #deflections < 1 and "both" or "line", twin = #deflections == 2 or nil }, #deflections < 1 and 20 or 400)
   local springs <const> = case[1]:find "springs" -- its moments are nearly those of resting: points on that line
   moments[#moments + 1] = curve(s, "moment", { name = case[1], style = springs and "points" or "line" }, springs and 32 or 400)
   local reactions, sum, off = {}, 0, {}

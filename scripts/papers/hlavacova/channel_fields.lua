@@ -173,12 +173,12 @@ local nothing = common.curve("E along z, from w = 0.2 m/s", { reference = true }
 for n = 0, 240 do nothing:add(n / 80, decay(combinations[1], omega, 0.2):velocity(0, n / 80)) end
 table.insert(curves.w, nothing)
 for component, list in pairs(curves) do
-  local x = {}
-  for n = 1, #points[component] do x[n] = times[(n - 1) % #times + 1] end
-  table.insert(list, { name = "time stepping", x = x, y = points[component], style = "points" })
+  local x, y = {}, {}
+  for n = 2, #points[component], 3 do x[#x + 1], y[#y + 1] = times[(n - 1) % #times + 1], points[component][n] end
+  table.insert(list, { name = "time stepping", x = x, y = y, style = "points" })
 end
 dotyk.chart{ file = "images/papers_channel_fields.png", x = "time [s]", size = { 2100, 900 }, columns = 2, panels = {
-  { title = ("Mercury, M = %.1f, 1 Hz: along, E along z"):format(mercury.hartmann), y = "u(0, t) [m/s]", series = curves.u, x_range = { 0, 3 } },
+  { title = ("Along the channel, E along z: mercury, M = %.1f"):format(mercury.hartmann), y = "u(0, t) [m/s]", series = curves.u, x_range = { 0, 3 } },
   { title = "Across the channel, E along x", y = "w(0, t) [m/s]", series = curves.w, x_range = { 0, 3 } } } }
 
 -- 3. Mean and fluctuation on the axis, and their limits for ω → ∞: fluctuation times ω.

@@ -95,11 +95,13 @@ RigidPicture obstacle_of(const PlatePicture& p) {
       out.triangles.insert(out.triangles.end(), &t[k], &t[k] + 3);
       for (std::size_t c = 0; c < 3; ++c) lowest = std::min(lowest, out.points[3 * t[k + c] + 2]);
     }
-  for (const auto& [a, b] : pairs(rim({out.triangles, 3}))) {
-    const int foot = static_cast<int>(out.points.size() / 3);
-    for (const int i : {a, b}) out.points.insert(out.points.end(), {out.points[3 * i], out.points[3 * i + 1], lowest - 0.04 * size});
-    out.triangles.insert(out.triangles.end(), {a, b, foot, b, foot + 1, foot});
-  }
+  std::map<int, int> feet;
+  const auto foot = [&](int i) {
+    const auto [found, fresh] = feet.try_emplace(i, static_cast<int>(out.points.size() / 3));
+    if (fresh) out.points.insert(out.points.end(), {out.points[3 * i], out.points[3 * i + 1], lowest - 0.04 * size});
+    return found->second;
+  };
+  for (const auto& [a, b] : pairs(rim({out.triangles, 3}))) out.triangles.insert(out.triangles.end(), {a, b, foot(a), b, foot(b), foot(a)});
   return out;
 }
 

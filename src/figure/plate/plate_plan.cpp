@@ -69,7 +69,7 @@ void draw_edge(Stage& stage, const EdgeRun& run) {
 }
 
 double dot_size(const Stage& stage, const Plate& plate, const PlateForce& f) {
-  return stage.em * (0.4 + 0.5 * std::sqrt(std::abs(f.force) / plate.greatest_force));
+  return stage.em * (0.35 + 0.35 * std::sqrt(std::abs(f.force) / plate.greatest_force));
 }
 
 bool carries(const Plate& plate, const PlateForce& f) { return std::abs(f.force) > 1e-6 * plate.greatest_force; }
@@ -88,10 +88,16 @@ Label force_label(const Stage& stage, const Plate& plate, const PlateForce& f) {
   return label;
 }
 
+// Forces that differ by less than a twentieth are told once: their sizes are those of their dots.
 std::vector<Label> labels(const Stage& stage, const Plate& plate) {
   std::vector<Label> out;
-  for (const PlateForce& f : plate.picture.forces)
-    if (carries(plate, f)) out.push_back(force_label(stage, plate, f));
+  std::vector<double> told;
+  for (const PlateForce& f : plate.picture.forces) {
+    const bool again = std::ranges::any_of(told, [&](double value) { return std::abs(f.force - value) < 0.05 * std::abs(value); });
+    if (!carries(plate, f) || again) continue;
+    told.push_back(f.force);
+    out.push_back(force_label(stage, plate, f));
+  }
   for (Label& label : strip_labels(stage, plate)) out.push_back(std::move(label));
   return out;
 }
