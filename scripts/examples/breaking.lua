@@ -191,7 +191,7 @@ for _, at in ipairs{ { 1.2, 2 }, { 1, 1.6, 2 } } do
       end
       series[i] = curve
     end
-    dotyk.chart{ file = "images/breaking_branches.png", title = "Springs from the clamp: o whole, x broken", x = "force", y = "tip, downwards", series = series }
+    dotyk.chart{ file = "images/breaking_branches.png", title = "Three springs: o whole, x broken", x = "force", y = "tip, downwards", series = series }
   end
 end
 print "images/breaking.png, images/breaking_energy.png, images/breaking_states.png, images/breaking_branches.png"

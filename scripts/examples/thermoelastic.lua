@@ -62,7 +62,7 @@ assert(least > -1e-6 and most > 10 and math.min(table.unpack(history.force)) == 
 print(("the stop bears %.0f N under the weight alone, %.0f N at most, and none while the tip is up to %.0f µm above it")
   :format(history.force[1], math.max(table.unpack(history.force)), most))
 
-dotyk.chart{ file = "images/thermoelastic.png", title = "A strip on its stop: 10 min hot, then cold air", x = "time [min]", panels = {
+dotyk.chart{ file = "images/thermoelastic.png", title = "A strip on its stop: hot, then cold air", x = "time [min]", panels = {
   { y = "warmth over 20 °C [K]", series = { { name = "air above", x = history.t, y = history.air }, { name = "strip near its tip", x = history.t, y = history.mean } } },
   { y = "force of the stop [N]", series = { { x = history.t, y = history.force, style = "line" } } },
   { y = "tip above the stop [µm]", series = { { x = history.t, y = history.tip, style = "line" } } } } }

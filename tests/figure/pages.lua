@@ -54,4 +54,4 @@ local plate <const> = dotyk.solve(dotyk.plate{ mesh = dotyk.mesh.rectangle{ from
   edge = { deflection = law.prescribed(), rotation = law.prescribed() } })
 plate:render{ file = "page.svg", view = "plan" }
 local plan <const> = read "page.svg"
-check.equal(count(plan, "^0%.4"), 1)
+check.equal(count(plan, "^0%.%d%d%d$"), 1)

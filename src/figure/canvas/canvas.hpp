@@ -45,8 +45,8 @@ struct FittedText {
   double depth() const;  // from the first line to the last
 };
 
-// In one line of letters down to least_letters of `size`; else in two lines of about the same width, broken between words, in the greatest
-// letters that they allow, the second shortened where those are smaller. `end` stays whatever is left out before it.
+// In one line of letters down to least_letters of `size`; else in two lines of these, of about the same width, broken between words, the
+// second shortened where that does not suffice either. Bold ones, which are titles, in letters as great as these lines allow. `end` stays whatever is left out before it.
 FittedText fitted(const std::string& text, double size, double pixels, bool bold = false, const std::string& end = "");
 
 enum class Marker { disc, square, triangle, diamond, down_triangle, plus, cross, ring };

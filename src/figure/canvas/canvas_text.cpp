@@ -133,7 +133,7 @@ FittedText fitted(const std::string& text, double size, double pixels, bool bold
   const std::size_t rest = std::min(text.find_first_not_of(" \n", first.size()), text.size());
   const std::string second = shortened(text.substr(rest), smaller, pixels - text_extent(end, smaller, bold).x, bold) + end;
   const double widest = std::max(text_extent(first, smaller, bold).x, text_extent(second, smaller, bold).x);
-  return {std::min(size, smaller * pixels / widest), {first, second}};
+  return {bold ? std::min(size, smaller * pixels / widest) : smaller, {first, second}};
 }
 
 TextStyle title_style() { return {.across = Align::middle, .up = Align::high, .bold = true}; }

@@ -164,8 +164,8 @@ void add_obstacle(PlatePicture& picture, const plate::Solution& s) {
   }
 }
 
-// Cuts each triangle into four. The deflection at the middle of a side is that of the element, the mean where its two cells differ; other
-// values are linear.
+// Cuts each triangle into four. The deflection at the middle of a side is that of the element, the mean where its two cells differ; what
+// else there is is linear.
 void refine(PlatePicture& picture, const plate::Solution& s) {
   const plate::Edges& edges = s.model().space.edges;
   const mesh::Mesh& mesh = *s.plate().mesh;
@@ -174,8 +174,7 @@ void refine(PlatePicture& picture, const plate::Solution& s) {
     for (const plate::Edge& e : edges.edges)
       for (std::size_t c = 0; c < each && !values.empty(); ++c) values.push_back((values[each * e.node[0] + c] + values[each * e.node[1] + c]) / 2);
   };
-  const bool deflection = picture.values == picture.deflection;
-  for (std::vector<double>* values : {&picture.values, &picture.obstacle, &picture.bears}) halve(*values, 1);
+  for (std::vector<double>* values : {&picture.obstacle, &picture.bears}) halve(*values, 1);
   halve(picture.points, 2);
   std::vector<double> sum(edges.edges.size(), 0), count = sum;
   picture.triangles.clear();
@@ -197,14 +196,13 @@ void refine(PlatePicture& picture, const plate::Solution& s) {
     picture.deflection.push_back(sum[e] / count[e]);
     picture.mesh_edges.insert(picture.mesh_edges.end(), {edges.edges[e].node[0], middle, middle, edges.edges[e].node[1]});
   }
-  if (deflection) picture.values = picture.deflection;
 }
 
 // Half the sum of the principal moments, and half their difference.
 double mean(const plate::Moment& m) { return (m.xx + m.yy) / 2; }
 double radius(const plate::Moment& m) { return std::hypot((m.xx - m.yy) / 2, m.xy); }
 
-// What a field is called, and its value of the moment at a vertex.
+// What a field is called, and its value of the moment at a point.
 struct PlateValue {
   const char* label;
   double (*value)(const plate::Moment& m);
@@ -226,7 +224,12 @@ void add_field(PlatePicture& picture, const plate::Solution& s, const PlateOptio
   picture.field_unit = options.field == PlateField::deflection ? options.units.length : options.units.force;  // force·length per length
   if (options.field == PlateField::deflection) picture.values = picture.deflection;
   if (!field.value) return;
-  for (const plate::Moment& m : s.vertex_moments()) picture.values.push_back(field.value(m));
+  const std::vector<plate::Moment>& m = s.vertex_moments();
+  for (const plate::Moment& at : m) picture.values.push_back(field.value(at));
+  for (const plate::Edge& e : s.model().space.edges.edges) {
+    const plate::Moment &p = m[e.node[0]], &q = m[e.node[1]];
+    picture.values.push_back(field.value({(p.xx + q.xx) / 2, (p.yy + q.yy) / 2, (p.xy + q.xy) / 2}));
+  }
 }
 
 }  // namespace
@@ -248,11 +251,11 @@ PlatePicture compose(const plate::Solution& s, const PlateOptions& options) {
   picture.deformation = options.deform.value_or(visible_deflection(s));
   picture.force_unit = options.units.force;
   picture.reaction_unit = options.units.force.empty() || options.units.length.empty() ? "" : options.units.force + "/" + options.units.length;
-  add_field(picture, s, options);
   add_boundary(picture, s);
   add_forces(picture, s);
   add_obstacle(picture, s);
   refine(picture, s);
+  add_field(picture, s, options);
   return picture;
 }
 

@@ -101,7 +101,11 @@ RigidPicture obstacle_of(const PlatePicture& p) {
     if (fresh) out.points.insert(out.points.end(), {out.points[3 * i], out.points[3 * i + 1], lowest - 0.04 * size});
     return found->second;
   };
-  for (const auto& [a, b] : pairs(rim({out.triangles, 3}))) out.triangles.insert(out.triangles.end(), {a, b, foot(a), b, foot(b), foot(a)});
+  for (const std::vector<int>& chain : chains(rim({out.triangles, 3})))
+    for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+      const int a = chain[k], b = chain[k + 1], under_a = foot(a), under_b = foot(b);
+      out.triangles.insert(out.triangles.end(), {a, b, under_a, b, under_b, under_a});
+    }
   return out;
 }
 

@@ -183,16 +183,18 @@ Point triad_place(const Stage& stage, const Box& room) {
   const Box corners{room.left + 2.2 * em, room.bottom + 1.6 * em, room.right - 2.6 * em, room.top - 2.6 * em};
   for (const Point at : {Point{corners.left, corners.bottom}, {corners.right, corners.bottom}, {corners.left, corners.top}, {corners.right, corners.top}}) {
     const Box box{at.x - 2.6 * em, at.y - 1.6 * em, at.x + 2.6 * em, at.y + 2.6 * em};
-    const auto meets = [&](const auto& thing, double factor) {
-      for (std::size_t i = 0; i + 2 < thing.points.size(); i += 3) {
-        Vec3 p{thing.points[i], thing.points[i + 1], thing.points[i + 2]};
-        if constexpr (requires { thing.displacement; }) p = thing.node(i / 3, factor);
-        if (box.holds(stage.view.flat(p))) return true;
-      }
-      return false;
+    bool free = true;
+    const auto spare = [&](const Facets& facets, const auto& place) {
+      each_polygon(facets, [&](std::span<const int> nodes) {
+        Bounds bounds;
+        for (const int i : nodes) bounds.add(stage.view.flat(place(i)));
+        free = free && !bounds.overlaps(box);
+      });
     };
-    const auto on_body = [&](const BodyPicture& body) { return meets(body, stage.picture.deformation) || meets(body, 0); };
-    if (std::ranges::none_of(stage.picture.bodies, on_body) && std::ranges::none_of(stage.picture.obstacles, [&](const RigidPicture& o) { return meets(o, 0); })) return at;
+    for (const BodyPicture& body : stage.picture.bodies)
+      for (const double factor : {stage.picture.deformation, 0.0}) spare({body.facets, body.nodes_per_facet}, [&](int i) { return body.node(i, factor); });
+    for (const RigidPicture& o : stage.picture.obstacles) spare({o.triangles, 3}, [&](int i) { return Vec3{o.points[3 * i], o.points[3 * i + 1], o.points[3 * i + 2]}; });
+    if (free) return at;
   }
   return {corners.left, corners.bottom};
 }
