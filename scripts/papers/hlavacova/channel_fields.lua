@@ -243,8 +243,8 @@ for _, liquid in ipairs{ water, mercury } do
   by_frequency[#by_frequency + 1] = list
 end
 dotyk.chart{ file = "images/papers_channel_fields_phase.png", columns = 2, size = { 2100, 1300 }, panels = {
-  { title = "Mercury, both fields oscillate: mean", x = "phase φ [degrees]", y = "mean of u(0, t) [m/s]", series = by_phase.mean, x_range = { 0, 180 } },
-  { title = "Mercury, both fields oscillate: fluctuation", x = "phase φ [degrees]", y = "half the range · aω", series = by_phase.range, x_range = { 0, 180 } },
+  { title = "Mercury, both oscillate: mean", x = "phase φ [degrees]", y = "mean u [m/s]", series = by_phase.mean, x_range = { 0, 180 } },
+  { title = "Mercury, both oscillate: fluctuation", x = "phase φ [degrees]", y = "half the range · aω", series = by_phase.range, x_range = { 0, 180 } },
   { title = "Salt water, no pressure gradient", x = "ω [1/s]", y = "half the range [m/s]", log = "xy", slopes = { -1 }, series = by_frequency[1] },
   { title = "Mercury, −20 kPa/m", x = "ω [1/s]", y = "half the range · aω", log = "x", series = by_frequency[2] } } }
 print "images/papers_channel_fields.png  images/papers_channel_fields_phase.png"

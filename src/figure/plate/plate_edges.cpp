@@ -152,6 +152,7 @@ void draw_strips(Stage& stage, const Plate& plate) {
       const Colour colour = pulls(i) ? pull_line : pressure_line;
       stage.over.line(tips[i], tips[i + 1], width, colour);
       for (const std::size_t k : {i, i + 1}) stage.over.disc(tips[k], width / 2, colour);
+      if (pulls(i)) stage.over.line(part_way(feet[i], tips[i], 0.5), part_way(feet[i + 1], tips[i + 1], 0.5), width, colour);  // told apart in grey too
     }
     if (length(feet.front() - feet.back()) < 0.5) continue;  // it goes all around
     for (const std::size_t i : {std::size_t{0}, points.size() - 1}) stage.over.line(feet[i], tips[i], width, points[i].reaction < 0 ? pull_line : pressure_line);

@@ -132,7 +132,7 @@ LegendEntry reaction_entry(double em, double sign, bool strip, bool force) {
             const Colour colour = sign > 0 ? pressure_line : pull_line;
             if (strip) {
               c.box({b.left, middle - 0.36 * em, b.right, top}, sign > 0 ? pressure_fill : pull_fill);
-              c.line({b.left, top}, {b.right, top}, std::max(1.2, em / 14), colour);
+              for (const double y : {top, sign > 0 ? top : middle}) c.line({b.left, y}, {b.right, y}, std::max(1.2, em / 14), colour);
             }
             if (force) c.marker(Marker::disc, {b.centre().x, middle - (strip ? 0.05 * em : 0)}, 0.5 * em, colour);
           }};
